@@ -1,0 +1,79 @@
+"""ISO 286 tolerance grades and zones."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+
+from cqdd_design.catalog.reader import optional_number, read_rows
+from cqdd_design.errors import CatalogError, did_you_mean
+
+
+@dataclass(frozen=True)
+class FitLimits:
+    """Deviations of a tolerance zone at one nominal size.
+
+    Attributes
+    ----------
+    zone : str
+        Such as ``H7`` (hole) or ``f9`` (shaft).
+    over, up_to : float
+        Range of nominal sizes, m.
+    lower, upper : float
+        Deviations from nominal, m.
+    source : str
+        Where the row comes from.
+    """
+
+    zone: str
+    over: float
+    up_to: float
+    lower: float
+    upper: float
+    source: str
+
+
+@functools.lru_cache(maxsize=1)
+def fit_zones() -> dict[str, tuple[FitLimits, ...]]:
+    """All tolerance zones, each with its rows by size."""
+    table: dict[str, tuple[FitLimits, ...]] = {}
+    for row in read_rows("iso286.csv"):
+        lower = optional_number(row, "lower_um", 1e-6)
+        upper = optional_number(row, "upper_um", 1e-6)
+        if row["row"] != "limits" or lower is None or upper is None:
+            continue
+        limits = FitLimits(
+            row["code"],
+            float(row["over_mm"]) * 1e-3,
+            float(row["up_to_mm"]) * 1e-3,
+            lower,
+            upper,
+            row["source"],
+        )
+        table[limits.zone] = (*table.get(limits.zone, ()), limits)
+    return table
+
+
+def fit_limits(zone: str, diameter: float) -> FitLimits:
+    """The limits of a zone such as ``H7`` at a nominal diameter (m).
+
+    Raises
+    ------
+    CatalogError
+        When the zone is unknown, or the size outside its table.
+
+    Examples
+    --------
+    >>> round(fit_limits("f9", 0.004).lower * 1e6)
+    -40
+    """
+    table = fit_zones()
+    if zone not in table:
+        raise CatalogError(f"no ISO 286 zone '{zone}'{did_you_mean(zone, table)}.")
+    for limits in table[zone]:
+        if limits.over < diameter <= limits.up_to + 1e-12:
+            return limits
+    most = table[zone][-1].up_to * 1e3
+    raise CatalogError(
+        f"zone {zone} is tabulated for diameters up to {most:g} mm, not {diameter * 1e3:g} mm."
+    )

@@ -1,0 +1,103 @@
+"""Shoulder screws (ISO 7379 and the commercial small sizes), used as output pins."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+
+from cqdd_design.catalog.reader import find, number, optional_number, read_rows
+from cqdd_design.errors import CatalogError
+
+
+@dataclass(frozen=True)
+class ShoulderScrew:
+    """A shoulder screw.
+
+    Attributes
+    ----------
+    name : str
+        System, shoulder diameter and thread, such as ``metric 4 mm M3``.
+    thread : str
+        Thread designation.
+    shoulder_diameter : float
+        Nominal, m.
+    shoulder_diameter_max, shoulder_diameter_min : float
+        Limits of the ground shoulder, m (f9 for metric screws; nominal where the source has none).
+    thread_pitch, head_diameter, head_height, thread_length, socket_size : float or None
+        m; None where the source gives none.
+    standard_lengths : str
+        Range of shoulder lengths, as printed, mm.
+    source : str
+        Where the row comes from.
+    """
+
+    name: str
+    thread: str
+    shoulder_diameter: float
+    shoulder_diameter_max: float
+    shoulder_diameter_min: float
+    thread_pitch: float | None
+    head_diameter: float | None
+    head_height: float | None
+    thread_length: float | None
+    socket_size: float | None
+    standard_lengths: str
+    source: str
+
+    @property
+    def mean_diameter(self) -> float:
+        """Mean of the shoulder's limits, m: what a fit is measured to."""
+        return 0.5 * (self.shoulder_diameter_max + self.shoulder_diameter_min)
+
+
+@functools.lru_cache(maxsize=1)
+def shoulder_screws() -> dict[str, ShoulderScrew]:
+    """All shoulder screws by name, in file order."""
+    table = {}
+    for row in read_rows("shoulder_screws.csv"):
+        nominal = number(row, "shoulder_d_mm", 1e-3)
+        name = f"{row['system']} {row['shoulder_d_mm'].removesuffix('.0')} mm {row['thread']}"
+        table[name] = ShoulderScrew(
+            name=name,
+            thread=row["thread"],
+            shoulder_diameter=nominal,
+            shoulder_diameter_max=optional_number(row, "d_max_mm", 1e-3) or nominal,
+            shoulder_diameter_min=optional_number(row, "d_min_mm", 1e-3) or nominal,
+            thread_pitch=optional_number(row, "pitch_mm", 1e-3),
+            head_diameter=optional_number(row, "head_d_mm", 1e-3),
+            head_height=optional_number(row, "head_h_mm", 1e-3),
+            thread_length=optional_number(row, "thread_len_mm", 1e-3),
+            socket_size=optional_number(row, "socket_mm", 1e-3),
+            standard_lengths=row["std_lengths_mm"],
+            source=row["source"],
+        )
+    return table
+
+
+def find_shoulder_screw(diameter: float) -> ShoulderScrew:
+    """The shoulder screw whose nominal shoulder is `diameter` (m), metric rows first.
+
+    Raises
+    ------
+    CatalogError
+        With the nearest sizes, when there is none within 1 um.
+
+    Examples
+    --------
+    >>> find_shoulder_screw(0.004).thread
+    'M3'
+    """
+    table = shoulder_screws()
+    for screw in table.values():
+        if abs(screw.shoulder_diameter - diameter) < 1e-6:
+            return screw
+    by_distance = sorted(table.values(), key=lambda s: abs(s.shoulder_diameter - diameter))
+    sizes = " or ".join(f"{s.shoulder_diameter * 1e3:g} mm" for s in by_distance[:2])
+    raise CatalogError(
+        f"no shoulder screw has a {diameter * 1e3:g} mm shoulder; the nearest are {sizes}."
+    )
+
+
+def find_screw_by_name(name: str) -> ShoulderScrew:
+    """The shoulder screw called `name` (for the catalogue command)."""
+    return find(name, shoulder_screws(), "shoulder screw")

@@ -1,0 +1,100 @@
+"""The tables of a design file around the reducer: motor, drive, housing, tolerances, EDM."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from cqdd_design.design.fields import FrozenModel, MaterialName, MotorName, Whole, default
+from cqdd_design.units import (
+    BANDWIDTH,
+    CURRENT,
+    DAMPING_GAIN,
+    LENGTH,
+    SMALL_LENGTH,
+    STIFFNESS_GAIN,
+    THERMAL_RESISTANCE,
+    VOLTAGE,
+    QuantityIn,
+)
+
+
+class MotorTable(FrozenModel):
+    """The motor and what its driver allows it."""
+
+    name: MotorName = "CubeMars RO100 KV55"
+    voltage: Annotated[float, QuantityIn(VOLTAGE, "1 V", "1000 V", "supply of the driver")] = (
+        default("48 V")
+    )
+    current_limit: Annotated[
+        float, QuantityIn(CURRENT, "0.01 A", "2000 A", "limit of the driver")
+    ] = default("50.5 A")
+
+
+class Drive(FrozenModel):
+    """Drive electronics and the joint controller."""
+
+    current_bandwidth: Annotated[float, QuantityIn(BANDWIDTH, "1 Hz", "1 MHz", "current loop")] = (
+        default("1 kHz")
+    )
+    control_rate: Annotated[float, QuantityIn(BANDWIDTH, "1 Hz", "1 MHz", "joint controller")] = (
+        default("1 kHz")
+    )
+    encoder_bits: Annotated[int, Whole(4, 32, "on the motor shaft")] = 14
+    position_gain: Annotated[
+        float,
+        QuantityIn(STIFFNESS_GAIN, "0 N*m/rad", "1000000 N*m/rad", "impedance at the output"),
+    ] = default("60 N*m/rad")
+    velocity_gain: Annotated[
+        float,
+        QuantityIn(DAMPING_GAIN, "0 N*m*s/rad", "100000 N*m*s/rad", "impedance at the output"),
+    ] = default("2 N*m*s/rad")
+    thermal_resistance: Annotated[
+        float, QuantityIn(THERMAL_RESISTANCE, "0.001 K/W", "1000 K/W", "winding to ambient")
+    ] = default("1.2 K/W")
+
+
+class Housing(FrozenModel):
+    """The housing."""
+
+    material: MaterialName = "7075-T6"
+
+
+class Tolerances(FrozenModel):
+    """Manufacturing tolerances as standard deviations."""
+
+    tooth_position: Annotated[
+        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
+    ] = default("2 um")
+    tooth_radius: Annotated[
+        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
+    ] = default("1 um")
+    disc_profile: Annotated[
+        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
+    ] = default("1 um")
+    hole_position: Annotated[
+        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
+    ] = default("3 um")
+    pin_position: Annotated[
+        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
+    ] = default("3 um")
+    pin_diameter: Annotated[
+        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
+    ] = default("9 um")
+    eccentricity: Annotated[
+        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
+    ] = default("2 um")
+
+
+class Edm(FrozenModel):
+    """Wire EDM: the wire, its gap, and how closely files follow the exact curve."""
+
+    wire_diameter: Annotated[
+        float, QuantityIn(LENGTH, "0.02 mm", "0.5 mm", "wires made for EDM")
+    ] = default("0.25 mm")
+    spark_gap: Annotated[
+        float, QuantityIn(SMALL_LENGTH, "0 um", "200 um", "gap between wire and work")
+    ] = default("12 um")
+    profile_tolerance: Annotated[
+        float,
+        QuantityIn(SMALL_LENGTH, "0.05 um", "50 um", "of the file against the exact curve"),
+    ] = default("0.5 um")

@@ -1,0 +1,107 @@
+"""Field types of design files besides quantities: whole numbers, shares, catalogue names.
+
+A bound carries its reason, because "must be greater than 4" helps nobody.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+
+from cqdd_design.catalog import find_bearing, find_material, find_motor
+from cqdd_design.errors import CatalogError
+
+if TYPE_CHECKING:
+    from pydantic import GetCoreSchemaHandler
+    from pydantic_core import CoreSchema
+
+
+class FrozenModel(BaseModel):
+    """Base of every table of a design file: immutable, and closed to unknown keys."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+def default(text: str) -> Any:
+    """A field default written as a unit string, validated like a given value."""
+    return Field(default=text, validate_default=True)
+
+
+@dataclass(frozen=True)
+class Whole:
+    """Pydantic annotation: a whole number from `low` to `high`, both allowed."""
+
+    low: int
+    high: int
+    reason: str
+
+    def _validate(self, value: object) -> int:
+        wanted = f"a whole number from {self.low} to {self.high} ({self.reason})"
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise ValueError(f"{value!r} is not {wanted}")
+        if not math.isfinite(value) or value != math.floor(value):
+            raise ValueError(f"{value} is not {wanted}")
+        if not self.low <= value <= self.high:
+            nearest = self.low if value < self.low else self.high
+            raise ValueError(f"{value:.12g} is not {wanted}; the nearest allowed is {nearest}")
+        return int(value)
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Check the value before pydantic could coerce it."""
+        from pydantic_core import core_schema
+
+        return core_schema.no_info_before_validator_function(
+            self._validate, core_schema.int_schema(ge=self.low, le=self.high)
+        )
+
+
+@dataclass(frozen=True)
+class Share:
+    """Pydantic annotation: a pure number from `low` to `high`, both allowed."""
+
+    low: float
+    high: float
+    reason: str
+
+    def _validate(self, value: object) -> float:
+        wanted = f"a number from {self.low:g} to {self.high:g} ({self.reason})"
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise ValueError(f"{value!r} is not {wanted}")
+        if not self.low <= value <= self.high:
+            nearest = self.high if value > self.high else self.low
+            raise ValueError(f"{value:g} is not {wanted}; the nearest allowed is {nearest:g}")
+        return float(value)
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Check the value before pydantic could coerce it."""
+        from pydantic_core import core_schema
+
+        return core_schema.no_info_before_validator_function(
+            self._validate, core_schema.float_schema(ge=self.low, le=self.high)
+        )
+
+
+def _known(find: Callable[[str], Any], *also: str) -> Callable[[str], str]:
+    def check(name: str) -> str:
+        if name in also:
+            return name
+        try:
+            row = find(name)
+        except CatalogError as error:
+            raise ValueError(str(error)) from None
+        return str(getattr(row, "name", None) or row.designation)
+
+    return check
+
+
+MaterialName = Annotated[str, AfterValidator(_known(find_material))]
+MotorName = Annotated[str, AfterValidator(_known(find_motor))]
+BearingName = Annotated[str, AfterValidator(_known(find_bearing, "auto"))]

@@ -1,0 +1,104 @@
+"""From pydantic's list of errors to sentences for a designer."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from cqdd_design.errors import DesignError, did_you_mean
+
+_MOST_SHOWN = 8
+
+#: Keys with a default that follows from others; they are missing only when those are wrong.
+_DERIVED = {
+    "peak_torque",
+    "continuous_torque",
+    "hole_clocking",
+    "circle_radius",
+    "outer_diameter",
+    "output_pins",
+    "ring",
+}
+
+
+def describe_problems(error: ValidationError, model: type[BaseModel], source: str) -> DesignError:
+    """One `DesignError` with a sentence for each problem found.
+
+    Parameters
+    ----------
+    error : pydantic.ValidationError
+        As raised by `model`.
+    model : type
+        The model that refused, for the names of its keys.
+    source : str
+        File name, or what to call the input.
+    """
+    found = _without_consequences(error.errors(include_url=False))
+    sentences = [_sentence(item, model) for item in found[:_MOST_SHOWN]]
+    if len(found) > _MOST_SHOWN:
+        sentences.append(f"and {len(found) - _MOST_SHOWN} more problems")
+    if len(sentences) == 1:
+        return DesignError(f"{source}: {sentences[0]}.")
+    return DesignError(f"{source}:\n" + "\n".join(f"  - {text}" for text in sentences))
+
+
+def _without_consequences(found: list[Any]) -> list[Any]:
+    """Drop problems that only follow from others: derived keys missing, one ratio told twice."""
+    keys = {tuple(item["loc"]) for item in found}
+    kept = []
+    for item in found:
+        key = tuple(item["loc"])
+        derived = item["type"] == "missing" and key[-1] in _DERIVED
+        repeated = key == ("requirements", "ratio") and ("reducer", "ratio") in keys
+        table_of_missing = key == ("requirements",) and item["type"] == "missing"
+        if not (derived or repeated or table_of_missing):
+            kept.append(item)
+    return kept or found
+
+
+def _sentence(item: Any, model: type[BaseModel]) -> str:
+    location = tuple(item["loc"])
+    key = ".".join(str(part) for part in location)
+    kind = item["type"]
+    if kind == "extra_forbidden":
+        known = _known_keys(model, location[:-1])
+        hint = did_you_mean(str(location[-1]), known)
+        table = ".".join(str(part) for part in location[:-1])
+        where = f"table [{table}]" if table else "the top level"
+        return f"{key} is not a key of {where}{hint or '; its keys are ' + ', '.join(known)}"
+    if kind == "missing":
+        return f"{key} is missing; it has no default"
+    if kind == "value_error":
+        text = str(item["ctx"]["error"]).removesuffix(".")
+        if not location:
+            return text
+        return (
+            f"{key}: {text}"
+            if isinstance(item["input"], dict)
+            else (f"{key} = {_shown(item['input'])}: {text}")
+        )
+    if kind == "literal_error":
+        return f"{key} = {_shown(item['input'])} must be {item['ctx']['expected']}"
+    if kind in {"model_type", "model_attributes_type", "dict_type"}:
+        return f"{key} must be a table, not {_shown(item['input'])}"
+    expected = item["msg"][0].lower() + item["msg"][1:]
+    return f"{key} = {_shown(item['input'])}: {expected}"
+
+
+def _shown(value: object) -> str:
+    text = repr(value) if isinstance(value, str) else str(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _known_keys(model: type[BaseModel], tables: tuple[Any, ...]) -> list[str]:
+    current: Any = model
+    for table in tables:
+        field = current.model_fields.get(table) if hasattr(current, "model_fields") else None
+        if field is None:
+            return []
+        current = field.annotation
+        if not hasattr(current, "model_fields"):
+            inner = [a for a in getattr(current, "__args__", ()) if hasattr(a, "model_fields")]
+            current = inner[0] if inner else None
+    return list(current.model_fields) if hasattr(current, "model_fields") else []

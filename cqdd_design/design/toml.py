@@ -1,0 +1,192 @@
+"""Design and requirements files: TOML in, and TOML out with comments kept."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, MutableMapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from cqdd_design.design.model import SCHEMA_VERSION, Design, dump
+from cqdd_design.design.problems import describe_problems
+from cqdd_design.design.requirements import Requirements
+from cqdd_design.errors import DesignError, UsageError, nearest_names
+from cqdd_design.files import WrittenFile, write_atomically
+
+#: A design file is a few kilobytes; anything past this is the wrong file.
+LARGEST_FILE = 1_000_000
+
+
+def load_design(path: Path) -> Design:
+    """Read a design file.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file, or it cannot be opened.
+    DesignError
+        When its content is no valid design; one sentence a problem.
+    """
+    data = _read(path)
+    data.setdefault("name", path.stem)
+    design = Design.from_mapping(_migrated(data, path), source=str(path))
+    return design
+
+
+def load_requirements(path: Path) -> Requirements:
+    """Read the ``[requirements]`` table of a requirements or design file."""
+    data = _migrated(_read(path), path)
+    table = data.get("requirements")
+    if not isinstance(table, dict):
+        raise DesignError(f"{path}: there is no table [requirements] with at least ratio = N.")
+    return requirements_from_mapping(table, source=str(path))
+
+
+def requirements_from_mapping(
+    data: Mapping[str, Any], *, source: str = "requirements"
+) -> Requirements:
+    """Validate a mapping of requirement keys (unit strings); a `DesignError` says what is wrong."""
+    try:
+        return Requirements.model_validate(dict(data))
+    except ValidationError as error:
+        raise describe_problems(error, Requirements, source) from None
+
+
+def save_design(
+    path: Path, design: Design, *, comments: Mapping[str, str] | None = None
+) -> WrittenFile:
+    """Write a design file.
+
+    An existing file at `path` keeps its comments, order and layout: only values that differ are
+    replaced. A new file holds every key that was not assumed, with `comments` (dotted key to
+    text) at the end of its line.
+
+    Parameters
+    ----------
+    path : Path
+        Destination; written atomically.
+    design : Design
+        What to write.
+    comments : mapping, optional
+        Remarks for single keys of a new file.
+    """
+    import tomlkit
+
+    document: MutableMapping[str, Any]
+    if path.exists():
+        document = tomlkit.parse(path.read_text(encoding="utf-8"))
+        old = Design.from_mapping(document.unwrap(), source=str(path))
+        _update(document, design.to_mapping(), old.to_mapping(), set(design.assumed))
+    else:
+        document = tomlkit.document()
+        _fill(document, design.to_mapping(), set(design.assumed), comments or {})
+    return write_atomically(path, tomlkit.dumps(document), "design")
+
+
+def dump_requirements(requirements: Requirements) -> dict[str, Any]:
+    """Requirements as a table of unit strings."""
+    return dump(requirements)
+
+
+def _read(path: Path) -> dict[str, Any]:
+    import tomllib
+
+    if not path.exists():
+        folder = path.parent if path.parent.is_dir() else Path()
+        near = nearest_names(path.name, [p.name for p in folder.glob("*.toml")])
+        hint = f"; did you mean {folder / near[0]}?" if near else ""
+        raise UsageError(f"there is no file {path}{hint}" + ("" if near else "."))
+    if path.is_dir():
+        raise UsageError(f"{path} is a folder; name a design file, *.toml.")
+    try:
+        size = path.stat().st_size
+        if size > LARGEST_FILE:
+            raise DesignError(
+                f"{path} is {size / 1e6:.1f} MB, and a design file is a few kilobytes; "
+                "this is another kind of file."
+            )
+        content = path.read_bytes()
+    except OSError as error:
+        raise UsageError(f"{path} cannot be read: {error.strerror}.") from error
+    try:
+        text = content.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise DesignError(
+            f"{path} is not a text file (byte {error.start} is not UTF-8); "
+            "a design file is TOML text."
+        ) from None
+    if not text.strip():
+        raise DesignError(
+            f"{path} is empty; `cqdd-design size --ratio 10 --out FILE` writes a complete one."
+        )
+    try:
+        return tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        reason = str(error) or "tables nested too deeply"
+        raise DesignError(f"{path} is not valid TOML: {reason}.") from None
+
+
+def _migrated(data: dict[str, Any], path: Path) -> dict[str, Any]:
+    """The data at the current schema version; only version 1 exists so far."""
+    version = data.get("schema_version", SCHEMA_VERSION)
+    if version != SCHEMA_VERSION:
+        raise DesignError(
+            f"{path}: schema_version {version!r} is not known; this version of cqdd-design reads "
+            f"schema_version = {SCHEMA_VERSION}."
+        )
+    return data
+
+
+def _update(
+    document: MutableMapping[str, Any],
+    new: Mapping[str, Any],
+    old: Mapping[str, Any],
+    assumed: set[str],
+    prefix: str = "",
+) -> None:
+    for key, value in new.items():
+        dotted = f"{prefix}{key}"
+        if isinstance(value, Mapping):
+            if key not in document:
+                if _all_assumed(value, f"{dotted}.", assumed):
+                    continue
+                document[key] = {}
+            _update(document[key], value, old.get(key, {}), assumed, f"{dotted}.")
+        elif (key in document and value != old.get(key)) or (
+            key not in document and dotted not in assumed
+        ):
+            document[key] = value
+
+
+def _fill(
+    document: MutableMapping[str, Any],
+    data: Mapping[str, Any],
+    assumed: set[str],
+    comments: Mapping[str, str],
+    prefix: str = "",
+) -> None:
+    import tomlkit
+
+    for key, value in data.items():
+        dotted = f"{prefix}{key}"
+        if isinstance(value, Mapping):
+            if _all_assumed(value, f"{dotted}.", assumed):
+                continue
+            table = tomlkit.table()
+            _fill(table, value, assumed, comments, f"{dotted}.")
+            document[key] = table
+        elif dotted not in assumed:
+            item = tomlkit.item(value)
+            if dotted in comments:
+                item.comment(comments[dotted])
+            document[key] = item
+
+
+def _all_assumed(table: Mapping[str, Any], prefix: str, assumed: set[str]) -> bool:
+    return all(
+        _all_assumed(value, f"{prefix}{key}.", assumed)
+        if isinstance(value, Mapping)
+        else f"{prefix}{key}" in assumed
+        for key, value in table.items()
+    )
