@@ -1,0 +1,364 @@
+"""Geometry of one involute gear pair after ISO 21771, external or internal, spur or helical.
+
+Sign convention of ISO 21771 and ISO 6336: the teeth of an internal gear are counted NEGATIVE, and
+with them its diameters, the gear ratio and the centre distance of the pair. The formulas of the
+external pair then hold for the internal one as they stand. Positive profile shift always moves the
+tooth tip outward from the tooth's own root, so it makes an internal gear's bore smaller.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from dataclasses import dataclass
+
+from cqdd_design.errors import GeometryError, UsageError
+
+#: Modules outside 0.05 to 50 mm are typing mistakes (m against mm) rather than gears.
+LEAST_MODULE, MOST_MODULE = 0.05e-3, 50e-3
+
+
+def involute(angle: float) -> float:
+    """inv(alpha) = tan(alpha) - alpha, rad."""
+    return math.tan(angle) - angle
+
+
+def inverse_involute(value: float) -> float:
+    """The angle in [0, pi/2) whose involute is `value` >= 0, by Newton's method.
+
+    Examples
+    --------
+    >>> round(inverse_involute(involute(0.35)), 12)
+    0.35
+    """
+    # inv(a) > a^3/3, so this start lies above the root, from where Newton falls monotonically.
+    angle = min(math.cbrt(3.0 * value), 1.4)
+    for _ in range(60):
+        step = (involute(angle) - value) / max(math.tan(angle) ** 2, 1e-12)
+        angle = min(max(angle - step, 1e-9), 1.55)
+        if abs(step) < 1e-15:
+            break
+    return angle
+
+
+@dataclass(frozen=True)
+class BasicRack:
+    """Basic rack tooth profile, lengths in modules.
+
+    Attributes
+    ----------
+    addendum, dedendum, fillet_radius : float
+        h_aP*, h_fP*, rho_fP*. The defaults are profile A of ISO 53:1998.
+    pressure_angle : float
+        Normal pressure angle, rad.
+    """
+
+    addendum: float = 1.0
+    dedendum: float = 1.25
+    fillet_radius: float = 0.38
+    pressure_angle: float = math.radians(20.0)
+
+    def __post_init__(self) -> None:
+        """Refuse racks no tool could have."""
+        for name, value, least, most, usual in (
+            ("addendum", self.addendum, 0.5, 1.5, 1.0),
+            ("dedendum", self.dedendum, 0.7, 2.0, 1.25),
+            ("fillet radius", self.fillet_radius, 0.01, 0.8, 0.38),
+            ("pressure angle", math.degrees(self.pressure_angle), 14.0, 30.0, 20.0),
+        ):
+            if not least <= value <= most:
+                raise UsageError(
+                    f"basic rack: {name} {value:g} is outside {least:g} to {most:g}; {usual:g} is "
+                    "usual."
+                )
+        if self.half_tip_land < 0.0:
+            raise GeometryError(
+                f"basic rack: a rounding of {self.fillet_radius:g} modules does not fit the tip of "
+                f"a tool {self.dedendum:g} modules high; at 1.25 modules and 20 degrees 0.47 does."
+            )
+
+    @property
+    def half_tip_land(self) -> float:
+        """Half the flat between the roundings of the tool's tip, in modules.
+
+        This is E of ISO 6336-3:2006 eq. 10 without undercut: pi/4 - h_fP* tan(alpha) - (1 -
+        sin(alpha)) rho_fP*/cos(alpha).
+        """
+        alpha = self.pressure_angle
+        rounding = (1.0 - math.sin(alpha)) * self.fillet_radius / math.cos(alpha)
+        return 0.25 * math.pi - self.dedendum * math.tan(alpha) - rounding
+
+
+#: The usual basic rack.
+ISO_53_A = BasicRack()
+
+
+def validate_module(module: float) -> None:
+    """Raise a `UsageError` unless the module (m) is one of a gear, 0.05 to 50 mm."""
+    if not LEAST_MODULE <= module <= MOST_MODULE:
+        raise UsageError(
+            f"module: {module * 1e3:g} mm is outside {LEAST_MODULE * 1e3:g} to "
+            f"{MOST_MODULE * 1e3:g} mm; the paper's gear has 1 mm."
+        )
+
+
+@dataclass(frozen=True)
+class GearPair:
+    """Two meshing gears, the pinion external, the wheel external or internal.
+
+    Attributes
+    ----------
+    pinion_teeth : int
+        z1 > 0.
+    wheel_teeth : int
+        z2; negative for an internal gear (ring).
+    module : float
+        Normal module, m.
+    face_width : float
+        b, m.
+    pinion_shift, wheel_shift : float
+        Profile shift coefficients x1, x2.
+    helix_angle : float
+        At the reference cylinder, rad; 0 for spur gears.
+    rack : BasicRack
+    pinion_tip_diameter, wheel_tip_diameter : float or None
+        Made tip diameters in m (negative for a ring); None for the rack's addendum with shift.
+    centre_distance : float or None
+        Working centre distance in m (negative for an internal pair); None for the distance without
+        backlash that follows from the shifts.
+    """
+
+    pinion_teeth: int
+    wheel_teeth: int
+    module: float
+    face_width: float
+    pinion_shift: float = 0.0
+    wheel_shift: float = 0.0
+    helix_angle: float = 0.0
+    rack: BasicRack = ISO_53_A
+    pinion_tip_diameter: float | None = None
+    wheel_tip_diameter: float | None = None
+    centre_distance: float | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse lengths no gear can have and pairs that do not hand over from tooth to tooth."""
+        validate_module(self.module)
+        if not 0.0 < self.face_width < math.inf:
+            raise UsageError(
+                f"face width: {self.face_width * 1e3:g} mm is not a positive length; the paper's "
+                "gear has 12 mm."
+            )
+        for shift in (self.pinion_shift, self.wheel_shift):
+            if not -2.0 <= shift <= 2.0:
+                raise UsageError(
+                    f"profile shift: {shift:g} modules is outside -2 to 2; +0.3 on a 12-tooth sun "
+                    "and -0.3 on its planet is usual."
+                )
+        if self.wheel_teeth < 0 and -self.wheel_teeth <= self.pinion_teeth:
+            raise GeometryError(
+                f"a ring of {-self.wheel_teeth} teeth cannot surround a gear of "
+                f"{self.pinion_teeth}; give it at least {self.pinion_teeth + 10}."
+            )
+        for name, teeth, tip in (
+            ("pinion", self.pinion_teeth, self.tip_diameters[0]),
+            ("wheel", self.wheel_teeth, self.tip_diameters[1]),
+        ):
+            if abs(tip) <= abs(self.base_diameter(teeth)):
+                raise GeometryError(
+                    f"{name} with {abs(teeth)} teeth: its tips at {abs(tip) * 1e3:.4g} mm lie "
+                    f"inside the base circle of {abs(self.base_diameter(teeth)) * 1e3:.4g} mm, "
+                    "where no involute exists; "
+                    + (
+                        f"a full-depth ring needs {self.least_full_depth_ring} teeth or a "
+                        "negative profile shift."
+                        if teeth < 0
+                        else "raise its profile shift."
+                    )
+                )
+        if self.transverse_contact_ratio < 1.0:
+            raise GeometryError(
+                f"teeth {self.pinion_teeth}/{abs(self.wheel_teeth)}: the contact ratio is "
+                f"{self.transverse_contact_ratio:.3f}, below 1, so a tooth lets go before the next "
+                "takes over; lower the profile shifts or raise the tooth counts."
+            )
+
+    @property
+    def internal(self) -> bool:
+        """Whether the wheel is a ring."""
+        return self.wheel_teeth < 0
+
+    @property
+    def gear_ratio(self) -> float:
+        """Gear ratio u = z2/z1, negative for an internal pair (ISO 6336-1, 4.1)."""
+        return self.wheel_teeth / self.pinion_teeth
+
+    @property
+    def least_full_depth_ring(self) -> int:
+        """Smallest ring whose tips, one addendum inside, still lie on the involute.
+
+        |z|/2 - h_aP* - x >= |z|/2 cos(alpha_t), ISO 21771, 4.6 and 5.4.
+        """
+        height = 2.0 * (self.rack.addendum + self.wheel_shift) * math.cos(self.helix_angle)
+        return math.ceil(height / (1.0 - math.cos(self.transverse_pressure_angle)))
+
+    @functools.cached_property
+    def transverse_pressure_angle(self) -> float:
+        """alpha_t with tan(alpha_t) = tan(alpha_n)/cos(beta), ISO 21771 eq. 7."""
+        return math.atan(math.tan(self.rack.pressure_angle) / math.cos(self.helix_angle))
+
+    @functools.cached_property
+    def base_helix_angle(self) -> float:
+        """beta_b with sin(beta_b) = sin(beta) cos(alpha_n), ISO 6336-3:2006 eq. 20."""
+        return math.asin(math.sin(self.helix_angle) * math.cos(self.rack.pressure_angle))
+
+    def reference_diameter(self, teeth: int) -> float:
+        """D = z m_n/cos(beta), m; negative for a ring."""
+        return teeth * self.module / math.cos(self.helix_angle)
+
+    def base_diameter(self, teeth: int) -> float:
+        """d_b = d cos(alpha_t), m; negative for a ring."""
+        return self.reference_diameter(teeth) * math.cos(self.transverse_pressure_angle)
+
+    @functools.cached_property
+    def tip_diameters(self) -> tuple[float, float]:
+        """d_a = d + 2 m (h_aP* + x) of pinion and wheel, m, unless given."""
+        found = []
+        for teeth, shift, given in (
+            (self.pinion_teeth, self.pinion_shift, self.pinion_tip_diameter),
+            (self.wheel_teeth, self.wheel_shift, self.wheel_tip_diameter),
+        ):
+            nominal = self.reference_diameter(teeth)
+            nominal += 2.0 * self.module * (self.rack.addendum + shift)
+            found.append(nominal if given is None else given)
+        return found[0], found[1]
+
+    @functools.cached_property
+    def root_diameters(self) -> tuple[float, float]:
+        """d_f = d - 2 m (h_fP* - x) of pinion and wheel, m; a ring's is its largest, negative."""
+        depth = self.rack.dedendum
+        return (
+            self.reference_diameter(self.pinion_teeth)
+            - 2.0 * self.module * (depth - self.pinion_shift),
+            self.reference_diameter(self.wheel_teeth)
+            - 2.0 * self.module * (depth - self.wheel_shift),
+        )
+
+    @property
+    def tooth_depths(self) -> tuple[float, float]:
+        """Tooth depth h_t = |d_a - d_f|/2 of pinion and wheel, m."""
+        tips, roots = self.tip_diameters, self.root_diameters
+        return 0.5 * abs(tips[0] - roots[0]), 0.5 * abs(tips[1] - roots[1])
+
+    @functools.cached_property
+    def reference_centre_distance(self) -> float:
+        """a_d = (d1 + d2)/2, m; negative for an internal pair."""
+        return 0.5 * (
+            self.reference_diameter(self.pinion_teeth) + self.reference_diameter(self.wheel_teeth)
+        )
+
+    @functools.cached_property
+    def working_pressure_angle(self) -> float:
+        """alpha_wt, from the centre distance if given, else from the shifts (ISO 21771, 5.2).
+
+        inv(alpha_wt) = inv(alpha_t) + 2 tan(alpha_n) (x1 + x2)/(z1 + z2).
+
+        Raises
+        ------
+        GeometryError
+            The shifts ask the gears to run closer than their base circles allow.
+        """
+        alpha = self.transverse_pressure_angle
+        if self.centre_distance is not None:
+            cosine = self.reference_centre_distance * math.cos(alpha) / self.centre_distance
+            if not 0.0 < cosine < 1.0:
+                raise GeometryError(
+                    f"a centre distance of {self.centre_distance * 1e3:.4g} mm is inside the base "
+                    f"circles of {self.pinion_teeth} and {abs(self.wheel_teeth)} teeth; without "
+                    f"shift it is {self.reference_centre_distance * 1e3:.4g} mm."
+                )
+            return math.acos(cosine)
+        shifts = self.pinion_shift + self.wheel_shift
+        value = involute(alpha) + 2.0 * math.tan(self.rack.pressure_angle) * shifts / (
+            self.pinion_teeth + self.wheel_teeth
+        )
+        if value <= 0.0:
+            raise GeometryError(
+                f"the profile shifts {self.pinion_shift:g} and {self.wheel_shift:g} of "
+                f"{self.pinion_teeth} and {abs(self.wheel_teeth)} teeth leave no pressure angle; "
+                "bring their sum nearer to zero."
+            )
+        return inverse_involute(value)
+
+    @functools.cached_property
+    def working_centre_distance(self) -> float:
+        """A = a_d cos(alpha_t)/cos(alpha_wt), m; negative for an internal pair."""
+        return (
+            self.reference_centre_distance
+            * math.cos(self.transverse_pressure_angle)
+            / math.cos(self.working_pressure_angle)
+        )
+
+    @property
+    def transverse_base_pitch(self) -> float:
+        """p_et = pi m_n cos(alpha_t)/cos(beta), m."""
+        return (
+            math.pi
+            * self.module
+            * math.cos(self.transverse_pressure_angle)
+            / math.cos(self.helix_angle)
+        )
+
+    def _roll_length(self, index: int) -> float:
+        """Length of the tangent from the base circle to the tips, m, signed like the teeth."""
+        teeth = (self.pinion_teeth, self.wheel_teeth)[index]
+        tip, base = self.tip_diameters[index], self.base_diameter(teeth)
+        return math.copysign(0.5 * math.sqrt(tip * tip - base * base), teeth)
+
+    @functools.cached_property
+    def transverse_contact_ratio(self) -> float:
+        """eps_alpha from the tip circles (ISO 6336-1, 8.3; ISO 21771, 5.4).
+
+        It takes both flanks to reach the line of action everywhere between the tip circles. Where
+        a root is undercut or tips interfere (:attr:`interference_free_contact_ratio` is then
+        smaller) it is too favourable; the standard does not rate such gears.
+        """
+        length = self._roll_length(0) + self._roll_length(1)
+        length -= self.working_centre_distance * math.sin(self.working_pressure_angle)
+        return length / self.transverse_base_pitch
+
+    @functools.cached_property
+    def interference_free_contact_ratio(self) -> float:
+        """eps_alpha with the path cut off at the tangent points of the base circles."""
+        tangent = self.working_centre_distance * math.sin(self.working_pressure_angle)
+        # Distance from the pinion's base tangent point to where its contact with the wheel's tip
+        # begins; negative when that lies beyond the point, off the involute.
+        start = tangent - self._roll_length(1)
+        end = self._roll_length(0)
+        if not self.internal:
+            end = min(end, tangent)
+        return (end - max(start, 0.0)) / self.transverse_base_pitch
+
+    @property
+    def overlap_ratio(self) -> float:
+        """eps_beta = b sin(beta)/(pi m_n)."""
+        return self.face_width * math.sin(abs(self.helix_angle)) / (math.pi * self.module)
+
+    @property
+    def virtual_teeth(self) -> tuple[float, float]:
+        """z_n = z/(cos^2(beta_b) cos(beta)) of both gears, ISO 6336-3:2006 eq. 21."""
+        factor = 1.0 / (math.cos(self.base_helix_angle) ** 2 * math.cos(self.helix_angle))
+        return self.pinion_teeth * factor, self.wheel_teeth * factor
+
+    def tip_thickness(self, index: int) -> float:
+        """Transverse tooth thickness at the tip circle of pinion (0) or wheel (1), m.
+
+        s_a = |d_a| ((pi/2 + 2 x tan(alpha_n))/|z| +- (inv(alpha_t) - inv(alpha_a))), the upper
+        sign for an external gear (ISO 21771 eq. 44): a ring's teeth grow narrower inward.
+        """
+        teeth = (self.pinion_teeth, self.wheel_teeth)[index]
+        shift = (self.pinion_shift, self.wheel_shift)[index]
+        tip = self.tip_diameters[index]
+        alpha_tip = math.acos(self.base_diameter(teeth) / tip)
+        half = 0.5 * math.pi + 2.0 * shift * math.tan(self.rack.pressure_angle)
+        flank = involute(self.transverse_pressure_angle) - involute(alpha_tip)
+        return tip * (half / teeth + flank)
