@@ -34,13 +34,21 @@ def load_design(path: Path) -> Design:
     return design
 
 
-def load_requirements(path: Path) -> Requirements:
-    """Read the ``[requirements]`` table of a requirements or design file."""
+def load_requirements(path: Path, changes: Mapping[str, Any] | None = None) -> Requirements:
+    """Read the ``[requirements]`` table of a requirements or design file.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    changes : mapping, optional
+        Keys (with unit strings) that replace or add to those of the file.
+    """
     data = _migrated(_read(path), path)
     table = data.get("requirements")
     if not isinstance(table, dict):
         raise DesignError(f"{path}: there is no table [requirements] with at least ratio = N.")
-    return requirements_from_mapping(table, source=str(path))
+    return requirements_from_mapping({**table, **(changes or {})}, source=str(path))
 
 
 def requirements_from_mapping(

@@ -1,0 +1,63 @@
+"""JSON schema of design files, for editors and for programs that write designs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from cqdd_design.design.model import Design
+
+_DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+#: What a key is when a file leaves it out, where that follows from other keys.
+DERIVED_DEFAULTS = {
+    "peak_torque": "9 N*m times the ratio, at most 90 N*m",
+    "continuous_torque": "0.38 of the peak torque",
+    "circle_radius": "0.61 of the ring pitch radius",
+    "hole_clocking": "a quarter lobe pitch",
+    "outer_diameter": "3 mm of wall outside the teeth",
+    "output_pins": "every key at its default",
+    "ring": "every key at its default",
+    "requirements": "every key at its default",
+}
+
+
+def design_schema() -> dict[str, Any]:
+    """The JSON schema (draft 2020-12) of a design file.
+
+    It describes the file as a person may write it: keys whose default follows from others, such
+    as the torques or the pin circle, are not required there although the resolved design always
+    has them. Quantities are strings with their unit; bounds and their reasons stand in the
+    descriptions, because a schema cannot compare quantities.
+
+    Returns
+    -------
+    dict
+        Ready for ``json.dumps``.
+    """
+    schema = Design.model_json_schema()
+    for table in (schema, *schema["$defs"].values()):
+        table["required"] = [
+            key for key in table.get("required", ()) if key not in DERIVED_DEFAULTS
+        ]
+        for key, field in table["properties"].items():
+            names = _catalogue_names(table["title"], key)
+            if names:
+                field["examples"] = names
+            if key in DERIVED_DEFAULTS and "default" not in field:
+                told = field.get("description", "")
+                default = f"default: {DERIVED_DEFAULTS[key]}"
+                field["description"] = f"{told}; {default}" if told else default
+    # The one key that requirements need, the ratio, is taken from the reducer.
+    schema["$defs"]["Requirements"]["required"] = []
+    return {"$schema": _DIALECT, "$comment": "Written by `cqdd-design schema`.", **schema}
+
+
+def _catalogue_names(table: str, key: str) -> list[str]:
+    """Names an editor may offer for a key, or none."""
+    from cqdd_design.catalog import bearings, materials, motors
+
+    if key == "material" or key.endswith("_material"):
+        return list(materials())
+    if (key == "motor" and table == "Requirements") or (key == "name" and table == "MotorTable"):
+        return list(motors())
+    return ["auto", *bearings()] if key == "designation" else []

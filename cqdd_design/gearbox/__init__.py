@@ -1,0 +1,19 @@
+"""Mechanics and checks of the cycloidal gearbox.
+
+`analyse_gearbox` is the one call from a design to everything closed forms say about it; the
+modules below it are pure functions over arrays, shared by single designs and by the screen of
+hundreds of thousands.
+"""
+
+from cqdd_design.gearbox.analysis import GearboxAnalysis, analyse_gearbox
+from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
+from cqdd_design.gearbox.guide import CHECK_GUIDE, CheckGuide, check_guide
+
+__all__ = [
+    "CHECK_GUIDE",
+    "CheckGuide",
+    "GearboxAnalysis",
+    "analyse_gearbox",
+    "check_guide",
+    "with_chosen_bearing",
+]

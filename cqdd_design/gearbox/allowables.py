@@ -1,0 +1,276 @@
+"""Every limit of the gearbox checks, each a named constant with its source. None is tuned.
+
+Limits that depend on a material come as :class:`Allowable`: the value with the sentence that says
+how it was obtained, so a report never shows a limit whose origin is hidden. Where the catalogue
+has no basis for a limit the allowable is zero and says so: the part is then not shown to hold.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cqdd_design.catalog.materials import Material
+
+UNEVEN_SHARING = 1.15
+"""Factor on rigid-law ring and pin forces for unequal discs, pitch errors and deflection. Two
+discs with computed contact shares carry 1.3 % apart without errors; 1.15 covers tolerances of a
+few micrometres (design practice; Wang, Luo and Su 2016 take 0.55 instead of 0.5 for two discs)."""
+
+# Geometry ---------------------------------------------------------------------------------------
+SHORTENING_LEAST, SHORTENING_MOST = 0.3, 0.85
+"""K1: below, the lobes are shallow and forces grow as 1/K1; above, valleys sharpen and the tips
+near undercut (range of the tables in Wang, Luo and Su 2016, 0.42 to 0.9, widened at the bottom)."""
+UNDERCUT_SHARE = 0.9
+"""Most of the undercut limit that the tooth radius may take (10 % of reserve for the offset)."""
+TOOTH_OVERLAP_SHARE = 0.85
+"""Most of R sin(pi/(n+1)), the radius at which neighbouring ring teeth touch (space for relief)."""
+RING_WALL = 2.5e-3
+"""Least wall of the ring outside its deepest relief, m (house rule for 60 to 90 mm rings)."""
+LIGAMENT = 1.5e-3
+"""Least material between holes, bore and lobes of a disc, m (house rule; ten EDM cuts)."""
+SLEEVE_WALL = 0.5e-3
+"""Least wall of a sleeve on an output pin, m (thinnest drawn or ground bush commonly sold)."""
+SHAFT_CORE_SHARE = 0.25
+"""Least core radius common to neighbouring eccentrics, as a share of the cam bearing's bore."""
+
+# Contact ----------------------------------------------------------------------------------------
+FIRST_YIELD_FACTOR = 1.67
+"""Peak line-contact pressure at first yield, p0 = 1.67 S_y: shear 0.300 p0 reaches S_y/2 below
+the surface (Johnson 1985, Contact Mechanics, section 6.1, Tresca)."""
+HARDENED_STATIC_PRESSURE = 2500e6
+"""Static pressure for steel through-hardened to 58 HRC and more, Pa (bearing steel practice; far
+below the 4000 MPa of ISO 76 because flanks are not super-finished)."""
+HARDENED_FATIGUE_PRESSURE = 1500e6
+"""Fatigue pressure for flanks of 58 HRC and more, Pa (ISO 6336-5, quality MQ, sigma_Hlim)."""
+HARDENED_HRC = 58.0
+"""Hardness from which the two limits above hold."""
+AGMA_SLOPE, AGMA_BASE = 2.22e6, 200e6
+"""Through-hardened steel, grade 1: 2.22 HB + 200 MPa at 1e7 cycles (AGMA 2101-D04, contact stress
+numbers of through-hardened steel)."""
+AGMA_LEAST_HB, AGMA_MOST_HB = 180.0, 400.0
+"""Range of the line above. Harder steel gets the value at 400 HB; softer steel continues it."""
+STEEL_MODULUS = (180e9, 220e9)
+"""Young's moduli by which a catalogue row counts as steel, Pa."""
+STRENGTH_PER_BRINELL = 3.45e6
+"""Ultimate strength of steel per Brinell point, Pa (ASTM A370): used where no hardness is given."""
+ROCKWELL_C = (
+    (20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 55.0, 60.0, 65.0),
+    (226.0, 253.0, 286.0, 327.0, 371.0, 421.0, 481.0, 560.0, 654.0, 739.0),
+)
+"""HRC and the Brinell numbers that go with them (ASTM E140, table 1, carbide ball)."""
+ROCKWELL_B = ((80.0, 85.0, 90.0, 95.0, 100.0), (150.0, 165.0, 185.0, 210.0, 240.0))
+"""HRB and the Brinell numbers that go with them (ASTM E140, table 2)."""
+
+# Output pins ------------------------------------------------------------------------------------
+PIN_SAFETY_AT_PEAK = 1.2
+"""On the yield strength at the peak torque."""
+SHEAR_YIELD_SHARE = 0.58
+"""Yield in shear over yield in tension (von Mises, 1/sqrt 3)."""
+PAPER_SHEAR_SHARE = 0.5
+"""Allowable shear over ultimate strength in the paper's pin figure: 35 of 70 ksi."""
+PIN_FATIGUE_12_9 = 300e6
+"""Pulsating bending stress of a 12.9 shoulder screw, Pa (about S_u/4: ground shoulder, fillet)."""
+PIN_FATIGUE_18_8 = 120e6
+"""Pulsating bending stress of an annealed 18-8 shoulder screw, Pa (about S_u/4)."""
+PIN_FATIGUE_SHARE = 0.25
+"""Pulsating bending stress over ultimate strength for other materials: the share both values
+above have."""
+
+# Cam bearing ------------------------------------------------------------------------------------
+STATIC_SAFETY = 1.0
+"""Least C0/P at the peak torque (ISO 76: normal operation without shocks)."""
+LIFE_HOURS = 1000.0
+"""Least basic rating life at the continuous torque, h."""
+
+# Balance, motor, manufacture --------------------------------------------------------------------
+BALANCE_GRADE = 6.3e-3
+"""Permissible centre-of-mass speed of the rotating parts, m/s: G 6.3 (ISO 21940-11, machinery in
+general)."""
+SHAKING_SHARE = 0.1
+"""Most of the cam load at the continuous torque that inertia may add (house rule)."""
+REDUCER_EFFICIENCY = 0.88
+"""Assumed forward efficiency in the motor check: the low end of measured steel cycloid drives, 88
+to 94 % (cycloidgen, efficiency guide)."""
+
+
+@dataclass(frozen=True)
+class Allowable:
+    """A limit with its origin.
+
+    Attributes
+    ----------
+    value : float
+        Pa; zero when nothing in the catalogue supports a limit.
+    basis : str
+        A clause such as "2.22 x 335 HB + 200 MPa (AISI 4140 Q&T 540C)".
+    """
+
+    value: float
+    basis: str
+
+
+def weaker(first: Allowable, second: Allowable) -> Allowable:
+    """Return the lower of two limits; the first when equal."""
+    return second if second.value < first.value else first
+
+
+def is_steel(material: Material) -> bool:
+    """Whether the elastic modulus is that of a steel."""
+    return STEEL_MODULUS[0] <= material.youngs_modulus <= STEEL_MODULUS[1]
+
+
+def brinell_estimate(material: Material) -> tuple[float, str] | None:
+    """Brinell hardness of a steel and how it was obtained; None without any basis.
+
+    Printed HB first, then printed HRC or HRB through ASTM E140, then the ultimate strength
+    through ASTM A370. A printed range counts with its least value.
+    """
+    if material.brinell_hardness is not None:
+        return material.brinell_hardness, f"{material.brinell_hardness:.0f} HB"
+    words = material.hardness.split("HRB")[0].split("-") if "HRB" in material.hardness else None
+    if words is not None:
+        least = float(words[0].strip(" ~"))
+        value = float(np.interp(least, *ROCKWELL_B))
+        return value, f"{value:.0f} HB from {least:g} HRB by ASTM E140"
+    if material.rockwell_hardness is not None:
+        value = float(np.interp(material.rockwell_hardness, *ROCKWELL_C))
+        return value, f"{value:.0f} HB from {material.rockwell_hardness:g} HRC by ASTM E140"
+    if material.ultimate_strength is not None and is_steel(material):
+        value = material.ultimate_strength / STRENGTH_PER_BRINELL
+        return value, f"{value:.0f} HB estimated from the ultimate strength by ASTM A370"
+    return None
+
+
+def _through_hardened(material: Material) -> bool:
+    hardness = material.rockwell_hardness
+    surface_only = "surface" in material.hardness or "case" in material.name
+    return hardness is not None and hardness >= HARDENED_HRC and not surface_only
+
+
+def contact_limit_static(material: Material) -> Allowable:
+    """Largest Hertz pressure at the peak torque: first yield below the surface.
+
+    Case-hardened steel is held to the yield strength of its core, because the catalogue does not
+    know the depth of the case. Other metals and polymers are held to the lower of first yield and
+    the value their source quotes.
+
+    Examples
+    --------
+    >>> from cqdd_design.catalog.materials import find_material
+    >>> round(contact_limit_static(find_material("AISI 4140 Q&T 540C")).value / 1e6)
+    1393
+    """
+    if _through_hardened(material):
+        return Allowable(
+            HARDENED_STATIC_PRESSURE,
+            f"{HARDENED_STATIC_PRESSURE / 1e6:.0f} MPa for steel hardened to 58 HRC "
+            f"({material.name})",
+        )
+    if material.yield_strength is None:
+        return Allowable(0.0, f"no yield strength in the catalogue for {material.name}")
+    strength = material.yield_strength
+    value = FIRST_YIELD_FACTOR * strength
+    basis = f"{FIRST_YIELD_FACTOR:g} x S_y {strength / 1e6:.0f} MPa ({material.name})"
+    quoted = material.contact_allowable
+    if not is_steel(material) and quoted is not None and quoted < value:
+        return Allowable(quoted, f"{quoted / 1e6:.0f} MPa quoted for {material.name}")
+    return Allowable(value, basis)
+
+
+def contact_limit_fatigue(material: Material) -> Allowable:
+    """Largest Hertz pressure at the continuous torque: pitting.
+
+    Only steels have published rolling-contact strengths here; for anything else the limit is zero
+    and says so.
+
+    Examples
+    --------
+    >>> from cqdd_design.catalog.materials import find_material
+    >>> round(contact_limit_fatigue(find_material("AISI 4140 Q&T 540C")).value / 1e6)
+    944
+    """
+    if not is_steel(material):
+        return Allowable(0.0, f"no contact fatigue strength is known for {material.name}")
+    rockwell = material.rockwell_hardness
+    if rockwell is not None and rockwell >= HARDENED_HRC:
+        return Allowable(
+            HARDENED_FATIGUE_PRESSURE,
+            f"{HARDENED_FATIGUE_PRESSURE / 1e6:.0f} MPa at 58 HRC ({material.name})",
+        )
+    estimate = brinell_estimate(material)
+    if estimate is None:
+        return Allowable(0.0, f"no hardness and no strength is known for {material.name}")
+    hardness, words = estimate
+    used = min(hardness, AGMA_MOST_HB)
+    remark = ""
+    if hardness > AGMA_MOST_HB:
+        remark = f", held at {AGMA_MOST_HB:.0f} HB where the rule ends"
+    elif hardness < AGMA_LEAST_HB:
+        remark = f", an estimate below the {AGMA_LEAST_HB:.0f} HB where the rule begins"
+    return Allowable(
+        AGMA_SLOPE * used + AGMA_BASE,
+        f"2.22 x {used:.0f} HB + 200 MPa ({material.name}, {words}{remark})",
+    )
+
+
+def pin_bending_limit_peak(material: Material) -> Allowable:
+    """Bending stress of an output pin at the peak torque, S_y/1.2."""
+    return _yield_share(material, 1.0, "S_y")
+
+
+def pin_shear_limit_peak(material: Material) -> Allowable:
+    """Mean shear stress of an output pin at the peak torque, 0.58 S_y/1.2."""
+    return _yield_share(material, SHEAR_YIELD_SHARE, f"{SHEAR_YIELD_SHARE:g} S_y")
+
+
+def pin_bearing_limit_peak(material: Material) -> Allowable:
+    """Mean bearing pressure on the projected pin area at the peak torque, S_y/1.2."""
+    return _yield_share(material, 1.0, "S_y")
+
+
+def _yield_share(material: Material, share: float, symbol: str) -> Allowable:
+    if material.yield_strength is None:
+        return Allowable(0.0, f"no yield strength in the catalogue for {material.name}")
+    value = share * material.yield_strength / PIN_SAFETY_AT_PEAK
+    strength = material.yield_strength / 1e6
+    return Allowable(
+        value, f"{symbol}/{PIN_SAFETY_AT_PEAK:g}, S_y {strength:.0f} MPa ({material.name})"
+    )
+
+
+def pin_bending_limit_continuous(material: Material, *, duty_reverses: bool) -> Allowable:
+    """Greatest bending stress of an output pin at the continuous torque.
+
+    One sense of torque loads a pin from nothing to the full stress and back (pulsating). When the
+    duty reverses the torque, the same stress swings both ways; the amplitude allowed is then the
+    one on the same Goodman line, (s/2)/(1 - s/(2 S_u)) for the pulsating limit s.
+
+    Examples
+    --------
+    >>> from cqdd_design.catalog.materials import find_material
+    >>> screw = find_material("Alloy steel 12.9 (ISO 7379)")
+    >>> round(pin_bending_limit_continuous(screw, duty_reverses=False).value / 1e6)
+    300
+    """
+    ultimate = material.ultimate_strength
+    if ultimate is None:
+        return Allowable(0.0, f"no ultimate strength in the catalogue for {material.name}")
+    if material.name.startswith("Alloy steel 12.9"):
+        value, words = PIN_FATIGUE_12_9, "tabled for 12.9 screws"
+    elif material.name.startswith(("18-8", "304 / 18-8")):
+        value, words = PIN_FATIGUE_18_8, "tabled for annealed 18-8 screws"
+    else:
+        value, words = PIN_FATIGUE_SHARE * ultimate, f"S_u/4 of {material.name}"
+        if material.fatigue_strength is not None and material.fatigue_strength < value:
+            value, words = material.fatigue_strength, f"endurance limit of {material.name}"
+    if not duty_reverses:
+        return Allowable(value, f"{value / 1e6:.0f} MPa pulsating, {words}")
+    half = 0.5 * value
+    reversed_value = half / (1.0 - half / ultimate)
+    return Allowable(
+        reversed_value,
+        f"{reversed_value / 1e6:.0f} MPa reversed, on the Goodman line of "
+        f"{value / 1e6:.0f} MPa pulsating ({words})",
+    )

@@ -1,0 +1,161 @@
+"""One call from a design to its geometry, rigid-law loads, strengths, ratings and checks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.catalog.materials import find_material
+from cqdd_design.design import Design
+from cqdd_design.gearbox.balance import StackBalance, stack_balance
+from cqdd_design.gearbox.cam_bearing import BearingResult, cam_bearing
+from cqdd_design.gearbox.checks import gearbox_checks
+from cqdd_design.gearbox.geometry_summary import GeometrySummary, summarise_geometry
+from cqdd_design.gearbox.loads import RigidMaxima, RigidSeries, rigid_maxima, rigid_series
+from cqdd_design.gearbox.pin_strength import PinStrength, pin_strength
+from cqdd_design.gearbox.stages import Stages, pin_mean_diameter
+from cqdd_design.gearbox.state import GearboxState
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.validate import validate_geometry
+from cqdd_design.results import Check
+
+FloatArray = NDArray[np.float64]
+
+DEFAULT_ANGLES = 360
+"""Points of the curves over one crank turn."""
+
+
+@dataclass(frozen=True)
+class GearboxAnalysis:
+    """What closed forms say about a gearbox; complete when it exists.
+
+    Attributes
+    ----------
+    design : Design
+        As given, but with the cam bearing named where the design said "auto".
+    geometry : GeometrySummary
+    rigid, rigid_continuous : RigidMaxima
+        Raw maxima at the peak (or the asked-for) and at the continuous torque.
+    series : RigidSeries
+        Curves over one crank turn at the torque of `rigid`.
+    output_pins : PinStrength
+        At the peak and continuous torques of the requirements.
+    cam_bearing : BearingResult
+    balance : StackBalance
+        Discs with their bearings, from exact planar areas, at the required input speed.
+    checks : tuple of Check
+        At the torques of the requirements.
+    warnings : tuple of str
+        What could not be checked, and why.
+    """
+
+    design: Design
+    geometry: GeometrySummary
+    rigid: RigidMaxima
+    rigid_continuous: RigidMaxima
+    series: RigidSeries
+    output_pins: PinStrength
+    cam_bearing: BearingResult
+    balance: StackBalance
+    checks: tuple[Check, ...]
+    warnings: tuple[str, ...]
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form: ``geometry``, ``rigid``, ``output_pins``, ``bearings`` and more."""
+        return {
+            "geometry": self.geometry.to_dict(),
+            "rigid": self.rigid.to_dict(),
+            "rigid_continuous": self.rigid_continuous.to_dict(),
+            "rigid_series": self.series.to_dict(),
+            "output_pins": self.output_pins.to_dict(),
+            "bearings": {"cam": self.cam_bearing.to_dict()},
+            "balance": self.balance.to_dict(),
+        }
+
+
+def analyse_gearbox(
+    design: Design, *, torque: float | None = None, angles: int = DEFAULT_ANGLES
+) -> GearboxAnalysis:
+    """Analyse a design by closed forms: no contact equilibrium, no meshes.
+
+    Parameters
+    ----------
+    design : Design
+        Any design file; a cam bearing "auto" is chosen from the catalogue.
+    torque : float, optional
+        Output torque of `rigid` and `series`, N m; the required peak torque where left out.
+        Pins, bearing and checks always use the torques of the requirements.
+    angles : int
+        Points of the curves over one crank turn, at least 8. Maxima do not depend on it.
+
+    Returns
+    -------
+    GearboxAnalysis
+
+    Raises
+    ------
+    GeometryError
+        When disc, ring or holes cannot exist.
+    InfeasibleError
+        When "auto" finds no bearing that fits.
+    """
+    requirements, reducer = design.requirements, design.reducer
+    disc = CycloidDisc.from_design(design)
+    stages = Stages.from_design(design)
+    peak = rigid_maxima(stages, requirements.peak_torque)
+    continuous = peak.at(requirements.continuous_torque)
+    cam = cam_bearing(design, stages, peak.cam_bearing_load, disc.valley_distance)
+    bearing = cam.bearing
+    validate_geometry(
+        design,
+        bore_diameter=bearing.outer_diameter,
+        pin_mean_diameter=pin_mean_diameter(design),
+    )
+    resolved = _with_bearing(design, bearing.designation)
+    geometry = summarise_geometry(design, bearing)
+    density = find_material(reducer.disc_material).density
+    # Both rings of the bearing stand on the eccentric, so all of it orbits with the disc.
+    orbiting = density * geometry.disc_area * reducer.disc_thickness + (bearing.mass or 0.0)
+    balance = stack_balance(
+        orbiting,
+        reducer.eccentricity,
+        reducer.disc_thickness,
+        reducer.disc_spacing,
+        reducer.disc_count,
+        requirements.input_speed,
+    )
+    pins = pin_strength(design, peak, continuous)
+    state = GearboxState(
+        design=design,
+        stages=stages,
+        geometry=geometry,
+        peak=peak,
+        continuous=continuous,
+        pins=pins,
+        cam=cam,
+        orbiting_mass=orbiting,
+        balance=balance,
+    )
+    checks, warnings = gearbox_checks(state)
+    shown = peak if torque is None else peak.at(torque)
+    crank = 2.0 * np.pi * np.arange(max(angles, 8)) / max(angles, 8)
+    return GearboxAnalysis(
+        design=resolved,
+        geometry=geometry,
+        rigid=shown,
+        rigid_continuous=continuous,
+        series=rigid_series(stages, shown.torque, crank),
+        output_pins=pins,
+        cam_bearing=cam,
+        balance=balance,
+        checks=checks,
+        warnings=warnings,
+    )
+
+
+def _with_bearing(design: Design, designation: str) -> Design:
+    if design.reducer.cam_bearing.designation == designation:
+        return design
+    return design.replacing({"reducer.cam_bearing.designation": designation})

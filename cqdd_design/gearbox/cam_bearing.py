@@ -1,0 +1,245 @@
+"""The cam bearing of a design: the catalogue's answer to "auto", and its rating."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from cqdd_design.catalog.bearings import Bearing, bearings, find_bearing
+from cqdd_design.catalog.materials import find_material
+from cqdd_design.design import Design
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.gearbox import allowables, kinematics
+from cqdd_design.gearbox.bearings import (
+    RollingElement,
+    basic_rating_life_hours,
+    life_exponent,
+    static_safety,
+)
+from cqdd_design.gearbox.loads import rigid_maxima
+from cqdd_design.gearbox.stages import Stages
+from cqdd_design.geometry.cycloid import CycloidDisc
+
+AUTO = "auto"
+
+
+def rolling_element(bearing: Bearing) -> RollingElement:
+    """Ball or roller, which decides the life exponent."""
+    return "ball" if bearing.kind == "ball" else "roller"
+
+
+def carries_raceways(bearing: Bearing, disc_material: str) -> bool:
+    """Whether the bearing brings its own outer ring, or the disc is hard enough to be one.
+
+    A needle cage runs in the bore itself; steel below 58 HRC is no raceway.
+    """
+    if bearing.kind != "needle cage":
+        return True
+    hardness = find_material(disc_material).rockwell_hardness
+    return hardness is not None and hardness >= allowables.HARDENED_HRC
+
+
+def largest_outer_diameter(design: Design, hole_diameter: float, valley_distance: float) -> float:
+    """Largest cam bearing that leaves the least ligament to holes and valleys, m."""
+    to_holes = design.reducer.output_pins.circle_radius - 0.5 * hole_diameter
+    return 2.0 * (min(to_holes, valley_distance) - allowables.LIGAMENT)
+
+
+def least_bore(eccentricity: float) -> float:
+    """Smallest bore whose eccentrics still share the least shaft core, m.
+
+    Neighbouring cams of radius d/2 stand e to either side of the axis, so a core of radius
+    d/2 - e runs through; it must be at least a quarter of the bore.
+    """
+    return eccentricity / (0.5 - allowables.SHAFT_CORE_SHARE)
+
+
+def fitting_bearings(design: Design, most_outer_diameter: float) -> tuple[Bearing, ...]:
+    """Rated catalogue bearings that fit the disc, smallest first.
+
+    Parameters
+    ----------
+    design : Design
+        For the disc's thickness and material and the eccentricity.
+    most_outer_diameter : float
+        From :func:`largest_outer_diameter`, m.
+    """
+    reducer = design.reducer
+    fitting = [
+        bearing
+        for bearing in bearings().values()
+        if bearing.dynamic_rating is not None
+        and bearing.static_rating is not None
+        and bearing.kind != "crossed roller"
+        and bearing.width <= reducer.disc_thickness + 1e-9
+        and bearing.outer_diameter <= most_outer_diameter + 1e-9
+        and bearing.bore_diameter >= least_bore(reducer.eccentricity)
+        and carries_raceways(bearing, reducer.disc_material)
+    ]
+    return tuple(sorted(fitting, key=_size))
+
+
+def _size(bearing: Bearing) -> tuple[float, float, float, str]:
+    return (
+        bearing.outer_diameter,
+        bearing.width,
+        bearing.mass if bearing.mass is not None else float("inf"),
+        bearing.designation,
+    )
+
+
+@dataclass(frozen=True)
+class BearingResult:
+    """Rating of a cam bearing.
+
+    Attributes
+    ----------
+    bearing : Bearing
+        The catalogue row.
+    peak_load, continuous_load : float
+        Greatest radial load at peak and at continuous torque, N. The greatest over the period is
+        used for the life too, which is on the safe side of the mean that ISO 281 allows.
+    speed : float
+        Of the crank relative to the disc, rad/s.
+    static_safety : float or None
+        C0/P at the peak torque; None where the catalogue has no rating.
+    life_hours : float or None
+        L10h at the continuous torque; None where the catalogue has no rating.
+    """
+
+    bearing: Bearing
+    peak_load: float
+    continuous_load: float
+    speed: float
+    static_safety: float | None
+    life_hours: float | None
+
+    @property
+    def exponent(self) -> float:
+        """Life exponent p."""
+        return life_exponent(rolling_element(self.bearing))
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form of one seat of ``bearings``."""
+        rating, static = self.bearing.dynamic_rating, self.bearing.static_rating
+        return {
+            "designation": self.bearing.designation,
+            "kind": self.bearing.kind,
+            "load_peak_N": self.peak_load,
+            "load_continuous_N": self.continuous_load,
+            "speed_rad_per_s": self.speed,
+            "dynamic_rating_N": rating,
+            "static_rating_N": static,
+            "static_safety": self.static_safety,
+            "L10h": self.life_hours,
+        }
+
+
+def rate(bearing: Bearing, peak_load: float, continuous_load: float, speed: float) -> BearingResult:
+    """Rate a cam bearing by ISO 76 and ISO 281.
+
+    Parameters
+    ----------
+    bearing : Bearing
+        Catalogue row.
+    peak_load, continuous_load : float
+        N.
+    speed : float
+        Relative speed of the rings, rad/s.
+    """
+    safety = life = None
+    if bearing.static_rating is not None:
+        safety = float(static_safety(bearing.static_rating, peak_load))
+    if bearing.dynamic_rating is not None:
+        exponent = life_exponent(rolling_element(bearing))
+        life = float(
+            basic_rating_life_hours(bearing.dynamic_rating, continuous_load, speed, exponent)
+        )
+    return BearingResult(bearing, peak_load, continuous_load, speed, safety, life)
+
+
+def passes(result: BearingResult) -> bool:
+    """Whether both ratings meet their limits."""
+    return (
+        result.static_safety is not None
+        and result.life_hours is not None
+        and result.static_safety >= allowables.STATIC_SAFETY
+        and result.life_hours >= allowables.LIFE_HOURS
+    )
+
+
+def _reserve(result: BearingResult) -> float:
+    """Load reserve of a rated bearing: how many times the load it could carry."""
+    safety, life = result.static_safety or 0.0, result.life_hours or 0.0
+    by_life = float((life / allowables.LIFE_HOURS) ** (1.0 / result.exponent))
+    return min(safety / allowables.STATIC_SAFETY, by_life)
+
+
+def choose(
+    candidates: Iterable[Bearing], peak_load: float, continuous_load: float, speed: float
+) -> BearingResult | None:
+    """Return the smallest candidate that passes, or else the one with the most reserve.
+
+    Returns
+    -------
+    BearingResult or None
+        None only when there are no candidates.
+    """
+    rated = [rate(bearing, peak_load, continuous_load, speed) for bearing in candidates]
+    for result in rated:
+        if passes(result):
+            return result
+    return max(rated, key=_reserve, default=None)
+
+
+def cam_bearing(
+    design: Design, stages: Stages, peak_load: float, valley_distance: float
+) -> BearingResult:
+    """Rate the cam bearing the design names, or choose one for "auto".
+
+    Parameters
+    ----------
+    design : Design
+        With requirements and reducer.
+    stages : Stages
+        Of the same design.
+    peak_load : float
+        Greatest cam load at the peak torque, N.
+    valley_distance : float
+        From the disc's centre to its valleys, m.
+
+    Raises
+    ------
+    InfeasibleError
+        When "auto" finds no catalogue bearing that fits the disc at all.
+    """
+    requirements, reducer = design.requirements, design.reducer
+    speed = float(kinematics.cam_bearing_speed_ring_fixed(reducer.ratio, requirements.input_speed))
+    continuous = peak_load * requirements.continuous_torque / requirements.peak_torque
+    designation = reducer.cam_bearing.designation
+    if designation != AUTO:
+        return rate(find_bearing(designation), peak_load, continuous, speed)
+    most = largest_outer_diameter(design, 2.0 * stages.hole_radius, valley_distance)
+    chosen = choose(fitting_bearings(design, most), peak_load, continuous, speed)
+    if chosen is None:
+        raise InfeasibleError(
+            f"no catalogue bearing fits the disc: at most {max(most, 0.0) * 1e3:.2f} mm outside, "
+            f"{reducer.disc_thickness * 1e3:g} mm wide and at least "
+            f"{least_bore(reducer.eccentricity) * 1e3:.2f} mm inside; raise "
+            "output_pins.circle_radius or disc_thickness, or lower eccentricity."
+        )
+    return chosen
+
+
+def with_chosen_bearing(design: Design) -> Design:
+    """Replace cam_bearing.designation "auto" by the catalogue's answer.
+
+    A design that names its bearing is returned as it is.
+    """
+    if design.reducer.cam_bearing.designation != AUTO:
+        return design
+    stages = Stages.from_design(design)
+    peak = rigid_maxima(stages, design.requirements.peak_torque).cam_bearing_load
+    valley = CycloidDisc.from_design(design).valley_distance
+    chosen = cam_bearing(design, stages, peak, valley)
+    return design.replacing({"reducer.cam_bearing.designation": chosen.bearing.designation})

@@ -1,0 +1,167 @@
+"""Hertz line contact: pressures, equivalent radii and approach. Every function broadcasts."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+def effective_modulus(
+    youngs_modulus_1: ArrayLike,
+    poisson_ratio_1: ArrayLike,
+    youngs_modulus_2: ArrayLike,
+    poisson_ratio_2: ArrayLike,
+) -> FloatArray:
+    """E* with 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, in the unit of E (Johnson 1985, ch. 4).
+
+    Examples
+    --------
+    >>> print(round(float(effective_modulus(210e9, 0.3, 210e9, 0.3)) / 1e6, 1))
+    115384.6
+    """
+    e1, e2 = np.asarray(youngs_modulus_1, dtype=float), np.asarray(youngs_modulus_2, dtype=float)
+    nu1, nu2 = np.asarray(poisson_ratio_1, dtype=float), np.asarray(poisson_ratio_2, dtype=float)
+    return np.asarray(1.0 / ((1.0 - nu1 * nu1) / e1 + (1.0 - nu2 * nu2) / e2))
+
+
+def line_contact_pressure(
+    force: ArrayLike, length: ArrayLike, equivalent_radius: ArrayLike, modulus: ArrayLike
+) -> FloatArray:
+    """Peak pressure p0 = sqrt(F E*/(pi b R_eq)) of a line contact (Johnson 1985, eq. 4.45).
+
+    Parameters
+    ----------
+    force : array_like
+        N, not negative.
+    length, equivalent_radius : array_like
+        b and R_eq in m, positive.
+    modulus : array_like
+        E* in Pa.
+
+    Returns
+    -------
+    array
+        Pa.
+
+    Examples
+    --------
+    1000 N on 10 mm of a steel cylinder of 10 mm radius on a flat:
+
+    >>> p = line_contact_pressure(1000.0, 0.01, 0.01, effective_modulus(210e9, 0.3, 210e9, 0.3))
+    >>> print(round(float(p) / 1e6, 2))
+    606.04
+    """
+    load = np.asarray(force, dtype=float) * np.asarray(modulus, dtype=float)
+    width = np.asarray(length, dtype=float) * np.asarray(equivalent_radius, dtype=float)
+    return np.asarray(np.sqrt(load / (np.pi * width)))
+
+
+def line_contact_half_width(
+    force: ArrayLike, length: ArrayLike, equivalent_radius: ArrayLike, modulus: ArrayLike
+) -> FloatArray:
+    """Half width a = sqrt(4 F R_eq/(pi b E*)) of a line contact, m (Johnson 1985, eq. 4.43)."""
+    load = 4.0 * np.asarray(force, dtype=float) * np.asarray(equivalent_radius, dtype=float)
+    stiff = np.pi * np.asarray(length, dtype=float) * np.asarray(modulus, dtype=float)
+    return np.asarray(np.sqrt(load / stiff))
+
+
+def line_contact_approach_palmgren(force: ArrayLike, length: ArrayLike) -> FloatArray:
+    """Approach of two steel bodies in line contact by Palmgren's empirical rule.
+
+    delta = 3.84e-5 F^0.9/L^0.8 with F in N, L and delta in mm (Palmgren 1959, Ball and Roller
+    Bearing Engineering); taken and returned in SI here. For crowned steel rollers; the radii do
+    not enter.
+
+    Parameters
+    ----------
+    force, length : array_like
+        N (not negative) and m.
+
+    Returns
+    -------
+    array
+        m.
+
+    Examples
+    --------
+    >>> print(round(float(line_contact_approach_palmgren(1000.0, 0.01)) * 1e3, 7))
+    0.0030502
+    """
+    length_mm = np.asarray(length, dtype=float) * 1e3
+    return np.asarray(3.84e-8 * np.asarray(force, dtype=float) ** 0.9 / length_mm**0.8)
+
+
+def line_contact_approach_johnson(
+    force: ArrayLike,
+    length: ArrayLike,
+    equivalent_radius: ArrayLike,
+    modulus: ArrayLike,
+    depth_1: ArrayLike,
+    depth_2: ArrayLike,
+    youngs_modulus_1: ArrayLike,
+    poisson_ratio_1: ArrayLike,
+    youngs_modulus_2: ArrayLike,
+    poisson_ratio_2: ArrayLike,
+) -> FloatArray:
+    """Approach of points `depth` behind a line contact (Johnson 1985, eq. 5.57).
+
+    Each body contributes (F/b)(1 - nu^2)/(pi E) [2 ln(2 d/a) - nu/(1 - nu)], with a the half
+    width of the contact and d the depth of the reference point (the centre of a cylinder). A
+    plane contact has no absolute approach, so the depths are part of the model. Valid while both
+    depths exceed a few half widths.
+
+    Parameters
+    ----------
+    force : array_like
+        N; zero gives zero.
+    length, equivalent_radius, depth_1, depth_2 : array_like
+        m.
+    modulus : array_like
+        E* in Pa.
+    youngs_modulus_1, poisson_ratio_1, youngs_modulus_2, poisson_ratio_2 : array_like
+        Pa and dimensionless.
+
+    Returns
+    -------
+    array
+        m.
+    """
+    load = np.asarray(force, dtype=float)
+    safe = np.where(load > 0.0, load, 1.0)
+    half_width = line_contact_half_width(safe, length, equivalent_radius, modulus)
+    total = np.zeros(np.broadcast(load, half_width).shape)
+    for depth, youngs, poisson in (
+        (depth_1, youngs_modulus_1, poisson_ratio_1),
+        (depth_2, youngs_modulus_2, poisson_ratio_2),
+    ):
+        nu = np.asarray(poisson, dtype=float)
+        compliance = (1.0 - nu * nu) / (np.pi * np.asarray(youngs, dtype=float))
+        spread = 2.0 * np.log(2.0 * np.asarray(depth, dtype=float) / half_width) - nu / (1.0 - nu)
+        total = total + load / np.asarray(length, dtype=float) * compliance * spread
+    return np.asarray(np.where(load > 0.0, total, 0.0))
+
+
+def ring_equivalent_radius(tooth_radius: ArrayLike, curvature_of_locus: ArrayLike) -> FloatArray:
+    """Equivalent radius of ring tooth and disc flank, m.
+
+    1/R_eq = 1/r + kappa_disc with kappa_disc = kappa/(1 - r kappa) signed, which reduces to
+    R_eq = r (1 - r kappa): below r at a lobe tip, above it in a valley. Positive as long as the
+    disc is not undercut.
+
+    Parameters
+    ----------
+    tooth_radius : array_like
+        r in m.
+    curvature_of_locus : array_like
+        kappa of the tooth-centre locus, 1/m, convex positive.
+    """
+    r = np.asarray(tooth_radius, dtype=float)
+    return np.asarray(r * (1.0 - r * np.asarray(curvature_of_locus, dtype=float)))
+
+
+def conformal_equivalent_radius(pin_radius: ArrayLike, hole_radius: ArrayLike) -> FloatArray:
+    """Equivalent radius of a pin in a larger hole: 1/R_eq = 1/r_pin - 1/r_hole, m."""
+    pin, hole = np.asarray(pin_radius, dtype=float), np.asarray(hole_radius, dtype=float)
+    return np.asarray(pin * hole / (hole - pin))

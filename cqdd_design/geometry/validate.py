@@ -1,0 +1,89 @@
+"""Whether the parts of a design can exist at all: raises with the nearest fix."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from cqdd_design.errors import GeometryError
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.disc import Ligament, hole_diameter, ligaments
+from cqdd_design.geometry.limits import millimetres, rounded_down, rounded_up
+from cqdd_design.geometry.ring import ring_contour
+
+if TYPE_CHECKING:
+    from cqdd_design.design import Design
+
+_FEWEST_PINS = 3
+
+
+def validate_geometry(design: Design, *, bore_diameter: float, pin_mean_diameter: float) -> None:
+    """Raise unless disc, ring and holes of a design can be cut.
+
+    Parameters
+    ----------
+    design : Design
+    bore_diameter : float
+        Outside diameter of the cam bearing, m.
+    pin_mean_diameter : float
+        Mean diameter of the output pins, m; ignored where there are sleeves.
+
+    Raises
+    ------
+    GeometryError
+        Undercut, overlapping teeth, no ring wall, no relief, or holes that break out. Thin but
+        existing material is a matter for the checks, not for this function.
+    """
+    CycloidDisc.from_design(design)
+    ring_contour(design)
+    hole = hole_diameter(design, pin_mean_diameter)
+    if hole <= 0.0:
+        raise GeometryError(
+            f"output_pins.hole_clearance {millimetres(design.reducer.output_pins.hole_clearance)} "
+            "leaves no output hole; raise it."
+        )
+    found = ligaments(design, bore_diameter=bore_diameter, pin_mean_diameter=pin_mean_diameter)
+    broken = [one for one in found if one.thickness <= 0.0]
+    if broken:
+        # A bore outside the disc is the plainest of them, whatever else it cuts on the way.
+        plainest = next((one for one in broken if one.kind == "bore to profile"), broken[0])
+        raise GeometryError(_break_out(design, plainest, hole, bore_diameter))
+
+
+def _break_out(design: Design, worst: Ligament, hole: float, bore: float) -> str:
+    pins = design.reducer.output_pins
+    disc = CycloidDisc.from_design(design)
+    valley = disc.valley_distance
+    inner, outer = (bore + hole) / 2.0, valley - hole / 2.0
+    if worst.kind == "bore to profile":
+        return (
+            f"the bore of {millimetres(bore)} for the cam bearing cuts through the valleys of the "
+            f"disc, which stand {millimetres(valley)} from its centre; choose a "
+            f"cam_bearing.designation below {rounded_down(2e3 * valley):.6g} mm outside diameter."
+        )
+    if worst.kind == "hole to hole":
+        fixes = ["use thinner output_pins"]
+        fewer = math.ceil(math.pi / math.asin(min(1.0, hole / (2.0 * pins.circle_radius)))) - 1
+        if fewer >= _FEWEST_PINS:
+            fixes.append(f"lower output_pins.count to {fewer}")
+        wider = rounded_up(hole / (2.0 * math.sin(math.pi / pins.count)) * 1e3)
+        if wider * 1e-3 < outer:
+            fixes.append(f"raise output_pins.circle_radius to {wider:.6g} mm")
+        fix = ", or ".join(fixes)
+        return (
+            f"output_pins.count {pins.count} lets neighbouring holes of {millimetres(hole)} run "
+            f"into each other on circle_radius {millimetres(pins.circle_radius)}; {fix}."
+        )
+    low, high = rounded_up(inner * 1e3), rounded_down(outer * 1e3) if outer > 0.0 else 0.0
+    if low < high:
+        fix = f"choose it from {low:.6g} to {high:.6g} mm"
+    else:
+        fix = (
+            f"no circle_radius is right between a bore of {millimetres(bore)} and valleys at "
+            f"{millimetres(valley)}; use thinner output_pins or a smaller cam_bearing"
+        )
+    edge = "bore" if worst.kind == "hole to bore" else "lobed profile"
+    return (
+        f"output_pins.circle_radius {millimetres(pins.circle_radius)} lets the output holes of "
+        f"{millimetres(hole)} break out into the {edge}; {fix}."
+    )

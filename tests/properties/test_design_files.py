@@ -1,0 +1,207 @@
+"""Design files: round trips, comments, bounds, and what is said about mistakes."""
+
+import math
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from cqdd_design.design import (
+    Design,
+    load_design,
+    load_requirements,
+    requirements_from_mapping,
+    save_design,
+)
+from cqdd_design.errors import CqddError, DesignError, UsageError
+
+PAPER = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
+REQUIRED = {
+    "ratio": 10,
+    "ring_pitch_radius": "32 mm",
+    "eccentricity": "1.6 mm",
+    "ring_pin_diameter": "7 mm",
+}
+
+
+def reducer(**changes):
+    return {"reducer": {**REQUIRED, **changes}}
+
+
+def test_paper_design_is_si_inside():
+    design = load_design(PAPER)
+    assert design.reducer.ring_pitch_radius == 0.032
+    assert design.requirements.peak_torque == 120.0
+    assert design.reducer.output_pins.hole_clocking == pytest.approx(math.pi / 20)
+    assert design.reducer.pack_length == pytest.approx(0.0165)
+
+
+def test_every_value_of_the_paper_design_says_its_origin():
+    for line in PAPER.read_text().splitlines():
+        if "=" in line and not line.startswith(("#", "schema_version", "name")):
+            comment = line.split("#", 1)[1]
+            assert any(word in comment for word in ("paper", "derived", "assumed")), line
+
+
+def test_four_keys_are_enough_and_the_rest_is_listed_as_assumed():
+    design = Design.from_mapping(reducer())
+    given_keys = {f"reducer.{key}" for key in REQUIRED}
+    assert set(design.assumed) == set(design.dotted_keys()) - given_keys
+    assert design.requirements.peak_torque == 90.0
+    assert design.requirements.continuous_torque == pytest.approx(34.2)
+
+
+def test_mapping_round_trip_is_exact():
+    design = load_design(PAPER)
+    again = Design.from_mapping(design.to_mapping())
+    assert again.to_mapping() == design.to_mapping()
+    assert again.sha256 == design.sha256
+
+
+def test_editing_keeps_comments_and_order(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(PAPER.read_text())
+    design = load_design(path).replacing({"reducer.eccentricity": 0.0017})
+    save_design(path, design)
+    before, after = PAPER.read_text().splitlines(), path.read_text().splitlines()
+    changed = [(a, b) for a, b in zip(before, after, strict=True) if a != b]
+    assert changed == [
+        (
+            'eccentricity = "1.6 mm"           # assumed (Z_e): K1 = 0.55',
+            'eccentricity = "1.7 mm"           # assumed (Z_e): K1 = 0.55',
+        )
+    ]
+
+
+def test_new_file_leaves_assumed_keys_out(tmp_path):
+    path = tmp_path / "new.toml"
+    design = Design.from_mapping(reducer())
+    save_design(path, design, comments={"reducer.ratio": "lobes"})
+    assert "ratio = 10 # lobes" in path.read_text()
+    again = load_design(path)
+    assert again.reducer == design.reducer
+    assert set(again.assumed) == set(design.assumed) - {"name"}
+    assert "motor" not in path.read_text()
+
+
+@pytest.mark.parametrize(
+    ("data", "says"),
+    [
+        (reducer(ratio=3), "nearest allowed is 4"),
+        (reducer(ratio=1000), "nearest allowed is 119"),
+        (reducer(ratio=10.5), "whole number from 4 to 119"),
+        (reducer(ratio=math.nan), "whole number"),
+        (reducer(ratio=math.inf), "whole number"),
+        (reducer(ratio="10"), "whole number"),
+        (reducer(ratio=True), "whole number"),
+        (reducer(eccentricity=1.6), 'write it like "1.6 mm"'),
+        (reducer(eccentricity="1.6 J"), "not a unit of length"),
+        (reducer(eccentricity="-1 mm"), "nearest allowed is 0.01 mm"),
+        (reducer(eccentricty="1.6 mm"), "did you mean 'eccentricity'"),
+        (reducer(disc_material="AISI 4140 Q&T 540"), "AISI 4140 Q&T 540C"),
+        (reducer(cam_bearing={"designation": "69022"}), "6902"),
+        (reducer(ring_type="round"), "'solid', 'conjugate' or 'pinwheel'"),
+        (reducer(output_pins=3), "must be a table"),
+        (reducer(output_pins={"count": 2}), "nearest allowed is 3"),
+        ({**reducer(), "requirements": {"ratio": 11}}, "is not reducer.ratio"),
+        ({**reducer(), "requirements": {"peak_torque": "1286 rpm"}}, "not a unit of torque"),
+        ({**reducer(), "requirements": {"input_speed": "20 Hz"}}, "rpm or rad/s"),
+        ({**reducer(), "name": "../evil"}, "part of file names"),
+        ({}, "reducer is missing"),
+        ({**reducer(), "requirments": {}}, "did you mean 'requirements'"),
+    ],
+)
+def test_mistakes_are_named_with_their_fix(data, says):
+    with pytest.raises(DesignError) as caught:
+        Design.from_mapping(data, source="mine.toml")
+    assert says in str(caught.value)
+    assert "mine.toml" in str(caught.value)
+
+
+def test_continuous_above_peak_is_refused():
+    with pytest.raises(DesignError, match="above"):
+        requirements_from_mapping(
+            {"ratio": 10, "peak_torque": "5 N*m", "continuous_torque": "6 N*m"}
+        )
+
+
+def test_duty_shares_add_up_to_one():
+    duty = [{"torque": "30 N*m", "speed": "10 rad/s", "share": 0.7}]
+    with pytest.raises(DesignError, match="add up to"):
+        requirements_from_mapping({"ratio": 10, "duty": duty})
+
+
+@pytest.mark.parametrize(
+    ("content", "error", "says"),
+    [
+        (None, UsageError, "there is no file"),
+        (b"", DesignError, "empty"),
+        (b"\x89PNG\r\n\x1a\n\x00\xff", DesignError, "not a text file"),
+        (b'[reducer]\nratio = 10\neccentricity = "1.', DesignError, "not valid TOML"),
+        (b"x = 1\n" * 200_000, DesignError, "MB"),
+        (b"a = " + b"[" * 50_000, DesignError, "TOML"),
+        (b"schema_version = 2\n[reducer]\n", DesignError, "schema_version"),
+    ],
+)
+def test_bad_files(tmp_path, content, error, says):
+    path = tmp_path / "bad.toml"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(error, match=says):
+        load_design(path)
+
+
+def test_missing_file_suggests_its_neighbour(tmp_path):
+    (tmp_path / "cqdd-10.toml").write_text("")
+    with pytest.raises(UsageError, match=r"did you mean .*cqdd-10\.toml"):
+        load_design(tmp_path / "cqdd-1.toml")
+
+
+def test_folder_is_no_design(tmp_path):
+    with pytest.raises(UsageError, match="folder"):
+        load_design(tmp_path)
+
+
+def test_requirements_come_from_either_kind_of_file(tmp_path):
+    assert load_requirements(PAPER).peak_torque == 120.0
+    path = tmp_path / "wish.toml"
+    path.write_text('[requirements]\nratio = 12\npeak_torque = "50 N*m"\n')
+    assert load_requirements(path).ratio == 12
+    path.write_text("[reducer]\n")
+    with pytest.raises(DesignError, match="requirements"):
+        load_requirements(path)
+
+
+json_like = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.floats()
+    | st.text(max_size=12)
+    | st.sampled_from(["10 mm", "5 N*m", "1e-3 mm", "0 mm", "nan mm", "5 deg", "auto"]),
+    lambda inner: (
+        st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner, max_size=3)
+    ),
+    max_leaves=6,
+)
+KEYS = Design.from_mapping(reducer()).dotted_keys()
+
+
+@settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(st.dictionaries(st.sampled_from(KEYS), json_like, max_size=6))
+def test_no_value_raises_anything_but_our_own(changes):
+    data = reducer()
+    for key, value in changes.items():
+        table = data
+        *parents, last = key.split(".")
+        for parent in parents:
+            table = table.setdefault(parent, {})
+            if not isinstance(table, dict):
+                return
+        table[last] = value
+    try:
+        design = Design.from_mapping(data)
+    except CqddError:
+        return
+    assert Design.from_mapping(design.to_mapping()).sha256 == design.sha256

@@ -1,0 +1,489 @@
+"""The checks: limits as tabled, remedies that work, the paper's design, random designs."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from geometry_designs import design_of, discs
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from cqdd_design.catalog import find_material, materials
+from cqdd_design.design import Design, load_design
+from cqdd_design.errors import CqddError, GeometryError, InfeasibleError, UsageError
+from cqdd_design.gearbox import (
+    CHECK_GUIDE,
+    GearboxAnalysis,
+    allowables,
+    analyse_gearbox,
+    check_guide,
+    with_chosen_bearing,
+)
+from cqdd_design.gearbox.balance import paper_disc_count, stack_balance
+from cqdd_design.gearbox.bearings import basic_rating_life_hours, load_for_life
+from cqdd_design.geometry import CycloidDisc
+from cqdd_design.results import Check, MassProperties, worst_status
+
+PAPER = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
+#: A design for the default requirements at ratio 10, found by an independent search.
+SOUND = Design.from_mapping(
+    {
+        "requirements": {"ratio": 10},
+        "reducer": {
+            "ratio": 10,
+            "ring_pitch_radius": "34.4 mm",
+            "eccentricity": "1.56 mm",
+            "ring_pin_diameter": "8.4 mm",
+            "disc_thickness": "9 mm",
+            "output_pins": {"count": 12, "diameter": "4 mm", "circle_radius": "23.6 mm"},
+            "cam_bearing": {"designation": "6904"},
+            "ring": {"outer_diameter": "72 mm"},
+        },
+    }
+)
+
+#: The same with room round its pins and bearing, for checks of the profile alone.
+ROOMY = SOUND.replacing(
+    {
+        "reducer.cam_bearing.designation": "6801",
+        "reducer.output_pins.count": 4,
+        "reducer.output_pins.circle_radius": "17 mm",
+    }
+)
+
+
+def by_id(analysis: GearboxAnalysis) -> dict[str, Check]:
+    return {check.id: check for check in analysis.checks}
+
+
+def changed(changes: Mapping[str, Any], base: Design = SOUND) -> dict[str, Check]:
+    return by_id(analyse_gearbox(base.replacing(changes)))
+
+
+def test_limits_are_those_of_the_table() -> None:
+    steel, hard = find_material("AISI 4140 Q&T 540C"), find_material("AISI 4140 Q&T 425C")
+    bearing_steel = find_material("AISI 52100 / 100Cr6 hardened")
+    screw = find_material("Alloy steel 12.9 (ISO 7379)")
+    stainless = next(m for name, m in materials().items() if name.startswith("18-8"))
+
+    def mpa(allowed: allowables.Allowable) -> int:
+        return round(allowed.value / 1e6)
+
+    assert [mpa(allowables.contact_limit_static(m)) for m in (steel, hard)] == [1393, 1900]
+    assert [mpa(allowables.contact_limit_fatigue(m)) for m in (steel, hard)] == [944, 1081]
+    assert mpa(allowables.contact_limit_static(bearing_steel)) == 2500
+    assert mpa(allowables.contact_limit_fatigue(bearing_steel)) == 1500
+    peak = [allowables.pin_bending_limit_peak(m) for m in (screw, stainless)]
+    shear = [allowables.pin_shear_limit_peak(m) for m in (screw, stainless)]
+    fatigue = [
+        allowables.pin_bending_limit_continuous(m, duty_reverses=False) for m in (screw, stainless)
+    ]
+    assert [mpa(a) for a in peak] == [900, 171]
+    assert [mpa(a) for a in shear] == [522, 99]
+    assert [mpa(a) for a in fatigue] == [300, 120]
+    assert allowables.UNEVEN_SHARING == 1.15
+    assert (allowables.STATIC_SAFETY, allowables.LIFE_HOURS) == (1.0, 1000.0)
+    assert (allowables.LIGAMENT, allowables.RING_WALL) == (1.5e-3, 2.5e-3)
+
+
+def test_a_reversing_duty_lowers_the_fatigue_limit() -> None:
+    duty = [
+        {"torque": "30 N*m", "speed": "1 rad/s", "share": 0.5},
+        {"torque": "-30 N*m", "speed": "1 rad/s", "share": 0.5},
+    ]
+    mapping = SOUND.to_mapping()
+    mapping["requirements"]["duty"] = duty
+    both = by_id(analyse_gearbox(Design.from_mapping(mapping)))["PIN-BENDING-CONTINUOUS"]
+    duty[1]["torque"] = "20 N*m"
+    one = by_id(analyse_gearbox(Design.from_mapping(mapping)))["PIN-BENDING-CONTINUOUS"]
+    assert one.limit == pytest.approx(300.0)
+    # Goodman with S_u 1220 MPa: 150/(1 - 150/1220).
+    assert both.limit == pytest.approx(150.0 / (1.0 - 150.0 / 1220.0))
+    assert both.value == pytest.approx(one.value)
+
+
+@pytest.mark.parametrize("name", list(materials()))
+def test_every_material_has_a_stated_basis(name: str) -> None:
+    """A limit is either supported by data or zero, and always says which."""
+    material = materials()[name]
+    limits = (
+        allowables.contact_limit_static(material),
+        allowables.contact_limit_fatigue(material),
+        allowables.pin_bending_limit_peak(material),
+        allowables.pin_bending_limit_continuous(material, duty_reverses=False),
+    )
+    for allowed in limits:
+        assert math.isfinite(allowed.value)
+        assert allowed.value >= 0.0
+        assert allowed.basis
+        if allowed.value == 0.0:
+            assert "no " in allowed.basis
+    if not allowables.is_steel(material):
+        assert limits[1].value == 0.0
+
+
+def test_hardness_scales() -> None:
+    """Brinell of printed HB, HRC, HRB and of nothing but a strength."""
+    names = {
+        "AISI 4140 Q&T 540C": 335.0,
+        "17-4PH H900": 388.0,
+        "Alloy steel 12.9 (ISO 7379)": 362.2,
+        "304/303 cold worked F593 CW1": 210.0,
+        "A2-70 (ISO 3506)": 700.0 / 3.45,
+    }
+    for name, expected in names.items():
+        estimate = allowables.brinell_estimate(find_material(name))
+        assert estimate is not None
+        assert estimate[0] == pytest.approx(expected, abs=0.1)
+    assert allowables.brinell_estimate(find_material("POM (acetal)")) is None
+
+
+def test_a_sound_design_passes_everything() -> None:
+    analysis = analyse_gearbox(SOUND)
+    assert worst_status(analysis.checks) == "pass"
+    assert analysis.warnings == ()
+    least = min(check.margin for check in analysis.checks if check.unit in {"MPa", "h", ""})
+    assert least == pytest.approx(1.0)
+    assert by_id(analysis)["BEARING-STATIC"].margin == pytest.approx(1.07, abs=0.01)
+
+
+def test_the_papers_design_fails_where_it_should() -> None:
+    """Its own shear figure passes; contact, bending, bearing and motor do not."""
+    checks = by_id(analyse_gearbox(PAPER))
+    assert checks["PIN-PAPER"].value == pytest.approx(295.65, abs=0.01)
+    assert checks["PIN-SHARED"].value == pytest.approx(140.8, abs=0.1)
+    assert {key for key, check in checks.items() if check.status == "fail"} == {
+        "CONTACT-RING-PEAK",
+        "CONTACT-RING-CONTINUOUS",
+        "CONTACT-PIN-PEAK",
+        "CONTACT-PIN-CONTINUOUS",
+        "PIN-SHEAR-PEAK",
+        "PIN-BENDING-PEAK",
+        "PIN-BENDING-CONTINUOUS",
+        "BEARING-STATIC",
+        "BEARING-LIFE",
+        "MOTOR-PEAK",
+        "MOTOR-CONTINUOUS",
+    }
+    assert checks["CONTACT-RING-PEAK"].value == pytest.approx(math.sqrt(1.15) * 1526.855, abs=0.1)
+    assert checks["PIN-BENDING-PEAK"].value == pytest.approx(1.15 * 963.33, abs=0.1)
+    cantilever = changed({"reducer.output_pins.support": "cantilever"}, PAPER)
+    worse = cantilever["PIN-BENDING-PEAK"].value / checks["PIN-BENDING-PEAK"].value
+    assert worse == pytest.approx(13.0 / 2.342857, rel=1e-6)
+
+
+REMEDIES = [
+    # change that breaks the check, check, key the remedy names, unit
+    ({"reducer.eccentricity": "0.9 mm"}, "GEO-K1-LEAST", "reducer.eccentricity", "mm"),
+    ({"reducer.eccentricity": "2.8 mm"}, "GEO-K1-MOST", "reducer.eccentricity", "mm"),
+    (
+        {"reducer.ring_pin_diameter": "17 mm"},
+        "GEO-TOOTH-OVERLAP",
+        "reducer.ring_pin_diameter",
+        "mm",
+    ),
+    (
+        {"reducer.eccentricity": "2.75 mm", "reducer.ring_pin_diameter": "12.4 mm"},
+        "GEO-UNDERCUT",
+        "reducer.ring_pin_diameter",
+        "mm",
+    ),
+    (
+        {"reducer.ring.outer_diameter": "70 mm"},
+        "GEO-RING-WALL",
+        "reducer.ring.outer_diameter",
+        "mm",
+    ),
+    (
+        {"reducer.ring.outer_diameter": "80 mm"},
+        "SPACE-DIAMETER",
+        "reducer.ring.outer_diameter",
+        "mm",
+    ),
+    (
+        {"reducer.output_pins.circle_radius": "23.4 mm"},
+        "GEO-LIGAMENT-BORE",
+        "reducer.output_pins.circle_radius",
+        "mm",
+    ),
+    (
+        {"reducer.output_pins.hole_clearance": "4 um"},
+        "FIT-PIN-HOLE",
+        "reducer.output_pins.hole_clearance",
+        "um",
+    ),
+    (
+        {"reducer.output_pins.sleeve_diameter": "4.6 mm", "reducer.output_pins.count": 8},
+        "GEO-SLEEVE-WALL",
+        "reducer.output_pins.sleeve_diameter",
+        "mm",
+    ),
+    ({"reducer.disc_thickness": "7 mm"}, "CONTACT-RING-PEAK", "reducer.disc_thickness", "mm"),
+    ({"reducer.disc_thickness": "8 mm"}, "BEARING-WIDTH", "reducer.disc_thickness", "mm"),
+    ({"motor.voltage": "12 V"}, "MOTOR-SPEED", "motor.voltage", "V"),
+]
+
+
+@pytest.mark.parametrize(("break_it", "check_id", "key", "unit"), REMEDIES)
+def test_the_computed_remedy_makes_the_check_pass(
+    break_it: dict[str, Any], check_id: str, key: str, unit: str
+) -> None:
+    base = ROOMY if check_id in {"GEO-K1-MOST", "GEO-UNDERCUT", "GEO-TOOTH-OVERLAP"} else SOUND
+    broken = base.replacing(break_it)
+    check = by_id(analyse_gearbox(broken))[check_id]
+    assert check.status != "pass"
+    leaf = key.rsplit(".", 1)[1]
+    named = re.search(rf"{leaf} to (?:about )?([\d.]+) {unit}", check.remedy)
+    assert named, check.remedy
+    mended = broken.replacing({key: f"{named.group(1)} {unit}"})
+    assert by_id(analyse_gearbox(mended))[check_id].status == "pass"
+
+
+@pytest.mark.parametrize(
+    ("check_id", "key"),
+    [
+        ("CONTACT-RING-PEAK", "peak_torque"),
+        ("CONTACT-PIN-PEAK", "peak_torque"),
+        ("PIN-SHEAR-PEAK", "peak_torque"),
+        ("PIN-BENDING-PEAK", "peak_torque"),
+        ("BEARING-STATIC", "peak_torque"),
+        ("CONTACT-RING-CONTINUOUS", "continuous_torque"),
+        ("PIN-BENDING-CONTINUOUS", "continuous_torque"),
+        ("BEARING-LIFE", "continuous_torque"),
+        ("MOTOR-PEAK", "peak_torque"),
+        ("MOTOR-CONTINUOUS", "continuous_torque"),
+    ],
+)
+def test_the_torque_named_is_the_most_that_passes(check_id: str, key: str) -> None:
+    check = by_id(analyse_gearbox(PAPER))[check_id]
+    named = re.search(rf"lower (?:the torque|requirements\.{key}) to ([\d.]+) N\*m", check.remedy)
+    assert named, check.remedy
+    torque = float(named.group(1))
+    changes = {f"requirements.{key}": torque}
+    if key == "peak_torque":
+        changes["requirements.continuous_torque"] = 0.1 * torque
+    else:
+        changes["requirements.peak_torque"] = 500.0
+    assert changed(changes, PAPER)[check_id].status == "pass"
+    changes[f"requirements.{key}"] = 1.02 * torque
+    assert changed(changes, PAPER)[check_id].status != "pass"
+
+
+def test_thicker_pins_named_by_the_remedy_pass_in_bending() -> None:
+    check = by_id(analyse_gearbox(PAPER))["PIN-BENDING-PEAK"]
+    named = re.search(r"at least ([\d.]+) mm", check.remedy)
+    assert named
+    thick = changed({"reducer.output_pins.diameter": f"{named.group(1)} mm"}, PAPER)
+    assert thick["PIN-BENDING-PEAK"].status == "pass"
+
+
+def test_motor_shortfall_is_a_warning_unless_the_motor_is_named() -> None:
+    more = {"requirements.peak_torque": "119 N*m"}
+    assert changed(more)["MOTOR-PEAK"].status == "warn"
+    named = changed({**more, "motor.name": "CubeMars RO100 KV55"})
+    assert named["MOTOR-PEAK"].status == "fail"
+
+
+def test_a_motor_without_data_is_said_not_guessed() -> None:
+    analysis = analyse_gearbox(SOUND.replacing({"motor.name": "T-Motor U8 KV150"}))
+    assert any("no peak torque" in words for words in analysis.warnings)
+    assert "MOTOR-PEAK" not in by_id(analysis)
+    geared = analyse_gearbox(SOUND.replacing({"motor.name": "CubeMars AK80-9 V3"}))
+    assert any("geared actuator" in words for words in geared.warnings)
+
+
+def test_disc_count_rule_and_balance() -> None:
+    assert [paper_disc_count(n) for n in (4, 5, 10, 11)] == [2, 3, 2, 3]
+    with pytest.raises(UsageError, match="ratio 4"):
+        paper_disc_count(3)
+    single = changed({"reducer.disc_count": 1, "requirements.peak_torque": "20 N*m"})
+    assert single["BALANCE-STATIC"].status == "warn"
+    assert single["DISC-COUNT"].status == "warn"
+    weighted = changed({"reducer.disc_count": 1, "reducer.balance.counterweights": True})
+    assert weighted["BALANCE-STATIC"].status == "pass"
+
+
+@given(st.floats(0.01, 2.0), st.floats(1e-4, 5e-3), st.floats(1e-3, 0.03), st.floats(0.0, 2e-3))
+def test_stack_balance_against_summed_vectors(
+    mass: float, throw: float, thickness: float, spacing: float
+) -> None:
+    pitch, speed = thickness + spacing, 120.0
+    one, two, three = (
+        stack_balance(mass, throw, thickness, spacing, count, speed) for count in (1, 2, 3)
+    )
+    assert one.static_unbalance == pytest.approx(mass * throw)
+    assert (one.couple_unbalance, two.static_unbalance, three.static_unbalance) == (0.0, 0.0, 0.0)
+    assert two.couple_unbalance == pytest.approx(mass * throw * pitch)
+    # Discs at -pitch and +pitch, 240 degrees apart: sqrt 3 of one moment.
+    assert three.couple_unbalance == pytest.approx(math.sqrt(3.0) * mass * throw * pitch)
+    assert two.shaking_moment == pytest.approx(two.couple_unbalance * speed**2)
+    weight = MassProperties(mass, np.array([-throw, 0.0, 0.0]))
+    balanced = stack_balance(mass, throw, thickness, spacing, 1, speed, [weight])
+    assert balanced.static_unbalance == 0.0
+    # A product of inertia is a couple: two half masses at +-z make the same as one tensor.
+    pair = [
+        MassProperties(0.5 * mass, np.array([side * throw, 0.0, side * thickness]))
+        for side in (-1.0, 1.0)
+    ]
+    merged = pair[0] + pair[1]
+    apart = stack_balance(mass, throw, thickness, spacing, 2, speed, pair)
+    together = stack_balance(mass, throw, thickness, spacing, 2, speed, [merged])
+    assert together.couple_unbalance == pytest.approx(apart.couple_unbalance, rel=1e-9)
+
+
+@given(
+    st.floats(1e3, 1e5), st.floats(10.0, 1e4), st.floats(10.0, 1e3), st.sampled_from([3.0, 10 / 3])
+)
+def test_bearing_life_and_its_inverse(
+    rating: float, hours: float, speed: float, exponent: float
+) -> None:
+    load = load_for_life(rating, hours, speed, exponent)
+    life = basic_rating_life_hours(rating, load, speed, exponent)
+    assert float(life) == pytest.approx(hours, rel=1e-9)
+    halved = basic_rating_life_hours(rating, 2.0 * load, speed, exponent)
+    assert float(life / halved) == pytest.approx(2.0**exponent, rel=1e-9)
+
+
+def test_auto_takes_the_smallest_bearing_that_passes() -> None:
+    auto = SOUND.replacing({"reducer.cam_bearing.designation": "auto"})
+    chosen = with_chosen_bearing(auto)
+    analysis = analyse_gearbox(auto)
+    assert analysis.design == chosen
+    checks = by_id(analysis)
+    assert checks["BEARING-STATIC"].status == checks["BEARING-LIFE"].status == "pass"
+    assert with_chosen_bearing(SOUND) is SOUND
+    gentle = auto.replacing(
+        {"requirements.peak_torque": "5 N*m", "requirements.continuous_torque": "1 N*m"}
+    )
+    lighter = analyse_gearbox(gentle).cam_bearing.bearing
+    assert lighter.outer_diameter < analysis.cam_bearing.bearing.outer_diameter
+    overloaded = auto.replacing({"requirements.peak_torque": "900 N*m"})
+    assert by_id(analyse_gearbox(overloaded))["BEARING-STATIC"].status == "fail"
+    crowded = auto.replacing({"reducer.output_pins.circle_radius": "8 mm"})
+    with pytest.raises(InfeasibleError, match="no catalogue bearing fits"):
+        with_chosen_bearing(crowded)
+
+
+def test_soft_steel_is_no_raceway() -> None:
+    cage = {"reducer.cam_bearing.designation": "needle cage K22x26x10"}
+    soft = analyse_gearbox(SOUND.replacing(cage))
+    assert by_id(soft)["BEARING-RACEWAY"].status == "fail"
+    assert any("58 HRC" in words for words in soft.warnings)
+    hard = changed({**cage, "reducer.disc_material": "AISI 52100 / 100Cr6 hardened"})
+    assert hard["BEARING-RACEWAY"].status == "pass"
+    cup = analyse_gearbox(SOUND.replacing({"reducer.cam_bearing.designation": "needle HK2210"}))
+    assert "BEARING-RACEWAY" not in by_id(cup)
+    assert any("eccentric" in words for words in cup.warnings)
+
+
+def test_impossible_parts_are_refused() -> None:
+    with pytest.raises(GeometryError, match="sleeve_diameter"):
+        analyse_gearbox(SOUND.replacing({"reducer.output_pins.sleeve_diameter": "3 mm"}))
+    with pytest.raises(GeometryError, match="break out"):
+        analyse_gearbox(SOUND.replacing({"reducer.output_pins.circle_radius": "30 mm"}))
+    with pytest.raises(GeometryError, match="undercut"):
+        analyse_gearbox(SOUND.replacing({"reducer.eccentricity": "3.1 mm"}))
+    tight = {"reducer.output_pins.hole_clearance": "-100 um", "reducer.eccentricity": "0.04 mm"}
+    with pytest.raises(GeometryError, match="hole_clearance"):
+        analyse_gearbox(SOUND.replacing(tight))
+
+
+def test_guide_and_checks_speak_of_the_same_things() -> None:
+    seen = set()
+    for design in (
+        SOUND,
+        SOUND.replacing(
+            {"reducer.output_pins.sleeve_diameter": "6 mm", "reducer.output_pins.count": 8}
+        ),
+    ):
+        for check in analyse_gearbox(design).checks:
+            guide = CHECK_GUIDE[check.id]
+            assert (check.title, check.unit, check.sense) == (guide.title, guide.unit, guide.sense)
+            assert check.formula == guide.formula
+            assert all((check.substituted, check.why, check.remedy, check.source))
+            seen.add(check.id)
+    assert seen == set(CHECK_GUIDE) - {"BEARING-RACEWAY"}
+    with pytest.raises(UsageError, match="BEARING-LIFE"):
+        check_guide("BEARING-LIVE")
+
+
+def test_series_stay_within_the_maxima() -> None:
+    analysis = analyse_gearbox(PAPER, angles=720)
+    series, most = analysis.series, analysis.rigid
+    assert series.ring_force.shape == (720, 2, 11)
+    assert series.output_pin_force.shape == (720, 2, 5)
+    assert 0.999 * most.ring_force < series.ring_force.max() <= most.ring_force * (1 + 1e-9)
+    assert 0.999 * most.cam_bearing_load < series.cam_load.max()
+    assert series.cam_load.max() <= most.cam_bearing_load * (1 + 1e-9)
+    assert 0.999 * most.ring_pressure < series.ring_pressure.max()
+    half = analyse_gearbox(PAPER, torque=60.0)
+    assert half.rigid.ring_force == pytest.approx(0.5 * most.ring_force)
+    assert half.checks == analysis.checks
+
+
+def judged(design: Design) -> tuple[GearboxAnalysis | None, CqddError | None]:
+    try:
+        return analyse_gearbox(design), None
+    except CqddError as refusal:
+        return None, refusal
+
+
+@given(
+    discs(most_lobes=40),
+    st.integers(1, 3),
+    st.integers(3, 14),
+    st.floats(0.4, 0.75),
+    st.sampled_from(["both", "cantilever"]),
+    st.sampled_from(["solid", "conjugate", "pinwheel"]),
+    st.floats(2e-3, 12e-3),
+)
+@settings(max_examples=40, deadline=None)
+def test_random_designs_are_judged_or_refused_in_words(
+    disc: CycloidDisc,
+    count: int,
+    pins: int,
+    circle: float,
+    support: str,
+    ring_type: str,
+    thickness: float,
+) -> None:
+    if disc.lobe_count < 4:
+        return
+    analysis, refusal = judged(
+        design_of(
+            disc,
+            disc_count=count,
+            disc_thickness=thickness,
+            ring_type=ring_type,
+            output_pins={
+                "count": pins,
+                "circle_radius": circle * disc.ring_pitch_radius,
+                "support": support,
+            },
+        )
+    )
+    if refusal is not None:
+        assert refusal.exit_code == 3
+        assert str(refusal).endswith(".")
+        return
+    assert analysis is not None
+    json.dumps([analysis.to_dict(), [c.to_dict() for c in analysis.checks]], allow_nan=False)
+    for check in analysis.checks:
+        assert (check.status == "pass") == (check.margin >= 1.0 - 1e-9) or check.limit == 0.0
+
+
+def test_a_disc_without_concave_valleys_says_so() -> None:
+    """(n+1) K1 <= 1: the valleys bulge outward, and there is no radius for a wire to follow."""
+    flat = ROOMY.replacing({"reducer.eccentricity": "0.25 mm"})
+    analysis = analyse_gearbox(flat)
+    assert analysis.geometry.to_dict()["disc_min_concave_radius_mm"] is None
+    assert "EDM-DISC" not in by_id(analysis)
+    assert any("no concave valley" in words for words in analysis.warnings)
+    assert by_id(analysis)["GEO-K1-LEAST"].status == "fail"

@@ -1,0 +1,95 @@
+"""Catalogue values against their sources.
+
+Sources: ISO 281:2007 (rating formula and table 7), ISO 76:2006 (static rating of radial rollers),
+KOYO CAT. B2001 for deep-groove bearings, ISO 7379 f9 shoulders, efunda.com for AISI 4140.
+"""
+
+import re
+
+import pytest
+
+from cqdd_design.catalog import (
+    bearings,
+    find_bearing,
+    find_material,
+    find_motor,
+    find_shoulder_screw,
+    fit_limits,
+    materials,
+    motors,
+    shoulder_screws,
+)
+from cqdd_design.catalog.needles import dynamic_rating, needle_set, static_rating
+
+
+def test_every_row_names_its_source():
+    for table in (materials(), bearings(), motors(), shoulder_screws()):
+        assert table
+        assert all(row.source for row in table.values())
+
+
+def test_koyo_6902():
+    bearing = find_bearing("6902")
+    sizes = (bearing.bore_diameter, bearing.outer_diameter, bearing.width)
+    assert sizes == pytest.approx((0.015, 0.028, 0.007))
+    assert (bearing.dynamic_rating, bearing.static_rating) == (4300.0, 2250.0)
+
+
+def test_f9_shoulder_of_4_mm():
+    screw = find_shoulder_screw(4e-3)
+    assert screw.mean_diameter == pytest.approx(3.975e-3)
+    limits = fit_limits("f9", 4e-3)
+    assert (limits.lower, limits.upper) == pytest.approx((-40e-6, -10e-6))
+    assert 4e-3 + limits.lower == pytest.approx(screw.shoulder_diameter_min)
+    assert 4e-3 + limits.upper == pytest.approx(screw.shoulder_diameter_max)
+
+
+@pytest.mark.parametrize(
+    ("temper", "strength", "hardness"), [("425C", 1138e6, 397.0), ("540C", 834e6, 335.0)]
+)
+def test_4140_by_temper(temper, strength, hardness):
+    material = find_material(f"AISI 4140 Q&T {temper}")
+    assert material.yield_strength == pytest.approx(strength)
+    assert material.brinell_hardness == hardness
+
+
+def test_motor_torque_constant_follows_from_kv():
+    motor = find_motor("CubeMars RO100 KV55")
+    assert motor.torque_constant == pytest.approx(9.5493 / 55.0, rel=1e-4)
+
+
+def test_bearing_without_ratings_is_not_given_any():
+    assert find_bearing("6710").static_rating is None
+
+
+def _computed():
+    return [b for b in bearings().values() if b.source.startswith("computed")]
+
+
+@pytest.mark.parametrize("bearing", _computed(), ids=lambda b: b.designation)
+def test_computed_rows_are_the_iso_formulas(bearing):
+    needles = needle_set(
+        bearing.bore_diameter,
+        bearing.outer_diameter,
+        bearing.width,
+        drawn_cup=bearing.kind == "needle",
+    )
+    assert bearing.dynamic_rating == pytest.approx(dynamic_rating(needles), rel=2e-3)
+    assert bearing.static_rating == pytest.approx(static_rating(needles), rel=2e-3)
+    stated = re.search(r"from (\d+) needles", bearing.source)
+    assert stated is not None
+    assert int(stated.group(1)) == needles.count
+
+
+def test_computed_rows_span_15_to_30_mm():
+    bores = {round(b.bore_diameter * 1e3) for b in _computed()}
+    assert min(bores) == 15
+    assert max(bores) == 30
+
+
+def test_needle_formulas_bracket_a_catalogue_bearing():
+    """HK1010 is catalogued at 4.4 and 5.1 kN; the cautious needle pitch must not exceed it much."""
+    bearing = find_bearing("needle HK1010")
+    needles = needle_set(0.010, 0.014, 0.010, drawn_cup=True)
+    assert bearing.dynamic_rating is not None
+    assert 0.6 < dynamic_rating(needles) / bearing.dynamic_rating < 1.15
