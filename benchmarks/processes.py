@@ -1,0 +1,235 @@
+"""Time whole processes of cqdd-design, and of cycloidgen beside them, and write the page.
+
+    python benchmarks/processes.py [--runs 5] [--cycloidgen PYTHON] [--write]
+
+Every command is a process of its own, from the start of the interpreter to its end, in an empty
+folder. Each runs once unmeasured, so files and byte code are in the system's cache (warm); then
+the commands take turns, so that a slow minute of the machine meets all of them, and the median of
+the runs counts. Limits are goals, not assertions: run this by hand on a machine that does nothing
+else.
+
+`--cycloidgen` names the Python of an environment in which cycloidgen is installed::
+
+    python3 -m venv /tmp/cycloidgen && /tmp/cycloidgen/bin/pip install cycloidgen==8.0.0
+    python benchmarks/processes.py --cycloidgen /tmp/cycloidgen/bin/python --write
+
+`--write` puts the result into docs/benchmarks.md; without it the page goes to standard output.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import platform
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+PAGE = REPOSITORY / "docs" / "benchmarks.md"
+DESIGN = REPOSITORY / "designs" / "cqdd-10.toml"
+SEARCH = Path(__file__).resolve().parent / "cycloidgen_search.py"
+PACKAGES = ("numpy", "pydantic", "typer", "ezdxf", "cadquery", "trimesh")
+
+
+@dataclass(frozen=True)
+class Command:
+    """A process to time.
+
+    Attributes
+    ----------
+    name : str
+        Key of ratios.
+    shown : str
+        As a user would type it.
+    arguments : tuple of str
+        The process.
+    limit : float or None
+        Goal, s.
+    """
+
+    name: str
+    shown: str
+    arguments: tuple[str, ...]
+    limit: float | None = None
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Measured times of a command, s, and what its last run printed."""
+
+    command: Command
+    seconds: tuple[float, ...]
+    output: str
+
+    @property
+    def median(self) -> float:
+        """Median of the runs, s."""
+        return statistics.median(self.seconds)
+
+
+def our_commands() -> list[Command]:
+    """Return the commands of this package that have a goal."""
+    kinds = "dxf,step,stl,3mf,glb,bom"
+
+    def ours(name: str, line: str, limit: float, *extra: str) -> Command:
+        shown = line.replace(str(DESIGN), "designs/cqdd-10.toml")
+        start = (sys.executable, "-m", "cqdd_design")
+        return Command(name, f"cqdd-design {shown}", (*start, *line.split(), *extra), limit)
+
+    return [
+        ours("help", "--help", 0.25),
+        ours("size", "size --ratio 10", 2.0, "--json"),
+        ours("dxf", f"export {DESIGN} --to dxf", 1.0),
+        ours("full", f"export {DESIGN} --to {kinds}", 8.0),
+    ]
+
+
+def their_commands(python: str) -> list[Command]:
+    """Return the commands of cycloidgen that do the same kind of work."""
+    export = "-m cycloidgen --ratio 10 --only drawings,data,solids --out out"
+    return [
+        Command("their full", f"python {export}", (python, *export.split())),
+        Command(
+            "their search",
+            'optimise(Requirements(ratio=10, ...), effort="quick")',
+            (python, str(SEARCH)),
+        ),
+    ]
+
+
+def run_once(command: Command) -> tuple[float, str]:
+    """Run a command in an empty folder; return its wall-clock time (s) and standard output."""
+    path = os.pathsep.join(p for p in (str(REPOSITORY), os.environ.get("PYTHONPATH")) if p)
+    environment = {**os.environ, "PYTHONPATH": path if "cqdd_design" in command.arguments else ""}
+    with tempfile.TemporaryDirectory() as folder:
+        begin = time.perf_counter()
+        done = subprocess.run(
+            command.arguments,
+            cwd=folder,
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        seconds = time.perf_counter() - begin
+    if done.returncode != 0:
+        raise SystemExit(f"{command.shown} ended with {done.returncode}:\n{done.stderr}")
+    return seconds, done.stdout
+
+
+def measure(commands: Sequence[Command], runs: int) -> list[Timing]:
+    """Run every command once unmeasured and then `runs` times in turn."""
+    seconds: dict[str, list[float]] = {command.name: [] for command in commands}
+    outputs: dict[str, str] = {}
+    for turn in range(runs + 1):
+        for command in commands:
+            taken, outputs[command.name] = run_once(command)
+            if turn > 0:
+                seconds[command.name].append(taken)
+            print(f"{turn}/{runs} {taken:7.2f} s  {command.shown}", file=sys.stderr)
+    return [Timing(c, tuple(seconds[c.name]), outputs[c.name]) for c in commands]
+
+
+def machine() -> list[str]:
+    """Return what the times depend on, one line each."""
+    versions = [f"{name} {metadata.version(name)}" for name in PACKAGES]
+    return [
+        f"- {_processor()}, {os.cpu_count()} cores; {platform.system()} {platform.machine()}",
+        f"- Python {platform.python_version()}, {', '.join(versions)}",
+    ]
+
+
+def _processor() -> str:
+    information = Path("/proc/cpuinfo")
+    if information.exists():
+        for line in information.read_text().splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    return platform.processor() or "unknown processor"
+
+
+def page(timings: Sequence[Timing], runs: int) -> str:
+    """Return the page of results."""
+    by_name = {timing.command.name: timing for timing in timings}
+    lines = [
+        "# Benchmarks",
+        "",
+        "Whole processes, from the start of the interpreter to its end, by the wall clock, with",
+        f"warm caches: one unmeasured run, then the median of {runs} runs in turn. Written by",
+        "`python benchmarks/processes.py --cycloidgen PYTHON --write`; nothing in the tests "
+        "depends on it.",
+        "",
+        *machine(),
+        "",
+        "| command | median | least | most | goal |",
+        "|---|---|---|---|---|",
+        *(_row(timing) for timing in timings),
+        "",
+        *_remarks(by_name),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _row(timing: Timing) -> str:
+    goal = "" if timing.command.limit is None else f"under {timing.command.limit:g} s"
+    low, high = min(timing.seconds), max(timing.seconds)
+    return (
+        f"| `{timing.command.shown}` | {timing.median:.2f} s | {low:.2f} s | {high:.2f} s "
+        f"| {goal} |"
+    )
+
+
+def _remarks(timings: dict[str, Timing]) -> list[str]:
+    screened = json.loads(timings["size"].output)["results"]["candidates_screened"]
+    lines = [f"`size` screens {screened:,} candidates before it refines the best."]
+    if "their full" not in timings:
+        return lines
+    theirs = json.loads(timings["their search"].output)
+    full = timings["their full"].median / timings["full"].median
+    search = timings["their search"].median / timings["size"].median
+    return [
+        *lines,
+        "",
+        f"## Beside cycloidgen {theirs['version']}, in the same run",
+        "",
+        "| work | cqdd-design | cycloidgen | ratio |",
+        "|---|---|---|---|",
+        f"| full export | {timings['full'].median:.2f} s | {timings['their full'].median:.2f} s "
+        f"| {full:.1f} |",
+        f"| search for a design | {timings['size'].median:.2f} s, {screened:,} candidates "
+        f"| {timings['their search'].median:.2f} s, {theirs['evaluations']:,} candidates "
+        f"| {search:.1f} |",
+        "",
+        "The full exports are not the same files: theirs holds drawings, data, solids and a PDF",
+        "report of its own gearbox; ours what the command above names. Their search takes the same",
+        f"ratio, speed, steel and process at {theirs['torque_Nm']:g} N·m, where it finds designs.",
+    ]
+
+
+def main() -> None:
+    """Read the arguments, measure, and write or print the page."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--runs", type=int, default=5, help="measured runs of each command")
+    parser.add_argument("--cycloidgen", metavar="PYTHON", help="Python that has cycloidgen")
+    parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
+    options = parser.parse_args()
+    commands = our_commands()
+    if options.cycloidgen:
+        commands += their_commands(options.cycloidgen)
+    text = page(measure(commands, max(1, options.runs)), max(1, options.runs))
+    if options.write:
+        PAGE.write_text(text, encoding="utf-8")
+    else:
+        sys.stdout.write(text)
+
+
+if __name__ == "__main__":
+    main()
