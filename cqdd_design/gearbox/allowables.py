@@ -85,6 +85,8 @@ LIFE_HOURS = 1000.0
 """Least basic rating life at the continuous torque, h."""
 
 # Balance, motor, manufacture --------------------------------------------------------------------
+LEAST_BALANCED_DISCS = 2
+"""Fewest discs that balance statically without counterweights, at any ratio."""
 BALANCE_GRADE = 6.3e-3
 """Permissible centre-of-mass speed of the rotating parts, m/s: G 6.3 (ISO 21940-11, machinery in
 general)."""

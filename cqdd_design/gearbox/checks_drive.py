@@ -61,10 +61,10 @@ def _disc_count(state: GearboxState) -> Check:
     return build_check(
         "DISC-COUNT",
         float(count),
-        float(wanted),
-        f"ratio {ratio} is {parity}: the paper asks for {wanted} discs, the design has {count}",
-        f"disc_count = {wanted} follows the paper's rule, at a loss of load capacity in the same "
-        "length; two discs balance statically at any ratio",
+        float(allowables.LEAST_BALANCED_DISCS),
+        f"the design has {count}; ratio {ratio} is {parity}, so the paper's rule asks for {wanted}",
+        f"disc_count = {allowables.LEAST_BALANCED_DISCS} balances statically; disc_count = {wanted} follows "
+        "the paper's rule",
     )
 
 

@@ -319,13 +319,14 @@ _ROWS = (
     ),
     CheckGuide(
         "DISC-COUNT",
-        "Number of discs by the paper's rule",
+        "Number of discs",
         "",
         "min",
-        "N_Z = 2 for an even ratio, 3 for an odd one",
-        "Reported, not imposed: balance does not depend on the parity of the ratio, and three "
+        "N >= 2 (the paper: N_Z = 2 for an even ratio, 3 for an odd one)",
+        "Two discs opposite each other balance statically at any ratio. The paper's rule is "
+        "reported, not imposed: balance does not depend on the parity of the ratio, and three "
         "discs in the same length carry less.",
-        f"{_PAPER}, section III-B",
+        f"{_PAPER}, section III-B; statics of rotating masses",
         "warn",
     ),
     CheckGuide(

@@ -308,6 +308,9 @@ def test_disc_count_rule_and_balance() -> None:
     assert single["DISC-COUNT"].status == "warn"
     weighted = changed({"reducer.disc_count": 1, "reducer.balance.counterweights": True})
     assert weighted["BALANCE-STATIC"].status == "pass"
+    odd = changed({"reducer.ratio": 11, "requirements.ratio": 11})["DISC-COUNT"]
+    assert odd.status == "pass"
+    assert "the paper's rule asks for 3" in odd.substituted
 
 
 @given(st.floats(0.01, 2.0), st.floats(1e-4, 5e-3), st.floats(1e-3, 0.03), st.floats(0.0, 2e-3))

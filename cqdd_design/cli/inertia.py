@@ -1,0 +1,75 @@
+"""``cqdd-design inertia``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from cqdd_design.cli.options import DesignFile, parse_positive
+from cqdd_design.cli.session import Output
+from cqdd_design.cli.tables import number, table
+
+if TYPE_CHECKING:
+    from cqdd_design.pipeline import InertiaAndBalance
+
+
+def inertia(
+    out: Output,
+    design: DesignFile,
+    speed: Annotated[
+        str | None, typer.Option(metavar="Q", help='Input speed, as in "1286 rpm".')
+    ] = None,
+) -> None:
+    """Masses of the parts, balance, inertia at the motor."""
+    from cqdd_design import pipeline
+    from cqdd_design.design import load_design
+    from cqdd_design.units import SPEED
+
+    asked = parse_positive("--speed", speed, SPEED)
+    loaded = load_design(design)
+    found = pipeline.inertia(loaded, speed=asked, progress=out.stages(pipeline.INERTIA_STAGES))
+    out.say(*_lines(found))
+    for sentence in found.warnings:
+        out.warn(sentence)
+    out.document(found.to_dict(), design=loaded)
+
+
+def _lines(found: InertiaAndBalance) -> list[str]:
+    parts = [
+        [
+            part.name,
+            str(part.count),
+            number(1e3 * part.properties.mass),
+            number(1e9 * part.volume),
+            number(1e9 * part.exact_volume),
+            number(1e6 * part.reflected),
+            part.material,
+        ]
+        for part in found.bodies.inertia.parts
+    ]
+    head = ["part", "pieces", "g each", "mm3 mesh", "mm3 exact", "at input kg*mm2", "material"]
+    balance = [
+        [
+            f"{count} disc" + ("s" if count > 1 else ""),
+            number(1e6 * one.static_unbalance),
+            number(1e9 * one.couple_unbalance),
+            number(one.shaking_force),
+            number(one.shaking_moment),
+        ]
+        for count, one in found.bodies.balance.items()
+    ]
+    balance_head = ["balance", "static g*mm", "couple g*mm2", "force N", "moment N*m"]
+    total = found.bodies.inertia
+    rotor = "-" if total.rotor_inertia is None else number(1e6 * total.rotor_inertia)
+    return [
+        table(parts, head=head, right=(1, 2, 3, 4, 5)),
+        "",
+        f"total mass                 {number(total.total.mass)} kg without the motor",
+        f"rotor of {total.motor}: {rotor} kg*mm2",
+        f"reflected to the input     {number(1e6 * total.reflected_input)} kg*mm2",
+        f"reflected to the output    {number(total.reflected_output)} kg*m2",
+        "",
+        table(balance, head=balance_head, right=(1, 2, 3, 4)),
+        f"the paper's rule asks for {found.paper_disc_count} discs",
+    ]

@@ -1,0 +1,158 @@
+"""The application: its commands, and how every kind of error ends."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Mapping, Sequence
+from typing import Annotated
+
+import typer
+from typer.exceptions import Abort, TyperException
+
+from cqdd_design import __version__
+from cqdd_design.cli import (
+    analyse,
+    catalog,
+    check,
+    compare,
+    doctor,
+    explain,
+    export,
+    inertia,
+    report,
+    schema,
+    size,
+)
+from cqdd_design.cli.session import command, print_result
+from cqdd_design.environment import missing_dependency
+from cqdd_design.errors import CqddError, UsageError
+
+app = typer.Typer(
+    name="cqdd-design",
+    help="Design cycloidal quasi-direct-drive actuators: from a ratio and a torque to a checked "
+    "design, the DXF and STEP to make it from, and a report.",
+    epilog="Start with: cqdd-design size --ratio 10 --report --export dxf,step",
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+#: In the order of the work, which is the order of the help.
+COMMANDS = (
+    size.size,
+    check.check,
+    analyse.analyse,
+    compare.compare,
+    inertia.inertia,
+    export.export,
+    report.report,
+    catalog.catalog,
+    schema.schema,
+    doctor.doctor,
+    explain.explain,
+)
+for _function in COMMANDS:
+    app.command()(command(_function))
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        print_result(f"cqdd-design {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _root(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version."),
+    ] = False,
+) -> None:
+    pass
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command line.
+
+    Parameters
+    ----------
+    arguments : sequence of str
+        Without the name of the program.
+
+    Returns
+    -------
+    int
+        The exit code (docs/cli.md).
+    """
+    try:
+        given = list(arguments) or ["--help"]
+        code = int(app(given, prog_name="cqdd-design", standalone_mode=False) or 0)
+        # Typer answers Ctrl-C inside a command with this code and no word.
+        return _end(arguments, 130, "Interrupted", "interrupted") if code == 130 else code
+    except (KeyboardInterrupt, Abort):
+        return _end(arguments, 130, "Interrupted", "interrupted")
+    except TyperException as error:
+        return _end(arguments, error.exit_code, "UsageError", _usage_message(error))
+    except CqddError as error:
+        details = error.to_dict() if hasattr(error, "to_dict") else {}
+        return _end(arguments, error.exit_code, type(error).__name__, error.message, details)
+    except Exception as error:
+        missing = missing_dependency(error) if isinstance(error, ImportError) else None
+        if missing is not None:
+            return _end(arguments, missing.exit_code, type(missing).__name__, missing.message)
+        return _end(
+            arguments,
+            1,
+            "Bug",
+            f"this is a bug in cqdd-design, not in your input ({type(error).__name__}: {error}). "
+            f"Please report it with the log {_log_bug(arguments)}.",
+        )
+
+
+def _end(
+    arguments: Sequence[str],
+    code: int,
+    kind: str,
+    message: str,
+    details: Mapping[str, object] | None = None,
+) -> int:
+    """Tell one error, on stderr and, where JSON is asked for, as a document."""
+    import traceback
+
+    if "--debug" in arguments and code != 130:
+        traceback.print_exc()
+    message = message.replace("?.", "?")
+    print(f"cqdd-design: {message}", file=sys.stderr)
+    if "--json" in arguments:
+        from cqdd_design.cli.envelope import error_document
+
+        names = [function.__name__ for function in COMMANDS]
+        name = next((a for a in arguments if a in names), None)
+        with contextlib.suppress(UsageError):  # stdout itself may be what failed
+            print_result(error_document(name, code, kind, message, details or {}))
+    return code
+
+
+def _usage_message(error: TyperException) -> str:
+    context = getattr(error, "ctx", None)
+    if context is None:
+        return error.format_message()
+    return f"{error.format_message()} (see `{context.command_path} --help`)"
+
+
+def _log_bug(arguments: Sequence[str]) -> str:
+    import platform
+    import tempfile
+    import traceback
+
+    try:
+        with tempfile.NamedTemporaryFile(
+            "w", prefix="cqdd-design-", suffix=".log", delete=False, encoding="utf-8"
+        ) as log:
+            log.write(f"cqdd-design {__version__}, Python {platform.python_version()}, ")
+            log.write(f"{platform.platform()}\narguments: {list(arguments)!r}\n\n")
+            log.write(traceback.format_exc())
+    except OSError as error:
+        return f"that could not be written ({error.strerror}; add --debug to see it)"
+    return log.name

@@ -1,0 +1,91 @@
+"""Parsing of what people type: ratios, quantities, lists, file names."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from cqdd_design.errors import DesignError, UsageError
+
+if TYPE_CHECKING:
+    from cqdd_design.units import Dimension
+
+DesignFile = Annotated[Path, typer.Argument(metavar="DESIGN", help="Design file (TOML).")]
+Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
+
+LEAST_RATIO, MOST_RATIO = 4, 119
+
+
+def parse_ratio(text: str) -> int:
+    """The whole ratio of ``--ratio``.
+
+    Raises
+    ------
+    UsageError
+        With the range and the nearest ratio, for anything else.
+    """
+    allowed = (
+        f"a reduction is the number of lobes on the disc, "
+        f"a whole number from {LEAST_RATIO} to {MOST_RATIO}"
+    )
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if math.isnan(value):
+        raise UsageError(f"--ratio {text} is not a number; {allowed}, such as --ratio 10.")
+    nearest = min(max(value, LEAST_RATIO), MOST_RATIO)
+    if value < 0.0:
+        raise UsageError(
+            f"--ratio {text} is negative; {allowed}, written without the sign of the reversed "
+            f"output; the nearest is {min(max(round(-value), LEAST_RATIO), MOST_RATIO)}."
+            if math.isfinite(value)
+            else f"--ratio {text} is not finite; {allowed}; the nearest is {LEAST_RATIO}."
+        )
+    if nearest != value:
+        raise UsageError(f"--ratio {text} is out of range; {allowed}; the nearest is {nearest}.")
+    if value != math.floor(value):
+        below = math.floor(value)
+        raise UsageError(
+            f"--ratio {text} is not whole; {allowed}; the nearest are {below} and {below + 1}."
+        )
+    return int(value)
+
+
+def parse_option(name: str, text: str | None, dimension: Dimension) -> float | None:
+    """The SI value of a quantity option, or None when it was not given.
+
+    Raises
+    ------
+    UsageError
+        Naming the option and the right form.
+    """
+    if text is None:
+        return None
+    from cqdd_design.units import parse_quantity
+
+    try:
+        return parse_quantity(text, dimension)
+    except DesignError as error:
+        raise UsageError(f"{name}: {error.message.rstrip('.')}.") from None
+
+
+def parse_positive(name: str, text: str | None, dimension: Dimension) -> float | None:
+    """As `parse_option`, refusing zero and less."""
+    value = parse_option(name, text, dimension)
+    if value is not None and value <= 0.0:
+        raise UsageError(f"{name} {text} is not above zero.")
+    return value
+
+
+def parse_whole_list(name: str, text: str, count: int, example: str) -> tuple[int, ...]:
+    """A fixed number of comma-separated whole numbers above zero."""
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) != count or not all(part.isdecimal() and int(part) > 0 for part in parts):
+        raise UsageError(
+            f"{name} {text!r} must be {count} whole numbers with commas, such as {example}."
+        )
+    return tuple(int(part) for part in parts)

@@ -1,0 +1,189 @@
+"""What every command shares: its common options and where it prints.
+
+Only this module writes to standard output. Whatever else a process prints there, CAD kernels in
+C++ included, is sent to standard error, so that ``--json`` gives exactly one document.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import inspect
+import itertools
+import os
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Annotated, Any, TextIO
+
+import typer
+
+from cqdd_design.errors import UsageError
+
+if TYPE_CHECKING:
+    from cqdd_design.design import Design
+    from cqdd_design.files import WrittenFile
+    from cqdd_design.results import Check
+
+_COMMON: dict[str, Any] = {
+    "as_json": Annotated[
+        bool,
+        typer.Option("--json", help="Print one JSON document on stdout, all else on stderr."),
+    ],
+    "quiet": Annotated[
+        bool, typer.Option("--quiet", help="Print nothing but errors (and JSON with --json).")
+    ],
+    "debug": Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")],
+}
+
+
+def command(function: Callable[..., int | None]) -> Callable[..., int | None]:
+    """Turn ``f(out, ...)`` into a Typer command with ``--json``, ``--quiet`` and ``--debug``.
+
+    The function gets an `Output` first and returns its exit code, or None for 0.
+    """
+    own = list(inspect.signature(function, eval_str=True).parameters.values())[1:]
+    common = [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=kind)
+        for name, kind in _COMMON.items()
+    ]
+
+    def run(*, as_json: bool, quiet: bool, debug: bool, **given: Any) -> int | None:
+        # `debug` is read by `main` from the raw arguments: an error may come before parsing.
+        out = Output(function.__name__, as_json=as_json, quiet=quiet)
+        try:
+            return function(out, **given)
+        finally:
+            out.end_progress()
+
+    run.__name__ = function.__name__
+    run.__doc__ = function.__doc__
+    run.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
+        [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own] + common
+    )
+    return run
+
+
+@functools.lru_cache(maxsize=1)
+def standard_output() -> TextIO:
+    """The process's standard output, kept for results; descriptor 1 becomes standard error."""
+    try:
+        kept = os.dup(1)
+    except OSError:  # closed by the caller: nobody reads the result
+        return open(os.devnull, "w")
+    with contextlib.suppress(OSError):
+        os.dup2(2, 1)
+    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
+    return open(kept, "w", encoding=encoding, errors="backslashreplace")
+
+
+def print_result(text: str) -> None:
+    """Print on standard output; a reader that has gone away ends no command.
+
+    ``cqdd-design check d.toml | head -1`` must keep the exit code of the check.
+    """
+    stream = standard_output()
+    try:
+        stream.write(text + "\n")
+        stream.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())  # for the flush at exit
+        raise UsageError(f"cannot write to standard output: {error.strerror}.") from error
+
+
+class Output:
+    """Where one command prints.
+
+    Attributes
+    ----------
+    command : str
+        Name of the command, for the envelope.
+    as_json, quiet : bool
+        The common options.
+    warnings : list of str
+        Sentences told so far; part of the envelope.
+    """
+
+    def __init__(self, command: str, *, as_json: bool, quiet: bool) -> None:
+        self.command = command
+        self.as_json = as_json
+        self.quiet = quiet
+        self.warnings: list[str] = []
+        self._bar_shown = False
+        standard_output()
+
+    def say(self, *lines: str) -> None:
+        """Print a part of the result for people."""
+        if not (self.as_json or self.quiet):
+            self.end_progress()
+            print_result("\n".join(lines))
+
+    def warn(self, sentence: str) -> None:
+        """Tell a warning on stderr and keep it for the envelope."""
+        self.warnings.append(sentence)
+        self.note(f"warning: {sentence}")
+
+    def note(self, sentence: str) -> None:
+        """Narrate on stderr."""
+        if not self.quiet:
+            self.end_progress()
+            print(sentence, file=sys.stderr, flush=True)
+
+    def stages(self, total: int) -> Callable[[str], None]:
+        """A function that tells, on stderr, which of about `total` stages of work begins.
+
+        A bar on a terminal, wiped at the end; elsewhere one line a stage.
+        """
+        numbers = itertools.count(1)
+
+        def tell(text: str) -> None:
+            if self.quiet:
+                return
+            number = min(next(numbers), total)
+            if not sys.stderr.isatty():
+                self.note(f"[{number}/{total}] {text}")
+                return
+            done = round(20 * (number - 1) / total)
+            bar = "#" * done + "." * (20 - done)
+            sys.stderr.write(f"\r\x1b[K[{bar}] {number}/{total} {text}")
+            sys.stderr.flush()
+            self._bar_shown = True
+
+        return tell
+
+    def end_progress(self) -> None:
+        """Wipe the progress bar, if one is shown."""
+        if self._bar_shown:
+            sys.stderr.write("\r\x1b[K")
+            sys.stderr.flush()
+            self._bar_shown = False
+
+    def wrote(self, files: Iterable[WrittenFile]) -> None:
+        """Tell which files were written."""
+        for file in files:
+            self.say(f"wrote {file.path} ({file.kind}, {file.bytes:,} bytes)")
+
+    def document(
+        self,
+        results: Mapping[str, Any],
+        *,
+        design: Design | None = None,
+        checks: Sequence[Check] = (),
+        files: Sequence[WrittenFile] = (),
+    ) -> None:
+        """Print the JSON document, when one is asked for."""
+        if not self.as_json:
+            return
+        from cqdd_design.cli.envelope import result_document
+
+        self.end_progress()
+        text = result_document(
+            self.command,
+            results,
+            design=design,
+            checks=checks,
+            warnings=self.warnings,
+            files=files,
+        )
+        print_result(text)

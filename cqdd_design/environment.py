@@ -1,0 +1,190 @@
+"""What this package needs from the machine: Python packages, system libraries, a browser."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from cqdd_design.errors import DependencyError
+
+DISTRIBUTION = "cqdd-design"
+
+#: Shared libraries that the CAD kernel loads, and the Debian package that brings them.
+SYSTEM_LIBRARIES = {"libGL.so.1": "libgl1", "libX11.so.6": "libx11-6"}
+#: One line for a bare server; libgl1 depends on libx11-6.
+APT_LINE = "apt-get install -y libgl1"
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One line of ``doctor``.
+
+    Attributes
+    ----------
+    name : str
+        What was looked for.
+    state : {"ok", "missing", "optional"}
+        Present; missing and needed; missing and not needed for the main road.
+    detail : str
+        Version or place, or what to do.
+    """
+
+    name: str
+    state: Literal["ok", "missing", "optional"]
+    detail: str
+
+
+@dataclass(frozen=True)
+class _Wanted:
+    distribution: str
+    least: str
+    extra: str
+
+
+def examine(folder: Path) -> list[Finding]:
+    """Look at everything the package uses.
+
+    Parameters
+    ----------
+    folder : Path
+        Where commands would write ``designs``, ``exports`` and ``reports``.
+
+    Returns
+    -------
+    list of Finding
+    """
+    return [
+        _python(),
+        _ourselves(),
+        *(_package(wanted) for wanted in _wanted()),
+        *(_library(name, package) for name, package in SYSTEM_LIBRARIES.items()),
+        _browser(),
+        *(_writable(folder / name) for name in ("designs", "exports", "reports")),
+    ]
+
+
+def missing_dependency(error: ImportError) -> DependencyError | None:
+    """The error to show for a failed import of something foreign, or None for one of our own.
+
+    Parameters
+    ----------
+    error : ImportError
+        As raised while some room imported what it needs.
+    """
+    text = str(error)
+    library = re.match(r"(lib[\w+.-]+\.so[\w.]*): cannot open shared object", text)
+    if library:
+        line = APT_LINE
+        if library[1] not in SYSTEM_LIBRARIES:
+            line = f"apt-file search {library[1]}"
+        return DependencyError(
+            f"the system library {library[1]} is missing, which the CAD kernel needs; "
+            f"run `{line}` (on Debian and Ubuntu), then `cqdd-design doctor`."
+        )
+    name = (error.name or "").partition(".")[0]
+    if not name or name == "cqdd_design":
+        return None
+    return DependencyError(
+        f"the Python package that provides '{name}' is missing or broken ({text}); "
+        "run `pip install -c constraints.txt .` in the project, then `cqdd-design doctor`."
+    )
+
+
+def _python() -> Finding:
+    version = ".".join(str(part) for part in sys.version_info[:3])
+    return Finding("Python", "ok", f"{version} at {sys.executable}")
+
+
+def _ourselves() -> Finding:
+    from importlib import metadata
+
+    try:
+        return Finding(DISTRIBUTION, "ok", metadata.version(DISTRIBUTION))
+    except metadata.PackageNotFoundError:
+        fix = "is not installed; run `pip install -c constraints.txt .` in the project"
+        return Finding(DISTRIBUTION, "missing", fix)
+
+
+def _wanted() -> Iterator[_Wanted]:
+    """Packages by the metadata of the installed distribution, so that pyproject.toml decides."""
+    from importlib import metadata
+
+    try:
+        lines = metadata.requires(DISTRIBUTION) or []
+    except metadata.PackageNotFoundError:
+        lines = []
+    for line in lines:
+        requirement, _, marker = line.partition(";")
+        name = re.match(r"[\w.-]+", requirement)
+        least = re.search(r">=\s*([\w.]+)", requirement)
+        extra = re.search(r"extra\s*==\s*['\"]([\w-]+)['\"]", marker)
+        if name:
+            yield _Wanted(name[0], least[1] if least else "0", extra[1] if extra else "")
+
+
+def _package(wanted: _Wanted) -> Finding:
+    from importlib import metadata
+
+    found: str | None
+    try:
+        found = metadata.version(wanted.distribution)
+    except metadata.PackageNotFoundError:
+        found = None
+    if found is not None and _numbers(found) >= _numbers(wanted.least):
+        return Finding(wanted.distribution, "ok", found)
+    has = "is not installed" if found is None else f"is {found}, at least {wanted.least} is needed"
+    if wanted.extra:
+        fix = f"{has}; for the extra: pip install 'cqdd-design[{wanted.extra}]'"
+        return Finding(wanted.distribution, "optional", fix)
+    fix = f"{has}; run pip install '{wanted.distribution}>={wanted.least}'"
+    return Finding(wanted.distribution, "missing", fix)
+
+
+def _numbers(version: str) -> tuple[int, ...]:
+    return tuple(int(part) for part in re.findall(r"\d+", version)[:3])
+
+
+def _library(name: str, package: str) -> Finding:
+    if sys.platform != "linux":
+        return Finding(name, "ok", "not needed on this system")
+    import ctypes
+
+    try:
+        ctypes.CDLL(name)
+    except OSError:
+        return Finding(
+            name, "missing", f"needed by the CAD kernel (package {package}): run {APT_LINE}"
+        )
+    return Finding(name, "ok", "found")
+
+
+def _browser() -> Finding:
+    for name in BROWSERS:
+        place = shutil.which(name)
+        if place:
+            return Finding("browser", "ok", place)
+    return Finding(
+        "browser",
+        "optional",
+        "no Chromium found; only the tests of the report need it: apt-get install -y chromium",
+    )
+
+
+def _writable(folder: Path) -> Finding:
+    standing = folder
+    while not standing.exists() and standing != standing.parent:
+        standing = standing.parent
+    if standing.is_dir() and os.access(standing, os.W_OK | os.X_OK):
+        return Finding(f"{folder.name}/", "ok", f"{folder} can be written")
+    return Finding(
+        f"{folder.name}/",
+        "missing",
+        f"{standing} cannot be written; run in another folder or give --out",
+    )

@@ -1,0 +1,305 @@
+"""The whole road in one call, and its longer stretches: size, weigh, export, report.
+
+Every room is imported by the function that needs it: the command line must answer ``--help``
+without numpy, and size a gearbox without a CAD kernel.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cqdd_design import __version__
+
+if TYPE_CHECKING:
+    from cqdd_design.design import Design, Requirements
+    from cqdd_design.files import WrittenFile
+    from cqdd_design.gearbox import GearboxAnalysis
+    from cqdd_design.report.weighing import Bodies
+    from cqdd_design.results import Provenance
+    from cqdd_design.sizing import SizingResult
+
+Progress = Callable[[str], None]
+
+#: How often sizing and `write_report` tell their progress.
+SIZING_STAGES, REPORT_STAGES = 2, 2
+
+
+def _silent(stage: str) -> None:
+    """Progress that nobody asked for."""
+
+
+def provenance(design: Design | None) -> Provenance:
+    """Version, time and design hash of a result made now.
+
+    The time is that of the environment variable ``SOURCE_DATE_EPOCH`` where it is set, so that
+    the same input gives the same bytes. No design, no hash.
+    """
+    from cqdd_design.results import Provenance
+
+    epoch = os.environ.get("SOURCE_DATE_EPOCH", "")
+    moment = datetime.fromtimestamp(int(epoch), UTC) if epoch.isdecimal() else datetime.now(UTC)
+    return Provenance(
+        version=__version__,
+        time=moment.strftime("%Y-%m-%dT%H:%M:%SZ"),
+        design_sha256="" if design is None else design.sha256,
+    )
+
+
+@dataclass(frozen=True)
+class Road:
+    """A sized gearbox with its files.
+
+    Attributes
+    ----------
+    sizing : SizingResult
+    design : Design
+        The sized design under the name of its file.
+    files : tuple of WrittenFile
+        The design file first, then exports, then the report.
+    """
+
+    sizing: SizingResult
+    design: Design
+    files: tuple[WrittenFile, ...]
+
+
+def size_and_write(
+    requirements: Requirements,
+    path: Path | None = None,
+    *,
+    kinds: tuple[str, ...] = (),
+    report: bool = False,
+    force: bool = False,
+    progress: Progress = _silent,
+) -> Road:
+    """Go the whole road: size, check, write the design, export, report.
+
+    Parameters
+    ----------
+    requirements : Requirements
+    path : Path, optional
+        The design file; default ``designs/sized-N.toml``, this function's own, which is replaced.
+        Its stem names the design, and so the default places of exports and report.
+    kinds : tuple of str
+        Kinds of file to export.
+    report : bool
+        Whether to write the report.
+    force : bool
+        Replace an existing design file that was named.
+    progress : callable
+        Told in a few words what begins, `road_stages` times.
+
+    Raises
+    ------
+    InfeasibleError
+        When no design meets the requirements; the message names the limits that bind.
+    """
+    from cqdd_design.exporting import export
+    from cqdd_design.files import refuse_overwrite
+    from cqdd_design.sizing import size
+
+    target = path or Path("designs") / f"sized-{requirements.ratio}.toml"
+    refuse_overwrite(target, force=force or path is None)
+    sizing = size(requirements, progress)
+    # Both are written to the file even where they equal their defaults.
+    design = sizing.design.replacing({"schema_version": 1, "name": target.stem})
+    files: tuple[WrittenFile, ...] = (_write_fresh(target, design),)
+    if kinds:
+        files += export(design, kinds, progress=progress)
+    if report:
+        written, _ = write_report(
+            design, source=target, sizing=sizing, files=files, progress=progress
+        )
+        files += (written,)
+    return Road(sizing, design, files)
+
+
+def road_stages(kinds: tuple[str, ...], *, report: bool) -> int:
+    """How often `size_and_write` tells its progress."""
+    solids = bool(set(kinds) - {"dxf", "svg"})
+    return SIZING_STAGES + len(kinds) + solids + (REPORT_STAGES if report else 0)
+
+
+def _write_fresh(path: Path, design: Design) -> WrittenFile:
+    """Write a design file anew: a former file of this name leaves no comments behind."""
+    from cqdd_design.design import save_design
+    from cqdd_design.files import atomic_path, describe_file
+
+    with atomic_path(path) as temporary:
+        temporary.unlink()
+        save_design(temporary, design, comments=_origins(design))
+    return describe_file(path, "design")
+
+
+#: Reducer keys that sizing takes over from the requirements.
+_TAKEN_OVER = {
+    "reducer.ratio": "ratio",
+    "reducer.disc_count": "disc_count",
+    "reducer.disc_material": "disc_material",
+    "reducer.ring_material": "ring_material",
+    "reducer.output_pins.material": "pin_material",
+    "reducer.ring.outer_diameter": "outer_diameter",
+    "motor.name": "motor",
+}
+
+
+def _origins(design: Design) -> dict[str, str]:
+    """A remark for every key of a sized design that is written: where its value comes from."""
+    remarks = {}
+    for key in design.dotted_keys():
+        if key.startswith("requirements."):
+            remarks[key] = "given"
+        elif key in _TAKEN_OVER:
+            wanted = f"requirements.{_TAKEN_OVER[key]}"
+            remarks[key] = "assumed" if wanted in design.assumed else "given"
+        elif key.startswith("reducer."):
+            remarks[key] = "sized"
+    return remarks
+
+
+@dataclass(frozen=True)
+class InertiaAndBalance:
+    """Mass properties of a gearbox from meshes, and its balance for one, two and three discs.
+
+    Attributes
+    ----------
+    design : Design
+        With its cam bearing named.
+    bodies : Bodies
+        Parts, their mass properties, and the balance by number of discs.
+    paper_disc_count : int
+        What the paper's rule asks for.
+    """
+
+    design: Design
+    bodies: Bodies
+    paper_disc_count: int
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What the figures leave out."""
+        missing = tuple(
+            f"there is no balance with {count} discs: the parts cannot be put together so."
+            for count in (1, 2, 3)
+            if count not in self.bodies.balance
+        )
+        return self.bodies.inertia.warnings + missing
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form (``results`` of ``inertia``)."""
+        by_count = {str(count): self._balance(count) for count in (1, 2, 3)}
+        return {
+            **self.bodies.inertia.to_dict(),
+            "balance": {"by_disc_count": by_count, "paper_disc_count": self.paper_disc_count},
+        }
+
+    def _balance(self, count: int) -> dict[str, float] | None:
+        found = self.bodies.balance.get(count)
+        if found is None:
+            return None
+        reducer = self.design.reducer
+        pack = count * reducer.disc_thickness + (count - 1) * reducer.disc_spacing
+        # One weight at each end of the pack: half of the static part, or a pair for the couple.
+        weight = 0.5 * found.static_unbalance + found.couple_unbalance / pack
+        return {**found.to_dict(), "counterweight_each_end_kgm": weight}
+
+
+def inertia(
+    design: Design, *, speed: float | None = None, progress: Progress = _silent
+) -> InertiaAndBalance:
+    """Mass properties of every part from its mesh, and the balance of the crank.
+
+    Parameters
+    ----------
+    design : Design
+    speed : float, optional
+        Input speed of the shaking forces, rad/s; default that of the requirements.
+    progress : callable
+        Told in a few words what begins.
+
+    Raises
+    ------
+    DependencyError
+        When CadQuery or one of its system libraries is missing.
+    """
+    from cqdd_design.catalog import find_bearing
+    from cqdd_design.gearbox import with_chosen_bearing
+    from cqdd_design.gearbox.balance import paper_disc_count
+    from cqdd_design.report.weighing import weigh
+    from cqdd_design.solids.mesh import mass_properties
+
+    chosen = with_chosen_bearing(design)
+    if speed is not None:
+        chosen = chosen.replacing({"requirements.input_speed": speed})
+    progress("building solids and meshes")
+    bearing = find_bearing(chosen.reducer.cam_bearing.designation)
+    bodies = weigh(chosen, bearing, mass_properties)
+    return InertiaAndBalance(chosen, bodies, paper_disc_count(chosen.reducer.ratio))
+
+
+#: How often `inertia` tells its progress.
+INERTIA_STAGES = 1
+
+
+def write_report(
+    design: Design,
+    path: Path | None = None,
+    *,
+    source: Path | None = None,
+    sizing: SizingResult | None = None,
+    files: tuple[WrittenFile, ...] = (),
+    force: bool = False,
+    progress: Progress = _silent,
+) -> tuple[WrittenFile, GearboxAnalysis]:
+    """Write the report of a design.
+
+    Parameters
+    ----------
+    design : Design
+    path : Path, optional
+        Default ``reports/NAME.html``, whose file is this function's own and is replaced.
+    source : Path, optional
+        The design's file, whose comments tell where values come from.
+    sizing : SizingResult, optional
+        Where the design has been found in the same run.
+    files : tuple of WrittenFile
+        Written in the same run, to be listed.
+    force : bool
+        Replace an existing file that was named.
+    progress : callable
+        Told in a few words what begins.
+
+    Returns
+    -------
+    WrittenFile, GearboxAnalysis
+        The report, and the analysis it shows.
+    """
+    from cqdd_design.files import refuse_overwrite, write_atomically
+    from cqdd_design.gearbox import analyse_gearbox
+    from cqdd_design.report import ReportInput, build_report, read_comments
+    from cqdd_design.report.weighing import weigh_if_possible
+    from cqdd_design.sizing.comparison import compare_with_planetary
+
+    target = path or Path("reports") / f"{design.name}.html"
+    refuse_overwrite(target, force=force or path is None)
+    progress("analysing loads and the planetary")
+    analysis = analyse_gearbox(design)
+    bodies, notes = weigh_if_possible(analysis.design, analysis.cam_bearing.bearing)
+    results = ReportInput(
+        design=design,
+        gearbox=analysis,
+        planetary=compare_with_planetary(design, analysis=analysis),
+        provenance=provenance(design),
+        comments={} if source is None else read_comments(source),
+        bodies=bodies,
+        notes=notes,
+        sizing=sizing,
+        files=files,
+    )
+    progress("writing the report")
+    return write_atomically(target, build_report(results), "report"), analysis

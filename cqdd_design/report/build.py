@@ -1,0 +1,235 @@
+"""Put the report together: every section's values, then one page by Jinja2."""
+
+from __future__ import annotations
+
+import html
+import math
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from cqdd_design.gearbox.allowables import UNEVEN_SHARING
+from cqdd_design.report.bodies import bodies_view
+from cqdd_design.report.check_rows import chapters, printed
+from cqdd_design.report.closing import ERRATA, model_assumptions, paper_symbols, sources_used
+from cqdd_design.report.front_view import front_view
+from cqdd_design.report.input import ReportInput
+from cqdd_design.report.load_charts import load_charts
+from cqdd_design.report.machine import Machine
+from cqdd_design.report.mathml import lowered
+from cqdd_design.report.mesh import mesh_data, mesh_figure, mesh_readout
+from cqdd_design.report.numbers import TIMES, significant, with_unit
+from cqdd_design.report.origins import Value, values_by_group
+from cqdd_design.report.planetary_view import planetary_view
+from cqdd_design.report.section_view import section_view
+from cqdd_design.report.sizing_view import sizing_view
+from cqdd_design.report.verdict import pin_figure, verdict
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+_TEMPLATES = Path(__file__).parent / "templates"
+
+
+def build_report(results: ReportInput) -> str:
+    """One self-contained HTML page about a design.
+
+    It needs no network and no other file, prints on A4, and is complete without scripts; with
+    them the mesh turns. The same input gives the same bytes.
+
+    Parameters
+    ----------
+    results : ReportInput
+        What to show; sections whose results are missing are left out.
+
+    Returns
+    -------
+    str
+        HTML, to be written as UTF-8.
+    """
+    return _environment().get_template("report.html").render(_context(results))
+
+
+def _environment() -> Environment:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+    from markupsafe import Markup
+
+    environment = Environment(
+        loader=FileSystemLoader(_TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    # Only markup that this package has built and escaped itself goes through `markup`.
+    environment.filters["markup"] = Markup
+    environment.filters["prose"] = lambda text: Markup(lowered(text))
+    environment.filters["symbol"] = lambda text: Markup(symbol_html(text))
+    return environment
+
+
+def symbol_html(text: str) -> str:
+    """Escaped text with ``Z_r`` and ``N_{np}`` lowered.
+
+    Examples
+    --------
+    >>> symbol_html("Z_r & Z_np")
+    'Z<sub>r</sub> &amp; Z<sub>np</sub>'
+    """
+    return re.sub(r"_(?:\{(\w+)\}|(\w+))", r"<sub>\1\2</sub>", html.escape(text))
+
+
+def _context(results: ReportInput) -> dict[str, Any]:
+    design, analysis, bodies = results.design, results.gearbox, results.bodies
+    requirements = design.requirements
+    machine = Machine.from_design(design, analysis.cam_bearing.bearing)
+    cam_load = analysis.rigid.cam_bearing_load
+    torque = analysis.rigid.torque
+    literature, catalogue = sources_used(
+        analysis.checks,
+        analysis,
+        _PLANETARY_SOURCES,
+        () if bodies is None else bodies.parts,
+    )
+    groups = values_by_group(design, results.comments)
+    found = verdict(
+        design.name, analysis.checks, requirements.peak_torque, requirements.continuous_torque
+    )
+    return {
+        "design": design,
+        "provenance": results.provenance,
+        "date": results.provenance.time.partition("T")[0],
+        "verdict": found,
+        "pins": pin_figure(analysis),
+        "uneven_sharing": significant(UNEVEN_SHARING),
+        "facts": _facts(results, found.least),
+        "contents": _contents(results),
+        "front_view": front_view(machine),
+        "section_view": section_view(machine),
+        "mesh": mesh_figure(machine, torque, cam_load),
+        "mesh_data": mesh_data(machine, torque, cam_load),
+        "mesh_readout": mesh_readout(machine, torque),
+        "mesh_torque": with_unit(torque, "N*m"),
+        "requirements": groups[0],
+        "values": groups[1:],
+        "derived": _derived(results),
+        "chapters": chapters(analysis.checks),
+        "load_charts": load_charts(analysis),
+        "bodies": None if bodies is None else bodies_view(analysis.design, bodies),
+        "sizing": None if results.sizing is None else sizing_view(results.sizing),
+        "input_speed": with_unit(requirements.input_speed * 30.0 / math.pi, "rpm"),
+        "planetary": planetary_view(results.planetary),
+        "symbols": paper_symbols(design),
+        "errata": ERRATA,
+        "assumptions": model_assumptions(design),
+        "warnings": tuple(printed(line) for line in (*analysis.warnings, *results.notes)),
+        "defaults": _defaults(groups),
+        "literature": literature,
+        "catalogue": catalogue,
+        "files": results.files,
+    }
+
+
+_PLANETARY_SOURCES = (
+    "ISO 6336-1, -2 and -3:2019, load capacity of spur gears",
+    "ISO 6336-5:2016, strength of gear materials",
+    "ISO 1328-1:2013, flank tolerances",
+    "ISO 21771:2007, geometry of cylindrical gears",
+)
+
+_CONTENTS = (
+    ("verdict", "Verdict"),
+    ("requirements", "Requirements"),
+    ("drawings", "Drawings"),
+    ("mesh-section", "Mesh"),
+    ("values", "Design values"),
+    ("checks", "Checks"),
+    ("loads", "Forces"),
+    ("planetary", "Planetary"),
+    ("inertia", "Inertia"),
+    ("bom", "Bill of materials"),
+    ("sizing", "Sizing"),
+    ("symbols", "Symbols"),
+    ("assumptions", "Assumptions"),
+    ("sources", "Sources"),
+    ("provenance", "Provenance"),
+)
+
+
+def _contents(results: ReportInput) -> tuple[tuple[str, str], ...]:
+    absent = set()
+    if results.bodies is None:
+        absent |= {"inertia", "bom"}
+    if results.sizing is None:
+        absent.add("sizing")
+    return tuple(entry for entry in _CONTENTS if entry[0] not in absent)
+
+
+def _facts(results: ReportInput, least_margin: str) -> tuple[tuple[str, str, str], ...]:
+    design, reducer = results.design, results.design.reducer
+    asked = design.requirements
+    facts = [
+        ("Ratio", f"{reducer.ratio} : 1", "ring held, output reversed"),
+        (
+            "Peak torque",
+            with_unit(asked.peak_torque, "N*m"),
+            f"{with_unit(asked.continuous_torque, 'N*m')} continuous",
+        ),
+        (
+            "Envelope",
+            f"\u2300 {significant(1e3 * reducer.ring.outer_diameter)} {TIMES} "
+            f"{with_unit(1e3 * reducer.pack_length, 'mm')}",
+            "ring and disc pack",
+        ),
+        (
+            "Discs",
+            f"{reducer.disc_count} {TIMES} {with_unit(1e3 * reducer.disc_thickness, 'mm')}",
+            reducer.disc_material,
+        ),
+        ("Least margin", least_margin, "1 is on the limit"),
+    ]
+    if results.bodies is not None:
+        mass = with_unit(results.bodies.inertia.total.mass, "kg", 3)
+        facts.insert(4, ("Mass", mass, "without the motor"))
+    return tuple(facts)
+
+
+def _derived(results: ReportInput) -> tuple[tuple[str, str, str], ...]:
+    analysis = results.gearbox
+    geometry = analysis.geometry
+    thinnest = geometry.ligaments[0]
+
+    def mm(length: float) -> str:
+        return with_unit(1e3 * length, "mm", 5)
+
+    return (
+        ("signed ratio, ring held", "i", significant(geometry.ratio)),
+        ("shortening coefficient e (n + 1)/R", "K_1", significant(geometry.shortening_coefficient)),
+        ("largest tooth radius before undercut", "", mm(geometry.undercut_radius_limit)),
+        ("least convex radius of the disc", "", mm(geometry.disc_min_convex_radius)),
+        ("least concave radius of the disc", "", mm(geometry.disc_min_concave_radius)),
+        ("least concave radius of the ring", "", mm(geometry.ring_min_concave_radius)),
+        ("diameter of the output holes", "d_hole", mm(geometry.hole_diameter)),
+        (f"thinnest ligament, {thinnest.where}", "", mm(thinnest.thickness)),
+        (
+            "area inside the lobed outline",
+            "",
+            with_unit(1e6 * geometry.profile_area, "mm^2", 6),
+        ),
+        ("length of the lobed outline", "", mm(geometry.profile_perimeter)),
+        ("free length of the output pins", "L", mm(analysis.output_pins.span)),
+        (
+            f"bore for the cam bearing {analysis.cam_bearing.bearing.designation}",
+            "",
+            mm(analysis.cam_bearing.bearing.outer_diameter),
+        ),
+    )
+
+
+def _defaults(groups: tuple[tuple[str, tuple[Value, ...]], ...]) -> tuple[str, ...]:
+    return tuple(
+        f"{row.label.words} {row.shown}"
+        for _, rows in groups
+        for row in rows
+        if row.origin == "default"
+    )

@@ -1,0 +1,53 @@
+"""What a report is made from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from cqdd_design.design import Design
+from cqdd_design.files import WrittenFile
+from cqdd_design.gearbox import GearboxAnalysis
+from cqdd_design.planetary.compare import PlanetaryComparison
+from cqdd_design.report.weighing import Bodies
+from cqdd_design.results import Provenance
+
+if TYPE_CHECKING:
+    from cqdd_design.sizing.result import SizingResult
+
+
+@dataclass(frozen=True)
+class ReportInput:
+    """Results that one report shows; sections without results are left out.
+
+    Attributes
+    ----------
+    design : Design
+        As given, so that its assumed values are known as such.
+    gearbox : GearboxAnalysis
+        At the torques of the requirements.
+    planetary : PlanetaryComparison
+        For the same loads.
+    provenance : Provenance
+    comments : mapping
+        Dotted key to the remark in the design file, from :func:`.origins.read_comments`.
+    bodies : Bodies or None
+        Parts, mass properties and balance, from :func:`.weighing.weigh`.
+    notes : tuple of str
+        Sentences on what could not be computed.
+    sizing : SizingResult or None
+        Where the design has been found by a search in the same run.
+    files : tuple of WrittenFile
+        Written in the same run.
+    """
+
+    design: Design
+    gearbox: GearboxAnalysis
+    planetary: PlanetaryComparison
+    provenance: Provenance
+    comments: Mapping[str, str] = field(default_factory=dict)
+    bodies: Bodies | None = None
+    notes: tuple[str, ...] = ()
+    sizing: SizingResult | None = None
+    files: tuple[WrittenFile, ...] = ()

@@ -1,0 +1,114 @@
+"""Words and symbols for the keys of a design file, and for the paper's own symbols."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Label:
+    """How a quantity is called in the report.
+
+    Attributes
+    ----------
+    words : str
+        As in running text.
+    symbol : str
+        With ``_`` before an index; empty where the report uses none.
+    """
+
+    words: str
+    symbol: str = ""
+
+
+#: Headings of the tables of a design file.
+GROUPS = {
+    "requirements": "Requirements",
+    "reducer": "Reducer",
+    "reducer.modification": "Profile modification",
+    "reducer.output_pins": "Output pins",
+    "reducer.cam_bearing": "Cam bearing",
+    "reducer.ring": "Ring",
+    "reducer.friction": "Friction",
+    "reducer.balance": "Balance",
+    "motor": "Motor",
+    "drive": "Drive",
+    "housing": "Housing",
+    "tolerances": "Tolerances (standard deviations)",
+    "edm": "Wire EDM",
+}
+
+_LABELS = {
+    "requirements.ratio": Label("ratio", "n"),
+    "requirements.peak_torque": Label("peak torque at the output", "T_peak"),
+    "requirements.continuous_torque": Label("continuous torque at the output", "T_continuous"),
+    "requirements.input_speed": Label("input speed"),
+    "requirements.outer_diameter": Label("space for the ring, diameter"),
+    "requirements.length": Label("space for the disc pack, length"),
+    "requirements.motor": Label("motor asked for"),
+    "requirements.disc_count": Label("discs asked for"),
+    "requirements.disc_material": Label("disc material asked for"),
+    "requirements.ring_material": Label("ring material asked for"),
+    "requirements.pin_material": Label("pin material asked for"),
+    "requirements.duty": Label("duty at the output"),
+    "reducer.ratio": Label("lobes on the disc", "n"),
+    "reducer.ring_pitch_radius": Label("ring pitch radius", "R"),
+    "reducer.eccentricity": Label("eccentricity", "e"),
+    "reducer.ring_pin_diameter": Label("diameter of ring teeth", "2r"),
+    "reducer.ring_type": Label("kind of ring"),
+    "reducer.disc_count": Label("discs", "D"),
+    "reducer.disc_thickness": Label("disc thickness", "b"),
+    "reducer.disc_spacing": Label("gap between discs", "s"),
+    "reducer.disc_material": Label("disc material"),
+    "reducer.ring_material": Label("ring material"),
+    "reducer.modification.equidistant": Label("equidistant: gap at every tooth"),
+    "reducer.modification.radial": Label("radial"),
+    "reducer.modification.rotation": Label("rotation of each flank"),
+    "reducer.output_pins.count": Label("output pins", "N_w"),
+    "reducer.output_pins.diameter": Label("pin diameter", "d"),
+    "reducer.output_pins.circle_radius": Label("radius of the pin circle", "R_w"),
+    "reducer.output_pins.sleeve_diameter": Label("sleeve diameter (0: no sleeve)"),
+    "reducer.output_pins.hole_clearance": Label("hole clearance on the diameter"),
+    "reducer.output_pins.hole_clocking": Label("first hole from the valley on +x"),
+    "reducer.output_pins.support": Label("pins held at"),
+    "reducer.output_pins.material": Label("pin material"),
+    "reducer.cam_bearing.designation": Label("cam bearing"),
+    "reducer.cam_bearing.radial_clearance": Label("radial clearance (total play)"),
+    "reducer.ring.outer_diameter": Label("ring outside diameter", "D_ring"),
+    "reducer.ring.relief_clearance": Label("relief past the lobe tips"),
+    "reducer.friction.tooth": Label("coefficient at the teeth"),
+    "reducer.friction.pin": Label("coefficient at the pins"),
+    "reducer.friction.lubricant": Label("lubricant"),
+    "reducer.balance.counterweights": Label("counterweights"),
+    "motor.name": Label("motor"),
+    "motor.voltage": Label("supply voltage", "U"),
+    "motor.current_limit": Label("current limit of the driver"),
+    "drive.current_bandwidth": Label("current loop bandwidth"),
+    "drive.control_rate": Label("control rate"),
+    "drive.encoder_bits": Label("encoder on the motor shaft, bits"),
+    "drive.position_gain": Label("position gain at the output"),
+    "drive.velocity_gain": Label("velocity gain at the output"),
+    "drive.thermal_resistance": Label("winding to ambient"),
+    "housing.material": Label("housing material"),
+    "tolerances.tooth_position": Label("tooth position"),
+    "tolerances.tooth_radius": Label("tooth radius"),
+    "tolerances.disc_profile": Label("disc profile"),
+    "tolerances.hole_position": Label("hole position"),
+    "tolerances.pin_position": Label("pin position"),
+    "tolerances.pin_diameter": Label("pin diameter"),
+    "tolerances.eccentricity": Label("eccentricity"),
+    "edm.wire_diameter": Label("wire diameter"),
+    "edm.spark_gap": Label("spark gap"),
+    "edm.profile_tolerance": Label("files follow the exact curve within"),
+}
+
+
+def label_of(key: str) -> Label:
+    """Words and symbol of a dotted key; an unknown key is its own last word.
+
+    Examples
+    --------
+    >>> label_of("reducer.eccentricity").symbol, label_of("reducer.new_key").words
+    ('e', 'new key')
+    """
+    return _LABELS.get(key, Label(key.rpartition(".")[2].replace("_", " ")))

@@ -1,0 +1,97 @@
+"""Parts, mass properties and balance of a machine, collected for the report.
+
+By default everything is a closed form or the catalogue's, so no CAD kernel is needed; the same
+figures from meshes come with ``source=mass_properties``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from cqdd_design.catalog.bearings import Bearing
+from cqdd_design.design import Design
+from cqdd_design.errors import GeometryError
+from cqdd_design.gearbox.balance import StackBalance, stack_balance
+from cqdd_design.solids.inertia import (
+    GearboxInertia,
+    MassSource,
+    closed_form,
+    crank_properties,
+    gearbox_inertia,
+)
+from cqdd_design.solids.parts import Part, build_parts
+
+DISC_COUNTS = (1, 2, 3)
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """The bodies of a gearbox.
+
+    Attributes
+    ----------
+    parts : tuple of Part
+    inertia : GearboxInertia
+        Mass properties of `parts`, in their order.
+    balance : mapping of int to StackBalance
+        Of the crank with one, two and three such discs, shaft included, at the required input
+        speed. A number of discs with which the machine cannot be built is left out.
+    """
+
+    parts: tuple[Part, ...]
+    inertia: GearboxInertia
+    balance: Mapping[int, StackBalance]
+
+
+def weigh(design: Design, cam_bearing: Bearing, source: MassSource = closed_form) -> Bodies:
+    """Weigh the parts of a design, and balance its crank for one, two and three discs.
+
+    Parameters
+    ----------
+    design : Design
+    cam_bearing : Bearing
+        The catalogue row of the cam bearing, "auto" resolved.
+    source : callable
+        Mass properties of one piece; those of the other numbers of discs are closed forms.
+
+    Raises
+    ------
+    GeometryError
+        When the parts cannot exist or cannot be put together, which a design that fails its
+        checks may well do.
+    """
+    reducer = design.reducer
+    parts = build_parts(design, cam_bearing)
+    inertia = gearbox_inertia(design, parts, source)
+    speed = design.requirements.input_speed
+    balance = {}
+    for count in DISC_COUNTS:
+        if count == reducer.disc_count:
+            crank = crank_properties(design, parts, source)
+        else:
+            variant = design.replacing({"reducer.disc_count": count})
+            try:
+                crank = crank_properties(variant, build_parts(variant, cam_bearing), closed_form)
+            except GeometryError:
+                continue
+        balance[count] = stack_balance(
+            inertia.orbiting_mass,
+            reducer.eccentricity,
+            reducer.disc_thickness,
+            reducer.disc_spacing,
+            count,
+            speed,
+            (crank,),
+        )
+    return Bodies(parts, inertia, balance)
+
+
+def weigh_if_possible(
+    design: Design, cam_bearing: Bearing
+) -> tuple[Bodies | None, tuple[str, ...]]:
+    """The bodies in closed form, or nothing and the sentence that says why not."""
+    try:
+        return weigh(design, cam_bearing), ()
+    except GeometryError as error:
+        return None, (f"No bill of materials, masses or inertia: {error.message}",)

@@ -1,0 +1,146 @@
+"""The best of a screen, each of another kind, as starts for the refinement."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.sizing import masses, shapes
+from cqdd_design.sizing.frame import Frame
+from cqdd_design.sizing.screen import Screened
+from cqdd_design.sizing.space import SearchSpace
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.intp]
+
+
+_MUCH_THICKER = 1.6
+
+
+@dataclass(frozen=True)
+class Picks:
+    """Candidates as arrays (M,), best first; SI.
+
+    Attributes
+    ----------
+    pitch_radius, eccentricity, tooth_radius, thickness : array
+        R, e, r, b.
+    pin_count, pin_size : array of int
+        N_w and row of ``frame.pin_sizes``.
+    merit : array
+        What they were ranked by.
+    """
+
+    pitch_radius: FloatArray
+    eccentricity: FloatArray
+    tooth_radius: FloatArray
+    thickness: FloatArray
+    pin_count: IntArray
+    pin_size: IntArray
+    merit: FloatArray
+
+    @property
+    def count(self) -> int:
+        """M."""
+        return int(self.merit.size)
+
+
+def strongest(space: SearchSpace, found: Screened, most: int) -> Picks:
+    """Candidates with the most torque reserve among those whose shape is right, ready or not.
+
+    Up to `most` with different pins.
+    """
+    load = np.where(found.cam_load > 0.0, found.cam_load, np.inf)[:, None]
+    carried = np.where(found.fits, found.bearings.allowed_load / load, 0.0)
+    cam = np.zeros(found.reserve.shape)
+    for place in range(space.thickness.size):
+        fitting = found.pairs[:, place]
+        if fitting.any():
+            cam[:, place] = carried[:, fitting].max(axis=1)
+    reserve = np.minimum(cam, found.reserve)
+    thickness = reserve.argmax(axis=1)
+    merit = reserve.max(axis=1, initial=0.0)
+    kept = np.flatnonzero(merit > 0.0)
+    groups = found.rows.count[kept] * space.pin_sizes.size + found.rows.size[kept]
+    best = _best_of_groups(groups, -merit[kept], most)
+    return _picks(space, found, kept[best], thickness[kept[best]], merit[kept[best]])
+
+
+def lightest(
+    frame: Frame, space: SearchSpace, found: Screened, most: int, wanted: float = 1.0
+) -> Picks:
+    """Survivors with the least objective, each in the thinnest discs that carry the load.
+
+    Parameters
+    ----------
+    frame, space, found
+        Of the screen.
+    most : int
+        Up to so many with different pins, and up to so many with different bearings.
+    wanted : float
+        Torque reserve they must have, at least 1.
+    """
+    rows = found.rows
+    carried = found.fits & (found.bearings.allowed_load >= wanted * found.cam_load[:, None])
+    enough = found.reserve >= wanted
+    thinnest = np.full(carried.shape, -1, dtype=np.intp)
+    for place in reversed(range(space.thickness.size)):
+        thinnest[enough[:, place, None] & found.pairs[:, place]] = place
+    ready = carried & (thinnest >= 0)
+    if ready.any():
+        # Ring and discs weigh in proportion to the thickness; much thicker ones cannot win.
+        least = space.thickness[thinnest[ready].min()]
+        ready &= space.thickness[thinnest] <= _MUCH_THICKER * least
+    row, bearing = np.nonzero(ready)
+    thickness = thinnest[row, bearing]
+    integrals = shapes.profile_integrals(frame, *found.rings.profile)
+    opening = shapes.ring_opening_area(frame, *found.rings.profile)
+    ring = rows.ring[row]
+    diameters = np.array([frame.pin_sizes[size].diameter for size in space.pin_sizes])
+    weights = masses.weigh(
+        frame,
+        profile_area=integrals.area[ring],
+        profile_polar=integrals.polar[ring],
+        ring_opening=opening[ring],
+        eccentricity=found.rings.eccentricity[ring],
+        thickness=space.thickness[thickness],
+        pin_count=np.array(space.pin_counts)[rows.count[row]],
+        pin_diameter=diameters[rows.size[row]],
+        hole_radius=rows.hole_radius[row],
+        pin_circle=rows.circle[row],
+        bearing_outer=found.bearings.outer[bearing],
+        bearing_bore=found.bearings.bore[bearing],
+        bearing_mass=found.bearings.mass[bearing],
+    )
+    objective = weights.objective
+    pins = rows.count[row] * space.pin_sizes.size + rows.size[row]
+    best = np.concatenate([_best_of_groups(groups, objective, most) for groups in (pins, bearing)])
+    best = np.unique(best)
+    best = best[np.argsort(objective[best], kind="stable")]
+    return _picks(space, found, row[best], thickness[best], objective[best])
+
+
+def _best_of_groups(groups: IntArray, rank: FloatArray, most: int) -> IntArray:
+    """Places of the lowest rank in each group, and of those the `most` lowest."""
+    least = np.full(int(groups.max(initial=-1)) + 1, np.inf)
+    np.minimum.at(least, groups, rank)
+    reached = np.flatnonzero(rank == least[groups])
+    best = reached[np.unique(groups[reached], return_index=True)[1]]
+    return np.asarray(best[np.argsort(rank[best], kind="stable")[:most]])
+
+
+def _picks(
+    space: SearchSpace, found: Screened, row: IntArray, thickness: IntArray, merit: FloatArray
+) -> Picks:
+    rings, ring = found.rings, found.rows.ring[row]
+    return Picks(
+        pitch_radius=rings.pitch_radius[ring],
+        eccentricity=rings.eccentricity[ring],
+        tooth_radius=rings.tooth_radius[ring],
+        thickness=space.thickness[thickness],
+        pin_count=np.array(space.pin_counts, dtype=np.intp)[found.rows.count[row]],
+        pin_size=space.pin_sizes[found.rows.size[row]],
+        merit=merit,
+    )

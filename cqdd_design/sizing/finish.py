@@ -1,0 +1,125 @@
+"""From a grid point to a checked design: nothing leaves sizing without the full analysis."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.design import Design, Requirements
+from cqdd_design.design.model import dump
+from cqdd_design.errors import DesignError
+from cqdd_design.gearbox.analysis import analyse_gearbox
+from cqdd_design.gearbox.bearings import life_exponent
+from cqdd_design.gearbox.cam_bearing import rolling_element
+from cqdd_design.results import Check
+from cqdd_design.sizing.points import Evaluator, Points
+from cqdd_design.sizing.reserves import CAM_CHECKS, PIN_CHECKS, RING_CHECKS
+from cqdd_design.sizing.result import Objective, SizedDesign
+
+LOAD_CHECKS = (*RING_CHECKS, *PIN_CHECKS, *CAM_CHECKS)
+_DIGITS = 9
+
+
+def finish(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> SizedDesign | None:
+    """Build and analyse the design of one point.
+
+    Returns
+    -------
+    SizedDesign or None
+        None when the full analysis finds a shape or load limit violated after all: the search
+        reads the loads from tables that are good to about 1e-3. Checks of a motor the requirements
+        ask for are left to the caller, because no size would change them.
+    """
+    try:
+        design = design_of(evaluator, points, row, suffix)
+        checks = analyse_gearbox(design).checks
+    except DesignError:
+        return None
+    if any(c.status == "fail" and not c.id.startswith("MOTOR-") for c in checks):
+        return None
+    least = min((torque_reserve(check, design), check.id) for check in checks if is_load(check))
+    margin = next(check.margin for check in checks if check.id == least[1])
+    objective = Objective(
+        score=float(points.objective[row]),
+        mass=float(points.mass[row]),
+        gearbox_inertia=float(points.gearbox_inertia[row]),
+        reflected_inertia=float(points.reflected_inertia[row]),
+        torque_reserve=least[0],
+        binding=least[1],
+        least_margin=margin,
+    )
+    return SizedDesign(design, checks, objective)
+
+
+def is_load(check: Check) -> bool:
+    """Whether a check's value grows with the torque."""
+    return check.id in LOAD_CHECKS
+
+
+def torque_reserve(check: Check, design: Design) -> float:
+    """Factor by which both torques could grow until a load check is on its limit."""
+    if check.id.startswith("CONTACT-"):
+        return check.margin**2
+    if check.id == "BEARING-LIFE":
+        bearing = find_bearing(design.reducer.cam_bearing.designation)
+        return float(check.margin ** (1.0 / life_exponent(rolling_element(bearing))))
+    return check.margin
+
+
+def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> Design:
+    """The design of one point; every value the search does not choose keeps its default."""
+    frame, requirements = evaluator.frame, evaluator.frame.requirements
+    throw, tooth, _, thickness = points.steps[row] * evaluator.grid.steps
+    size = frame.pin_sizes[points.pin_size[row]]
+    pins: dict[str, Any] = {
+        "count": int(points.pin_count[row]),
+        "diameter": _clean(size.diameter),
+        "circle_radius": _clean(points.pin_circle[row]),
+        "material": requirements.pin_material,
+    }
+    if size.hole_clearance != frame.default_clearance:
+        pins["hole_clearance"] = _clean(size.hole_clearance)
+    mapping: dict[str, Any] = {
+        "name": f"sized-{requirements.ratio}{suffix}",
+        "requirements": _requirements_given(requirements),
+        "reducer": {
+            "ratio": requirements.ratio,
+            "ring_pitch_radius": _clean(points.pitch_radius[row]),
+            "eccentricity": _clean(throw),
+            "ring_pin_diameter": _clean(2.0 * tooth),
+            "disc_count": requirements.disc_count,
+            "disc_thickness": _clean(thickness),
+            "disc_material": requirements.disc_material,
+            "ring_material": requirements.ring_material,
+            "output_pins": pins,
+            "cam_bearing": {"designation": frame.bearings[points.bearing[row]].designation},
+            "ring": {"outer_diameter": requirements.outer_diameter},
+        },
+    }
+    if "motor" in requirements.model_fields_set:
+        mapping["motor"] = {"name": requirements.motor}
+    return Design.from_mapping(mapping, source="sizing", si=True)
+
+
+def _clean(length: float | np.floating[Any]) -> float:
+    """A length in m without the dust of binary fractions."""
+    return round(float(length), _DIGITS)
+
+
+def _requirements_given(requirements: Requirements) -> dict[str, Any]:
+    """The requirements that were stated; the rest keeps counting as assumed.
+
+    Torques equal to what would be derived anyway count as derived.
+    """
+    stated = dump(requirements)
+    peak, continuous = "peak_torque", "continuous_torque"
+    by_ratio = Requirements.model_validate({"ratio": requirements.ratio})
+    by_peak = Requirements.model_validate({"ratio": requirements.ratio, peak: stated[peak]})
+    derived = {peak: dump(by_ratio)[peak], continuous: dump(by_peak)[continuous]}
+    return {
+        key: value
+        for key, value in stated.items()
+        if key in requirements.model_fields_set and value != derived.get(key)
+    }

@@ -1,0 +1,255 @@
+"""What the requirements fix before any candidate is tried: loads, limits, materials, catalogues.
+
+A :class:`Frame` is read once. Its numbers come from the same places as the checks of a finished
+design: defaults from the design model, allowables from :mod:`cqdd_design.gearbox.allowables`.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from cqdd_design.catalog.bearings import Bearing
+from cqdd_design.catalog.materials import Material, find_material
+from cqdd_design.catalog.motors import find_motor
+from cqdd_design.design import Design, Requirements
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.gearbox import allowables, hertz, kinematics
+from cqdd_design.gearbox.allowables import Allowable
+from cqdd_design.sizing.parts import (
+    BearingTable,
+    PinSize,
+    bearing_table,
+    cam_bearings,
+    pin_sizes,
+)
+
+THICKNESS_STEP = 1e-4
+"""Discs are ground to tenths of a millimetre, m."""
+
+
+@dataclass(frozen=True)
+class LoadLimits:
+    """Allowables of the load checks, each with its origin.
+
+    Attributes
+    ----------
+    ring_static, ring_fatigue, pin_static, pin_fatigue : Allowable
+        Hertz pressures of the weaker partner, at peak and at continuous torque.
+    shear, bending_peak, bending_continuous, bearing : Allowable
+        Stresses of the output pins.
+    pin_ultimate : float
+        Ultimate strength of the pins, Pa.
+    """
+
+    ring_static: Allowable
+    ring_fatigue: Allowable
+    pin_static: Allowable
+    pin_fatigue: Allowable
+    shear: Allowable
+    bending_peak: Allowable
+    bending_continuous: Allowable
+    bearing: Allowable
+    pin_ultimate: float
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Everything about a search that no candidate changes; SI.
+
+    Attributes
+    ----------
+    requirements : Requirements
+    lobe_count, disc_count : int
+        n and D.
+    spacing, equidistant, radial, relief_clearance, wire_radius : float
+        Design defaults: gap between discs, profile modification, relief of the ring, wire with
+        its spark gap.
+    default_clearance : float
+        Of the output holes, m.
+    clocking : float
+        Of the first output hole, a quarter lobe pitch, rad.
+    most_thickness : float
+        Of one disc in the required length.
+    cam_speed : float
+        Of the eccentric relative to a disc, rad/s.
+    limits : LoadLimits
+    ring_modulus, pin_modulus : float
+        E* of tooth on disc and of pin on disc.
+    disc_density, ring_density, pin_density : float
+        kg/m^3.
+    rotor_inertia : float
+        Of the motor, kg m^2; zero where the catalogue has none.
+    pin_sizes : tuple of PinSize
+        Ascending.
+    bearings : tuple of Bearing
+        Rated cam bearings that no other one beats in every respect, smallest first.
+    """
+
+    requirements: Requirements
+    lobe_count: int
+    disc_count: int
+    spacing: float
+    equidistant: float
+    radial: float
+    relief_clearance: float
+    wire_radius: float
+    default_clearance: float
+    clocking: float
+    most_thickness: float
+    cam_speed: float
+    limits: LoadLimits
+    ring_modulus: float
+    pin_modulus: float
+    disc_density: float
+    ring_density: float
+    pin_density: float
+    rotor_inertia: float
+    pin_sizes: tuple[PinSize, ...]
+    bearings: tuple[Bearing, ...]
+
+    @property
+    def disc_torque(self) -> float:
+        """Share of one disc of the peak torque, N m."""
+        return self.requirements.peak_torque / self.disc_count
+
+    @property
+    def continuous_share(self) -> float:
+        """Continuous over peak torque."""
+        return self.requirements.continuous_torque / self.requirements.peak_torque
+
+    def at_torque(self, peak_torque: float) -> Frame:
+        """The same frame with both required torques scaled to another peak torque (N m)."""
+        changed = self.requirements.model_copy(
+            update={
+                "peak_torque": peak_torque,
+                "continuous_torque": peak_torque * self.continuous_share,
+            }
+        )
+        return replace(self, requirements=changed)
+
+    @property
+    def outer_radius(self) -> float:
+        """Of the ring, m."""
+        return 0.5 * self.requirements.outer_diameter
+
+    def bearing_table(self) -> BearingTable:
+        """The cam bearings as arrays."""
+        return bearing_table(self.bearings, self.cam_speed, self.continuous_share)
+
+
+def search_frame(requirements: Requirements) -> Frame:
+    """Read the requirements, the design defaults and the catalogues.
+
+    Parameters
+    ----------
+    requirements : Requirements
+
+    Returns
+    -------
+    Frame
+
+    Raises
+    ------
+    InfeasibleError
+        When the requirements leave no room for any catalogue part, or name a material without a
+        strength; the message names the key.
+    """
+    template = _template(requirements)
+    reducer, pins = template.reducer, template.reducer.output_pins
+    disc = find_material(requirements.disc_material)
+    ring = find_material(requirements.ring_material)
+    pin = find_material(requirements.pin_material)
+    count, spacing = requirements.disc_count, reducer.disc_spacing
+    thickness = (requirements.length - (count - 1) * spacing) / count
+    most = math.floor(thickness / THICKNESS_STEP + 1e-6) * THICKNESS_STEP
+    sizes = pin_sizes(requirements, pins.hole_clearance)
+    return Frame(
+        requirements=requirements,
+        lobe_count=requirements.ratio,
+        disc_count=count,
+        spacing=spacing,
+        equidistant=reducer.modification.equidistant,
+        radial=reducer.modification.radial,
+        relief_clearance=reducer.ring.relief_clearance,
+        wire_radius=0.5 * template.edm.wire_diameter + template.edm.spark_gap,
+        default_clearance=pins.hole_clearance,
+        clocking=pins.hole_clocking,
+        most_thickness=most,
+        cam_speed=float(
+            kinematics.cam_bearing_speed_ring_fixed(requirements.ratio, requirements.input_speed)
+        ),
+        limits=_load_limits(requirements, disc, ring, pin),
+        ring_modulus=_modulus(disc, ring),
+        pin_modulus=_modulus(disc, pin),
+        disc_density=disc.density,
+        ring_density=ring.density,
+        pin_density=pin.density,
+        rotor_inertia=find_motor(requirements.motor).rotor_inertia or 0.0,
+        pin_sizes=sizes,
+        bearings=cam_bearings(requirements, most, spacing, sizes[0].mean_diameter),
+    )
+
+
+def _template(requirements: Requirements) -> Design:
+    """A design with the required ratio whose other values are the defaults of the model."""
+    # Sizes that any ratio accepts; none of them reaches the search.
+    radius = 0.1
+    return Design.from_mapping(
+        {
+            "requirements": {"ratio": requirements.ratio},
+            "reducer": {
+                "ratio": requirements.ratio,
+                "ring_pitch_radius": radius,
+                "eccentricity": 0.5 * radius / (requirements.ratio + 1),
+                "ring_pin_diameter": radius / (requirements.ratio + 1),
+                "disc_count": requirements.disc_count,
+            },
+        },
+        si=True,
+    )
+
+
+def _modulus(first: Material, second: Material) -> float:
+    return float(
+        hertz.effective_modulus(
+            first.youngs_modulus, first.poisson_ratio, second.youngs_modulus, second.poisson_ratio
+        )
+    )
+
+
+def _load_limits(
+    requirements: Requirements, disc: Material, ring: Material, pin: Material
+) -> LoadLimits:
+    static, fatigue = allowables.contact_limit_static, allowables.contact_limit_fatigue
+    weaker = allowables.weaker
+    senses = [point.torque for point in requirements.duty]
+    limits = LoadLimits(
+        ring_static=weaker(static(disc), static(ring)),
+        ring_fatigue=weaker(fatigue(disc), fatigue(ring)),
+        pin_static=weaker(static(disc), static(pin)),
+        pin_fatigue=weaker(fatigue(disc), fatigue(pin)),
+        shear=allowables.pin_shear_limit_peak(pin),
+        bending_peak=allowables.pin_bending_limit_peak(pin),
+        bending_continuous=allowables.pin_bending_limit_continuous(
+            pin, duty_reverses=min(senses, default=0.0) < 0.0 < max(senses, default=0.0)
+        ),
+        bearing=weaker(
+            allowables.pin_bearing_limit_peak(pin), allowables.pin_bearing_limit_peak(disc)
+        ),
+        pin_ultimate=pin.ultimate_strength or 0.0,
+    )
+    for key, given, names in (
+        ("disc_material", disc, ("ring_static", "ring_fatigue", "pin_static", "pin_fatigue")),
+        ("ring_material", ring, ("ring_static", "ring_fatigue")),
+        ("pin_material", pin, ("pin_static", "pin_fatigue", "shear", "bending_continuous")),
+    ):
+        for name in names:
+            allowed: Allowable = getattr(limits, name)
+            if allowed.value <= 0.0 and given.name in allowed.basis:
+                raise InfeasibleError(
+                    f"requirements.{key} '{given.name}' has no basis for a limit: "
+                    f"{allowed.basis}; choose a steel with a hardness, such as "
+                    "'AISI 4140 Q&T 540C'."
+                )
+    return limits

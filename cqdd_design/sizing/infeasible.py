@@ -1,0 +1,285 @@
+"""When nothing fits: which limits bind, the most torque there is, and the ring that would do.
+
+Nothing here is a rule of thumb. The most torque is that of a real design, found by the same
+search and confirmed by the same analysis; so is the ring.
+"""
+
+from __future__ import annotations
+
+import math
+
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.gearbox.guide import CHECK_GUIDE
+from cqdd_design.geometry.limits import rounded_down
+from cqdd_design.sizing.choose import strongest
+from cqdd_design.sizing.finish import LOAD_CHECKS, torque_reserve
+from cqdd_design.sizing.frame import search_frame
+from cqdd_design.sizing.result import SizedDesign
+from cqdd_design.sizing.search import Search
+
+_CLOSE = 1.03
+"""Load checks within this factor of the least reserve bind together with it."""
+_LARGEST_RING_MM = 1000
+"""Outside diameter at which the search for a larger ring stops (the model's own bound)."""
+_LONGEST_PACK_MM = 500
+"""Length at which the search for a longer pack stops (the model's own bound)."""
+_CONFIRM_TRIES = 4
+_HOPELESS = 0.8
+"""Best reserve of a screen that no refinement brings to one."""
+_NO_TORQUE = 1e-4
+"""Share of the torque asked for below which a space counts as too small for any gearbox."""
+
+WORDS = {
+    "BEARING-STATIC": "the cam bearing",
+    "BEARING-LIFE": "the cam bearing",
+    "CONTACT-RING-PEAK": "contact pressure at the ring",
+    "CONTACT-RING-CONTINUOUS": "pitting at the ring",
+    "CONTACT-PIN-PEAK": "contact pressure of the output pins",
+    "CONTACT-PIN-CONTINUOUS": "pitting at the output pins",
+    "PIN-PAPER": "shear of the output pins",
+    "PIN-SHARED": "shear of the output pins",
+    "PIN-SHEAR-PEAK": "shear of the output pins",
+    "PIN-BENDING-PEAK": "bending of the output pins",
+    "PIN-BENDING-CONTINUOUS": "bending fatigue of the output pins",
+    "PIN-BEARING-PEAK": "bearing pressure of the output pins",
+}
+"""What binds, in words, for every load check."""
+
+
+class SizingInfeasibleError(InfeasibleError):
+    """No design meets the requirements. Exit code 3.
+
+    Attributes
+    ----------
+    binding : tuple of str
+        Identifiers of the checks that bind, the tightest first.
+    most_torque : float or None
+        Peak torque that a design in the same space does carry, with the continuous torque lowered
+        in proportion, N m; None where no gearbox of any torque fits.
+    outer_diameter_needed : float or None
+        Smallest ring, in whole millimetres, that carries the torque asked for, m; None where none
+        does, or where the ring is not what is in the way.
+    length_needed : float or None
+        Shortest pack, in whole millimetres, that carries it in the same ring, m; looked for where
+        no ring does.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        binding: tuple[str, ...],
+        most_torque: float | None,
+        outer_diameter_needed: float | None = None,
+        length_needed: float | None = None,
+    ) -> None:
+        super().__init__(message)
+        self.binding = binding
+        self.most_torque = most_torque
+        self.outer_diameter_needed = outer_diameter_needed
+        self.length_needed = length_needed
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form."""
+        return {
+            "binding": list(self.binding),
+            "most_peak_torque_Nm": self.most_torque,
+            "outer_diameter_needed_mm": _whole_mm(self.outer_diameter_needed),
+            "length_needed_mm": _whole_mm(self.length_needed),
+        }
+
+
+def _whole_mm(length: float | None) -> int | None:
+    return None if length is None else round(length * 1e3)
+
+
+def no_design(search: Search) -> SizingInfeasibleError:
+    """Explain a search that found nothing, with the nearest requirements that would fit."""
+    wanted = search.frame.requirements
+    best = _most_torque(search)
+    ring = _smallest(search, best, "outer_diameter", _LARGEST_RING_MM)
+    length = None
+    if ring is None:
+        length = _smallest(search, best, "length", _LONGEST_PACK_MM)
+    space = f"{_a(wanted.outer_diameter)} ring"
+    asked = f"{wanted.peak_torque:g} N*m at ratio {wanted.ratio}"
+    fixes = []
+    binding: tuple[str, ...]
+    if best is None:
+        binding = (_last_straw(search),)
+        guide = CHECK_GUIDE[binding[0]]
+        text = (
+            f"no gearbox of ratio {wanted.ratio} fits in {space} and {wanted.length * 1e3:g} mm "
+            f"of length at any torque; '{guide.title}' ({guide.formula}) binds"
+        )
+    else:
+        binding = _binding(best)
+        words = list(dict.fromkeys(WORDS[one] for one in binding))
+        most = best.design.requirements
+        text = (
+            f"{asked} does not fit: in {space} the most is {most.peak_torque:g} N*m; "
+            f"{_listed(words)} {'binds' if len(words) == 1 else 'bind'}"
+        )
+        fixes.append(
+            f"lower peak_torque to {most.peak_torque:g} N*m and continuous_torque to "
+            f"{rounded_down(most.continuous_torque):g} N*m"
+        )
+    for key, need, what in (("outer_diameter", ring, "ring"), ("length", length, "pack of discs")):
+        if need is not None:
+            text += f"; {asked} needs {_a(need)} {what}"
+            fixes.append(f"raise {key} to {need * 1e3:g} mm")
+    remedy = ", or ".join(fixes) or "change the ratio, the materials or disc_count"
+    return SizingInfeasibleError(
+        f"{text}. {remedy[0].upper()}{remedy[1:]}.",
+        binding=binding,
+        most_torque=None if best is None else best.design.requirements.peak_torque,
+        outer_diameter_needed=ring,
+        length_needed=length,
+    )
+
+
+def _a(length: float) -> str:
+    """A length in mm with the article it is read with: a 40 mm, an 80 mm."""
+    text = f"{length * 1e3:g}"
+    vowel = text.startswith("8") or text.split(".")[0] in ("11", "18")
+    return f"{'an' if vowel else 'a'} {text} mm"
+
+
+def _listed(words: list[str]) -> str:
+    """Words joined as in a sentence."""
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+
+
+def refuse_motor(sized: SizedDesign) -> None:
+    """Raise when a motor that was asked for falls short; no size of the gearbox helps.
+
+    Raises
+    ------
+    SizingInfeasibleError
+    """
+    failed = [check for check in sized.checks if check.status == "fail"]
+    if not failed:
+        return
+    requirements = sized.design.requirements
+    torques = [check for check in failed if check.id in ("MOTOR-PEAK", "MOTOR-CONTINUOUS")]
+    most = None
+    if torques:
+        share = min(check.margin for check in torques)
+        most = rounded_down(requirements.peak_torque * share)
+    reasons = "; ".join(
+        f"{check.title.lower()} is {check.value:.4g} {check.unit} against {check.limit:.4g} "
+        f"{check.unit}: {check.remedy}"
+        for check in failed
+    )
+    raise SizingInfeasibleError(
+        f"motor '{requirements.motor}' does not meet the requirements: {reasons}.",
+        binding=tuple(check.id for check in failed),
+        most_torque=most,
+    )
+
+
+def _binding(sized: SizedDesign) -> tuple[str, ...]:
+    """Load checks next to their limit, the tightest first."""
+    reserve = {
+        check.id: torque_reserve(check, sized.design)
+        for check in sized.checks
+        if check.id in LOAD_CHECKS
+    }
+    least = min(reserve.values())
+    close = [check for check, value in reserve.items() if value <= _CLOSE * least]
+    return tuple(sorted(close, key=lambda check: reserve[check]))
+
+
+def _last_straw(search: Search) -> str:
+    """The check after which no candidate was left."""
+    left = search.found.screened
+    for check, count in search.found.rejected.items():
+        left -= count
+        if left == 0:
+            return check
+    return next(reversed(search.found.rejected))
+
+
+def _most_torque(search: Search) -> SizedDesign | None:
+    """A confirmed design with the most torque in the same space, rounded down."""
+    asked = torque = search.frame.requirements.peak_torque
+    tables = search.evaluator.tables
+    while torque > _NO_TORQUE * asked:
+        at = search if torque == asked else Search.of(search.frame.at_torque(torque), tables)
+        most = at.most_reserve()
+        reserve = 0.0 if most is None else float(most.reserve[0])
+        if reserve >= 1.0:
+            carried = torque * reserve
+            return _confirmed(search, carried)
+        # Ring stages that fail at this torque were dropped; lower it and they come back.
+        torque *= 0.98 * reserve if reserve > 0.02 else 0.25
+    return None
+
+
+def _confirmed(search: Search, torque: float) -> SizedDesign | None:
+    for share in (0.999, 0.97, 0.94, 0.9):
+        rounded = rounded_down(share * torque, 2 if torque < 100.0 else 3)
+        at = Search.of(search.frame.at_torque(rounded), search.evaluator.tables)
+        most = at.most_reserve()
+        found = None if most is None else at.lightest(most)
+        if found is not None:
+            return found[0]
+    return None
+
+
+def _smallest(search: Search, best: SizedDesign | None, key: str, limit: int) -> float | None:
+    """Smallest whole-millimetre value of a requirement that carries the torque asked for, m.
+
+    Parameters
+    ----------
+    search : Search
+    best : SizedDesign or None
+        What the present space carries, for the first guess.
+    key : {"outer_diameter", "length"}
+    limit : int
+        Where to give up, mm.
+    """
+    requirements = search.frame.requirements
+    present = math.floor(getattr(requirements, key) * 1e3)
+    # The torque grows with a power of the ring between two and three.
+    ratio = 4.0 if best is None else requirements.peak_torque / best.design.requirements.peak_torque
+    low, high = present, min(max(present + 1, round(present * ratio**0.4)), limit)
+    if present >= limit or not _fits(search, key, limit):
+        return None
+    while high < limit and not _fits(search, key, high):
+        low, high = high, min(round(1.25 * high) + 1, limit)
+    while high - low > 1:
+        middle = (low + high) // 2
+        if _fits(search, key, middle):
+            high = middle
+        else:
+            low = middle
+    for millimetres in range(high, min(high + _CONFIRM_TRIES, limit + 1)):
+        at = _at(search, key, millimetres)
+        most = None if at is None else at.most_reserve()
+        if at is not None and most is not None and at.lightest(most) is not None:
+            return millimetres * 1e-3
+    return None
+
+
+def _at(search: Search, key: str, millimetres: int) -> Search | None:
+    """The same search with another ring or length; None where no part of the catalogue fits."""
+    changed = search.frame.requirements.model_copy(update={key: millimetres * 1e-3})
+    try:
+        frame = search_frame(changed)
+    except InfeasibleError:
+        return None
+    return Search.of(frame, search.evaluator.tables)
+
+
+def _fits(search: Search, key: str, millimetres: int) -> bool:
+    at = _at(search, key, millimetres)
+    if at is None:
+        return False
+    quick = strongest(at.space, at.found, 1)
+    if quick.count == 0 or quick.merit[0] < _HOPELESS:
+        return False
+    if quick.merit[0] >= 1.0:
+        return True
+    most = at.most_reserve()
+    return most is not None and float(most.reserve[0]) >= 1.0

@@ -1,0 +1,105 @@
+"""Closed-form mass and reflected inertia of the parts that the search decides.
+
+Counted: discs, ring (as long as the pack), shoulders of the output pins over their free span, cam
+bearings, and solid eccentrics in their bores. Housing, carrier plates and shaft ends are much the
+same for every candidate and left out. The inertia counts the motor's rotor where its catalogue row
+has one, because only what a candidate adds to it matters.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cqdd_design.gearbox.output_pins import pin_span
+from cqdd_design.sizing.frame import Frame
+
+FloatArray = NDArray[np.float64]
+
+SHAFT_DENSITY = 7850.0
+"""Steel eccentrics, kg/m^3."""
+MASS_WEIGHT, INERTIA_WEIGHT = 0.7, 0.3
+"""Exponents of mass and reflected inertia in the objective."""
+
+
+@dataclass(frozen=True)
+class Weights:
+    """Mass and reflected inertia of candidates.
+
+    Attributes
+    ----------
+    mass : array
+        kg.
+    gearbox_inertia : array
+        At the crank, without the rotor, kg m^2.
+    reflected_inertia : array
+        At the crank, with the rotor, kg m^2.
+    """
+
+    mass: FloatArray
+    gearbox_inertia: FloatArray
+    reflected_inertia: FloatArray
+
+    @property
+    def objective(self) -> FloatArray:
+        """mass^0.7 inertia^0.3, in kg and kg m^2: what the search makes small.
+
+        A product needs no reference values: one per cent of mass counts as much as 2.3 per cent
+        of inertia, whatever the size of the gearbox.
+        """
+        return np.asarray(self.mass**MASS_WEIGHT * self.reflected_inertia**INERTIA_WEIGHT)
+
+
+def weigh(
+    frame: Frame,
+    *,
+    profile_area: ArrayLike,
+    profile_polar: ArrayLike,
+    ring_opening: ArrayLike,
+    eccentricity: ArrayLike,
+    thickness: ArrayLike,
+    pin_count: ArrayLike,
+    pin_diameter: ArrayLike,
+    hole_radius: ArrayLike,
+    pin_circle: ArrayLike,
+    bearing_outer: ArrayLike,
+    bearing_bore: ArrayLike,
+    bearing_mass: ArrayLike,
+) -> Weights:
+    """Mass and reflected inertia; every argument broadcasts, SI.
+
+    The crank turns its eccentrics and the inner half of each cam bearing, carries each disc with
+    the outer half round at e, and turns discs and pins at 1/n.
+    """
+    e, b = np.asarray(eccentricity, dtype=float), np.asarray(thickness, dtype=float)
+    count, d = np.asarray(pin_count, dtype=float), np.asarray(pin_diameter, dtype=float)
+    hole, circle = np.asarray(hole_radius, dtype=float), np.asarray(pin_circle, dtype=float)
+    seat = 0.5 * np.asarray(bearing_outer, dtype=float)
+    bore = 0.5 * np.asarray(bearing_bore, dtype=float)
+    half_bearing = 0.5 * np.asarray(bearing_mass, dtype=float)
+    discs, n2 = frame.disc_count, frame.lobe_count**2
+
+    hole_area, seat_area = math.pi * hole * hole, math.pi * seat * seat
+    area = np.asarray(profile_area, dtype=float) - count * hole_area - seat_area
+    polar = (
+        np.asarray(profile_polar, dtype=float)
+        - count * hole_area * (0.5 * hole * hole + circle * circle)
+        - 0.5 * seat_area * seat * seat
+    )
+    disc = frame.disc_density * b * area
+    disc_spin = frame.disc_density * b * polar
+    shaft = SHAFT_DENSITY * math.pi * bore * bore * b
+    pins = count * frame.pin_density * math.pi / 4.0 * d * d * pin_span(discs, b, frame.spacing)
+    pack = discs * b + (discs - 1) * frame.spacing
+    outer = math.pi * frame.outer_radius**2
+    ring = frame.ring_density * pack * (outer - np.asarray(ring_opening, dtype=float))
+
+    mass = discs * (disc + 2.0 * half_bearing + shaft) + pins + ring
+    turning = shaft * (0.5 * bore * bore + e * e) + half_bearing * (bore * bore + e * e)
+    orbiting = (disc + half_bearing) * e * e
+    spinning = (disc_spin + half_bearing * seat * seat) / n2
+    inertia = discs * (turning + orbiting + spinning) + pins * circle * circle / n2
+    return Weights(np.asarray(mass), np.asarray(inertia), np.asarray(inertia + frame.rotor_inertia))

@@ -1,0 +1,330 @@
+"""Candidates on the grid of sizes a shop can make, evaluated by the same rules as the checks.
+
+A point is four whole numbers of steps: eccentricity, tooth radius, wall spare (how many steps the
+ring pitch radius stays below the largest the ring wall allows) and disc thickness. Two sizes need
+no search: the pin circle is the largest the ligaments allow, which lowers every pin force and the
+cam load, and the cam bearing is the lightest that carries what is wanted.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.gearbox import allowables, rigid
+from cqdd_design.geometry.disc import ligament_hole_to_hole
+from cqdd_design.geometry.trochoid import shortening_coefficient
+from cqdd_design.sizing import masses, reserves, shapes
+from cqdd_design.sizing.frame import THICKNESS_STEP, Frame
+from cqdd_design.sizing.parts import BearingTable
+from cqdd_design.sizing.stage_tables import StageTables
+
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+IntArray = NDArray[np.intp]
+
+RADIUS_STEP = 5e-5
+"""Step of ring pitch radius and pin circle, m."""
+_SLACK = 1e-9
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Steps of eccentricity and tooth radius (half a step of the tooth diameter), m."""
+
+    throw: float
+    tooth: float
+
+    @property
+    def steps(self) -> FloatArray:
+        """Steps of the four variables of a point."""
+        return np.array([self.throw, self.tooth, RADIUS_STEP, THICKNESS_STEP])
+
+
+def manufacturing_grid(frame: Frame) -> Grid:
+    """Steps that suit the ratio: about one per cent of a usual size, 10 um and 50 um at most.
+
+    The eccentricity in a 72 mm ring is 1.6 mm at ratio 10 and 0.15 mm at ratio 100.
+    """
+    throw = 0.5 * frame.outer_radius / (frame.lobe_count + 1)
+    tooth = 0.5 * frame.outer_radius * math.sin(math.pi / (frame.lobe_count + 1))
+    return Grid(
+        throw=next((step for step in (1e-5, 5e-6, 2e-6) if step <= 0.015 * throw), 1e-6),
+        tooth=next((step for step in (5e-5, 2.5e-5, 1e-5) if step <= 0.03 * tooth), 5e-6),
+    )
+
+
+@dataclass(frozen=True)
+class Points:
+    """Grid points with what follows from them; every field (M,), SI.
+
+    Attributes
+    ----------
+    steps : array of int (M, 4)
+        Eccentricity, tooth radius, wall spare, thickness in steps of the grid.
+    pin_count, pin_size, bearing : array of int
+        N_w, row of ``frame.pin_sizes``, row of ``frame.bearings``.
+    pitch_radius, pin_circle : array
+        R and R_w.
+    reserve : array
+        Least torque reserve; zero where the shape is wrong or no bearing fits.
+    mass, gearbox_inertia, reflected_inertia, objective : array
+        From :mod:`cqdd_design.sizing.masses`; the objective is infinite where the reserve is zero.
+    """
+
+    steps: IntArray
+    pin_count: IntArray
+    pin_size: IntArray
+    bearing: IntArray
+    pitch_radius: FloatArray
+    pin_circle: FloatArray
+    reserve: FloatArray
+    mass: FloatArray
+    gearbox_inertia: FloatArray
+    reflected_inertia: FloatArray
+    objective: FloatArray
+
+    def rows(self, which: IntArray) -> Points:
+        """Some of the points."""
+        return Points(*(getattr(self, name)[which] for name in self.__dataclass_fields__))
+
+    def replaced(self, which: IntArray, others: Points) -> Points:
+        """These points with others in some places."""
+        changed = {}
+        for name in self.__dataclass_fields__:
+            changed[name] = getattr(self, name).copy()
+            changed[name][which] = getattr(others, name)
+        return Points(**changed)
+
+    def joined(self, other: Points) -> Points:
+        """These points and others."""
+        return Points(
+            *(
+                np.concatenate([getattr(self, name), getattr(other, name)])
+                for name in self.__dataclass_fields__
+            )
+        )
+
+
+@dataclass(frozen=True)
+class Pins:
+    """Output pins of candidates, every field (M,)."""
+
+    count: IntArray
+    size: IntArray
+    diameter: FloatArray
+    mean_radius: FloatArray
+    play_radius: FloatArray
+    offset: FloatArray
+    peak_factor: FloatArray
+
+    @classmethod
+    def of(cls, frame: Frame, count: IntArray, size: IntArray) -> Pins:
+        """Look up sizes and force factors for pin counts and rows of ``frame.pin_sizes``."""
+        factor = {int(c): rigid.peak_pin_force_factor(int(c)) for c in np.unique(count)}
+        offset = {int(c): shapes.valley_offset(frame, int(c)) for c in np.unique(count)}
+        sizes = [frame.pin_sizes[row] for row in size]
+        mean = np.array([s.mean_diameter for s in sizes])
+        return cls(
+            count=count,
+            size=size,
+            diameter=np.array([s.diameter for s in sizes]),
+            mean_radius=0.5 * mean,
+            play_radius=0.5 * (mean + np.array([s.hole_clearance for s in sizes])),
+            offset=np.array([offset[int(c)] for c in count]),
+            peak_factor=np.array([factor[int(c)] for c in count]),
+        )
+
+    def rows(self, which: IntArray) -> Pins:
+        """Some of the entries."""
+        return Pins(*(getattr(self, name)[which] for name in self.__dataclass_fields__))
+
+
+@dataclass(frozen=True)
+class _Shapes:
+    """Sizes of candidates (M,) that do not depend on thickness or bearing, m."""
+
+    pitch_radius: FloatArray
+    eccentricity: FloatArray
+    tooth_radius: FloatArray
+    hole_radius: FloatArray
+    pin_circle: FloatArray
+    possible: BoolArray
+
+
+@dataclass(frozen=True)
+class Evaluator:
+    """Evaluates points of one search.
+
+    Attributes
+    ----------
+    frame, tables, grid
+        What the requirements fix, the rigid law's pure numbers, and the steps.
+    bearings : BearingTable
+        All cam bearings of the frame.
+    pin_sums : dict
+        :meth:`StageTables.pin_sums` by pin count.
+    """
+
+    frame: Frame
+    tables: StageTables
+    grid: Grid
+    bearings: BearingTable
+    pin_sums: dict[int, FloatArray]
+
+    @classmethod
+    def of(cls, frame: Frame, tables: StageTables, pin_counts: Iterable[int]) -> Evaluator:
+        """Prepare for some pin counts."""
+        sums = {
+            int(count): tables.pin_sums(int(count), frame.disc_count, frame.clocking)
+            for count in sorted(set(pin_counts))
+        }
+        return cls(frame, tables, manufacturing_grid(frame), frame.bearing_table(), sums)
+
+    def evaluate(
+        self, ring_steps: IntArray, thickness: IntArray, pins: Pins, wanted: FloatArray
+    ) -> Points:
+        """Every thickness on every ring stage: (M, 3) and (M, T) steps to M x T points.
+
+        Parameters
+        ----------
+        ring_steps : array of int (M, 3)
+            Eccentricity, tooth radius, wall spare.
+        thickness : array of int (M, T)
+        pins : Pins (M,)
+        wanted : array (M,)
+            Torque reserve for which the cam bearing is chosen.
+        """
+        shape = self._shapes(ring_steps, pins)
+        top = round(self.frame.most_thickness / THICKNESS_STEP)
+        allowed = shape.possible[:, None] & (thickness > 0) & (thickness <= top)
+        b = np.where(allowed, thickness, 1) * THICKNESS_STEP
+        carried = self._carried(shape, b, self._cam_load(shape, pins))
+        each = np.minimum(carried, self._stress_reserve(shape, b, pins)[..., None])
+        weights = self._weights(shape, b, pins)
+        objective = weights.objective
+        # Of the bearings that reach what is wanted the best, else the strongest.
+        ranked = np.where(each >= wanted[:, None, None], objective, np.inf)
+        bearing = ranked.argmin(axis=-1)
+        bearing = np.where(np.isinf(ranked.min(axis=-1)), carried.argmax(axis=-1), bearing)
+
+        def of_chosen(value: FloatArray) -> FloatArray:
+            return np.take_along_axis(value, bearing[..., None], axis=-1).ravel()
+
+        reserve = np.where(allowed.ravel(), of_chosen(each), 0.0)
+        steps = np.empty((*b.shape, 4), dtype=np.intp)
+        steps[..., :3], steps[..., 3] = ring_steps[:, None], thickness
+        times = b.shape[1]
+        return Points(
+            steps=steps.reshape(-1, 4),
+            pin_count=np.repeat(pins.count, times),
+            pin_size=np.repeat(pins.size, times),
+            bearing=bearing.ravel(),
+            pitch_radius=np.repeat(shape.pitch_radius, times),
+            pin_circle=np.repeat(shape.pin_circle, times),
+            reserve=reserve,
+            mass=of_chosen(weights.mass),
+            gearbox_inertia=of_chosen(weights.gearbox_inertia),
+            reflected_inertia=of_chosen(weights.reflected_inertia),
+            objective=np.where(reserve > 0.0, of_chosen(objective), np.inf),
+        )
+
+    def _shapes(self, steps: IntArray, pins: Pins) -> _Shapes:
+        """Sizes (M,) in metres, and which of them make a disc and a ring."""
+        frame = self.frame
+        possible = (steps[:, 0] > 0) & (steps[:, 1] > 0) & (steps[:, 2] >= 0)
+        # Impossible points get harmless sizes, and a reserve of zero in the end.
+        sound = np.where(possible[:, None], steps[:, :2], 1).astype(np.float64)
+        e, r = sound[:, 0] * self.grid.throw, sound[:, 1] * self.grid.tooth
+        room = np.floor(shapes.largest_pitch_for_wall(frame, e, r) / RADIUS_STEP + 1e-6)
+        pitch = (room - steps[:, 2]) * RADIUS_STEP
+        possible &= r + e < pitch
+        R = np.where(possible, pitch, frame.outer_radius).astype(np.float64)
+        for met in shapes.profile_checks(frame, R, e, r).values():
+            possible &= met
+        possible[possible] = shapes.relief_passes_wire(frame, R[possible], e[possible], r[possible])
+        hole = pins.play_radius + e
+        circle = shapes.largest_pin_circle(frame, R, e, r, hole, pins.offset)
+        circle = np.floor(circle / RADIUS_STEP) * RADIUS_STEP
+        web = ligament_hole_to_hole(circle, pins.count, 2.0 * hole)
+        possible &= (circle > hole) & (web >= allowables.LIGAMENT - _SLACK)
+        possible &= hole >= frame.wire_radius
+        circle = np.where(possible, circle, frame.outer_radius)
+        return _Shapes(R, e, r, hole, circle, possible)
+
+    def _stress_reserve(self, shape: _Shapes, b: FloatArray, pins: Pins) -> FloatArray:
+        """Least reserve (M, T) of ring contact and output pins."""
+        number = self.tables.pressure_at(
+            self._shortening(shape),
+            shape.tooth_radius / (shape.pitch_radius * self.tables.tooth_spacing),
+        )
+        found = reserves.ring_reserves(self.frame, number[:, None], shape.pitch_radius[:, None], b)
+        per_radius = reserves.pin_reserves_per_radius(
+            self.frame,
+            pins.peak_factor[:, None],
+            pins.count[:, None],
+            pins.diameter[:, None],
+            pins.mean_radius[:, None],
+            shape.hole_radius[:, None],
+            b,
+        )
+        least = np.full(b.shape, np.inf)
+        for value in found.values():
+            least = np.minimum(least, value)
+        for value in per_radius.values():
+            least = np.minimum(least, value * shape.pin_circle[:, None])
+        return least
+
+    def _shortening(self, shape: _Shapes) -> FloatArray:
+        return shortening_coefficient(self.frame.lobe_count, shape.pitch_radius, shape.eccentricity)
+
+    def _cam_load(self, shape: _Shapes, pins: Pins) -> FloatArray:
+        """Largest cam load (M,) at the peak torque, N."""
+        radial = self.tables.radial_at(self._shortening(shape))
+        ratio = shape.pitch_radius / shape.pin_circle
+        number = np.empty(ratio.shape)
+        for count in np.unique(pins.count):
+            rows = np.flatnonzero(pins.count == count)
+            number[rows] = self.tables.cam_radial_peak(
+                radial[:, rows], self.pin_sums[int(count)], ratio[rows]
+            )
+        return reserves.cam_load(self.frame, shape.pitch_radius, shape.eccentricity, number)
+
+    def _carried(self, shape: _Shapes, b: FloatArray, load: FloatArray) -> FloatArray:
+        """Torque reserve (M, T, B) of every cam bearing; zero where it does not fit."""
+        table = self.bearings
+        valley = shapes.valley_distance(
+            self.frame, shape.pitch_radius, shape.eccentricity, shape.tooth_radius
+        )
+        inside = np.minimum(shape.pin_circle - shape.hole_radius, valley)
+        seat = inside - allowables.LIGAMENT + _SLACK
+        bore = shapes.least_bore(shape.eccentricity) - _SLACK
+        fits = (0.5 * table.outer <= seat[:, None]) & (table.bore >= bore[:, None])
+        carried = np.where(fits, table.allowed_load / load[:, None], 0.0)
+        return np.where(table.width <= b[..., None] + _SLACK, carried[:, None, :], 0.0)
+
+    def _weights(self, shape: _Shapes, b: FloatArray, pins: Pins) -> masses.Weights:
+        """Mass and inertia (M, T, B) with every cam bearing."""
+        table = self.bearings
+        ring = (shape.pitch_radius, shape.eccentricity, shape.tooth_radius)
+        profile = shapes.profile_integrals(self.frame, *ring)
+        own = (slice(None), None, None)
+        return masses.weigh(
+            self.frame,
+            profile_area=profile.area[own],
+            profile_polar=profile.polar[own],
+            ring_opening=shapes.ring_opening_area(self.frame, *ring)[own],
+            eccentricity=shape.eccentricity[own],
+            thickness=b[..., None],
+            pin_count=pins.count[own],
+            pin_diameter=pins.diameter[own],
+            hole_radius=shape.hole_radius[own],
+            pin_circle=shape.pin_circle[own],
+            bearing_outer=table.outer,
+            bearing_bore=table.bore,
+            bearing_mass=table.mass,
+        )

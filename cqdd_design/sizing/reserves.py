@@ -1,0 +1,131 @@
+"""How much more torque a candidate would carry, check by check; all functions broadcast.
+
+A *reserve* is the factor by which both required torques could grow until the check is on its
+limit. Forces grow with the torque and Hertz pressures with its root, so the reserve of a stress is
+limit/value and that of a pressure (limit/value)^2; 1 is on the limit, as in the checks.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cqdd_design.gearbox import allowables, hertz, output_pins
+from cqdd_design.gearbox.allowables import UNEVEN_SHARING
+from cqdd_design.sizing.frame import Frame
+
+FloatArray = NDArray[np.float64]
+
+RING_CHECKS = ("CONTACT-RING-PEAK", "CONTACT-RING-CONTINUOUS")
+PIN_CHECKS = (
+    "CONTACT-PIN-PEAK",
+    "CONTACT-PIN-CONTINUOUS",
+    "PIN-PAPER",
+    "PIN-SHARED",
+    "PIN-SHEAR-PEAK",
+    "PIN-BENDING-PEAK",
+    "PIN-BENDING-CONTINUOUS",
+    "PIN-BEARING-PEAK",
+)
+CAM_CHECKS = ("BEARING-STATIC", "BEARING-LIFE")
+
+
+def ring_reserves(
+    frame: Frame, pressure_number: ArrayLike, pitch_radius: ArrayLike, thickness: ArrayLike
+) -> dict[str, FloatArray]:
+    """Reserves of the ring contact.
+
+    Parameters
+    ----------
+    frame : Frame
+    pressure_number : array_like
+        p^ of :class:`~cqdd_design.sizing.stage_tables.StageTables`.
+    pitch_radius, thickness : array_like
+        R and b in m.
+    """
+    number = np.asarray(pressure_number, dtype=float)
+    radius, b = np.asarray(pitch_radius, dtype=float), np.asarray(thickness, dtype=float)
+    scale = UNEVEN_SHARING * frame.disc_torque * frame.ring_modulus / (b * radius * radius)
+    squared = scale * number * number
+    limits = frame.limits
+    return {
+        "CONTACT-RING-PEAK": np.asarray(limits.ring_static.value**2 / squared),
+        "CONTACT-RING-CONTINUOUS": np.asarray(
+            limits.ring_fatigue.value**2 / (squared * frame.continuous_share)
+        ),
+    }
+
+
+def pin_reserves_per_radius(
+    frame: Frame,
+    peak_factor: ArrayLike,
+    pin_count: ArrayLike,
+    diameter: ArrayLike,
+    pin_radius: ArrayLike,
+    hole_radius: ArrayLike,
+    thickness: ArrayLike,
+) -> dict[str, FloatArray]:
+    """Reserves of the output pins over the pin circle radius R_w, to which all are proportional.
+
+    Parameters
+    ----------
+    frame : Frame
+    peak_factor : array_like
+        k of F = k T/(D N_w R_w), from :func:`~cqdd_design.gearbox.rigid.peak_pin_force_factor`.
+    pin_count : array_like
+        N_w.
+    diameter, pin_radius, hole_radius, thickness : array_like
+        Nominal diameter, mean radius, hole radius and disc thickness, m.
+
+    Returns
+    -------
+    dict
+        1/m by check; contact at the pins depends on the hole, the rest only on the pins.
+    """
+    k, count = np.asarray(peak_factor, dtype=float), np.asarray(pin_count, dtype=float)
+    d, b = np.asarray(diameter, dtype=float), np.asarray(thickness, dtype=float)
+    limits, share = frame.limits, frame.continuous_share
+    # Force of one pin at R_w = 1 m.
+    force = k * frame.disc_torque / count
+    uneven = UNEVEN_SHARING * force
+    relative = hertz.conformal_equivalent_radius(pin_radius, hole_radius)
+    pressure = hertz.line_contact_pressure(uneven, b, relative, frame.pin_modulus)
+    arm = output_pins.bending_arm(frame.disc_count, b, frame.spacing, "both")
+    bending = output_pins.bending_stress(uneven, arm, d)
+    paper_shear = allowables.PAPER_SHEAR_SHARE * limits.pin_ultimate
+    peak = frame.requirements.peak_torque
+    return {
+        "CONTACT-PIN-PEAK": (limits.pin_static.value / pressure) ** 2,
+        "CONTACT-PIN-CONTINUOUS": (limits.pin_fatigue.value / pressure) ** 2 / share,
+        "PIN-PAPER": count * output_pins.single_shear_torque_per_pin(d, paper_shear, 1.0) / peak,
+        "PIN-SHARED": np.asarray(math.pi / 4.0 * d * d * paper_shear / force),
+        "PIN-SHEAR-PEAK": limits.shear.value / output_pins.shear_stress(uneven, d),
+        "PIN-BENDING-PEAK": limits.bending_peak.value / bending,
+        "PIN-BENDING-CONTINUOUS": limits.bending_continuous.value / (bending * share),
+        "PIN-BEARING-PEAK": limits.bearing.value / output_pins.bearing_pressure(uneven, d, b),
+    }
+
+
+def cam_load(
+    frame: Frame,
+    pitch_radius: ArrayLike,
+    eccentricity: ArrayLike,
+    radial_number: ArrayLike,
+) -> FloatArray:
+    """Largest cam bearing load at the peak torque, N.
+
+    Parameters
+    ----------
+    frame : Frame
+    pitch_radius, eccentricity : array_like
+        R and e in m.
+    radial_number : array_like
+        Largest radial part over T/R, from `StageTables.cam_radial_peak`.
+    """
+    torque = frame.disc_torque
+    across = torque / (frame.lobe_count * np.asarray(eccentricity, dtype=float))
+    radius = np.asarray(pitch_radius, dtype=float)
+    along = torque / radius * np.asarray(radial_number, dtype=float)
+    return np.asarray(np.hypot(across, along))

@@ -1,0 +1,129 @@
+"""What sizing returns: the design, its alternatives, and how they were found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from cqdd_design.design import Design
+from cqdd_design.results import Check
+from cqdd_design.sizing.masses import INERTIA_WEIGHT, MASS_WEIGHT
+
+
+@dataclass(frozen=True)
+class Objective:
+    """What a sized design was judged by.
+
+    Attributes
+    ----------
+    score : float
+        mass^0.7 x inertia^0.3 (kg, kg m^2), which the search makes small.
+    mass : float
+        Of discs, ring, output pins, cam bearings and eccentrics, kg.
+    gearbox_inertia, reflected_inertia : float
+        Of the same parts at the crank, without and with the motor's rotor, kg m^2.
+    torque_reserve : float
+        Factor by which both required torques could grow until a check is on its limit.
+    binding : str
+        The load check with the least torque reserve.
+    least_margin : float
+        Margin of that check, in its own terms (a pressure grows with the root of the torque).
+    """
+
+    score: float
+    mass: float
+    gearbox_inertia: float
+    reflected_inertia: float
+    torque_reserve: float
+    binding: str
+    least_margin: float
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form."""
+        return {
+            "score": self.score,
+            "mass_kg": self.mass,
+            "gearbox_inertia_kgm2": self.gearbox_inertia,
+            "reflected_inertia_kgm2": self.reflected_inertia,
+            "torque_reserve": self.torque_reserve,
+            "least_margin": self.least_margin,
+            "binding": self.binding,
+            "weighting": {"mass": MASS_WEIGHT, "reflected_inertia": INERTIA_WEIGHT},
+        }
+
+
+@dataclass(frozen=True)
+class SizedDesign:
+    """A design that meets the requirements.
+
+    Attributes
+    ----------
+    design : Design
+    checks : tuple of Check
+        Of the finished design; none fails.
+    objective : Objective
+    """
+
+    design: Design
+    checks: tuple[Check, ...]
+    objective: Objective
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form: the sizes that differ between alternatives, and the objective."""
+        reducer = self.design.reducer
+        pins = reducer.output_pins
+        return {
+            "name": self.design.name,
+            "ring_pitch_radius_mm": reducer.ring_pitch_radius * 1e3,
+            "eccentricity_mm": reducer.eccentricity * 1e3,
+            "ring_pin_diameter_mm": reducer.ring_pin_diameter * 1e3,
+            "disc_thickness_mm": reducer.disc_thickness * 1e3,
+            "output_pin_count": pins.count,
+            "output_pin_diameter_mm": pins.diameter * 1e3,
+            "output_pin_circle_radius_mm": pins.circle_radius * 1e3,
+            "cam_bearing": reducer.cam_bearing.designation,
+            **self.objective.to_dict(),
+        }
+
+
+@dataclass(frozen=True)
+class SizingResult:
+    """A gearbox sized for its requirements.
+
+    Attributes
+    ----------
+    design : Design
+        Meets every check; only a motor's shortfall (where the motor was not asked for) and the
+        reported rules of thumb may warn.
+    checks : tuple of Check
+        Of the design.
+    objective : Objective
+        Of the design.
+    alternatives : tuple of SizedDesign
+        Three designs with more and more torque reserve, each as light as that allows.
+    candidates_screened, survivors : int
+        Candidates tried, and those of them that met every check.
+    rejected : dict of str to int
+        The other candidates, each counted once at the first check it failed, in the order in which
+        the checks are applied.
+    seconds : float
+        Wall time; not compared.
+    """
+
+    design: Design
+    checks: tuple[Check, ...]
+    objective: Objective
+    alternatives: tuple[SizedDesign, ...]
+    candidates_screened: int
+    survivors: int
+    rejected: dict[str, int]
+    seconds: float = field(compare=False)
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form (``results`` of ``size``), without the time it took."""
+        return {
+            "candidates_screened": self.candidates_screened,
+            "survivors": self.survivors,
+            "rejected": dict(self.rejected),
+            "objective": self.objective.to_dict(),
+            "alternatives": [one.to_dict() for one in self.alternatives],
+        }

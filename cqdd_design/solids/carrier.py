@@ -1,0 +1,123 @@
+"""Shapes of the output carrier: plate, cap, nut, shoulder screws.
+
+Drawn in the carrier's frame, where the first pin stands at the hole clocking.
+"""
+
+from __future__ import annotations
+
+from cqdd_design.geometry.contours import PlanarPart
+from cqdd_design.solids.layout import CarrierLayout, ShaftLayout
+from cqdd_design.solids.rotating import plain_pin
+from cqdd_design.solids.selection import CapScrew, OutputPin
+from cqdd_design.solids.shapes import (
+    Annulus,
+    Drilling,
+    Layer,
+    Stack,
+    circle,
+    cylinder,
+    hexagon,
+    notched_circle,
+    on_circle,
+    pierced,
+    prism,
+    turned,
+)
+
+_BOLTS = 6
+_NUT_SLOTS = 4
+
+
+def carrier_plate(carrier: CarrierLayout, shaft: ShaftLayout, unit: float) -> Stack:
+    """The output plate: pin seats and threads, bearing seats, output face with tapped holes."""
+    output = carrier.output
+    support = shaft.support
+    seat_top = carrier.plate_bottom + support.bearing.width
+    seat, way = 0.5 * support.bearing.outer_diameter, support.lip_radius
+    outside = [
+        (carrier.plate_bottom, carrier.bearing_bottom, carrier.shoulder_radius),
+        (carrier.bearing_bottom, carrier.bearing_top, 0.5 * output.bearing.bore_diameter),
+        (carrier.bearing_top, carrier.plate_top, carrier.nut_radius),
+    ]
+    rings = []
+    for bottom, top, radius in outside:
+        split = min(max(seat_top, bottom), top)
+        rings.append(Annulus(bottom, split, seat, radius))
+        rings.append(Annulus(split, top, way, radius))
+    pins = on_circle(carrier.pin_count, carrier.pin_circle_radius, carrier.clocking)
+    pin = carrier.pin
+    drillings = [
+        Drilling(pins, 0.5 * pin.nominal_diameter, carrier.plate_bottom, carrier.shoulder_top)
+    ]
+    if pin.screw is not None:
+        thread_top = carrier.shoulder_top + pin.thread_length
+        drillings.append(
+            Drilling(pins, 0.5 * pin.thread_diameter, carrier.shoulder_top, thread_top)
+        )
+    if carrier.bolt_thread:
+        depth = min(2.0 * carrier.bolt_thread, carrier.plate_top - seat_top - 0.5 * unit)
+        bolts = on_circle(_BOLTS, carrier.bolt_circle_radius, 0.0)
+        drillings.append(
+            Drilling(bolts, 0.5 * carrier.bolt_thread, carrier.plate_top - depth, carrier.plate_top)
+        )
+    return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], drillings)
+
+
+def carrier_cap(carrier: CarrierLayout, gap: float) -> Stack:
+    """The ring that holds the far ends of the pins, counterbored for the screw heads."""
+    pins = on_circle(carrier.pin_count, carrier.pin_circle_radius, carrier.clocking)
+    drillings = [Drilling(pins, 0.5 * carrier.pin.nominal_diameter, carrier.shoulder_bottom, -gap)]
+    if carrier.counterbore_radius:
+        drillings.append(
+            Drilling(pins, carrier.counterbore_radius, carrier.cap_bottom, carrier.shoulder_bottom)
+        )
+    ring = Annulus(carrier.cap_bottom, -gap, carrier.cap_inner, carrier.cap_outer)
+    return turned([ring], drillings)
+
+
+def bearing_nut(carrier: CarrierLayout) -> Stack:
+    """The slotted nut that holds the output bearing on the plate."""
+    radius = carrier.output.shoulder_radius
+    width = radius - carrier.nut_radius
+    outer = notched_circle(radius, _NUT_SLOTS, 1.5 * width, 0.45 * width)
+    shape = PlanarPart("nut", outer, (circle(carrier.nut_radius),))
+    return prism(shape, carrier.bearing_top, carrier.nut_top)
+
+
+def pin_shape(carrier: CarrierLayout) -> Stack:
+    """A shoulder screw in its true shape, or a dowel, on the z axis at its height in the machine.
+
+    From the bottom: head with hexagon socket, ground shoulder at its mean diameter, thread at its
+    major diameter.
+    """
+    pin = carrier.pin
+    if pin.screw is None:
+        return plain_pin(pin.mean_diameter, carrier.shoulder_bottom, carrier.shoulder_top)
+    thread = cylinder(
+        0.5 * pin.thread_diameter,
+        carrier.shoulder_top,
+        carrier.shoulder_top + pin.thread_length,
+    )
+    shoulder = cylinder(0.5 * pin.mean_diameter, carrier.shoulder_bottom, carrier.shoulder_top)
+    return Stack((*_socket_head(pin, carrier.shoulder_bottom), shoulder, thread))
+
+
+def cap_screw_shape(screw: CapScrew) -> Stack:
+    """A hexagon socket head cap screw, head upward, bearing face on z = 0."""
+    head = Layer(
+        PlanarPart("head", circle(0.5 * screw.head_diameter)), 0.0, 0.5 * screw.head_height
+    )
+    socketed = pierced(
+        Layer(head.shape, 0.5 * screw.head_height, screw.head_height), [hexagon(screw.socket)]
+    )
+    return Stack((cylinder(0.5 * screw.thread, -screw.length, 0.0), head, socketed))
+
+
+def _socket_head(pin: OutputPin, top: float) -> tuple[Layer, Layer]:
+    """Two layers of a head whose socket opens downward, half the head deep."""
+    bottom, middle = top - pin.head_height, top - 0.5 * pin.head_height
+    full = PlanarPart("head", circle(0.5 * pin.head_diameter))
+    return (
+        pierced(Layer(full, bottom, middle), [hexagon(pin.socket)]),
+        Layer(full, middle, top),
+    )

@@ -1,0 +1,248 @@
+"""Mass and inertia of the whole gearbox, and what the motor feels of it.
+
+With the crank at speed w, perfect parts move so::
+
+    shaft, cams          spin at w
+    disc d               centre runs round at w on radius e, spins at -w/n
+    carrier and its pins spin at -w/n
+    ring, housing        stand still
+
+so the kinetic energy 1/2 J w^2 has ``J = J_rotor + J_shaft + sum(m_disc e^2 + J_disc/n^2) +
+J_carrier/n^2``, the reflected inertia at the input; at the output it is n^2 times that. A rolling
+bearing counts half to each of its rings, divided at the pitch circle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cqdd_design.catalog.motors import find_motor
+from cqdd_design.design import Design
+from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.results import MassProperties
+from cqdd_design.solids.mesh import mass_properties, mesh_volume
+from cqdd_design.solids.part import Instance, Part
+from cqdd_design.solids.poses import Body
+
+MassSource = Callable[[Part], MassProperties]
+
+
+@dataclass(frozen=True)
+class PartInertia:
+    """Mass properties of one part.
+
+    Attributes
+    ----------
+    name, material : str
+    count : int
+        Pieces in the machine.
+    volume, exact_volume : float
+        Of one piece, from its mesh and in closed form, m^3.
+    properties : MassProperties
+        Of the first piece in the ring's frame at crank angle 0.
+    reflected : float
+        Share of all pieces in the inertia at the input, kg m^2.
+    catalogue_mass : bool
+        Whether the mass is the catalogue's, not volume times density.
+    """
+
+    name: str
+    material: str
+    count: int
+    volume: float
+    exact_volume: float
+    properties: MassProperties
+    reflected: float
+    catalogue_mass: bool
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form: volume, mass, centre and inertia are those of one piece."""
+        own = self.properties
+        return {
+            "name": self.name,
+            "material": self.material,
+            "count": self.count,
+            "volume_mm3": self.volume * 1e9,
+            "mass_kg": own.mass,
+            "centre_of_mass_mm": [float(c) * 1e3 for c in own.centre],
+            "inertia_kgm2": [[float(v) for v in row] for row in own.inertia],
+            "exact_volume_mm3": self.exact_volume * 1e9,
+            "reflected_inertia_input_kgm2": self.reflected,
+            "mass_from_catalogue": self.catalogue_mass,
+        }
+
+
+@dataclass(frozen=True)
+class GearboxInertia:
+    """Mass properties of a gearbox.
+
+    Attributes
+    ----------
+    parts : tuple of PartInertia
+    total : MassProperties
+        All pieces at crank angle 0 in the ring's frame, without the motor.
+    ratio : int
+        n.
+    rotor_inertia : float or None
+        Of the catalogue's motor, kg m^2; None where the catalogue has none.
+    motor : str
+        Its name.
+    orbiting_mass : float
+        Mass that circles at the eccentricity for each disc: the disc and its cam bearing, kg.
+    """
+
+    parts: tuple[PartInertia, ...]
+    total: MassProperties
+    ratio: int
+    rotor_inertia: float | None
+    motor: str
+    orbiting_mass: float
+
+    @property
+    def gearbox_reflected(self) -> float:
+        """Inertia at the input without the rotor, kg m^2."""
+        return sum(part.reflected for part in self.parts)
+
+    @property
+    def reflected_input(self) -> float:
+        """Inertia at the input, rotor included where the catalogue has it, kg m^2."""
+        return self.gearbox_reflected + (self.rotor_inertia or 0.0)
+
+    @property
+    def reflected_output(self) -> float:
+        """Inertia at the output, n^2 times that at the input, kg m^2."""
+        return self.ratio**2 * self.reflected_input
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What the figures leave out."""
+        if self.rotor_inertia is not None:
+            return ()
+        return (
+            f"the catalogue has no rotor inertia for {self.motor}; the reflected inertia is that "
+            "of the gearbox alone.",
+        )
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form (``results`` of ``inertia``, without ``balance``)."""
+        return {
+            "parts": [part.to_dict() for part in self.parts],
+            "total_mass_kg": self.total.mass,
+            "centre_of_mass_mm": [float(c) * 1e3 for c in self.total.centre],
+            "rotor_inertia_kgm2": self.rotor_inertia,
+            "gearbox_reflected_inertia_input_kgm2": self.gearbox_reflected,
+            "reflected_inertia_input_kgm2": self.reflected_input,
+            "reflected_inertia_output_kgm2": self.reflected_output,
+        }
+
+
+def gearbox_inertia(
+    design: Design, parts: Sequence[Part], source: MassSource = mass_properties
+) -> GearboxInertia:
+    """Compose the mass properties of all pieces.
+
+    Parameters
+    ----------
+    design : Design
+    parts : sequence of Part
+        From `build_parts`.
+    source : callable
+        Mass properties of one piece in its own frame: `mass_properties` (from meshes, needs
+        CadQuery) or `closed_form`.
+    """
+    rows = []
+    total = MassProperties(0.0)
+    orbiting = 0.0
+    meshed = source is mass_properties
+    for part in parts:
+        own = source(part)
+        placed = [_in_machine(design, own, piece) for piece in part.instances]
+        for one in placed:
+            total = total + one
+        if part.instances[0].body.kind == "disc":
+            orbiting += own.mass * part.count
+        rows.append(
+            PartInertia(
+                name=part.name,
+                material=part.material,
+                count=part.count,
+                volume=mesh_volume(part) if meshed else part.shape.volume,
+                exact_volume=part.exact_volume,
+                properties=placed[0],
+                reflected=sum(_reflected(design, part, own, piece) for piece in part.instances),
+                catalogue_mass=part.catalogue_mass is not None,
+            )
+        )
+    motor = find_motor(design.motor.name)
+    return GearboxInertia(
+        parts=tuple(rows),
+        total=total,
+        ratio=design.reducer.ratio,
+        rotor_inertia=motor.rotor_inertia,
+        motor=motor.name,
+        orbiting_mass=orbiting / design.reducer.disc_count,
+    )
+
+
+def closed_form(part: Part) -> MassProperties:
+    """Mass properties of one piece from exact integrals, without CadQuery."""
+    return part.exact_properties
+
+
+def crank_properties(
+    design: Design, parts: Sequence[Part], source: MassSource = mass_properties
+) -> MassProperties:
+    """What is fixed to the crank (shaft, loose cams), as one body for the balance of the stack.
+
+    Returns
+    -------
+    MassProperties
+        In the frame of `gearbox.balance`: x along the crank of disc 0, z from the middle of the
+        pack of discs.
+    """
+    total = MassProperties(0.0)
+    for part in parts:
+        if part.inner_body is None and part.instances[0].body.kind == "shaft":
+            total = total + _in_machine(design, source(part), part.instances[0])
+    middle = 0.5 * design.reducer.pack_length
+    return total.moved(_along_axis(-middle))
+
+
+def _along_axis(height: float) -> FloatArray:
+    return np.array([0.0, 0.0, height])
+
+
+def _in_machine(design: Design, own: MassProperties, piece: Instance) -> MassProperties:
+    pose = piece.pose(design)
+    return own.moved(pose[:3, 3], pose[:3, :3])
+
+
+def _spin(design: Design, body: Body) -> float:
+    """Speed of a body over that of the crank."""
+    speeds = {"shaft": 1.0, "carrier": -1.0 / design.reducer.ratio, "housing": 0.0}
+    return speeds.get(body.kind, -1.0 / design.reducer.ratio)
+
+
+def _reflected(design: Design, part: Part, own: MassProperties, piece: Instance) -> float:
+    """Inertia that one piece adds at the input, kg m^2."""
+    orbit = design.reducer.eccentricity if piece.body.kind == "disc" else 0.0
+    # In the body's frame the spin axis is the z axis.
+    placed = own.moved(piece.placement[:3, 3], piece.placement[:3, :3])
+    about_axis = float(placed.inertia_about(_along_axis(placed.centre[2]))[2, 2])
+    outer = _spin(design, piece.body) ** 2
+    if part.inner_body is None:
+        return about_axis * outer + own.mass * orbit**2
+    inner_share = _inner_ring_share(part)
+    inner = _spin(design, part.inner_body) ** 2
+    spin = about_axis * (inner_share * inner + (1.0 - inner_share) * outer)
+    return spin + own.mass * orbit**2
+
+
+def _inner_ring_share(part: Part) -> float:
+    """Share of a bearing's polar inertia inside its pitch circle."""
+    inner, outer = part.shape.inside_radius, part.shape.outside_radius
+    pitch = 0.5 * (inner + outer)
+    return (pitch**4 - inner**4) / (outer**4 - inner**4)

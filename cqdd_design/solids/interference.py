@@ -1,0 +1,149 @@
+"""Whether solids run into each other anywhere in the motion.
+
+Two parts that touch along a fit overlap a little as meshes, because facets stand off the true
+surface. A real collision is told from that by its thickness: every connected piece of an
+intersection has the mean thickness 2 V/A, and only pieces thicker than the facets of both meshes
+can explain are reported.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cqdd_design.design import Design
+from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.solids.kernel import MM
+from cqdd_design.solids.mesh import FINE, surface_slack, tessellate
+from cqdd_design.solids.part import Instance, Part
+
+if TYPE_CHECKING:
+    from manifold3d import Manifold
+
+
+@dataclass(frozen=True)
+class Overlap:
+    """Two pieces that share space at a crank angle.
+
+    Attributes
+    ----------
+    first, second : str
+        Names of the pieces.
+    crank_angle : float
+        rad.
+    volume : float
+        Of the whole intersection, m^3.
+    thickness : float
+        Mean thickness of its thickest connected piece, m.
+    allowed : float
+        What the facets of both meshes explain, m.
+    """
+
+    first: str
+    second: str
+    crank_angle: float
+    volume: float
+    thickness: float
+    allowed: float
+
+    @property
+    def collides(self) -> bool:
+        """Whether the overlap is more than facets of touching surfaces."""
+        return self.thickness > self.allowed
+
+
+def find_overlaps(
+    design: Design, parts: Sequence[Part], crank_angles: Iterable[float]
+) -> tuple[Overlap, ...]:
+    """Every overlap of two pieces at the given crank angles (rad), the thickest first.
+
+    Parameters
+    ----------
+    design : Design
+    parts : sequence of Part
+        Of that design. Pieces on the same body are compared once.
+    crank_angles : iterable of float
+        rad. One turn of the output is ``ratio`` turns of the crank.
+
+    Returns
+    -------
+    tuple of Overlap
+        Facet overlaps of touching parts included; ask `Overlap.collides`, or use `collisions`.
+    """
+    pieces = [(part, piece) for part in parts for piece in part.instances]
+    found: list[Overlap] = []
+    still_done = False
+    for angle in crank_angles:
+        posed = [_posed(part, piece.pose(design, angle)) for part, piece in pieces]
+        boxes = np.array([solid.bounding_box() for solid in posed])
+        for i, j in combinations(range(len(pieces)), 2):
+            (part, piece), (other_part, other) = pieces[i], pieces[j]
+            if still_done and piece.body == other.body:
+                continue
+            if not _boxes_meet(boxes[i], boxes[j]):
+                continue
+            overlap = _overlap(posed[i], posed[j])
+            if overlap is not None:
+                allowed = surface_slack(part) + surface_slack(other_part)
+                found.append(Overlap(piece.name, other.name, angle, *overlap, allowed))
+        still_done = True
+    return tuple(sorted(found, key=lambda one: -one.thickness / one.allowed))
+
+
+def collisions(
+    design: Design, parts: Sequence[Part], crank_angles: Iterable[float]
+) -> tuple[Overlap, ...]:
+    """The overlaps that are real: parts that run into each other, the worst first."""
+    return tuple(o for o in find_overlaps(design, parts, crank_angles) if o.collides)
+
+
+def shared_volume(
+    design: Design,
+    first: tuple[Part, Instance],
+    second: tuple[Part, Instance],
+    crank_angle: float,
+) -> float:
+    """Volume (m^3) of the intersection of two pieces at a crank angle (rad)."""
+    solids = [_posed(part, piece.pose(design, crank_angle)) for part, piece in (first, second)]
+    return float((solids[0] ^ solids[1]).volume()) / MM**3
+
+
+@lru_cache(maxsize=256)
+def _manifold(part: Part) -> Manifold:
+    import manifold3d
+
+    mesh = tessellate(part, FINE)
+    return manifold3d.Manifold(
+        manifold3d.Mesh64(
+            np.ascontiguousarray(mesh.vertices, dtype=np.float64),
+            np.ascontiguousarray(mesh.faces, dtype=np.uint64),
+        )
+    )
+
+
+def _posed(part: Part, pose: FloatArray) -> Manifold:
+    placed = np.array(pose[:3], dtype=float)
+    placed[:, 3] *= MM
+    return _manifold(part).transform(placed)
+
+
+def _boxes_meet(one: FloatArray, other: FloatArray) -> bool:
+    return bool((one[:3] <= other[3:]).all() and (other[:3] <= one[3:]).all())
+
+
+def _overlap(one: Manifold, other: Manifold) -> tuple[float, float] | None:
+    """Volume (m^3) of an intersection and mean thickness (m) of its thickest piece."""
+    common = one ^ other
+    if common.is_empty():
+        return None
+    thickness = max(
+        2.0 * piece.volume() / piece.surface_area()
+        for piece in common.decompose()
+        if piece.surface_area() > 0.0
+    )
+    return float(common.volume()) / MM**3, float(thickness) / MM

@@ -1,0 +1,203 @@
+"""The machine on paper: heights along the axis and turned dimensions of every part.
+
+Section through a two-disc gearbox, output upward; z = 0 is the lower face of disc 0::
+
+                     +---- carrier plate ----+  z_top
+        cover  ______|  nut                  |______
+              |lip __|_______ . . . ________ |__    |
+              |__[ output bearing ]              ___|  bearing_bottom
+        ==== ring clamp ====|__________________|====   pack_top (+ gap to the plate)
+        |  | ring | disc 1   (cam bearing) |shaft|
+        |  |      | disc 0   (cam bearing) |     |     0
+        |  +------+ - cap - [support bearing]    |
+        |__________housing floor_________________|     housing_bottom
+                                     shaft stub for the rotor
+
+The carrier hangs on one output bearing; the eccentric shaft runs in two support bearings, one in
+the housing floor (inside the cap where there is room) and one in the carrier plate. Pins are
+shoulder screws, head in the cap, thread in the plate. Dimensions that nothing else decides are
+proportions of the ring, in *units* of a millimetre on a 72 mm ring.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cqdd_design.solids.selection import CapScrew, ChosenBearing, OutputPin
+
+
+@dataclass(frozen=True)
+class PackLayout:
+    """Discs, ring and cam bearings, m.
+
+    Attributes
+    ----------
+    disc_thickness, pitch, top, gap : float
+        One disc; from disc to disc; upper face of the last disc; from the pack to cap and plate.
+    disc_count : int
+    eccentricity : float
+    cam : ChosenBearing
+        Between eccentric and disc.
+    reach : float
+        Radius that the orbiting lobes sweep.
+    ledge_radius : float
+        Inner radius of the faces between which the ring is clamped.
+    ring_radius : float
+        Outside radius of the ring.
+    """
+
+    disc_thickness: float
+    pitch: float
+    top: float
+    gap: float
+    disc_count: int
+    eccentricity: float
+    cam: ChosenBearing
+    reach: float
+    ledge_radius: float
+    ring_radius: float
+
+    def disc_bottom(self, disc: int) -> float:
+        """Height of the lower face of a disc."""
+        return disc * self.pitch
+
+    def cam_bottom(self, disc: int) -> float:
+        """Height of the lower face of a disc's cam bearing, centred in the disc."""
+        width = self.cam.bearing.width
+        return self.disc_bottom(disc) + 0.5 * (self.disc_thickness - width)
+
+    def cam_top(self, disc: int) -> float:
+        """Height of the upper face of a disc's cam bearing."""
+        return self.cam_bottom(disc) + self.cam.bearing.width
+
+
+@dataclass(frozen=True)
+class ShaftLayout:
+    """The eccentric shaft and its support bearings, m.
+
+    Attributes
+    ----------
+    support : ChosenBearing
+        The same at both ends.
+    shoulder_radius, web_radius, bore_radius : float
+        Core between lobe and journal (seat of the loose cam of a third disc too); collar between
+        neighbouring lobes; hole through the shaft (0: none).
+    lower_seat_top, upper_seat_bottom : float
+        Heights of the shoulders against which the two support bearings sit.
+    bottom, top : float
+        Ends of the shaft.
+    """
+
+    support: ChosenBearing
+    shoulder_radius: float
+    web_radius: float
+    bore_radius: float
+    lower_seat_top: float
+    upper_seat_bottom: float
+    bottom: float
+    top: float
+
+
+@dataclass(frozen=True)
+class CarrierLayout:
+    """Carrier plate, cap, nut, pins and output bearing, m.
+
+    Attributes
+    ----------
+    pin : OutputPin
+    pin_count : int
+    pin_circle_radius, clocking : float
+        Of the pins; the first pin's angle at crank angle 0.
+    shoulder_bottom, shoulder_top : float
+        Heights between which the ground shoulder of a pin runs.
+    cap : bool
+        Whether the pins are held at both ends.
+    cap_bottom, cap_inner, cap_outer, counterbore_radius : float
+        Of the cap; the counterbore is 0 for dowels.
+    lowest : float
+        Height of the lowest thing that turns with the carrier.
+    output : ChosenBearing
+    shoulder_radius : float
+        Of the plate's shoulder under the output bearing.
+    plate_bottom, bearing_bottom, bearing_top, nut_top, plate_top : float
+        Heights on the plate.
+    nut_radius : float
+        Thread of the nut that holds the output bearing.
+    bolt_thread, bolt_circle_radius : float
+        Tapped holes in the output face; a thread of 0 where there is no room.
+    """
+
+    pin: OutputPin
+    pin_count: int
+    pin_circle_radius: float
+    clocking: float
+    shoulder_bottom: float
+    shoulder_top: float
+    cap: bool
+    cap_bottom: float
+    cap_inner: float
+    cap_outer: float
+    counterbore_radius: float
+    lowest: float
+    output: ChosenBearing
+    shoulder_radius: float
+    plate_bottom: float
+    bearing_bottom: float
+    bearing_top: float
+    nut_top: float
+    plate_top: float
+    nut_radius: float
+    bolt_thread: float
+    bolt_circle_radius: float
+
+
+@dataclass(frozen=True)
+class HousingLayout:
+    """Housing, ring clamp and output cover, m.
+
+    Attributes
+    ----------
+    register_radius : float
+        Outside of the tube, on which the stator sits.
+    seated_motor : bool
+        Whether the register is the motor's stator bore.
+    flange_radius, flange_bottom, bolt_circle_radius : float
+        Of the flange at the output end.
+    screw : CapScrew
+        Holds cover and ring clamp to the flange.
+    screw_count : int
+        And as many mounting holes between them.
+    clamp_relief, clamp_inner : float
+        Height of the relief over the discs under the ring clamp; its bore.
+    cover_flange_top, cover_hub_radius, cover_top : float
+        Of the output cover.
+    boss_radius, floor_top, bottom : float
+        Of the floor that carries the lower support bearing.
+    """
+
+    register_radius: float
+    seated_motor: bool
+    flange_radius: float
+    flange_bottom: float
+    bolt_circle_radius: float
+    screw: CapScrew
+    screw_count: int
+    clamp_relief: float
+    clamp_inner: float
+    cover_flange_top: float
+    cover_hub_radius: float
+    cover_top: float
+    boss_radius: float
+    floor_top: float
+    bottom: float
+
+
+@dataclass(frozen=True)
+class Layout:
+    """All of the above for one design; `unit` is a millimetre at its scale, m."""
+
+    unit: float
+    pack: PackLayout
+    shaft: ShaftLayout
+    carrier: CarrierLayout
+    housing: HousingLayout

@@ -1,0 +1,130 @@
+"""What a part is: shape, material, colour, pieces and where they stand, make or buy, fits.
+
+A `Part` needs no CAD kernel until its `solid` is asked for.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from cqdd_design.catalog.materials import find_material
+from cqdd_design.design import Design
+from cqdd_design.geometry.contours import FloatArray, Moments
+from cqdd_design.results import MassProperties
+from cqdd_design.solids.fits import Fit
+from cqdd_design.solids.poses import Body, body_pose
+from cqdd_design.solids.shapes import Stack, prism_properties
+
+if TYPE_CHECKING:
+    from cadquery import Solid
+
+Source = Literal["make", "buy"]
+Colour = tuple[float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Instance:
+    """One piece of a part in the machine.
+
+    Attributes
+    ----------
+    name : str
+        Unique in the machine, such as ``disc 2`` or ``shoulder screw 5``.
+    body : Body
+        What it moves with.
+    placement : array (4, 4)
+        From the part's frame to the body's, m.
+    """
+
+    name: str
+    body: Body
+    placement: FloatArray
+
+    def pose(self, design: Design, crank_angle: float = 0.0) -> FloatArray:
+        """Transform (4, 4) from the part's frame to the ring's at a crank angle (rad)."""
+        return np.asarray(body_pose(design, self.body, crank_angle) @ self.placement)
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A part and all of its pieces.
+
+    Attributes
+    ----------
+    name : str
+        Unique in the machine.
+    shape : Stack
+        In the part's own frame, m.
+    material : str
+        Catalogue name.
+    colour : tuple of float
+        Red, green, blue from 0 to 1 (sRGB).
+    source : {"make", "buy"}
+    designation : str
+        What to order or how it is made.
+    instances : tuple of Instance
+        The pieces, in order.
+    catalogue_mass : float or None
+        Mass of one piece where a catalogue gives it, kg: an envelope's volume says too much.
+    inner_body : Body or None
+        For bearings: what the inner ring turns with (`Instance.body` carries the outer ring).
+    exact_section : Moments or None
+        For discs and rings: plane integrals of the exact curve, of which the shape's arcs are a
+        close fit.
+    fits : tuple of Fit
+        Tolerance zones of its seats.
+    """
+
+    name: str
+    shape: Stack
+    material: str
+    colour: Colour
+    source: Source
+    designation: str
+    instances: tuple[Instance, ...]
+    catalogue_mass: float | None = None
+    inner_body: Body | None = None
+    exact_section: Moments | None = None
+    fits: tuple[Fit, ...] = ()
+
+    @property
+    def count(self) -> int:
+        """Number of pieces."""
+        return len(self.instances)
+
+    @property
+    def exact_volume(self) -> float:
+        """Closed-form volume of one piece, m^3; of the exact curve for discs and rings."""
+        if self.exact_section is None:
+            return self.shape.volume
+        return self.exact_section.area * (self.shape.top - self.shape.bottom)
+
+    @property
+    def density(self) -> float:
+        """Mass over volume, kg/m^3; that of the material unless a catalogue gives the mass."""
+        if self.catalogue_mass is not None:
+            return self.catalogue_mass / self.shape.volume
+        return find_material(self.material).density
+
+    @property
+    def mass(self) -> float:
+        """Closed-form mass of one piece, kg."""
+        return self.exact_properties.mass
+
+    @cached_property
+    def exact_properties(self) -> MassProperties:
+        """Closed-form mass properties of one piece in the part's frame."""
+        if self.exact_section is None:
+            return self.shape.mass_properties(self.density)
+        return prism_properties(self.exact_section, self.shape.bottom, self.shape.top, self.density)
+
+    @cached_property
+    def solid(self) -> Solid:
+        """The CadQuery solid in the part's frame, in mm."""
+        from cqdd_design.solids.kernel import build_solid
+
+        return build_solid(self.name, self.shape)

@@ -1,0 +1,346 @@
+"""The rules that turn a design into a `Layout`: what fits where, proportions for the rest."""
+
+from __future__ import annotations
+
+import math
+
+from cqdd_design.catalog.bearings import Bearing
+from cqdd_design.catalog.motors import find_motor
+from cqdd_design.design import Design
+from cqdd_design.errors import GeometryError
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.validate import validate_geometry
+from cqdd_design.solids.layout import (
+    CarrierLayout,
+    HousingLayout,
+    Layout,
+    PackLayout,
+    ShaftLayout,
+)
+from cqdd_design.solids.selection import (
+    ChosenBearing,
+    OutputPin,
+    cap_screw,
+    output_bearing,
+    output_pin,
+    support_bearing,
+    thread_size,
+)
+
+_REFERENCE_RING = 72e-3
+_SCALE_RANGE = (0.4, 4.0)
+_LEAST_CORE_SHARE = 0.2
+"""Least core of the eccentric shaft as a share of the cam bearing's bore radius."""
+
+
+def millimetre_unit(ring_outer_diameter: float) -> float:
+    """A millimetre at the scale of this ring, m: walls and gaps grow with the machine."""
+    least, most = _SCALE_RANGE
+    return 1e-3 * min(max(ring_outer_diameter / _REFERENCE_RING, least), most)
+
+
+def lay_out(design: Design, cam_bearing: Bearing) -> Layout:
+    """Lay out the machine around the discs of a design.
+
+    Parameters
+    ----------
+    design : Design
+    cam_bearing : Bearing
+        The catalogue row of the cam bearing, "auto" resolved.
+
+    Raises
+    ------
+    GeometryError
+        When disc, ring or holes cannot exist, when neighbouring cam bearings overlap, or when the
+        eccentrics leave no shaft.
+    """
+    pin = output_pin(design.reducer.output_pins.diameter)
+    _refuse_small_sleeve(design)
+    validate_geometry(
+        design,
+        bore_diameter=cam_bearing.outer_diameter,
+        pin_mean_diameter=pin.mean_diameter,
+    )
+    unit = millimetre_unit(design.reducer.ring.outer_diameter)
+    pack = _pack(design, cam_bearing, unit)
+    core = _core_radius(pack)
+    pins = design.reducer.output_pins
+    wall = _pin_wall(pins.diameter, unit)
+    support = support_bearing(
+        2.0 * core,
+        max(0.4e-3, 0.16 * core),
+        min(cam_bearing.outer_diameter, 2.0 * (pins.circle_radius - 0.5 * pins.diameter - unit)),
+        2.0 * (pins.circle_radius - _counterbore(pin, unit) - wall - 2.3 * unit),
+    )
+    carrier = _carrier(design, pin, pack, support, unit)
+    housing, seat_top = _housing(design, pack, carrier, support, unit)
+    return Layout(unit, pack, _shaft(pack, support, core, housing, seat_top), carrier, housing)
+
+
+def _refuse_small_sleeve(design: Design) -> None:
+    pins = design.reducer.output_pins
+    if 0.0 < pins.sleeve_diameter <= pins.diameter:
+        raise GeometryError(
+            f"output_pins.sleeve_diameter {pins.sleeve_diameter * 1e3:g} mm does not go over the "
+            f"{pins.diameter * 1e3:g} mm pin; make it at least "
+            f"{pins.diameter * 1e3 + 1.0:g} mm, or 0 mm for no sleeve."
+        )
+
+
+def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:
+    reducer = design.reducer
+    pitch = reducer.disc_thickness + reducer.disc_spacing
+    most = pitch if reducer.disc_count > 1 else pitch + reducer.disc_spacing
+    if cam_bearing.width > most + 1e-9:
+        raise GeometryError(
+            f"cam_bearing {cam_bearing.designation} is {cam_bearing.width * 1e3:g} mm wide, more "
+            f"than the {most * 1e3:g} mm that disc_thickness and disc_spacing leave it; raise "
+            f"disc_thickness to {cam_bearing.width * 1e3:g} mm or choose a narrower bearing."
+        )
+    reach = CycloidDisc.from_design(design).tip_distance + reducer.eccentricity
+    ring_radius = 0.5 * reducer.ring.outer_diameter
+    return PackLayout(
+        disc_thickness=reducer.disc_thickness,
+        pitch=pitch,
+        top=reducer.pack_length,
+        gap=reducer.disc_spacing,
+        disc_count=reducer.disc_count,
+        eccentricity=reducer.eccentricity,
+        cam=ChosenBearing(cam_bearing),
+        reach=reach,
+        ledge_radius=min(reach + 0.15 * unit, 0.5 * (reach + ring_radius)),
+        ring_radius=ring_radius,
+    )
+
+
+def _core_radius(pack: PackLayout) -> float:
+    """Radius of the round core that a cam bearing can pass on its way to its lobe.
+
+    A third disc needs a loose cam, pressed on this core, whose wall must remain.
+    """
+    bore = 0.5 * pack.cam.bearing.bore_diameter
+    wall = max(0.6e-3, 0.1 * bore) if pack.disc_count > 2 else max(0.03e-3, 0.02 * bore)
+    core = bore - pack.eccentricity - wall
+    least = _LEAST_CORE_SHARE * bore
+    if core < least:
+        most = max(bore - wall - least, 0.0)
+        enough = 2.0 * (pack.eccentricity + wall) / (1.0 - _LEAST_CORE_SHARE)
+        raise GeometryError(
+            f"eccentricity {pack.eccentricity * 1e3:.4g} mm leaves no eccentric shaft inside cam "
+            f"bearing {pack.cam.bearing.designation} with its {2e3 * bore:g} mm bore; lower it to "
+            f"{math.floor(most * 1e5) / 1e2:g} mm, or choose a bearing with a bore of at least "
+            f"{math.ceil(enough * 1e4) / 10:g} mm."
+        )
+    return core
+
+
+def _most_clamp_radius(pack: PackLayout) -> float:
+    """Largest bore of the ring clamp that still presses on three quarters of the ring's wall."""
+    return pack.ring_radius - 0.25 * (pack.ring_radius - pack.ledge_radius)
+
+
+def _within(least: float, value: float, most: float) -> float:
+    return min(max(value, least), most)
+
+
+def _pin_wall(diameter: float, unit: float) -> float:
+    """Material of the cap around a pin or its counterbore, m."""
+    return max(unit, 0.375 * diameter)
+
+
+def _counterbore(pin: OutputPin, unit: float) -> float:
+    """Radius of the counterbore for a pin's head, m; that of the pin for a dowel."""
+    if pin.screw is None:
+        return 0.5 * pin.nominal_diameter
+    return 0.5 * pin.head_diameter + 0.25 * unit
+
+
+def _carrier(
+    design: Design, pin: OutputPin, pack: PackLayout, support: ChosenBearing, unit: float
+) -> CarrierLayout:
+    pins = design.reducer.output_pins
+    circle, diameter = pins.circle_radius, pins.diameter
+    wall = _pin_wall(diameter, unit)
+    both = pins.support == "both"
+    counterbore = _counterbore(pin, unit)
+    most_outer = pack.ledge_radius - 0.4 * unit
+    # A catalogue head may be too large for a dense pin circle; ground dowels always fit.
+    crowded = 2.0 * circle * math.sin(math.pi / pins.count) < 2.0 * counterbore + 0.4 * unit
+    inward = circle - counterbore - 0.4 * unit < 0.5 * support.bearing.bore_diameter + 0.8 * unit
+    outward = circle + counterbore + 0.4 * unit > most_outer
+    if crowded or inward or outward:
+        pin = pin.as_dowel()
+    if pin.screw is None:
+        counterbore = 0.0
+    around = max(counterbore, 0.5 * diameter)
+
+    bottom = pack.top + pack.gap
+    span = bottom + pack.gap
+    register, web = _seat_depths(pin, span, both, unit)
+    shoulder_bottom = -pack.gap - web
+    cap_bottom = shoulder_bottom - pin.head_height if both else -pack.gap
+    lowest = min(cap_bottom, shoulder_bottom - pin.head_height)
+
+    clamp = max(2.5 * unit, pack.gap + 1.5 * unit)
+    most_shoulder = _most_clamp_radius(pack) - 0.3 * unit
+    around_pins = circle + 0.5 * diameter
+    output = output_bearing(
+        2.0 * (around_pins + _within(0.2 * unit, most_shoulder - around_pins - unit, 1.2 * unit)),
+        most_shoulder,
+        2.0 * pack.ring_radius + 8.0 * unit,
+        unit,
+    )
+    shoulder = min(output.shoulder_radius, most_shoulder)
+    if shoulder < 0.5 * output.bearing.bore_diameter + 0.05 * unit:
+        raise GeometryError(
+            f"output_pins.circle_radius {circle * 1e3:.6g} mm leaves no room for the carrier plate "
+            f"inside a ring of {2e3 * pack.ring_radius:.6g} mm; raise ring.outer_diameter to "
+            f"{2e3 * (pack.ring_radius + 3.0 * unit):.4g} mm, or lower circle_radius."
+        )
+    bearing_bottom = pack.top + clamp
+    bearing_top = bearing_bottom + output.bearing.width
+    nut_top = bearing_top + max(3.0 * unit, 0.05 * output.bearing.bore_diameter)
+    plate_top = max(
+        nut_top + unit,
+        bottom + register + pin.thread_length + 0.5 * unit,
+        bottom + support.bearing.width + 1.5 * unit,
+    )
+    room = circle - 0.5 * diameter - 0.5 * support.bearing.outer_diameter
+    bolt = thread_size(min(0.55 * room, 4.0 * unit))
+    return CarrierLayout(
+        pin=pin,
+        pin_count=pins.count,
+        pin_circle_radius=circle,
+        clocking=pins.hole_clocking,
+        shoulder_bottom=shoulder_bottom,
+        shoulder_top=bottom + register,
+        cap=both,
+        cap_bottom=cap_bottom,
+        cap_inner=max(circle - around - wall, 0.5 * support.bearing.bore_diameter + 0.8 * unit),
+        cap_outer=min(circle + around + wall, most_outer),
+        counterbore_radius=counterbore,
+        lowest=lowest,
+        output=output,
+        shoulder_radius=shoulder,
+        plate_bottom=bottom,
+        bearing_bottom=bearing_bottom,
+        bearing_top=bearing_top,
+        nut_top=nut_top,
+        plate_top=plate_top,
+        nut_radius=0.5 * output.bearing.bore_diameter - 0.25 * unit,
+        bolt_thread=bolt if bolt <= 0.7 * room else 0.0,
+        bolt_circle_radius=0.5 * support.bearing.outer_diameter + 0.5 * room,
+    )
+
+
+def _seat_depths(pin: OutputPin, span: float, both: bool, unit: float) -> tuple[float, float]:
+    """Depth of the pin's seat in the plate, and length of shoulder below the pack, m.
+
+    Screws come in steps of length; what a step is too long is shared between both seats.
+    """
+    diameter = pin.nominal_diameter
+    if pin.screw is None:
+        web = max(2.5 * unit, 0.75 * diameter) if both else 0.0
+        return pin.shoulder_length(span + web + 1.5 * diameter) - span - web, web
+    least_register = max(unit, 0.25 * diameter)
+    least_web = max(1.5 * unit, 0.5 * diameter) if both else 0.0
+    spare = pin.shoulder_length(span + least_register + least_web) - span
+    if both:
+        register = max(least_register, min(0.5 * spare, spare - least_web))
+    else:
+        register = min(spare, 1.5 * diameter)
+    return register, spare - register
+
+
+def _housing(
+    design: Design,
+    pack: PackLayout,
+    carrier: CarrierLayout,
+    support: ChosenBearing,
+    unit: float,
+) -> tuple[HousingLayout, float]:
+    """Housing, and the height of the lower support bearing's upper face."""
+    register, seated = _register(design, pack, unit)
+    thread = thread_size(3.0 * unit)
+    lip = max(2.0 * unit, 0.3 * thread)
+    hub = 0.5 * carrier.output.bearing.outer_diameter + 2.5 * unit
+    head = cap_screw(thread, 0.0).head_diameter
+    bolt_circle = max(
+        register + 0.5 * thread + unit,
+        hub + 0.5 * head + 0.4 * unit,
+        pack.ring_radius + 0.5 * thread + unit,
+    )
+    cover_flange_top = carrier.bearing_bottom + max(
+        3.0 * unit, min(thread, carrier.output.bearing.width)
+    )
+    grip = cover_flange_top - pack.top
+    screw = cap_screw(thread, grip + 1.3 * thread)
+    flange_bottom = pack.top - max(screw.length - grip, 1.3 * thread) - 0.5 * unit
+
+    pin_heads = carrier.pin_circle_radius - 0.5 * max(
+        carrier.pin.head_diameter, carrier.pin.nominal_diameter
+    )
+    inside = carrier.cap_inner if carrier.cap else pin_heads
+    boss = 0.5 * support.bearing.outer_diameter + max(1.2 * unit, 0.3 * support.section)
+    nested = inside >= boss + 0.5 * unit
+    floor_top = carrier.lowest - 0.8 * unit
+    seat_top = -pack.gap if nested else floor_top
+    bottom = min(floor_top - 2.5 * unit, seat_top - support.bearing.width - unit)
+    layout = HousingLayout(
+        register_radius=register,
+        seated_motor=seated,
+        flange_radius=bolt_circle + 0.5 * head + unit,
+        flange_bottom=max(flange_bottom, bottom),
+        bolt_circle_radius=bolt_circle,
+        screw=screw,
+        screw_count=6 if design.reducer.ring.outer_diameter < 50e-3 else 8,
+        clamp_relief=max(pack.gap, 0.3 * unit),
+        clamp_inner=min(carrier.output.lip_radius, _most_clamp_radius(pack)),
+        cover_flange_top=cover_flange_top,
+        cover_hub_radius=hub,
+        cover_top=carrier.bearing_top + lip,
+        boss_radius=boss,
+        floor_top=floor_top,
+        bottom=bottom,
+    )
+    return layout, seat_top
+
+
+def _register(design: Design, pack: PackLayout, unit: float) -> tuple[float, bool]:
+    """Outside radius of the tube, and whether it is the stator bore of the design's motor."""
+    own = pack.ring_radius + 2.0 * unit
+    bore = find_motor(design.motor.name).bore_diameter
+    if bore is None:
+        return own, False
+    wall = 0.5 * bore - pack.ring_radius
+    if unit <= wall <= 5.0 * unit:
+        return 0.5 * bore, True
+    return own, False
+
+
+def _shaft(
+    pack: PackLayout,
+    support: ChosenBearing,
+    core: float,
+    housing: HousingLayout,
+    seat_top: float,
+) -> ShaftLayout:
+    journal = support.bearing.bore_diameter
+    cam_bore = 0.5 * pack.cam.bearing.bore_diameter
+    # The collar touches inner rings only: e to the far side of the bearing's own centre.
+    web = pack.cam.shoulder_radius - pack.eccentricity
+    # Never tangent to a lobe from inside or outside: kernels fuse tangent cylinders badly.
+    if abs(abs(web - cam_bore) - pack.eccentricity) < 0.02e-3:
+        web -= 0.05e-3
+    upper = pack.top + pack.gap
+    hole = 0.5 * journal
+    return ShaftLayout(
+        support=support,
+        shoulder_radius=core,
+        web_radius=max(web, core + 0.05e-3),
+        bore_radius=0.5 * hole if hole >= 1.5e-3 else 0.0,
+        lower_seat_top=seat_top,
+        upper_seat_bottom=upper,
+        bottom=housing.bottom - 1.2 * journal,
+        top=upper + support.bearing.width,
+    )

@@ -1,0 +1,304 @@
+"""Bought parts that the layout chooses from the catalogue: bearings beside the cam, screws, pins.
+
+Each chooser takes the room there is and returns the catalogue's best answer; where the catalogue
+has none it returns a part to be made or ordered, and says so in its designation, so that a
+machine far from the catalogue's sizes still gets solids.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from cqdd_design.catalog.bearings import Bearing, bearings
+from cqdd_design.catalog.fits import fit_limits
+from cqdd_design.catalog.screws import ShoulderScrew, find_shoulder_screw
+from cqdd_design.errors import CatalogError
+
+RING_SHARE = 0.3
+"""Height of a bearing's ring as a share of its radial section, for shoulders and envelopes."""
+
+BUSH_MATERIAL = "Bronze CuSn12"
+BEARING_MATERIAL = "AISI 52100 / 100Cr6 hardened"
+
+# Head diameter, head height and socket of hexagon socket head cap screws, mm (ISO 4762:2004,
+# table 1: dk max for plain heads, k max, s nominal).
+_CAP_SCREWS = {
+    1.6: (3.0, 1.6, 1.5),
+    2.0: (3.8, 2.0, 1.5),
+    2.5: (4.5, 2.5, 2.0),
+    3.0: (5.5, 3.0, 2.5),
+    4.0: (7.0, 4.0, 3.0),
+    5.0: (8.5, 5.0, 4.0),
+    6.0: (10.0, 6.0, 5.0),
+    8.0: (13.0, 8.0, 6.0),
+    10.0: (16.0, 10.0, 8.0),
+    12.0: (18.0, 12.0, 10.0),
+    16.0: (24.0, 16.0, 14.0),
+}
+_CAP_SCREW_LENGTHS = (
+    *(2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70, 80, 90, 100),
+    *range(110, 301, 10),
+)
+_SHOULDER_LENGTHS = (4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 40, 50, 60, 70, 80, 90, 100, 120)
+
+# ASME B18.3 and ISO 7379 shoulder screws share these proportions to the shoulder; used where a
+# catalogue row leaves a dimension out.
+_HEAD_HEIGHT, _HEAD_DIAMETER, _THREAD_LENGTH, _SOCKET = 0.75, 1.5, 1.5, 0.5
+
+
+@dataclass(frozen=True)
+class ChosenBearing:
+    """A bearing of the layout.
+
+    Attributes
+    ----------
+    bearing : Bearing
+        A catalogue row, or one of the same form for a part to make or order.
+    source : {"catalogue", "to order", "bush"}
+        Where it comes from.
+    """
+
+    bearing: Bearing
+    source: str = "catalogue"
+
+    @property
+    def section(self) -> float:
+        """Radial section (D - d)/2, m."""
+        return 0.5 * (self.bearing.outer_diameter - self.bearing.bore_diameter)
+
+    @property
+    def shoulder_radius(self) -> float:
+        """Radius to which a shoulder on the shaft may reach on the inner ring, m."""
+        return 0.5 * self.bearing.bore_diameter + RING_SHARE * self.section
+
+    @property
+    def lip_radius(self) -> float:
+        """Radius to which a lip in the housing may reach down on the outer ring, m."""
+        return 0.5 * self.bearing.outer_diameter - RING_SHARE * self.section
+
+    @property
+    def material(self) -> str:
+        """Catalogue name of what it is mostly made of."""
+        return BUSH_MATERIAL if self.source == "bush" else BEARING_MATERIAL
+
+
+def support_bearing(
+    most_bore: float, least_step: float, most_outer_diameter: float, nested_diameter: float
+) -> ChosenBearing:
+    """The bearing that carries one end of the eccentric shaft.
+
+    Opposed discs load the two support bearings with a couple, so rating counts: of the ball
+    bearings with the largest bore that fits, the one of highest static rating.
+
+    Parameters
+    ----------
+    most_bore : float
+        Diameter of the shaft's shoulder, m.
+    least_step : float
+        By how much the journal must be below the shoulder, on the diameter, m.
+    most_outer_diameter : float
+        Room in the carrier plate, m.
+    nested_diameter : float
+        Room inside the carrier cap, m: a bearing within it shortens the machine and is preferred.
+
+    Returns
+    -------
+    ChosenBearing
+        A bronze bush where no bearing fits.
+    """
+    fitting = [
+        row
+        for row in bearings().values()
+        if row.kind == "ball"
+        and row.static_rating is not None
+        and row.bore_diameter <= most_bore - least_step + 1e-9
+        and row.outer_diameter <= most_outer_diameter + 1e-9
+        and row.width <= 0.9 * row.bore_diameter
+    ]
+    fitting = [r for r in fitting if r.outer_diameter <= nested_diameter + 1e-9] or fitting
+    if fitting:
+        best = min(
+            fitting,
+            key=lambda row: (-row.bore_diameter, -(row.static_rating or 0.0), row.designation),
+        )
+        return ChosenBearing(best)
+    bore = _rounded_down(most_bore - least_step, 0.1e-3)
+    outer = min(1.3 * bore + 1e-3, most_outer_diameter)
+    width = 0.6 * bore
+    name = f"bush {bore * 1e3:.3g} x {outer * 1e3:.3g} x {width * 1e3:.3g} mm"
+    made = Bearing(name, "ball", bore, outer, width, None, None, None, "proportions of the layout")
+    return ChosenBearing(made, "bush")
+
+
+def output_bearing(
+    least_bore: float, most_shoulder_radius: float, most_outer_diameter: float, unit: float
+) -> ChosenBearing:
+    """The bearing between carrier and housing.
+
+    Parameters
+    ----------
+    least_bore : float
+        What the pins in the carrier plate need, m.
+    most_shoulder_radius : float
+        Room for the shoulder on the carrier plate, m.
+    most_outer_diameter : float
+        Room in the housing, m.
+    unit : float
+        A millimetre at the scale of this machine, m.
+
+    Returns
+    -------
+    ChosenBearing
+        A crossed roller bearing where the catalogue has one that fits, because one of them takes
+        the tilting moment of the output; else the ball bearing of least volume; else a
+        thin-section bearing to order.
+    """
+    fitting = [
+        chosen
+        for chosen in map(ChosenBearing, bearings().values())
+        if chosen.bearing.kind in ("ball", "crossed roller")
+        and chosen.bearing.bore_diameter >= least_bore - 1e-9
+        and chosen.bearing.outer_diameter <= most_outer_diameter + 1e-9
+        and chosen.shoulder_radius <= most_shoulder_radius + 1e-9
+    ]
+    if fitting:
+        return min(fitting, key=lambda c: (c.bearing.kind == "ball", *_bulk(c.bearing)))
+    bore = _rounded_up(least_bore, 0.5e-3 if least_bore < 0.05 else 1e-3)
+    section = max(2.5 * unit, 0.055 * bore)
+    outer, width = bore + 2.0 * section, 1.1 * section
+    name = f"thin section {bore * 1e3:.4g} x {outer * 1e3:.4g} x {width * 1e3:.3g} mm, to order"
+    made = Bearing(name, "ball", bore, outer, width, None, None, None, "proportions of the layout")
+    return ChosenBearing(made, "to order")
+
+
+def _bulk(row: Bearing) -> tuple[float, str]:
+    area = row.outer_diameter**2 - row.bore_diameter**2
+    return (round(area * row.width, 12), row.designation)
+
+
+def _rounded_down(value: float, step: float) -> float:
+    return round(math.floor(round(value / step, 6)) * step, 9)
+
+
+def _rounded_up(value: float, step: float) -> float:
+    return round(math.ceil(round(value / step, 6)) * step, 9)
+
+
+@dataclass(frozen=True)
+class CapScrew:
+    """A hexagon socket head cap screw (ISO 4762), m.
+
+    Attributes
+    ----------
+    thread, length : float
+        Nominal diameter, and length under the head.
+    head_diameter, head_height, socket : float
+        Of its head; the socket across flats.
+    """
+
+    thread: float
+    length: float
+    head_diameter: float
+    head_height: float
+    socket: float
+
+    @property
+    def designation(self) -> str:
+        """Such as ``ISO 4762 M3 x 12``."""
+        return f"ISO 4762 M{self.thread * 1e3:g} x {self.length * 1e3:g}"
+
+
+def thread_size(wanted: float) -> float:
+    """The metric thread (m) nearest to `wanted` (m), from M1.6 to M16."""
+    return min(_CAP_SCREWS, key=lambda size: abs(size - wanted * 1e3)) * 1e-3
+
+
+def cap_screw(thread: float, least_length: float) -> CapScrew:
+    """The cap screw of a thread from `thread_size` at least `least_length` (m) long."""
+    head, height, socket = _CAP_SCREWS[round(thread * 1e3, 3)]
+    longest = float(_CAP_SCREW_LENGTHS[-1])
+    length = next(
+        (float(mm) for mm in _CAP_SCREW_LENGTHS if mm * 1e-3 >= least_length - 1e-9), longest
+    )
+    return CapScrew(thread, length * 1e-3, head * 1e-3, height * 1e-3, socket * 1e-3)
+
+
+@dataclass(frozen=True)
+class OutputPin:
+    """The pin between carrier and discs, m.
+
+    Attributes
+    ----------
+    nominal_diameter, mean_diameter : float
+        Of the ground part: the nominal size, and the mean of its limits.
+    screw : ShoulderScrew or None
+        The catalogue row; None for a ground dowel.
+    head_diameter, head_height, socket, thread_diameter, thread_length : float
+        Of a shoulder screw; 0 for a dowel.
+    """
+
+    nominal_diameter: float
+    mean_diameter: float
+    screw: ShoulderScrew | None
+    head_diameter: float = 0.0
+    head_height: float = 0.0
+    socket: float = 0.0
+    thread_diameter: float = 0.0
+    thread_length: float = 0.0
+
+    def as_dowel(self) -> OutputPin:
+        """The same pin without head and thread."""
+        return OutputPin(self.nominal_diameter, self.mean_diameter, None)
+
+    def shoulder_length(self, least: float) -> float:
+        """Shortest standard shoulder at least `least` (m) long.
+
+        Where there is none, a special one to the next half millimetre.
+        """
+        special = _rounded_up(least, 0.5e-3)
+        if self.screw is None or "-" not in self.screw.standard_lengths:
+            return special
+        shortest, longest = (float(mm) for mm in self.screw.standard_lengths.split("-"))
+        for mm in _SHOULDER_LENGTHS:
+            if shortest <= mm <= longest and mm * 1e-3 >= least - 1e-9:
+                return mm * 1e-3
+        return special
+
+
+def output_pin(diameter: float) -> OutputPin:
+    """The shoulder screw of a nominal diameter (m), or a ground f9 dowel of that size."""
+    try:
+        screw = find_shoulder_screw(diameter)
+    except CatalogError:
+        zone = fit_limits("f9", diameter)
+        return OutputPin(diameter, diameter + 0.5 * (zone.lower + zone.upper), None)
+    return OutputPin(
+        nominal_diameter=diameter,
+        mean_diameter=screw.mean_diameter,
+        screw=screw,
+        head_diameter=screw.head_diameter or _HEAD_DIAMETER * diameter,
+        head_height=screw.head_height or _HEAD_HEIGHT * diameter,
+        socket=screw.socket_size or _SOCKET * diameter,
+        thread_diameter=thread_major_diameter(screw.thread),
+        thread_length=screw.thread_length or _THREAD_LENGTH * diameter,
+    )
+
+
+def thread_major_diameter(thread: str) -> float:
+    """Major diameter (m) of a thread written ``M3``, ``10-24`` or ``5/16-18``.
+
+    Numbered sizes are 0.060 in + 0.013 in for each number (ASME B1.1).
+
+    Examples
+    --------
+    >>> print(round(thread_major_diameter("10-24") * 1e3, 3), thread_major_diameter("M3"))
+    4.826 0.003
+    """
+    if thread.startswith("M"):
+        return float(thread[1:]) * 1e-3
+    size = thread.split("-")[0]
+    if "/" in size:
+        top, bottom = size.split("/")
+        return 25.4e-3 * float(top) / float(bottom)
+    return 25.4e-3 * (0.060 + 0.013 * float(size))

@@ -1,0 +1,291 @@
+"""Every wrong thing a person can type: one clear sentence, and the right exit code."""
+
+import json
+import os
+import re
+
+import pytest
+
+MINIMAL = """\
+[reducer]
+ratio = 10
+ring_pitch_radius = "32 mm"
+eccentricity = "1.6 mm"
+ring_pin_diameter = "7 mm"
+"""
+
+
+def with_line(old: str, new: str) -> str:
+    assert old in MINIMAL
+    return MINIMAL.replace(old, new)
+
+
+@pytest.fixture
+def complaint(cqdd, tmp_path):
+    """Write a design file, check it, and return what is said about it."""
+
+    def run(content: str | bytes, code: int = 3) -> str:
+        path = tmp_path / "wrong.toml"
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        done = cqdd("check", path)
+        assert done.code == code, done.err
+        assert done.out == ""
+        assert done.err.startswith("cqdd-design: ")
+        return done.err
+
+    return run
+
+
+def test_the_minimal_design_is_a_design(cqdd, tmp_path):
+    (tmp_path / "fine.toml").write_text(MINIMAL)
+    assert cqdd("check", "fine.toml").code in {0, 4}
+
+
+# Files ------------------------------------------------------------------------------------------
+
+
+def test_missing_file_suggests_its_neighbour(cqdd, tmp_path):
+    (tmp_path / "knee-joint.toml").write_text(MINIMAL)
+    done = cqdd("check", "kneejoint.toml")
+    assert done.code == 2
+    assert "there is no file kneejoint.toml" in done.err
+    assert "did you mean knee-joint.toml?" in done.err
+
+
+def test_folder_instead_of_a_file(cqdd, tmp_path):
+    done = cqdd("check", tmp_path)
+    assert done.code == 2
+    assert "is a folder" in done.err
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may read everything")
+def test_unreadable_file(cqdd, tmp_path):
+    path = tmp_path / "secret.toml"
+    path.write_text(MINIMAL)
+    path.chmod(0)
+    done = cqdd("check", path)
+    assert done.code == 2
+    assert "cannot be read: Permission denied" in done.err
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/mem"), reason="needs Linux")
+def test_file_that_refuses_to_be_read(cqdd):
+    done = cqdd("check", "/proc/self/mem")
+    assert done.code == 2
+    assert "cannot be read" in done.err
+
+
+def test_binary_file(complaint):
+    assert "is not a text file" in complaint(b"\x7fELF\x02\x01\x01\x00\xff\xfe" * 20)
+
+
+def test_text_with_null_bytes(complaint):
+    assert "is not valid TOML" in complaint(b"name = \x00\x00\x00")
+
+
+@pytest.mark.parametrize("content", ["", "\n \n\t\n"])
+def test_empty_file(complaint, content):
+    assert "is empty; `cqdd-design size --ratio 10" in complaint(content)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.6, 0.95])
+def test_half_written_file(complaint, share):
+    text = complaint(MINIMAL[: int(share * len(MINIMAL))])
+    assert "not valid TOML" in text or "is missing" in text
+
+
+def test_huge_file(complaint):
+    assert "a design file is a few kilobytes" in complaint("# padding\n" * 200_000)
+
+
+def test_deeply_nested_file(complaint):
+    assert "TOML" in complaint("a = " + "[" * 20_000)
+
+
+def test_unknown_schema_version(complaint):
+    assert "reads schema_version = 1" in complaint("schema_version = 7\n" + MINIMAL)
+
+
+# Keys and values --------------------------------------------------------------------------------
+
+
+def test_unknown_key_suggests_the_nearest(complaint):
+    text = complaint(with_line("eccentricity", "eccentricty"))
+    assert "reducer.eccentricty" in text
+    assert "did you mean 'eccentricity'?" in text
+
+
+def test_unknown_table(complaint):
+    assert "did you mean 'reducer'" in complaint(MINIMAL.replace("[reducer]", "[reducers]"))
+
+
+def test_missing_key(complaint):
+    text = complaint(with_line('eccentricity = "1.6 mm"\n', ""))
+    assert "reducer.eccentricity is missing" in text
+
+
+def test_bare_number_shows_the_right_form(complaint):
+    text = complaint(with_line('"1.6 mm"', "1.6"))
+    assert 'write it like "1.6 mm"' in text
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ('peak_torque = "120 J"', "not a unit of torque"),
+        ('peak_torque = "120 kg"', "not a unit of torque"),
+        ('input_speed = "20 Hz"', "not a unit of speed"),
+        ('input_speed = "20 m/s"', "not a unit of speed"),
+        ('outer_diameter = "72 mn"', "is not a unit"),
+        ('peak_torque = "plenty"', "has no number"),
+        ('peak_torque = "nan N*m"', "has no number"),
+        ('peak_torque = "1e999 N*m"', "not a finite torque"),
+        ('peak_torque = "-5 N*m"', "the nearest allowed is 0.001 N*m"),
+        ('motor = "CubeMars RO10 KV55"', "CubeMars RO100 KV55"),
+        ('disc_material = "AISI 4140 QT 540"', "AISI 4140 Q&T 540C"),
+        ("disc_count = 4", "the nearest allowed is 3"),
+        ("disc_count = 2.5", "is not a whole number"),
+        ("disc_count = true", "is not a whole number"),
+    ],
+)
+def test_wrong_requirement(complaint, line, said):
+    text = complaint(f"[requirements]\n{line}\n{MINIMAL}")
+    assert said in text
+    assert f"requirements.{line.split()[0]}" in text
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [("3", "nearest allowed is 4"), ("120", "nearest allowed is 119"), ("nan", "whole number")],
+)
+def test_wrong_ratio_in_a_file(complaint, value, said):
+    text = complaint(with_line("ratio = 10", f"ratio = {value}"))
+    assert said in text
+    assert text.count("ratio = ") == 1, "one problem is told once"
+
+
+def test_all_problems_are_told_at_once(complaint):
+    text = complaint(
+        MINIMAL.replace('"1.6 mm"', "1.6").replace('"7 mm"', '"7 kg"') + "lobes = 10\n"
+    )
+    assert text.count("\n  - ") == 3
+
+
+# Shapes that cannot exist -----------------------------------------------------------------------
+
+
+def test_eccentricity_that_undercuts(complaint):
+    text = complaint(MINIMAL.replace('"1.6 mm"', '"2.4 mm"').replace('"7 mm"', '"16 mm"'))
+    assert "undercut" in text
+    assert re.search(r"\d mm", text)
+
+
+def test_eccentricity_past_the_cusp(complaint):
+    assert "eccentricity" in complaint(with_line('"1.6 mm"', '"3.2 mm"'))
+
+
+def test_holes_that_break_out(complaint):
+    text = complaint(MINIMAL + '[reducer.output_pins]\ncircle_radius = "27 mm"\n')
+    assert "hole" in text
+
+
+def test_holes_that_overlap(complaint):
+    text = complaint(
+        MINIMAL + '[reducer.output_pins]\ncount = 12\ndiameter = "9 mm"\ncircle_radius = "18 mm"\n'
+    )
+    assert "hole" in text
+
+
+def test_ring_teeth_that_overlap(complaint):
+    complaint(MINIMAL.replace('"7 mm"', '"19 mm"').replace('"1.6 mm"', '"0.2 mm"'))
+
+
+# Options ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "ratio", ["3", "10.5", "-10", "0", "1000", "nan", "abc", "inf", "-inf", ""]
+)
+def test_wrong_ratio(cqdd, tmp_path, ratio):
+    done = cqdd("size", "--ratio", ratio)
+    assert done.code == 2
+    assert len(done.err.strip().splitlines()) == 1
+    assert f"--ratio {ratio}" in done.err
+    assert "from 4 to 119" in done.err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("ratio", "nearest"),
+    [("3", "4"), ("0", "4"), ("1000", "119"), ("-10", "10"), ("10.5", "10 and 11")],
+)
+def test_wrong_ratio_names_the_nearest(cqdd, ratio, nearest):
+    assert re.search(rf"nearest (is|are) {nearest}\b", cqdd("size", "--ratio", ratio).err)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("analyse", "--torque", "40"), 'write it like "40 N*m"'),
+        (("analyse", "--torque", "40 J"), "not a unit of torque"),
+        (("analyse", "--torque", "0 N*m"), "not above zero"),
+        (("analyse", "--speed", "20 Hz"), "write rpm or rad/s"),
+        (("analyse", "--angles", "2"), "--angles"),
+        (("compare", "--teeth", "12,36,22"), "4 whole numbers"),
+        (("compare", "--teeth", "12,36,22,x"), "4 whole numbers"),
+        (("compare", "--module", "1"), 'write it like "1 mm"'),
+        (("compare", "--material", "AISI 4140 QT"), "AISI 4140 Q&T"),
+        (("export", "--to", "dfx"), "did you mean 'dxf'"),
+        (("export", "--to", ","), "no kind of file is named"),
+        (("inertia", "--speed", "fast"), "has no number"),
+        (("check", "--torqe", "1 N*m"), "No such option"),
+    ],
+)
+def test_wrong_option(cqdd, paper_design_file, arguments, said):
+    command, *options = arguments
+    done = cqdd(command, paper_design_file, *options)
+    assert done.code == 2
+    assert said in done.err
+    assert done.out == ""
+
+
+def test_wrong_quantity_of_size(cqdd):
+    done = cqdd("size", "--ratio", "10", "--peak-torque", "90")
+    assert done.code == 2
+    assert "--peak-torque" in done.err
+    assert '"90 N*m"' in done.err
+
+
+def test_command_that_does_not_exist(cqdd):
+    done = cqdd("sise", "--ratio", "10")
+    assert done.code == 2
+    assert "size" in done.err
+
+
+def test_missing_argument(cqdd):
+    done = cqdd("check")
+    assert done.code == 2
+    assert "DESIGN" in done.err
+
+
+def test_errors_are_documents_too(cqdd):
+    done = cqdd("check", "nothing.toml", "--json")
+    assert done.code == 2
+    error = done.document["error"]
+    assert error["code"] == 2
+    assert error["kind"] == "UsageError"
+    assert error["message"] in done.err
+    assert done.document["command"] == "check"
+    assert done.document["results"] is None
+
+
+def test_usage_errors_are_documents_too(cqdd):
+    done = cqdd("check", "--nonsense", "--json")
+    assert done.code == 2
+    assert json.loads(done.out)["error"]["code"] == 2
+
+
+def test_debug_shows_the_traceback(cqdd):
+    done = cqdd("check", "nothing.toml", "--debug")
+    assert done.code == 2
+    assert "Traceback" in done.err

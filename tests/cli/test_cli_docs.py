@@ -1,0 +1,133 @@
+"""README and docs are true: their commands run, their set-up lines are what CI runs."""
+
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
+
+
+def blocks(page: Path, language: str) -> list[str]:
+    text = page.read_text(encoding="utf-8")
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, flags=re.MULTILINE | re.DOTALL)
+
+
+def console_commands(page: Path) -> list[str]:
+    lines = "\n".join(blocks(page, "console")).splitlines()
+    return [line[2:] for line in lines if line.startswith("$ ")]
+
+
+@pytest.mark.parametrize(
+    "page", [p for p in PAGES if console_commands(p)], ids=lambda page: page.name
+)
+def test_every_command_shown_runs(page, cqdd, tmp_path):
+    """In the order of the page, from a folder that holds the repository's designs."""
+    shutil.copytree(REPOSITORY / "designs", tmp_path / "designs")
+    for command in console_commands(page):
+        program, *arguments = shlex.split(command, comments=True)
+        assert program == "cqdd-design", command
+        done = cqdd(*arguments, timeout=300)
+        wanted = 4 if arguments[0] == "check" and "cqdd-10.toml" in command else 0
+        assert done.code == wanted, f"{command}\n{done.err}"
+
+
+def test_pages_show_commands_only_in_console_blocks():
+    """A command in another kind of block would not be run by the test above."""
+    allowed = set(blocks(REPOSITORY / "README.md", "sh"))
+    for page in PAGES:
+        for language in ("sh", "bash", "shell"):
+            for block in blocks(page, language):
+                assert "cqdd-design" not in block or block in allowed, (page, block)
+
+
+def test_readme_sets_up_in_two_commands():
+    apt, install, test = blocks(REPOSITORY / "README.md", "sh")
+    assert re.fullmatch(r"apt-get install -y [\w ]+\n", apt)
+    for command in (install, test):
+        assert command.count("\n") == 1
+        assert command.startswith("python3 -m venv .venv && .venv/bin/pip install -c constraints")
+    assert "size --ratio 10 --report --export dxf,step" in install
+    assert "pytest" in test
+
+
+def test_ci_runs_the_readmes_own_commands():
+    script = (REPOSITORY / ".ci" / "run").read_text()
+    assert "python3 -m venv" in script
+    pattern = re.search(r"tests=\$\(grep -m1 -E '([^']*)' README.md\)", script)
+    assert pattern is not None
+    readme = (REPOSITORY / "README.md").read_text().splitlines()
+    matching = [line for line in readme if re.search(pattern[1], line)]
+    assert matching == [blocks(REPOSITORY / "README.md", "sh")[2].strip()]
+
+
+def test_generated_pages_are_up_to_date():
+    done = subprocess.run(
+        [sys.executable, REPOSITORY / "docs" / "build.py", "--check"],
+        capture_output=True,
+        text=True,
+        cwd=REPOSITORY,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_exit_codes_of_the_docs_are_those_of_the_errors():
+    from cqdd_design import errors
+
+    page = (REPOSITORY / "docs" / "cli.md").read_text()
+    told = {int(code) for code in re.findall(r"^\| (\d+) \|", page, flags=re.MULTILINE)}
+    family = [errors.CqddError]
+    for kind in family:
+        family += kind.__subclasses__()
+    assert told == {0, 130} | {kind.exit_code for kind in family}
+
+
+def test_constraints_pin_every_dependency():
+    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text())["project"]
+    pins = dict(
+        line.split("==")
+        for line in (REPOSITORY / "constraints.txt").read_text().splitlines()
+        if line and not line.startswith("#")
+    )
+    pinned = {re.sub(r"[-_.]+", "-", name).lower() for name in pins}
+    needed = [*project["dependencies"], *project["optional-dependencies"]["dev"]]
+    for requirement in needed:
+        assert re.match(r"[\w-]+", requirement)[0].lower() in pinned, requirement
+
+
+def test_links_between_pages_lead_somewhere():
+    for page in PAGES:
+        for target in re.findall(r"\]\((?!https?://)([^)#]+)", page.read_text(encoding="utf-8")):
+            assert (page.parent / target).exists(), f"{page.name}: {target}"
+
+
+@pytest.mark.parametrize("page", [p for p in PAGES if blocks(p, "python")], ids=lambda p: p.name)
+def test_python_shown_runs(page):
+    for block in blocks(page, "python"):
+        done = subprocess.run(
+            [sys.executable, "-c", block],
+            cwd=REPOSITORY,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        assert done.stdout
+
+
+def test_requirements_shown_are_requirements(tmp_path):
+    from cqdd_design.design import load_requirements
+
+    shown = [b for p in PAGES for b in blocks(p, "toml") if b.startswith("[requirements]")]
+    assert shown
+    for number, block in enumerate(shown):
+        path = tmp_path / f"{number}.toml"
+        path.write_text(block)
+        load_requirements(path)

@@ -1,0 +1,137 @@
+"""The JSON documents: one envelope for every command, finite numbers, reproducible."""
+
+import json
+import math
+
+import pytest
+
+KEYS = [
+    "schema_version",
+    "command",
+    "design",
+    "assumed",
+    "results",
+    "checks",
+    "warnings",
+    "files",
+    "provenance",
+]
+CHECK_KEYS = {"id", "title", "value", "limit", "unit", "margin", "status", "source"}
+
+
+def numbers(value):
+    if isinstance(value, dict):
+        for item in value.values():
+            yield from numbers(item)
+    elif isinstance(value, list):
+        for item in value:
+            yield from numbers(item)
+    elif isinstance(value, float):
+        yield value
+
+
+ON_DESIGN = [
+    ("check",),
+    ("analyse", "--torque", "40 N*m", "--angles", "24"),
+    ("compare",),
+    ("inertia",),
+    ("export", "--to", "dxf"),
+    ("report",),
+]
+OTHERS = [("catalog",), ("catalog", "6902"), ("schema",), ("explain",), ("explain", "BEARING-LIFE")]
+
+
+@pytest.mark.parametrize("arguments", ON_DESIGN + OTHERS, ids=" ".join)
+def test_one_document_with_the_envelope(cqdd, paper_design_file, arguments):
+    command, *options = arguments
+    on_design = arguments in ON_DESIGN
+    done = cqdd(command, *([paper_design_file] if on_design else []), *options, "--json")
+    assert done.code == (4 if command == "check" else 0), done.err
+    document = done.document
+    assert list(document) == KEYS
+    assert document["schema_version"] == 1
+    assert document["command"] == command
+    assert all(math.isfinite(value) for value in numbers(document))
+    assert document["provenance"]["version"]
+    if on_design:
+        assert document["design"]["reducer"]["eccentricity"] == "1.6 mm"
+        assert "reducer.ring.relief_clearance" in document["assumed"]
+        assert len(document["provenance"]["design_sha256"]) == 64
+    else:
+        assert document["design"] is None
+    for check in document["checks"]:
+        assert set(check) >= CHECK_KEYS
+        assert check["status"] in {"pass", "warn", "fail"}
+    for file in document["files"]:
+        assert set(file) == {"path", "kind", "bytes", "sha256"}
+
+
+def test_the_time_is_that_of_the_environment(cqdd, paper_design_file):
+    fixed = {"SOURCE_DATE_EPOCH": "1700000000"}
+    first = cqdd("check", paper_design_file, "--json", environment=fixed)
+    second = cqdd("check", paper_design_file, "--json", environment=fixed)
+    assert first.document["provenance"]["time"] == "2023-11-14T22:13:20Z"
+    assert first.out == second.out
+
+
+def test_quiet_prints_nothing(cqdd, paper_design_file):
+    done = cqdd("export", paper_design_file, "--to", "dxf", "--quiet")
+    assert (done.code, done.out, done.err) == (0, "", "")
+
+
+def test_quiet_still_tells_errors(cqdd):
+    done = cqdd("check", "nothing.toml", "--quiet")
+    assert done.code == 2
+    assert "there is no file" in done.err
+
+
+def test_narration_is_on_stderr(cqdd, paper_design_file):
+    done = cqdd("export", paper_design_file, "--to", "dxf", "--json")
+    assert "writing dxf" in done.err
+    assert len(done.document["files"]) == 2
+
+
+def test_help_and_version(cqdd):
+    shown = cqdd("--help")
+    assert shown.code == 0
+    assert cqdd().out == shown.out
+    for command in ("size", "check", "analyse", "compare", "inertia", "export", "report"):
+        assert f"  {command} " in shown.out
+    assert cqdd("--version").out.startswith("cqdd-design 0.")
+
+
+def test_check_says_what_would_make_it_pass(cqdd, paper_design_file):
+    done = cqdd("check", paper_design_file)
+    assert done.code == 4
+    assert "CONTACT-RING-PEAK" in done.out
+    assert "raise disc_thickness" in done.out
+    assert "checks pass" in done.out.splitlines()[-1]
+
+
+def test_analyse_torque_moves_loads_and_not_checks(cqdd, paper_design_file):
+    peak = cqdd("analyse", paper_design_file, "--json").document
+    less = cqdd("analyse", paper_design_file, "--torque", "60 N*m", "--json").document
+    key = "ring_force_max_N"
+    assert less["results"]["rigid"][key] == pytest.approx(0.5 * peak["results"]["rigid"][key])
+    assert less["checks"] == peak["checks"]
+
+
+def test_analyse_speed_moves_the_life(cqdd, paper_design_file):
+    slow = cqdd("analyse", paper_design_file, "--speed", "643 rpm", "--json").document
+    full = cqdd("analyse", paper_design_file, "--json").document
+    hours = [d["results"]["bearings"]["cam"]["L10h"] for d in (slow, full)]
+    assert hours[0] == pytest.approx(2.0 * hours[1])
+
+
+def test_analyse_angles_are_the_points_of_the_curves(cqdd, paper_design_file):
+    done = cqdd("analyse", paper_design_file, "--angles", "24", "--json").document
+    assert len(done["results"]["rigid_series"]["crank_angle_deg"]) == 24
+
+
+def test_numbers_that_do_not_exist_are_null_with_a_warning():
+    from cqdd_design.cli.envelope import json_ready
+
+    told = []
+    assert json_ready({"a": [1.0, math.nan]}, "results", told) == {"a": [1.0, None]}
+    assert told == ["results.a[1] does not exist for this design (it came out as nan)."]
+    assert json.dumps(json_ready({"b": math.inf}, "results", told), allow_nan=False)

@@ -1,0 +1,85 @@
+"""Places that cannot be written: one sentence, exit code 2, nothing half-written."""
+
+import os
+import resource
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+COMMANDS = {
+    "size": lambda design, out: ["size", "--ratio", "10", "--out", out / "sized.toml"],
+    "export": lambda design, out: ["export", design, "--to", "dxf", "--out", out],
+    "report": lambda design, out: ["report", design, "--out", out / "report.html"],
+}
+
+
+def files_below(folder: Path) -> list[str]:
+    return sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_file_stands_where_a_folder_is_needed(cqdd, tmp_path, paper_design_file, command):
+    (tmp_path / "taken").write_text("a file")
+    done = cqdd(*COMMANDS[command](paper_design_file, tmp_path / "taken"))
+    assert done.code == 2
+    assert "cannot write" in done.err
+    assert "choose another" in done.err
+    assert files_below(tmp_path) == ["taken"]
+    assert (tmp_path / "taken").read_text() == "a file"
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="needs Linux")
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_file_system_that_takes_no_files(cqdd, tmp_path, paper_design_file, command):
+    done = cqdd(*COMMANDS[command](paper_design_file, Path("/proc/self")))
+    assert done.code == 2
+    assert "cannot write /proc/self" in done.err
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_read_only_folder(cqdd, tmp_path, paper_design_file, command):
+    locked = tmp_path / "locked"
+    locked.mkdir(mode=0o555)
+    done = cqdd(*COMMANDS[command](paper_design_file, locked))
+    assert done.code == 2
+    assert "the folder is not writable" in done.err
+    assert files_below(tmp_path) == []
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_disk_that_fills_up(tmp_path, paper_design_file, command):
+    """A limit on the size of files stands in for the full disk: the write fails half-way."""
+    arguments = COMMANDS[command](paper_design_file, tmp_path / "out")
+    done = subprocess.run(
+        [sys.executable, "-m", "cqdd_design", *map(str, arguments)],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300)),
+    )
+    assert done.returncode == 2, done.stderr
+    assert "cannot write" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert files_below(tmp_path) == []
+
+
+def test_export_replaces_a_named_folder_only_by_force(cqdd, tmp_path, paper_design_file):
+    arguments = ["export", paper_design_file, "--to", "dxf", "--out", "mine"]
+    assert cqdd(*arguments).code == 0
+    before = {p.name: p.stat().st_mtime_ns for p in (tmp_path / "mine").iterdir()}
+    refused = cqdd(*arguments)
+    assert refused.code == 2
+    assert "--force" in refused.err
+    assert {p.name: p.stat().st_mtime_ns for p in (tmp_path / "mine").iterdir()} == before
+    assert cqdd(*arguments, "--force").code == 0
+
+
+@pytest.mark.parametrize("command", ["export", "report"])
+def test_its_own_default_output_is_replaced(cqdd, paper_design_file, command):
+    options = ["--to", "dxf"] if command == "export" else []
+    assert cqdd(command, paper_design_file, *options).code == 0
+    assert cqdd(command, paper_design_file, *options).code == 0

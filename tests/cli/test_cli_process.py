@@ -1,0 +1,250 @@
+"""How processes end: bugs, missing libraries, Ctrl-C, closed pipes, full disks; their imports."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+HEAVY = ("cadquery", "torch", "dask", "mujoco", "OCP", "vtkmodules", "matplotlib")
+
+
+@pytest.fixture
+def python(tmp_path):
+    """Run a piece of Python in a fresh interpreter."""
+
+    def run(code: str, **options) -> subprocess.CompletedProcess:
+        return subprocess.run(
+            [sys.executable, "-c", code],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+            **options,
+        )
+
+    return run
+
+
+def breaking(exception: str, *arguments: str) -> str:
+    """Code that runs the command line with a library call that raises."""
+    return f"""
+import sys
+import cqdd_design.design.toml as toml
+
+def broken(path):
+    raise {exception}
+
+import cqdd_design.design
+cqdd_design.design.load_design = broken
+sys.argv = ["cqdd-design", *{list(arguments)!r}]
+from cqdd_design.__main__ import main
+sys.exit(main())
+"""
+
+
+def test_a_bug_names_its_log(python, tmp_path):
+    done = python(
+        breaking("ZeroDivisionError('by zero')", "check", "d.toml"),
+        env={**os.environ, "TMPDIR": str(tmp_path)},
+    )
+    assert done.returncode == 1
+    assert "Traceback" not in done.stderr
+    assert "this is a bug in cqdd-design" in done.stderr
+    (log,) = tmp_path.glob("cqdd-design-*.log")
+    assert str(log) in done.stderr
+    assert "ZeroDivisionError: by zero" in log.read_text()
+    assert "['check', 'd.toml']" in log.read_text()
+
+
+def test_a_bug_shows_its_traceback_with_debug(python):
+    done = python(breaking("ZeroDivisionError('by zero')", "check", "d.toml", "--debug"))
+    assert done.returncode == 1
+    assert "Traceback" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("exception", "said"),
+    [
+        (
+            "ImportError('libGL.so.1: cannot open shared object file: No such file or directory')",
+            "apt-get install -y libgl1",
+        ),
+        ("ModuleNotFoundError(\"No module named 'ezdxf'\", name='ezdxf')", "'ezdxf' is missing"),
+    ],
+)
+def test_a_missing_library_says_what_to_install(python, exception, said):
+    done = python(breaking(exception, "check", "d.toml", "--json"))
+    assert done.returncode == 5
+    assert said in done.stderr
+    assert "doctor" in done.stderr
+    assert said in json.loads(done.stdout)["error"]["message"]
+
+
+def test_an_import_error_of_our_own_is_a_bug(python, tmp_path):
+    done = python(
+        breaking("ImportError('cannot import name', name='cqdd_design.design')", "check", "d.toml"),
+        env={**os.environ, "TMPDIR": str(tmp_path)},
+    )
+    assert done.returncode == 1
+
+
+def test_interruption_is_quiet(python):
+    done = python(breaking("KeyboardInterrupt", "check", "d.toml"))
+    assert done.returncode == 130
+    assert done.stderr.strip() == "cqdd-design: interrupted"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_signal_leaves_nothing_half_written(tmp_path, number, code):
+    script = """
+import sys, time, pathlib
+from cqdd_design.files import atomic_path
+import cqdd_design.design
+
+def slow(path):
+    with atomic_path(pathlib.Path("result.txt")) as temporary:
+        temporary.write_text("half")
+        print("writing", file=sys.stderr, flush=True)
+        time.sleep(60)
+
+cqdd_design.design.load_design = slow
+sys.argv = ["cqdd-design", "check", "d.toml"]
+from cqdd_design.__main__ import main
+sys.exit(main())
+"""
+    process = subprocess.Popen(
+        [sys.executable, "-c", script], cwd=tmp_path, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stderr is not None
+    assert process.stderr.readline().strip() == "writing"
+    process.send_signal(number)
+    rest = process.communicate(timeout=30)[1]
+    assert process.returncode == code
+    assert "Traceback" not in rest
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes of POSIX")
+def test_a_closed_pipe_keeps_the_exit_code(paper_design_file, tmp_path):
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = subprocess.run(
+        [sys.executable, "-m", "cqdd_design", "check", str(paper_design_file)],
+        stdout=writer,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=tmp_path,
+        check=False,
+    )
+    os.close(writer)
+    assert done.returncode == 4
+    assert done.stderr == ""
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
+@pytest.mark.parametrize("option", [[], ["--json"]])
+def test_a_full_disk_behind_stdout(paper_design_file, tmp_path, option):
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "cqdd_design", "check", str(paper_design_file), *option],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=tmp_path,
+            check=False,
+        )
+    assert done.returncode == 2
+    assert done.stderr.strip().endswith("cannot write to standard output: No space left on device.")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="shell of POSIX")
+def test_closed_standard_output(paper_design_file, tmp_path):
+    done = subprocess.run(
+        f"{sys.executable} -m cqdd_design check {paper_design_file} >&-",
+        shell=True,
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 4
+    assert "Traceback" not in done.stderr
+
+
+def test_what_libraries_print_goes_to_stderr(python):
+    code = """
+import os, sys
+from cqdd_design.cli.session import Output
+out = Output("check", as_json=True, quiet=False)
+print("python prints", flush=True)
+os.write(1, b"C++ prints\\n")
+out.document({"answer": 42})
+"""
+    done = python(code)
+    assert json.loads(done.stdout)["results"] == {"answer": 42}
+    assert "python prints" in done.stderr
+    assert "C++ prints" in done.stderr
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["--help"], ["size", "--help"], ["catalog"], ["explain"], ["schema"], ["check", "DESIGN"]],
+)
+def test_what_a_command_does_not_import(python, paper_design_file, arguments):
+    given = [str(paper_design_file) if a == "DESIGN" else a for a in arguments]
+    done = python(
+        f"""
+import sys
+sys.argv = ["cqdd-design", *{given!r}]
+from cqdd_design.__main__ import main
+main()
+loaded = sorted({{name.partition(".")[0] for name in sys.modules}})
+print("LOADED", *loaded, file=sys.stderr)
+"""
+    )
+    loaded = set(done.stderr.partition("LOADED")[2].split())
+    assert "cqdd_design" in loaded
+    assert loaded.isdisjoint(HEAVY)
+    if "--help" in arguments:
+        assert loaded.isdisjoint({"numpy", "pint", "rich", "scipy", "jinja2"})
+    if given == ["--help"]:
+        assert "pydantic" not in loaded
+
+
+@pytest.mark.parametrize(
+    "module",
+    [
+        "cqdd_design.pipeline",
+        "cqdd_design.gearbox",
+        "cqdd_design.sizing",
+        "cqdd_design.solids",
+        "cqdd_design.exporting",
+        "cqdd_design.report",
+        "cqdd_design.planetary",
+    ],
+)
+def test_no_room_imports_heavy_packages_at_its_door(python, module):
+    done = python(f"import sys, {module}; print(*{{n.partition('.')[0] for n in sys.modules}})")
+    assert done.returncode == 0, done.stderr
+    assert set(done.stdout.split()).isdisjoint(HEAVY)
+
+
+def test_help_is_quick(tmp_path):
+    """The limit is that of the whole process; the best of several, because CI machines share."""
+    times = []
+    for _ in range(5):
+        start = time.perf_counter()
+        subprocess.run(
+            [sys.executable, "-m", "cqdd_design", "--help"],
+            stdout=subprocess.DEVNULL,
+            check=True,
+            cwd=tmp_path,
+        )
+        times.append(time.perf_counter() - start)
+    assert min(times) < 0.25

@@ -1,0 +1,160 @@
+"""size: requirements to files, as whole processes."""
+
+import tomllib
+
+import pytest
+
+from cqdd_design.design import load_design
+
+
+def test_the_first_command_of_a_newcomer(cqdd, tmp_path):
+    done = cqdd("size", "--ratio", "10", "--report", "--export", "dxf")
+    assert done.code == 0, done.err
+    design = load_design(tmp_path / "designs" / "sized-10.toml")
+    assert design.reducer.ratio == 10
+    written = {str(p.relative_to(tmp_path)) for p in tmp_path.rglob("*") if p.is_file()}
+    assert written == {
+        "designs/sized-10.toml",
+        "exports/sized-10/sized-10-disc.dxf",
+        "exports/sized-10/sized-10-ring.dxf",
+        "reports/sized-10.html",
+    }
+    for path in written:
+        assert f"wrote {path}" in done.out
+    assert "peak_torque        90 N*m" in done.out
+    assert "candidates" in done.out
+    assert "rejected first by" in done.out
+    assert "36 of 36 checks pass" in done.out
+
+
+def test_the_written_design_passes_its_own_check(cqdd):
+    assert cqdd("size", "--ratio", "12").code == 0
+    assert cqdd("check", "designs/sized-12.toml").code == 0
+
+
+def test_every_written_value_says_its_origin(cqdd, tmp_path):
+    cqdd("size", "--ratio", "10", "--outer-diameter", "74 mm")
+    text = (tmp_path / "designs" / "sized-10.toml").read_text()
+    lines = [line for line in text.splitlines() if "=" in line]
+    assert lines[0] == "schema_version = 1"
+    for line in lines[2:]:
+        assert line.rpartition("# ")[2] in {"given", "sized", "assumed"}, line
+    assert 'outer_diameter = "74 mm" # given' in text
+    assert 'disc_material = "AISI 4140 Q&T 540C" # assumed' in text
+
+
+def test_results_in_json(cqdd):
+    document = cqdd("size", "--ratio", "10", "--json").document
+    results = document["results"]
+    assert results["candidates_screened"] >= 200_000
+    assert sum(results["rejected"].values()) < results["candidates_screened"]
+    assert results["objective"]["mass_kg"] > 0.0
+    assert results["alternatives"]
+    (file,) = document["files"]
+    assert file["path"] == "designs/sized-10.toml"
+    assert file["kind"] == "design"
+    assert {check["status"] for check in document["checks"]} <= {"pass", "warn"}
+    assert "requirements.peak_torque" in document["assumed"]
+
+
+def test_the_same_answer_every_time(cqdd, tmp_path):
+    cqdd("size", "--ratio", "9")
+    first = (tmp_path / "designs" / "sized-9.toml").read_bytes()
+    cqdd("size", "--ratio", "9")
+    assert (tmp_path / "designs" / "sized-9.toml").read_bytes() == first
+
+
+def test_a_motor_nobody_named_stays_assumed(cqdd, tmp_path):
+    cqdd("size", "--ratio", "10")
+    assert "motor" not in tomllib.loads((tmp_path / "designs" / "sized-10.toml").read_text())
+    done = cqdd("size", "--ratio", "10", "--motor", "cubemars ro100 kv55", "--out", "named.toml")
+    assert done.code == 0
+    written = tomllib.loads((tmp_path / "named.toml").read_text())
+    assert written["motor"]["name"] == "CubeMars RO100 KV55"
+
+
+def test_motor_that_does_not_exist(cqdd):
+    done = cqdd("size", "--ratio", "10", "--motor", "CubeMars RO10 KV55")
+    assert done.code == 2
+    assert "CubeMars RO100 KV55" in done.err
+
+
+def test_the_file_names_the_design(cqdd, tmp_path):
+    done = cqdd("size", "--ratio", "10", "--out", "knee.toml", "--report")
+    assert done.code == 0
+    assert load_design(tmp_path / "knee.toml").name == "knee"
+    assert (tmp_path / "reports" / "knee.html").exists()
+
+
+def test_a_named_file_is_not_overwritten_without_force(cqdd, tmp_path):
+    mine = tmp_path / "knee.toml"
+    mine.write_text("precious")
+    done = cqdd("size", "--ratio", "10", "--out", mine)
+    assert done.code == 2
+    assert "--force" in done.err
+    assert mine.read_text() == "precious"
+    assert cqdd("size", "--ratio", "10", "--out", mine, "--force").code == 0
+    assert load_design(mine).reducer.ratio == 10
+
+
+def test_its_own_output_is_replaced_whole(cqdd, tmp_path):
+    own = tmp_path / "designs" / "sized-10.toml"
+    own.parent.mkdir()
+    own.write_text("not even TOML [")
+    assert cqdd("size", "--ratio", "10").code == 0
+    assert load_design(own).reducer.ratio == 10
+
+
+def test_requirements_from_a_file_with_options_over_it(cqdd, tmp_path):
+    (tmp_path / "joint.toml").write_text(
+        '[requirements]\nratio = 8\npeak_torque = "30 N*m"\nouter_diameter = "70 mm"\n'
+    )
+    done = cqdd("size", "--requirements", "joint.toml", "--peak-torque", "40 N*m", "--json")
+    assert done.code == 0, done.err
+    asked = done.document["design"]["requirements"]
+    assert asked["ratio"] == 8
+    assert asked["peak_torque"] == "40 N*m"
+    assert asked["outer_diameter"] == "70 mm"
+
+
+def test_bad_requirements_file(cqdd, tmp_path):
+    (tmp_path / "joint.toml").write_text('[requirements]\nratio = 8\npeak_torque = "30 J"\n')
+    done = cqdd("size", "--requirements", "joint.toml")
+    assert done.code == 3
+    assert "joint.toml" in done.err
+    assert "not a unit of torque" in done.err
+
+
+def test_neither_ratio_nor_requirements(cqdd):
+    done = cqdd("size")
+    assert done.code == 2
+    assert "--ratio N or --requirements FILE" in done.err
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "said"),
+    [
+        ("--peak-torque", "-5 N*m", "0.001 N*m"),
+        ("--continuous-torque", "500 N*m", "above peak_torque"),
+        ("--discs", "4", "nearest allowed is 3"),
+        ("--length", "1 m", "500 mm"),
+        ("--input-speed", "9 Hz", "rpm"),
+    ],
+)
+def test_requirement_out_of_range(cqdd, tmp_path, option, value, said):
+    done = cqdd("size", "--ratio", "10", option, value)
+    assert done.code == 2
+    assert said in done.err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_when_nothing_fits(cqdd, tmp_path):
+    done = cqdd("size", "--ratio", "10", "--outer-diameter", "40 mm", "--json")
+    assert done.code == 3
+    assert "in a 40 mm ring the most is" in done.err
+    assert "bind" in done.err
+    error = done.document["error"]
+    assert error["code"] == 3
+    assert error["details"]["binding"]
+    assert 3.0 < error["details"]["most_peak_torque_Nm"] < 8.0
+    assert list(tmp_path.iterdir()) == []

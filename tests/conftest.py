@@ -1,0 +1,85 @@
+"""Fixtures shared by the tests: the command line as a real process, and the paper's design."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import cqdd_design
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+
+
+@dataclass(frozen=True)
+class Finished:
+    """A process that has ended."""
+
+    code: int
+    out: str
+    err: str
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The one JSON document on standard output."""
+        loaded: dict[str, Any] = json.loads(self.out)
+        return loaded
+
+
+CommandLine = Callable[..., Finished]
+
+
+@pytest.fixture
+def cqdd(tmp_path: Path) -> CommandLine:
+    """Run ``cqdd-design`` with the given arguments as a process, in an empty folder.
+
+    Every run is held to a promise: no traceback reaches the terminal without ``--debug``.
+    """
+
+    def run(
+        *arguments: str | Path,
+        folder: Path = tmp_path,
+        environment: Mapping[str, str] | None = None,
+        timeout: float = 120.0,
+    ) -> Finished:
+        done = subprocess.run(
+            [sys.executable, "-m", "cqdd_design", *map(str, arguments)],
+            cwd=folder,
+            env={**process_environment(), **(environment or {})},
+            capture_output=True,
+            encoding="utf-8",
+            timeout=timeout,
+            check=False,
+        )
+        if "--debug" not in arguments:
+            assert "Traceback" not in done.stderr, done.stderr
+        return Finished(done.returncode, done.stdout, done.stderr)
+
+    return run
+
+
+def process_environment() -> dict[str, str]:
+    """The environment of a child process that must find the same package as this one."""
+    package = str(Path(cqdd_design.__file__).resolve().parents[1])
+    inherited = os.environ.get("PYTHONPATH", "")
+    path = os.pathsep.join(part for part in (package, inherited) if part)
+    return {**os.environ, "PYTHONPATH": path, "PYTHONIOENCODING": "utf-8"}
+
+
+@pytest.fixture(scope="session")
+def repository() -> Path:
+    """The root of the repository."""
+    return REPOSITORY
+
+
+@pytest.fixture(scope="session")
+def paper_design_file() -> Path:
+    """The design file of the paper's actuator."""
+    return REPOSITORY / "designs" / "cqdd-10.toml"

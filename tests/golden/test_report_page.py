@@ -1,0 +1,256 @@
+"""What the page says, apart from how a browser draws it."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections import Counter
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+from cqdd_design import pipeline
+from cqdd_design.design import Design, Requirements, load_design
+from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.report import ReportInput, build_report, read_comments, weigh
+from cqdd_design.sizing import size
+from cqdd_design.sizing.comparison import compare_with_planetary
+
+VOID = {"meta", "link", "br", "hr", "img", "input", "col", "circle", "line", "path", "rect"}
+
+
+def input_for(design: Design, file: Path | None = None) -> ReportInput:
+    analysis = analyse_gearbox(design)
+    return ReportInput(
+        design=design,
+        gearbox=analysis,
+        planetary=compare_with_planetary(design, analysis=analysis),
+        provenance=pipeline.provenance(design),
+        comments={} if file is None else read_comments(file),
+        bodies=weigh(analysis.design, analysis.cam_bearing.bearing),
+    )
+
+
+@pytest.fixture(scope="module")
+def paper_input(paper_design_file: Path) -> ReportInput:
+    return input_for(load_design(paper_design_file), paper_design_file)
+
+
+@pytest.fixture(scope="module")
+def page(paper_input: ReportInput) -> str:
+    return build_report(paper_input)
+
+
+def text_of(markup: str) -> str:
+    """The words of a page, blanks made one."""
+    plain = re.sub(r"<(script|style)\b.*?</\1>", " ", markup, flags=re.S)
+    plain = re.sub(r"<[^>]+>", " ", plain)
+    return re.sub(r"\s+", " ", plain.replace("\u202f", " ").replace("&#8239;", " "))
+
+
+def test_the_same_input_gives_the_same_bytes(paper_input: ReportInput, page: str) -> None:
+    assert build_report(paper_input) == page
+
+
+def test_one_file_of_modest_size(page: str) -> None:
+    assert len(page.encode()) < 1_500_000
+    assert not re.search(r"\b(?:src|href)\s*=\s*[\"'](?!#)", page), "points outside itself"
+    assert not re.search(r"url\((?!#)|@import|https?://(?!www\.w3\.org)", page)
+
+
+class _Tags(HTMLParser):
+    """Checks that tags close in order, and collects ids."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.ids: Counter[str] = Counter()
+        self.wrong: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.ids.update(value for name, value in attrs if name == "id" and value)
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.ids.update(value for name, value in attrs if name == "id" and value)
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag in VOID:
+            return
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append(tag)
+
+
+def test_tags_close_and_ids_are_unique(page: str) -> None:
+    tags = _Tags()
+    tags.feed(page)
+    assert tags.wrong == []
+    assert tags.open == []
+    assert [name for name, count in tags.ids.items() if count > 1] == []
+
+
+def test_the_paper_s_design_is_told_plainly(page: str, paper_input: ReportInput) -> None:
+    words = text_of(page)
+    failed = sum(check.status == "fail" for check in paper_input.gearbox.checks)
+    total = len(paper_input.gearbox.checks)
+    assert failed >= 8
+    assert "does not meet its requirements: at 120 N·m peak and 40 N·m continuous" in words
+    assert f"{failed} of {total} checks fail" in words
+    # The paper's shear figure, and the same screws with shared shear and in bending.
+    assert "The paper prints 59.13 N·m a pin and 295.65 N·m in all for these screws" in words
+    for capacity in ("295.65 N·m", "140.84 N·m", "21.28 N·m"):
+        assert capacity in words
+
+
+def test_every_check_is_there_in_full(page: str, paper_input: ReportInput) -> None:
+    for check in paper_input.gearbox.checks:
+        at = page.index(f'<tbody id="{check.id}">')
+        block = page[at : page.index("</tbody>", at)]
+        words = text_of(block)
+        assert check.why.split("'")[0] in words, check.id
+        assert "Source: " in words
+        assert 'aria-label="margin ' in block
+        assert ("To pass:" in words) == (not check.satisfied), check.id
+        assert "<math" in block or 'class="prose-formula"' in block
+    assert page.count("<math") > 40
+
+
+def test_remedies_of_failing_checks_stand_in_the_verdict(
+    page: str, paper_input: ReportInput
+) -> None:
+    verdict = page[page.index('id="verdict"') : page.index('id="requirements"')]
+    for check in paper_input.gearbox.checks:
+        assert (f'href="#{check.id}"' in verdict) == (not check.satisfied), check.id
+
+
+def test_every_value_has_its_origin(page: str, paper_input: ReportInput) -> None:
+    rows = dict(
+        re.findall(r'<td title="([\w.]+)">.*?<span class="chip (\w+)">\2</span>', page, flags=re.S)
+    )
+    nested = [key for key in paper_input.design.dotted_keys() if "." in key]
+    assert list(rows) == nested
+    assert rows["requirements.ratio"] == "paper"
+    assert rows["requirements.input_speed"] == "derived"
+    assert rows["reducer.eccentricity"] == "assumed"
+    assert rows["reducer.output_pins.circle_radius"] == "paper"
+    assert rows["reducer.ring.relief_clearance"] == "default"
+    assert {"reducer.eccentricity", "motor.name"}.isdisjoint(paper_input.design.assumed)
+
+
+def test_a_design_without_remarks_knows_given_default_and_derived() -> None:
+    design = Design.from_mapping(
+        {
+            "reducer": {
+                "ratio": 10,
+                "ring_pitch_radius": "32 mm",
+                "eccentricity": "1.6 mm",
+                "ring_pin_diameter": "7 mm",
+                "output_pins": {"count": 6},
+                "cam_bearing": {"designation": "6902"},
+            }
+        }
+    )
+    page = build_report(input_for(design))
+    rows = dict(re.findall(r'<td title="([\w.]+)">.*?<span class="chip (\w+)">', page, flags=re.S))
+    assert rows["reducer.eccentricity"] == "given"
+    assert rows["reducer.output_pins.circle_radius"] == "derived"
+    assert rows["requirements.peak_torque"] == "derived"
+    assert rows["motor.voltage"] == "default"
+
+
+@pytest.mark.parametrize(
+    ("symbol", "value"),
+    [("Z<sub>r</sub>", "32"), ("Z<sub>e</sub>", "1.6"), ("Z<sub>p</sub>", "7")],
+)
+def test_the_paper_s_symbols_are_mapped(page: str, symbol: str, value: str) -> None:
+    closing = page[page.index('id="symbols"') :]
+    row = re.search(rf'<tr><td><span class="symbol">{symbol}</span>.*?</tr>', closing, re.S)
+    assert row is not None
+    assert f">{value}\u202fmm<" in row[0]
+
+
+def test_dimensions_are_those_of_the_design(page: str) -> None:
+    front = text_of(page[page.index('id="front-view"') : page.index('id="section-view"')])
+    front = front.replace(" \u200b", "").replace("\u200b", "")
+    for shown in ("32 mm", "1.6 mm", "⌀ 72 mm", "R 19.5 mm", "⌀ 7.191 mm", "⌀ 28 mm"):
+        assert shown in front, shown
+    for name in ("Z r", "Z e", "Z p", "Z o"):
+        assert name in front, name
+    section = text_of(page[page.index('id="section-view"') : page.index('id="mesh-section"')])
+    for shown in (
+        "8 mm",
+        "0.5 mm",
+        "16.5 mm",
+        "17.5 mm",
+        "cam bearing 6902",
+        "15 \u00d7 28 \u00d7 7 mm",
+    ):
+        assert shown in section, shown
+
+
+def test_text_of_the_design_cannot_become_markup(paper_input: ReportInput) -> None:
+    mapping = paper_input.design.to_mapping()
+    mapping["reducer"]["friction"]["lubricant"] = "<script>alert('grease')</script>"
+    design = Design.from_mapping(mapping)
+    comments = {"reducer.eccentricity": "assumed: <img src=x onerror=alert(1)> & more"}
+    page = build_report(dataclasses.replace(paper_input, design=design, comments=comments))
+    assert "<script>alert(" not in page
+    assert "&lt;script&gt;alert(" in page
+    assert "<img" not in page
+
+
+def test_claims_of_the_paper_are_answered(page: str, paper_input: ReportInput) -> None:
+    planetary = text_of(page[page.index('id="planetary"') : page.index('id="symbols"')])
+    assert len(paper_input.planetary.claims) == 5
+    assert "10.5455" in planetary
+    assert "12 / 36 / 22 / 70" in planetary
+
+
+def test_sources_are_those_of_the_checks_and_rows_used(page: str) -> None:
+    sources = text_of(page[page.index('id="sources"') : page.index('id="provenance"')])
+    for source in ("ISO 281:2007", "ISO 76:2006", "Johnson 1985", "arXiv:2410.16591", "ISO 6336"):
+        assert source in sources, source
+    for row in ("AISI 4140 Q&amp;T 540C:", "bearing 6902:", "CubeMars RO100 KV55:", "7075-T6:"):
+        assert row in sources, row
+
+
+def test_provenance(page: str, paper_input: ReportInput) -> None:
+    assert paper_input.design.sha256 in page
+    assert paper_input.provenance.time in page
+
+
+def test_bill_of_materials_and_inertia(page: str, paper_input: ReportInput) -> None:
+    bodies = paper_input.bodies
+    assert bodies is not None
+    bill = text_of(page[page.index('id="bom"') : page.index('id="symbols"')])
+    for part in bodies.parts:
+        assert part.name in bill
+    assert f"{bodies.inertia.total.mass:.4g} kg" in bill
+    assert sum(part.mass * part.count for part in bodies.parts) == pytest.approx(
+        bodies.inertia.total.mass, rel=1e-12
+    )
+    inertia = text_of(page[page.index('id="inertia"') : page.index('id="bom"')])
+    assert f"{1e4 * bodies.inertia.reflected_input:.4g}" in inertia
+    assert "the paper prints 5.01" in inertia
+
+
+def test_without_bodies_and_sizing_their_sections_are_left_out(paper_input: ReportInput) -> None:
+    bare = build_report(dataclasses.replace(paper_input, bodies=None))
+    for anchor in ("inertia", "bom", "sizing"):
+        assert f'id="{anchor}"' not in bare
+        assert f'href="#{anchor}"' not in bare
+
+
+def test_a_sized_design_shows_how_it_was_found() -> None:
+    found = size(Requirements(ratio=12))
+    page = build_report(dataclasses.replace(input_for(found.design), sizing=found))
+    words = text_of(page[page.index('id="sizing"') : page.index('id="symbols"')])
+    assert f"{found.candidates_screened:,}".replace(",", " ") in words
+    for alternative in found.alternatives:
+        assert alternative.design.name in words
+    for count in found.rejected.values():
+        assert count == 0 or f"{count:,}".replace(",", " ") in words
+    assert "meets" in text_of(page[page.index('id="verdict"') : page.index('id="requirements"')])
+    assert "Closest to their limits" in page
