@@ -44,7 +44,7 @@ CAGE_LOSS = 2.2e-3
 
 @dataclass(frozen=True)
 class NeedleSet:
-    """The needles inside a bearing: diameter and effective length (m), count, pitch diameter (m)."""
+    """Needles inside a bearing: diameter, effective length and pitch diameter (m), count."""
 
     diameter: float
     length: float
@@ -79,13 +79,8 @@ def dynamic_rating(needles: NeedleSet) -> float:
     f_c = float(np.interp(ratio, _ISO_281_TABLE_7[:, 0], _ISO_281_TABLE_7[:, 1]))
     b_m = 1.0 if needles.drawn_cup else 1.1
     length, diameter = needles.length * 1e3, needles.diameter * 1e3
-    return (
-        b_m
-        * f_c
-        * length ** (7.0 / 9.0)
-        * needles.count**0.75
-        * diameter ** (29.0 / 27.0)
-    )
+    rating: float = b_m * f_c * length ** (7 / 9) * needles.count ** (3 / 4) * diameter ** (29 / 27)
+    return rating
 
 
 def static_rating(needles: NeedleSet) -> float:

@@ -20,6 +20,7 @@ from cqdd_design.cli import (
     explain,
     export,
     inertia,
+    interruption,
     report,
     schema,
     size,
@@ -89,7 +90,7 @@ def run(arguments: Sequence[str]) -> int:
         given = list(arguments) or ["--help"]
         code = int(app(given, prog_name="cqdd-design", standalone_mode=False) or 0)
         # Typer answers Ctrl-C inside a command with this code and no word.
-        return _end(arguments, 130, "Interrupted", "interrupted") if code == 130 else code
+        return _end(arguments, code, "Interrupted", "interrupted") if code == 130 else code
     except (KeyboardInterrupt, Abort):
         return _end(arguments, 130, "Interrupted", "interrupted")
     except TyperException as error:
@@ -120,7 +121,10 @@ def _end(
     """Tell one error, on stderr and, where JSON is asked for, as a document."""
     import traceback
 
-    if "--debug" in arguments and code != 130:
+    interrupted = interruption.exit_code()
+    if interrupted is not None:  # whatever the error is that came of it
+        code, kind, message, details = interrupted, "Interrupted", "interrupted", None
+    if "--debug" in arguments and kind != "Interrupted":
         traceback.print_exc()
     message = message.replace("?.", "?")
     print(f"cqdd-design: {message}", file=sys.stderr)

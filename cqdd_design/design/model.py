@@ -59,7 +59,7 @@ class Design(FrozenModel):
                 f"requirements.ratio {self.requirements.ratio} is not reducer.ratio "
                 f"{self.reducer.ratio}; make them equal or leave requirements.ratio out"
             )
-        if not self.name.strip() or any(c in self.name for c in '/\\\0\n\r:*?"<>|'):
+        if not self.name.strip(" .") or any(c in self.name for c in '/\\\0\n\r:*?"<>|'):
             raise ValueError(
                 f"name {self.name!r} becomes part of file names; "
                 "use letters, digits, blanks, '-' and '_'"

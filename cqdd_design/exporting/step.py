@@ -31,6 +31,7 @@ _OCCURRENCE = re.compile(rb"NEXT_ASSEMBLY_USAGE_OCCURRENCE\('[^']*'(.*?)\);", re
 _SOLID = re.compile(rb"#(\d+) = MANIFOLD_SOLID_BREP\(")
 _BODY = re.compile(rb"ADVANCED_BREP_SHAPE_REPRESENTATION\('',\((.*?)\),\s*#(\d+)\)", re.DOTALL)
 _STYLES = re.compile(rb"#\d+ = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION\(")
+_BEYOND_ASCII = re.compile(r"[^\x00-\x7f]")
 _LINE_END = re.compile(rb"\s*\n\s*")
 
 
@@ -167,7 +168,17 @@ def _reproducible(content: bytes, design: Design, file_name: str) -> bytes:
         rest = _LINE_END.sub(b"", found.group(1))
         return b"NEXT_ASSEMBLY_USAGE_OCCURRENCE('%d'%s);" % (next(numbers), rest)
 
-    return _OCCURRENCE.sub(renumbered, content)
+    content = _OCCURRENCE.sub(renumbered, content)
+    return content if content.isascii() else _ascii(_unmangled(content)).encode()
+
+
+def _unmangled(content: bytes) -> str:
+    """Text whose names have gone through UTF-8 twice, as CadQuery 2.8 hands them to the kernel."""
+    text = content.decode()
+    try:
+        return text.encode("latin-1").decode()
+    except UnicodeError:
+        return text
 
 
 def _header(design: Design, file_name: str) -> str:
@@ -190,6 +201,18 @@ def _time_stamp() -> str:
 
 
 def _text(text: str) -> str:
-    """A string as ISO 10303-21 wants it: apostrophes doubled, other than ASCII escaped."""
-    escaped = "".join(c if " " <= c <= "~" else f"\\X2\\{ord(c):04X}\\X0\\" for c in text)
-    return escaped.replace("'", "''")
+    """A string as ISO 10303-21 wants it: apostrophes doubled, backslashes too, ASCII only."""
+    printable = "".join(c if c >= " " else " " for c in text)
+    return _ascii(printable.replace("\\", "\\\\").replace("'", "''"))
+
+
+def _ascii(text: str) -> str:
+    """Text with every other character written by its code point (ISO 10303-21, 6.4.3)."""
+    return _BEYOND_ASCII.sub(
+        lambda found: (
+            f"\\X2\\{ord(found[0]):04X}\\X0\\"
+            if ord(found[0]) < 0x10000
+            else f"\\X4\\{ord(found[0]):08X}\\X0\\"
+        ),
+        text,
+    )

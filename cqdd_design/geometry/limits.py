@@ -171,13 +171,14 @@ def _refuse_undercut(
     equidistant: float,
     radial: float,
 ) -> None:
-    pitch, tooth = ring_pitch_radius - radial, tooth_radius + equidistant
+    # A modification that grows the disc leaves the ring's own teeth as large as they are.
+    pitch, tooth = ring_pitch_radius - max(radial, 0.0), tooth_radius + max(equidistant, 0.0)
     limit = 0.0
     if pitch > 0.0:
         limit = float(undercut_radius_limit(lobe_count, pitch, eccentricity))
     if tooth < limit:
         return
-    enough = smallest_pitch_radius(lobe_count, eccentricity, tooth) + radial
+    enough = smallest_pitch_radius(lobe_count, eccentricity, tooth) + max(radial, 0.0)
     fix = f"raise ring_pitch_radius to {_at_least(enough)}"
     allowed = largest_eccentricity(lobe_count, pitch, tooth) if pitch > tooth else 0.0
     if allowed <= 0.0:

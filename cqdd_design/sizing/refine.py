@@ -23,7 +23,9 @@ _MOST_ROUNDS = 60
 _FIRST_STEP = 0.03
 """First steps, as a share of the sizes themselves."""
 _SPARE_STEP = 4
-_MOVES = np.array([(i, j, k) for i in (0, 1, -1) for j in (0, 1, -1) for k in (0, 1, -1)], dtype=np.intp)
+_MOVES = np.array(
+    [(i, j, k) for i in (0, 1, -1) for j in (0, 1, -1) for k in (0, 1, -1)], dtype=np.intp
+)
 _THICKER = np.array([0, 1, -1], dtype=np.intp)
 _SHORT = 1e9
 """Rank of a point that misses the wanted reserve; above any objective."""

@@ -23,6 +23,9 @@ FEWER_PINS_WORTH = 0.01
 _AIMS = (1.0005, 1.003, 1.015)
 """Factors on a wanted reserve, tried until the full analysis confirms the design: the tables are
 good to about 1e-3."""
+OFFERED_RESERVE = 1.05
+"""Torque reserve of the design that is offered, where the space allows it: one that stands on its
+limits leaves nothing for what the formulas leave out."""
 USEFUL_RESERVE = 2.0
 """Torque reserve beyond which no alternative is offered."""
 
@@ -95,23 +98,33 @@ class Search:
             begin = Starts.at(reached, wanted)
         return None
 
-    def alternatives(self, main: Points, most: Points) -> tuple[SizedDesign, ...]:
-        """Up to three designs with more reserve than the main one, each as light as that allows.
+    def offered(self, most: Points) -> tuple[SizedDesign, Points] | None:
+        """The lightest design with some reserve where the space allows it, else on the limit."""
+        with_reserve = self.lightest(most, min(OFFERED_RESERVE, _within_reach(most)))
+        return with_reserve or self.lightest(most)
 
-        Their reserves go in equal steps from 1 to the most there is, or to twice the torque. The
-        search goes from the strongest down, so that a weaker one is never the heavier.
+    def alternatives(self, main: Points, most: Points) -> tuple[SizedDesign, ...]:
+        """Up to three other designs: the lightest of all, and two with more reserve.
+
+        The reserves of these two are the most there is (or twice the torque) and half way to it
+        from the main design's; each is as light as that allows. The search goes from the strongest
+        down, so that a weaker one is never the heavier.
         """
-        top = min(float(most.reserve[0]), USEFUL_RESERVE)
+        own = float(main.reserve[0])
+        top = max(min(_within_reach(most), USEFUL_RESERVE), 1.0)
         found: list[SizedDesign] = []
         starts = main.joined(most)
-        for share, suffix in ((1.0, "-d"), (2 / 3, "-c"), (1 / 3, "-b")):
-            # The first aim of `lightest` must stay below what can be reached at all.
-            wanted = max(1.0 + share * (top / _AIMS[0] * 0.999 - 1.0), 1.0)
-            better = self.lightest(starts, wanted, suffix)
-            if better is not None:
-                found.append(better[0])
-                starts = main.joined(better[1])
+        for wanted, suffix in ((top, "-d"), (max(0.5 * (own + top), 1.0), "-c"), (1.0, "-b")):
+            other = self.lightest(starts, wanted, suffix)
+            if other is not None:
+                found.append(other[0])
+                starts = main.joined(other[1])
         return tuple(reversed(found))
+
+
+def _within_reach(most: Points) -> float:
+    """The largest reserve whose first aim in `lightest` stays below what can be reached at all."""
+    return max(float(most.reserve[0]) / _AIMS[0] * 0.999, 1.0)
 
 
 def _preferred(points: Points, rows: NDArray[np.intp]) -> NDArray[np.intp]:

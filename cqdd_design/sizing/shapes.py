@@ -24,6 +24,7 @@ from cqdd_design.geometry.trochoid import (
 from cqdd_design.sizing.frame import Frame
 
 FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 BoolArray = NDArray[np.bool_]
 
 _PROFILE_POINTS = 24
@@ -46,12 +47,15 @@ def valley_offset(frame: Frame, pin_count: int) -> float:
     return float(np.minimum(inside, pitch - inside).min())
 
 
-def _flank(frame: Frame, pitch_radius: FloatArray, throw: FloatArray, tooth: FloatArray) -> Any:
-    """The generated flank of many discs, designs on the first axis and one to spare."""
+def _flank(
+    frame: Frame, pitch_radius: FloatArray, throw: FloatArray, tooth: FloatArray, spare: int = 1
+) -> Any:
+    """Generated flank of many discs, designs on the first axis and `spare` more to come."""
+    own = (slice(None),) + (None,) * spare
     columns: tuple[Any, ...] = (
-        (pitch_radius - frame.radial)[..., None],
-        throw[..., None],
-        (tooth + frame.equidistant)[..., None],
+        (pitch_radius - frame.radial)[own],
+        throw[own],
+        (tooth + frame.equidistant)[own],
     )
     return GeneratedFlank(frame.lobe_count, *columns)
 
@@ -99,35 +103,50 @@ def largest_pin_circle(
     array (G, ...)
         m; negative where no hole fits at all.
     """
-    flank = _flank(frame, pitch_radius, eccentricity, tooth_radius)
-    place = np.linspace(-0.3 * np.pi, 0.9 * np.pi, _PROFILE_POINTS)
-    profile = flank.point(_even_parameter(flank, place, 1.0)[0])
+    ring = (pitch_radius, eccentricity, tooth_radius)
     clear = hole_radius + allowables.LIGAMENT + SAMPLING_GUARD
-    shape = np.broadcast_shapes(clear.shape, offset.shape)
-    own = (slice(None),) + (None,) * (len(shape) - 1)
-    limits = np.empty((_PROFILE_POINTS, *shape))
-    for radius, angle, limit in zip(np.abs(profile).T, np.angle(profile).T, limits, strict=True):
-        rho, turn = radius[own], angle[own] - offset
+    spare = len(np.broadcast_shapes(clear.shape, offset.shape)) - 1
+    own = (slice(None),) + (None,) * spare
+
+    def limits(point: ComplexArray) -> FloatArray:
+        """Largest pin circles for one profile point of each candidate."""
+        rho, turn = np.abs(point), np.angle(point) - offset
         reach = clear * clear - (rho * np.sin(turn)) ** 2
-        limit[...] = rho * np.cos(turn) - np.sqrt(np.maximum(reach, 0.0))
-        limit[reach <= 0.0] = np.inf
-    least = _parabolic_minimum(limits)
+        here = rho * np.cos(turn) - np.sqrt(np.maximum(reach, 0.0))
+        return np.where(reach > 0.0, here, np.inf)
+
+    places, step = np.linspace(-0.3 * np.pi, 0.9 * np.pi, _PROFILE_POINTS, retstep=True)
+    coarse = _flank(frame, *ring)
+    profile = coarse.point(_even_parameter(coarse, places, 1.0)[0])
+    sampled = np.stack([limits(point[own]) for point in profile.T])
+    at = np.clip(sampled.argmin(axis=0), 1, _PROFILE_POINTS - 2)
+    shift, _ = _parabola(*(np.take_along_axis(sampled, (at + k)[None], 0)[0] for k in (-1, 0, 1)))
+    nearest = places[at] + step * shift
+    flank = _flank(frame, *ring, spare)
+    refined = [
+        limits(flank.point(_even_parameter(flank, nearest + k * step, 1.0)[0]))
+        for k in (-0.25, 0.0, 0.25)
+    ]
+    least = np.minimum(_parabola(*refined)[1], sampled.min(axis=0))
     # Without a profile point in reach of the hole the valley circle decides.
-    valley = valley_distance(frame, pitch_radius, eccentricity, tooth_radius)
-    return np.where(np.isinf(least), valley[own] - clear, least)
+    valley = valley_distance(frame, *ring)[own]
+    return np.where(np.isinf(least), valley - clear, least)
 
 
-def _parabolic_minimum(values: FloatArray) -> FloatArray:
-    """Least value over the first axis, between the samples by a parabola through three."""
-    at = np.clip(values.argmin(axis=0), 1, values.shape[0] - 2)[None]
-    before, middle, after = (
-        np.take_along_axis(values, at + step, axis=0)[0] for step in (-1, 0, 1)
-    )
+def _parabola(
+    before: FloatArray, middle: FloatArray, after: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Place (in steps from the middle) and value of the least of a parabola through three values.
+
+    Where they hold no minimum between them: the middle, and the least of the three.
+    """
     inside = np.isfinite(before) & np.isfinite(after) & (middle <= before) & (middle <= after)
     left, right = np.where(inside, before, 1.0), np.where(inside, after, 1.0)
     bend = left + right - 2.0 * np.where(inside, middle, 0.0)
-    dip = np.where(inside, (right - left) ** 2 / (8.0 * np.where(bend > 0.0, bend, 1.0)), 0.0)
-    return np.asarray(np.where(inside, middle - dip, values.min(axis=0)))
+    slope = 0.5 * (right - left)
+    shift = np.where(inside & (bend > 0.0), -slope / np.where(bend > 0.0, bend, 1.0), 0.0)
+    least = np.minimum(np.minimum(before, after), middle)
+    return shift, np.where(inside, middle + 0.5 * slope * shift, least)
 
 
 def ring_wall(
@@ -220,7 +239,7 @@ def _fillet_fits(
     r: FloatArray,
     root: FloatArray,
     fillet: FloatArray,
-    swept: NDArray[np.complex128],
+    swept: ComplexArray,
 ) -> tuple[FloatArray, BoolArray]:
     """Clearance of a fillet from the swept disc, and whether it leaves the tooth no neck."""
     reach = root - fillet

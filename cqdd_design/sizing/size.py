@@ -50,7 +50,7 @@ def size(requirements: Requirements, progress: Callable[[str], None] | None = No
     found = search.found
     say(f"{found.survivors} of {found.screened} candidates meet every limit; refining the best")
     most = search.most_reserve()
-    main = search.lightest(most) if most is not None and most.reserve[0] > 0.99 else None
+    main = search.offered(most) if most is not None and most.reserve[0] > 0.99 else None
     if most is None or main is None:
         say("no candidate meets every limit; looking for the nearest requirements that fit")
         raise no_design(search)

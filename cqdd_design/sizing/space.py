@@ -18,7 +18,8 @@ PIN_COUNTS = (4, 5, 6, 8, 10, 12, 14, 16)
 """Pin counts tried at every ratio, beside those that divide it."""
 _MOST_PINS = 20
 _MOST_BEARINGS = 14
-_THICKNESSES = 8
+_THICKNESSES = 5
+"""Thicknesses between the narrowest bearing and the most there is, beside the bearings' widths."""
 _COARSE_SHORTENING, _COARSE_SHARE = 4, 3
 """Table nodes per step of the axes."""
 
@@ -76,7 +77,7 @@ def search_space(frame: Frame, tables: StageTables) -> SearchSpace:
     """Every axis over its whole range."""
     bearings = _promising_bearings(frame)
     widths = frame.bearing_table().width[bearings]
-    thickness = np.geomspace(float(widths.min()), frame.most_thickness, _THICKNESSES)
+    between = np.geomspace(float(widths.min()), frame.most_thickness, _THICKNESSES)
     return SearchSpace(
         shortening=tables.shortening[::_COARSE_SHORTENING],
         tooth_share=tables.tooth_share[::_COARSE_SHARE],
@@ -85,7 +86,7 @@ def search_space(frame: Frame, tables: StageTables) -> SearchSpace:
         pin_sizes=np.arange(len(frame.pin_sizes)),
         inset=np.array([0.0, 0.04]),
         bearings=bearings,
-        thickness=_tenths(thickness, frame.most_thickness),
+        thickness=_tenths(np.concatenate([widths, between]), frame.most_thickness),
     )
 
 

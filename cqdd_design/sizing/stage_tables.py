@@ -68,15 +68,19 @@ class StageTables:
         return int(self.radial.shape[-1])
 
     def pressure_at(self, shortening: FloatArray, share: FloatArray) -> FloatArray:
-        """p^ between the nodes, bilinear; infinite outside them."""
-        row, along_row = _cell(self.shortening, shortening)
-        column, along_column = _cell(self.tooth_share, share)
-        table = self.pressure
-        # Next to undercut a cell has infinite corners; 0 x inf there is as good as infinite.
-        with np.errstate(invalid="ignore"):
-            value = _bilinear(table, row, column, along_row, along_column)
-        outside = (share < self.tooth_share[0] - 1e-9) | (share > self.tooth_share[-1] + 1e-9)
-        return np.where(outside | np.isnan(value), np.inf, value)
+        """p^ between the nodes; infinite outside them.
+
+        1/p^2, the torque a contact carries, is interpolated: it goes to zero evenly at undercut.
+        """
+        row, down = _cell(self.shortening, shortening)
+        column, across = _cell(self.tooth_share, share)
+        carried = self.pressure**-2
+        left = carried[row, column] * (1.0 - down) + carried[row + 1, column] * down
+        right = carried[row, column + 1] * (1.0 - down) + carried[row + 1, column + 1] * down
+        value = left * (1.0 - across) + right * across
+        inside = (share >= self.tooth_share[0] - 1e-9) & (share <= self.tooth_share[-1] + 1e-9)
+        sound = inside & (value > 0.0)
+        return np.where(sound, np.where(sound, value, 1.0) ** -0.5, np.inf)
 
     def radial_at(self, shortening: FloatArray) -> FloatArray:
         """Radial parts f between the nodes, (2, ..., A) for K1 of shape (...)."""
@@ -131,14 +135,6 @@ class StageTables:
         pins = radius_ratio[..., None, None] * pin_sum.reshape(shape)
         along = pins - radial[..., None, :]
         return np.asarray(np.abs(along).max(axis=(0, -2, -1)))
-
-
-def _bilinear(
-    table: FloatArray, row: IntArray, column: IntArray, down: FloatArray, across: FloatArray
-) -> FloatArray:
-    left = table[row, column] * (1.0 - down) + table[row + 1, column] * down
-    right = table[row, column + 1] * (1.0 - down) + table[row + 1, column + 1] * down
-    return np.asarray(left * (1.0 - across) + right * across)
 
 
 def _cell(nodes: FloatArray, value: FloatArray) -> tuple[IntArray, FloatArray]:

@@ -73,9 +73,10 @@ def seat_fits(layout: Layout) -> tuple[Fit, ...]:
         Fit("carrier plate", "pin seats", pin, "H7"),
         Fit("housing", "ring seat", ring, "H7"),
         Fit("housing", "seat of the shaft bearing", support.outer_diameter, "H7"),
-        Fit("housing", "stator register", 2.0 * housing.register_radius, "h7"),
         Fit("output cover", "seat of the output bearing", output.outer_diameter, "H7"),
     ]
+    if housing.seated_motor:
+        fits.append(Fit("housing", "stator register", 2.0 * housing.register_radius, "h7"))
     if carrier.cap:
         fits.append(Fit("carrier cap", "pin holes", pin, "H7"))
     if pack.disc_count > 2:

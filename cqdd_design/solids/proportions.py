@@ -72,9 +72,11 @@ def lay_out(design: Design, cam_bearing: Bearing) -> Layout:
         min(cam_bearing.outer_diameter, 2.0 * (pins.circle_radius - 0.5 * pins.diameter - unit)),
         2.0 * (pins.circle_radius - _counterbore(pin, unit) - wall - 2.3 * unit),
     )
-    carrier = _carrier(design, pin, pack, support, unit)
+    carrier = _carrier(design, pin, pack, support, core, unit)
     housing, seat_top = _housing(design, pack, carrier, support, unit)
-    return Layout(unit, pack, _shaft(pack, support, core, housing, seat_top), carrier, housing)
+    return Layout(
+        unit, pack, _shaft(pack, support, core, housing, seat_top, unit), carrier, housing
+    )
 
 
 def _refuse_small_sleeve(design: Design) -> None:
@@ -156,7 +158,12 @@ def _counterbore(pin: OutputPin, unit: float) -> float:
 
 
 def _carrier(
-    design: Design, pin: OutputPin, pack: PackLayout, support: ChosenBearing, unit: float
+    design: Design,
+    pin: OutputPin,
+    pack: PackLayout,
+    support: ChosenBearing,
+    core: float,
+    unit: float,
 ) -> CarrierLayout:
     pins = design.reducer.output_pins
     circle, diameter = pins.circle_radius, pins.diameter
@@ -166,7 +173,7 @@ def _carrier(
     most_outer = pack.ledge_radius - 0.4 * unit
     # A catalogue head may be too large for a dense pin circle; ground dowels always fit.
     crowded = 2.0 * circle * math.sin(math.pi / pins.count) < 2.0 * counterbore + 0.4 * unit
-    inward = circle - counterbore - 0.4 * unit < 0.5 * support.bearing.bore_diameter + 0.8 * unit
+    inward = circle - counterbore - core < unit
     outward = circle + counterbore + 0.4 * unit > most_outer
     if crowded or inward or outward:
         pin = pin.as_dowel()
@@ -206,7 +213,9 @@ def _carrier(
         bottom + support.bearing.width + 1.5 * unit,
     )
     room = circle - 0.5 * diameter - 0.5 * support.bearing.outer_diameter
-    bolt = thread_size(min(0.55 * room, 4.0 * unit))
+    bolt_circle = 0.5 * support.bearing.outer_diameter + 0.5 * room
+    # Six bolts stand their circle's radius apart.
+    bolt = thread_size(min(0.55 * room, bolt_circle / 2.0, 4.0 * unit))
     return CarrierLayout(
         pin=pin,
         pin_count=pins.count,
@@ -216,7 +225,8 @@ def _carrier(
         shoulder_top=bottom + register,
         cap=both,
         cap_bottom=cap_bottom,
-        cap_inner=max(circle - around - wall, 0.5 * support.bearing.bore_diameter + 0.8 * unit),
+        # Between the shaft's core and the pins, whatever room there is.
+        cap_inner=max(circle - around - wall, 0.5 * (core + circle - around)),
         cap_outer=min(circle + around + wall, most_outer),
         counterbore_radius=counterbore,
         lowest=lowest,
@@ -228,8 +238,8 @@ def _carrier(
         nut_top=nut_top,
         plate_top=plate_top,
         nut_radius=0.5 * output.bearing.bore_diameter - 0.25 * unit,
-        bolt_thread=bolt if bolt <= 0.7 * room else 0.0,
-        bolt_circle_radius=0.5 * support.bearing.outer_diameter + 0.5 * room,
+        bolt_thread=bolt if bolt <= min(0.7 * room, bolt_circle / 1.5) else 0.0,
+        bolt_circle_radius=bolt_circle,
     )
 
 
@@ -324,6 +334,7 @@ def _shaft(
     core: float,
     housing: HousingLayout,
     seat_top: float,
+    unit: float,
 ) -> ShaftLayout:
     journal = support.bearing.bore_diameter
     cam_bore = 0.5 * pack.cam.bearing.bore_diameter
@@ -333,7 +344,7 @@ def _shaft(
     if abs(abs(web - cam_bore) - pack.eccentricity) < 0.02e-3:
         web -= 0.05e-3
     upper = pack.top + pack.gap
-    hole = 0.5 * journal
+    hole = journal - 2.0 * max(2.5 * unit, 0.15 * journal)
     return ShaftLayout(
         support=support,
         shoulder_radius=core,
@@ -341,6 +352,6 @@ def _shaft(
         bore_radius=0.5 * hole if hole >= 1.5e-3 else 0.0,
         lower_seat_top=seat_top,
         upper_seat_bottom=upper,
-        bottom=housing.bottom - 1.2 * journal,
+        bottom=housing.bottom - min(1.2 * journal, 12.0 * unit),
         top=upper + support.bearing.width,
     )

@@ -248,3 +248,38 @@ def test_help_is_quick(tmp_path):
         )
         times.append(time.perf_counter() - start)
     assert min(times) < 0.25
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+def test_a_signal_waits_for_the_end_of_an_import(tmp_path):
+    """Compiled packages crash when an exception is thrown through their initialisation."""
+    (tmp_path / "slow.py").write_text(
+        "import time\nprint('importing', flush=True)\n"
+        "for _ in range(20): time.sleep(0.05)\nprint('imported', flush=True)\n"
+    )
+    script = """
+import sys, time
+import cqdd_design.design
+
+def importing(path):
+    import slow
+    time.sleep(60)
+
+cqdd_design.design.load_design = importing
+sys.argv = ["cqdd-design", "check", "d.toml"]
+from cqdd_design.__main__ import main
+sys.exit(main())
+"""
+    process = subprocess.Popen(
+        [sys.executable, "-c", script],
+        cwd=tmp_path,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stderr is not None
+    assert process.stderr.readline().strip() == "importing"
+    process.send_signal(signal.SIGINT)
+    rest = process.communicate(timeout=30)[1]
+    assert process.returncode == 130
+    assert rest.split("\n")[:2] == ["imported", "cqdd-design: interrupted"]

@@ -108,6 +108,7 @@ def test_new_file_leaves_assumed_keys_out(tmp_path):
         ({**reducer(), "requirements": {"peak_torque": "1286 rpm"}}, "not a unit of torque"),
         ({**reducer(), "requirements": {"input_speed": "20 Hz"}}, "rpm or rad/s"),
         ({**reducer(), "name": "../evil"}, "part of file names"),
+        ({**reducer(), "name": ".."}, "part of file names"),
         ({}, "reducer is missing"),
         ({**reducer(), "requirments": {}}, "did you mean 'requirements'"),
     ],

@@ -1,0 +1,72 @@
+"""Sized designs at tight tolerance: change them only with a reason.
+
+Regenerate the numbers with ``cqdd-design size --ratio 10 --json`` and the options of each test.
+"""
+
+import pytest
+
+from cqdd_design.design import Requirements
+from cqdd_design.sizing import SizingInfeasibleError, size
+
+
+def test_ratio_10_with_the_defaults():
+    result = size(Requirements(ratio=10))
+    reducer, pins = result.design.reducer, result.design.reducer.output_pins
+    assert (reducer.ring_pitch_radius, reducer.eccentricity) == (32.75e-3, 1.97e-3)
+    assert (reducer.ring_pin_diameter, reducer.disc_thickness) == (6.6e-3, 8e-3)
+    assert (pins.count, pins.diameter, pins.circle_radius) == (10, 4e-3, 23e-3)
+    assert reducer.cam_bearing.designation == "16003"
+    assert result.objective.binding == "CONTACT-RING-PEAK"
+    assert result.objective.torque_reserve == pytest.approx(1.0521, abs=2e-4)
+    assert result.objective.mass == pytest.approx(0.3779, abs=1e-4)
+    reserves = [one.objective.torque_reserve for one in result.alternatives]
+    assert reserves == pytest.approx([1.001, 1.128, 1.181], abs=2e-3)
+
+
+def test_ratio_10_carries_what_is_known_to_be_possible():
+    """12 pins of 4 mm on 23.6 mm, R 34.4, e 1.56, r 4.2, b 9 and a 6904 carry 1.07 times 90 N m."""
+    best = size(Requirements(ratio=10)).alternatives[-1]
+    assert best.objective.torque_reserve > 1.07
+
+
+@pytest.mark.parametrize(
+    ("given", "most", "ring", "binding"),
+    [
+        ({"outer_diameter": "40 mm"}, 4.8, 69, ("BEARING-STATIC",)),
+        (
+            {"peak_torque": "120 N*m"},
+            106.0,
+            76,
+            ("BEARING-STATIC", "CONTACT-RING-PEAK", "BEARING-LIFE"),
+        ),
+        (
+            {"peak_torque": "120 N*m", "continuous_torque": "40 N*m"},
+            106.0,
+            75,
+            ("BEARING-STATIC", "CONTACT-RING-PEAK"),
+        ),
+    ],
+)
+def test_what_does_not_fit_and_what_would(given, most, ring, binding):
+    with pytest.raises(SizingInfeasibleError) as caught:
+        size(Requirements(ratio=10, **given))
+    error = caught.value
+    assert error.most_torque == most
+    assert round(error.outer_diameter_needed * 1e3) == ring
+    assert error.binding == binding
+    assert error.to_dict() == {
+        "binding": list(binding),
+        "most_peak_torque_Nm": most,
+        "outer_diameter_needed_mm": ring,
+        "length_needed_mm": None,
+    }
+
+
+def test_the_sentence_for_a_40_mm_ring():
+    with pytest.raises(SizingInfeasibleError) as caught:
+        size(Requirements(ratio=10, outer_diameter="40 mm"))
+    assert str(caught.value) == (
+        "90 N*m at ratio 10 does not fit: in a 40 mm ring the most is 4.8 N*m; the cam bearing "
+        "binds; 90 N*m at ratio 10 needs a 69 mm ring. Lower peak_torque to 4.8 N*m and "
+        "continuous_torque to 1.82 N*m, or raise outer_diameter to 69 mm."
+    )

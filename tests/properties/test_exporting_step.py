@@ -1,0 +1,151 @@
+"""STEP files read back by the kernel: solids, volumes, names, colours, places, bytes."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from solids_designs import known_design, known_parts, part_named
+
+from cqdd_design.errors import ReadBackError
+from cqdd_design.exporting import ExportJob, step
+from cqdd_design.exporting.step import export_step, file_label, write_part_step, write_step
+
+pytestmark = pytest.mark.skipif(
+    importlib.util.find_spec("cadquery") is None, reason="cadquery is not installed"
+)
+
+
+@pytest.fixture(scope="module")
+def assembly_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("step") / "machine.step"
+    write_step(known_design("paper"), known_parts("paper"), path)
+    return path
+
+
+def read_pieces(path: Path) -> dict[str, Any]:
+    """The pieces of a STEP file by name."""
+    import cadquery
+
+    root = cadquery.Assembly.importStep(str(path))
+    return {child.name: child for child in root.children}
+
+
+def test_reimport_gives_valid_solids_of_the_exact_volumes(assembly_file: Path) -> None:
+    found = read_pieces(assembly_file)
+    pieces = {piece.name: part for part in known_parts("paper") for piece in part.instances}
+    assert set(pieces) == set(found)
+    for name, part in pieces.items():
+        child = found[name]
+        shape = child.obj
+        assert shape.ShapeType() == "Solid"
+        assert shape.isValid()
+        # Against Green's theorem for disc and ring, closed forms for the rest.
+        assert shape.Volume() * 1e-9 == pytest.approx(part.exact_volume, rel=1e-5)
+        assert child.color.toTuple()[:3] == pytest.approx(part.colour, abs=1e-6)
+
+
+def test_pieces_stand_where_the_mechanism_puts_them(tmp_path: Path) -> None:
+    design, parts, angle = known_design("three discs"), known_parts("three discs"), 2.2
+    path = tmp_path / "turned.step"
+    write_step(design, parts, path, angle)
+    found = read_pieces(path)
+    for part in parts:
+        for piece in part.instances:
+            child = found[piece.name]
+            pose = piece.pose(design, angle)
+            centre = child.obj.moved(child.loc).Center().toTuple()
+            wanted = (pose[:3, :3] @ part.shape.mass_properties(1.0).centre + pose[:3, 3]) * 1e3
+            assert np.abs(np.array(centre) - wanted).max() < 1e-6, piece.name
+
+
+def test_header_says_what_and_whose(assembly_file: Path) -> None:
+    head = assembly_file.read_text(encoding="ascii").split("DATA;")[0]
+    assert "FILE_SCHEMA(('AUTOMOTIVE_DESIGN" in head  # AP214
+    assert f"design sha256 {known_design('paper').sha256}" in head
+    assert "FILE_NAME('machine.step','1970-01-01T00:00:00',('cqdd-design'),('cqdd-design')" in head
+    assert "LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.)" in assembly_file.read_text()
+
+
+def test_header_takes_the_time_it_is_given(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    path = tmp_path / "a.step"
+    write_part_step(known_design("paper"), part_named(known_parts("paper"), "ring"), path)
+    assert "'2023-11-14T22:13:20'" in path.read_text()
+
+
+def test_same_design_same_bytes(assembly_file: Path, tmp_path: Path) -> None:
+    again = write_step(known_design("paper"), known_parts("paper"), tmp_path / "machine.step")
+    assert again.path.read_bytes() == assembly_file.read_bytes()
+    assert again.kind == "step"
+    assert again.bytes == assembly_file.stat().st_size
+
+
+def test_disc_has_the_arcs_of_the_drawing_and_no_spline(tmp_path: Path) -> None:
+    disc = part_named(known_parts("paper"), "disc")
+    path = tmp_path / "disc.step"
+    write_part_step(known_design("paper"), disc, path)
+    text = path.read_text()
+    assert "B_SPLINE" not in text
+    shape = disc.shape.layers[0].shape
+    # One cylinder an arc of the outline, one a hole.
+    assert len(re.findall(r"CYLINDRICAL_SURFACE\(", text)) == len(shape.outer.bulges) + len(
+        shape.holes
+    )
+
+
+def test_one_file_for_the_machine_and_one_for_every_made_part(tmp_path: Path) -> None:
+    job = ExportJob(known_design("paper"), tmp_path, lambda _: None)
+    job.__dict__["parts"] = known_parts("paper")
+    names = [one.path.name for one in export_step(job)]
+    assert names[0] == "cqdd-10.step"
+    made = [part.name for part in known_parts("paper") if part.source == "make"]
+    assert names[1:] == [f"cqdd-10-{file_label(name)}.step" for name in made]
+    assert {path.name for path in tmp_path.iterdir()} == set(names)
+
+
+def test_a_file_that_lost_a_solid_is_not_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import cadquery
+
+    def without_last(design: object, parts: object, crank_angle: float = 0.0) -> object:
+        assembly = cadquery.Assembly(name="short")
+        for part in list(parts)[:-1]:  # type: ignore[call-overload]
+            assembly.add(part.solid, name=part.name)
+        return assembly
+
+    monkeypatch.setattr("cqdd_design.solids.assembly.build_assembly", without_last)
+    with pytest.raises(ReadBackError, match="holds 13 solids instead of 14"):
+        write_step(known_design("paper"), known_parts("paper"), tmp_path / "short.step")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("given", "wanted"),
+    [
+        ("plain", "plain"),
+        ("it's", "it''s"),
+        ("a\\b", "a\\\\b"),
+        ("Zahnräder", "Zahnr\\X2\\00E4\\X0\\der"),
+        ("\N{GEAR}\N{ROBOT FACE}", "\\X2\\2699\\X0\\\\X4\\0001F916\\X0\\"),
+    ],
+)
+def test_names_are_written_as_the_standard_wants(given: str, wanted: str) -> None:
+    assert step._text(given) == wanted
+
+
+def test_a_name_beyond_ascii_survives(tmp_path: Path) -> None:
+    import cadquery
+
+    design = known_design("paper").replacing({"name": "Bein's Gelenk ö"})
+    path = tmp_path / "named.step"
+    write_part_step(design, part_named(known_parts("paper"), "bearing nut"), path)
+    assert path.read_bytes().isascii()
+    root = cadquery.Assembly.importStep(str(path))
+    assert root.name == "Bein's Gelenk ö"
+    assert root.children[0].obj.isValid()

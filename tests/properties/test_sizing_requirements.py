@@ -1,0 +1,264 @@
+"""Sizing as a whole: a checked design or a reason, for any requirements."""
+
+import math
+import os
+import subprocess
+import sys
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from cqdd_design.catalog import find_material
+from cqdd_design.design import Requirements
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.sizing import SizingInfeasibleError, size
+
+MAY_WARN = {"BALANCE-STATIC", "BALANCE-COUPLE", "DISC-COUNT", "SPACE-DIAMETER", "SPACE-LENGTH"}
+
+
+def sized(**given):
+    return size(Requirements(**given))
+
+
+def assert_sound(result, requirements):
+    """What every result promises, checked on a fresh analysis."""
+    for design, objective in [
+        (result.design, result.objective),
+        *((one.design, one.objective) for one in result.alternatives),
+    ]:
+        assert design.requirements == requirements
+        assert design.reducer.ring.outer_diameter == requirements.outer_diameter
+        assert design.reducer.pack_length <= requirements.length + 1e-9
+        # Without the keys that were assumed: a motor that nobody named may fall short.
+        checks = analyse_gearbox(design.replacing({})).checks
+        assert [check.id for check in checks if check.status == "fail"] == []
+        warned = {check.id for check in checks if check.status == "warn"}
+        assert all(one in MAY_WARN or one.startswith("MOTOR-") for one in warned)
+        assert objective.torque_reserve >= 1.0 - 1e-9
+        margins = {check.id: check.margin for check in checks}
+        assert margins[objective.binding] == pytest.approx(objective.least_margin)
+    reserves = [one.objective.torque_reserve for one in result.alternatives]
+    assert reserves == sorted(reserves)
+    scores = [one.objective.score for one in result.alternatives]
+    assert scores == sorted(scores)
+    if reserves and reserves[-1] > 1.06:
+        assert result.objective.torque_reserve >= 1.05
+    assert result.survivors + sum(result.rejected.values()) == result.candidates_screened
+    assert result.candidates_screened >= 200_000
+
+
+@pytest.mark.parametrize("ratio", range(6, 31))
+def test_the_defaults_give_a_design_that_passes_every_check(ratio):
+    requirements = Requirements(ratio=ratio)
+    result = size(requirements)
+    assert_sound(result, requirements)
+    assert len(result.alternatives) == 3
+    assert {check.status for check in result.checks} == {"pass"}
+
+
+@pytest.mark.parametrize("ratio", [4, 5, 31, 60, 119])
+def test_so_do_the_ratios_around_them(ratio):
+    requirements = Requirements(ratio=ratio)
+    assert_sound(size(requirements), requirements)
+
+
+REQUIREMENTS = st.fixed_dictionaries(
+    {
+        "ratio": st.integers(4, 119),
+        "outer_diameter": st.floats(10, 250).map("{:.4g} mm".format),
+        "length": st.floats(3, 60).map("{:.4g} mm".format),
+        "peak_torque": st.floats(-2, 3).map(lambda x: f"{10**x:.4g} N*m"),
+        "input_speed": st.floats(50, 9000).map("{:.4g} rpm".format),
+        "disc_count": st.integers(1, 3),
+        "disc_material": st.sampled_from(
+            ["AISI 4140 Q&T 540C", "AISI 52100 / 100Cr6 hardened", "17-4PH H900", "7075-T6"]
+        ),
+    }
+)
+
+
+@settings(
+    deadline=None, max_examples=10, suppress_health_check=[HealthCheck.too_slow], derandomize=True
+)
+@given(given=REQUIREMENTS)
+def test_any_requirements_give_a_design_or_a_reason(given):
+    requirements = Requirements(**given)
+    try:
+        result = size(requirements)
+    except InfeasibleError as error:
+        assert_reasoned(error, requirements)
+    else:
+        assert_sound(result, requirements)
+
+
+def assert_reasoned(error, requirements):
+    """A refusal names a key, or what binds and a torque that would fit."""
+    message = str(error)
+    assert message.endswith(".")
+    if not isinstance(error, SizingInfeasibleError):
+        assert message.startswith("requirements.")
+        return
+    assert error.binding
+    if error.most_torque is not None:
+        assert 0.0 < error.most_torque < requirements.peak_torque
+
+
+def test_the_same_answer_every_time_in_every_process():
+    result = sized(ratio=13, peak_torque="40 N*m", continuous_torque="20 N*m")
+    program = (
+        "from cqdd_design.design import Requirements; from cqdd_design.sizing import size; "
+        "r = size(Requirements(ratio=13, peak_torque='40 N*m', continuous_torque='20 N*m')); "
+        "print(r.design.sha256, *(a.design.sha256 for a in r.alternatives), r.rejected)"
+    )
+    for threads in ("1", "4"):
+        printed = subprocess.run(
+            [sys.executable, "-c", program],
+            env={**os.environ, "OMP_NUM_THREADS": threads, "OPENBLAS_NUM_THREADS": threads},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout.split(maxsplit=4)
+        hashes = [result.design.sha256, *(one.design.sha256 for one in result.alternatives)]
+        assert printed[:4] == hashes
+        assert printed[4].strip() == str(result.rejected)
+
+
+def test_a_bigger_ring_never_carries_less():
+    most = []
+    for diameter in (36, 42, 52, 64):
+        with pytest.raises(SizingInfeasibleError) as caught:
+            sized(ratio=10, peak_torque="500 N*m", outer_diameter=f"{diameter} mm")
+        most.append(caught.value.most_torque)
+    assert most == sorted(most)
+    assert most[-1] > 5.0 * most[0]
+
+
+def test_the_nearest_requirements_named_do_fit():
+    """Both ways out of an infeasible request are real designs."""
+    asked = {"ratio": 10, "peak_torque": "130 N*m", "continuous_torque": "50 N*m"}
+    with pytest.raises(SizingInfeasibleError) as caught:
+        sized(**asked)
+    error = caught.value
+    less = {**asked, "peak_torque": f"{error.most_torque} N*m"}
+    less["continuous_torque"] = f"{error.most_torque * 50 / 130} N*m"
+    assert sized(**less).objective.torque_reserve < 1.05
+    ring = round(error.outer_diameter_needed * 1e3)
+    assert sized(**asked, outer_diameter=f"{ring} mm").objective.torque_reserve >= 1.0
+    with pytest.raises(SizingInfeasibleError):
+        sized(**asked, outer_diameter=f"{ring - 2} mm")
+
+
+def test_where_no_ring_helps_the_length_is_named():
+    asked = {"ratio": 10, "peak_torque": "60 N*m", "length": "8 mm"}
+    with pytest.raises(SizingInfeasibleError) as caught:
+        sized(**asked)
+    error = caught.value
+    assert error.outer_diameter_needed is None
+    assert "pack of discs" in str(error)
+    needed = round(error.length_needed * 1e3)
+    assert sized(**{**asked, "length": f"{needed} mm"}).objective.torque_reserve >= 1.0
+
+
+@pytest.mark.parametrize(
+    ("given", "key", "words"),
+    [
+        ({"length": "3 mm"}, "length", "narrowest rated cam bearing"),
+        ({"outer_diameter": "12 mm"}, "outer_diameter", "output pins"),
+        ({"outer_diameter": "22 mm"}, "outer_diameter", "cam bearing"),
+        ({"disc_material": "7075-T6"}, "disc_material", "no contact fatigue strength"),
+    ],
+)
+def test_requirements_without_room_for_any_part_name_their_key(given, key, words):
+    with pytest.raises(InfeasibleError) as caught:
+        sized(ratio=10, **given)
+    message = str(caught.value)
+    assert message.startswith(f"requirements.{key} ")
+    assert words in message
+    assert caught.value.exit_code == 3
+
+
+def test_a_motor_asked_for_must_be_enough():
+    """The default motor only warns; the same motor asked for is a requirement."""
+    peak = {"ratio": 6, "peak_torque": "66 N*m", "continuous_torque": "10 N*m"}
+    result = sized(**peak)
+    assert [check.id for check in result.checks if check.status == "warn"] == ["MOTOR-PEAK"]
+    with pytest.raises(SizingInfeasibleError) as caught:
+        sized(**peak, motor="CubeMars RO100 KV55")
+    error = caught.value
+    assert error.binding == ("MOTOR-PEAK",)
+    assert error.most_torque == pytest.approx(6 * 0.88 * 12.0, rel=0.01)
+    within = {**peak, "peak_torque": f"{error.most_torque} N*m"}
+    assert sized(**within, motor="CubeMars RO100 KV55").design.motor.name == "CubeMars RO100 KV55"
+
+
+def test_what_was_not_stated_stays_assumed():
+    design = sized(ratio=10).design
+    assert "requirements.peak_torque" in design.assumed
+    assert "reducer.output_pins.hole_clocking" in design.assumed
+    assert "reducer.eccentricity" not in design.assumed
+    stated = sized(ratio=10, peak_torque="50 N*m", length="20 mm").design
+    assert "requirements.peak_torque" not in stated.assumed
+    assert "requirements.length" not in stated.assumed
+    assert "requirements.continuous_torque" in stated.assumed
+    assert stated.requirements.continuous_torque == pytest.approx(19.0)
+
+
+def test_sizes_are_those_a_shop_can_make():
+    reducer = sized(ratio=10).design.reducer
+    for value, step in (
+        (reducer.eccentricity, 10e-6),
+        (reducer.ring_pin_diameter, 100e-6),
+        (reducer.ring_pitch_radius, 50e-6),
+        (reducer.output_pins.circle_radius, 50e-6),
+        (reducer.disc_thickness, 100e-6),
+    ):
+        assert math.isclose(value / step, round(value / step), abs_tol=1e-6)
+
+
+def test_thick_screws_get_the_clearance_their_tolerance_needs():
+    """Shoulders of 8 mm vary by 36 um, more than twice the default clearance allows."""
+    design = sized(ratio=10, outer_diameter="180 mm", peak_torque="500 N*m").design
+    pins = design.reducer.output_pins
+    assert pins.diameter >= 8e-3
+    assert pins.hole_clearance > 16e-6
+
+
+def test_every_requirement_has_an_effect():
+    asked = {"ratio": 12, "peak_torque": "50 N*m", "continuous_torque": "15 N*m"}
+    base = sized(**asked).design
+    for change in (
+        {"peak_torque": "80 N*m"},
+        {"continuous_torque": "30 N*m"},
+        {"input_speed": "2500 rpm"},
+        {"outer_diameter": "78 mm"},
+        {"length": "10 mm"},
+        {"disc_count": 3},
+        {"disc_material": "AISI 4140 Q&T 425C", "ring_material": "AISI 4140 Q&T 425C"},
+        {"pin_material": "18-8 shoulder screw (seed-consistent)"},
+    ):
+        assert sized(**{**asked, **change}).design.reducer != base.reducer, change
+
+
+def test_progress_is_told_in_sentences():
+    told = []
+    size(Requirements(ratio=9), progress=told.append)
+    assert len(told) >= 2
+    assert any("candidates meet every limit" in line for line in told)
+
+
+def test_harder_discs_allow_more():
+    """Pressure limits rise with hardness, so the ring contact stops binding."""
+    assert find_material("AISI 52100 / 100Cr6 hardened").rockwell_hardness >= 58.0
+    with pytest.raises(SizingInfeasibleError) as soft:
+        sized(ratio=10, peak_torque="500 N*m")
+    with pytest.raises(SizingInfeasibleError) as hard:
+        sized(
+            ratio=10,
+            peak_torque="500 N*m",
+            disc_material="AISI 52100 / 100Cr6 hardened",
+            ring_material="AISI 52100 / 100Cr6 hardened",
+        )
+    assert hard.value.most_torque > soft.value.most_torque
+    assert not any(check.startswith("CONTACT-RING") for check in hard.value.binding)

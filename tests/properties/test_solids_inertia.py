@@ -1,0 +1,184 @@
+"""Reflected inertia against the kinetic energy of the moving parts, found another way."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+from solids_designs import CHANGES, known_design, known_parts, part_named
+
+from cqdd_design.catalog import find_bearing, find_motor
+from cqdd_design.design import Design
+from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.results import MassProperties
+from cqdd_design.solids.inertia import closed_form, crank_properties, gearbox_inertia
+from cqdd_design.solids.part import Part
+from cqdd_design.solids.parts import build_parts
+from cqdd_design.solids.poses import SHAFT, Body, body_pose
+
+STEP = 1e-6
+
+
+def kinetic_inertia(
+    design: Design, own: MassProperties, body: Body, placement: FloatArray, angle: float
+) -> float:
+    """2 T / w^2 of a rigid body from two poses a small crank angle apart."""
+    before, after = (
+        body_pose(design, body, angle + sign * STEP) @ placement for sign in (-0.5, 0.5)
+    )
+    middle = body_pose(design, body, angle) @ placement
+    velocity = (
+        (after[:3, :3] @ own.centre + after[:3, 3]) - (before[:3, :3] @ own.centre + before[:3, 3])
+    ) / STEP
+    slip = (after[:3, :3] - before[:3, :3]) / STEP @ middle[:3, :3].T
+    spin = np.array([slip[2, 1], slip[0, 2], slip[1, 0]])
+    inertia = middle[:3, :3] @ own.inertia @ middle[:3, :3].T
+    return float(own.mass * velocity @ velocity + spin @ inertia @ spin)
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_reflected_inertia_is_twice_the_kinetic_energy(name: str) -> None:
+    design, parts = known_design(name), known_parts(name)
+    found = gearbox_inertia(design, parts, closed_form)
+    for part, row in zip(parts, found.parts, strict=True):
+        if part.inner_body is not None:
+            continue
+        # Parts off the axis of an orbiting body would change over the turn; take the mean.
+        energy = [
+            kinetic_inertia(design, part.exact_properties, piece.body, piece.placement, angle)
+            for angle in np.linspace(0.0, 2.0 * np.pi, 9)[:-1]
+            for piece in part.instances
+        ]
+        assert row.reflected == pytest.approx(sum(energy) / 8.0, rel=1e-6, abs=1e-16), part.name
+
+
+@pytest.mark.parametrize("name", ["paper", "three discs"])
+def test_a_bearing_counts_between_its_two_rings(name: str) -> None:
+    design, parts = known_design(name), known_parts(name)
+    found = gearbox_inertia(design, parts, closed_form)
+    for part, row in zip(parts, found.parts, strict=True):
+        if part.inner_body is None:
+            continue
+        lowest = highest = 0.0
+        for piece in part.instances:
+            with_outer = kinetic_inertia(
+                design, part.exact_properties, piece.body, piece.placement, 0.3
+            )
+            # An orbiting bearing keeps its centre on the orbit whichever ring carries it.
+            throw = design.reducer.eccentricity if piece.body.kind == "disc" else 0.0
+            spin = part.exact_properties.inertia[2, 2]
+            speed = 1.0 if part.inner_body == SHAFT else 1.0 / design.reducer.ratio
+            with_inner = spin * speed**2 + part.exact_properties.mass * throw**2
+            lowest += min(with_inner, with_outer)
+            highest += max(with_inner, with_outer)
+        assert lowest < row.reflected < highest, part.name
+
+
+def test_sums_and_signs() -> None:
+    design, parts = known_design("paper"), known_parts("paper")
+    found = gearbox_inertia(design, parts, closed_form)
+    rotor = find_motor("CubeMars RO100 KV55").rotor_inertia
+    assert found.rotor_inertia == rotor == 5.6e-4
+    assert found.reflected_input == pytest.approx(rotor + sum(p.reflected for p in found.parts))
+    assert found.reflected_output == pytest.approx(100.0 * found.reflected_input)
+    assert found.total.mass == pytest.approx(
+        sum(row.count * row.properties.mass for row in found.parts)
+    )
+    still = {"ring", "housing", "ring clamp", "output cover", "cover screw"}
+    assert {row.name for row in found.parts if row.reflected == 0.0} == still
+    # Two opposed discs, and everything else round: the centre of mass is on the axis.
+    assert np.abs(found.total.centre[:2]).max() < 1e-12
+
+
+def test_orbiting_mass_is_disc_and_cam_bearing() -> None:
+    design, parts = known_design("paper"), known_parts("paper")
+    disc = part_named(parts, "disc").mass
+    found = gearbox_inertia(design, parts, closed_form)
+    assert found.orbiting_mass == pytest.approx(disc + find_bearing("6902").mass)
+
+
+def test_discs_weigh_on_the_input_by_orbit_and_spin() -> None:
+    design, parts = known_design("paper"), known_parts("paper")
+    disc = part_named(parts, "disc")
+    row = next(
+        one for one in gearbox_inertia(design, parts, closed_form).parts if one.name == "disc"
+    )
+    own = disc.exact_properties
+    e, n = design.reducer.eccentricity, design.reducer.ratio
+    assert row.reflected == pytest.approx(2.0 * (own.mass * e**2 + own.inertia[2, 2] / n**2))
+
+
+def test_a_motor_without_rotor_inertia_is_told() -> None:
+    design = known_design("paper").replacing({"motor.name": "CubeMars R100 KV90"})
+    found = gearbox_inertia(design, known_parts("paper"), closed_form)
+    assert found.rotor_inertia is None
+    assert found.reflected_input == found.gearbox_reflected
+    assert "no rotor inertia for CubeMars R100 KV90" in found.warnings[0]
+    assert gearbox_inertia(known_design("paper"), known_parts("paper"), closed_form).warnings == ()
+
+
+def test_crank_of_two_opposed_lobes_has_a_couple_and_no_unbalance() -> None:
+    design = known_design("paper")
+    crank = crank_properties(design, known_parts("paper"), closed_form)
+    assert np.abs(crank.centre[:2]).max() < 1e-12
+    assert abs(crank.inertia[0, 2]) > 1e-10
+    one = known_design("one disc")
+    single = crank_properties(one, known_parts("one disc"), closed_form)
+    shaft = part_named(known_parts("one disc"), "eccentric shaft")
+    lobe_radius = find_bearing("6902").bore_diameter / 2.0
+    lobe = np.pi * lobe_radius**2 * find_bearing("6902").width * shaft.density
+    # Only the lobe is off the axis.
+    throw = lobe * one.reducer.eccentricity
+    assert single.mass * single.centre[0] == pytest.approx(throw, rel=1e-9)
+
+
+def test_eccentricity_and_density_have_their_effect() -> None:
+    design = known_design("paper")
+    bearing = find_bearing("6902")
+
+    def reflected(changes: dict[str, object]) -> dict[str, float]:
+        changed = design.replacing(changes)
+        rows = gearbox_inertia(changed, build_parts(changed, bearing), closed_form).parts
+        return {row.name: row.reflected for row in rows}
+
+    base, less = reflected({}), reflected({"reducer.eccentricity": 0.0014})
+    assert less["cam bearing"] < base["cam bearing"]
+    assert less["eccentric shaft"] != base["eccentric shaft"]
+    bronze = reflected({"reducer.disc_material": "Bronze CuSn12"})
+    assert bronze["disc"] / base["disc"] == pytest.approx(8800.0 / 7850.0)
+
+
+def test_catalogue_mass_overrides_the_envelope() -> None:
+    bearing = part_named(known_parts("paper"), "cam bearing")
+    assert bearing.mass == pytest.approx(0.017)
+    bare = dataclasses.replace(bearing, catalogue_mass=None)
+    assert bare.mass == pytest.approx(bearing.shape.volume * 7810.0)
+    assert isinstance(bare, Part)
+
+
+def test_json_form_has_the_fixed_keys() -> None:
+    found = gearbox_inertia(known_design("paper"), known_parts("paper"), closed_form).to_dict()
+    assert {
+        "parts",
+        "total_mass_kg",
+        "reflected_inertia_input_kgm2",
+        "reflected_inertia_output_kgm2",
+    } <= set(found)
+    rows = found["parts"]
+    assert isinstance(rows, list)
+    for row in rows:
+        assert {
+            "name",
+            "material",
+            "count",
+            "volume_mm3",
+            "mass_kg",
+            "centre_of_mass_mm",
+            "inertia_kgm2",
+            "exact_volume_mm3",
+        } <= set(row)
+        assert row["volume_mm3"] == pytest.approx(row["exact_volume_mm3"], rel=2e-5)
+        tensor = np.array(row["inertia_kgm2"])
+        assert np.allclose(tensor, tensor.T, rtol=0.0, atol=1e-18)
+        assert (np.linalg.eigvalsh(tensor) > 0.0).all()

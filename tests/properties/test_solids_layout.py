@@ -1,0 +1,256 @@
+"""The machine on paper fits together, whatever the design: no CAD kernel needed."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from solids_designs import CHANGES, known_design, known_parts, machines, part_named
+
+from cqdd_design.catalog import find_bearing
+from cqdd_design.catalog.bearings import Bearing
+from cqdd_design.design import Design
+from cqdd_design.errors import CatalogError, GeometryError
+from cqdd_design.geometry.contours import Circle
+from cqdd_design.geometry.disc import disc_contour
+from cqdd_design.solids.clocking import disc_groups
+from cqdd_design.solids.part import Part
+from cqdd_design.solids.parts import build_parts, total_mass
+from cqdd_design.solids.poses import HOUSING, body_pose
+from cqdd_design.solids.proportions import lay_out
+from cqdd_design.solids.selection import output_pin
+from cqdd_design.solids.shapes import Annulus, Drilling, notched_circle, on_circle, turned
+
+TOUCH = 1e-9
+
+
+def rings(part: Part) -> list[tuple[float, float, float, float]]:
+    """Bottom, top, bore and outside of every layer of a part that goes round the axis."""
+    found = []
+    for layer in part.shape.layers:
+        outer = layer.shape.outer
+        if isinstance(outer, Circle) and np.hypot(*outer.centre) > 0.0:
+            continue
+        outside = outer.radius if isinstance(outer, Circle) else np.hypot(*outer.points.T).max()
+        bores = [0.0]
+        for hole in layer.shape.holes:
+            if not isinstance(hole, Circle):
+                # The ring's teeth reach inward to joints of their arcs.
+                bores.append(float(np.hypot(*hole.points.T).min()))
+            elif np.hypot(*hole.centre) < 1e-12:
+                bores.append(hole.radius)
+        found.append((layer.bottom, layer.top, max(bores), float(outside)))
+    return found
+
+
+def assert_turned_parts_apart(design: Design, parts: tuple[Part, ...]) -> None:
+    """No two coaxial parts share a ring of space (bores and outsides, height by height)."""
+    coaxial = []
+    for part in parts:
+        for piece in part.instances:
+            pose = body_pose(design, piece.body, 0.0) @ piece.placement
+            if np.hypot(*pose[:2, 3]) < 1e-12:
+                coaxial.append((piece.name, pose[2, 3], rings(part)))
+    for (one, at, mine), (other, there, theirs) in itertools.combinations(coaxial, 2):
+        for (b, t, i, o), (b2, t2, i2, o2) in itertools.product(mine, theirs):
+            high = min(t + at, t2 + there) - max(b + at, b2 + there)
+            wide = min(o, o2) - max(i, i2)
+            assert high < TOUCH or wide < TOUCH, f"{one} and {other} overlap by {wide} x {high} m"
+
+
+@given(machines())
+@settings(
+    max_examples=60,
+    deadline=None,
+    suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow],
+)
+def test_any_machine_fits_together_or_says_why(machine: tuple[Design, Bearing]) -> None:
+    design, bearing = machine
+    try:
+        parts = build_parts(design, bearing)
+    except (GeometryError, CatalogError):
+        return
+    assert_turned_parts_apart(design, parts)
+    for part in parts:
+        assert part.mass > 0.0
+        assert part.shape.volume > 0.0
+        for layer in part.shape.layers:
+            assert layer.height > 0.0
+            assert_holes_inside(layer.shape.outer, layer.shape.holes)
+
+
+def assert_holes_inside(outer: object, holes: tuple[object, ...]) -> None:
+    circles = [hole for hole in holes if isinstance(hole, Circle)]
+    if isinstance(outer, Circle):
+        for hole in circles:
+            assert np.hypot(*(hole.centre - outer.centre)) + hole.radius < outer.radius
+    for one, other in itertools.combinations(circles, 2):
+        assert np.hypot(*(one.centre - other.centre)) > one.radius + other.radius
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_known_machines_have_their_parts(name: str) -> None:
+    parts = known_parts(name)
+    names = [part.name for part in parts]
+    assert len(set(names)) == len(names)
+    pieces = [piece.name for part in parts for piece in part.instances]
+    assert len(set(pieces)) == len(pieces)
+    assert_turned_parts_apart(known_design(name), parts)
+    expected = {
+        "paper": {"disc", "carrier cap", "shoulder screw"},
+        "three discs": {"disc 1", "disc 2", "disc 3", "eccentric cam"},
+        "pinwheel": {"ring pin", "pin sleeve", "shoulder screw"},
+        "conjugate": {"ring", "shoulder screw"},
+        "one disc": {"disc", "dowel pin", "carrier cap"},
+    }[name]
+    assert expected <= set(names)
+    assert ("carrier cap" in names) == (known_design(name).reducer.output_pins.support == "both")
+    assert ("eccentric cam" in names) == (name == "three discs")
+
+
+def test_shoulder_screws_are_catalogue_screws_that_span_the_pack() -> None:
+    design = known_design("paper")
+    layout = lay_out(design, find_bearing("6902"))
+    carrier, pack = layout.carrier, layout.pack
+    length = carrier.shoulder_top - carrier.shoulder_bottom
+    assert length == pytest.approx(0.025)  # a standard length of ISO 7379
+    assert carrier.shoulder_bottom < -pack.gap
+    assert carrier.shoulder_top > pack.top + pack.gap
+    screw = part_named(known_parts("paper"), "shoulder screw")
+    assert screw.designation == "ISO 7379 4 f9 x 25 M3"
+    assert screw.count == design.reducer.output_pins.count
+    widest = max(layer.shape.outer.radius for layer in screw.shape.layers)  # type: ignore[union-attr]
+    assert widest == pytest.approx(0.0035)  # head of the catalogue's 4 mm screw
+
+
+def test_stator_bore_is_the_register_where_it_suits_the_ring() -> None:
+    bearing = find_bearing("6902")
+    paper = lay_out(known_design("paper"), bearing)
+    assert paper.housing.seated_motor
+    assert paper.housing.register_radius == pytest.approx(0.038)
+    wide = lay_out(known_design("pinwheel"), bearing)
+    assert not wide.housing.seated_motor
+    assert wide.housing.register_radius > 0.039
+
+
+def test_cam_bearings_must_not_run_into_each_other() -> None:
+    design = known_design("paper").replacing({"reducer.disc_thickness": 0.006})
+    with pytest.raises(GeometryError, match=r"7 mm wide, more than the 6\.5 mm"):
+        build_parts(design, find_bearing("6902"))
+
+
+def test_eccentrics_must_leave_a_shaft() -> None:
+    design = known_design("paper")
+    with pytest.raises(GeometryError, match="leaves no eccentric shaft"):
+        build_parts(design, find_bearing("SKF 618/4"))
+
+
+def test_a_sleeve_must_go_over_its_pin() -> None:
+    design = known_design("paper").replacing({"reducer.output_pins.sleeve_diameter": 0.003})
+    with pytest.raises(GeometryError, match="does not go over"):
+        build_parts(design, find_bearing("6902"))
+
+
+@pytest.mark.parametrize("ratio", [5, 6, 10, 11, 24])
+@pytest.mark.parametrize("pins", [3, 4, 5, 6, 7])
+def test_quarter_lobe_pitch_makes_two_discs_one_part(ratio: int, pins: int) -> None:
+    design = known_design("paper").replacing(
+        {
+            "reducer.ratio": ratio,
+            "requirements.ratio": ratio,
+            "reducer.output_pins.count": pins,
+            "reducer.output_pins.hole_clocking": math.pi / (2 * ratio),
+        }
+    )
+    (group,) = disc_groups(design)
+    assert [placed.disc for placed in group.placements] == [0, 1]
+
+
+def test_any_other_clocking_needs_two_parts() -> None:
+    design = known_design("paper").replacing({"reducer.output_pins.hole_clocking": 0.1})
+    assert len(disc_groups(design)) == 2
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_placed_discs_are_the_discs_of_the_drawing(name: str) -> None:
+    """Turning a part over and round gives the outline and the holes of the disc it stands for."""
+    design = known_design(name)
+    bore = find_bearing(design.reducer.cam_bearing.designation).outer_diameter
+    mean = output_pin(design.reducer.output_pins.diameter).mean_diameter
+    for part in known_parts(name):
+        for piece in part.instances:
+            if piece.body.kind != "disc" or not part.name.startswith("disc"):
+                continue
+            wanted = disc_contour(
+                design, piece.body.disc, bore_diameter=bore, pin_mean_diameter=mean
+            )
+            shape = part.shape.layers[0].shape
+            turn = piece.placement[:2, :2]
+            assert wanted.outer.distances(shape.outer.points @ turn.T).max() < 2e-12
+            ours = np.array([hole.centre for hole in shape.holes]) @ turn.T
+            theirs = np.array([hole.centre for hole in wanted.holes])
+            off = np.abs(ours[:, None] - theirs[None]).max(axis=2).min(axis=1)
+            assert off.max() < 1e-9
+            ends = piece.placement[2, 2] * np.array([0.0, 1.0]) * design.reducer.disc_thickness
+            heights = sorted(ends + piece.placement[2, 3])
+            pitch = design.reducer.disc_thickness + design.reducer.disc_spacing
+            assert heights[0] == pytest.approx(piece.body.disc * pitch, abs=1e-12)
+
+
+def test_closed_forms_of_turned_parts() -> None:
+    drilled = turned(
+        [Annulus(0.0, 0.01, 0.01, 0.03), Annulus(0.01, 0.02, 0.015, 0.02)],
+        [Drilling(on_circle(6, 0.025, 0.3), 0.002, 0.004, 0.02)],
+    )
+    # The holes pass the wide ring only: 6 mm of it.
+    expected = math.pi * (
+        (0.03**2 - 0.01**2) * 0.01 + (0.02**2 - 0.015**2) * 0.01 - 6 * 0.002**2 * 0.006
+    )
+    assert drilled.volume == pytest.approx(expected, rel=1e-12)
+    own = drilled.mass_properties(1000.0)
+    assert own.mass == pytest.approx(1000.0 * expected, rel=1e-12)
+    assert np.abs(own.centre[:2]).max() < 1e-12
+    solid = turned([Annulus(0.0, 0.05, 0.0, 0.02)]).mass_properties(7850.0)
+    assert solid.inertia[2, 2] == pytest.approx(solid.mass * 0.02**2 / 2.0)
+    assert solid.inertia[0, 0] == pytest.approx(solid.mass * (3 * 0.02**2 + 0.05**2) / 12.0)
+
+
+def test_notches_take_their_area_from_the_circle() -> None:
+    radius, width, depth = 0.03, 0.004, 0.002
+    outline = notched_circle(radius, 4, width, depth)
+    half = math.asin(0.5 * width / radius)
+    edge = radius * math.cos(half)
+    segment = 0.5 * radius**2 * (2.0 * half - math.sin(2.0 * half))
+    slot = width * (edge - (radius - depth))
+    assert outline.area() == pytest.approx(math.pi * radius**2 - 4.0 * (segment + slot), rel=1e-12)
+
+
+def test_fits_are_named_and_have_limits() -> None:
+    parts = known_parts("three discs")
+    disc = part_named(parts, "disc 2")
+    assert [str(fit) for fit in disc.fits] == ["bore for the cam bearing 24 N7"]
+    housing = part_named(parts, "housing")
+    seat = next(fit for fit in housing.fits if fit.feature == "ring seat")
+    assert (seat.zone, seat.limits.lower, seat.limits.upper) == ("H7", 0.0, pytest.approx(30e-6))
+    made = [part for part in parts if part.source == "make"]
+    assert {part.name for part in made if not part.fits} == {"ring clamp", "bearing nut"}
+
+
+def test_density_of_the_housing_shows_in_the_mass() -> None:
+    design = known_design("paper")
+    steel = design.replacing({"housing.material": "AISI 4140 Q&T 540C"})
+    bearing = find_bearing("6902")
+    light = {part.name: part.mass for part in build_parts(design, bearing)}
+    heavy = {part.name: part.mass for part in build_parts(steel, bearing)}
+    for name in ("housing", "carrier plate", "carrier cap", "ring clamp", "output cover"):
+        assert heavy[name] / light[name] == pytest.approx(7850.0 / 2810.0)
+    assert heavy["ring"] == light["ring"]
+
+
+def test_fixed_parts_stay_where_they_are() -> None:
+    design = known_design("paper")
+    assert np.array_equal(body_pose(design, HOUSING, 1.234), np.eye(4))
+    assert total_mass(known_parts("paper")) == pytest.approx(0.8207, abs=1e-4)

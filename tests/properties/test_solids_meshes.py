@@ -1,0 +1,198 @@
+"""Solids and meshes against closed forms, and against each other: needs the CAD kernel."""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib.util
+import math
+
+import numpy as np
+import pytest
+from solids_designs import known_design, known_parts, part_named
+
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.disc import profile_moments
+from cqdd_design.solids.interference import collisions, find_overlaps, shared_volume
+from cqdd_design.solids.mesh import (
+    DISPLAY,
+    FINE,
+    Quality,
+    closed_mesh,
+    facets,
+    mass_properties,
+    mesh_volume,
+    posed_mesh,
+    tessellate,
+)
+from cqdd_design.solids.part import Instance, Part
+from cqdd_design.solids.poses import transform
+
+pytestmark = pytest.mark.skipif(
+    importlib.util.find_spec("cadquery") is None, reason="cadquery is not installed"
+)
+
+# Shapes that differ in kind from those of the paper's machine.
+OTHERS = [
+    ("three discs", "disc 2"),
+    ("three discs", "eccentric shaft"),
+    ("three discs", "eccentric cam"),
+    ("pinwheel", "ring"),
+    ("pinwheel", "ring pin"),
+    ("pinwheel", "pin sleeve"),
+    ("conjugate", "ring"),
+    ("one disc", "dowel pin"),
+]
+CASES = [("paper", part) for part in known_parts("paper")] + [
+    (name, part_named(known_parts(name), part)) for name, part in OTHERS
+]
+
+
+def ids(case: tuple[str, Part]) -> str:
+    return f"{case[0]}: {case[1].name}"
+
+
+@pytest.mark.parametrize("case", CASES, ids=ids)
+def test_solid_and_mesh_agree_with_the_closed_form(case: tuple[str, Part]) -> None:
+    part = case[1]
+    assert part.solid.isValid()
+    assert part.solid.ShapeType() == "Solid"
+    # Arcs only: the kernel's own integral is that of the arcs to rounding.
+    assert part.solid.Volume() * 1e-9 == pytest.approx(part.shape.volume, rel=1e-9)
+    kinds = {face.geomType() for face in part.solid.Faces()}
+    assert kinds <= {"PLANE", "CYLINDER"}
+
+    mesh = tessellate(part, FINE)
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    assert mesh_volume(part) == pytest.approx(part.exact_volume, rel=8e-5)
+    assert mesh_volume(part) != part.exact_volume
+    found, exact = mass_properties(part), part.exact_properties
+    assert found.mass == pytest.approx(exact.mass, rel=8e-5)
+    size = np.abs(exact.inertia).max()
+    assert np.abs(found.inertia - exact.inertia).max() < 8e-5 * size
+    for axis in range(3):
+        assert found.inertia[axis, axis] == pytest.approx(exact.inertia[axis, axis], rel=1e-4)
+    assert np.abs(found.centre - exact.centre).max() < 1e-4 * part.shape.outside_radius
+
+
+def test_disc_without_holes_has_the_area_of_greens_theorem() -> None:
+    design = known_design("paper")
+    disc = part_named(known_parts("paper"), "disc")
+    shape = disc.shape.layers[0].shape
+    holes = sum(hole.area() for hole in shape.holes)
+    lobed = mesh_volume(disc) / design.reducer.disc_thickness + holes
+    exact = profile_moments(CycloidDisc.from_design(design)).area
+    assert lobed == pytest.approx(exact, rel=1e-4)
+
+
+def test_display_meshes_are_closed_and_small() -> None:
+    count = 0
+    for part in known_parts("paper"):
+        mesh = closed_mesh(part, DISPLAY)
+        count += len(mesh.triangles)
+        assert mesh.volume == pytest.approx(part.shape.volume * 1e9, rel=2e-3)
+        raw = facets(part, DISPLAY)
+        assert len(raw.vertices) > len(mesh.vertices)  # no smoothing across edges
+        assert len(raw.triangles) == len(mesh.triangles)
+    assert count < 80_000
+
+
+@pytest.mark.parametrize(
+    ("name", "angles", "quality"),
+    [
+        ("paper", [2.3], FINE),
+        ("three discs", [1.1], DISPLAY),
+        ("pinwheel", [4.0], DISPLAY),
+        ("conjugate", [7.7], DISPLAY),
+        ("one disc", [30.0], DISPLAY),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_nothing_runs_into_anything(name: str, angles: list[float], quality: Quality) -> None:
+    found = collisions(known_design(name), known_parts(name), angles, quality)
+    assert found == (), [f"{o.first} and {o.second}: {o.volume * 1e9:.3g} mm3" for o in found]
+
+
+def gear_train(parts: tuple[Part, ...]) -> tuple[Part, ...]:
+    return tuple(part for part in parts if part.name in {"disc", "ring", "shoulder screw"})
+
+
+def moved(part: Part, piece: str, placement: np.ndarray) -> Part:
+    """The part with one piece placed elsewhere in its body."""
+    pieces = tuple(
+        Instance(one.name, one.body, placement @ one.placement) if one.name == piece else one
+        for one in part.instances
+    )
+    return dataclasses.replace(part, instances=pieces)
+
+
+def test_gear_train_clears_over_many_angles() -> None:
+    angles = 2.0 * math.pi * np.arange(7) / 7 * known_design("paper").reducer.ratio
+    found = find_overlaps(known_design("paper"), gear_train(known_parts("paper")), angles)
+    # The teeth leave 6 um and the holes 8 um: more than the facets.
+    assert found == ()
+
+
+@pytest.mark.parametrize(
+    ("fault", "placement"),
+    [
+        ("not turned over", transform(z=0.0)),
+        ("a lobe pitch out by a tenth of a millimetre", transform(0.1 / 32.0)),
+        ("half a lobe out", transform(math.pi / 10)),
+    ],
+)
+def test_a_wrongly_phased_disc_is_caught(fault: str, placement: np.ndarray) -> None:
+    design = known_design("paper")
+    train = gear_train(known_parts("paper"))
+    disc = part_named(train, "disc")
+    if fault == "not turned over":
+        plain = transform(z=design.reducer.disc_thickness + design.reducer.disc_spacing)
+        second = disc.instances[1]
+        wrong = dataclasses.replace(
+            disc, instances=(disc.instances[0], Instance(second.name, second.body, plain))
+        )
+    else:
+        wrong = moved(disc, "disc 2", placement)
+    found = collisions(design, (wrong, *train[1:]), [0.4])
+    assert found, fault
+    assert all("disc 2" in {one.first, one.second} for one in found)
+    others = {one.first for one in found} | {one.second for one in found}
+    # Lobes that mesh but holes that do not, or both.
+    if fault == "not turned over":
+        assert "ring" not in others
+        assert any(name.startswith("shoulder screw") for name in others)
+    else:
+        assert "ring" in others
+
+
+def test_shared_volume_is_that_of_the_lens() -> None:
+    """Two equal cylinders a little apart share a lens of known area."""
+    screw = part_named(known_parts("paper"), "shoulder screw")
+    design = known_design("paper")
+    pin = next(part for part in known_parts("pinwheel") if part.name == "ring pin")
+    first = pin.instances[0]
+    apart, radius = 0.004, 0.0035
+    second = Instance("moved", first.body, transform(x=apart) @ first.placement)
+    lens = 2.0 * radius**2 * math.acos(apart / (2.0 * radius)) - 0.5 * apart * math.sqrt(
+        4.0 * radius**2 - apart**2
+    )
+    height = pin.shape.top - pin.shape.bottom
+    shared = shared_volume(design, (pin, first), (pin, second), 0.0)
+    assert shared == pytest.approx(lens * height, rel=2e-4)
+    assert shared_volume(design, (pin, first), (screw, screw.instances[2]), 0.0) == 0.0
+
+
+def test_posed_mesh_stands_where_the_assembly_puts_it() -> None:
+    from cqdd_design.solids.assembly import build_assembly
+
+    design, parts = known_design("paper"), known_parts("paper")
+    angle = 1.3
+    assembly = build_assembly(design, parts, angle)
+    placed = {child.name: child for child in assembly.children}
+    for part in parts[:3]:
+        for piece in part.instances:
+            mesh = posed_mesh(part, piece.pose(design, angle))
+            child = placed[piece.name]
+            centre = child.obj.moved(child.loc).Center()  # type: ignore[union-attr]
+            assert np.abs(np.array(centre.toTuple()) - mesh.center_mass).max() < 1e-3
+    assert len(placed) == sum(part.count for part in parts)
