@@ -231,9 +231,9 @@ def test_every_requirement_has_an_effect():
     for change in (
         {"peak_torque": "80 N*m"},
         {"continuous_torque": "30 N*m"},
-        {"input_speed": "2500 rpm"},
+        {"input_speed": "6000 rpm"},
         {"outer_diameter": "78 mm"},
-        {"length": "10 mm"},
+        {"length": "11 mm", "peak_torque": "40 N*m"},
         {"disc_count": 3},
         {"disc_material": "AISI 4140 Q&T 425C", "ring_material": "AISI 4140 Q&T 425C"},
         {"pin_material": "18-8 shoulder screw (seed-consistent)"},
