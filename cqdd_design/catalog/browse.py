@@ -92,7 +92,8 @@ def look_up(name: str) -> tuple[str, dict[str, Row]]:
     Parameters
     ----------
     name : str
-        ``"bearings"``, ``"6902"``, ``"AISI 4140"``; case and runs of blanks do not matter.
+        ``"bearings"``, ``"6902"``, ``"bearings 6902"``, ``"AISI 4140"``; case and runs of blanks
+        do not matter.
 
     Returns
     -------
@@ -116,6 +117,9 @@ def look_up(name: str) -> tuple[str, dict[str, Row]]:
     for kind, rows in every.items():
         if wanted in {kind, kind.removesuffix("s"), f"shoulder {kind}"}:
             return kind, rows
+    first, _, rest = name.strip().partition(" ")
+    if rest and first.lower() in every:
+        every, name, wanted = {first.lower(): every[first.lower()]}, rest.strip(), _folded(rest)
     for kind, rows in every.items():
         for key, row in rows.items():
             if _folded(key) == wanted:
@@ -132,7 +136,9 @@ def look_up(name: str) -> tuple[str, dict[str, Row]]:
     names: Iterable[str] = [*every, *(key for rows in every.values() for key in rows)]
     near = nearest_names(name, names)
     hint = "; the nearest are " + ", ".join(f"'{n}'" for n in near) if near else ""
-    raise CatalogError(f"no catalogue has '{name}'{hint}; the catalogues are {', '.join(every)}.")
+    raise CatalogError(
+        f"no catalogue has '{name}'{hint}; the catalogues are {', '.join(catalogues())}."
+    )
 
 
 def _rows(table: Mapping[str, Any]) -> dict[str, Row]:

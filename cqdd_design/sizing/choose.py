@@ -15,8 +15,8 @@ from cqdd_design.sizing.space import SearchSpace
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
-
 _MUCH_THICKER = 1.6
+"""Thickness over the thinnest that carries the load, beyond which no candidate is weighed."""
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ def test_catalog_without_a_name_lists_the_catalogues(cqdd):
         assert kind in done.out
 
 
-@pytest.mark.parametrize("words", [["6902"], ["show", "6902"], ["list", "6902"]])
+@pytest.mark.parametrize("words", [["6902"], ["show", "6902"], ["bearings", "6902"]])
 def test_catalog_shows_a_row(cqdd, words):
     done = cqdd("catalog", *words)
     assert done.code == 0
