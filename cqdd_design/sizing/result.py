@@ -99,7 +99,8 @@ class SizingResult:
     objective : Objective
         Of the design.
     alternatives : tuple of SizedDesign
-        Three designs with more and more torque reserve, each as light as that allows.
+        Up to three other designs, fewer only where several aims lead to one design: the lightest
+        of all, and two with more torque reserve, each as light as that allows.
     candidates_screened, survivors : int
         Candidates tried, and those of them that met every check.
     rejected : dict of str to int

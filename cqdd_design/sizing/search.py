@@ -103,8 +103,10 @@ class Search:
         with_reserve = self.lightest(most, min(OFFERED_RESERVE, _within_reach(most)))
         return with_reserve or self.lightest(most)
 
-    def alternatives(self, main: Points, most: Points) -> tuple[SizedDesign, ...]:
-        """Up to three other designs: the lightest of all, and two with more reserve.
+    def alternatives(
+        self, design: SizedDesign, main: Points, most: Points
+    ) -> tuple[SizedDesign, ...]:
+        """Up to three different designs: the lightest of all, and two with more reserve.
 
         The reserves of these two are the most there is (or twice the torque) and half way to it
         from the main design's; each is as light as that allows. The search goes from the strongest
@@ -116,9 +118,13 @@ class Search:
         starts = main.joined(most)
         for wanted, suffix in ((top, "-d"), (max(0.5 * (own + top), 1.0), "-c"), (1.0, "-b")):
             other = self.lightest(starts, wanted, suffix)
-            if other is not None:
+            if other is None:
+                continue
+            starts = main.joined(other[1])
+            # Where a wide bearing decides the thickness, several aims end in one design.
+            known = [design.design.reducer, *(one.design.reducer for one in found)]
+            if other[0].design.reducer not in known:
                 found.append(other[0])
-                starts = main.joined(other[1])
         return tuple(reversed(found))
 
 

@@ -56,7 +56,7 @@ def size(requirements: Requirements, progress: Callable[[str], None] | None = No
         raise no_design(search)
     design, point = main
     refuse_motor(design)
-    alternatives = search.alternatives(point, most)
+    alternatives = search.alternatives(design, point, most)
     return SizingResult(
         design=design.design,
         checks=design.checks,

@@ -131,3 +131,19 @@ def test_requirements_shown_are_requirements(tmp_path):
         path = tmp_path / f"{number}.toml"
         path.write_text(block)
         load_requirements(path)
+
+
+def test_the_claims_of_the_paper_are_those_computed(cqdd):
+    done = cqdd("compare", REPOSITORY / "designs" / "cqdd-10.toml", "--json")
+    claims = done.document["results"]["paper_claims"]
+    table = (
+        (REPOSITORY / "docs" / "theory.md")
+        .read_text(encoding="utf-8")
+        .split("## Claims of the paper")[1]
+    )
+    rows = [line.split("|")[1:-1] for line in table.splitlines() if line.startswith("| ")][1:]
+    assert len(rows) == len(claims)
+    for (_, _, ours, holds), claim in zip(rows, claims, strict=True):
+        assert holds.strip() == ("yes" if claim["holds"] else "no")
+        for number in re.findall(r"[0-9]+[.][0-9]+", ours):
+            assert number in str(claim["ours"]), claim["claim"]

@@ -39,6 +39,10 @@ def assert_sound(result, requirements):
         assert objective.torque_reserve >= 1.0 - 1e-9
         margins = {check.id: check.margin for check in checks}
         assert margins[objective.binding] == pytest.approx(objective.least_margin)
+    all_different = [result.design.reducer]
+    for one in result.alternatives:
+        assert one.design.reducer not in all_different
+        all_different.append(one.design.reducer)
     reserves = [one.objective.torque_reserve for one in result.alternatives]
     assert reserves == sorted(reserves)
     scores = [one.objective.score for one in result.alternatives]
@@ -246,6 +250,16 @@ def test_progress_is_told_in_sentences():
     size(Requirements(ratio=9), progress=told.append)
     assert len(told) >= 2
     assert any("candidates meet every limit" in line for line in told)
+
+
+def test_needles_are_used_where_the_discs_are_hard_enough_to_be_raceways():
+    """What balls cannot carry in a 72 mm ring, caged needles do, in discs of bearing steel."""
+    asked = {"ratio": 10, "peak_torque": "120 N*m", "length": "21 mm"}
+    with pytest.raises(SizingInfeasibleError):
+        sized(**asked)
+    steel = "AISI 52100 / 100Cr6 hardened"
+    design = sized(**asked, disc_material=steel, ring_material=steel).design
+    assert design.reducer.cam_bearing.designation.startswith("needle")
 
 
 def test_harder_discs_allow_more():
