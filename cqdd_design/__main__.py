@@ -11,7 +11,7 @@ from cqdd_design.cli import interruption
 
 
 def _start_lightly() -> None:
-    """Spare a short process what only long ones need; together a seventh of `export --to dxf`.
+    """Spare a short process what only long ones need.
 
     Pydantic looks through every installed distribution for plugins, of which none is used here,
     and the cyclic collector walks all imported modules again and again.
@@ -34,6 +34,9 @@ def main() -> int:
             raise
         sys.stderr.write("cqdd-design: interrupted\n")
         return code
+    finally:
+        # What is alive now dies with the process: spare it the collector's last walks.
+        gc.freeze()
 
 
 if __name__ == "__main__":
