@@ -113,12 +113,20 @@ window.addEventListener("load", function () {
   }
   found.back = slide(PROBE_START);
   document.getElementById("mesh-play").click();
-  setTimeout(function () {
+  // A busy machine draws few frames: wait for one that moved, within reason.
+  var waits = 0;
+  var look = function () {
     found.playing = mesh();
+    waits += 1;
+    if (found.playing.crank === found.back.crank && waits < 100) {
+      setTimeout(look, 150);
+      return;
+    }
     document.getElementById("mesh-play").click();
     found.label = document.getElementById("mesh-play").textContent;
     finish();
-  }, 700);
+  };
+  setTimeout(look, 700);
 });
 </script>"""
 
@@ -180,7 +188,7 @@ def probe(
     path = folder / "page.html"
     path.write_text(watched, encoding="utf-8")
     done = run_browser(
-        folder, "--dump-dom", f"--window-size={size}", "--virtual-time-budget=4000", page=path
+        folder, "--dump-dom", f"--window-size={size}", "--virtual-time-budget=20000", page=path
     )
     result = re.search(r'<pre id="probe-result">(.*?)</pre>', done.stdout, re.S)
     assert result is not None, f"the probe left nothing behind: {done.stderr}"
