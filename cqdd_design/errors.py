@@ -42,6 +42,10 @@ class GeometryError(DesignError):
     """The numbers are legal one by one, but no part can have this shape. Exit code 3."""
 
 
+class ContactError(DesignError):
+    """No contact equilibrium: the parts cannot touch, or the load leaves the model. Exit code 3."""
+
+
 class InfeasibleError(DesignError):
     """No design meets the requirements; the message names the limits that bind. Exit code 3."""
 

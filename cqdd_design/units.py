@@ -131,6 +131,13 @@ BANDWIDTH = Dimension(
 )
 VOLTAGE = Dimension("voltage", "V", 1.0, ((("voltage", 1),),), (("V", 1.0), ("mV", 1e-3)))
 CURRENT = Dimension("current", "A", 1.0, ((("current", 1),),), (("A", 1.0), ("mA", 1e-3)))
+RADIAL_STIFFNESS = Dimension(
+    "stiffness",
+    "N/um",
+    1e6,
+    ((("force", 1), ("length", -1)),),
+    (("N/um", 1e6), ("N/mm", 1e3), ("N/m", 1.0), ("kN/mm", 1e6)),
+)
 STIFFNESS_GAIN = Dimension(
     "rotational stiffness",
     "N*m/rad",

@@ -28,6 +28,7 @@ from cqdd_design.design.requirements import LEAST_RATIO, MOST_RATIO
 from cqdd_design.units import (
     ANGLE,
     LENGTH,
+    RADIAL_STIFFNESS,
     SMALL_ANGLE,
     SMALL_LENGTH,
     QuantityIn,
@@ -82,6 +83,15 @@ class CamBearing(FrozenModel):
     radial_clearance: Annotated[
         float, QuantityIn(SMALL_LENGTH, "0 um", "500 um", "total play by ISO 5753")
     ] = default("5 um")
+
+
+class CarrierBearing(FrozenModel):
+    """The bearing of the output carrier in the housing."""
+
+    stiffness: Annotated[
+        float,
+        QuantityIn(RADIAL_STIFFNESS, "0 N/um", "1000000 N/um", "radial; 0 means rigid"),
+    ] = default("0 N/um")
 
 
 class Ring(FrozenModel):
@@ -142,6 +152,7 @@ class Reducer(FrozenModel):
     modification: Modification = Modification()
     output_pins: OutputPins
     cam_bearing: CamBearing = CamBearing()
+    carrier_bearing: CarrierBearing = CarrierBearing()
     ring: Ring
     friction: ReducerFriction = ReducerFriction()
     balance: Balance = Balance()

@@ -1,0 +1,126 @@
+"""Compiled kernel that turns the part errors of one gearbox into gap changes over crank angle.
+
+The plain twin is :func:`.states.error_states`. Profile errors are tabulated once round the disc
+and read by cubic Hermite interpolation, which is exact where the angles fall on the table.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+_POINTS_PER_HARMONIC = 16
+
+
+def table_size(angles: int, harmonics: int) -> int:
+    """Points of the profile table: a multiple of the angles, fine enough for the harmonics."""
+    least = max(_POINTS_PER_HARMONIC * harmonics, 1)
+    return angles * -(-least // angles)
+
+
+def harmonic_basis(size: int, harmonics: int) -> FloatArray:
+    """Cosines and sines of orders 1 to M on the table, (size, 2, M)."""
+    angle = 2.0 * np.pi * np.arange(size)[:, None] * np.arange(1, harmonics + 1) / size
+    return np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+@numba.njit(cache=True, error_model="numpy")  # type: ignore[misc]
+def fill_errors(
+    rows: Any,
+    rates: Any,
+    parameter: Any,
+    parameter_rate: Any,
+    crank_angle: Any,
+    phases: Any,
+    lobe_count: int,
+    play: float,
+    basis: Any,
+    tooth_position: Any,
+    tooth_radius: Any,
+    disc_profile: Any,
+    hole_position: Any,
+    hole_radius: Any,
+    pin_position: Any,
+    pin_radius: Any,
+    cam_centre: Any,
+    cam_play: Any,
+    nominal: Any,
+    gaps: Any,
+    gap_rates: Any,
+    offset: Any,
+    offset_rates: Any,
+    half_play: Any,
+) -> None:
+    """Gaps (nominal plus errors), gap rates by errors, cam offsets and play of one gearbox.
+
+    Shapes and signs are those of :class:`.states.ErrorStates`; `gaps` includes `nominal`.
+    """
+    count, discs, contacts = nominal.shape
+    teeth = tooth_radius.shape[0]
+    size, harmonics = basis.shape[0], basis.shape[2]
+    spacing = 2.0 * math.pi / size
+    material = np.zeros((discs, size))
+    slope = np.zeros((discs, size))
+    for d in range(discs):
+        for g in range(size):
+            w = s = 0.0
+            for m in range(harmonics):
+                a, b = disc_profile[d, 0, m], disc_profile[d, 1, m]
+                c, v = basis[g, 0, m], basis[g, 1, m]
+                w += a * c + b * v
+                s += (m + 1) * (b * c - a * v)
+            material[d, g] = w
+            slope[d, g] = s * spacing
+        half_play[d] = max(0.5 * (play + cam_play[d]), 0.0)
+    for i in range(count):
+        phi = crank_angle[i]
+        back = -phi / lobe_count
+        cosine, sine = math.cos(back), math.sin(back)
+        for d in range(discs):
+            for k in range(teeth):
+                nx, ny = rows[i, d, k, 0], rows[i, d, k, 1]
+                spin = rates[i, d, k, 0]
+                tx, ty = tooth_position[k, 0], tooth_position[k, 1]
+                place = parameter[i, d, k] / spacing
+                whole = math.floor(place + 0.5)
+                if abs(place - whole) < 1e-6:
+                    place = whole
+                low = math.floor(place)
+                u = place - low
+                g0 = int(low) % size
+                g1 = (g0 + 1) % size
+                w0, w1 = material[d, g0], material[d, g1]
+                s0, s1 = slope[d, g0], slope[d, g1]
+                rise = w1 - w0
+                c2 = 3.0 * rise - 2.0 * s0 - s1
+                c3 = s0 + s1 - 2.0 * rise
+                w = w0 + u * (s0 + u * (c2 + u * c3))
+                s = (s0 + u * (2.0 * c2 + 3.0 * u * c3)) / spacing
+                gaps[i, d, k] = nominal[i, d, k] - (nx * tx + ny * ty) - tooth_radius[k] - w
+                gap_rates[i, d, k] = (
+                    -spin * (nx * ty - ny * tx) - s * parameter_rate[i, d, k]
+                )
+            for k in range(teeth, contacts):
+                j = k - teeth
+                nx, ny = rows[i, d, k, 0], rows[i, d, k, 1]
+                spin = rates[i, d, k, 0]
+                ax = hole_position[d, j, 0] - pin_position[j, 0]
+                ay = hole_position[d, j, 1] - pin_position[j, 1]
+                wx, wy = cosine * ax - sine * ay, sine * ax + cosine * ay
+                gaps[i, d, k] = (
+                    nominal[i, d, k] + nx * wx + ny * wy + hole_radius[d, j] - pin_radius[j]
+                )
+                gap_rates[i, d, k] = (spin + 1.0 / lobe_count) * (nx * wy - ny * wx)
+            own = phi + phases[d]
+            ux, uy = math.cos(own), math.sin(own)
+            along, across = cam_centre[d, 0], cam_centre[d, 1]
+            offset[i, d, 0] = along * ux - across * uy
+            offset[i, d, 1] = along * uy + across * ux
+            offset_rates[i, d, 0] = -along * uy - across * ux
+            offset_rates[i, d, 1] = along * ux - across * uy

@@ -1,0 +1,319 @@
+"""Force laws of one contact: line contacts of teeth and pins, and the cam bearing's spring.
+
+A line contact is written as approach over force, ``delta(F)``, because a pin adds its own linear
+compliance in series; the equilibrium needs the inverse, force over approach, which the compiled
+kernel (:mod:`.kernel`) and its plain twin here find by Newton's method.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cqdd_design.catalog.bearings import Bearing
+from cqdd_design.catalog.needles import needle_set
+from cqdd_design.errors import DesignError
+
+FloatArray = NDArray[np.float64]
+LineModel = Literal["palmgren", "johnson", "linear"]
+
+PALMGREN, JOHNSON, LINEAR = 0, 1, 2
+LINE_MODELS: dict[str, int] = {"palmgren": PALMGREN, "johnson": JOHNSON, "linear": LINEAR}
+
+_STEEL_MODULUS = 206e9 / (2.0 * (1.0 - 0.3**2))
+"""E* of steel on steel, for which Palmgren measured his coefficient, Pa."""
+
+_PALMGREN = 3.84e-5 * 1e-3 / (1e3) ** 0.8
+"""3.84e-5 F^0.9/L^0.8 with N and mm, in N and m."""
+
+LEAST_SLOPE = 0.05
+"""Share of the slope at 1 N below which Johnson's law is left: it would soon turn back."""
+
+
+@dataclass(frozen=True)
+class LineLaw:
+    """Approach of a family of line contacts over force.
+
+    Attributes
+    ----------
+    model : {"palmgren", "johnson", "linear"}
+        palmgren: ``delta = c F^0.9``; johnson: ``delta = F (a - B ln F)``; linear:
+        ``delta = c F``. Each contact has its own coefficient ``c`` (or ``a``).
+    logarithm : float
+        B of Johnson's law, m/N; zero otherwise.
+    """
+
+    model: LineModel
+    logarithm: float = 0.0
+
+    @property
+    def code(self) -> int:
+        """Number of the model in the compiled kernel."""
+        return LINE_MODELS[self.model]
+
+
+def palmgren_coefficient(length: float, modulus: float) -> float:
+    """Coefficient c of ``delta = c F^0.9`` (Palmgren 1959), N and m.
+
+    Palmgren measured steel; other pairs are scaled by the ratio of their E* to steel's.
+
+    Parameters
+    ----------
+    length : float
+        Contact length, m.
+    modulus : float
+        E* of the pair, Pa.
+
+    Examples
+    --------
+    >>> c = palmgren_coefficient(0.01, _STEEL_MODULUS)
+    >>> print(round(1e3 * c * 1000.0**0.9, 7))
+    0.0030502
+    """
+    return _PALMGREN / length**0.8 * (_STEEL_MODULUS / modulus)
+
+
+def johnson_coefficients(
+    length: float,
+    equivalent_radius: ArrayLike,
+    modulus: float,
+    bodies: tuple[tuple[float, float, float], tuple[float, float, float]],
+) -> tuple[FloatArray, float]:
+    """Coefficients a and B of ``delta = F (a - B ln F)`` (Johnson 1985, eq. 5.57), N and m.
+
+    Parameters
+    ----------
+    length : float
+        Contact length b, m.
+    equivalent_radius : array_like
+        R_eq, m.
+    modulus : float
+        E* of the pair, Pa.
+    bodies : two tuples
+        Depth of the reference point behind the contact (m), Young's modulus (Pa), Poisson's
+        ratio of either body.
+
+    Returns
+    -------
+    a : array
+        m/N, with the shape of `equivalent_radius`.
+    B : float
+        m/N.
+    """
+    radius = np.asarray(equivalent_radius, dtype=float)
+    # a_half^2 = F * spread, so 2 ln(2 d/a_half) = ln(4 d^2/spread) - ln F.
+    spread = 4.0 * radius / (np.pi * length * modulus)
+    constant = np.zeros_like(radius)
+    logarithm = 0.0
+    for depth, youngs, poisson in bodies:
+        compliance = (1.0 - poisson * poisson) / (np.pi * youngs * length)
+        constant = constant + compliance * (
+            np.log(4.0 * depth * depth / spread) - poisson / (1.0 - poisson)
+        )
+        logarithm += compliance
+    return constant, logarithm
+
+
+def approach(
+    law: LineLaw, coefficient: ArrayLike, series: ArrayLike, force: ArrayLike
+) -> FloatArray:
+    """Approach of contacts under `force`, series compliance included, m.
+
+    Parameters
+    ----------
+    law : LineLaw
+    coefficient : array_like
+        c or a of every contact.
+    series : array_like
+        Linear compliance in series, m/N.
+    force : array_like
+        N, not negative.
+    """
+    load = np.asarray(force, dtype=float)
+    c = np.asarray(coefficient, dtype=float)
+    if law.model == "palmgren":
+        local = c * load**0.9
+    elif law.model == "linear":
+        local = c * load
+    else:
+        local = load * (c - law.logarithm * np.log(np.where(load > 0.0, load, 1.0)))
+    return np.asarray(local + np.asarray(series, dtype=float) * load)
+
+
+def force_limit(law: LineLaw, coefficient: ArrayLike, series: ArrayLike) -> FloatArray:
+    """Largest force up to which the law is used as published, N.
+
+    Johnson's logarithm turns back once the contact is as wide as the body is deep; beyond a
+    twentieth of its slope at 1 N the law continues straight, and a result there is refused.
+    """
+    c = np.asarray(coefficient, dtype=float)
+    if law.model != "johnson":
+        return np.full(c.shape, np.inf)
+    stiffest = LEAST_SLOPE * (c + np.asarray(series, dtype=float))
+    exponent = (c + np.asarray(series, dtype=float) - stiffest) / law.logarithm - 1.0
+    return np.asarray(np.exp(exponent))
+
+
+def stored_energy(
+    law: LineLaw, coefficient: ArrayLike, series: ArrayLike, force: ArrayLike
+) -> FloatArray:
+    """Energy in contacts under `force`, F delta less the integral of delta over F, J.
+
+    Parameters
+    ----------
+    law, coefficient, series, force
+        As in :func:`approach`.
+    """
+    load = np.asarray(force, dtype=float)
+    c = np.asarray(coefficient, dtype=float)
+    if law.model == "palmgren":
+        local = 0.9 / 1.9 * c * load**1.9
+    elif law.model == "linear":
+        local = 0.5 * c * load**2
+    else:
+        logarithm = np.log(np.where(load > 0.0, load, 1.0))
+        local = 0.5 * load**2 * (c - law.logarithm * (logarithm + 0.5))
+    return np.asarray(local + 0.5 * np.asarray(series, dtype=float) * load**2)
+
+
+def force(
+    law: LineLaw, coefficient: ArrayLike, series: ArrayLike, closed: ArrayLike
+) -> tuple[FloatArray, FloatArray]:
+    """Force and stiffness of contacts pressed together by `closed`: plain twin of the kernel.
+
+    Parameters
+    ----------
+    law, coefficient, series
+        As in :func:`approach`; they broadcast with `closed`.
+    closed : array_like
+        Approach, m; at or below zero the contact is open and carries nothing.
+
+    Returns
+    -------
+    force, stiffness : array
+        N and N/m.
+    """
+    delta, c, s = np.broadcast_arrays(
+        np.asarray(closed, dtype=float),
+        np.asarray(coefficient, dtype=float),
+        np.asarray(series, dtype=float),
+    )
+    touching = delta > 0.0
+    safe = np.where(touching, delta, 1.0)
+    if law.model == "linear":
+        load, slope = safe / (c + s), c + s
+    elif law.model == "palmgren":
+        # In u = F^0.1 the law is a polynomial, c u^9 + s u^10: convex, so Newton's method from
+        # the upper bound never overshoots.
+        with np.errstate(divide="ignore", over="ignore"):
+            u = np.minimum((safe / c) ** (1.0 / 9.0), np.where(s > 0.0, safe / s, np.inf) ** 0.1)
+        for _ in range(60):
+            residual = u**9 * (c + s * u) - safe
+            step = residual / (u**8 * (9.0 * c + 10.0 * s * u))
+            u = u - step
+            if np.all(np.abs(step) <= 1e-16 * u):
+                break
+        load = u**10
+        slope = 0.9 * c / u + s
+    else:
+        limit = force_limit(law, c, s)
+        edge = limit * (c + s - law.logarithm * np.log(limit))
+        steepest = c + s - law.logarithm * (np.log(limit) + 1.0)
+        load = np.minimum(safe / (c + s), limit)
+        for _ in range(100):
+            slope = c + s - law.logarithm * (np.log(load) + 1.0)
+            off = load * (c + s - law.logarithm * np.log(load)) - np.minimum(safe, edge)
+            new = np.clip(load - off / slope, 0.1 * load, limit)
+            done = np.all(np.abs(new - load) <= 1e-16 * load)
+            load = new
+            if done:
+                break
+        beyond = safe > edge
+        slope = np.where(beyond, steepest, c + s - law.logarithm * (np.log(load) + 1.0))
+        load = np.where(beyond, limit + (safe - edge) / steepest, load)
+    return np.where(touching, load, 0.0), np.where(touching, 1.0 / slope, 0.0)
+
+
+@dataclass(frozen=True)
+class CamSpring:
+    """Isotropic radial spring between a disc's bore and its cam, with play.
+
+    Attributes
+    ----------
+    stiffness : float
+        K of ``F = K delta^exponent``, N/m^exponent.
+    exponent : float
+        3/2 for balls, 10/9 for rollers, 1 for a linear bearing.
+    play : float
+        Total radial play, m (ISO 5753): the centre is free within half of it.
+    """
+
+    stiffness: float
+    exponent: float
+    play: float
+
+
+_BALL_SHARE = 0.3
+"""Ball diameter over (D - d) of deep-groove bearings; 0.29 to 0.32 in makers' tables."""
+_F0_BALL = 12.3
+"""f0 of ISO 76:2006, table 1, near D_w/D_pw = 0.18, N/mm^2."""
+
+
+def ball_complement(bearing: Bearing) -> tuple[int, float]:
+    """Number and diameter (m) of the balls of a deep-groove bearing.
+
+    Catalogues do not print them. The diameter is 0.3 (D - d); the number follows from the static
+    rating by ISO 76:2006, C0 = f0 Z D_w^2, or, where there is none, from balls on 62 % of the
+    pitch circle.
+
+    Examples
+    --------
+    >>> from cqdd_design.catalog.bearings import find_bearing
+    >>> balls, diameter = ball_complement(find_bearing("6902"))
+    >>> balls, round(1e3 * diameter, 2)
+    (12, 3.9)
+    """
+    diameter = _BALL_SHARE * (bearing.outer_diameter - bearing.bore_diameter)
+    if bearing.static_rating is not None:
+        return max(round(bearing.static_rating / (_F0_BALL * 1e6 * diameter**2)), 5), diameter
+    pitch = 0.5 * (bearing.outer_diameter + bearing.bore_diameter)
+    return max(int(0.62 * np.pi * pitch / diameter), 5), diameter
+
+
+def cam_spring(bearing: Bearing, play: float) -> CamSpring:
+    """Radial spring of a cam bearing from its rolling elements.
+
+    Parameters
+    ----------
+    bearing : Bearing
+        Catalogue row.
+    play : float
+        Total radial play, m.
+
+    Notes
+    -----
+    Balls: delta = 4.36e-4 (Q^2/D_w)^(1/3) with Q = 4.37 F/Z. Rollers: delta = 7.68e-5 Q^0.9/l^0.8
+    with Q = 4.08 F/Z; mm and N, both raceways (Palmgren 1959; Harris and Kotzalas 2006, ch. 7).
+    The load distribution is that of zero clearance; the play enters as a gap.
+    """
+    if bearing.kind == "ball":
+        count, diameter = ball_complement(bearing)
+        per_force = 4.36e-4 * (4.37 / count) ** (2.0 / 3.0) / (diameter * 1e3) ** (1.0 / 3.0) * 1e-3
+        return CamSpring(per_force**-1.5, 1.5, play)
+    if bearing.kind == "crossed roller":
+        raise DesignError(
+            f"cam_bearing.designation '{bearing.designation}' is a crossed-roller bearing, which "
+            "does not fit between disc and cam; choose a ball or needle bearing."
+        )
+    needles = needle_set(
+        bearing.bore_diameter,
+        bearing.outer_diameter,
+        bearing.width,
+        drawn_cup=bearing.kind == "needle",
+    )
+    share = 4.08 / needles.count
+    per_force = 7.68e-5 * share**0.9 / (needles.length * 1e3) ** 0.8 * 1e-3
+    return CamSpring(per_force ** (-10.0 / 9.0), 10.0 / 9.0, play)

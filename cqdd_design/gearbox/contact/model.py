@@ -1,0 +1,224 @@
+"""What the contact equilibrium needs of a design, read once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.catalog.materials import Material, find_material
+from cqdd_design.design import Design
+from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
+from cqdd_design.gearbox.contact import laws
+from cqdd_design.gearbox.contact.laws import CamSpring, LineLaw, LineModel
+from cqdd_design.gearbox.contact.pin_compliance import pin_compliance
+from cqdd_design.gearbox.hertz import conformal_equivalent_radius
+from cqdd_design.gearbox.kinematics import crank_phases
+from cqdd_design.gearbox.stages import Stages
+from cqdd_design.geometry.cycloid import CycloidDisc
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class ContactModel:
+    """A gearbox as the contact equilibrium sees it, SI.
+
+    Attributes
+    ----------
+    disc : CycloidDisc
+        Finished outline.
+    lobe_count, disc_count, pin_count : int
+        n, D, N_w.
+    pin_circle_radius, hole_clocking : float
+        R_w (m) and the angle of the first hole from the valley on +x (rad).
+    hole_radius, pin_radius : float
+        Radius of hole and of pin (mean) or sleeve, m; the clearance between them is
+        2 (hole_radius - pin_radius - e).
+    contact_length : float
+        Disc thickness, m.
+    ring_modulus, pin_modulus : float
+        E* of tooth on disc and of pin on hole, Pa.
+    ring_law, pin_law : LineLaw
+        Law of either line contact.
+    ring_bodies, pin_bodies : two tuples
+        Depth of the reference point (m), Young's modulus (Pa) and Poisson's ratio of tooth and
+        disc, and of pin and disc.
+    pin_series : array (D,)
+        Compliance of a pin at every disc, m/N.
+    cam : CamSpring
+        Between bore and cam.
+    carrier_stiffness : float or None
+        Radial stiffness of the carrier's bearing, N/m; None where it is rigid.
+    """
+
+    disc: CycloidDisc
+    lobe_count: int
+    disc_count: int
+    pin_count: int
+    pin_circle_radius: float
+    hole_clocking: float
+    hole_radius: float
+    pin_radius: float
+    contact_length: float
+    ring_modulus: float
+    pin_modulus: float
+    ring_law: LineLaw
+    pin_law: LineLaw
+    ring_bodies: tuple[tuple[float, float, float], tuple[float, float, float]]
+    pin_bodies: tuple[tuple[float, float, float], tuple[float, float, float]]
+    pin_series: FloatArray
+    cam: CamSpring
+    carrier_stiffness: float | None = None
+
+    @classmethod
+    def from_design(cls, design: Design, line_model: LineModel = "palmgren") -> ContactModel:
+        """Read a design; a cam bearing "auto" is chosen first, a sleeve is of the pin's material.
+
+        Parameters
+        ----------
+        design : Design
+        line_model : {"palmgren", "johnson", "linear"}
+            Approach of teeth and pins. ``linear`` takes the secant of Palmgren's law at 50 N/mm.
+
+        Raises
+        ------
+        GeometryError
+            When disc or holes cannot exist.
+        """
+        design = with_chosen_bearing(design)
+        reducer, pins = design.reducer, design.reducer.output_pins
+        disc = CycloidDisc.from_design(design)
+        stages = Stages.from_design(design)
+        bearing = find_bearing(reducer.cam_bearing.designation)
+        steel = find_material(reducer.disc_material)
+        tooth = find_material(reducer.ring_material)
+        pin = find_material(pins.material)
+        plate = find_material(design.housing.material)
+        behind_flank = disc.valley_distance - 0.5 * bearing.outer_diameter
+        ring_bodies = (
+            _body(0.5 * reducer.ring_pin_diameter, tooth),
+            _body(max(behind_flank, 0.5 * reducer.ring_pin_diameter), steel),
+        )
+        pin_bodies = (_body(stages.pin_contact_radius, pin), _body(stages.hole_radius, steel))
+        logarithms = (0.0, 0.0)
+        if line_model == "johnson":
+            logarithms = (
+                laws.johnson_coefficients(
+                    reducer.disc_thickness, 1.0, stages.ring_modulus, ring_bodies
+                )[1],
+                laws.johnson_coefficients(
+                    reducer.disc_thickness, 1.0, stages.pin_modulus, pin_bodies
+                )[1],
+            )
+        return cls(
+            disc=disc,
+            lobe_count=stages.lobe_count,
+            disc_count=stages.disc_count,
+            pin_count=stages.pin_count,
+            pin_circle_radius=stages.pin_circle_radius,
+            hole_clocking=stages.hole_clocking,
+            hole_radius=stages.hole_radius,
+            pin_radius=stages.pin_contact_radius,
+            contact_length=reducer.disc_thickness,
+            ring_modulus=stages.ring_modulus,
+            pin_modulus=stages.pin_modulus,
+            ring_law=LineLaw(line_model, logarithms[0]),
+            pin_law=LineLaw(line_model, logarithms[1]),
+            ring_bodies=ring_bodies,
+            pin_bodies=pin_bodies,
+            pin_series=pin_compliance(
+                reducer.disc_count,
+                reducer.disc_thickness,
+                reducer.disc_spacing,
+                pins.diameter,
+                pins.support,
+                pin.youngs_modulus,
+                pin.poisson_ratio,
+                plate.youngs_modulus,
+            ),
+            cam=laws.cam_spring(bearing, reducer.cam_bearing.radial_clearance),
+            carrier_stiffness=reducer.carrier_bearing.stiffness or None,
+        )
+
+    def with_laws(
+        self,
+        ring_law: LineLaw | None = None,
+        pin_law: LineLaw | None = None,
+        cam: CamSpring | None = None,
+    ) -> ContactModel:
+        """Return the same gearbox with other springs."""
+        return replace(
+            self,
+            ring_law=ring_law or self.ring_law,
+            pin_law=pin_law or self.pin_law,
+            cam=cam or self.cam,
+        )
+
+    @property
+    def eccentricity(self) -> float:
+        """Throw e of the crank, m."""
+        return self.disc.eccentricity
+
+    @property
+    def tooth_count(self) -> int:
+        """Ring teeth n + 1."""
+        return self.lobe_count + 1
+
+    @property
+    def tooth_radius(self) -> float:
+        """Radius r of the ring teeth, m."""
+        return self.disc.tooth_radius
+
+    @property
+    def phases(self) -> FloatArray:
+        """Crank phases of the discs, (D,)."""
+        return crank_phases(self.disc_count)
+
+    @property
+    def pin_gap(self) -> float:
+        """Gap at an output pin in the nominal pose, half of the hole clearance, m."""
+        return self.hole_radius - self.pin_radius - self.eccentricity
+
+    @property
+    def pin_equivalent_radius(self) -> float:
+        """R_eq of pin in hole, m."""
+        return float(conformal_equivalent_radius(self.pin_radius, self.hole_radius))
+
+    def ring_coefficient(self, equivalent_radius: FloatArray) -> FloatArray:
+        """Coefficient of the ring's law for contacts of the given R_eq (m)."""
+        return self._coefficient(
+            self.ring_law, equivalent_radius, self.ring_modulus, self.ring_bodies
+        )
+
+    def pin_coefficient(self) -> float:
+        """Coefficient of the pins' law."""
+        radius = np.asarray(self.pin_equivalent_radius)
+        return float(self._coefficient(self.pin_law, radius, self.pin_modulus, self.pin_bodies))
+
+    def _coefficient(
+        self,
+        law: LineLaw,
+        equivalent_radius: FloatArray,
+        modulus: float,
+        bodies: tuple[tuple[float, float, float], tuple[float, float, float]],
+    ) -> FloatArray:
+        if law.model == "johnson":
+            return laws.johnson_coefficients(
+                self.contact_length, equivalent_radius, modulus, bodies
+            )[0]
+        c = laws.palmgren_coefficient(self.contact_length, modulus)
+        if law.model == "linear":
+            # Palmgren's secant at a line load of 50 N/mm, a usual one at the rated torque.
+            c *= (_LINE_LOAD * self.contact_length) ** -0.1
+        return np.full(np.shape(equivalent_radius), c)
+
+
+_LINE_LOAD = 50e3
+"""Line load at which the linear law has Palmgren's secant stiffness, N/m."""
+
+
+def _body(depth: float, material: Material) -> tuple[float, float, float]:
+    return depth, material.youngs_modulus, material.poisson_ratio

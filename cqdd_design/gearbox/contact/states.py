@@ -1,0 +1,189 @@
+"""Arrays the kernels work on: contacts of ring and pins in one row each, with part errors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.gearbox.contact.errors import GearboxErrors
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.tables import PinTable, RingTable, pin_table, ring_table
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class NominalStates:
+    """Contacts of the perfect gearbox at A crank angles; C = teeth + pins.
+
+    Attributes
+    ----------
+    crank_angle : array (A,)
+        rad, rising.
+    ring, pins : RingTable, PinTable
+    rows : array (A, D, C, 3)
+        n_x, n_y and h/length, ring teeth first.
+    gaps, coefficient : array (A, D, C)
+        m, and the coefficient of the contact's law.
+    rates : array (A, D, C, 3)
+        Derivatives over crank angle of the normal's angle, of h/length and of the gap.
+    length : float
+        Pin circle radius, which turns angles into lengths, m.
+    """
+
+    crank_angle: FloatArray
+    ring: RingTable
+    pins: PinTable
+    rows: FloatArray
+    gaps: FloatArray
+    coefficient: FloatArray
+    rates: FloatArray
+    length: float
+
+    @property
+    def turns(self) -> FloatArray:
+        """Crank angle since the state before, (A,), rad."""
+        return np.diff(self.crank_angle, prepend=self.crank_angle[:1])
+
+
+def nominal_states(model: ContactModel, crank_angle: FloatArray) -> NominalStates:
+    """Contacts of the perfect gearbox.
+
+    Parameters
+    ----------
+    model : ContactModel
+    crank_angle : array (A,)
+        rad.
+    """
+    ring, pins = ring_table(model, crank_angle), pin_table(model, crank_angle)
+    length = model.pin_circle_radius
+    rows = np.concatenate([ring.rows, pins.rows], axis=2)
+    rows[..., 2] /= length
+    still = np.zeros((*pins.rates.shape[:-1], 1))
+    rates = np.concatenate([ring.rates, np.concatenate([pins.rates, still], axis=-1)], axis=2)
+    rates[..., 1] /= length
+    pin_shape = pins.rows.shape[:-1]
+    return NominalStates(
+        crank_angle=crank_angle,
+        ring=ring,
+        pins=pins,
+        rows=rows,
+        gaps=np.concatenate([ring.gap, np.full(pin_shape, model.pin_gap)], axis=2),
+        coefficient=np.concatenate(
+            [
+                model.ring_coefficient(ring.equivalent_radius),
+                np.full(pin_shape, model.pin_coefficient()),
+            ],
+            axis=2,
+        ),
+        rates=rates,
+        length=length,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class ErrorStates:
+    """What part errors change in the nominal states, to first order.
+
+    Attributes
+    ----------
+    gaps, gap_rates : array (A, D, C)
+        Added to gaps, and their derivatives over crank angle, m.
+    offset, offset_rates : array (A, D, 2)
+        Displacement of the cams' centres in the ring's frame, and its derivative, m.
+    half_play : array (D,)
+        Half of the play of every cam bearing, not below zero, m.
+    """
+
+    gaps: FloatArray
+    gap_rates: FloatArray
+    offset: FloatArray
+    offset_rates: FloatArray
+    half_play: FloatArray
+
+
+def error_states(
+    model: ContactModel, states: NominalStates, errors: GearboxErrors | None
+) -> ErrorStates:
+    """Gap changes by part errors: plain twin of :func:`.fill.fill_errors`.
+
+    A tooth that moves toward the disc or grows, and material on the disc, close the gap; a hole
+    that moves along the pin's force or grows opens it, a pin that does closes it.
+    """
+    shape = states.gaps.shape
+    offset = np.zeros((*shape[:2], 2))
+    half_play = np.full(shape[1], 0.5 * model.cam.play)
+    zero = np.zeros(shape)
+    if errors is None:
+        return ErrorStates(zero, zero.copy(), offset, offset.copy(), half_play)
+    teeth = model.tooth_count
+    gaps, gap_rates = zero, zero.copy()
+    normal, spin = states.rows[..., :2], states.rates[..., 0]
+    turned = np.stack([-normal[..., 1], normal[..., 0]], axis=-1) * spin[..., None]
+    material, slope = profile_error(errors.disc_profile, states.ring.parameter)
+    gaps[..., :teeth] = (
+        -np.einsum("adtx,tx->adt", normal[:, :, :teeth], errors.tooth_position)
+        - errors.tooth_radius
+        - material
+    )
+    gap_rates[..., :teeth] = (
+        -np.einsum("adtx,tx->adt", turned[:, :, :teeth], errors.tooth_position)
+        - slope * states.ring.parameter_rate
+    )
+    apart = errors.hole_position - errors.pin_position
+    back = -states.crank_angle / model.lobe_count
+    cosine, sine = np.cos(back)[:, None, None], np.sin(back)[:, None, None]
+    seen = np.stack(
+        [
+            cosine * apart[..., 0] - sine * apart[..., 1],
+            sine * apart[..., 0] + cosine * apart[..., 1],
+        ],
+        axis=-1,
+    )
+    drift = np.stack([seen[..., 1], -seen[..., 0]], axis=-1) / model.lobe_count
+    gaps[..., teeth:] = (
+        np.sum(normal[:, :, teeth:] * seen, axis=-1) + errors.hole_radius - errors.pin_radius
+    )
+    gap_rates[..., teeth:] = np.sum(
+        turned[:, :, teeth:] * seen + normal[:, :, teeth:] * drift, axis=-1
+    )
+    own = states.crank_angle[:, None] + model.phases
+    u = np.stack([np.cos(own), np.sin(own)], axis=-1)
+    v = np.stack([-u[..., 1], u[..., 0]], axis=-1)
+    along, across = errors.cam_centre[:, :1], errors.cam_centre[:, 1:]
+    return ErrorStates(
+        gaps=gaps,
+        gap_rates=gap_rates,
+        offset=along * u + across * v,
+        offset_rates=along * v - across * u,
+        half_play=np.maximum(half_play + 0.5 * errors.cam_play, 0.0),
+    )
+
+
+def profile_error(
+    harmonics: FloatArray, parameter: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Material added to the discs' profiles, and its derivative over the parameter.
+
+    Parameters
+    ----------
+    harmonics : array (D, 2, M)
+        Cosine and sine coefficients of orders 1 to M, m.
+    parameter : array (A, D, T)
+        Place on the profile, rad.
+
+    Returns
+    -------
+    material, slope : array (A, D, T)
+        m and m/rad.
+    """
+    order = np.arange(1, harmonics.shape[-1] + 1)
+    angle = parameter[..., None] * order
+    cosine, sine = np.cos(angle), np.sin(angle)
+    a, b = harmonics[:, 0, None, :], harmonics[:, 1, None, :]
+    return (
+        np.sum(a * cosine + b * sine, axis=-1),
+        np.sum(order * (b * cosine - a * sine), axis=-1),
+    )

@@ -1,0 +1,299 @@
+"""What friction needs of a design, and the two kinds of it: Coulomb work and drag.
+
+Both are torques at the crank: work per radian of crank. Coulomb work follows from the contact
+forces and does not depend on speed; drag depends on speed and not on the forces.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cqdd_design.catalog.bearings import Bearing, find_bearing
+from cqdd_design.design import Design
+from cqdd_design.gearbox import output_pins
+from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
+from cqdd_design.gearbox.losses.lubricant import Lubricant, find_lubricant
+from cqdd_design.gearbox.losses.rolling import BearingFriction
+from cqdd_design.gearbox.losses.seats import output_seat, support_seat
+from cqdd_design.gearbox.losses.shaft import equivalent_load, support_reactions
+from cqdd_design.gearbox.losses.sliding import (
+    friction_work,
+    pin_sliding,
+    ring_sliding,
+    sleeve_share,
+)
+from cqdd_design.gearbox.stages import pin_mean_diameter
+from cqdd_design.geometry.disc import disc_moments
+
+FloatArray = NDArray[np.float64]
+
+SOURCES = (
+    "ring_teeth",
+    "output_pins",
+    "cam_bearings",
+    "support_bearings",
+    "output_bearing",
+    "grease",
+)
+"""Where power is lost, in the order of every table of losses."""
+
+_LEAST_FILM = 50e-6
+"""Thinnest grease film between faces that a design sets without any gap, m."""
+_OUTPUT_HEIGHT = 0.75
+"""Mid-plane of the output bearing beyond the second plate's face, in bearing widths."""
+
+
+class ContactForces(Protocol):
+    """The fields of a contact sweep that friction looks at; see `ContactSweep`."""
+
+    @property
+    def torque(self) -> float:
+        """On the carrier, N m."""
+
+    @property
+    def ring_force(self) -> FloatArray:
+        """(A, D, n+1), N."""
+
+    @property
+    def ring_point(self) -> FloatArray:
+        """(A, D, n+1, 2), m."""
+
+    @property
+    def ring_normal(self) -> FloatArray:
+        """(A, D, n+1, 2), unit force on the disc."""
+
+    @property
+    def pin_force(self) -> FloatArray:
+        """(A, D, N_w), N."""
+
+    @property
+    def pin_normal(self) -> FloatArray:
+        """(A, D, N_w, 2), unit force on the disc."""
+
+    @property
+    def cam_force(self) -> FloatArray:
+        """(A, D, 2), force on the disc, N."""
+
+    @property
+    def disc_centre(self) -> FloatArray:
+        """(A, D, 2), nominal, m."""
+
+
+@dataclass(frozen=True)
+class FrictionMachine:
+    """Friction of one gearbox, SI.
+
+    Attributes
+    ----------
+    lobe_count, disc_count : int
+        n and D.
+    eccentricity : float
+        e.
+    tooth_coefficient, pin_coefficient : float
+        mu of Coulomb friction at ring teeth and output pins.
+    sleeve_share : float
+        Share of the path that sleeves leave on the pins, 1 without.
+    disc_heights : tuple of float
+        Mid-planes of the discs from the first carrier plate.
+    span : float
+        Between the carrier plates.
+    cam, support, output : BearingFriction
+        Of every disc; at both ends of the shaft; of the carrier.
+    lubricant : Lubricant
+    face_area, face_gap : float
+        One face of a disc, and the gap filled with grease in front of it.
+    warnings : tuple of str
+    """
+
+    lobe_count: int
+    disc_count: int
+    eccentricity: float
+    tooth_coefficient: float
+    pin_coefficient: float
+    sleeve_share: float
+    disc_heights: tuple[float, ...]
+    span: float
+    cam: BearingFriction
+    support: BearingFriction
+    output: BearingFriction
+    lubricant: Lubricant
+    face_area: float
+    face_gap: float
+    warnings: tuple[str, ...] = ()
+
+    @classmethod
+    def from_design(
+        cls, design: Design, *, support: Bearing | None = None, output: Bearing | None = None
+    ) -> FrictionMachine:
+        """Read a design.
+
+        Parameters
+        ----------
+        design : Design
+            A cam bearing "auto" is chosen first.
+        support, output : Bearing, optional
+            At either end of the shaft, and of the carrier; default :mod:`.seats`.
+        """
+        design = with_chosen_bearing(design)
+        reducer, pins = design.reducer, design.reducer.output_pins
+        cam = find_bearing(reducer.cam_bearing.designation)
+        mean = pin_mean_diameter(design)
+        lubricant, warning = find_lubricant(reducer.friction.lubricant)
+        moments = disc_moments(design, 0, bore_diameter=cam.outer_diameter, pin_mean_diameter=mean)
+        stack = (reducer.disc_count, reducer.disc_thickness, reducer.disc_spacing)
+        return cls(
+            lobe_count=reducer.ratio,
+            disc_count=reducer.disc_count,
+            eccentricity=reducer.eccentricity,
+            tooth_coefficient=reducer.friction.tooth,
+            pin_coefficient=reducer.friction.pin,
+            sleeve_share=sleeve_share(mean, pins.sleeve_diameter),
+            disc_heights=tuple(float(z) for z in output_pins.disc_positions(*stack)),
+            span=float(output_pins.pin_span(*stack)),
+            cam=BearingFriction.of(cam),
+            support=support_seat(design, cam) if support is None else BearingFriction.of(support),
+            output=output_seat(design) if output is None else BearingFriction.of(output),
+            lubricant=lubricant,
+            face_area=moments.area,
+            face_gap=max(reducer.disc_spacing, _LEAST_FILM),
+            warnings=() if warning is None else (warning,),
+        )
+
+    @property
+    def relative_turn(self) -> float:
+        """Turn of the crank against disc and carrier per radian of crank, 1 + 1/n."""
+        return 1.0 + 1.0 / self.lobe_count
+
+    def coulomb_work(self, forces: ContactForces) -> dict[str, float]:
+        """Mean Coulomb friction work per radian of crank over a sweep, by source, N m.
+
+        Parameters
+        ----------
+        forces : ContactForces
+            Frictionless forces at evenly spaced crank angles over a whole period.
+        """
+        n = self.lobe_count
+        sliding = ring_sliding(
+            n,
+            forces.ring_point,
+            forces.ring_normal,
+            (n + 1) * np.asarray(forces.disc_centre)[:, :, None, :],
+        )
+        ring = friction_work(self.tooth_coefficient, forces.ring_force, sliding)
+        path = self.sleeve_share * pin_sliding(n, self.eccentricity)
+        pins = friction_work(self.pin_coefficient, forces.pin_force, path)
+        cam = self.cam.load_torque(np.linalg.norm(forces.cam_force, axis=-1))
+        first, second, carrier = self._seat_loads(forces)
+        supports = self.support.load_torque(first)
+        supports = supports + self.relative_turn * self.support.load_torque(second)
+        return {
+            "ring_teeth": float(ring.sum(axis=1).mean()),
+            "output_pins": float(pins.sum(axis=1).mean()),
+            "cam_bearings": self.relative_turn * float(cam.sum(axis=1).mean()),
+            "support_bearings": float(supports.mean()),
+            "output_bearing": float(self.output.load_torque(carrier).mean()) / n,
+            "grease": 0.0,
+        }
+
+    def tooth_force_change(self, forces: ContactForces) -> float:
+        """Share q by which tooth friction changes the tooth forces, which the losses leave out.
+
+        The friction on a disc has a moment about the disc's centre C, mu sum F a with the arm
+        a = (c - C).(c - P)/|c - P|; q is its ratio to the moment of the normal forces. With the
+        pattern of forces unchanged and the output torque kept, the teeth press 1/(1 - q) times
+        as hard while the motor drives and 1/(1 + q) times while the output drives.
+
+        Parameters
+        ----------
+        forces : ContactForces
+
+        Returns
+        -------
+        float
+            q over a period, 0 where nothing is loaded.
+        """
+        centre = np.asarray(forces.disc_centre)[:, :, None, :]
+        arm = forces.ring_point - centre
+        slip = forces.ring_point - (self.lobe_count + 1) * centre
+        normal = forces.ring_normal
+        lever = np.sum(arm * slip, axis=-1) / np.linalg.norm(slip, axis=-1)
+        moment = arm[..., 0] * normal[..., 1] - arm[..., 1] * normal[..., 0]
+        turned = abs(float(np.sum(forces.ring_force * moment)))
+        rubbed = abs(float(np.sum(forces.ring_force * lever)))
+        return self.tooth_coefficient * rubbed / turned if turned > 0.0 else 0.0
+
+    def _seat_loads(self, forces: ContactForces) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Loads (A,) of the first and second support and of the output bearing, N.
+
+        The shaft carries the reactions of the cam forces and no other load: no rotor weight, no
+        magnetic pull, no belt. Its first bearing sits in the housing, its second in the carrier,
+        each just outside a plate's face; the carrier takes the pins' reactions and the second
+        support, and no load from outside.
+        """
+        first, second = -0.5 * self.support.width, self.span + 0.5 * self.support.width
+        reactions = support_reactions(-forces.cam_force, self.disc_heights, first, second)
+        on_pins = -np.sum(forces.pin_force[..., None] * forces.pin_normal, axis=2)
+        # The shaft pushes back on the carrier through the second support.
+        on_carrier = np.concatenate([on_pins, -reactions[:, 1:]], axis=1)
+        carrier = equivalent_load(
+            on_carrier,
+            [*self.disc_heights, second],
+            self.span + _OUTPUT_HEIGHT * self.output.width,
+            self.output.mean_diameter,
+        )
+        size = np.linalg.norm(reactions, axis=-1)
+        return size[:, 0], size[:, 1], carrier
+
+    def drag(self, input_speed: ArrayLike) -> dict[str, FloatArray]:
+        """Load-independent drag by source, as a torque at the crank, N m.
+
+        Parameters
+        ----------
+        input_speed : array_like (...)
+            Of the crank, rad/s, either sense; 0 is the limit of slow motion.
+
+        Returns
+        -------
+        mapping of arrays (...)
+            Bearings by Palmgren at their relative speeds, and the grease between the faces.
+        """
+        speed = np.abs(np.asarray(input_speed, dtype=float))
+        viscosity, turn, n = self.lubricant.viscosity, self.relative_turn, self.lobe_count
+        cam = self.cam.drag_torque(viscosity, speed * turn)
+        first = self.support.drag_torque(viscosity, speed)
+        second = self.support.drag_torque(viscosity, speed * turn)
+        none = np.zeros(speed.shape)
+        return {
+            "ring_teeth": none,
+            "output_pins": none,
+            "cam_bearings": self.disc_count * turn * cam,
+            "support_bearings": first + turn * second,
+            "output_bearing": self.output.drag_torque(viscosity, speed / n) / n,
+            "grease": self.grease_torque(speed),
+        }
+
+    def grease_torque(self, input_speed: ArrayLike) -> FloatArray:
+        """Torque at the crank that shears the grease in front of the discs' faces, N m.
+
+        A Bingham film (yield stress, and the base oil's viscosity) of uniform shear fills every
+        axial gap: an upper bound, since most greases are pushed aside and channel. Neighbouring
+        discs pass each other at e w |u_d - u_d+1| = 2 e w sin(pi/D), a disc and a carrier plate at
+        e w (1 + 1/n). Grease in the teeth is not counted.
+        """
+        speed = np.abs(np.asarray(input_speed, dtype=float))
+        between = 2.0 * self.eccentricity * np.sin(np.pi / self.disc_count)
+        plate = self.eccentricity * self.relative_turn
+        paths = np.array([*[between] * (self.disc_count - 1), plate, plate])
+        shear_rate = speed[..., None] * paths / self.face_gap
+        stress = self.lubricant.yield_stress + self.lubricant.dynamic_viscosity * shear_rate
+        return np.asarray(np.sum(stress * self.face_area * paths, axis=-1))
+
+
+def total(parts: Mapping[str, ArrayLike]) -> FloatArray:
+    """Sum over the sources."""
+    return np.asarray(np.sum([np.asarray(part, dtype=float) for part in parts.values()], axis=0))

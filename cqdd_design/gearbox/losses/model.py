@@ -1,0 +1,341 @@
+"""Losses over speed and torque from contact sweeps at a few torques.
+
+Coulomb work is very nearly proportional to the torque, but not quite: the higher the load, the more
+teeth share it. It is computed at the torques of the sweeps and taken straight between them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cqdd_design.design import Design
+from cqdd_design.errors import UsageError
+from cqdd_design.gearbox.losses.backdrive import STATIC_RATIO, Backdrive, balance_torque
+from cqdd_design.gearbox.losses.machine import SOURCES, ContactForces, FrictionMachine, total
+from cqdd_design.gearbox.losses.result import Losses
+
+if TYPE_CHECKING:
+    from cqdd_design.gearbox.contact.model import ContactModel
+
+FloatArray = NDArray[np.float64]
+
+TORQUE_SHARES = (0.0, *(10.0 ** (0.125 * k) for k in range(-24, 1)))
+"""Torques of the sweeps of :func:`loss_model`, as shares of the largest: zero, then eight to a
+decade over three decades. Straight lines between them are then good to 0.3 %."""
+SWEEP_ANGLES = 120
+"""Crank angles of each of its sweeps over a period."""
+
+
+@dataclass(frozen=True, eq=False)
+class EfficiencyMap:
+    """Efficiency over speed and torque.
+
+    Attributes
+    ----------
+    input_speed : array (S,)
+        rad/s.
+    torque : array (T,)
+        N m.
+    power : array (S, T)
+        Lost, W.
+    loss_torque : array (S, T)
+        At the output, N m.
+    forward, backward : array (S, T)
+        Efficiencies, the motor or the output driving; 0 at zero torque, where no power passes,
+        and 0 backward where the output does not turn the gearbox.
+    """
+
+    input_speed: FloatArray
+    torque: FloatArray
+    power: FloatArray
+    loss_torque: FloatArray
+    forward: FloatArray
+    backward: FloatArray
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form; efficiencies are null at zero torque."""
+        zero = self.torque == 0.0
+
+        def rows(values: FloatArray) -> list[list[float | None]]:
+            return [
+                [None if none else float(value) for value, none in zip(row, zero, strict=True)]
+                for row in values
+            ]
+
+        return {
+            "input_speed_rad_per_s": self.input_speed.tolist(),
+            "torque_Nm": self.torque.tolist(),
+            "total_W": self.power.tolist(),
+            "loss_torque_Nm": self.loss_torque.tolist(),
+            "efficiency_forward": rows(self.forward),
+            "efficiency_backward": rows(self.backward),
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class LossModel:
+    """Losses of one gearbox at any speed and torque.
+
+    Attributes
+    ----------
+    machine : FrictionMachine
+    torque : array (K,)
+        Of the sweeps, rising from zero, N m (sizes; both senses lose alike within the asymmetry
+        of the hole clocking).
+    work : array (K, 6)
+        Coulomb work per radian of crank at those torques, by source, N m.
+    force_change : array (K,)
+        :meth:`.FrictionMachine.tooth_force_change` at those torques.
+    """
+
+    machine: FrictionMachine
+    torque: FloatArray
+    work: FloatArray
+    force_change: FloatArray
+
+    @classmethod
+    def from_sweeps(
+        cls, machine: FrictionMachine, sweeps: ContactForces | Sequence[ContactForces]
+    ) -> LossModel:
+        """Read the friction work of one or more sweeps of the same gearbox.
+
+        Parameters
+        ----------
+        machine : FrictionMachine
+        sweeps : ContactForces or sequence of them
+            At torques of one sense and different sizes. Without one at zero torque the work is
+            taken to vanish there, as it does without preload.
+
+        Raises
+        ------
+        UsageError
+            With no sweep, torques of both senses, or the same torque twice.
+        """
+        several = list(sweeps) if isinstance(sweeps, Sequence) else [sweeps]
+        if not several:
+            raise UsageError("losses need at least one contact sweep; there is none.")
+        given = [float(sweep.torque) for sweep in several]
+        if min(given) < 0.0 < max(given):
+            raise UsageError(
+                f"losses need sweeps of one sense of torque, not from {min(given):g} to "
+                f"{max(given):g} N*m; compute the two senses apart."
+            )
+        found = {abs(sweep.torque): machine.coulomb_work(sweep) for sweep in several}
+        change = {abs(sweep.torque): machine.tooth_force_change(sweep) for sweep in several}
+        if len(found) < len(several):
+            raise UsageError(f"two of the sweeps have the same torque; leave one out of {given}.")
+        found.setdefault(0.0, dict.fromkeys(SOURCES, 0.0))
+        if len(found) == 1:
+            # A lone sweep at zero torque: the work there is all that is known.
+            found[1.0] = found[0.0]
+        torque = np.array(sorted(found))
+        work = np.array([[found[size][name] for name in SOURCES] for size in torque])
+        return cls(machine, torque, work, np.array([change.get(size, 0.0) for size in torque]))
+
+    def coulomb_work(self, torque: ArrayLike) -> FloatArray:
+        """Coulomb work per radian of crank by source, (..., 6), N m.
+
+        Straight between the sweeps; beyond the largest, the part that came with the torque goes on
+        in proportion to it.
+        """
+        size = np.abs(np.asarray(torque, dtype=float))
+        within = np.minimum(size, self.torque[-1])
+        beyond = np.maximum(size / self.torque[-1], 1.0)
+        columns = [np.interp(within, self.torque, column) for column in self.work.T]
+        at_rest, found = self.work[0], np.stack(columns, axis=-1)
+        return np.asarray(at_rest + (found - at_rest) * beyond[..., None])
+
+    def _crank_torque(self, speed: FloatArray, torque: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Friction torque at the crank by source (S, T, 6), and its load-independent part (S,)."""
+        drag = self.machine.drag(speed)
+        columns = np.stack([drag[name] for name in SOURCES], axis=-1)
+        return columns[:, None, :] + self.coulomb_work(torque), total(drag)
+
+    def efficiency_map(self, input_speeds: ArrayLike, torques: ArrayLike) -> EfficiencyMap:
+        """Losses and efficiencies over a grid.
+
+        Parameters
+        ----------
+        input_speeds : array_like (S,)
+            rad/s, either sense, 0 allowed.
+        torques : array_like (T,)
+            N m, either sense, 0 allowed.
+        """
+        speed, torque = _finite("speed", input_speeds), _finite("torque", torques)
+        by_source, _ = self._crank_torque(speed, torque)
+        crank = by_source.sum(axis=-1)
+        loss, size = self.machine.lobe_count * crank, np.abs(torque)
+        some = size > 0.0
+        safe = np.where(some, size, 1.0)
+        return EfficiencyMap(
+            input_speed=speed,
+            torque=torque,
+            power=np.abs(speed)[:, None] * crank,
+            loss_torque=loss,
+            forward=np.where(some, safe / (safe + loss), 0.0),
+            backward=np.where(some, np.maximum(1.0 - loss / safe, 0.0), 0.0),
+        )
+
+    def at(
+        self,
+        input_speed: float,
+        torque: float,
+        *,
+        static_ratio: float = STATIC_RATIO,
+        backdrive_speed: float = 0.0,
+    ) -> Losses:
+        """Losses at one speed and torque.
+
+        Parameters
+        ----------
+        input_speed, torque : float
+            rad/s and N m, finite.
+        static_ratio, backdrive_speed : float
+            As for :meth:`backdrive`.
+        """
+        grid = self.efficiency_map([input_speed], [torque])
+        by_source, drag = self._crank_torque(grid.input_speed, grid.torque)
+        size = abs(input_speed)
+        power = dict(zip(SOURCES, (size * by_source[0, 0]).tolist(), strict=True))
+        loss, some = float(grid.loss_torque[0, 0]), torque != 0.0
+        warnings = list(self.machine.warnings)
+        if not some:
+            warnings.append("efficiency does not exist at zero torque, where no power passes.")
+        elif loss >= abs(torque):
+            warnings.append(
+                f"{abs(torque):g} N*m at the output does not backdrive the gearbox: friction "
+                f"takes {loss:.3g} N*m."
+            )
+        if some and size == 0.0:
+            warnings.append("efficiency at zero speed is the limit of slow motion; no power flows.")
+        if abs(torque) > 1.001 * self.torque[-1]:
+            warnings.append(
+                f"losses at {abs(torque):g} N*m are extrapolated in proportion from the largest "
+                f"sweep, {self.torque[-1]:g} N*m."
+            )
+        return Losses(
+            torque=float(torque),
+            input_speed=float(input_speed),
+            output_speed=size / self.machine.lobe_count,
+            **power,
+            load_independent=size * float(drag[0]),
+            loss_torque=loss,
+            tooth_force_change=float(np.interp(abs(torque), self.torque, self.force_change)),
+            efficiency_forward=float(grid.forward[0, 0]) if some else None,
+            efficiency_backward=float(grid.backward[0, 0]) if some else None,
+            backdrives=loss < abs(torque) if some else None,
+            backdrive=self.backdrive(static_ratio=static_ratio, output_speed=backdrive_speed),
+            bearings={
+                "cam": self.machine.cam.name,
+                "support": self.machine.support.name,
+                "output": self.machine.output.name,
+            },
+            lubricant=self.machine.lubricant.name,
+            warnings=tuple(warnings),
+        )
+
+    def backdrive(
+        self, *, static_ratio: float = STATIC_RATIO, output_speed: float = 0.0
+    ) -> Backdrive:
+        """Torques at the output that break the gearbox away and keep it turning, with no motor.
+
+        Parameters
+        ----------
+        static_ratio : float
+            Breakaway over running friction, at least 1, of sliding contacts and bearings; the
+            yield stress of the grease is already that of rest.
+        output_speed : float
+            Of the dynamic torque, rad/s; the default is the limit of slow motion, because drag
+            grows with speed.
+
+        Notes
+        -----
+        The friction at a torque T is that of the frictionless forces which carry T through to the
+        crank. What friction takes on the way loads the crank no more, so this is on the high side,
+        by a share c1 of itself at most.
+        """
+        if not (math.isfinite(static_ratio) and static_ratio >= 1.0):
+            raise UsageError(f"static_ratio {static_ratio:g} must be at least 1.")
+        n = self.machine.lobe_count
+        running = total(self.machine.drag(n * _finite("speed", output_speed)))
+        resting = total(self.machine.drag(0.0))
+        grease = self.machine.grease_torque(0.0)
+        work = self.work.sum(axis=1)
+        dynamic = n * (work + running)
+        static = n * (static_ratio * (work + resting - grease) + grease)
+        return Backdrive(
+            static_torque=balance_torque(self.torque, static),
+            dynamic_torque=balance_torque(self.torque, dynamic),
+            load_independent=float(dynamic[0]),
+            load_share=float((dynamic[1] - dynamic[0]) / (self.torque[1] - self.torque[0])),
+            static_ratio=float(static_ratio),
+            output_speed=float(output_speed),
+        )
+
+
+def _finite(what: str, values: ArrayLike) -> FloatArray:
+    array = np.asarray(values, dtype=float)
+    if not np.all(np.isfinite(array)):
+        raise UsageError(f"losses need a finite {what}, not {array.ravel().tolist()}.")
+    return array
+
+
+def loss_model(
+    model: ContactModel, design: Design, *, machine: FrictionMachine | None = None
+) -> LossModel:
+    """Sweep a gearbox at a few torques up to its peak torque and read the friction of each.
+
+    Parameters
+    ----------
+    model : ContactModel
+        Of the same design.
+    design : Design
+    machine : FrictionMachine, optional
+        Where support and output bearing are known; default :meth:`FrictionMachine.from_design`.
+
+    Raises
+    ------
+    ContactError
+        When a sweep has no equilibrium.
+    """
+    from cqdd_design.gearbox.contact.states import nominal_states
+    from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+
+    states = nominal_states(model, perfect_angles(model, SWEEP_ANGLES))
+    peak = design.requirements.peak_torque
+    sweeps = [contact_sweep(model, share * peak, states=states) for share in TORQUE_SHARES]
+    return LossModel.from_sweeps(machine or FrictionMachine.from_design(design), sweeps)
+
+
+def losses(
+    sweeps: ContactForces | Sequence[ContactForces],
+    design: Design,
+    input_speed: float,
+    torque: float | None = None,
+    *,
+    machine: FrictionMachine | None = None,
+) -> Losses:
+    """Losses at one operating point from sweeps that exist already.
+
+    Parameters
+    ----------
+    sweeps : ContactForces or sequence of them
+        Frictionless contact sweeps of the gearbox. From a single one everything is taken in
+        proportion to its torque.
+    design : Design
+    input_speed : float
+        Of the crank, rad/s.
+    torque : float, optional
+        On the carrier, N m; default that of the first sweep.
+    machine : FrictionMachine, optional
+        As for :func:`loss_model`.
+    """
+    several = list(sweeps) if isinstance(sweeps, Sequence) else [sweeps]
+    friction = LossModel.from_sweeps(machine or FrictionMachine.from_design(design), several)
+    return friction.at(input_speed, several[0].torque if torque is None else torque)

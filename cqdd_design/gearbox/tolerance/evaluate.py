@@ -1,0 +1,177 @@
+"""Evaluate batches of toleranced gearboxes: the nominal tables once, the compiled kernel often."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.errors import ContactError
+from cqdd_design.gearbox.contact.errors import ErrorBatch
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
+from cqdd_design.gearbox.contact.sweep import (
+    law_arguments,
+    output_turn_angles,
+    output_turn_count,
+    stiffness_scale,
+)
+from cqdd_design.geometry.meshing import tooth_centres
+
+FloatArray = NDArray[np.float64]
+
+OUTPUTS: tuple[str, ...] = (
+    "backlash_arcmin",
+    "transmission_error_pp_arcmin",
+    "ring_force_max_N",
+    "stiffness_Nm_per_arcmin",
+    "torque_ripple_pp_Nm",
+)
+
+_ARCMIN = math.degrees(1.0) * 60.0
+
+COARSE = 8
+"""Every eighth angle serves backlash and stiffness, whose means do not need the teeth's orders."""
+
+
+@dataclass(frozen=True, eq=False)
+class EnsembleTables:
+    """What all gearboxes of an ensemble share.
+
+    Attributes
+    ----------
+    model : ContactModel
+    torque : float
+        N m, positive.
+    states : NominalStates
+        Over one output turn.
+    marked : array (A,) of bool
+        Angles that serve backlash and stiffness.
+    """
+
+    model: ContactModel
+    torque: float
+    states: NominalStates
+    marked: NDArray[np.bool_]
+
+    @property
+    def solves_per_gearbox(self) -> int:
+        """Equilibria under load per gearbox; the rigid solutions of the backlash not counted."""
+        return len(self.marked) + int(self.marked.sum())
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """Results of S gearboxes.
+
+    Attributes
+    ----------
+    values : array (S, 5)
+        In the units and order of `OUTPUTS`.
+    solves : int
+        Equilibria under load that were solved.
+    """
+
+    values: FloatArray
+    solves: int
+
+
+def ensemble_tables(
+    model: ContactModel, torque: float, angles: int | None = None
+) -> EnsembleTables:
+    """Prepare an ensemble.
+
+    Parameters
+    ----------
+    model : ContactModel
+    torque : float
+        N m, positive; transmission error, ring force and ripple are at it, the stiffness is the
+        secant between half of it and it.
+    angles : int, optional
+        Crank angles over the output turn, at least 8; default 8 n (n+1), which miss no order.
+    """
+    states = nominal_states(model, output_turn_angles(model, angles))
+    count = len(states.crank_angle)
+    stride = max(1, min(COARSE, count * COARSE // output_turn_count(model.lobe_count)))
+    marked = np.zeros(count, dtype=np.bool_)
+    marked[::stride] = True
+    return EnsembleTables(model, torque, states, marked)
+
+
+def evaluate_gearboxes(
+    tables: EnsembleTables, batch: ErrorBatch, threads: int | None = None
+) -> Outcome:
+    """Solve every gearbox of a batch over its output turn.
+
+    Parameters
+    ----------
+    tables : EnsembleTables
+    batch : ErrorBatch
+        S gearboxes.
+    threads : int, optional
+        Default all; the numbers do not depend on it.
+
+    Raises
+    ------
+    ContactError
+        Naming the gearbox and the angle that has no equilibrium.
+    """
+    import numba
+
+    from cqdd_design.gearbox.contact.fill import harmonic_basis, table_size
+    from cqdd_design.gearbox.tolerance.kernel import solve_gearboxes
+
+    model, states = tables.model, tables.states
+    harmonics = batch.disc_profile.shape[-1]
+    values, failed = np.empty((len(batch), 5)), np.empty(len(batch), dtype=np.int64)
+    former = numba.get_num_threads()
+    numba.set_num_threads(min(threads or former, former))
+    try:
+        solve_gearboxes(
+            states.rows,
+            states.rates,
+            states.gaps,
+            states.coefficient,
+            states.ring.parameter,
+            states.ring.parameter_rate,
+            states.ring.centre_curvature,
+            tooth_centres(model.disc),
+            states.crank_angle,
+            model.phases,
+            states.pins.pin_angle,
+            tables.marked,
+            harmonic_basis(table_size(len(states.crank_angle), harmonics), harmonics),
+            model.lobe_count,
+            model.cam.play,
+            model.eccentricity,
+            states.length,
+            tables.torque,
+            stiffness_scale(model, tables.torque),
+            *law_arguments(model),
+            model.carrier_stiffness or 0.0,
+            batch.tooth_position,
+            batch.tooth_radius,
+            batch.disc_profile,
+            batch.hole_position,
+            batch.hole_radius,
+            batch.pin_position,
+            batch.pin_radius,
+            batch.cam_centre,
+            batch.cam_play,
+            values,
+            failed,
+        )
+    finally:
+        numba.set_num_threads(former)
+    if np.any(failed >= 0):
+        which = int(np.flatnonzero(failed >= 0)[0])
+        angle = math.degrees(states.crank_angle[failed[which]])
+        raise ContactError(
+            f"gearbox {which} of the batch has no contact equilibrium at crank angle {angle:.6g} "
+            f"deg and {tables.torque:g} N*m; its errors are too large for these clearances: "
+            "lower [tolerances], or the clearances."
+        )
+    scale = np.array([_ARCMIN, _ARCMIN, 1.0, 1.0 / _ARCMIN, float(model.lobe_count)])
+    return Outcome(values * scale, len(batch) * tables.solves_per_gearbox)
