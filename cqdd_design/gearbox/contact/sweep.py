@@ -112,6 +112,14 @@ class ContactSweep:
     steps: IntArray
 
     @property
+    def state_vectors(self) -> FloatArray:
+        """Carrier and discs as the kernel holds them, angles times the pin circle, (A, 3 + 3 D)."""
+        length = self.model.pin_circle_radius
+        discs = self.disc_displacement * np.array([1.0, 1.0, length])
+        carrier = np.column_stack([self.carrier_displacement, length * self.carrier_angle_error])
+        return np.concatenate([carrier, discs.reshape(len(carrier), -1)], axis=1)
+
+    @property
     def ring_pressure(self) -> FloatArray:
         """Peak Hertz pressure at every tooth, (A, D, T), Pa."""
         return line_contact_pressure(

@@ -15,16 +15,17 @@ import numpy as np
 
 from cqdd_design.gearbox.contact.kernel import CONVERGED, predict, solve_state
 
-OVERLAP = 5e-9
+OVERLAP = 1e-7
 """Overlap, m, above which parts are said to be preloaded and not merely touching."""
 
-_PUSH = 1e-10
-"""Force on springs of 1 N/m; the parts yield by about as many metres."""
-_TOUCHING = 1e-9
+_PUSH = 2e-9
+"""Force on springs of 1 N/m; the parts yield by about as many metres, which is taken off again."""
+_FIRM = 20.0
+_TOUCHING = 2e-8
 """Overlap, m, that freely touching parts stay below."""
 _ROUNDS, _FREE_ROUNDS = 40, 8
-_STILL = 1e-11
-"""Metres at the pin circle between two rounds that count as standing still: 1e-7 arcmin."""
+_STILL = 2e-10
+"""Metres at the pin circle between two rounds that count as standing still: 1e-4 arcmin or less."""
 
 
 @numba.njit(cache=True, error_model="numpy")  # type: ignore[misc]
@@ -156,7 +157,7 @@ def backlash_sweep(
     ends : array (B, 2)
         Out: least and greatest carrier angle, rad.
     preload : array (B,)
-        Out: greatest overlap that no motion removes, m; clearances give about 1e-10.
+        Out: greatest overlap that no motion removes, m; clearances give about the push.
 
     Returns
     -------
@@ -199,13 +200,15 @@ def backlash_sweep(
                         own_angle[a], pin_angle[a], apart[a], eccentricity, length, teeth,
                         state, rows, gaps,
                     )  # fmt: skip
+                # A firmer push first: it finds which contacts matter in fewer steps.
+                firm = _FIRM * push if round_ == 0 else push
                 status, _, torsional = solve_state(
                     rows, gaps, ones, teeth, (2, 2), (0.0, 0.0), soft, (1.0, 1.0), offset[a],
-                    half_play, 0.0, push, 1.0, state, force, cam_force, work,
+                    half_play, 0.0, firm, 1.0, state, force, cam_force, work,
                 )  # fmt: skip
                 if status != CONVERGED:
                     return b
-                still = (round_ > 0 or b > 0) and abs(state[2] - origin[2]) <= _STILL
+                still = round_ > 0 and abs(state[2] - origin[2]) <= _STILL
                 overlap = _greatest_force(force, cam_force)
                 # Parts that overlap wherever they go have no free range to converge to.
                 tight = tight + 1 if overlap > OVERLAP else 0

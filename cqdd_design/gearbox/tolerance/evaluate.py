@@ -13,6 +13,7 @@ from cqdd_design.gearbox.contact.errors import ErrorBatch
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
 from cqdd_design.gearbox.contact.sweep import (
+    contact_sweep,
     law_arguments,
     output_turn_angles,
     output_turn_count,
@@ -49,12 +50,15 @@ class EnsembleTables:
         Over one output turn.
     marked : array (A,) of bool
         Angles that serve backlash and stiffness.
+    perfect : array (A, 3 + 3 D)
+        States of the perfect gearbox under the torque, from which the others start.
     """
 
     model: ContactModel
     torque: float
     states: NominalStates
     marked: NDArray[np.bool_]
+    perfect: FloatArray
 
     @property
     def solves_per_gearbox(self) -> int:
@@ -97,7 +101,8 @@ def ensemble_tables(
     stride = max(1, min(COARSE, count * COARSE // output_turn_count(model.lobe_count)))
     marked = np.zeros(count, dtype=np.bool_)
     marked[::stride] = True
-    return EnsembleTables(model, torque, states, marked)
+    perfect = contact_sweep(model, torque, states=states).state_vectors
+    return EnsembleTables(model, torque, states, marked, perfect)
 
 
 def evaluate_gearboxes(
@@ -142,6 +147,7 @@ def evaluate_gearboxes(
             model.phases,
             states.pins.pin_angle,
             tables.marked,
+            tables.perfect,
             harmonic_basis(table_size(len(states.crank_angle), harmonics), harmonics),
             model.lobe_count,
             model.cam.play,

@@ -55,6 +55,8 @@ def _slope(
 @numba.njit(cache=True, error_model="numpy")  # type: ignore[misc]
 def _follow(
     chosen: Any,
+    base: Any,
+    solved: Any,
     pull: float,
     scale_stiffness: float,
     rows: Any,
@@ -78,12 +80,15 @@ def _follow(
 ) -> int:
     """Solve the `chosen` angles in turn; -1, or the angle that did not converge.
 
-    `seen` returns least and greatest gamma, greatest ring force, least and greatest slope, and
+    `base` (A, 3 + 3 D) are known states nearby, such as those of the perfect gearbox; a state
+    starts from its base plus the deviations of the states before. `solved` (A, 3 + 3 D) returns
+    the states, `seen` least and greatest gamma, greatest ring force, least and greatest slope, and
     the mean of gamma over the angles that are `marked`.
     """
     discs, contacts = gaps.shape[1:]
     size = 3 + 3 * discs
-    state, last, before = np.zeros(size), np.zeros(size), np.zeros(size)
+    state, deviation = np.zeros(size), np.zeros(size)
+    last, before = np.zeros(size), np.zeros(size)
     force, cam_force = np.empty((discs, contacts)), np.empty((discs, 2))
     seen[0], seen[1], seen[2], seen[3], seen[4], seen[5] = np.inf, -np.inf, 0.0, np.inf, -np.inf, 0
     counted = 0
@@ -91,7 +96,9 @@ def _follow(
         a = chosen[b]
         if b > 0:
             turn = crank_angle[a] - crank_angle[chosen[b - 1]]
-            predict(last, before, turn, b, state)
+            predict(last, before, turn, b, deviation)
+        for i in range(size):
+            state[i] = base[a, i] + deviation[i]
         status, _, _ = solve_state(
             rows[a], gaps[a], coefficient[a], teeth, codes, logarithms, series, cam, offset[a],
             half_play, carrier_stiffness, pull, scale_stiffness, state, force, cam_force, work,
@@ -106,7 +113,9 @@ def _follow(
             if status != CONVERGED:
                 return a
         before[:] = last
-        last[:] = state
+        for i in range(size):
+            last[i] = state[i] - base[a, i]
+            solved[a, i] = state[i]
         seen[0], seen[1] = min(seen[0], state[2]), max(seen[1], state[2])
         for d in range(discs):
             for k in range(teeth):
@@ -136,6 +145,7 @@ def solve_gearboxes(
     phases: Any,
     pin_angle: Any,
     marked: Any,
+    perfect: Any,
     basis: Any,
     lobe_count: int,
     play: float,
@@ -163,7 +173,8 @@ def solve_gearboxes(
     """Backlash, transmission error, ring force, stiffness and ripple of S gearboxes.
 
     Nominal tables have a leading axis A (angles), errors a leading axis S. `marked` (A,) tells
-    which angles are used for backlash and stiffness. Out: `values` (S, 5) in SI (the backlash and
+    which angles are used for backlash and stiffness, `perfect` (A, 3 + 3 D) are the perfect
+    gearbox's states under the same torque. Out: `values` (S, 5) in SI (the backlash and
     the transmission error in rad, the ripple without the factor n), and `failed` (S,), -1 or the
     angle that did not converge.
     """
@@ -188,8 +199,9 @@ def solve_gearboxes(
         )  # fmt: skip
         work = np.empty(6 * size + 2 * discs * contacts + 12 * discs + 6)
         seen = np.empty(6)
+        solved, halved = np.empty((count, size)), np.empty((count, size))
         stopped = _follow(
-            every, torque / length, scale_stiffness, rows, rates, coefficient, crank_angle,
+            every, perfect, solved, torque / length, scale_stiffness, rows, rates, coefficient, crank_angle,
             teeth, codes, logarithms, series, cam, carrier_stiffness, gaps, gap_rates, offset,
             offset_rates, half_play, work, marked, seen,
         )  # fmt: skip
@@ -199,7 +211,7 @@ def solve_gearboxes(
         loaded = seen[5]
         if stopped < 0:
             stopped = _follow(
-                some, 0.5 * torque / length, scale_stiffness, rows, rates, coefficient,
+                some, solved, halved, 0.5 * torque / length, scale_stiffness, rows, rates, coefficient,
                 crank_angle, teeth, codes, logarithms, series, cam, carrier_stiffness, gaps,
                 gap_rates, offset, offset_rates, half_play, work, marked, seen,
             )  # fmt: skip

@@ -1,0 +1,217 @@
+"""Precision of a gearbox: backlash, lost motion, stiffness, transmission error, torque ripple."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.gearbox import kinematics
+from cqdd_design.gearbox.contact.errors import GearboxErrors
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.states import nominal_states
+from cqdd_design.gearbox.contact.sweep import (
+    ContactSweep,
+    contact_sweep,
+    output_turn_angles,
+    perfect_angles,
+)
+from cqdd_design.gearbox.precision.backlash import Backlash, backlash
+from cqdd_design.gearbox.precision.orders import Order, order_spectrum
+
+FloatArray = NDArray[np.float64]
+
+LOST_MOTION_SHARE = 0.03
+"""Lost motion is read between plus and minus 3 % of the torque, as makers' data sheets do."""
+
+_ARCMIN = math.degrees(1.0) * 60.0
+_LOADS = (0.125, 0.25, 0.5, 0.75, 1.0, 2.0, 3.0)
+"""Shares of the torque at which transmission error and windup are listed."""
+
+
+@dataclass(frozen=True)
+class LoadPoint:
+    """Mean windup and transmission error at one torque.
+
+    Attributes
+    ----------
+    torque : float
+        N m.
+    windup : float
+        Mean of the carrier's angle error, rad.
+    transmission_error : float
+        Its peak to peak over the period, rad.
+    ripple : float
+        Peak-to-peak torque ripple at the output, N m.
+    """
+
+    torque: float
+    windup: float
+    transmission_error: float
+    ripple: float
+
+
+@dataclass(frozen=True, eq=False)
+class Precision:
+    """Precision at one torque over the true period.
+
+    Attributes
+    ----------
+    torque : float
+        N m; the continuous torque unless asked otherwise.
+    free : Backlash
+        Of rigid parts at every angle.
+    lost_motion : float
+        Mean range of the carrier between -3 % and +3 % of the torque, rad.
+    stiffness : float
+        Mean secant between half of the torque and it, N m/rad.
+    loaded, unloaded : array (A,)
+        Carrier's angle error under the torque, and of rigid parts under a vanishing one, rad.
+    ripple : array (A,)
+        n dPi/dphi, output torque ripple, N m.
+    curve : tuple of LoadPoint
+        Over torque.
+    orders : tuple of Order
+        Of the loaded error, amplitudes in rad, strongest first.
+    ripple_orders : tuple of Order
+        Of the ripple, amplitudes in N m.
+    """
+
+    torque: float
+    free: Backlash
+    lost_motion: float
+    stiffness: float
+    loaded: FloatArray
+    unloaded: FloatArray
+    ripple: FloatArray
+    curve: tuple[LoadPoint, ...]
+    orders: tuple[Order, ...]
+    ripple_orders: tuple[Order, ...]
+
+    @property
+    def transmission_error(self) -> float:
+        """Peak to peak of the loaded error, rad."""
+        return float(np.ptp(self.loaded))
+
+    @property
+    def ripple_pp(self) -> float:
+        """Peak to peak of the output torque's ripple, N m."""
+        return float(np.ptp(self.ripple))
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What the figures mean where they are not the usual."""
+        if not self.free.preloaded:
+            return ()
+        tight = float(np.mean(self.free.overlap > self.free.preload_limit))
+        most = self.free.overlap.max() * 1e6
+        return (
+            f"parts overlap by up to {most:.3g} um whatever they do, at {100.0 * tight:.0f} % of "
+            "the crank angles: the gearbox is preloaded there and its backlash is zero.",
+        )
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form (``precision``)."""
+        free = self.free.free * _ARCMIN
+        return {
+            "torque_Nm": self.torque,
+            "backlash_arcmin": float(free.mean()),
+            "backlash_min_arcmin": float(free.min()),
+            "backlash_max_arcmin": float(free.max()),
+            "preload_overlap_um": (
+                float(self.free.overlap.max()) * 1e6 if self.free.preloaded else 0.0
+            ),
+            "lost_motion_arcmin": self.lost_motion * _ARCMIN,
+            "lost_motion_torque_Nm": LOST_MOTION_SHARE * self.torque,
+            "stiffness_Nm_per_arcmin": self.stiffness / _ARCMIN,
+            "stiffness_Nm_per_rad": self.stiffness,
+            "transmission_error_pp_arcmin": self.transmission_error * _ARCMIN,
+            "transmission_error_unloaded_pp_arcmin": float(np.ptp(self.unloaded)) * _ARCMIN,
+            "torque_ripple_pp_Nm": self.ripple_pp,
+            "loaded_curve": [
+                {
+                    "torque_Nm": point.torque,
+                    "windup_arcmin": point.windup * _ARCMIN,
+                    "transmission_error_pp_arcmin": point.transmission_error * _ARCMIN,
+                    "torque_ripple_pp_Nm": point.ripple,
+                }
+                for point in self.curve
+            ],
+            "orders": [_order_dict(o, "amplitude_arcmin", _ARCMIN) for o in self.orders],
+            "ripple_orders": [_order_dict(o, "amplitude_Nm", 1.0) for o in self.ripple_orders],
+        }
+
+
+def _order_dict(order: Order, key: str, scale: float) -> dict[str, object]:
+    return {
+        "order_per_output_turn": order.per_output_turn,
+        "order_per_crank_turn": order.per_crank_turn,
+        "name": order.name,
+        key: order.amplitude * scale,
+    }
+
+
+def precision(
+    model: ContactModel,
+    torque: float,
+    *,
+    angles: int = 360,
+    errors: GearboxErrors | None = None,
+) -> Precision:
+    """Precision of a gearbox at one torque.
+
+    Parameters
+    ----------
+    model : ContactModel
+    torque : float
+        N m, positive.
+    angles : int
+        Crank angles over the period of a perfect gearbox; with errors, 8 n (n+1) over an output
+        turn are used.
+    errors : GearboxErrors, optional
+        Default a perfect gearbox.
+
+    Notes
+    -----
+    Stiffness is the secant between 50 % and 100 % of the torque, beyond the take-up of the
+    clearances, as makers of cycloidal reducers state it; carrier, shaft and housing are rigid.
+    The ripple is that of the energy, Pi(phi, T) = min(E - T gamma): n times dPi/dphi.
+    """
+    n, pins = model.lobe_count, model.pin_count
+    perfect = errors is None
+    angle = perfect_angles(model, angles) if perfect else output_turn_angles(model)
+    span = kinematics.mesh_period(n, pins) if perfect else kinematics.imperfect_period(n)
+    states = nominal_states(model, angle)
+
+    def solve(load: float) -> ContactSweep:
+        return contact_sweep(model, load, errors=errors, states=states)
+
+    free = backlash(model, errors=errors, states=states)
+    full = solve(torque)
+    small = LOST_MOTION_SHARE * torque
+    lost = solve(small).carrier_angle_error - solve(-small).carrier_angle_error
+    sweeps = {share: full if share == 1.0 else solve(share * torque) for share in _LOADS}
+    windup = {share: float(s.carrier_angle_error.mean()) for share, s in sweeps.items()}
+    ripple = n * full.energy_slope
+    return Precision(
+        torque=torque,
+        free=free,
+        lost_motion=float(lost.mean()),
+        stiffness=0.5 * torque / (windup[1.0] - windup[0.5]),
+        loaded=full.carrier_angle_error,
+        unloaded=free.greatest,
+        ripple=ripple,
+        curve=tuple(
+            LoadPoint(
+                torque=share * torque,
+                windup=windup[share],
+                transmission_error=float(np.ptp(s.carrier_angle_error)),
+                ripple=n * float(np.ptp(s.energy_slope)),
+            )
+            for share, s in sweeps.items()
+        ),
+        orders=order_spectrum(full.carrier_angle_error, span, n, pins),
+        ripple_orders=order_spectrum(ripple, span, n, pins),
+    )
