@@ -23,6 +23,9 @@ _SEARCHES = 200
 _GOOD = 1e-11
 _NEARLY = 1e-6
 
+_FIRM_APPROACH = 5e-6
+"""Approach, m, of a load that presses the discs firmly against what stops them."""
+
 CONVERGED, NOT_CONVERGED = 0, 1
 
 
@@ -50,7 +53,7 @@ def _palmgren(c: float, s: float, delta: float) -> tuple[float, float]:
 def _johnson(a: float, b: float, s: float, delta: float) -> tuple[float, float]:
     """Force and stiffness of delta = F (a + s - b ln F), straight beyond the law's limit."""
     c = a + s
-    limit = math.exp(c * 0.95 / b - 1.0)
+    limit = math.exp(0.95 * a / b - 1.0)
     steepest = c - b * (math.log(limit) + 1.0)
     edge = limit * (c - b * math.log(limit))
     if delta >= edge:
@@ -374,8 +377,21 @@ def solve_state(
         torsional = _newton_step(
             block, shared, gradient, carrier_stiffness, ridge, step, carrier
         )
-        stuck = iteration > 3 and residual <= 1e-7 * scale and residual >= 0.25 * previous
-        if residual <= _NEARLY * scale:
+        # Rounding of the closings alone leaves forces of this size unbalanced.
+        noise = 0.0
+        for d in range(discs):
+            for k in range(contacts):
+                noise = max(noise, stiff[d, k])
+        furthest = 0.0
+        for i in range(size):
+            furthest = max(furthest, abs(state[i]))
+        noise *= 1e-15 * furthest
+        stuck = (
+            iteration > 3
+            and residual <= max(1e-7 * scale, noise)
+            and residual >= 0.25 * previous
+        )
+        if residual <= _NEARLY * scale or stuck:
             # The last step is taken on the forces too, in first order: this balances them to
             # rounding, and its own error is the square of a relative 1e-6.
             smooth = True
@@ -518,6 +534,52 @@ def predict(state: Any, before: Any, turn: float, known: int, out: Any) -> None:
 
 
 @numba.njit(cache=True, error_model="numpy")  # type: ignore[misc]
+def solve_from_above(
+    rows: Any,
+    gaps: Any,
+    coefficient: Any,
+    teeth: int,
+    codes: Any,
+    logarithms: Any,
+    series: Any,
+    cam: Any,
+    offset: Any,
+    half_play: Any,
+    carrier_stiffness: float,
+    pull: float,
+    scale_stiffness: float,
+    state: Any,
+    force: Any,
+    cam_force: Any,
+    work: Any,
+) -> tuple[int, int, float]:
+    """Solve one state from nothing by lowering the load to `pull`, tenfold at a time.
+
+    Slow and safe: under a small load the discs slide round their cams' play, a narrow curved
+    valley that Newton's method follows only in small steps; under a firm one they do not.
+    Arguments and returns are those of :func:`solve_state`.
+    """
+    firm = abs(pull)
+    while 0.0 < firm < _FIRM_APPROACH * scale_stiffness:
+        firm *= 10.0
+    state[:] = 0.0
+    steps = 0
+    while True:
+        load = max(firm, abs(pull))
+        status, used, torsional = solve_state(
+            rows, gaps, coefficient, teeth, codes, logarithms, series, cam, offset, half_play,
+            carrier_stiffness, math.copysign(load, pull), scale_stiffness, state, force,
+            cam_force, work,
+        )  # fmt: skip
+        steps += used
+        if load <= abs(pull):
+            return status, steps, torsional
+        firm /= 10.0
+        if firm < 2.0 * abs(pull):
+            firm = abs(pull)
+
+
+@numba.njit(cache=True, error_model="numpy")  # type: ignore[misc]
 def solve_sweep(
     rows: Any,
     gaps: Any,
@@ -564,10 +626,7 @@ def solve_sweep(
             cam_force[a], work,
         )  # fmt: skip
         if status != CONVERGED:
-            # The prediction may have been a poor start; a cold one is slower and safe.
-            for i in range(size):
-                states[a, i] = 0.0
-            status, used, left = solve_state(
+            status, used, left = solve_from_above(
                 rows[a], gaps[a], coefficient[a], teeth, codes, logarithms, series, cam,
                 offset[a], half_play, carrier_stiffness, pull, scale_stiffness, states[a],
                 force[a], cam_force[a], work,

@@ -143,7 +143,7 @@ def approach(
     return np.asarray(local + np.asarray(series, dtype=float) * load)
 
 
-def force_limit(law: LineLaw, coefficient: ArrayLike, series: ArrayLike) -> FloatArray:
+def force_limit(law: LineLaw, coefficient: ArrayLike) -> FloatArray:
     """Largest force up to which the law is used as published, N.
 
     Johnson's logarithm turns back once the contact is as wide as the body is deep; beyond a
@@ -152,9 +152,7 @@ def force_limit(law: LineLaw, coefficient: ArrayLike, series: ArrayLike) -> Floa
     c = np.asarray(coefficient, dtype=float)
     if law.model != "johnson":
         return np.full(c.shape, np.inf)
-    stiffest = LEAST_SLOPE * (c + np.asarray(series, dtype=float))
-    exponent = (c + np.asarray(series, dtype=float) - stiffest) / law.logarithm - 1.0
-    return np.asarray(np.exp(exponent))
+    return np.asarray(np.exp((1.0 - LEAST_SLOPE) * c / law.logarithm - 1.0))
 
 
 def stored_energy(
@@ -219,7 +217,7 @@ def force(
         load = u**10
         slope = 0.9 * c / u + s
     else:
-        limit = force_limit(law, c, s)
+        limit = force_limit(law, c)
         edge = limit * (c + s - law.logarithm * np.log(limit))
         steepest = c + s - law.logarithm * (np.log(limit) + 1.0)
         load = np.minimum(safe / (c + s), limit)

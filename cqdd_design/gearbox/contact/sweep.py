@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.errors import ContactError
+from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox import kinematics
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.errors import GearboxErrors
@@ -219,6 +219,8 @@ def contact_sweep(
 
     Raises
     ------
+    UsageError
+        Without a crank angle.
     ContactError
         When a state has no equilibrium within reach of the nominal pose, naming its angle; when
         the load leaves the force law.
@@ -231,6 +233,8 @@ def contact_sweep(
         if crank_angle is None:
             crank_angle = perfect_angles(model) if errors is None else output_turn_angles(model)
         states = nominal_states(model, np.asarray(crank_angle, dtype=float))
+    if not len(states.crank_angle):
+        raise UsageError("a contact sweep needs at least one crank angle; none was given.")
     changed = error_states(model, states, errors)
     count, discs, contacts = states.gaps.shape
     size = 3 + 3 * discs
@@ -306,11 +310,8 @@ def _refuse_outside_law(
     model: ContactModel, torque: float, states: NominalStates, force: FloatArray
 ) -> None:
     teeth = model.tooth_count
-    for law, part, series in (
-        (model.ring_law, slice(None, teeth), np.zeros((model.disc_count, 1))),
-        (model.pin_law, slice(teeth, None), model.pin_series[:, None]),
-    ):
-        limit = laws.force_limit(law, states.coefficient[..., part], series)
+    for law, part in ((model.ring_law, slice(None, teeth)), (model.pin_law, slice(teeth, None))):
+        limit = laws.force_limit(law, states.coefficient[..., part])
         if np.any(force[..., part] > limit):
             raise ContactError(
                 f"at {torque:g} N*m a contact carries {force[..., part].max():.4g} N, where "

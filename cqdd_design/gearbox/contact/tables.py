@@ -74,7 +74,7 @@ class PinTable:
     pin_angle: FloatArray
 
 
-def _nearest(disc: CycloidDisc, centres: FloatArray, guess: FloatArray) -> FloatArray:
+def nearest_parameter(disc: CycloidDisc, centres: FloatArray, guess: FloatArray) -> FloatArray:
     """Parameter of the flank point nearest to each tooth centre, given a close guess.
 
     The generated flank is parallel to its locus, so the foot on the locus is the foot on the
@@ -115,7 +115,7 @@ def ring_table(model: ContactModel, crank_angle: FloatArray) -> RingTable:
     tooth = as_complex(tooth_centres(disc))
     seen = (tooth - shift) / turn
     teeth = 2.0 * np.pi * np.arange(n + 1) / (n + 1)
-    t = _nearest(disc, as_points(seen), teeth + own[..., None] / n)
+    t = nearest_parameter(disc, as_points(seen), teeth + own[..., None] / n)
     foot, outward = disc.profile(t)
     distance = ((seen - foot) * np.conj(outward)).real
     speed, bend = disc.rates(t)

@@ -11,11 +11,22 @@ from numpy.typing import NDArray
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.contact.errors import GearboxErrors
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.states import NominalStates, error_states, nominal_states
+from cqdd_design.gearbox.contact.states import (
+    ErrorStates,
+    NominalStates,
+    error_states,
+    nominal_states,
+    profile_error,
+)
 from cqdd_design.gearbox.contact.sweep import output_turn_angles, perfect_angles
-from cqdd_design.geometry.meshing import tooth_centres
+from cqdd_design.gearbox.contact.tables import nearest_parameter
+from cqdd_design.geometry.contours import as_complex, as_points
+from cqdd_design.geometry.meshing import disc_pose, tooth_centres
 
 FloatArray = NDArray[np.float64]
+
+_CORRECTIONS = 2
+"""Rounds of correction to the exact profile; each leaves a small share of the one before."""
 
 @dataclass(frozen=True, eq=False)
 class Backlash:
@@ -67,8 +78,8 @@ def backlash(
     """Backlash from gaps alone, re-linearised at each solution until it stands still.
 
     The range of the carrier's angle over all positions of every disc at which no gap to a ring
-    tooth, at an output pin or in a cam bearing is negative; the carrier's bearing is rigid. Flanks
-    count as their osculating circles where they touch, which is exact to the third order.
+    tooth, at an output pin or in a cam bearing is negative; the carrier's bearing is rigid. The
+    search sees each flank as its osculating circle, and is then corrected to the exact profile.
 
     Parameters
     ----------
@@ -84,40 +95,27 @@ def backlash(
     ContactError
         Where the parts are so loose that the teeth pass each other.
     """
-    from cqdd_design.gearbox.precision.kernel import OVERLAP, backlash_sweep
+    from cqdd_design.gearbox.precision.kernel import OVERLAP
 
     if states is None:
         if crank_angle is None:
             crank_angle = perfect_angles(model) if errors is None else output_turn_angles(model)
         states = nominal_states(model, np.asarray(crank_angle, dtype=float))
     changed = error_states(model, states, errors)
-    count = len(states.crank_angle)
-    ends, overlap = np.empty((count, 2)), np.empty(count)
-    failed = backlash_sweep(
-        states.rows,
-        states.gaps + changed.gaps,
-        states.ring.centre_curvature,
-        tooth_centres(model.disc),
-        states.crank_angle[:, None] + model.phases,
-        states.pins.pin_angle,
-        _apart(model, states, errors),
-        changed.offset,
-        changed.half_play,
-        model.eccentricity,
-        states.length,
-        np.arange(count),
-        states.crank_angle,
-        ends,
-        overlap,
-    )
-    if failed >= 0:
-        raise ContactError(
-            "the parts are too loose for a backlash: at crank angle "
-            f"{math.degrees(states.crank_angle[failed]):.6g} deg nothing stops the carrier near "
-            "its nominal place. Lower reducer.modification, output_pins.hole_clearance or "
-            "cam_bearing.radial_clearance."
-        )
-    return Backlash(states.crank_angle, ends[:, 0], ends[:, 1], overlap, OVERLAP)
+    nominal = states.gaps + changed.gaps
+    ends, overlaps = [], []
+    for sense in (-1.0, 1.0):
+        gaps = nominal
+        for _ in range(_CORRECTIONS + 1):
+            end, overlap, poses = _push(model, states, changed, gaps, errors, sense)
+            # The model of each gap is right where it was linearised but for its third order;
+            # what it misses of the exact gap at this pose is put into it.
+            exact, modelled = _exact_and_modelled(model, states, nominal, errors, poses)
+            gaps = nominal.copy()
+            gaps[:, :, : model.tooth_count] += exact - modelled
+        ends.append(end)
+        overlaps.append(overlap)
+    return Backlash(states.crank_angle, ends[0], ends[1], np.maximum(*overlaps), OVERLAP)
 
 
 def _apart(
@@ -132,3 +130,78 @@ def _apart(
     cosine, sine = np.cos(back)[:, None, None], np.sin(back)[:, None, None]
     x, y = apart[..., 0], apart[..., 1]
     return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
+
+
+def _push(
+    model: ContactModel,
+    states: NominalStates,
+    changed: ErrorStates,
+    gaps: FloatArray,
+    errors: GearboxErrors | None,
+    sense: float,
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Extreme carrier angle (A,), overlap (A,) and poses (A, 3 + 3 D) of one sense."""
+    from cqdd_design.gearbox.precision.kernel import backlash_sweep
+
+    count, discs = gaps.shape[:2]
+    end, overlap, poses = np.empty(count), np.empty(count), np.empty((count, 3 + 3 * discs))
+    failed = backlash_sweep(
+        states.rows,
+        gaps,
+        states.ring.centre_curvature,
+        tooth_centres(model.disc),
+        states.crank_angle[:, None] + model.phases,
+        states.pins.pin_angle,
+        _apart(model, states, errors),
+        changed.offset,
+        changed.half_play,
+        model.eccentricity,
+        states.length,
+        np.arange(count),
+        states.crank_angle,
+        sense,
+        end,
+        overlap,
+        poses,
+    )
+    if failed >= 0:
+        raise ContactError(
+            "the parts are too loose for a backlash: at crank angle "
+            f"{math.degrees(states.crank_angle[failed]):.6g} deg nothing stops the carrier near "
+            "its nominal place. Lower reducer.modification, output_pins.hole_clearance or "
+            "cam_bearing.radial_clearance."
+        )
+    return end, overlap, poses
+
+
+def _exact_and_modelled(
+    model: ContactModel,
+    states: NominalStates,
+    nominal: FloatArray,
+    errors: GearboxErrors | None,
+    poses: FloatArray,
+) -> tuple[FloatArray, FloatArray]:
+    """Ring gaps (A, D, T) at displaced poses: by the exact profile, and by osculating circles."""
+    teeth = model.tooth_count
+    discs = poses[:, 3:].reshape(len(poses), -1, 3)
+    shift, turn = as_complex(discs[..., :2])[..., None], discs[..., 2, None] / states.length
+    own = states.crank_angle[:, None] + model.phases
+    rotation, centre = (part[..., None] for part in disc_pose(model.disc, own))
+    tooth = as_complex(tooth_centres(model.disc))
+    # Displacement of the tooth against the disc, in the disc's nominal place.
+    moved = (tooth - centre - shift) * np.exp(-1j * turn) - (tooth - centre)
+    normal = as_complex(states.rows[:, :, :teeth, :2])
+    out, along = -(moved * np.conj(normal)).real, (moved * np.conj(-1j * normal)).real
+    bend = states.ring.centre_curvature
+    root = np.sqrt((1.0 + bend * out) ** 2 + (bend * along) ** 2)
+    modelled = nominal[:, :, :teeth] + (2.0 * out + bend * (out**2 + along**2)) / (1.0 + root)
+    off, radius = 0.0, 0.0
+    if errors is not None:
+        off, radius = as_complex(errors.tooth_position), errors.tooth_radius
+    seen = (tooth + off - centre - shift) / (rotation * np.exp(1j * turn))
+    foot = nearest_parameter(model.disc, as_points(seen), states.ring.parameter)
+    point, outward = model.disc.profile(foot)
+    exact = ((seen - point) * np.conj(outward)).real - model.tooth_radius - radius
+    if errors is not None:
+        exact = exact - profile_error(errors.disc_profile, foot)[0]
+    return exact, modelled

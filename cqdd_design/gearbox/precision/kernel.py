@@ -125,10 +125,12 @@ def backlash_sweep(
     length: float,
     angles: Any,
     crank_angle: Any,
+    sense: float,
     ends: Any,
     preload: Any,
+    poses: Any,
 ) -> int:
-    """Least and greatest carrier angle of rigid parts at some crank angles.
+    """Extreme carrier angle of rigid parts at some crank angles.
 
     Parameters
     ----------
@@ -154,10 +156,14 @@ def backlash_sweep(
         Indices of the angles to solve, rising.
     crank_angle : array (A,)
         rad.
-    ends : array (B, 2)
-        Out: least and greatest carrier angle, rad.
+    sense : float
+        1 for the greatest carrier angle, -1 for the least.
+    ends : array (B,)
+        Out: that angle, rad.
     preload : array (B,)
         Out: greatest overlap that no motion removes, m; clearances give about the push.
+    poses : array (B, 3 + 3 D)
+        Out: carrier and discs there, angles times `length`, m.
 
     Returns
     -------
@@ -176,53 +182,53 @@ def backlash_sweep(
     soft = np.zeros(discs)
     state, origin = np.zeros(size), np.zeros(size)
     last, before = np.zeros(size), np.zeros(size)
-    for sense in range(2):
-        push = -_PUSH if sense == 0 else _PUSH
-        for b in range(angles.size):
-            a = angles[b]
-            if b == 0:
-                state[:] = 0.0
+    push = sense * _PUSH
+    for b in range(angles.size):
+        a = angles[b]
+        if b == 0:
+            state[:] = 0.0
+        else:
+            predict(last, before, crank_angle[a] - crank_angle[angles[b - 1]], 1, state)
+        torsional, overlap, worst, still, tight = 0.0, 0.0, 0.0, False, 0
+        for round_ in range(_ROUNDS):
+            if round_ > _FREE_ROUNDS:
+                # Two states that lead to each other: linearise between them.
+                for i in range(size):
+                    state[i] = 0.5 * (state[i] + origin[i])
+            origin[:] = state
+            if round_ == 0 and b == 0:
+                rows[:] = nominal_rows[a]
+                gaps[:] = nominal_gaps[a]
             else:
-                predict(last, before, crank_angle[a] - crank_angle[angles[b - 1]], 1, state)
-            torsional, overlap, worst, still, tight = 0.0, 0.0, 0.0, False, 0
-            for round_ in range(_ROUNDS):
-                if round_ > _FREE_ROUNDS:
-                    # Two states that lead to each other: linearise between them.
-                    for i in range(size):
-                        state[i] = 0.5 * (state[i] + origin[i])
-                origin[:] = state
-                if round_ == 0 and b == 0:
-                    rows[:] = nominal_rows[a]
-                    gaps[:] = nominal_gaps[a]
-                else:
-                    _true_gaps(
-                        nominal_rows[a], nominal_gaps[a], curvature[a], tooth_centre,
-                        own_angle[a], pin_angle[a], apart[a], eccentricity, length, teeth,
-                        state, rows, gaps,
-                    )  # fmt: skip
-                # A firmer push first: it finds which contacts matter in fewer steps.
-                firm = _FIRM * push if round_ == 0 else push
-                status, _, torsional = solve_state(
-                    rows, gaps, ones, teeth, (2, 2), (0.0, 0.0), soft, (1.0, 1.0), offset[a],
-                    half_play, 0.0, firm, 1.0, state, force, cam_force, work,
+                _true_gaps(
+                    nominal_rows[a], nominal_gaps[a], curvature[a], tooth_centre,
+                    own_angle[a], pin_angle[a], apart[a], eccentricity, length, teeth,
+                    state, rows, gaps,
                 )  # fmt: skip
-                if status != CONVERGED:
-                    return b
-                still = round_ > 0 and abs(state[2] - origin[2]) <= _STILL
-                overlap = _greatest_force(force, cam_force)
-                # Parts that overlap wherever they go have no free range to converge to.
-                tight = tight + 1 if overlap > OVERLAP else 0
-                if round_ > _FREE_ROUNDS:
-                    worst = max(worst, overlap)
-                if still or tight > 3:
-                    break
-            if not (still or tight > 3):
-                if worst <= _TOUCHING:
-                    return b
-                # Free by nanometres at most, on all sides: too little to be called a range.
-                overlap = max(worst, 2.0 * OVERLAP)
-            ends[b, sense] = (state[2] - push / torsional) / length
-            preload[b] = overlap if sense == 0 else max(overlap, preload[b])
-            before[:] = last
-            last[:] = state
+            # A firmer push first: it finds which contacts matter in fewer steps.
+            firm = _FIRM * push if round_ == 0 else push
+            status, _, torsional = solve_state(
+                rows, gaps, ones, teeth, (2, 2), (0.0, 0.0), soft, (1.0, 1.0), offset[a],
+                half_play, 0.0, firm, 1.0, state, force, cam_force, work,
+            )  # fmt: skip
+            if status != CONVERGED:
+                return b
+            still = round_ > 0 and abs(state[2] - origin[2]) <= _STILL
+            overlap = _greatest_force(force, cam_force)
+            # Parts that overlap wherever they go have no free range to converge to.
+            tight = tight + 1 if overlap > OVERLAP else 0
+            if round_ > _FREE_ROUNDS:
+                worst = max(worst, overlap)
+            if still or tight > 3:
+                break
+        if not (still or tight > 3):
+            if worst <= _TOUCHING:
+                return b
+            # Free by nanometres at most, on all sides: too little to be called a range.
+            overlap = max(worst, 2.0 * OVERLAP)
+        ends[b] = (state[2] - push / torsional) / length
+        preload[b] = overlap
+        poses[b] = state
+        before[:] = last
+        last[:] = state
     return -1

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox import kinematics
 from cqdd_design.gearbox.contact.errors import GearboxErrors
 from cqdd_design.gearbox.contact.model import ContactModel
@@ -27,7 +28,7 @@ LOST_MOTION_SHARE = 0.03
 """Lost motion is read between plus and minus 3 % of the torque, as makers' data sheets do."""
 
 _ARCMIN = math.degrees(1.0) * 60.0
-_LOADS = (0.125, 0.25, 0.5, 0.75, 1.0, 2.0, 3.0)
+_PART_LOADS, _OVERLOADS = (0.125, 0.25, 0.5, 0.75), (2.0, 3.0)
 """Shares of the torque at which transmission error and windup are listed."""
 
 
@@ -124,7 +125,7 @@ class Precision:
                 float(self.free.overlap.max()) * 1e6 if self.free.preloaded else 0.0
             ),
             "lost_motion_arcmin": self.lost_motion * _ARCMIN,
-            "lost_motion_torque_Nm": LOST_MOTION_SHARE * self.torque,
+            "lost_motion_torque_Nm": LOST_MOTION_SHARE * abs(self.torque),
             "stiffness_Nm_per_arcmin": self.stiffness / _ARCMIN,
             "stiffness_Nm_per_rad": self.stiffness,
             "transmission_error_pp_arcmin": self.transmission_error * _ARCMIN,
@@ -166,12 +167,19 @@ def precision(
     ----------
     model : ContactModel
     torque : float
-        N m, positive.
+        N m, not zero; its sign is the sense.
     angles : int
         Crank angles over the period of a perfect gearbox; with errors, 8 n (n+1) over an output
         turn are used.
     errors : GearboxErrors, optional
         Default a perfect gearbox.
+
+    Raises
+    ------
+    UsageError
+        At zero torque.
+    ContactError
+        When the gearbox has no equilibrium at the torque.
 
     Notes
     -----
@@ -179,6 +187,8 @@ def precision(
     clearances, as makers of cycloidal reducers state it; carrier, shaft and housing are rigid.
     The ripple is that of the energy, Pi(phi, T) = min(E - T gamma): n times dPi/dphi.
     """
+    if torque == 0.0:
+        raise UsageError("precision is stated at a torque; give one that is not zero.")
     n, pins = model.lobe_count, model.pin_count
     perfect = errors is None
     angle = perfect_angles(model, angles) if perfect else output_turn_angles(model)
@@ -192,13 +202,19 @@ def precision(
     full = solve(torque)
     small = LOST_MOTION_SHARE * torque
     lost = solve(small).carrier_angle_error - solve(-small).carrier_angle_error
-    sweeps = {share: full if share == 1.0 else solve(share * torque) for share in _LOADS}
+    sweeps = {share: solve(share * torque) for share in _PART_LOADS} | {1.0: full}
+    for share in _OVERLOADS:
+        try:
+            sweeps[share] = solve(share * torque)
+        except ContactError:
+            # The curve ends where the gearbox does.
+            break
     windup = {share: float(s.carrier_angle_error.mean()) for share, s in sweeps.items()}
     ripple = n * full.energy_slope
     return Precision(
         torque=torque,
         free=free,
-        lost_motion=float(lost.mean()),
+        lost_motion=abs(float(lost.mean())),
         stiffness=0.5 * torque / (windup[1.0] - windup[0.5]),
         loaded=full.carrier_angle_error,
         unloaded=free.greatest,

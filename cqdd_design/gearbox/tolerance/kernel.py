@@ -13,7 +13,7 @@ import numba
 import numpy as np
 
 from cqdd_design.gearbox.contact.fill import fill_errors
-from cqdd_design.gearbox.contact.kernel import CONVERGED, predict, solve_state
+from cqdd_design.gearbox.contact.kernel import CONVERGED, predict, solve_from_above, solve_state
 from cqdd_design.gearbox.precision.kernel import OVERLAP, backlash_sweep
 
 BACKLASH, TRANSMISSION_ERROR, RING_FORCE, STIFFNESS, RIPPLE = range(5)
@@ -104,8 +104,7 @@ def _follow(
             half_play, carrier_stiffness, pull, scale_stiffness, state, force, cam_force, work,
         )  # fmt: skip
         if status != CONVERGED:
-            state[:] = 0.0
-            status, _, _ = solve_state(
+            status, _, _ = solve_from_above(
                 rows[a], gaps[a], coefficient[a], teeth, codes, logarithms, series, cam,
                 offset[a], half_play, carrier_stiffness, pull, scale_stiffness, state, force,
                 cam_force, work,
@@ -229,15 +228,22 @@ def solve_gearboxes(
                         y = hole_position[s, d, j, 1] - pin_position[s, j, 1]
                         apart[a, d, j, 0] = cosine * x - sine * y
                         apart[a, d, j, 1] = sine * x + cosine * y
-            ends, overlap = np.empty((some.size, 2)), np.empty(some.size)
+            least, greatest = np.empty(some.size), np.empty(some.size)
+            overlap, poses = np.empty(some.size), np.empty((some.size, size))
             at = backlash_sweep(
                 rows, gaps, curvature, tooth_centre, own, pin_angle, apart, offset, half_play,
-                eccentricity, length, some, crank_angle, ends, overlap,
+                eccentricity, length, some, crank_angle, -1.0, least, overlap, poses,
             )  # fmt: skip
+            if at < 0:
+                at = backlash_sweep(
+                    rows, gaps, curvature, tooth_centre, own, pin_angle, apart, offset,
+                    half_play, eccentricity, length, some, crank_angle, 1.0, greatest, overlap,
+                    poses,
+                )  # fmt: skip
             free = 0.0
             for b in range(some.size):
                 if overlap[b] <= OVERLAP:
-                    free += max(ends[b, 1] - ends[b, 0], 0.0)
+                    free += max(greatest[b] - least[b], 0.0)
             values[s, BACKLASH] = free / some.size
             if at >= 0:
                 stopped = some[at]
