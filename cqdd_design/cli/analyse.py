@@ -27,10 +27,12 @@ def analyse(
         str | None, typer.Option(metavar="Q", help='Input speed, as in "1286 rpm".')
     ] = None,
 ) -> None:
-    """Loads, pressures, output pins, bearing and balance."""
+    """Loads, contact equilibrium, precision, losses and life."""
     from cqdd_design.cli.tables import verdict
     from cqdd_design.design import load_design
+    from cqdd_design.errors import ContactError
     from cqdd_design.gearbox import analyse_gearbox
+    from cqdd_design.gearbox.contact_analysis import analyse_contact
     from cqdd_design.units import SPEED, TORQUE
 
     asked_torque = parse_positive("--torque", torque, TORQUE)
@@ -39,29 +41,58 @@ def analyse(
     if asked_speed is not None:
         loaded = loaded.replacing({"requirements.input_speed": asked_speed})
     analysis = analyse_gearbox(loaded, torque=asked_torque, angles=angles)
-    out.say(*_lines(analysis), "", f"checks: {verdict(analysis.checks)} (see `check`)")
-    for sentence in analysis.warnings:
+    results, warnings = analysis.to_dict(), list(analysis.warnings)
+    try:
+        contact = analyse_contact(analysis.design, torque=asked_torque, angles=angles)
+    except ContactError as error:
+        # A gearbox that cannot carry the torque is described as far as closed forms go.
+        results |= dict.fromkeys(("contact", "precision", "losses", "life"))
+        warnings.append(f"no contact analysis: {error.message}")
+    else:
+        results |= contact.to_dict()
+        warnings += contact.warnings
+    lines = _lines(analysis, results)
+    out.say(*lines, "", f"checks: {verdict(analysis.checks)} (see `check`)")
+    for sentence in warnings:
         out.warn(sentence)
-    out.document(analysis.to_dict(), design=loaded, checks=analysis.checks)
+    out.document(results, design=loaded, checks=analysis.checks)
 
 
-def _lines(analysis: GearboxAnalysis) -> list[str]:
+def _lines(analysis: GearboxAnalysis, results: dict[str, object]) -> list[str]:
     lines = []
-    results = analysis.to_dict()
     titles = {
         "geometry": "geometry",
         "rigid": f"rigid loads at {number(analysis.rigid.torque)} N*m",
         "output_pins": "output pins",
         "bearings": "cam bearing",
         "balance": "balance",
+        "contact": "contact equilibrium",
+        "precision": "precision",
+        "losses": "losses",
+        "life": "life",
     }
     for key, title in titles.items():
         values = results[key]
+        if values is None:
+            continue
         assert isinstance(values, dict)
         flat = values["cam"] if key == "bearings" else values
-        rows = [[f"  {name}", _shown(value)] for name, value in flat.items()]
+        rows = [[f"  {name}", _shown(value)] for name, value in _single(flat).items()]
         lines += [title, table(rows), ""]
     return lines[:-1]
+
+
+def _single(values: dict[str, object]) -> dict[str, object]:
+    """What fits on one line each: curves and tables are in the JSON and in the report."""
+    found: dict[str, object] = {}
+    for name, value in values.items():
+        if isinstance(value, dict):
+            found |= {f"{name}.{inner}": v for inner, v in _single(value).items()}
+        elif not isinstance(value, list):
+            found[name] = value
+        elif value and len(value) <= 3 and all(isinstance(item, float) for item in value):
+            found[name] = ", ".join(number(item) for item in value)
+    return found
 
 
 def _shown(value: object) -> str:

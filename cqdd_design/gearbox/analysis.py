@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,7 +39,7 @@ class GearboxAnalysis:
     rigid, rigid_continuous : RigidMaxima
         Raw maxima at the peak (or the asked-for) and at the continuous torque.
     series : RigidSeries
-        Curves over one crank turn at the torque of `rigid`.
+        Curves over one crank turn at the torque of `rigid`, acting on the carrier.
     output_pins : PinStrength
         At the peak and continuous torques of the requirements.
     cam_bearing : BearingResult
@@ -146,7 +146,8 @@ def analyse_gearbox(
         geometry=geometry,
         rigid=shown,
         rigid_continuous=continuous,
-        series=rigid_series(stages, shown.torque, crank),
+        # The rigid law's sense is the drive's; a torque on the carrier loads the other flanks.
+        series=replace(rigid_series(stages, -shown.torque, crank), torque=shown.torque),
         output_pins=pins,
         cam_bearing=cam,
         balance=balance,

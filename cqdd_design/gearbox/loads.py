@@ -236,7 +236,8 @@ def rigid_series(stages: Stages, torque: float, crank_angle: FloatArray) -> Rigi
     stages : Stages
         From :meth:`Stages.from_design`.
     torque : float
-        Output torque, N m; negative for the other sense.
+        Torque with which the discs turn the carrier counter-clockwise, N m; negative for the
+        other sense.
     crank_angle : array (A,)
         Crank angles of the machine, rad.
     """

@@ -6,7 +6,8 @@ disc's own crank angle ``phi + p`` and its own clocking; :mod:`.loads` does that
 
 Axes: arguments that describe designs broadcast to a leading shape ``...`` (a scalar is one
 design); ``crank_angle`` is one-dimensional, length A. Forces are those on the disc. A positive
-torque turns the carrier counter-clockwise; a negative one loads the other flanks.
+torque is one with which the disc turns the carrier counter-clockwise; a negative one loads the
+other flanks. (The contact equilibrium states the torque on the carrier, which is its opposite.)
 
 Because every ring normal passes through the pitch point P = (n+1) e u, and P - C = n e u from the
 disc centre C, the lever arm of tooth i is h_i = n e (u x d_i), and the tangential part of the ring

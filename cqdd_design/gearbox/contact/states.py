@@ -27,8 +27,9 @@ class NominalStates:
         n_x, n_y and h/length, ring teeth first.
     gaps, coefficient : array (A, D, C)
         m, and the coefficient of the contact's law.
-    rates : array (A, D, C, 3)
-        Derivatives over crank angle of the normal's angle, of h/length and of the gap.
+    rates : array (A, D, C, 4)
+        Derivatives over crank angle of the normal's angle, of h/length, of the gap and of the
+        coefficient (which Johnson's law takes from the changing radius).
     length : float
         Pin circle radius, which turns angles into lengths, m.
     """
@@ -61,8 +62,15 @@ def nominal_states(model: ContactModel, crank_angle: FloatArray) -> NominalState
     length = model.pin_circle_radius
     rows = np.concatenate([ring.rows, pins.rows], axis=2)
     rows[..., 2] /= length
-    still = np.zeros((*pins.rates.shape[:-1], 1))
-    rates = np.concatenate([ring.rates, np.concatenate([pins.rates, still], axis=-1)], axis=2)
+    still = np.zeros((*pins.rates.shape[:-1], 2))
+    softening = -model.ring_law.logarithm * ring.radius_rate
+    rates = np.concatenate(
+        [
+            np.concatenate([ring.rates, softening[..., None]], axis=-1),
+            np.concatenate([pins.rates, still], axis=-1),
+        ],
+        axis=2,
+    )
     rates[..., 1] /= length
     pin_shape = pins.rows.shape[:-1]
     return NominalStates(

@@ -220,7 +220,7 @@ def contact_sweep(
     Raises
     ------
     UsageError
-        Without a crank angle.
+        Without finite crank angles, or with errors of another gearbox.
     ContactError
         When a state has no equilibrium within reach of the nominal pose, naming its angle; when
         the load leaves the force law.
@@ -232,9 +232,11 @@ def contact_sweep(
     if states is None:
         if crank_angle is None:
             crank_angle = perfect_angles(model) if errors is None else output_turn_angles(model)
-        states = nominal_states(model, np.asarray(crank_angle, dtype=float))
-    if not len(states.crank_angle):
-        raise UsageError("a contact sweep needs at least one crank angle; none was given.")
+        angle = np.atleast_1d(np.asarray(crank_angle, dtype=float))
+        if angle.ndim != 1 or not angle.size or not np.all(np.isfinite(angle)):
+            raise UsageError("a contact sweep needs a list of finite crank angles, one or more.")
+        states = nominal_states(model, angle)
+    _refuse_misshapen(model, errors)
     changed = error_states(model, states, errors)
     count, discs, contacts = states.gaps.shape
     size = 3 + 3 * discs
@@ -269,6 +271,17 @@ def contact_sweep(
     _refuse_out_of_reach(model, torque, states, state)
     _refuse_outside_law(model, torque, states, force)
     return _assemble(model, torque, states, changed, state, force, cam_force, torsional, steps)
+
+
+def _refuse_misshapen(model: ContactModel, errors: GearboxErrors | None) -> None:
+    """Raise where part errors are those of another gearbox."""
+    if errors is None:
+        return
+    wanted = GearboxErrors.none(model, errors.disc_profile.shape[-1])
+    for name in wanted.__dataclass_fields__:
+        given, shape = np.shape(getattr(errors, name)), getattr(wanted, name).shape
+        if given != shape:
+            raise UsageError(f"errors.{name} has the shape {given}; this gearbox needs {shape}.")
 
 
 def law_arguments(model: ContactModel) -> tuple[object, ...]:
@@ -382,11 +395,12 @@ def energy_slope(
     discs = state[:, 3:].reshape(len(state), -1, 1, 3)
     against = np.repeat(discs, force.shape[2], axis=2)
     against[:, :, teeth:] -= state[:, None, None, :3]
-    spin, arm_rate, gap_rate = np.moveaxis(states.rates, -1, 0)
+    spin, arm_rate, gap_rate, softening = np.moveaxis(states.rates, -1, 0)
     nx, ny = states.rows[..., 0], states.rows[..., 1]
     across = nx * against[..., 1] - ny * against[..., 0]
     closing = -(spin * across + arm_rate * against[..., 2]) - gap_rate - changed.gap_rates
-    slope = np.sum(force * closing, axis=(1, 2))
+    # At a held closing a softer contact stores less: dU/dc = -F^2/2 of a law F c + ...
+    slope = np.sum(force * closing - 0.5 * force**2 * softening, axis=(1, 2))
     return np.asarray(slope + np.sum(cam_force * changed.offset_rates, axis=(1, 2)))
 
 

@@ -38,8 +38,8 @@ class RingTable:
         Place on the disc's profile (rad) and its derivative.
     point : array (A, D, T, 2)
         On the disc's flank, in the ring's frame, m.
-    equivalent_radius : array (A, D, T)
-        R_eq of tooth and flank, m.
+    equivalent_radius, radius_rate : array (A, D, T)
+        R_eq of tooth and flank (m), and the derivative of its logarithm (1).
     centre_curvature : array (A, D, T)
         Curvature at the tooth's centre of the curve parallel to the flank through it, 1/m.
     """
@@ -51,6 +51,7 @@ class RingTable:
     parameter_rate: FloatArray
     point: FloatArray
     equivalent_radius: FloatArray
+    radius_rate: FloatArray
     centre_curvature: FloatArray
 
 
@@ -90,13 +91,21 @@ def nearest_parameter(disc: CycloidDisc, centres: FloatArray, guess: FloatArray)
         normal = flank.normal(t)
         apart = (wanted - flank.locus(t)) * np.conj(normal)
         # Along the counter-clockwise tangent i n, and out of the locus.
-        step = apart.imag / (flank.locus_speed(t) * (1.0 + flank.locus_bend(t) * apart.real))
+        nearness = 1.0 + flank.locus_bend(t) * apart.real
+        if np.any(nearness <= 0.0):
+            break
+        step = apart.imag / (flank.locus_speed(t) * nearness)
         t = t + step
         if np.abs(step).max(initial=0.0) < 1e-14:
-            break
-    else:
-        return project(disc, centres).parameter
-    return np.asarray(t)
+            return np.asarray(t)
+    # Not converged, or beyond a centre of curvature, where the foot is not the nearest point.
+    return project(disc, centres).parameter
+
+
+def _bend_slope(disc: CycloidDisc, t: FloatArray) -> FloatArray:
+    """Derivative of the flank's curvature over its parameter, by central differences."""
+    step = 1e-4 * disc.half_pitch
+    return np.asarray((disc.rates(t + step)[1] - disc.rates(t - step)[1]) / (2.0 * step))
 
 
 def ring_table(model: ContactModel, crank_angle: FloatArray) -> RingTable:
@@ -129,6 +138,7 @@ def ring_table(model: ContactModel, crank_angle: FloatArray) -> RingTable:
     moved = -1j * shift
     arm = (np.conj(arm_vector) * normal).imag
     arm_rate = (np.conj(moved) * normal).imag + (np.conj(arm_vector) * 1j * normal).imag * spin
+    radius = 1.0 / (1.0 / disc.tooth_radius + bend)
     return RingTable(
         rows=np.stack([normal.real, normal.imag, arm], axis=-1),
         gap=distance - disc.tooth_radius,
@@ -136,7 +146,8 @@ def ring_table(model: ContactModel, crank_angle: FloatArray) -> RingTable:
         parameter=np.asarray(np.mod(t, 2.0 * np.pi)),
         parameter_rate=along / speed,
         point=as_points(foot * turn + shift),
-        equivalent_radius=1.0 / (1.0 / disc.tooth_radius + bend),
+        equivalent_radius=radius,
+        radius_rate=-radius * _bend_slope(disc, t) * along / speed,
         centre_curvature=bend / (1.0 + bend * distance),
     )
 

@@ -33,8 +33,8 @@ OUTPUTS: tuple[str, ...] = (
 
 _ARCMIN = math.degrees(1.0) * 60.0
 
-COARSE = 8
-"""Every eighth angle serves backlash and stiffness, whose means do not need the teeth's orders."""
+_COARSE = 8
+"""About every eighth angle serves backlash and stiffness, whose means need no fine orders."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +82,17 @@ class Outcome:
     solves: int
 
 
+def _stride(lobe_count: int) -> int:
+    """Step between the coarse angles: odd, or all of them would meet the teeth in one phase.
+
+    There are eight angles to a tooth, so an even step would see one, two or four of their phases.
+    A divisor of n (n + 1) spaces the coarse angles evenly round the turn.
+    """
+    whole = lobe_count * (lobe_count + 1)
+    odd = [step for step in range(3, 16, 2) if whole % step == 0]
+    return min(odd, key=lambda step: abs(step - _COARSE), default=_COARSE + 1)
+
+
 def ensemble_tables(
     model: ContactModel, torque: float, angles: int | None = None
 ) -> EnsembleTables:
@@ -98,7 +109,7 @@ def ensemble_tables(
     """
     states = nominal_states(model, output_turn_angles(model, angles))
     count = len(states.crank_angle)
-    stride = max(1, min(COARSE, count * COARSE // output_turn_count(model.lobe_count)))
+    stride = _stride(model.lobe_count) if count >= output_turn_count(model.lobe_count) else 1
     marked = np.zeros(count, dtype=np.bool_)
     marked[::stride] = True
     perfect = contact_sweep(model, torque, states=states).state_vectors

@@ -47,6 +47,7 @@ def _slope(
                     + rates[d, k, 1] * t
                     + rates[d, k, 2]
                     + gap_rates[d, k]
+                    + 0.5 * force[d, k] * rates[d, k, 3]
                 )
         slope += cam_force[d, 0] * offset_rates[d, 0] + cam_force[d, 1] * offset_rates[d, 1]
     return slope

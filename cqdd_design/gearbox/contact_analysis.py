@@ -1,0 +1,136 @@
+"""One call from a design to its contact equilibrium, precision, losses and life.
+
+The closed forms of :mod:`.analysis` need none of this; the compiled kernels load only here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.design import Design
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.states import nominal_states
+from cqdd_design.gearbox.contact.sweep import ANGLES, ContactSweep, contact_sweep, perfect_angles
+from cqdd_design.gearbox.life import LifeResult, life
+from cqdd_design.gearbox.losses import EfficiencyMap, Losses, LossModel, loss_model
+from cqdd_design.gearbox.precision.precision import Precision, precision
+
+FloatArray = NDArray[np.float64]
+
+_MAP_SPEEDS, _MAP_TORQUES = 8, 8
+
+
+@dataclass(frozen=True, eq=False)
+class ContactAnalysis:
+    """What the contact equilibrium says about a gearbox of perfect parts.
+
+    Attributes
+    ----------
+    model : ContactModel
+    sweep, reversed : ContactSweep
+        Over the period, at the torque and at its negative.
+    preload : ContactSweep or None
+        Without load, where the fits are of interference.
+    precision : Precision
+        At the continuous torque, or at the one asked for.
+    loss_model : LossModel
+    losses : Losses
+        At the torque of `precision` and the input speed.
+    life : LifeResult
+        Over the duty of the requirements.
+    """
+
+    model: ContactModel
+    sweep: ContactSweep
+    reversed: ContactSweep
+    preload: ContactSweep | None
+    precision: Precision
+    loss_model: LossModel
+    losses: Losses
+    life: LifeResult
+
+    def efficiency_map(self, design: Design) -> EfficiencyMap:
+        """Efficiency from an eighth of the input speed and peak torque up to both."""
+        asked = design.requirements
+        shares = np.arange(1, _MAP_SPEEDS + 1) / _MAP_SPEEDS
+        torques = np.arange(1, _MAP_TORQUES + 1) / _MAP_TORQUES
+        return self.loss_model.efficiency_map(
+            shares * asked.input_speed, torques * asked.peak_torque
+        )
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Everything the parts warn of."""
+        return (*self.precision.warnings, *self.losses.warnings, *self.life.warnings)
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form: ``contact``, ``precision``, ``losses``, ``life``."""
+        contact = self.sweep.to_dict()
+        back = self.reversed
+        for key, here, there in (
+            ("ring_force_max_N", self.sweep.ring_force, back.ring_force),
+            ("output_pin_force_max_N", self.sweep.pin_force, back.pin_force),
+            ("cam_bearing_load_max_N", self.sweep.cam_load, back.cam_load),
+            ("ring_pressure_max_MPa", self.sweep.ring_pressure / 1e6, back.ring_pressure / 1e6),
+            ("output_pressure_max_MPa", self.sweep.pin_pressure / 1e6, back.pin_pressure / 1e6),
+        ):
+            contact[key] = max(float(here.max()), float(there.max()))
+        contact["preload"] = None if self.preload is None else _preload(self.preload)
+        return {
+            "contact": contact,
+            "precision": self.precision.to_dict(),
+            "losses": self.losses.to_dict(),
+            "life": self.life.to_dict(),
+        }
+
+
+def _preload(sweep: ContactSweep) -> dict[str, float]:
+    return {
+        "ring_force_max_N": float(sweep.ring_force.max()),
+        "output_pin_force_max_N": float(sweep.pin_force.max()),
+        "cam_bearing_load_max_N": float(sweep.cam_load.max()),
+        "ring_pressure_max_MPa": float(sweep.ring_pressure.max()) / 1e6,
+        "output_pressure_max_MPa": float(sweep.pin_pressure.max()) / 1e6,
+    }
+
+
+def analyse_contact(
+    design: Design, *, torque: float | None = None, angles: int = ANGLES
+) -> ContactAnalysis:
+    """Solve the contact equilibrium of a design over its period, and what follows from it.
+
+    Parameters
+    ----------
+    design : Design
+    torque : float, optional
+        Output torque, N m. Where left out, the forces are at the peak torque of the requirements,
+        precision and losses at the continuous one.
+    angles : int
+        Crank angles over the period.
+
+    Raises
+    ------
+    ContactError
+        When the gearbox has no equilibrium at the torque, naming torque and angle.
+    """
+    model = ContactModel.from_design(design)
+    states = nominal_states(model, perfect_angles(model, angles))
+    asked = design.requirements
+    peak = asked.peak_torque if torque is None else torque
+    steady = asked.continuous_torque if torque is None else torque
+    sweep = contact_sweep(model, peak, states=states)
+    tight = bool(states.gaps.min() < 0.0)
+    friction = loss_model(model, design)
+    return ContactAnalysis(
+        model=model,
+        sweep=sweep,
+        reversed=contact_sweep(model, -peak, states=states),
+        preload=contact_sweep(model, 0.0, states=states) if tight else None,
+        precision=precision(model, steady, angles=angles),
+        loss_model=friction,
+        losses=friction.at(asked.input_speed, steady),
+        life=life(design, model),
+    )

@@ -1,0 +1,470 @@
+"""Backlash, lost motion, stiffness, transmission error and ripple, each by another road."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from backlash_oracle import DiscGaps, Rigid, carrier_range
+from contact_checks import examples, some_angles, swept
+from contact_designs import (
+    ARCMIN,
+    contact_designs,
+    machine_of,
+    paper_design,
+    random_errors,
+    rigid_of,
+    usual_torque,
+)
+from contact_oracle import solve
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+from cqdd_design.design import Design
+from cqdd_design.errors import ContactError, CqddError
+from cqdd_design.gearbox import kinematics
+from cqdd_design.gearbox.contact.errors import ErrorBatch, GearboxErrors
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles
+from cqdd_design.gearbox.precision.backlash import backlash
+from cqdd_design.gearbox.precision.orders import order_spectrum
+from cqdd_design.gearbox.precision.precision import precision
+from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS, ensemble_tables, evaluate_gearboxes
+
+SEEDS = st.integers(0, 2**32 - 1)
+SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much]
+AGREED = 0.02 * ARCMIN
+
+
+# ------------------------------------------------------------------ backlash
+
+
+def assert_backlash(
+    model: ContactModel,
+    crank: float,
+    errors: GearboxErrors | None = None,
+    tolerance: float = AGREED,
+) -> None:
+    found = backlash(model, np.array([crank]), errors=errors)
+    try:
+        low, high = carrier_range(rigid_of(model, errors), crank)
+    except ValueError:
+        # No pose is free: no backlash either, but for the last tenth of a micron.
+        assert found.free[0] < 1e-3 * ARCMIN or 1e-9 < found.overlap[0] < 1e-7
+        return
+    if high < low:
+        # Each disc is free by itself, but not at the same carrier angle.
+        assert found.free[0] < tolerance
+        return
+    # Second and third orders count once parts move by tenths of a millimetre.
+    tolerance = max(tolerance, 3e-4 * max(high - low - 15.0 * ARCMIN, 0.0))
+    assert found.free[0] == pytest.approx(high - low, abs=tolerance)
+    if not found.preloaded:
+        assert found.least[0] == pytest.approx(low, abs=tolerance)
+        assert found.greatest[0] == pytest.approx(high, abs=tolerance)
+
+
+@settings(max_examples=examples(12), deadline=None, suppress_health_check=SLOW)
+@given(contact_designs(), st.floats(0.0, 60.0))
+def test_backlash_is_that_of_a_search_on_the_exact_profile(design: Design, crank: float) -> None:
+    assert_backlash(ContactModel.from_design(design), crank)
+
+
+@settings(max_examples=examples(8), deadline=None, suppress_health_check=SLOW)
+@given(contact_designs(), st.floats(0.0, 60.0), st.floats(0.2e-6, 2e-6), SEEDS)
+def test_backlash_with_part_errors_is_that_of_the_search(
+    design: Design, crank: float, size: float, seed: int
+) -> None:
+    model = ContactModel.from_design(design)
+    # A looser gearbox, so that most draws leave some play.
+    model = replace(
+        model,
+        hole_radius=model.hole_radius + 10e-6,
+        cam=replace(model.cam, play=model.cam.play + 10e-6),
+        disc=replace(model.disc, equidistant=model.disc.equidistant + 8e-6),
+    )
+    # Errors count to first order: waves of twelve to the turn would need the second.
+    errors = random_errors(model, np.random.default_rng(seed), size, harmonics=5)
+    assert_backlash(model, crank, errors, tolerance=2.0 * AGREED)
+
+
+def test_backlash_of_the_papers_gearbox() -> None:
+    """To a hundredth of what is asked, at angles all over the period, one to three discs."""
+    for discs in (1, 2, 3):
+        model = ContactModel.from_design(paper_design().replacing({"reducer.disc_count": discs}))
+        for crank in (0.0, 0.37, 0.9, 4.0):
+            assert_backlash(model, crank, tolerance=2e-4 * ARCMIN)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"reducer.modification.radial": 20e-6},
+        {"reducer.modification.rotation": 2e-4},
+        {"reducer.modification.equidistant": 60e-6, "reducer.output_pins.hole_clearance": 150e-6},
+        {"reducer.cam_bearing.radial_clearance": 80e-6},
+        {"reducer.output_pins.count": 3},
+        {"reducer.modification.equidistant": 0.0},
+        {"reducer.output_pins.hole_clearance": 0.0},
+        {"reducer.cam_bearing.radial_clearance": 0.0},
+    ],
+)
+def test_backlash_far_from_the_papers_clearances(changes: dict[str, object]) -> None:
+    model = ContactModel.from_design(paper_design().replacing(changes))
+    for crank in (0.1, 2.2):
+        assert_backlash(model, crank)
+
+
+def test_the_two_searches_agree_with_each_other() -> None:
+    """Successive linear programs and SLSQP: two oracles that share only the gaps."""
+    stack = rigid_of(ContactModel.from_design(paper_design()))
+    for crank in (0.0, 1.1):
+        one, two = carrier_range(stack, crank), carrier_range(stack, crank, "slsqp")
+        assert one == pytest.approx(two, abs=1e-5 * ARCMIN)
+
+
+def test_the_searches_gaps_are_distances_to_the_profile() -> None:
+    """Derivatives by differences, and distances by brute force over the profile."""
+    stack = rigid_of(ContactModel.from_design(paper_design()))
+    gaps = DiscGaps(stack, 0.7, 1)
+    v = np.array([1.2, -0.8, 3.0, -12.0])
+    values, rows = gaps(v)
+    for k in range(4):
+        step = np.eye(4)[k] * 1e-2
+        assert (gaps(v + step)[0] - gaps(v - step)[0]) / 2e-2 == pytest.approx(rows[:, k], abs=1e-5)
+    disc, arm = stack.disc, stack.pin_circle_radius
+    t = np.linspace(0.0, 2.0 * math.pi, 400_001)
+    own = 0.7 + math.pi
+    outline = (disc.flank(t) @ np.array([1.0, 1j])) * np.exp(1j * (3e-6 / arm - own / 10.0))
+    outline = outline + disc.eccentricity * np.exp(1j * own) + 1.2e-6 - 0.8e-6j
+    teeth = disc.ring_pitch_radius * np.exp(2j * math.pi * np.arange(11) / 11)
+    nearest = np.abs(outline[:, None] - teeth).min(axis=0) - disc.tooth_radius
+    assert values[:11] * 1e-6 == pytest.approx(nearest, abs=1e-10)
+
+
+@settings(max_examples=examples(10), deadline=None, suppress_health_check=SLOW)
+@given(contact_designs(), st.floats(0.0, 60.0), st.floats(1e-6, 20e-6))
+def test_more_clearance_is_more_backlash(design: Design, crank: float, more: float) -> None:
+    model = ContactModel.from_design(design)
+    at = np.array([crank])
+    base = float(backlash(model, at).free[0])
+    assert base >= 0.0
+    looser = (
+        replace(model, hole_radius=model.hole_radius + more),
+        replace(model, cam=replace(model.cam, play=model.cam.play + more)),
+        replace(model, disc=replace(model.disc, equidistant=model.disc.equidistant + more)),
+    )
+    for one in looser:
+        assert float(backlash(one, at).free[0]) >= base - 1e-5 * ARCMIN
+    # All of it at once is felt, whatever held the carrier before.
+    everything = replace(looser[0], cam=looser[1].cam, disc=looser[2].disc)
+    assert float(backlash(everything, at).free[0]) > base + 1e-3 * more / model.pin_circle_radius
+
+
+@settings(max_examples=examples(8), deadline=None, suppress_health_check=SLOW)
+@given(contact_designs(disc_counts=(2, 3)), st.floats(0.0, 60.0))
+def test_a_stack_is_as_free_as_its_discs_allow_together(design: Design, crank: float) -> None:
+    """The intersection: never freer than any of its discs alone."""
+    model = ContactModel.from_design(design)
+    whole = backlash(model, np.array([crank]))
+    low, high = [], []
+    for phase in model.phases:
+        # Disc at phase p: the single disc at crank phi + p, its carrier p/n further on.
+        alone = replace(
+            model,
+            disc_count=1,
+            hole_clocking=model.hole_clocking + phase / model.lobe_count,
+            pin_series=model.pin_series[:1],
+        )
+        ends = backlash(alone, np.array([crank + phase]))
+        low.append(ends.least[0])
+        high.append(ends.greatest[0])
+    together = min(high) - max(low)
+    assert whole.free[0] == pytest.approx(max(together, 0.0), abs=2e-3 * ARCMIN)
+
+
+@settings(max_examples=examples(6), deadline=None, suppress_health_check=SLOW)
+@given(contact_designs(), st.floats(0.0, 60.0))
+def test_backlash_is_where_vanishing_torques_hold_the_carrier(design: Design, crank: float) -> None:
+    """The elastic carrier at a tiny torque stands at the ends of the rigid range.
+
+    The elastic model has one linearisation, the rigid one has many: they differ by second order.
+    """
+    model = ContactModel.from_design(design)
+    ends = backlash(model, np.array([crank]))
+    assume(ends.free[0] > 0.1 * ARCMIN)
+    tiny = 1e-7 * usual_torque(model)
+    ahead = swept(model, tiny, np.array([crank])).carrier_angle_error[0]
+    behind = swept(model, -tiny, np.array([crank])).carrier_angle_error[0]
+    size = 0.03 * ends.free[0] + 0.01 * ARCMIN
+    assert ahead == pytest.approx(ends.greatest[0], abs=size)
+    assert behind == pytest.approx(ends.least[0], abs=size)
+
+
+def test_no_clearance_no_backlash() -> None:
+    design = paper_design().replacing(
+        {
+            "reducer.modification.equidistant": 0.0,
+            "reducer.output_pins.hole_clearance": 0.0,
+            "reducer.cam_bearing.radial_clearance": 0.0,
+        }
+    )
+    found = backlash(ContactModel.from_design(design), np.linspace(0.0, 3.0, 7))
+    assert found.free.max() < 1e-3 * ARCMIN
+    assert not found.preloaded
+
+
+def test_interference_is_preload_without_backlash() -> None:
+    for changes in (
+        {"reducer.modification.equidistant": -3e-6},
+        {"reducer.output_pins.hole_clearance": -10e-6},
+    ):
+        model = ContactModel.from_design(paper_design().replacing(changes))
+        found = backlash(model, np.linspace(0.0, 1.1, 5))
+        assert found.preloaded
+        assert found.free.max() == 0.0
+        assert np.isfinite(found.overlap).all()
+        assert found.overlap.min() > 1e-7
+
+
+def test_parts_too_loose_for_a_backlash() -> None:
+    model = ContactModel.from_design(
+        paper_design().replacing({"reducer.output_pins.hole_clearance": 1000e-6})
+    )
+    try:
+        found = backlash(model, np.linspace(0.0, 1.1, 3))
+    except ContactError as error:
+        told = error.message
+    else:
+        low, high = carrier_range(rigid_of(model), 0.0)
+        assert found.free[0] == pytest.approx(high - low, rel=1e-3)
+        return
+    assert "loose" in told
+
+
+def test_play_is_total_play() -> None:
+    """ISO 5753: the centre may move by half of it either way."""
+    stack = rigid_of(ContactModel.from_design(paper_design()))
+    none = Rigid(**{**vars(stack), "cam_play": 0.0})
+    gaps = DiscGaps(stack, 0.0, 0)
+    assert gaps.half_play == 2.5e-6
+    model = ContactModel.from_design(
+        paper_design().replacing({"reducer.cam_bearing.radial_clearance": 0.0})
+    )
+    low, high = carrier_range(none, 0.3)
+    assert backlash(model, np.array([0.3])).free[0] == pytest.approx(high - low, abs=AGREED)
+
+
+def test_backlash_repeats_after_the_mesh_period() -> None:
+    model = ContactModel.from_design(paper_design())
+    angle = some_angles(4, model, 4)
+    period = kinematics.mesh_period(10, 5)
+    assert backlash(model, angle + period).free == pytest.approx(
+        backlash(model, angle).free, abs=1e-6 * ARCMIN
+    )
+
+
+# ------------------------------------------------------------------ ensembles
+
+
+def test_an_ensemble_gives_what_its_gearboxes_give_alone() -> None:
+    """Each output of the batch kernel from sweeps and backlash of every gearbox by itself."""
+
+    model = ContactModel.from_design(paper_design())
+    rng = np.random.default_rng(11)
+    drawn = [random_errors(model, rng, size) for size in (0.5e-6, 1.5e-6, 3e-6)]
+    batch = ErrorBatch(
+        **{
+            name: np.stack([getattr(one, name) for one in drawn])
+            for name in ErrorBatch.__dataclass_fields__
+        }
+    )
+    tables = ensemble_tables(model, 40.0)
+    values = evaluate_gearboxes(tables, batch, threads=2).values
+    assert np.array_equal(values, evaluate_gearboxes(tables, batch, threads=1).values)
+    angle = output_turn_angles(model)
+    assert len(angle) == 880
+    for row, errors in zip(values, drawn, strict=True):
+        told = dict(zip(OUTPUTS, row, strict=True))
+        full = contact_sweep(model, 40.0, angle, errors=errors)
+        half = contact_sweep(model, 20.0, angle, errors=errors)
+        gamma = full.carrier_angle_error
+        expected = {
+            "backlash_arcmin": backlash(model, angle, errors=errors).mean / ARCMIN,
+            "transmission_error_pp_arcmin": np.ptp(gamma) / ARCMIN,
+            "ring_force_max_N": full.ring_force.max(),
+            "stiffness_Nm_per_arcmin": 20.0 / (gamma - half.carrier_angle_error).mean() * ARCMIN,
+            "torque_ripple_pp_Nm": 10.0 * np.ptp(full.energy_slope),
+        }
+        for name, value in expected.items():
+            # Backlash and stiffness are means, which fewer angles give nearly as well.
+            tolerance = 1e-3 if name.startswith(("stiffness", "backlash")) else 1e-4
+            assert told[name] == pytest.approx(value, rel=tolerance), name
+
+
+def test_the_ripple_of_a_gearbox_is_that_of_its_energy() -> None:
+    """n times the derivative of the resampled potential, by a spectral derivative."""
+
+    model = ContactModel.from_design(paper_design())
+    errors = random_errors(model, np.random.default_rng(2), 2e-6)
+    angle = output_turn_angles(model, 16 * 880)
+    sweep = contact_sweep(model, 40.0, angle, errors=errors)
+    order = np.fft.rfftfreq(len(angle), 1.0 / len(angle)) / 10.0
+    spectral = np.fft.irfft(1j * order * np.fft.rfft(sweep.energy), len(angle))
+    assert np.abs(spectral - sweep.energy_slope).max() < 5e-3 * np.ptp(sweep.energy_slope)
+    ripple = 10.0 * np.ptp(sweep.energy_slope)
+    assert 10.0 * np.ptp(spectral) == pytest.approx(ripple, rel=5e-3)
+
+
+# ------------------------------------------------------------------ precision of one gearbox
+
+
+def test_precision_of_the_papers_gearbox_by_other_roads() -> None:
+    """Every figure again: from the exact search, the plain minimisation, and bare sweeps."""
+    model = ContactModel.from_design(paper_design())
+    found = precision(model, 40.0)
+    told = found.to_dict()
+    period = kinematics.mesh_period(10, 5)
+    angle = period * np.arange(12) / 12
+    # Twelve of 360 angles: three to a tooth, five to a pin, which give the means.
+    ends = np.array([carrier_range(rigid_of(model), float(phi)) for phi in angle])
+    free = (ends[:, 1] - ends[:, 0]) / ARCMIN
+    assert told["backlash_arcmin"] == pytest.approx(free.mean(), abs=0.01)
+    assert free.min() > told["backlash_min_arcmin"] - 0.001
+    assert free.max() < told["backlash_max_arcmin"] + 0.001
+
+    machine = machine_of(model)
+
+    def plain(torque: float) -> np.ndarray:
+        return np.array([solve(machine, float(phi), torque).gamma for phi in angle])
+
+    windup = plain(40.0)
+    assert told["stiffness_Nm_per_rad"] == pytest.approx(
+        20.0 / (windup - plain(20.0)).mean(), rel=2e-3
+    )
+    assert told["stiffness_Nm_per_arcmin"] == pytest.approx(
+        told["stiffness_Nm_per_rad"] * ARCMIN, rel=1e-12
+    )
+    assert told["lost_motion_arcmin"] == pytest.approx(
+        (plain(1.2) - plain(-1.2)).mean() / ARCMIN, rel=2e-3
+    )
+    at = np.rint(angle / period * 360.0).astype(int)
+    assert found.loaded[at] == pytest.approx(windup, rel=1e-6)
+    assert found.unloaded[at] == pytest.approx(ends[:, 1], abs=1e-4 * ARCMIN)
+    assert np.ptp(windup) <= found.transmission_error * (1.0 + 1e-9)
+    assert told["transmission_error_pp_arcmin"] == pytest.approx(0.139, abs=0.002)
+    # The ripple from the energy of the plain minimisation.
+    step = 1e-4
+    for phi in angle[:4]:
+        ahead, behind = (solve(machine, float(phi) + s, 40.0).energy for s in (step, -step))
+        index = round(float(phi) / period * 360.0)
+        assert found.ripple[index] == pytest.approx(
+            10.0 * (ahead - behind) / (2.0 * step), abs=2e-4
+        )
+    assert told["torque_ripple_pp_Nm"] == pytest.approx(np.ptp(found.ripple), rel=1e-12)
+
+
+@settings(max_examples=examples(5), deadline=None, suppress_health_check=SLOW)
+@given(contact_designs(), st.sampled_from([None, 2e-6]), SEEDS)
+def test_precision_figures_hang_together(design: Design, size: float | None, seed: int) -> None:
+    design = design if size is None or design.reducer.ratio < 12 else paper_design()
+    model = ContactModel.from_design(design)
+    torque = 0.3 * usual_torque(model)
+    errors = None if size is None else random_errors(model, np.random.default_rng(seed), size)
+    try:
+        found = precision(model, torque, angles=120, errors=errors)
+    except ContactError as error:
+        assume("would have to move" not in error.message and "loose" not in error.message)
+        raise
+    told = found.to_dict()
+    json.dumps(told, allow_nan=False)
+    assert 0.0 <= told["backlash_min_arcmin"] <= told["backlash_arcmin"]
+    assert told["backlash_arcmin"] <= told["backlash_max_arcmin"]
+    # Between plus and minus 3 % of the torque the clearance is used up and a little more.
+    assert told["lost_motion_arcmin"] > told["backlash_arcmin"] - 0.05
+    assert told["stiffness_Nm_per_rad"] > 0.0
+    windup = [point.windup for point in found.curve]
+    assert (np.diff(windup) > 0.0).all()
+    assert np.abs(np.mean(found.ripple)) < 1e-3 * torque
+    amplitudes = [order.amplitude for order in found.orders]
+    assert amplitudes == sorted(amplitudes, reverse=True)
+    # Half of the peak to peak is no less than the strongest order's share of the energy.
+    rms = math.sqrt(sum(a * a for a in amplitudes) / 2.0)
+    assert rms <= np.std(found.loaded) * (1.0 + 1e-9)
+    # A perfect gearbox knows only whole teeth and pins.
+    if errors is None:
+        met = model.lobe_count + 1
+        assert all(order.per_output_turn % met == 0 for order in found.orders)
+
+
+@pytest.mark.parametrize(
+    ("field", "order"),
+    [("tooth_position", "crank 1"), ("pin_position", "lobes and pins 1")],
+)
+def test_an_eccentric_part_shows_at_its_own_order(field: str, order: str) -> None:
+    """A ring beside the axis is met once a crank turn; a carrier once a turn of crank on it."""
+    model = ContactModel.from_design(paper_design().replacing({"reducer.disc_count": 1}))
+    none = GearboxErrors.none(model)
+    shifted = replace(none, **{field: getattr(none, field) + np.array([10e-6, 0.0])})
+    found = precision(model, 40.0, errors=shifted)
+    assert found.orders[0].name == order
+    assert found.orders[0].per_output_turn == (10 if field == "tooth_position" else 11)
+
+
+def test_order_spectrum_finds_what_was_put_in() -> None:
+    phi = 2.0 * math.pi * 10.0 * np.arange(880) / 880
+    values = 7.0 + 3.0 * np.cos(phi) + 2.0 * np.sin(1.1 * phi) - 0.5 * np.cos(11.0 * phi + 0.3)
+    found = order_spectrum(values, 20.0 * math.pi, 10, 5)
+    assert [(o.per_output_turn, o.name) for o in found] == [
+        (10, "crank 1"),
+        (11, "lobes and pins 1"),
+        (110, "teeth 1 (all)"),
+    ]
+    assert [o.amplitude for o in found] == pytest.approx([3.0, 2.0, 0.5], rel=1e-9)
+
+
+@pytest.mark.parametrize("torque", [120.0, 1e-6])
+def test_precision_at_any_torque_the_gearbox_carries(torque: float) -> None:
+    """The paper's peak torque, and next to nothing."""
+    model = ContactModel.from_design(paper_design())
+    told = precision(model, torque).to_dict()
+    json.dumps(told, allow_nan=False)
+    assert told["backlash_arcmin"] == pytest.approx(6.80, abs=0.01)
+    assert told["lost_motion_arcmin"] > told["backlash_arcmin"] - 0.01
+    assert told["stiffness_Nm_per_rad"] > 0.0
+    assert told["transmission_error_pp_arcmin"] > 0.0
+
+
+def test_precision_in_the_other_sense_is_refused_or_the_same() -> None:
+    model = ContactModel.from_design(paper_design())
+    one = precision(model, 40.0).to_dict()
+    try:
+        two = precision(model, -40.0).to_dict()
+    except CqddError:
+        return
+    # The paper's stack is its own mirror image at another angle.
+    for key in ("lost_motion_arcmin", "stiffness_Nm_per_rad", "transmission_error_pp_arcmin"):
+        assert two[key] == pytest.approx(one[key], rel=1e-3), key
+
+
+@pytest.mark.parametrize("torque", [0.0, math.nan, math.inf, 1e9])
+def test_precision_at_no_possible_torque_is_refused(torque: float) -> None:
+    with pytest.raises(CqddError):
+        precision(ContactModel.from_design(paper_design()), torque)
+
+
+def test_more_clearance_is_less_precise_and_more_stiffness_is_more() -> None:
+    base = ContactModel.from_design(paper_design())
+    loose = ContactModel.from_design(
+        paper_design().replacing({"reducer.output_pins.hole_clearance": 30e-6})
+    )
+    thick = ContactModel.from_design(
+        paper_design().replacing({"reducer.output_pins.diameter": "5 mm"})
+    )
+    one, two, three = (precision(model, 40.0, angles=90) for model in (base, loose, thick))
+    assert two.free.mean > one.free.mean
+    assert two.lost_motion > one.lost_motion
+    assert three.stiffness > 1.05 * one.stiffness
