@@ -103,9 +103,7 @@ def fill_errors(
                 w = w0 + u * (s0 + u * (c2 + u * c3))
                 s = (s0 + u * (2.0 * c2 + 3.0 * u * c3)) / spacing
                 gaps[i, d, k] = nominal[i, d, k] - (nx * tx + ny * ty) - tooth_radius[k] - w
-                gap_rates[i, d, k] = (
-                    -spin * (nx * ty - ny * tx) - s * parameter_rate[i, d, k]
-                )
+                gap_rates[i, d, k] = -spin * (nx * ty - ny * tx) - s * parameter_rate[i, d, k]
             for k in range(teeth, contacts):
                 j = k - teeth
                 nx, ny = rows[i, d, k, 0], rows[i, d, k, 1]

@@ -274,10 +274,14 @@ def _newton_step(
         carrier[3] += carrier_stiffness
         dx, dy, dt = _solve3(carrier, ridge, rx, ry, rt)
         inside = carrier[0] * carrier[3] - carrier[1] * carrier[1]
-        torsional = carrier[5] - (
-            carrier[2] * (carrier[3] * carrier[2] - carrier[1] * carrier[4])
-            + carrier[4] * (carrier[0] * carrier[4] - carrier[1] * carrier[2])
-        ) / inside
+        torsional = (
+            carrier[5]
+            - (
+                carrier[2] * (carrier[3] * carrier[2] - carrier[1] * carrier[4])
+                + carrier[4] * (carrier[0] * carrier[4] - carrier[1] * carrier[2])
+            )
+            / inside
+        )
     step[0], step[1], step[2] = dx, dy, dt
     for d in range(discs):
         s = shared[d]
@@ -374,9 +378,7 @@ def solve_state(
         for i in range(size):
             residual = max(residual, abs(gradient[i]))
         scale = max(abs(pull), largest)
-        torsional = _newton_step(
-            block, shared, gradient, carrier_stiffness, ridge, step, carrier
-        )
+        torsional = _newton_step(block, shared, gradient, carrier_stiffness, ridge, step, carrier)
         # Rounding of the closings alone leaves forces of this size unbalanced.
         noise = 0.0
         for d in range(discs):
@@ -387,9 +389,7 @@ def solve_state(
             furthest = max(furthest, abs(state[i]))
         noise *= 1e-15 * furthest
         stuck = (
-            iteration > 3
-            and residual <= max(1e-7 * scale, noise)
-            and residual >= 0.25 * previous
+            iteration > 3 and residual <= max(1e-7 * scale, noise) and residual >= 0.25 * previous
         )
         if residual <= _NEARLY * scale or stuck:
             # The last step is taken on the forces too, in first order: this balances them to
@@ -398,7 +398,9 @@ def solve_state(
             if residual > _GOOD * scale and not stuck:
                 smooth = _within_first_order(rows, teeth, closed, stiff, step, scale)
             if smooth:
-                _take_step(rows, teeth, stiff, cam, offset, half_play, state, step, force, cam_force)
+                _take_step(
+                    rows, teeth, stiff, cam, offset, half_play, state, step, force, cam_force
+                )
                 return CONVERGED, iteration, torsional
         previous = residual
         slope = 0.0
@@ -490,9 +492,7 @@ def _take_step(
     for d in range(discs):
         for k in range(contacts):
             if force[d, k] > 0.0:
-                force[d, k] = max(
-                    force[d, k] + stiff[d, k] * _moved(rows, teeth, step, d, k), 0.0
-                )
+                force[d, k] = max(force[d, k] + stiff[d, k] * _moved(rows, teeth, step, d, k), 0.0)
         rx = state[3 + 3 * d] - offset[d, 0]
         ry = state[4 + 3 * d] - offset[d, 1]
         rho = math.sqrt(rx * rx + ry * ry)

@@ -170,9 +170,7 @@ def error_states(
     )
 
 
-def profile_error(
-    harmonics: FloatArray, parameter: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+def profile_error(harmonics: FloatArray, parameter: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Material added to the discs' profiles, and its derivative over the parameter.
 
     Parameters

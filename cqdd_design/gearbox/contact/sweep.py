@@ -421,4 +421,3 @@ def _spring_energy(
     load = np.hypot(cam_force[..., 0], cam_force[..., 1])
     closed = (load / spring.stiffness) ** (1.0 / spring.exponent)
     return np.asarray(stored + np.sum(load * closed / (spring.exponent + 1.0), axis=1))
-

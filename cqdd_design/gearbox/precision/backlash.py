@@ -28,6 +28,7 @@ FloatArray = NDArray[np.float64]
 _CORRECTIONS = 2
 """Rounds of correction to the exact profile; each leaves a small share of the one before."""
 
+
 @dataclass(frozen=True, eq=False)
 class Backlash:
     """Free range of the carrier at A crank angles, bodies rigid, crank and ring held.
@@ -55,7 +56,9 @@ class Backlash:
     @property
     def free(self) -> FloatArray:
         """Backlash at every angle, (A,), rad; zero where parts are preloaded."""
-        return np.where(self.overlap > self.preload_limit, 0.0, np.maximum(self.greatest - self.least, 0.0))
+        return np.where(
+            self.overlap > self.preload_limit, 0.0, np.maximum(self.greatest - self.least, 0.0)
+        )
 
     @property
     def mean(self) -> float:
@@ -118,9 +121,7 @@ def backlash(
     return Backlash(states.crank_angle, ends[0], ends[1], np.maximum(*overlaps), OVERLAP)
 
 
-def _apart(
-    model: ContactModel, states: NominalStates, errors: GearboxErrors | None
-) -> FloatArray:
+def _apart(model: ContactModel, states: NominalStates, errors: GearboxErrors | None) -> FloatArray:
     """Hole off its pin by position errors, turned with the carrier, (A, D, P, 2)."""
     shape = (len(states.crank_angle), model.disc_count, model.pin_count, 2)
     if errors is None:

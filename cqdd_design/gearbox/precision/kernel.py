@@ -75,9 +75,7 @@ def _true_gaps(
             vx, vy = -(c * mx - s * my), -(s * mx + c * my)
             arm = (ax * vy - ay * vx) / length
             rows[d, k, 0], rows[d, k, 1], rows[d, k, 2] = vx, vy, arm
-            gaps[d, k] = (
-                nominal_gaps[d, k] + opened - (vx * x + vy * y + arm * t * length)
-            )
+            gaps[d, k] = nominal_gaps[d, k] + opened - (vx * x + vy * y + arm * t * length)
         for k in range(teeth, contacts):
             j = k - teeth
             px, py = length * math.cos(pin_angle[j]), length * math.sin(pin_angle[j])
