@@ -42,6 +42,7 @@ def analyse(
         loaded = loaded.replacing({"requirements.input_speed": asked_speed})
     analysis = analyse_gearbox(loaded, torque=asked_torque, angles=angles)
     results, warnings = analysis.to_dict(), list(analysis.warnings)
+    out.note_compilation()
     try:
         contact = analyse_contact(analysis.design, torque=asked_torque, angles=angles)
     except ContactError as error:

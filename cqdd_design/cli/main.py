@@ -24,8 +24,9 @@ from cqdd_design.cli import (
     report,
     schema,
     size,
+    tolerance,
 )
-from cqdd_design.cli.session import command, print_result
+from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, command, print_result
 from cqdd_design.environment import missing_dependency
 from cqdd_design.errors import CqddError, UsageError
 
@@ -44,6 +45,7 @@ COMMANDS = (
     size.size,
     check.check,
     analyse.analyse,
+    tolerance.tolerance,
     compare.compare,
     inertia.inertia,
     export.export,
@@ -89,6 +91,8 @@ def run(arguments: Sequence[str]) -> int:
     try:
         given = list(arguments) or ["--help"]
         code = int(app(given, prog_name="cqdd-design", standalone_mode=False) or 0)
+        if code == INTERRUPTED_WITH_RESULTS:
+            return 130
         # Typer answers Ctrl-C inside a command with this code and no word.
         return _end(arguments, code, "Interrupted", "interrupted") if code == 130 else code
     except (KeyboardInterrupt, Abort):

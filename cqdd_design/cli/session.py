@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from cqdd_design.files import WrittenFile
     from cqdd_design.results import Check
 
+INTERRUPTED_WITH_RESULTS = -130
+"""Returned by a command that was interrupted and has told what was done by then: exit code 130."""
+
 _COMMON: dict[str, Any] = {
     "as_json": Annotated[
         bool,
@@ -129,6 +132,13 @@ class Output:
         if not self.quiet:
             self.end_progress()
             print(sentence, file=sys.stderr, flush=True)
+
+    def note_compilation(self) -> None:
+        """Tell that the first run after installation compiles, where it does."""
+        from cqdd_design.gearbox.compiled import is_compiled
+
+        if not is_compiled():
+            self.note("compiling the contact solver; this takes half a minute, once")
 
     def stages(self, total: int) -> Callable[[str], None]:
         """A function that tells, on stderr, which of about `total` stages of work begins.

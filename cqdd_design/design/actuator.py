@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from cqdd_design.design.fields import FrozenModel, MaterialName, MotorName, Whole, default
 from cqdd_design.units import (
@@ -60,8 +60,16 @@ class Housing(FrozenModel):
 
 
 class Tolerances(FrozenModel):
-    """Manufacturing tolerances as standard deviations."""
+    """Manufacturing tolerances as standard deviations, and how they scatter.
 
+    Positions count per axis. `disc_profile` is the error along the normal at any point of the
+    profile, `eccentricity` the error of every cam's centre along and across its crank (throw and
+    phase), the diameters are those of holes and pins, `bearing_clearance` is that of the play.
+    With `distribution = "uniform"` every error is even over the zone that has this standard
+    deviation, 1.73 of it to either side.
+    """
+
+    distribution: Literal["normal", "uniform"] = "normal"
     tooth_position: Annotated[
         float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
     ] = default("2 um")
@@ -74,6 +82,9 @@ class Tolerances(FrozenModel):
     hole_position: Annotated[
         float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
     ] = default("3 um")
+    hole_diameter: Annotated[
+        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
+    ] = default("1 um")
     pin_position: Annotated[
         float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
     ] = default("3 um")
@@ -81,6 +92,9 @@ class Tolerances(FrozenModel):
         float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
     ] = default("9 um")
     eccentricity: Annotated[
+        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
+    ] = default("2 um")
+    bearing_clearance: Annotated[
         float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
     ] = default("2 um")
 

@@ -33,8 +33,8 @@ OUTPUTS: tuple[str, ...] = (
 
 _ARCMIN = math.degrees(1.0) * 60.0
 
-_COARSE = 8
-"""About every eighth angle serves backlash and stiffness, whose means need no fine orders."""
+_COARSE = 9
+"""About every ninth angle serves backlash and stiffness, whose means need no fine orders."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +90,15 @@ def _stride(lobe_count: int) -> int:
     """
     whole = lobe_count * (lobe_count + 1)
     odd = [step for step in range(3, 16, 2) if whole % step == 0]
-    return min(odd, key=lambda step: abs(step - _COARSE), default=_COARSE + 1)
+    return min(odd, key=lambda step: abs(step - _COARSE), default=_COARSE)
+
+
+def marked_angles(lobe_count: int, count: int) -> NDArray[np.bool_]:
+    """Which of `count` angles over the output turn serve backlash and stiffness, (count,)."""
+    stride = _stride(lobe_count) if count >= output_turn_count(lobe_count) else 1
+    marked = np.zeros(count, dtype=np.bool_)
+    marked[::stride] = True
+    return marked
 
 
 def ensemble_tables(
@@ -108,10 +116,7 @@ def ensemble_tables(
         Crank angles over the output turn, at least 8; default 8 n (n+1), which miss no order.
     """
     states = nominal_states(model, output_turn_angles(model, angles))
-    count = len(states.crank_angle)
-    stride = _stride(model.lobe_count) if count >= output_turn_count(model.lobe_count) else 1
-    marked = np.zeros(count, dtype=np.bool_)
-    marked[::stride] = True
+    marked = marked_angles(model.lobe_count, len(states.crank_angle))
     perfect = contact_sweep(model, torque, states=states).state_vectors
     return EnsembleTables(model, torque, states, marked, perfect)
 

@@ -1,0 +1,120 @@
+"""``cqdd-design tolerance``."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from cqdd_design.cli.options import DesignFile, parse_positive
+from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, Output
+from cqdd_design.cli.tables import number, table
+
+if TYPE_CHECKING:
+    from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
+
+_MOST_SAMPLES = 10_000_000
+_LINES_WITHOUT_TERMINAL = 10
+_RANKED = 4
+
+
+def tolerance(
+    out: Output,
+    design: DesignFile,
+    samples: Annotated[
+        int, typer.Option(metavar="N", min=1, max=_MOST_SAMPLES, help="Gearboxes to draw.")
+    ] = 1000,
+    angles: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            min=8,
+            help="Crank angles over the output turn; default 8 n (n+1), which miss no order.",
+        ),
+    ] = None,
+    seed: Annotated[
+        int, typer.Option(metavar="N", min=0, max=2**64 - 1, help="Of the random draws.")
+    ] = 0,
+    torque: Annotated[
+        str | None,
+        typer.Option(metavar="Q", help='Output torque, as in "40 N*m"; default the continuous.'),
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Dask scheduler to work on, as tcp://HOST:8786."),
+    ] = None,
+) -> int:
+    """Toleranced gearboxes over a whole output turn: distributions and ranking."""
+    from cqdd_design.design import load_design
+    from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble, work_here
+    from cqdd_design.units import TORQUE
+
+    asked_torque = parse_positive("--torque", torque, TORQUE)
+    loaded = load_design(design)
+    ensemble = make_ensemble(loaded, torque=asked_torque, angles=angles, seed=seed)
+    progress = _progress(out)
+    if scheduler is None:
+        out.note_compilation()
+        result = run_ensemble(ensemble, samples, mapper=work_here, progress=progress)
+    else:
+        from cqdd_design.sizing.distributed import dask_client, on_cluster
+
+        with dask_client(scheduler) as client:
+            result = run_ensemble(ensemble, samples, mapper=on_cluster(client), progress=progress)
+    out.say(*_lines(result))
+    for sentence in result.warnings:
+        out.warn(sentence)
+    out.document(result.to_dict(), design=loaded)
+    return INTERRUPTED_WITH_RESULTS if result.interrupted else 0
+
+
+def _progress(out: Output) -> Callable[[int, int], None]:
+    """A bar on a terminal; elsewhere about ten lines in all."""
+    tell: list[Callable[[str], None]] = []
+    told = [0]
+
+    def progress(done: int, total: int) -> None:
+        if not tell:
+            tell.append(out.stages(_LINES_WITHOUT_TERMINAL))
+        tenth = _LINES_WITHOUT_TERMINAL * done // total
+        if sys.stderr.isatty() or tenth > told[0]:
+            while told[0] < tenth - 1:
+                told[0] += 1
+            told[0] = tenth
+            tell[0](f"{done} of {total} gearboxes")
+
+    return progress
+
+
+def _lines(result: ToleranceResult) -> list[str]:
+    if not len(result.values):
+        return ["no gearbox was finished"]
+    statistics = result.statistics()
+    columns = ("mean", "std", "p5", "p50", "p95", "p99")
+    rows = [
+        [f"  {name}", *(number(values[column]) for column in columns)]
+        for name, values in statistics.items()
+    ]
+    lines = [
+        f"{len(result.values)} gearboxes over one output turn at "
+        f"{number(result.ensemble.torque)} N*m, {result.solves:,} equilibria in "
+        f"{result.seconds:.1f} s",
+        "",
+        table(rows, head=("", *columns), right=tuple(range(1, len(columns) + 1))),
+    ]
+    if result.sensitivity is None:
+        return lines
+    ranked = []
+    for name in statistics:
+        leaders = result.ranking(name)[:_RANKED]
+        shares = ", ".join(f"{group} {max(total, 0.0):.0%}" for group, _, total in leaders)
+        ranked.append([f"  {name}", shares])
+    return [
+        *lines,
+        "",
+        "which tolerance it comes from (share of the variance, interactions included, so shares "
+        "may add up to more than 100 %):",
+        table(ranked),
+    ]

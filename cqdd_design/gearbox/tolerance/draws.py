@@ -1,0 +1,128 @@
+"""Draw toleranced gearboxes: every error of gearbox i follows from the seed and i alone.
+
+Each tolerance has its own counter-based stream (Philox), in which gearbox i owns the same stretch
+of raw numbers whoever draws it: the number of threads, the size of blocks and their order change
+nothing, and one tolerance can be exchanged for another draw of it while the rest stay.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.design.actuator import Tolerances
+from cqdd_design.gearbox.contact.errors import ErrorBatch
+from cqdd_design.gearbox.contact.model import ContactModel
+
+FloatArray = NDArray[np.float64]
+
+GROUPS: tuple[str, ...] = (
+    "tooth_position",
+    "tooth_radius",
+    "disc_profile",
+    "hole_position",
+    "hole_diameter",
+    "pin_position",
+    "pin_diameter",
+    "eccentricity",
+    "bearing_clearance",
+)
+"""The tolerances of a design file, each of which is drawn by itself."""
+
+_WORDS = 4
+"""Raw numbers per step of Philox's counter."""
+_MOST_HARMONICS = 120
+
+
+def harmonics(lobe_count: int) -> int:
+    """Orders of the profile error round the disc: pitch errors, lobe form and waviness, 3 n."""
+    return min(3 * lobe_count, _MOST_HARMONICS)
+
+
+def profile_amplitudes(lobe_count: int) -> FloatArray:
+    """Standard deviations of the harmonics' coefficients for a pointwise one of 1, falling as 1/m.
+
+    A cut's error is mostly of low order: the drift of a turn weighs most, waviness least.
+    """
+    order = np.arange(1, harmonics(lobe_count) + 1)
+    amplitude = 1.0 / order
+    return np.asarray(amplitude / np.sqrt(np.sum(amplitude**2)))
+
+
+def _shapes(model: ContactModel) -> dict[str, tuple[int, ...]]:
+    teeth, discs, pins = model.lobe_count + 1, model.disc_count, model.pin_count
+    return {
+        "tooth_position": (teeth, 2),
+        "tooth_radius": (teeth,),
+        "disc_profile": (discs, 2, harmonics(model.lobe_count)),
+        "hole_position": (discs, pins, 2),
+        "hole_diameter": (discs, pins),
+        "pin_position": (pins, 2),
+        "pin_diameter": (pins,),
+        "eccentricity": (discs, 2),
+        "bearing_clearance": (discs,),
+    }
+
+
+def _standard(
+    seed: int, group: int, matrix: int, first: int, count: int, size: int, distribution: str
+) -> FloatArray:
+    """Numbers of mean 0 and variance 1 for gearboxes `first` to `first + count`, (count, size)."""
+    from scipy.special import ndtri
+
+    steps = -(-size // _WORDS)
+    stream = np.random.Philox(key=np.array([seed, 2 * group + matrix], dtype=np.uint64))
+    stream.advance(first * steps)
+    raw = stream.random_raw(count * steps * _WORDS).reshape(count, -1)[:, :size]
+    # 53 bits, in the middle of their steps: never 0 nor 1.
+    share = ((raw >> np.uint64(11)).astype(float) + 0.5) * 2.0**-53
+    if distribution == "uniform":
+        return np.asarray(np.sqrt(3.0) * (2.0 * share - 1.0))
+    return np.asarray(ndtri(share))
+
+
+def draw_errors(
+    model: ContactModel,
+    tolerances: Tolerances,
+    seed: int,
+    first: int,
+    count: int,
+    matrices: Mapping[str, int] | None = None,
+) -> ErrorBatch:
+    """Draw gearboxes `first` to `first + count` of an ensemble.
+
+    Parameters
+    ----------
+    model : ContactModel
+    tolerances : Tolerances
+    seed : int
+        0 to 2^64 - 1.
+    first, count : int
+        Gearboxes by number.
+    matrices : mapping, optional
+        Tolerances to take from a second, independent draw (1) instead of the first (0).
+
+    Returns
+    -------
+    ErrorBatch
+    """
+    drawn = {}
+    for number, (name, shape) in enumerate(_shapes(model).items()):
+        matrix = (matrices or {}).get(name, 0)
+        values = _standard(
+            seed, number, matrix, first, count, int(np.prod(shape)), tolerances.distribution
+        )
+        drawn[name] = getattr(tolerances, name) * values.reshape(count, *shape)
+    return ErrorBatch(
+        tooth_position=drawn["tooth_position"],
+        tooth_radius=drawn["tooth_radius"],
+        disc_profile=drawn["disc_profile"] * profile_amplitudes(model.lobe_count),
+        hole_position=drawn["hole_position"],
+        hole_radius=0.5 * drawn["hole_diameter"],
+        pin_position=drawn["pin_position"],
+        pin_radius=0.5 * drawn["pin_diameter"],
+        cam_centre=drawn["eccentricity"],
+        cam_play=drawn["bearing_clearance"],
+    )

@@ -1,0 +1,332 @@
+"""Ensembles of toleranced gearboxes: distributions, and which tolerance they come from."""
+
+from __future__ import annotations
+
+import functools
+import time
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.design import Design
+from cqdd_design.errors import UsageError
+from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.sweep import output_turn_count
+from cqdd_design.gearbox.tolerance.draws import GROUPS, draw_errors
+from cqdd_design.gearbox.tolerance.evaluate import (
+    OUTPUTS,
+    EnsembleTables,
+    ensemble_tables,
+    evaluate_gearboxes,
+)
+from cqdd_design.gearbox.tolerance.sobol import SobolIndices, sobol_indices
+
+FloatArray = NDArray[np.float64]
+
+BLOCK = 125
+"""Gearboxes worked at a time: about a third of a second on four cores."""
+_SENSITIVITY_SHARE, _LEAST_BASE = 8, 16
+"""The sensitivity's base sample is an eighth of the ensemble, because every tolerance needs it
+once more; with fewer than this many gearboxes it would say nothing and is left out."""
+_MOST_CONTACTS = 6_000_000
+"""Contacts times angles that fit into memory comfortably: about half a gigabyte."""
+
+_PERCENTILES = {"p5": 5.0, "p50": 50.0, "p95": 95.0, "p99": 99.0}
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """What is drawn and solved; two equal ensembles give the same numbers anywhere.
+
+    Attributes
+    ----------
+    design : Design
+        With its cam bearing named.
+    torque : float
+        N m.
+    angles : int
+        Crank angles over the output turn.
+    seed : int
+    """
+
+    design: Design
+    torque: float
+    angles: int
+    seed: int
+
+    @property
+    def key(self) -> tuple[str, float, int, int]:
+        """What tells two ensembles apart."""
+        return self.design.sha256, self.torque, self.angles, self.seed
+
+
+@dataclass(frozen=True)
+class Block:
+    """Some gearboxes of an ensemble, with one tolerance perhaps from the second draw.
+
+    Attributes
+    ----------
+    first, count : int
+        Gearboxes by number.
+    exchanged : tuple of str
+        Tolerances from the second draw.
+    """
+
+    first: int
+    count: int
+    exchanged: tuple[str, ...] = ()
+
+
+Mapper = Callable[[Ensemble, list[Block]], Iterable[tuple[int, FloatArray]]]
+"""Works blocks in any order and yields (place of the block, its values)."""
+Progress = Callable[[int, int], None]
+
+
+@functools.lru_cache(maxsize=2)
+def _tables(key: tuple[str, float, int, int], ensemble: _Held) -> EnsembleTables:
+    one = ensemble.ensemble
+    return ensemble_tables(ContactModel.from_design(one.design), one.torque, one.angles)
+
+
+class _Held:
+    """Carries an ensemble past the cache, which goes by the key alone."""
+
+    def __init__(self, ensemble: Ensemble) -> None:
+        self.ensemble = ensemble
+
+    def __hash__(self) -> int:
+        return 0
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Held)
+
+
+def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
+    """Values (count, 5) of a block of gearboxes, in the order and units of `OUTPUTS`."""
+    tables = _tables(ensemble.key, _Held(ensemble))
+    errors = draw_errors(
+        tables.model,
+        ensemble.design.tolerances,
+        ensemble.seed,
+        block.first,
+        block.count,
+        dict.fromkeys(block.exchanged, 1),
+    )
+    return evaluate_gearboxes(tables, errors).values
+
+
+def work_here(ensemble: Ensemble, blocks: list[Block]) -> Iterator[tuple[int, FloatArray]]:
+    """Work blocks one after the other in this process, on all its cores."""
+    for place, block in enumerate(blocks):
+        yield place, work_block(ensemble, block)
+
+
+@dataclass(frozen=True, eq=False)
+class ToleranceResult:
+    """Distributions of toleranced gearboxes.
+
+    Attributes
+    ----------
+    ensemble : Ensemble
+    asked : int
+        Gearboxes asked for.
+    values : array (S, 5)
+        Of every gearbox that was solved, in the order and units of `OUTPUTS`.
+    sensitivity : tuple of SobolIndices or None
+        Of every output over `GROUPS`; None where it was not computed.
+    base : int
+        Size of the sensitivity's base sample.
+    solves : int
+        Equilibria under load.
+    seconds : float
+    interrupted : bool
+        Whether it was stopped before the end; `values` then holds what was done.
+    """
+
+    ensemble: Ensemble
+    asked: int
+    values: FloatArray
+    sensitivity: tuple[SobolIndices, ...] | None
+    base: int
+    solves: int
+    seconds: float
+    interrupted: bool
+
+    def statistics(self) -> dict[str, dict[str, float]]:
+        """Mean, standard deviation and percentiles of every output."""
+        found = {}
+        for name, column in zip(OUTPUTS, self.values.T, strict=True):
+            spread = float(column.std(ddof=1)) if len(column) > 1 else 0.0
+            found[name] = {"mean": float(column.mean()), "std": spread} | {
+                key: float(np.percentile(column, share)) for key, share in _PERCENTILES.items()
+            }
+        return found
+
+    def ranking(self, output: str) -> list[tuple[str, float, float]]:
+        """Tolerances with their first-order and total shares of one output, largest total first."""
+        if self.sensitivity is None:
+            return []
+        indices = self.sensitivity[OUTPUTS.index(output)]
+        rows = zip(GROUPS, indices.first.tolist(), indices.total.tolist(), strict=True)
+        return sorted(rows, key=lambda row: -row[2])
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What the figures leave out."""
+        if self.interrupted:
+            done = len(self.values)
+            return (f"interrupted after {done} of {self.asked} gearboxes; these are kept.",)
+        if self.sensitivity is None:
+            least = _LEAST_BASE * _SENSITIVITY_SHARE
+            return (f"no sensitivity: it needs at least {least} gearboxes.",)
+        return ()
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form (``results`` of ``tolerance``)."""
+        body: dict[str, object] = dict(self.statistics()) if len(self.values) else {}
+        for key in ("first", "total", "first_half_width", "total_half_width"):
+            name = {"first": "sensitivity", "total": "sensitivity_total"}.get(
+                key, f"sensitivity_{key}"
+            )
+            body[name] = self._by_output(key)
+        return body | {
+            "samples": len(self.values),
+            "samples_asked": self.asked,
+            "sensitivity_base": self.base,
+            "angles": self.ensemble.angles,
+            "torque_Nm": self.ensemble.torque,
+            "seed": self.ensemble.seed,
+            "solves": self.solves,
+            "seconds": self.seconds,
+            "interrupted": self.interrupted,
+        }
+
+    def _by_output(self, key: str) -> dict[str, dict[str, float]] | None:
+        if self.sensitivity is None:
+            return None
+        return {
+            output: dict(zip(GROUPS, getattr(indices, key).tolist(), strict=True))
+            for output, indices in zip(OUTPUTS, self.sensitivity, strict=True)
+        }
+
+
+def make_ensemble(
+    design: Design, *, torque: float | None = None, angles: int | None = None, seed: int = 0
+) -> Ensemble:
+    """Complete an ensemble: continuous torque, and 8 n (n+1) angles over the output turn.
+
+    Raises
+    ------
+    UsageError
+        When the angles do not fit into memory.
+    """
+    design = with_chosen_bearing(design)
+    reducer = design.reducer
+    wanted = output_turn_count(reducer.ratio) if angles is None else angles
+    contacts = reducer.disc_count * (reducer.ratio + 1 + reducer.output_pins.count)
+    if wanted * contacts > _MOST_CONTACTS:
+        raise UsageError(
+            f"{wanted} angles on {contacts} contacts are too many for memory; take at most "
+            f"--angles {_MOST_CONTACTS // contacts}."
+        )
+    load = design.requirements.continuous_torque if torque is None else torque
+    return Ensemble(design, load, wanted, seed)
+
+
+def run_ensemble(
+    ensemble: Ensemble,
+    samples: int = 1000,
+    *,
+    mapper: Mapper = work_here,
+    progress: Progress | None = None,
+    sensitivity: bool = True,
+) -> ToleranceResult:
+    """Draw and solve an ensemble.
+
+    Parameters
+    ----------
+    ensemble : Ensemble
+        From :func:`make_ensemble`.
+    samples : int
+        Gearboxes, 1 or more.
+    mapper : callable
+        Who works the blocks; default this process.
+    progress : callable, optional
+        Told how many gearboxes are done, of how many.
+    sensitivity : bool
+        Whether to rank the tolerances too, on a base sample of an eighth of the gearboxes.
+
+    Returns
+    -------
+    ToleranceResult
+        Also after Ctrl-C, with the gearboxes that were done.
+
+    Raises
+    ------
+    UsageError
+        For less than one gearbox.
+    ContactError
+        When a gearbox has no equilibrium.
+    """
+    if samples < 1:
+        raise UsageError(f"{samples} gearboxes are no ensemble; ask for at least 1.")
+    base = samples // _SENSITIVITY_SHARE if sensitivity else 0
+    base = base if base >= _LEAST_BASE else 0
+    extra = [GROUPS, *((name,) for name in GROUPS)] if base else []
+    blocks = _blocks(samples, ())
+    for exchanged in extra:
+        blocks += _blocks(base, tuple(exchanged))
+    total = sum(block.count for block in blocks)
+    found: list[FloatArray | None] = [None] * len(blocks)
+    done, interrupted = 0, False
+    began = time.perf_counter()
+    try:
+        for place, values in mapper(ensemble, blocks):
+            found[place] = values
+            done += len(values)
+            if progress is not None:
+                progress(done, total)
+    except KeyboardInterrupt:
+        interrupted = True
+    main = len(_blocks(samples, ()))
+    values = np.concatenate([v for v in found[:main] if v is not None] or [np.empty((0, 5))])
+    indices = None
+    if base and not interrupted:
+        indices = _sensitivity(values[:base], found[main:], base)
+    coarse = int(_coarse_count(ensemble))
+    return ToleranceResult(
+        ensemble=ensemble,
+        asked=samples,
+        values=values,
+        sensitivity=indices,
+        base=base,
+        solves=done * (ensemble.angles + coarse),
+        seconds=time.perf_counter() - began,
+        interrupted=interrupted,
+    )
+
+
+def _coarse_count(ensemble: Ensemble) -> int:
+    from cqdd_design.gearbox.tolerance.evaluate import marked_angles
+
+    return int(marked_angles(ensemble.design.reducer.ratio, ensemble.angles).sum())
+
+
+def _blocks(count: int, exchanged: tuple[str, ...]) -> list[Block]:
+    return [
+        Block(first, min(BLOCK, count - first), exchanged) for first in range(0, count, BLOCK)
+    ]
+
+
+def _sensitivity(
+    a: FloatArray, found: list[FloatArray | None], base: int
+) -> tuple[SobolIndices, ...]:
+    """Indices of every output from the blocks of B and of every AB_i."""
+    rest = np.concatenate([values for values in found if values is not None])
+    several = rest.reshape(1 + len(GROUPS), base, len(OUTPUTS))
+    return tuple(
+        sobol_indices(a[:, k], several[0, :, k], several[1:, :, k]) for k in range(len(OUTPUTS))
+    )
