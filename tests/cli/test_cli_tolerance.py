@@ -1,0 +1,247 @@
+"""``tolerance`` and the contact part of ``analyse`` as processes: text, JSON, errors, Ctrl-C."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+DESIGN = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
+OUTPUTS = (
+    "backlash_arcmin",
+    "transmission_error_pp_arcmin",
+    "ring_force_max_N",
+    "stiffness_Nm_per_arcmin",
+    "torque_ripple_pp_Nm",
+)
+
+
+def run(*arguments: str, timeout: float = 240.0) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "cqdd_design", *arguments],
+        capture_output=True,
+        text=True,
+        timeout=timeout,
+        check=False,
+    )
+
+
+def changed(tmp_path: Path, old: str, new: str) -> str:
+    text = DESIGN.read_text(encoding="utf-8")
+    assert old in text
+    path = tmp_path / "d.toml"
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    return str(path)
+
+
+def test_the_document_has_what_others_read() -> None:
+    done = run("tolerance", str(DESIGN), "--samples", "160", "--angles", "88", "--json")
+    assert done.returncode == 0, done.stderr
+    results = json.loads(done.stdout)["results"]
+    for name in OUTPUTS:
+        told = results[name]
+        assert set(told) == {"mean", "std", "p5", "p50", "p95", "p99"}
+        assert told["p5"] <= told["p50"] <= told["p95"] <= told["p99"]
+        shares = results["sensitivity"][name]
+        assert set(shares) == {
+            key for key in json.loads(done.stdout)["design"]["tolerances"] if key != "distribution"
+        }
+        assert all(isinstance(value, float) for value in shares.values())
+    assert results["samples"] == 160
+    assert results["solves"] > 160 * 88
+    assert results["seconds"] > 0.0
+
+
+def test_the_same_seed_gives_the_same_and_another_another() -> None:
+    def told(seed: str) -> object:
+        done = run(
+            "tolerance", str(DESIGN), "--samples", "5", "--angles", "44", "--seed", seed, "--json"
+        )
+        return json.loads(done.stdout)["results"]["backlash_arcmin"]
+
+    assert told("3") == told("3")
+    assert told("3") != told("4")
+
+
+def test_people_get_a_table_and_a_ranking() -> None:
+    done = run("tolerance", str(DESIGN), "--samples", "128", "--angles", "44")
+    assert done.returncode == 0
+    assert "backlash_arcmin" in done.stdout
+    assert "p95" in done.stdout
+    assert "which tolerance it comes from" in done.stdout
+    assert "of 128" not in done.stdout
+    assert len(done.stderr.splitlines()) <= 12
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "words"),
+    [
+        (("--samples", "0"), 2, "samples"),
+        (("--samples", "-3"), 2, "samples"),
+        (("--samples", "many"), 2, "samples"),
+        (("--angles", "7"), 2, "angles"),
+        (("--angles", "99999999"), 2, "--angles"),
+        (("--torque", "0 N*m"), 2, "--torque"),
+        (("--torque", "40"), 2, "N*m"),
+        (("--seed", "-1"), 2, "seed"),
+        (("--torque", "1e9 N*m"), 3, "N*m"),
+    ],
+)
+def test_bad_values_are_refused(arguments: tuple[str, ...], code: int, words: str) -> None:
+    done = run("tolerance", str(DESIGN), *arguments)
+    assert done.returncode == code, done.stderr
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_a_wrong_scheduler_is_told_within_seconds() -> None:
+    pytest.importorskip("distributed")
+    began = time.monotonic()
+    done = run("tolerance", str(DESIGN), "--scheduler", "tcp://127.0.0.1:1", "--samples", "5")
+    assert done.returncode == 2
+    assert "no Dask scheduler at tcp://127.0.0.1:1" in done.stderr
+    assert time.monotonic() - began < 40.0
+
+
+def test_without_dask_it_says_what_to_install(tmp_path: Path) -> None:
+    (tmp_path / "distributed.py").write_text("raise ImportError('none')\n", encoding="utf-8")
+    done = subprocess.run(
+        [
+            sys.executable, "-m", "cqdd_design", "tolerance", str(DESIGN),
+            "--scheduler", "tcp://127.0.0.1:1",
+        ],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+    )  # fmt: skip
+    assert done.returncode == 5
+    assert 'pip install "cqdd-design[sweep]"' in done.stderr
+
+
+def test_ctrl_c_keeps_what_is_done() -> None:
+    run("tolerance", str(DESIGN), "--samples", "1", "--angles", "44")  # compiled from here on
+    process = subprocess.Popen(
+        [sys.executable, "-m", "cqdd_design", "tolerance", str(DESIGN), "--samples", "200000",
+         "--angles", "44", "--json"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )  # fmt: skip
+    time.sleep(6.0)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 130, err
+    results = json.loads(out)["results"]
+    assert results["interrupted"] is True
+    assert 0 < results["samples"] < 200_000
+    assert results["backlash_arcmin"]["std"] > 0.0
+    assert "Traceback" not in err
+
+
+# ------------------------------------------------------------------ analyse
+
+
+def test_analyse_gives_contact_precision_losses_and_life() -> None:
+    done = run("analyse", str(DESIGN), "--torque", "40 N*m", "--angles", "24", "--json")
+    assert done.returncode == 0, done.stderr
+    results = json.loads(done.stdout)["results"]
+    contact = results["contact"]
+    assert len(contact["crank_angle_deg"]) == 24
+    shape = (24, 2)
+    for key, last in (
+        ("ring_force_N", (11,)),
+        ("ring_normal", (11, 2)),
+        ("ring_point_mm", (11, 2)),
+        ("output_pin_force_N", (5,)),
+        ("output_pin_normal", (5, 2)),
+        ("output_pin_point_mm", (5, 2)),
+        ("cam_force_N", (2,)),
+        ("disc_centre_mm", (2,)),
+        ("disc_displacement_um", (3,)),
+    ):
+        assert _shape(contact[key]) == shape + last, key
+    assert len(contact["carrier_angle_error_arcmin"]) == 24
+    assert sum(contact["disc_torque_share"]) == pytest.approx(1.0)
+    precision = results["precision"]
+    assert precision["backlash_min_arcmin"] <= precision["backlash_arcmin"]
+    assert precision["backlash_arcmin"] <= precision["backlash_max_arcmin"]
+    assert precision["orders"][0]["name"].startswith("teeth")
+    assert 0.0 < results["losses"]["efficiency_backward"] < results["losses"]["efficiency_forward"]
+    assert results["life"]["parts"]
+    _balances(contact)
+
+
+def _shape(values: object) -> tuple[int, ...]:
+    found = []
+    while isinstance(values, list):
+        found.append(len(values))
+        values = values[0]
+    return tuple(found)
+
+
+def _balances(contact: dict[str, list]) -> None:
+    """Forces and moments of every disc from nothing but the document."""
+    for angle in range(len(contact["crank_angle_deg"])):
+        for disc in range(2):
+            x = y = moment = load = 0.0
+            cx, cy = contact["disc_centre_mm"][angle][disc]
+            for kind in ("ring", "output_pin"):
+                forces = contact[f"{kind}_force_N"][angle][disc]
+                normals = contact[f"{kind}_normal"][angle][disc]
+                points = contact[f"{kind}_point_mm"][angle][disc]
+                for force, (nx, ny), (px, py) in zip(forces, normals, points, strict=True):
+                    x, y = x + force * nx, y + force * ny
+                    moment += force * ((px - cx) * ny - (py - cy) * nx)
+                    load = max(load, force)
+            fx, fy = contact["cam_force_N"][angle][disc]
+            assert abs(x + fx) < 1e-9 * load
+            assert abs(y + fy) < 1e-9 * load
+            assert abs(moment) < 1e-9 * load * 32.0
+
+
+def test_interference_is_told_as_preload(tmp_path: Path) -> None:
+    design = changed(tmp_path, 'equidistant = "6 um"', 'equidistant = "-6 um"')
+    done = run("analyse", design, "--json")
+    assert done.returncode == 0, done.stderr
+    document = json.loads(done.stdout)
+    assert document["results"]["contact"]["preload"]["ring_force_max_N"] > 100.0
+    assert document["results"]["precision"]["backlash_arcmin"] == 0.0
+    assert any("preloaded" in sentence for sentence in document["warnings"])
+
+
+@pytest.mark.parametrize(("torque", "kept"), [("1e-6 N*m", True), ("1e9 N*m", False)])
+def test_any_torque_gives_an_answer_or_says_why(torque: str, kept: bool) -> None:
+    done = run("analyse", str(DESIGN), "--torque", torque, "--json")
+    assert done.returncode == 0, done.stderr
+    document = json.loads(done.stdout)
+    assert (document["results"]["contact"] is not None) is kept
+    if not kept:
+        assert any("no contact analysis" in sentence for sentence in document["warnings"])
+
+
+def test_teeth_that_do_not_reach_are_told(tmp_path: Path) -> None:
+    design = changed(tmp_path, 'equidistant = "6 um"', 'equidistant = "450 um"')
+    done = run("analyse", design, "--json")
+    assert done.returncode in (0, 3)
+    assert "Traceback" not in done.stderr
+    if done.returncode == 0:
+        document = json.loads(done.stdout)
+        assert document["results"]["contact"] is None
+        assert any("do not reach" in sentence for sentence in document["warnings"])
+
+
+def test_a_thousand_lobes_are_refused(tmp_path: Path) -> None:
+    design = changed(
+        tmp_path, "ratio = 10                        # paper: 10 lobes", "ratio = 1000 #"
+    )
+    done = run("analyse", design)
+    assert done.returncode == 3
+    assert "1000" in done.stderr

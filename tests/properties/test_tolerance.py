@@ -1,0 +1,261 @@
+"""Ensembles: draws, distributions, sensitivity, and what must not change them."""
+
+from __future__ import annotations
+
+import resource
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from cqdd_design.design import Design, load_design
+from cqdd_design.errors import UsageError
+from cqdd_design.gearbox.contact.errors import ErrorBatch
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.precision.precision import precision
+from cqdd_design.gearbox.tolerance.draws import GROUPS, draw_errors, profile_amplitudes
+from cqdd_design.gearbox.tolerance.ensemble import (
+    Block,
+    Ensemble,
+    make_ensemble,
+    run_ensemble,
+    work_block,
+    work_here,
+)
+from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS, ensemble_tables, evaluate_gearboxes
+from cqdd_design.gearbox.tolerance.sobol import sobol_indices
+
+PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
+ARCMIN = np.pi / 180.0 / 60.0
+
+
+def paper(**tolerances: object) -> Design:
+    changes = {f"tolerances.{key}": value for key, value in tolerances.items()}
+    return load_design(PAPER).replacing(changes)
+
+
+@pytest.fixture(scope="module")
+def model() -> ContactModel:
+    return ContactModel.from_design(paper())
+
+
+def same(a: ErrorBatch, b: ErrorBatch) -> bool:
+    return all(np.array_equal(getattr(a, k), getattr(b, k)) for k in a.__dataclass_fields__)
+
+
+def part(batch: ErrorBatch, rows: slice) -> ErrorBatch:
+    return ErrorBatch(**{k: getattr(batch, k)[rows] for k in batch.__dataclass_fields__})
+
+
+# ------------------------------------------------------------------ draws
+
+
+@given(st.integers(0, 400), st.integers(1, 30), st.integers(0, 2**64 - 1))
+@settings(max_examples=25, deadline=None)
+def test_a_gearbox_depends_on_seed_and_number_only(first: int, count: int, seed: int) -> None:
+    model, tolerances = ContactModel.from_design(paper()), paper().tolerances
+    alone = draw_errors(model, tolerances, seed, first + count - 1, 1)
+    together = draw_errors(model, tolerances, seed, first, count)
+    assert same(alone, part(together, slice(count - 1, count)))
+
+
+@pytest.mark.parametrize("distribution", ["normal", "uniform"])
+def test_draws_have_the_moments_they_should(model: ContactModel, distribution: str) -> None:
+    design = paper(distribution=distribution)
+    batch = draw_errors(model, design.tolerances, 1, 0, 4000)
+    t = design.tolerances
+    for name, sigma in (
+        ("tooth_position", t.tooth_position),
+        ("tooth_radius", t.tooth_radius),
+        ("hole_position", t.hole_position),
+        ("hole_radius", 0.5 * t.hole_diameter),
+        ("pin_position", t.pin_position),
+        ("pin_radius", 0.5 * t.pin_diameter),
+        ("cam_centre", t.eccentricity),
+        ("cam_play", t.bearing_clearance),
+    ):
+        values = getattr(batch, name)
+        assert values.std() == pytest.approx(sigma, rel=0.03), name
+        assert abs(values.mean()) < 0.03 * sigma, name
+        if distribution == "uniform":
+            assert np.abs(values).max() <= np.sqrt(3.0) * sigma
+            assert np.abs(values).max() > 1.7 * sigma
+        else:
+            assert np.abs(values).max() > 3.0 * sigma
+
+
+def test_the_profile_error_has_its_standard_deviation_everywhere(model: ContactModel) -> None:
+    batch = draw_errors(model, paper().tolerances, 2, 0, 3000)
+    order = np.arange(1, batch.disc_profile.shape[-1] + 1)
+    for t in (0.0, 0.7, 3.0):
+        c, s = np.cos(order * t), np.sin(order * t)
+        material = batch.disc_profile[:, 0, 0] @ c + batch.disc_profile[:, 0, 1] @ s
+        assert material.std() == pytest.approx(1e-6, rel=0.05)
+    assert np.sum(profile_amplitudes(10) ** 2) == pytest.approx(1.0)
+
+
+def test_exchanging_a_group_changes_only_it(model: ContactModel) -> None:
+    tolerances = paper().tolerances
+    a = draw_errors(model, tolerances, 5, 0, 3)
+    for name in GROUPS:
+        b = draw_errors(model, tolerances, 5, 0, 3, {name: 1})
+        changed = [
+            k for k in a.__dataclass_fields__ if not np.array_equal(getattr(a, k), getattr(b, k))
+        ]
+        assert len(changed) == 1, name
+
+
+# ------------------------------------------------------------------ ensembles
+
+
+def test_numbers_do_not_depend_on_threads_or_blocks() -> None:
+    ensemble = make_ensemble(paper(), angles=88)
+    tables = ensemble_tables(ContactModel.from_design(ensemble.design), 40.0, 88)
+    errors = draw_errors(tables.model, ensemble.design.tolerances, 0, 0, 12)
+    one = evaluate_gearboxes(tables, errors, threads=1).values
+    assert np.array_equal(one, evaluate_gearboxes(tables, errors, threads=3).values)
+    pieces = [work_block(ensemble, Block(first, 4)) for first in (8, 0, 4)]
+    assert np.array_equal(one, np.concatenate([pieces[1], pieces[2], pieces[0]]))
+
+
+def test_without_tolerances_every_gearbox_is_the_perfect_one() -> None:
+    none = dict.fromkeys(GROUPS, 0.0)
+    ensemble = make_ensemble(paper(**none))
+    result = run_ensemble(ensemble, 3)
+    assert np.ptp(result.values, axis=0).max() == 0.0
+    model = ContactModel.from_design(ensemble.design)
+    found = precision(model, 40.0, angles=480)
+    told = result.statistics()
+    assert told["backlash_arcmin"]["mean"] == pytest.approx(found.free.mean / ARCMIN, abs=0.01)
+    assert told["stiffness_Nm_per_arcmin"]["mean"] == pytest.approx(
+        found.stiffness * ARCMIN, rel=2e-3
+    )
+    assert told["transmission_error_pp_arcmin"]["mean"] == pytest.approx(
+        found.transmission_error / ARCMIN, rel=0.02
+    )
+    # Eight angles a tooth miss the peaks of the ripple a little.
+    assert told["torque_ripple_pp_Nm"]["mean"] == pytest.approx(found.ripple_pp, rel=0.1)
+
+
+@pytest.mark.parametrize("name", GROUPS)
+def test_every_tolerance_has_an_effect(name: str) -> None:
+    none = dict.fromkeys(GROUPS, 0.0)
+    ensemble = make_ensemble(paper(**(none | {name: 3e-6})), angles=88)
+    result = run_ensemble(ensemble, 4, sensitivity=False)
+    assert np.ptp(result.values[:, OUTPUTS.index("backlash_arcmin")]) > 1e-3
+    assert np.ptp(result.values[:, OUTPUTS.index("transmission_error_pp_arcmin")]) > 1e-4
+
+
+def test_statistics_are_those_of_the_values() -> None:
+    result = run_ensemble(make_ensemble(paper(), angles=88), 40, sensitivity=False)
+    for name, column in zip(OUTPUTS, result.values.T, strict=True):
+        told = result.statistics()[name]
+        assert told["p5"] <= told["p50"] <= told["p95"] <= told["p99"]
+        assert told["mean"] == pytest.approx(column.mean())
+        assert told["std"] == pytest.approx(column.std(ddof=1))
+    assert result.to_dict()["samples"] == 40
+    assert result.solves == 40 * 2 * 88
+
+
+def test_memory_stays_flat() -> None:
+    ensemble = make_ensemble(paper(), angles=44)
+    run_ensemble(ensemble, 500, sensitivity=False)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    run_ensemble(ensemble, 5000, sensitivity=False)
+    after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    # The results of ten times as many gearboxes are 0.2 MB; kB here.
+    assert after - before < 20_000
+
+
+def test_an_interrupt_keeps_what_is_done() -> None:
+    ensemble = make_ensemble(paper(), angles=44)
+
+    def stop(done: int, total: int) -> None:
+        if done >= 250:
+            raise KeyboardInterrupt
+
+    result = run_ensemble(ensemble, 1000, progress=stop)
+    assert result.interrupted
+    assert len(result.values) == 250
+    whole = run_ensemble(ensemble, 250, sensitivity=False)
+    assert np.array_equal(result.values, whole.values)
+    assert any("interrupted" in sentence for sentence in result.warnings)
+    assert result.to_dict()["sensitivity"] is None
+
+
+def test_blocks_in_any_order_give_the_same() -> None:
+    ensemble = make_ensemble(paper(), angles=44)
+
+    def backwards(one: Ensemble, blocks: list[Block]) -> object:
+        return reversed(list(work_here(one, blocks)))
+
+    here = run_ensemble(ensemble, 300)
+    there = run_ensemble(ensemble, 300, mapper=backwards)  # type: ignore[arg-type]
+    assert np.array_equal(here.values, there.values)
+    assert here.to_dict()["sensitivity_total"] == there.to_dict()["sensitivity_total"]
+
+
+def test_no_ensemble_is_refused() -> None:
+    with pytest.raises(UsageError, match="at least 1"):
+        run_ensemble(make_ensemble(paper()), 0)
+    with pytest.raises(UsageError, match="--angles"):
+        make_ensemble(paper(), angles=10**7)
+
+
+# ------------------------------------------------------------------ sensitivity
+
+
+def _ishigami(x: np.ndarray) -> np.ndarray:
+    return (
+        np.sin(x[..., 0]) + 7.0 * np.sin(x[..., 1]) ** 2 + 0.1 * x[..., 2] ** 4 * np.sin(x[..., 0])
+    )
+
+
+def _samples(count: int, dimensions: int, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    rng = np.random.default_rng(seed)
+    a, b = rng.uniform(-np.pi, np.pi, (2, count, dimensions))
+    ab = np.repeat(a[None], dimensions, axis=0)
+    for i in range(dimensions):
+        ab[i, :, i] = b[:, i]
+    return a, b, ab
+
+
+def test_indices_of_ishigamis_function() -> None:
+    a, b, ab = _samples(60_000, 3, 1)
+    found = sobol_indices(_ishigami(a), _ishigami(b), _ishigami(ab))
+    # Ishigami and Homma 1990, a = 7, b = 0.1.
+    assert found.first == pytest.approx([0.3139, 0.4424, 0.0], abs=0.015)
+    assert found.total == pytest.approx([0.5576, 0.4424, 0.2437], abs=0.015)
+    assert np.all(found.total_half_width < 0.03)
+
+
+def test_indices_are_salibs_on_the_same_evaluations() -> None:
+    sobol = pytest.importorskip("SALib.analyze.sobol")
+    a, b, ab = _samples(512, 3, 2)
+    fa, fb, fab = _ishigami(a), _ishigami(b), _ishigami(ab)
+    ours = sobol_indices(fa, fb, fab)
+    order = np.column_stack([fa, *fab, fb]).ravel()
+    problem = {"num_vars": 3, "names": ["x", "y", "z"], "bounds": [[-np.pi, np.pi]] * 3}
+    theirs = sobol.analyze(problem, order, calc_second_order=False, seed=1)
+    assert ours.first == pytest.approx(np.asarray(theirs["S1"]), abs=1e-9)
+    assert ours.total == pytest.approx(np.asarray(theirs["ST"]), abs=1e-9)
+
+
+def test_an_output_that_does_not_vary_has_no_indices() -> None:
+    flat = np.full(64, 3.0)
+    found = sobol_indices(flat, flat, np.tile(flat, (4, 1)))
+    assert np.array_equal(found.first, np.zeros(4))
+    assert np.array_equal(found.total, np.zeros(4))
+
+
+def test_the_only_tolerance_has_all_of_the_variance() -> None:
+    none = dict.fromkeys(GROUPS, 0.0)
+    design = paper(**(none | {"pin_diameter": 9e-6}))
+    result = run_ensemble(make_ensemble(design, angles=44), 800)
+    leader, _, total = result.ranking("backlash_arcmin")[0]
+    assert leader == "pin_diameter"
+    assert total == pytest.approx(1.0, abs=0.35)
+    others = [row[2] for row in result.ranking("backlash_arcmin")[1:]]
+    assert max(others) == 0.0
