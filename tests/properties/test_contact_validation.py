@@ -163,9 +163,7 @@ def test_independent_minimisation(validated: Callable[..., None]) -> None:
             found = solve(machine_of(model), crank, 40.0)
             off = np.abs(np.asarray(found.ring_force) - sweep.ring_force[0]).max()
             worst = max(worst, float(off / sweep.ring_force.max()))
-    validated(
-        "ring forces", "scipy minimising the energy, written from the equations", worst, 1e-6
-    )
+    validated("ring forces", "scipy minimising the energy, written from the equations", worst, 1e-6)
 
 
 def test_backlash(validated: Callable[..., None]) -> None:
@@ -175,9 +173,7 @@ def test_backlash(validated: Callable[..., None]) -> None:
             found = backlash(model, np.array([crank]))
             low, high = carrier_range(rigid_of(model), crank)
             worst = max(worst, abs(found.free[0] - (high - low)) / ARCMIN)
-    validated(
-        "backlash, arcmin", "a search on the exact profile by linear programs", worst, 0.02
-    )
+    validated("backlash, arcmin", "a search on the exact profile by linear programs", worst, 0.02)
 
 
 def test_period(validated: Callable[..., None]) -> None:
