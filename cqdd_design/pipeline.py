@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from cqdd_design.design import Design, Requirements
     from cqdd_design.files import WrittenFile
     from cqdd_design.gearbox import GearboxAnalysis
+    from cqdd_design.gearbox.contact_analysis import ContactAnalysis
+    from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
     from cqdd_design.report.weighing import Bodies
     from cqdd_design.results import Provenance
     from cqdd_design.sizing import SizingResult
@@ -26,7 +28,10 @@ if TYPE_CHECKING:
 Progress = Callable[[str], None]
 
 #: How often sizing and `write_report` tell their progress.
-SIZING_STAGES, REPORT_STAGES = 2, 2
+SIZING_STAGES, REPORT_STAGES = 2, 4
+
+#: Toleranced gearboxes of a report: percentiles to a few per cent, in some four seconds.
+REPORT_SAMPLES = 400
 
 
 def _silent(stage: str) -> None:
@@ -253,6 +258,7 @@ def write_report(
     source: Path | None = None,
     sizing: SizingResult | None = None,
     files: tuple[WrittenFile, ...] = (),
+    samples: int = REPORT_SAMPLES,
     force: bool = False,
     progress: Progress = _silent,
 ) -> tuple[WrittenFile, GearboxAnalysis]:
@@ -269,6 +275,8 @@ def write_report(
         Where the design has been found in the same run.
     files : tuple of WrittenFile
         Written in the same run, to be listed.
+    samples : int
+        Toleranced gearboxes to draw; 0 leaves the section out.
     force : bool
         Replace an existing file that was named.
     progress : callable
@@ -290,6 +298,7 @@ def write_report(
     progress("analysing loads and the planetary")
     analysis = analyse_gearbox(design)
     bodies, notes = weigh_if_possible(analysis.design, analysis.cam_bearing.bearing)
+    contact, ensemble, unsolved = _contact_and_tolerances(analysis.design, samples, progress)
     results = ReportInput(
         design=design,
         gearbox=analysis,
@@ -297,9 +306,36 @@ def write_report(
         provenance=provenance(design),
         comments={} if source is None else read_comments(source),
         bodies=bodies,
-        notes=notes,
+        notes=(*notes, *unsolved),
         sizing=sizing,
         files=files,
+        contact=contact,
+        tolerance=ensemble,
     )
     progress("writing the report")
     return write_atomically(target, build_report(results), "report"), analysis
+
+
+def _contact_and_tolerances(
+    design: Design, samples: int, progress: Progress
+) -> tuple[ContactAnalysis | None, ToleranceResult | None, tuple[str, ...]]:
+    """Contact analysis and ensemble of a design, or sentences on why there are none."""
+    from cqdd_design.errors import ContactError, UsageError
+    from cqdd_design.gearbox.contact_analysis import analyse_contact
+    from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
+
+    progress("solving the contact equilibrium")
+    try:
+        contact = analyse_contact(design)
+    except ContactError as error:
+        return None, None, (f"no contact analysis: {error.message}",)
+    progress("solving toleranced gearboxes")
+    if not samples:
+        return contact, None, contact.warnings
+    try:
+        ensemble = run_ensemble(make_ensemble(design), samples)
+    except (ContactError, UsageError) as error:
+        return contact, None, (*contact.warnings, f"no tolerances: {error.message}")
+    if ensemble.interrupted:
+        raise KeyboardInterrupt
+    return contact, ensemble, contact.warnings

@@ -21,6 +21,7 @@ from cqdd_design.gearbox.precision.precision import Precision, precision
 FloatArray = NDArray[np.float64]
 
 _MAP_SPEEDS, _MAP_TORQUES = 8, 8
+_PICTURE_ANGLES = 180
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +52,12 @@ class ContactAnalysis:
     loss_model: LossModel
     losses: Losses
     life: LifeResult
+
+    @property
+    def crank_turn(self) -> ContactSweep:
+        """The same load over one crank turn, every two degrees, for pictures."""
+        angle = 2.0 * np.pi * np.arange(_PICTURE_ANGLES) / _PICTURE_ANGLES
+        return contact_sweep(self.model, self.sweep.torque, angle)
 
     def efficiency_map(self, design: Design) -> EfficiencyMap:
         """Efficiency from an eighth of the input speed and peak torque up to both."""

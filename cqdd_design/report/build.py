@@ -12,17 +12,22 @@ from cqdd_design.gearbox.allowables import UNEVEN_SHARING
 from cqdd_design.report.bodies import bodies_view
 from cqdd_design.report.check_rows import chapters, printed
 from cqdd_design.report.closing import ERRATA, model_assumptions, paper_symbols, sources_used
+from cqdd_design.report.contact_view import contact_view
 from cqdd_design.report.front_view import front_view
 from cqdd_design.report.input import ReportInput
+from cqdd_design.report.life_view import life_view
 from cqdd_design.report.load_charts import load_charts
+from cqdd_design.report.losses_view import losses_view
 from cqdd_design.report.machine import Machine
 from cqdd_design.report.mathml import lowered
 from cqdd_design.report.mesh import mesh_data, mesh_figure, mesh_readout
 from cqdd_design.report.numbers import TIMES, significant, with_unit
 from cqdd_design.report.origins import Value, values_by_group
 from cqdd_design.report.planetary_view import planetary_view
+from cqdd_design.report.precision_view import precision_view
 from cqdd_design.report.section_view import section_view
 from cqdd_design.report.sizing_view import sizing_view
+from cqdd_design.report.tolerance_view import tolerance_view
 from cqdd_design.report.verdict import pin_figure, verdict
 
 if TYPE_CHECKING:
@@ -115,6 +120,7 @@ def _context(results: ReportInput) -> dict[str, Any]:
         "derived": _derived(results),
         "chapters": chapters(analysis.checks),
         "load_charts": load_charts(analysis),
+        **_engine(results, machine),
         "bodies": None if bodies is None else bodies_view(analysis.design, bodies),
         "sizing": None if results.sizing is None else sizing_view(results.sizing),
         "input_speed": with_unit(requirements.input_speed * 30.0 / math.pi, "rpm"),
@@ -128,6 +134,23 @@ def _context(results: ReportInput) -> dict[str, Any]:
         "catalogue": catalogue,
         "files": results.files,
     }
+
+
+def _engine(results: ReportInput, machine: Machine) -> dict[str, Any]:
+    """Values of the sections that come from the contact equilibrium; None where there is none."""
+    found, design = results.contact, results.design
+    names = ("contact", "precision", "losses", "life")
+    values: dict[str, Any] = dict.fromkeys(names)
+    if found is not None:
+        values = {
+            "contact": contact_view(found, machine, results.gearbox.rigid),
+            "precision": precision_view(found, design.name),
+            "losses": losses_view(found, design),
+            "life": life_view(found.life),
+        }
+    ensemble = results.tolerance
+    values["tolerances"] = None if ensemble is None else tolerance_view(ensemble)
+    return values
 
 
 _PLANETARY_SOURCES = (
@@ -145,6 +168,11 @@ _CONTENTS = (
     ("values", "Design values"),
     ("checks", "Checks"),
     ("loads", "Forces"),
+    ("contact", "Contact"),
+    ("precision", "Precision"),
+    ("losses", "Losses"),
+    ("life", "Life"),
+    ("tolerances", "Tolerances"),
     ("planetary", "Planetary"),
     ("inertia", "Inertia"),
     ("bom", "Bill of materials"),
@@ -162,6 +190,10 @@ def _contents(results: ReportInput) -> tuple[tuple[str, str], ...]:
         absent |= {"inertia", "bom"}
     if results.sizing is None:
         absent.add("sizing")
+    if results.contact is None:
+        absent |= {"contact", "precision", "losses", "life"}
+    if results.tolerance is None:
+        absent.add("tolerances")
     return tuple(entry for entry in _CONTENTS if entry[0] not in absent)
 
 

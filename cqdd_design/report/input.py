@@ -14,6 +14,8 @@ from cqdd_design.report.weighing import Bodies
 from cqdd_design.results import Provenance
 
 if TYPE_CHECKING:
+    from cqdd_design.gearbox.contact_analysis import ContactAnalysis
+    from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
     from cqdd_design.sizing.result import SizingResult
 
 
@@ -40,6 +42,10 @@ class ReportInput:
         Where the design has been found by a search in the same run.
     files : tuple of WrittenFile
         Written in the same run.
+    contact : ContactAnalysis or None
+        At the torques of the requirements: contact, precision, losses and life.
+    tolerance : ToleranceResult or None
+        An ensemble of toleranced gearboxes.
     """
 
     design: Design
@@ -51,3 +57,5 @@ class ReportInput:
     notes: tuple[str, ...] = ()
     sizing: SizingResult | None = None
     files: tuple[WrittenFile, ...] = ()
+    contact: ContactAnalysis | None = None
+    tolerance: ToleranceResult | None = None

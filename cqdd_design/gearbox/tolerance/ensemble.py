@@ -316,9 +316,7 @@ def _coarse_count(ensemble: Ensemble) -> int:
 
 
 def _blocks(count: int, exchanged: tuple[str, ...]) -> list[Block]:
-    return [
-        Block(first, min(BLOCK, count - first), exchanged) for first in range(0, count, BLOCK)
-    ]
+    return [Block(first, min(BLOCK, count - first), exchanged) for first in range(0, count, BLOCK)]
 
 
 def _sensitivity(
