@@ -67,7 +67,10 @@ def on_cluster(client: Client) -> Mapper:
         # The design is sent once, not with every block.
         held = client.scatter(ensemble, broadcast=False, hash=False)
         for place, block in enumerate(blocks):
-            future = client.submit(work_block, held, block, pure=False, retries=_RETRIES)
+            # In order where possible: the gearboxes themselves before their ranking.
+            future = client.submit(
+                work_block, held, block, pure=False, retries=_RETRIES, priority=-place
+            )
             futures[future.key] = (place, future)
         try:
             for future in as_completed([one for _, one in futures.values()]):

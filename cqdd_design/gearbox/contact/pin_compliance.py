@@ -46,11 +46,12 @@ def pin_compliance(
 
     Examples
     --------
-    A 4 mm steel pin through two 8 mm discs, held at both ends, in nm/N:
+    A 4 mm steel pin through two 8 mm discs, held at both ends, in nm/N (25.3 of bending, 3.8
+    of shear, 1.5 of its seats):
 
     >>> compliance = pin_compliance(2, 8e-3, 0.5e-3, 4e-3, "both", 205e9, 0.29, 205e9)
     >>> [round(1e9 * float(c), 2) for c in compliance]
-    [0, 0]
+    [30.59, 30.59]
     """
     span = float(pin_span(disc_count, disc_thickness, disc_spacing))
     at = disc_positions(disc_count, disc_thickness, disc_spacing)
