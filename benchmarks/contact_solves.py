@@ -247,7 +247,7 @@ def measure(cycloidgen: str | None) -> list[tuple[str, str, str]]:
         other, _ = kernel_rate(ContactModel.from_design(peer_design()), 60.0, degree)
         rows.append(
             (
-                "coupled solves a second on cycloidgen's design (R 40, r 3, e 1.5, 6 pins, 60 N\u00b7m)",
+                "coupled solves a second on R 40, r 3, e 1.5, n 10, 6 pins, 60 N\u00b7m",
                 f"{other:,.0f}",
                 "",
             )
@@ -287,7 +287,7 @@ def _ensembles(design: Design, model: ContactModel) -> list[tuple[str, str, str]
             "under 6 s",
         ),
         (
-            f"`tolerance`, 1,000 gearboxes over a whole output turn, ranking included, {cores} cores",
+            f"`tolerance`, 1,000 gearboxes over a whole output turn, with ranking, {cores} cores",
             f"{whole.seconds:.1f} s ({whole.solves:,} equilibria)",
             "under 8 s",
         ),

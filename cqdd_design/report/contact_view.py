@@ -1,4 +1,4 @@
-"""The contact equilibrium in the report: heat maps of load, the worst angle, beside the rigid law."""
+"""The contact equilibrium in the report: heat maps of load, the worst angle, the rigid law."""
 
 from __future__ import annotations
 

@@ -83,8 +83,8 @@ def tolerance_view(result: ToleranceResult) -> ToleranceView:
                 values=[max(total, 0.0) for _, _, total in ranked],
                 marks=[first for _, first, _ in ranked],
                 shown=[f"{100.0 * max(total, 0.0):.0f}\u202f%" for _, _, total in ranked],
-                caption="Total Sobol' index of each tolerance (bar) and its share alone (tick); both "
-                "are estimates that scatter by some per cent.",
+                caption="Total Sobol' index of each tolerance (bar) and its share alone (tick); "
+                "both are estimates that scatter by some per cent.",
             )
         )
     lead = (

@@ -7,16 +7,13 @@ when a worker is lost; results are put together by place and are the same to the
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import DependencyError, UsageError
 from cqdd_design.gearbox.tolerance.ensemble import Block, Ensemble, Mapper, work_block
-
-if TYPE_CHECKING:
-    from distributed import Client
 
 FloatArray = NDArray[np.float64]
 
@@ -25,13 +22,18 @@ _RETRIES = 3
 """Workers a block may lose before it is given up."""
 
 
-def dask_client(address: str) -> Client:
+def dask_client(address: str) -> Any:
     """Connect to a scheduler.
 
     Parameters
     ----------
     address : str
         As ``tcp://10.0.0.1:8786``.
+
+    Returns
+    -------
+    distributed.Client
+        A context manager; it closes the connection.
 
     Raises
     ------
@@ -41,13 +43,15 @@ def dask_client(address: str) -> Client:
         When there is no scheduler at the address within five seconds, or it has no workers.
     """
     try:
-        from distributed import Client
+        import distributed
+
+        client_class: Any = distributed.Client
     except ImportError as error:
         raise DependencyError(
             '--scheduler needs Dask; install it with: pip install "cqdd-design[sweep]"'
         ) from error
     try:
-        client: Client = Client(address, timeout=_CONNECT_SECONDS)
+        client = client_class(address, timeout=_CONNECT_SECONDS)
     except (OSError, TimeoutError, ValueError) as error:
         raise UsageError(
             f"there is no Dask scheduler at {address} ({type(error).__name__}); start one with "
@@ -56,13 +60,13 @@ def dask_client(address: str) -> Client:
     return client
 
 
-def on_cluster(client: Client) -> Mapper:
+def on_cluster(client: Any) -> Mapper:
     """A mapper for :func:`.run_ensemble` that works blocks on a cluster, in any order."""
 
     def work(ensemble: Ensemble, blocks: list[Block]) -> Iterator[tuple[int, FloatArray]]:
-        from distributed import as_completed
+        import distributed
 
-        future: Any
+        as_completed: Any = distributed.as_completed
         futures = {}
         # The design is sent once, not with every block.
         held = client.scatter(ensemble, broadcast=False, hash=False)

@@ -30,7 +30,7 @@ def harmonic_basis(size: int, harmonics: int) -> FloatArray:
     return np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
-@numba.njit(cache=True, error_model="numpy")  # type: ignore[misc]
+@numba.njit(cache=True, error_model="numpy")
 def fill_errors(
     rows: Any,
     rates: Any,

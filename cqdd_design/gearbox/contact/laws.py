@@ -30,7 +30,7 @@ _PALMGREN = 3.84e-5 * 1e-3 / (1e3) ** 0.8
 """3.84e-5 F^0.9/L^0.8 with N and mm, in N and m."""
 
 LEAST_SLOPE = 0.05
-"""Share of the slope at 1 N below which Johnson's law is left: it would soon turn back."""
+"""Share of the coefficient a below which the slope of Johnson's law is not followed any more."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ def palmgren_coefficient(length: float, modulus: float) -> float:
     >>> print(round(1e3 * c * 1000.0**0.9, 7))
     0.0030502
     """
-    return _PALMGREN / length**0.8 * (_STEEL_MODULUS / modulus)
+    return float(_PALMGREN / length**0.8 * (_STEEL_MODULUS / modulus))
 
 
 def johnson_coefficients(
@@ -146,8 +146,9 @@ def approach(
 def force_limit(law: LineLaw, coefficient: ArrayLike) -> FloatArray:
     """Largest force up to which the law is used as published, N.
 
-    Johnson's logarithm turns back once the contact is as wide as the body is deep; beyond a
-    twentieth of its slope at 1 N the law continues straight, and a result there is refused.
+    Johnson's logarithm turns back once the contact is as wide as the body is deep. Where its
+    slope has fallen to a twentieth of the coefficient the law continues straight, and a result
+    there is refused.
     """
     c = np.asarray(coefficient, dtype=float)
     if law.model != "johnson":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -244,7 +245,8 @@ def contact_sweep(
     cam_force, torsional = np.empty((count, discs, 2)), np.empty(count)
     steps = np.zeros(count, dtype=np.int64)
     gaps = states.gaps + changed.gaps
-    failed = kernel.solve_sweep(
+    solve: Any = kernel.solve_sweep
+    failed = solve(
         states.rows,
         gaps,
         states.coefficient,
@@ -284,7 +286,7 @@ def _refuse_misshapen(model: ContactModel, errors: GearboxErrors | None) -> None
             raise UsageError(f"errors.{name} has the shape {given}; this gearbox needs {shape}.")
 
 
-def law_arguments(model: ContactModel) -> tuple[object, ...]:
+def law_arguments(model: ContactModel) -> tuple[Any, ...]:
     """Codes, Johnson's logarithms, pin series and cam spring as the kernel takes them."""
     return (
         (model.ring_law.code, model.pin_law.code),

@@ -1,0 +1,1 @@
+"""Precision: backlash, lost motion, stiffness, transmission error, torque ripple, orders."""

@@ -196,10 +196,10 @@ def _exact_and_modelled(
     bend = states.ring.centre_curvature
     root = np.sqrt((1.0 + bend * out) ** 2 + (bend * along) ** 2)
     modelled = nominal[:, :, :teeth] + (2.0 * out + bend * (out**2 + along**2)) / (1.0 + root)
-    off, radius = 0.0, 0.0
+    moved_tooth, radius = tooth, np.zeros(teeth)
     if errors is not None:
-        off, radius = as_complex(errors.tooth_position), errors.tooth_radius
-    seen = (tooth + off - centre - shift) / (rotation * np.exp(1j * turn))
+        moved_tooth, radius = tooth + as_complex(errors.tooth_position), errors.tooth_radius
+    seen = (moved_tooth - centre - shift) / (rotation * np.exp(1j * turn))
     foot = nearest_parameter(model.disc, as_points(seen), states.ring.parameter)
     point, outward = model.disc.profile(foot)
     exact = ((seen - point) * np.conj(outward)).real - model.tooth_radius - radius

@@ -30,7 +30,7 @@ _STILL = 2e-10
 """Metres at the pin circle between two rounds that count as standing still: 1e-4 arcmin or less."""
 
 
-@numba.njit(cache=True, error_model="numpy")  # type: ignore[misc]
+@numba.njit(cache=True, error_model="numpy")
 def _true_gaps(
     nominal_rows: Any,
     nominal_gaps: Any,
@@ -99,7 +99,7 @@ def _true_gaps(
             )
 
 
-@numba.njit(cache=True, error_model="numpy")  # type: ignore[misc]
+@numba.njit(cache=True, error_model="numpy")
 def _greatest_force(force: Any, cam_force: Any) -> float:
     """Greatest force of any contact; on springs of 1 N/m, the greatest overlap."""
     greatest = 0.0
@@ -110,7 +110,7 @@ def _greatest_force(force: Any, cam_force: Any) -> float:
     return greatest
 
 
-@numba.njit(cache=True, error_model="numpy")  # type: ignore[misc]
+@numba.njit(cache=True, error_model="numpy")
 def backlash_sweep(
     nominal_rows: Any,
     nominal_gaps: Any,

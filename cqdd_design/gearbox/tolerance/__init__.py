@@ -1,0 +1,1 @@
+"""Toleranced gearboxes: draws, the compiled ensemble, distributions and sensitivity."""

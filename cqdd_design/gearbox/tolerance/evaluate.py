@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -150,7 +151,8 @@ def evaluate_gearboxes(
     former = numba.get_num_threads()
     numba.set_num_threads(min(threads or former, former))
     try:
-        solve_gearboxes(
+        solve: Any = solve_gearboxes
+        solve(
             states.rows,
             states.rates,
             states.gaps,

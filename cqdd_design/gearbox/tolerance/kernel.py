@@ -19,7 +19,7 @@ from cqdd_design.gearbox.precision.kernel import OVERLAP, backlash_sweep
 BACKLASH, TRANSMISSION_ERROR, RING_FORCE, STIFFNESS, RIPPLE = range(5)
 
 
-@numba.njit(cache=True, error_model="numpy")  # type: ignore[misc]
+@numba.njit(cache=True, error_model="numpy")
 def _slope(
     rows: Any,
     rates: Any,
@@ -53,7 +53,7 @@ def _slope(
     return slope
 
 
-@numba.njit(cache=True, error_model="numpy")  # type: ignore[misc]
+@numba.njit(cache=True, error_model="numpy")
 def _follow(
     chosen: Any,
     base: Any,
@@ -111,7 +111,7 @@ def _follow(
                 cam_force, work,
             )  # fmt: skip
             if status != CONVERGED:
-                return a
+                return int(a)
         before[:] = last
         for i in range(size):
             last[i] = state[i] - base[a, i]
@@ -131,7 +131,7 @@ def _follow(
     return -1
 
 
-@numba.njit(cache=True, error_model="numpy", parallel=True)  # type: ignore[misc]
+@numba.njit(cache=True, error_model="numpy", parallel=True)
 def solve_gearboxes(
     rows: Any,
     rates: Any,
@@ -201,9 +201,9 @@ def solve_gearboxes(
         seen = np.empty(6)
         solved, halved = np.empty((count, size)), np.empty((count, size))
         stopped = _follow(
-            every, perfect, solved, torque / length, scale_stiffness, rows, rates, coefficient, crank_angle,
-            teeth, codes, logarithms, series, cam, carrier_stiffness, gaps, gap_rates, offset,
-            offset_rates, half_play, work, marked, seen,
+            every, perfect, solved, torque / length, scale_stiffness, rows, rates, coefficient,
+            crank_angle, teeth, codes, logarithms, series, cam, carrier_stiffness, gaps,
+            gap_rates, offset, offset_rates, half_play, work, marked, seen,
         )  # fmt: skip
         values[s, TRANSMISSION_ERROR] = (seen[1] - seen[0]) / length
         values[s, RING_FORCE] = seen[2]
@@ -211,9 +211,9 @@ def solve_gearboxes(
         loaded = seen[5]
         if stopped < 0:
             stopped = _follow(
-                some, solved, halved, 0.5 * torque / length, scale_stiffness, rows, rates, coefficient,
-                crank_angle, teeth, codes, logarithms, series, cam, carrier_stiffness, gaps,
-                gap_rates, offset, offset_rates, half_play, work, marked, seen,
+                some, solved, halved, 0.5 * torque / length, scale_stiffness, rows, rates,
+                coefficient, crank_angle, teeth, codes, logarithms, series, cam, carrier_stiffness,
+                gaps, gap_rates, offset, offset_rates, half_play, work, marked, seen,
             )  # fmt: skip
             values[s, STIFFNESS] = 0.5 * torque * length / (loaded - seen[5])
         if stopped < 0:
