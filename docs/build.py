@@ -6,6 +6,7 @@
 * ``design.schema.json``: what ``cqdd-design schema`` prints.
 * ``cli.md``: the help of every command, between its markers.
 * ``validation.md``: every number of the literature that a test compares with, as compared.
+* ``contact-model.md``: its validations and its comparison with the paper, between their markers.
 """
 
 from __future__ import annotations
@@ -121,10 +122,105 @@ def validation_page() -> str:
     return "".join(parts)
 
 
+class _Records:
+    """Pytest plugin: collects what tests recorded about their comparisons."""
+
+    def __init__(self) -> None:
+        self.rows: list[tuple[str, ...]] = []
+
+    def pytest_runtest_logreport(self, report: object) -> None:
+        if getattr(report, "when", "") == "call":
+            properties = getattr(report, "user_properties", [])
+            self.rows += [tuple(value) for name, value in properties if name == "validation"]
+
+
+def _validated() -> str:
+    """Table of the contact engine's validations, from a run of their tests."""
+    import pytest
+
+    seen = _Records()
+    quiet = io.StringIO()
+    tests = DOCS.parent / "tests" / "properties" / "test_contact_validation.py"
+    with contextlib.redirect_stdout(quiet):
+        code = pytest.main(
+            [str(tests), "-q", "-p", "no:cacheprovider", "-p", "no:xdist"], plugins=[seen]
+        )
+    if code != 0:
+        raise SystemExit(f"{tests.name} does not pass:\n{quiet.getvalue()}")
+    rows = [f"| {what} | {against} | {met} | {bound} |" for what, against, met, bound in seen.rows]
+    return "\n".join(["| quantity | against | worst met | bound |", "|---|---|---|---|", *rows])
+
+
+WIDER = {
+    "reducer.modification.equidistant": 12e-6,
+    "reducer.output_pins.hole_clearance": 36e-6,
+}
+EDM_ONLY = dict.fromkeys(
+    ("pin_position", "pin_diameter", "eccentricity", "bearing_clearance"), 0.0
+) | {"tooth_position": 1e-6, "hole_position": 1e-6}
+
+
+def _paper_cases() -> list[tuple[str, dict[str, float]]]:
+    """What is drawn: words, and changes of the paper's design."""
+    from cqdd_design.design import load_design
+
+    paper = load_design(DOCS.parent / "designs" / "cqdd-10.toml")
+    usual = {key: getattr(paper.tolerances, key) for key in type(paper.tolerances).model_fields}
+    usual.pop("distribution")
+
+    def times(factor: float) -> dict[str, float]:
+        return {f"tolerances.{key}": factor * value for key, value in usual.items()}
+
+    edm = {f"tolerances.{key}": value for key, value in EDM_ONLY.items()}
+    return [
+        ("wire EDM alone: \u00b12 \u00b5m on every cut and position, pins and cams exact", edm),
+        ("all tolerances of the design", {}),
+        ("all, at 120 N\u00b7m", {"torque": 120.0}),
+        ("all, clearances doubled", WIDER),
+        ("all three times as wide, clearances doubled", times(3.0) | WIDER),
+        ("all five times as wide, clearances doubled", times(5.0) | WIDER),
+        ("holes out of place by 30 \u00b5m, the rest usual", {"tolerances.hole_position": 30e-6}),
+    ]
+
+
+def _paper_table() -> str:
+    """Backlash and ripple of ensembles beside what the paper measured."""
+    from cqdd_design.design import load_design
+    from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
+
+    paper = load_design(DOCS.parent / "designs" / "cqdd-10.toml")
+    rows = ["| the paper, measured | 7.03 \u00b1 1.3 | 3 (\u00b11.5) | |"]
+    for words, changes in _paper_cases():
+        torque = changes.pop("torque", 40.0)
+        ensemble = make_ensemble(paper.replacing(changes), torque=torque)
+        told = run_ensemble(ensemble, 400, sensitivity=False).statistics()
+        backlash, ripple = told["backlash_arcmin"], told["torque_ripple_pp_Nm"]
+        rows.append(
+            f"| {words} | {backlash['mean']:.1f} \u00b1 {backlash['std']:.1f} "
+            f"| {ripple['mean']:.2f} \u00b1 {ripple['std']:.2f} | {ripple['p95']:.2f} |"
+        )
+    head = [
+        "| 400 gearboxes | backlash, arcmin | ripple, peak to peak, N\u00b7m | its 95 % |",
+        "|---|---|---|---|",
+    ]
+    return "\n".join([*head, *rows])
+
+
+def contact_page() -> str:
+    """contact-model.md with its tables as the tests and ensembles give them now."""
+    page = (DOCS / "contact-model.md").read_text(encoding="utf-8")
+    for name, make in (("validation", _validated), ("paper", _paper_table)):
+        begin, end = f"<!-- {name}: written by docs/build.py -->", f"<!-- end of {name} -->"
+        before, _, rest = page.partition(begin)
+        page = f"{before}{begin}\n\n{make()}\n\n{end}{rest.partition(end)[2]}"
+    return page
+
+
 PAGES = {
     "design.schema.json": schema_file,
     "cli.md": cli_page,
     "validation.md": validation_page,
+    "contact-model.md": contact_page,
 }
 
 

@@ -1,0 +1,240 @@
+"""Report sections of the contact engine: what the figures show is what was computed."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from cqdd_design.catalog import find_bearing
+from cqdd_design.design import Design, load_design
+from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.gearbox.contact_analysis import ContactAnalysis, analyse_contact
+from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
+from cqdd_design.report.contact_view import contact_view, force_picture
+from cqdd_design.report.heat import SHADES, bar_chart, heat_map, histogram, labelled_map, shade
+from cqdd_design.report.life_view import life_view
+from cqdd_design.report.losses_view import losses_view
+from cqdd_design.report.machine import Machine
+from cqdd_design.report.precision_view import precision_view
+from cqdd_design.report.svg import Figure
+from cqdd_design.report.tolerance_view import tolerance_view
+
+PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
+
+
+@pytest.fixture(scope="module")
+def design() -> Design:
+    return load_design(PAPER)
+
+
+@pytest.fixture(scope="module")
+def found(design: Design) -> ContactAnalysis:
+    return analyse_contact(design, angles=120)
+
+
+@pytest.fixture(scope="module")
+def machine(design: Design) -> Machine:
+    return Machine.from_design(design, find_bearing("6902"))
+
+
+@pytest.fixture(scope="module")
+def ensemble(design: Design) -> ToleranceResult:
+    return run_ensemble(make_ensemble(design, angles=44), 160)
+
+
+def tree(figure: Figure) -> ElementTree.Element:
+    return ElementTree.fromstring(figure.render())
+
+
+def classed(figure: Figure, tag: str, words: str) -> list[ElementTree.Element]:
+    return [e for e in tree(figure).iter(tag) if words in e.get("class", "").split()]
+
+
+def number(element: ElementTree.Element, name: str) -> float:
+    return float(element.get(name, "nan"))
+
+
+# ------------------------------------------------------------------ building blocks
+
+
+def test_shades_rise_with_the_value() -> None:
+    values = np.linspace(0.0, 7.0, 200)
+    shades = [shade(float(v), 7.0) for v in values]
+    assert shades == sorted(shades)
+    assert shades[0] == 0
+    assert set(shades[1:]) == set(range(1, SHADES + 1))
+    assert shade(1.0, 0.0) == 0
+
+
+def test_the_heat_map_covers_each_loaded_cell_with_its_shade() -> None:
+    rng = np.random.default_rng(3)
+    values = np.maximum(rng.normal(size=(4, 30)), 0.0)
+    figure = heat_map(
+        "h", "t", "d", values=values, rows=list("abcd"), row_label="r", x=(0.0, 30.0),
+        x_ticks=(0.0, 30.0), x_label="x", unit="N", caption="c",
+    )  # fmt: skip
+    frame = classed(figure, "rect", "frame")[0]
+    left, top, width = (number(frame, name) for name in ("x", "y", "width"))
+    cells = [
+        e for e in tree(figure).iter("rect")
+        if e.get("class", "").startswith("heat-") and number(e, "y") >= top - 1e-6
+    ]  # fmt: skip
+    covered = np.zeros(values.shape, dtype=int)
+    for cell in cells:
+        row = round((number(cell, "y") - top) / 15.0)
+        begin = round((number(cell, "x") - left) / width * 30)
+        end = round((number(cell, "x") + number(cell, "width") - left) / width * 30)
+        covered[row, begin:end] = int(cell.get("class", "").removeprefix("heat-"))
+    expected = [[shade(float(v), float(values.max())) for v in row] for row in values]
+    assert np.array_equal(covered, expected)
+
+
+def test_bars_are_in_proportion_and_marks_stand_at_their_values() -> None:
+    figure = bar_chart(
+        "b", "t", "d", names=["a", "b", "c"], values=[4.0, 2.0, 1.0], marks=[1.0, 2.0, 0.5],
+        shown=["4", "2", "1"], caption="c",
+    )  # fmt: skip
+    widths = [number(e, "width") for e in classed(figure, "rect", "share-bar")]
+    assert widths[0] / widths[1] == pytest.approx(2.0, rel=1e-3)
+    assert widths[0] / widths[2] == pytest.approx(4.0, rel=1e-3)
+    left = number(classed(figure, "rect", "share-bar")[0], "x")
+    ticks = [number(e, "x1") - left for e in classed(figure, "line", "bar-one")]
+    assert ticks[1] == pytest.approx(widths[1], abs=0.02)
+    assert ticks[0] == pytest.approx(widths[0] / 4.0, abs=0.02)
+
+
+def test_the_histogram_counts_every_value() -> None:
+    values = np.random.default_rng(1).normal(5.0, 1.0, 400)
+    figure = histogram(
+        "h", "t", "d", values=values, marks=[("p50", float(np.median(values)))], x_label="x",
+        caption="c",
+    )  # fmt: skip
+    heights = [number(e, "height") for e in classed(figure, "rect", "share-bar")]
+    most = int(next(e.text for e in tree(figure).iter("text") if (e.text or "").isdigit()) or 0)
+    tallest = [int(e.text) for e in tree(figure).iter("text") if (e.text or "").isdigit()]
+    assert most > 0
+    counted = sum(h / max(heights) * max(tallest) for h in heights)
+    assert counted == pytest.approx(400, abs=2)
+    mark = classed(figure, "line", "limit")[0]
+    bars = classed(figure, "rect", "share-bar")
+    below = sum(
+        number(b, "height")
+        for b in bars
+        if number(b, "x") + number(b, "width") < number(mark, "x1")
+    )
+    assert below / sum(heights) == pytest.approx(0.5, abs=0.12)
+
+
+def test_a_single_value_makes_a_histogram_too() -> None:
+    figure = histogram(
+        "h", "t", "d", values=np.zeros(5), marks=[("p50", 0.0)], x_label="x", caption="c"
+    )
+    assert len(classed(figure, "rect", "share-bar")) == 1
+
+
+def test_the_labelled_map_writes_its_values_in_per_cent() -> None:
+    figure = labelled_map(
+        "m", "t", "d", values=np.array([[0.5, 0.75], [0.6, 0.9]]), rows=["a", "b"],
+        columns=["1", "2"], row_label="r", column_label="c", caption="c",
+    )  # fmt: skip
+    shown = [e.text for e in classed(figure, "text", "cell-text")]
+    assert shown == ["50.0", "75.0", "60.0", "90.0"]
+    shades = [
+        int(re.search(r"heat-(\d)", e.get("class", ""))[1]) for e in classed(figure, "rect", "cell")
+    ]
+    assert shades[3] == SHADES
+    assert shades == [1, shade(0.25, 0.4), shade(0.1, 0.4), SHADES]
+
+
+# ------------------------------------------------------------------ sections
+
+
+def test_the_darkest_cell_is_the_most_loaded_tooth(
+    found: ContactAnalysis, machine: Machine, design: Design
+) -> None:
+    view = contact_view(found, machine, analyse_gearbox(design).rigid)
+    assert len(view.heat_maps) == 2
+    turn = found.crank_turn
+    for disc, figure in enumerate(view.heat_maps):
+        force = turn.ring_force[:, disc, :]
+        angle, tooth = np.unravel_index(int(force.argmax()), force.shape)
+        frame = classed(figure, "rect", "frame")[0]
+        at_x = number(frame, "x") + number(frame, "width") * (angle + 0.5) / len(force)
+        at_y = number(frame, "y") + 15.0 * (tooth + 0.5)
+        inside = [
+            e for e in classed(figure, "rect", f"heat-{SHADES}")
+            if number(e, "x") <= at_x <= number(e, "x") + number(e, "width")
+            and number(e, "y") <= at_y <= number(e, "y") + 15.0
+        ]  # fmt: skip
+        assert inside
+    rows = {name: (law, here) for name, law, here in view.rows}
+    law, here = rows["greatest load of a cam bearing"]
+    assert "5003" in law
+    assert f"{found.sweep.cam_load.max():.0f}"[:3] in here.replace("\u202f", "")
+
+
+def test_arrows_point_where_the_forces_do(found: ContactAnalysis, machine: Machine) -> None:
+    turn = found.crank_turn
+    figure = force_picture(turn, machine)
+    at, disc, _ = np.unravel_index(int(turn.ring_force.argmax()), turn.ring_force.shape)
+    shafts = classed(figure, "line", "force-ring-line")
+    loaded = np.flatnonzero(turn.ring_force[at, disc] > 0.0)
+    assert len(shafts) == len(loaded)
+    for shaft, tooth in zip(shafts, loaded, strict=True):
+        dx = number(shaft, "x2") - number(shaft, "x1")
+        dy = number(shaft, "y1") - number(shaft, "y2")
+        nx, ny = turn.ring_normal[at, disc, tooth]
+        if math.hypot(dx, dy) > 8.0:
+            assert math.atan2(dy, dx) == pytest.approx(math.atan2(ny, nx), abs=0.02)
+    labels = [e.text for e in classed(figure, "text", "force-label")]
+    greatest = f"{turn.ring_force[at, disc].max():.0f}"
+    assert greatest in [(text or "").replace("\u202f", "") for text in labels]
+
+
+def test_precision_stands_beside_the_paper_only_for_its_design(found: ContactAnalysis) -> None:
+    paper = precision_view(found, "cqdd-10")
+    other = precision_view(found, "my-joint")
+    assert paper.measured
+    assert not other.measured
+    assert any("7.03" in row[3] for row in paper.rows)
+    assert all(row[3] == "" for row in other.rows)
+    bars = classed(paper.figures[1], "rect", "share-bar")
+    sizes = [o.amplitude for o in found.precision.orders[: len(bars)]]
+    widths = [number(b, "width") for b in bars]
+    assert widths[1] / widths[0] == pytest.approx(sizes[1] / sizes[0], rel=0.02)
+
+
+def test_losses_add_up(found: ContactAnalysis, design: Design) -> None:
+    view = losses_view(found, design)
+    widths = [number(b, "width") for b in classed(view.figures[0], "rect", "share-bar")]
+    power = list(found.losses.by_source.values())
+    assert widths[1] / widths[0] == pytest.approx(power[1] / power[0], rel=0.01)
+    shown = [float(e.text or "nan") for e in classed(view.figures[1], "text", "cell-text")]
+    grid = found.efficiency_map(design)
+    assert shown[0] == pytest.approx(100.0 * grid.forward[0, -1], abs=0.05)
+    assert shown[-1] == pytest.approx(100.0 * grid.forward[-1, 0], abs=0.05)
+
+
+def test_life_tells_what_does_not_last(found: ContactAnalysis) -> None:
+    view = life_view(found.life)
+    assert view.assumed
+    holds = {row[0]: row[5] for row in view.rows}
+    for part in found.life.parts:
+        lasts = part.hours is None or part.hours >= 1000.0
+        assert holds[part.part] is (lasts and part.limit > 0.0)
+
+
+def test_tolerances_show_the_ensemble(ensemble: ToleranceResult) -> None:
+    view = tolerance_view(ensemble)
+    assert "160 gearboxes" in view.lead
+    assert len(view.histograms) == 2
+    assert len(view.rankings) == 2
+    ranked = ensemble.ranking("backlash_arcmin")
+    names = [e.text for e in classed(view.rankings[0], "text", "name-dark")]
+    assert names == [group.replace("_", " ") for group, _, _ in ranked]
+    assert len(view.rows) == 5
