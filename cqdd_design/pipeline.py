@@ -30,8 +30,10 @@ Progress = Callable[[str], None]
 #: How often sizing and `write_report` tell their progress.
 SIZING_STAGES, REPORT_STAGES = 2, 4
 
-#: Toleranced gearboxes of a report: percentiles to a few per cent, in some four seconds.
-REPORT_SAMPLES = 400
+#: Toleranced gearboxes of a report, fewer of those with many teeth: percentiles to a few per
+#: cent in some seconds, and never too few for a ranking.
+REPORT_SAMPLES, LEAST_REPORT_SAMPLES = 400, 128
+_REPORT_ANGLES = 1000
 
 
 def _silent(stage: str) -> None:
@@ -332,8 +334,16 @@ def _contact_and_tolerances(
     progress("solving toleranced gearboxes")
     if not samples:
         return contact, None, contact.warnings
+    ratio = design.reducer.ratio
+    # Eight angles a tooth as in `tolerance`, down to two where there are many teeth.
+    per_tooth = min(max(_REPORT_ANGLES // (ratio * (ratio + 1)), 2), 8)
+    angles = per_tooth * ratio * (ratio + 1)
+    fitting = samples * _REPORT_ANGLES // max(angles, _REPORT_ANGLES)
     try:
-        ensemble = run_ensemble(make_ensemble(design), samples)
+        ensemble = run_ensemble(
+            make_ensemble(design, angles=angles),
+            max(fitting, min(samples, LEAST_REPORT_SAMPLES)),
+        )
     except (ContactError, UsageError) as error:
         return contact, None, (*contact.warnings, f"no tolerances: {error.message}")
     if ensemble.interrupted:

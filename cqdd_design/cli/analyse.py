@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -12,6 +13,14 @@ from cqdd_design.cli.tables import number, table
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox import GearboxAnalysis
+
+
+class ContactLaw(StrEnum):
+    """Approach of teeth and pins over force."""
+
+    palmgren = "palmgren"
+    johnson = "johnson"
+    linear = "linear"
 
 
 def analyse(
@@ -26,6 +35,10 @@ def analyse(
     speed: Annotated[
         str | None, typer.Option(metavar="Q", help='Input speed, as in "1286 rpm".')
     ] = None,
+    law: Annotated[
+        ContactLaw,
+        typer.Option("--contact-law", help="How line contacts yield to force."),
+    ] = ContactLaw.palmgren,
 ) -> None:
     """Loads, contact equilibrium, precision, losses and life."""
     from cqdd_design.cli.tables import verdict
@@ -44,7 +57,9 @@ def analyse(
     results, warnings = analysis.to_dict(), list(analysis.warnings)
     out.note_compilation()
     try:
-        contact = analyse_contact(analysis.design, torque=asked_torque, angles=angles)
+        contact = analyse_contact(
+            analysis.design, torque=asked_torque, angles=angles, line_model=law.value
+        )
     except ContactError as error:
         # A gearbox that cannot carry the torque is described as far as closed forms go.
         results |= dict.fromkeys(("contact", "precision", "losses", "life"))

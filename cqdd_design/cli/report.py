@@ -26,6 +26,7 @@ def report(
     from cqdd_design.design import load_design
 
     loaded = load_design(design)
+    out.note_compilation()
     file, analysis = pipeline.write_report(
         loaded, target, source=design, force=force, progress=out.stages(pipeline.REPORT_STAGES)
     )

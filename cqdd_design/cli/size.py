@@ -82,6 +82,8 @@ def size(
     asked |= {} if discs is None else {"disc_count": discs}
     kinds = () if export is None else read_kinds(export)
     wanted = _requirements(asked, requirements)
+    if report:
+        out.note_compilation()
     stages = out.stages(pipeline.road_stages(kinds, report=report))
     road = pipeline.size_and_write(
         wanted, target, kinds=kinds, report=report, force=force, progress=stages

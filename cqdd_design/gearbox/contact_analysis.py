@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.design import Design
+from cqdd_design.gearbox.contact.laws import LineModel
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.contact.sweep import ANGLES, ContactSweep, contact_sweep, perfect_angles
@@ -20,7 +21,7 @@ from cqdd_design.gearbox.precision.precision import Precision, precision
 
 FloatArray = NDArray[np.float64]
 
-_MAP_SPEEDS, _MAP_TORQUES = 8, 8
+_MAP_STEPS = 8
 _PICTURE_ANGLES = 180
 
 
@@ -40,6 +41,8 @@ class ContactAnalysis:
     loss_model : LossModel
     losses : Losses
         At the torque of `precision` and the input speed.
+    map : EfficiencyMap
+        From an eighth of the input speed and of the peak torque up to both.
     life : LifeResult
         Over the duty of the requirements.
     """
@@ -51,6 +54,7 @@ class ContactAnalysis:
     precision: Precision
     loss_model: LossModel
     losses: Losses
+    map: EfficiencyMap
     life: LifeResult
 
     @property
@@ -58,15 +62,6 @@ class ContactAnalysis:
         """The same load over one crank turn, every two degrees, for pictures."""
         angle = 2.0 * np.pi * np.arange(_PICTURE_ANGLES) / _PICTURE_ANGLES
         return contact_sweep(self.model, self.sweep.torque, angle)
-
-    def efficiency_map(self, design: Design) -> EfficiencyMap:
-        """Efficiency from an eighth of the input speed and peak torque up to both."""
-        asked = design.requirements
-        shares = np.arange(1, _MAP_SPEEDS + 1) / _MAP_SPEEDS
-        torques = np.arange(1, _MAP_TORQUES + 1) / _MAP_TORQUES
-        return self.loss_model.efficiency_map(
-            shares * asked.input_speed, torques * asked.peak_torque
-        )
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -85,11 +80,12 @@ class ContactAnalysis:
             ("output_pressure_max_MPa", self.sweep.pin_pressure / 1e6, back.pin_pressure / 1e6),
         ):
             contact[key] = max(float(here.max()), float(there.max()))
+        contact["contact_law"] = self.model.ring_law.model
         contact["preload"] = None if self.preload is None else _preload(self.preload)
         return {
             "contact": contact,
             "precision": self.precision.to_dict(),
-            "losses": self.losses.to_dict(),
+            "losses": self.losses.to_dict() | {"efficiency_map": self.map.to_dict()},
             "life": self.life.to_dict(),
         }
 
@@ -105,7 +101,11 @@ def _preload(sweep: ContactSweep) -> dict[str, float]:
 
 
 def analyse_contact(
-    design: Design, *, torque: float | None = None, angles: int = ANGLES
+    design: Design,
+    *,
+    torque: float | None = None,
+    angles: int = ANGLES,
+    line_model: LineModel = "palmgren",
 ) -> ContactAnalysis:
     """Solve the contact equilibrium of a design over its period, and what follows from it.
 
@@ -117,13 +117,15 @@ def analyse_contact(
         precision and losses at the continuous one.
     angles : int
         Crank angles over the period.
+    line_model : {"palmgren", "johnson", "linear"}
+        Approach of teeth and pins.
 
     Raises
     ------
     ContactError
         When the gearbox has no equilibrium at the torque, naming torque and angle.
     """
-    model = ContactModel.from_design(design)
+    model = ContactModel.from_design(design, line_model)
     states = nominal_states(model, perfect_angles(model, angles))
     asked = design.requirements
     peak = asked.peak_torque if torque is None else torque
@@ -131,6 +133,7 @@ def analyse_contact(
     sweep = contact_sweep(model, peak, states=states)
     tight = bool(states.gaps.min() < 0.0)
     friction = loss_model(model, design)
+    shares = np.arange(1, _MAP_STEPS + 1) / _MAP_STEPS
     return ContactAnalysis(
         model=model,
         sweep=sweep,
@@ -139,5 +142,6 @@ def analyse_contact(
         precision=precision(model, steady, angles=angles),
         loss_model=friction,
         losses=friction.at(asked.input_speed, steady),
+        map=friction.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),
         life=life(design, model),
     )

@@ -145,7 +145,7 @@ def _engine(results: ReportInput, machine: Machine) -> dict[str, Any]:
         values = {
             "contact": contact_view(found, machine, results.gearbox.rigid),
             "precision": precision_view(found, design.name),
-            "losses": losses_view(found, design),
+            "losses": losses_view(found),
             "life": life_view(found.life),
         }
     ensemble = results.tolerance

@@ -11,7 +11,6 @@ from cqdd_design.report.numbers import significant, with_unit
 from cqdd_design.report.svg import Figure
 
 if TYPE_CHECKING:
-    from cqdd_design.design import Design
     from cqdd_design.gearbox.contact_analysis import ContactAnalysis
 
 _RPM = 30.0 / math.pi
@@ -25,7 +24,7 @@ class LossesView:
     rows: tuple[tuple[str, str, str], ...]
 
 
-def losses_view(analysis: ContactAnalysis, design: Design) -> LossesView:
+def losses_view(analysis: ContactAnalysis) -> LossesView:
     """Values of the section."""
     found = analysis.losses
     torque = with_unit(found.torque, "N*m")
@@ -41,7 +40,7 @@ def losses_view(analysis: ContactAnalysis, design: Design) -> LossesView:
         caption=f"{significant(found.total, 3)} W in all at {torque} and {speed} of the input: "
         "Coulomb friction, bearings and the shear of the grease; no Stribeck curve.",
     )
-    grid = analysis.efficiency_map(design)
+    grid = analysis.map
     order = slice(None, None, -1)
     chart = labelled_map(
         "efficiency-map",

@@ -9,7 +9,7 @@ import time
 
 import pytest
 
-HEAVY = ("cadquery", "torch", "dask", "mujoco", "OCP", "vtkmodules", "matplotlib")
+HEAVY = ("cadquery", "torch", "dask", "numba", "mujoco", "OCP", "vtkmodules", "matplotlib")
 
 
 @pytest.fixture

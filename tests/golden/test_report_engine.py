@@ -209,13 +209,13 @@ def test_precision_stands_beside_the_paper_only_for_its_design(found: ContactAna
     assert widths[1] / widths[0] == pytest.approx(sizes[1] / sizes[0], rel=0.02)
 
 
-def test_losses_add_up(found: ContactAnalysis, design: Design) -> None:
-    view = losses_view(found, design)
+def test_losses_add_up(found: ContactAnalysis) -> None:
+    view = losses_view(found)
     widths = [number(b, "width") for b in classed(view.figures[0], "rect", "share-bar")]
     power = list(found.losses.by_source.values())
     assert widths[1] / widths[0] == pytest.approx(power[1] / power[0], rel=0.01)
     shown = [float(e.text or "nan") for e in classed(view.figures[1], "text", "cell-text")]
-    grid = found.efficiency_map(design)
+    grid = found.map
     assert shown[0] == pytest.approx(100.0 * grid.forward[0, -1], abs=0.05)
     assert shown[-1] == pytest.approx(100.0 * grid.forward[-1, 0], abs=0.05)
 

@@ -34,8 +34,8 @@ OUTPUTS: tuple[str, ...] = (
 
 _ARCMIN = math.degrees(1.0) * 60.0
 
-_COARSE = 9
-"""About every ninth angle serves backlash and stiffness, whose means need no fine orders."""
+_COARSE = 100
+"""About so many of the angles serve backlash and stiffness, whose means need no fine orders."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,11 +87,12 @@ def _stride(lobe_count: int) -> int:
     """Step between the coarse angles: odd, or all of them would meet the teeth in one phase.
 
     There are eight angles to a tooth, so an even step would see one, two or four of their phases.
-    A divisor of n (n + 1) spaces the coarse angles evenly round the turn.
+    A divisor of n (n + 1) spaces the coarse angles evenly round the turn; n or n + 1 is one.
     """
     whole = lobe_count * (lobe_count + 1)
-    odd = [step for step in range(3, 16, 2) if whole % step == 0]
-    return min(odd, key=lambda step: abs(step - _COARSE), default=_COARSE)
+    wanted = output_turn_count(lobe_count) / _COARSE
+    odd = [step for step in range(3, whole + 1, 2) if whole % step == 0]
+    return min(odd, key=lambda step: abs(math.log(step / wanted)))
 
 
 def marked_angles(lobe_count: int, count: int) -> NDArray[np.bool_]:
