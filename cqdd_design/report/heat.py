@@ -1,13 +1,13 @@
-"""Heat maps, bars and histograms as inline SVG."""
+"""Heat maps as inline SVG: cells of one shade are merged, so that a page stays light."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.report.charts import nice_step
 from cqdd_design.report.numbers import significant
 from cqdd_design.report.svg import Figure, element, line, rectangle, text
 
@@ -16,7 +16,11 @@ FloatArray = NDArray[np.float64]
 SHADES = 9
 """Classes of the colour scale, ``heat-0`` (nothing) to ``heat-9`` (the greatest)."""
 
+MOST_COLUMNS, MOST_ROWS = 180, 120
+"""Cells of a heat map; more are drawn as the greatest of their neighbours."""
+
 _LEFT, _RIGHT, _TOP = 58.0, 16.0, 40.0
+_CELL, _TALLEST, _LABEL = 15.0, 420.0, 12.5
 
 
 def shade(value: float, most: float) -> int:
@@ -32,6 +36,19 @@ def shade(value: float, most: float) -> int:
     return min(1 + int(SHADES * value / most), SHADES)
 
 
+def greatest_of_neighbours(values: FloatArray, most: int, axis: int) -> FloatArray:
+    """Values with neighbours along an axis merged into their greatest, `most` at the most.
+
+    Examples
+    --------
+    >>> greatest_of_neighbours(np.array([[1.0, 5.0, 2.0, 3.0, 4.0]]), 3, 1)
+    array([[5., 3., 4.]])
+    """
+    each = math.ceil(values.shape[axis] / most)
+    starts = np.arange(0, values.shape[axis], each)
+    return np.asarray(np.maximum.reduceat(values, starts, axis=axis))
+
+
 def heat_map(
     id_: str,
     title: str,
@@ -45,6 +62,7 @@ def heat_map(
     x_label: str,
     unit: str,
     caption: str,
+    most: float | None = None,
     width: float = 430.0,
 ) -> Figure:
     """Values over an abscissa, one row of cells each, darker where greater.
@@ -54,7 +72,7 @@ def heat_map(
     id_, title, description, caption : str
         Of the figure.
     values : array (rows, columns)
-        Not negative; neighbouring cells of one shade are drawn as one.
+        Not negative; drawn at `MOST_ROWS` by `MOST_COLUMNS` or coarser.
     rows : sequence of str
         Names of the rows, top first.
     row_label, x_label, unit : str
@@ -62,17 +80,24 @@ def heat_map(
     x : (float, float)
         Abscissae of the first cell's left and the last cell's right edge.
     x_ticks : sequence of float
+    most : float, optional
+        Value of the darkest shade, where maps share a scale; default the greatest here.
     width : float
         px.
     """
-    most = float(values.max(initial=0.0))
-    cell_h = 15.0
-    plot_w, plot_h = width - _LEFT - _RIGHT, cell_h * len(rows)
+    most = float(values.max(initial=0.0)) if most is None else most
+    names = rows[:: math.ceil(len(rows) / MOST_ROWS)]
+    values = greatest_of_neighbours(values, MOST_ROWS, 0)
+    values = greatest_of_neighbours(values, MOST_COLUMNS, 1)
+    cell_h = min(_CELL, _TALLEST / len(names))
+    every = math.ceil(_LABEL / cell_h)
+    plot_w, plot_h = width - _LEFT - _RIGHT, cell_h * len(names)
     step = plot_w / values.shape[1]
     body = [*_scale(width, most, unit)]
-    for row, name in enumerate(rows):
+    for row, name in enumerate(names):
         y = _TOP + cell_h * row
-        body.append(text((_LEFT - 7.0, y + 11.0), name, "tick", "end"))
+        if row % every == 0:
+            body.append(text((_LEFT - 7.0, y + 0.5 * cell_h + 4.0), name, "tick", "end"))
         shades = [shade(float(v), most) for v in values[row]]
         begin = 0
         for column in range(1, len(shades) + 1):
@@ -95,15 +120,19 @@ def heat_map(
 
 
 def _scale(width: float, most: float, unit: str) -> list[str]:
-    """The colour scale with its ends named."""
-    size = 15.0
+    """The colour scale, named at its thirds."""
+    size = 19.0
     begin = width - _RIGHT - size * SHADES
-    parts = [text((begin - 6.0, 22.0), "0", "tick", "end")]
-    parts += [
-        rectangle(begin + size * (k - 1), 12.0, size, 12.0, f"heat-{k}")
+    parts = [
+        rectangle(begin + size * (k - 1), 4.0, size, 11.0, f"heat-{k}")
         for k in range(1, SHADES + 1)
     ]
-    parts.append(text((width - _RIGHT, 36.0), f"{significant(most)} {unit}", "tick", "end"))
+    for third in range(4):
+        at = begin + size * SHADES * third / 3.0
+        shown = significant(most * third / 3.0, 3)
+        parts.append(line((at, 15.0), (at, 19.0), "axis"))
+        parts.append(text((at, 30.0), shown, "tick", "middle"))
+    parts.append(text((begin - 8.0, 13.5), unit, "tick", "end"))
     return parts
 
 
@@ -152,102 +181,3 @@ def labelled_map(
     middle = 14.0 + cell_h * len(rows) / 2.0
     body.append(text((14.0, middle), row_label, "label", "middle", turn=-90.0))
     return Figure(id_, title, description, width, bottom + 42.0, "".join(body), caption)
-
-
-def bar_chart(
-    id_: str,
-    title: str,
-    description: str,
-    *,
-    names: Sequence[str],
-    values: Sequence[float],
-    shown: Sequence[str],
-    caption: str,
-    marks: Sequence[float] | None = None,
-) -> Figure:
-    """Horizontal bars from a common zero, each with its name and value.
-
-    Parameters
-    ----------
-    names, shown : sequences of str
-        Left of each bar and right of it.
-    values : sequence of float
-        Not negative; lengths are in proportion.
-    marks : sequence of float, optional
-        A second value of each bar, drawn as a tick across it.
-    """
-    width, left, right, pitch = 430.0, 148.0, 82.0, 24.0
-    reach = width - left - right
-    most = max([*values, *(marks or ()), 1e-12])
-    body = []
-    for k, (name, value, label) in enumerate(zip(names, values, shown, strict=True)):
-        y = 8.0 + pitch * k
-        body.append(text((left - 8.0, y + 12.5), name, "name-dark", "end"))
-        length = max(reach * value / most, 0.75)
-        body.append(rectangle(left, y + 2.0, length, 14.0, "share-bar"))
-        if marks is not None:
-            at = left + reach * max(marks[k], 0.0) / most
-            body.append(line((at, y), (at, y + 18.0), "bar-one"))
-        body.append(text((left + length + 7.0, y + 13.0), label, "tick"))
-    height = 12.0 + pitch * len(names)
-    return Figure(id_, title, description, width, height, "".join(body), caption)
-
-
-def histogram(
-    id_: str,
-    title: str,
-    description: str,
-    *,
-    values: FloatArray,
-    marks: Sequence[tuple[str, float]],
-    x_label: str,
-    caption: str,
-    bins: int = 30,
-) -> Figure:
-    """A histogram with named percentiles.
-
-    Parameters
-    ----------
-    values : array (S,)
-    marks : sequence of (str, float)
-        Drawn as vertical lines with their names.
-    bins : int
-        At most this many.
-    """
-    width, height, bottom = 430.0, 240.0, 44.0
-    low, high = float(values.min()), float(values.max())
-    step = nice_step(max(high - low, 1e-9), bins)
-    first, last = np.floor(low / step), np.ceil(high / step) + (high == low)
-    edges = step * np.arange(first, max(last, first + 1.0) + 0.5)
-    counts, edges = np.histogram(values, edges)
-    plot_w, plot_h = width - _LEFT - _RIGHT, height - _TOP - bottom
-    most = max(int(counts.max()), 1)
-    reach = float(edges[-1] - edges[0])
-
-    def place(value: float) -> float:
-        return _LEFT + plot_w * (value - float(edges[0])) / reach
-
-    base = _TOP + plot_h
-    body = []
-    for count, begin, end in zip(counts, edges[:-1], edges[1:], strict=True):
-        tall = plot_h * float(count) / most
-        x0, x1 = place(float(begin)), place(float(end))
-        if count:
-            body.append(rectangle(x0 + 0.5, base - tall, x1 - x0 - 1.0, tall, "share-bar"))
-    body.append(line((_LEFT, base), (width - _RIGHT, base), "axis"))
-    ticks = nice_step(reach, 6)
-    tick = ticks * np.ceil(float(edges[0]) / ticks - 1e-9)
-    while tick <= float(edges[-1]) + 1e-9 * ticks:
-        body.append(line((place(tick), base), (place(tick), base + 4.0), "axis"))
-        body.append(text((place(tick), base + 17.0), significant(float(tick)), "tick", "middle"))
-        tick += ticks
-    for k, (name, value) in enumerate(marks):
-        at = place(value)
-        top = _TOP - 8.0 - 13.0 * (k % 2)
-        body.append(line((at, top), (at, base), "limit"))
-        body.append(text((at, top - 3.0), f"{name} {significant(value, 3)}", "tick", "middle"))
-    body.append(text((_LEFT + plot_w / 2.0, height - 8.0), x_label, "label", "middle"))
-    middle = _TOP + plot_h / 2.0
-    body.append(text((14.0, middle), "gearboxes", "label", "middle", turn=-90.0))
-    body.append(text((_LEFT - 7.0, _TOP + 4.0), str(most), "tick", "end"))
-    return Figure(id_, title, description, width, height, "".join(body), caption)

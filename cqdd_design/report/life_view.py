@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 from cqdd_design.report.numbers import significant, with_unit
 
 if TYPE_CHECKING:
-    from cqdd_design.gearbox.life import LifeResult
-    from cqdd_design.gearbox.life.life import PartLife
+    from cqdd_design.gearbox.life import LifeResult, PartLife
 
 
 @dataclass(frozen=True)
@@ -22,14 +21,14 @@ class LifeView:
     duty : tuple of (torque, speed, share)
     assumed : bool
     required : str
-    rows : tuple of (part, stress, limit, life, reserve, holds)
+    rows : tuple of (part, worst place, stress, limit, life, reserve, holds)
     bearings : tuple of (name, load, life, holds)
     """
 
     duty: tuple[tuple[str, str, str], ...]
     assumed: bool
     required: str
-    rows: tuple[tuple[str, str, str, str, str, bool], ...]
+    rows: tuple[tuple[str, str, str, str, str, str, bool], ...]
     bearings: tuple[tuple[str, str, str, bool], ...]
 
 
@@ -67,11 +66,12 @@ def _hours(hours: float | None) -> str:
     return f"{significant(hours, 3)}\u202fh"
 
 
-def _row(part: PartLife, required: float) -> tuple[str, str, str, str, str, bool]:
+def _row(part: PartLife, required: float) -> tuple[str, str, str, str, str, str, bool]:
     known = part.limit > 0.0
     reserve = "\u2013" if part.reserve is None else significant(min(part.reserve, 1e3), 3)
     return (
         part.part,
+        part.place,
         with_unit(part.stress / 1e6, "MPa"),
         with_unit(part.limit / 1e6, "MPa") if known else "unknown",
         _hours(part.hours) if known else "unknown",

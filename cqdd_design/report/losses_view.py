@@ -6,7 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from cqdd_design.report.heat import bar_chart, labelled_map
+from cqdd_design.report.bars import bar_chart
+from cqdd_design.report.heat import labelled_map
 from cqdd_design.report.numbers import significant, with_unit
 from cqdd_design.report.svg import Figure
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cqdd_design.report.bars import bar_chart
 from cqdd_design.report.charts import Curve, line_chart
-from cqdd_design.report.heat import bar_chart
 from cqdd_design.report.numbers import significant, with_unit
 from cqdd_design.report.svg import Figure
 

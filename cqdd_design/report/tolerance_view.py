@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from cqdd_design.report.heat import bar_chart, histogram
+from cqdd_design.report.bars import bar_chart, histogram
 from cqdd_design.report.numbers import significant, with_unit
 from cqdd_design.report.svg import Figure
 

@@ -15,8 +15,9 @@ from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox import analyse_gearbox
 from cqdd_design.gearbox.contact_analysis import ContactAnalysis, analyse_contact
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
+from cqdd_design.report.bars import bar_chart, histogram
 from cqdd_design.report.contact_view import contact_view, force_picture
-from cqdd_design.report.heat import SHADES, bar_chart, heat_map, histogram, labelled_map, shade
+from cqdd_design.report.heat import SHADES, heat_map, labelled_map, shade
 from cqdd_design.report.life_view import life_view
 from cqdd_design.report.losses_view import losses_view
 from cqdd_design.report.machine import Machine
@@ -120,7 +121,7 @@ def test_the_histogram_counts_every_value() -> None:
     assert most > 0
     counted = sum(h / max(heights) * max(tallest) for h in heights)
     assert counted == pytest.approx(400, abs=2)
-    mark = classed(figure, "line", "limit")[0]
+    mark = classed(figure, "line", "percentile")[0]
     bars = classed(figure, "rect", "share-bar")
     below = sum(
         number(b, "height")
@@ -223,7 +224,7 @@ def test_losses_add_up(found: ContactAnalysis) -> None:
 def test_life_tells_what_does_not_last(found: ContactAnalysis) -> None:
     view = life_view(found.life)
     assert view.assumed
-    holds = {row[0]: row[5] for row in view.rows}
+    holds = {row[0]: row[6] for row in view.rows}
     for part in found.life.parts:
         lasts = part.hours is None or part.hours >= 1000.0
         assert holds[part.part] is (lasts and part.limit > 0.0)

@@ -45,6 +45,9 @@ class Backlash:
         preloaded and have no backlash there.
     preload_limit : float
         m.
+    poses : array (2, A, 3 + 3 D)
+        Carrier (X, Y, gamma) and every disc (x, y, theta) at the least and at the greatest angle,
+        angles times the pin circle, m.
     """
 
     crank_angle: FloatArray
@@ -52,6 +55,7 @@ class Backlash:
     greatest: FloatArray
     overlap: FloatArray
     preload_limit: float
+    poses: FloatArray
 
     @property
     def free(self) -> FloatArray:
@@ -106,7 +110,7 @@ def backlash(
         states = nominal_states(model, np.asarray(crank_angle, dtype=float))
     changed = error_states(model, states, errors)
     nominal = states.gaps + changed.gaps
-    ends, overlaps = [], []
+    ends, overlaps, extremes = [], [], []
     for sense in (-1.0, 1.0):
         gaps = nominal
         for _ in range(_CORRECTIONS + 1):
@@ -118,7 +122,15 @@ def backlash(
             gaps[:, :, : model.tooth_count] += exact - modelled
         ends.append(end)
         overlaps.append(overlap)
-    return Backlash(states.crank_angle, ends[0], ends[1], np.maximum(*overlaps), OVERLAP)
+        extremes.append(poses)
+    return Backlash(
+        crank_angle=states.crank_angle,
+        least=ends[0],
+        greatest=ends[1],
+        overlap=np.maximum(*overlaps),
+        preload_limit=OVERLAP,
+        poses=np.stack(extremes),
+    )
 
 
 def _apart(model: ContactModel, states: NominalStates, errors: GearboxErrors | None) -> FloatArray:
@@ -161,6 +173,7 @@ def _push(
         np.arange(count),
         states.crank_angle,
         sense,
+        np.zeros((count, 3 + 3 * discs)),
         end,
         overlap,
         poses,

@@ -126,6 +126,7 @@ def backlash_sweep(
     angles: Any,
     crank_angle: Any,
     sense: float,
+    starts: Any,
     ends: Any,
     preload: Any,
     poses: Any,
@@ -158,6 +159,9 @@ def backlash_sweep(
         rad.
     sense : float
         1 for the greatest carrier angle, -1 for the least.
+    starts : array (A, 3 + 3 D)
+        Known poses nearby, such as those of the perfect gearbox, or zeros; a state starts from
+        its own plus the deviation of the one before.
     ends : array (B,)
         Out: that angle, rad.
     preload : array (B,)
@@ -180,15 +184,16 @@ def backlash_sweep(
     cam_force = np.empty((discs, 2))
     ones = np.ones((discs, contacts))
     soft = np.zeros(discs)
-    state, origin = np.zeros(size), np.zeros(size)
+    state, origin, deviation = np.zeros(size), np.zeros(size), np.zeros(size)
     last, before = np.zeros(size), np.zeros(size)
     push = sense * _PUSH
     for b in range(angles.size):
         a = angles[b]
-        if b == 0:
-            state[:] = 0.0
-        else:
-            predict(last, before, crank_angle[a] - crank_angle[angles[b - 1]], 1, state)
+        if b > 0:
+            turn = crank_angle[a] - crank_angle[angles[b - 1]]
+            predict(last, before, turn, 1, deviation)
+        for i in range(size):
+            state[i] = starts[a, i] + deviation[i]
         torsional, overlap, worst, still, tight = 0.0, 0.0, 0.0, False, 0
         for round_ in range(_ROUNDS):
             if round_ > _FREE_ROUNDS:
@@ -196,15 +201,10 @@ def backlash_sweep(
                 for i in range(size):
                     state[i] = 0.5 * (state[i] + origin[i])
             origin[:] = state
-            if round_ == 0 and b == 0:
-                rows[:] = nominal_rows[a]
-                gaps[:] = nominal_gaps[a]
-            else:
-                _true_gaps(
-                    nominal_rows[a], nominal_gaps[a], curvature[a], tooth_centre,
-                    own_angle[a], pin_angle[a], apart[a], eccentricity, length, teeth,
-                    state, rows, gaps,
-                )  # fmt: skip
+            _true_gaps(
+                nominal_rows[a], nominal_gaps[a], curvature[a], tooth_centre, own_angle[a],
+                pin_angle[a], apart[a], eccentricity, length, teeth, state, rows, gaps,
+            )  # fmt: skip
             # A firmer push first: it finds which contacts matter in fewer steps.
             firm = _FIRM * push if round_ == 0 else push
             status, _, torsional = solve_state(
@@ -231,6 +231,6 @@ def backlash_sweep(
         ends[b] = (state[2] - push / torsional) / length
         preload[b] = overlap
         poses[b] = state
-        before[:] = last
-        last[:] = state
+        for i in range(size):
+            last[i] = state[i] - starts[a, i]
     return -1

@@ -20,6 +20,7 @@ from cqdd_design.gearbox.contact.sweep import (
     output_turn_count,
     stiffness_scale,
 )
+from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.geometry.meshing import tooth_centres
 
 FloatArray = NDArray[np.float64]
@@ -53,6 +54,8 @@ class EnsembleTables:
         Angles that serve backlash and stiffness.
     perfect : array (A, 3 + 3 D)
         States of the perfect gearbox under the torque, from which the others start.
+    free_poses : array (2, A, 3 + 3 D)
+        Its poses at both ends of its backlash, likewise.
     """
 
     model: ContactModel
@@ -60,6 +63,7 @@ class EnsembleTables:
     states: NominalStates
     marked: NDArray[np.bool_]
     perfect: FloatArray
+    free_poses: FloatArray
 
     @property
     def solves_per_gearbox(self) -> int:
@@ -120,7 +124,9 @@ def ensemble_tables(
     states = nominal_states(model, output_turn_angles(model, angles))
     marked = marked_angles(model.lobe_count, len(states.crank_angle))
     perfect = contact_sweep(model, torque, states=states).state_vectors
-    return EnsembleTables(model, torque, states, marked, perfect)
+    return EnsembleTables(
+        model, torque, states, marked, perfect, backlash(model, states=states).poses
+    )
 
 
 def evaluate_gearboxes(
@@ -167,6 +173,7 @@ def evaluate_gearboxes(
             states.pins.pin_angle,
             tables.marked,
             tables.perfect,
+            tables.free_poses,
             harmonic_basis(table_size(len(states.crank_angle), harmonics), harmonics),
             model.lobe_count,
             model.cam.play,

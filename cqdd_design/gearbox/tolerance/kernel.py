@@ -146,6 +146,7 @@ def solve_gearboxes(
     pin_angle: Any,
     marked: Any,
     perfect: Any,
+    free_poses: Any,
     basis: Any,
     lobe_count: int,
     play: float,
@@ -174,7 +175,8 @@ def solve_gearboxes(
 
     Nominal tables have a leading axis A (angles), errors a leading axis S. `marked` (A,) tells
     which angles are used for backlash and stiffness, `perfect` (A, 3 + 3 D) are the perfect
-    gearbox's states under the same torque. Out: `values` (S, 5) in SI (the backlash and
+    gearbox's states under the same torque, `free_poses` (2, A, 3 + 3 D) those at both ends of its
+    backlash. Out: `values` (S, 5) in SI (the backlash and
     the transmission error in rad, the ripple without the factor n), and `failed` (S,), -1 or the
     angle that did not converge.
     """
@@ -233,13 +235,14 @@ def solve_gearboxes(
             overlap, poses = np.empty(some.size), np.empty((some.size, size))
             at = backlash_sweep(
                 rows, gaps, curvature, tooth_centre, own, pin_angle, apart, offset, half_play,
-                eccentricity, length, some, crank_angle, -1.0, least, overlap, poses,
+                eccentricity, length, some, crank_angle, -1.0, free_poses[0],
+                least, overlap, poses,
             )  # fmt: skip
             if at < 0:
                 at = backlash_sweep(
                     rows, gaps, curvature, tooth_centre, own, pin_angle, apart, offset,
-                    half_play, eccentricity, length, some, crank_angle, 1.0, greatest, overlap,
-                    poses,
+                    half_play, eccentricity, length, some, crank_angle, 1.0, free_poses[1],
+                    greatest, overlap, poses,
                 )  # fmt: skip
             free = 0.0
             for b in range(some.size):

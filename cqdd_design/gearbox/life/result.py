@@ -1,0 +1,171 @@
+"""What the life of a gearbox is said to be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cqdd_design.gearbox.life.cam import CamLife
+
+
+@dataclass(frozen=True)
+class DutyCase:
+    """One load case: output torque (N m, signed), output speed (rad/s, size), share of time."""
+
+    torque: float
+    speed: float
+    share: float
+
+
+@dataclass(frozen=True)
+class CaseLoads:
+    """Greatest loads over the period in one load case.
+
+    Attributes
+    ----------
+    ring_pressure, pin_pressure : float
+        Hertz pressure of flank on tooth and of pin in hole, Pa.
+    pin_bending : float
+        Bending stress of an output pin, Pa.
+    cam_load : float
+        N.
+    turns_per_hour : float
+        Output turns in an hour of the duty, the share of time in them.
+    """
+
+    ring_pressure: float
+    pin_pressure: float
+    pin_bending: float
+    cam_load: float
+    turns_per_hour: float
+
+    def to_dict(self) -> dict[str, float]:
+        """Return the JSON form."""
+        return {
+            "ring_pressure_max_MPa": self.ring_pressure / 1e6,
+            "output_pressure_max_MPa": self.pin_pressure / 1e6,
+            "pin_bending_max_MPa": self.pin_bending / 1e6,
+            "cam_bearing_load_max_N": self.cam_load,
+            "output_turns_per_hour": self.turns_per_hour,
+        }
+
+
+@dataclass(frozen=True)
+class PartLife:
+    """Fatigue life of one part at its worst place.
+
+    Attributes
+    ----------
+    part : str
+        What is judged.
+    place : str
+        Where it is worst; empty where nothing is loaded.
+    stress : float
+        Greatest pressure over the duty, Pa. For bending the one pulsating stress (with both
+        senses of torque: the reversed amplitude) as harmful on Goodman's line as the worst cycle.
+    limit : float
+        Fatigue limit of such stresses at the knee of the curve, Pa; zero where none is known.
+    basis : str
+        Where the limit comes from.
+    cycles_per_output_turn : int
+        Load cycles of the part in the zone of one disc.
+    damage_per_hour : float or None
+        None where no limit is known.
+    hours, output_turns : float or None
+        Life; None when it does not end, or when no limit is known.
+    reserve : float or None
+        Factor on all stresses at which the part lasts just the required hours; None without a
+        limit or without cycles.
+    """
+
+    part: str
+    place: str
+    stress: float
+    limit: float
+    basis: str
+    cycles_per_output_turn: int
+    damage_per_hour: float | None
+    hours: float | None
+    output_turns: float | None
+    reserve: float | None
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form."""
+        return {
+            "part": self.part,
+            "worst_place": self.place,
+            "stress_max_MPa": self.stress / 1e6,
+            "limit_MPa": self.limit / 1e6,
+            "limit_basis": self.basis,
+            "cycles_per_output_turn": self.cycles_per_output_turn,
+            "damage_per_hour": self.damage_per_hour,
+            "life_hours": self.hours,
+            "life_output_turns": self.output_turns,
+            "stress_reserve_at_required_life": self.reserve,
+        }
+
+
+@dataclass(frozen=True)
+class LifeResult:
+    """Life under a duty.
+
+    Attributes
+    ----------
+    duty : tuple of DutyCase
+    loads : tuple of CaseLoads
+        Of the same cases.
+    assumed : bool
+        Whether the requirements give none and the continuous torque at the input speed is taken.
+    required_hours : float
+    parts : tuple of PartLife
+        Contact fatigue of ring, discs, holes and pins, and bending of the pins.
+    cam : CamLife
+    notes : tuple of str
+        What of it stands outside its source.
+    """
+
+    duty: tuple[DutyCase, ...]
+    loads: tuple[CaseLoads, ...]
+    assumed: bool
+    required_hours: float
+    parts: tuple[PartLife, ...]
+    cam: CamLife
+    notes: tuple[str, ...]
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Parts without a known limit, those that do not last, and lives without support."""
+        found = [
+            f"no fatigue limit is known for the {part.part} ({part.basis}): its life is not given."
+            for part in self.parts
+            if part.limit <= 0.0
+        ]
+        found += [
+            f"the {part.part} would last {part.hours:.3g} h under this duty, less than the "
+            f"{self.required_hours:g} h required."
+            for part in self.parts
+            if part.hours is not None and part.hours < self.required_hours
+        ]
+        if self.cam.hours is None:
+            found.append(
+                f"no life is given for the cam bearings {self.cam.designation}: the catalogue has "
+                "no dynamic rating or the duty never turns."
+            )
+        return (*found, *self.notes)
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form (``life``)."""
+        return {
+            "duty": [
+                {
+                    "torque_Nm": case.torque,
+                    "output_speed_rad_per_s": case.speed,
+                    "share": case.share,
+                    **loads.to_dict(),
+                }
+                for case, loads in zip(self.duty, self.loads, strict=True)
+            ],
+            "duty_assumed": self.assumed,
+            "required_hours": self.required_hours,
+            "parts": [part.to_dict() for part in self.parts],
+            "cam_bearings": self.cam.to_dict(),
+        }
