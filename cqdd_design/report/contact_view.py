@@ -86,7 +86,7 @@ def _heat_map(turn: ContactSweep, disc: int) -> Figure:
         f"Force of each ring tooth on disc {disc + 1} over one crank turn; at most "
         f"{decimals(float(force.max()), 0)} N, on up to {most} teeth together.",
         values=force,
-        rows=[str(k) for k in range(len(force))],
+        rows=[str(k + 1) for k in range(len(force))],
         row_label="ring tooth",
         x=(0.0, 360.0),
         x_ticks=_TURN,
@@ -132,12 +132,12 @@ def force_picture(turn: ContactSweep, machine: Machine) -> Figure:
         "contact-forces",
         "Contact forces at the worst angle",
         f"Forces on disc {int(disc) + 1} at crank angle {degrees:.0f} degrees, where tooth "
-        f"{int(tooth)} carries {greatest if greatest > load else turn.ring_force.max():.0f} N.",
+        f"{int(tooth) + 1} carries {greatest if greatest > load else turn.ring_force.max():.0f} N.",
         width,
         width,
         "".join(body),
         f"Disc {int(disc) + 1} at crank angle {decimals(degrees, 0)}\u00b0, where tooth "
-        f"{int(tooth)} carries the greatest force. Arrows are forces on the disc, in N: ring teeth "
+        f"{int(tooth) + 1} carries the greatest force. Arrows are forces on the disc, in N: ring teeth "
         "red, output pins green, cam bearing violet.",
     )
 

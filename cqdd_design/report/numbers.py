@@ -58,6 +58,7 @@ def with_unit(value: float, unit: str, digits: int = 4) -> str:
 _PRETTY = {
     "N*m": "N\u00b7m",
     "um": "\u00b5m",
+    "N/um": "N/\u00b5m",
     "deg": "\u00b0",
     "arcmin": "arcmin",
     "kg*m": "kg\u00b7m",

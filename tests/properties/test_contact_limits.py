@@ -52,11 +52,14 @@ def ideal(model: ContactModel, cam_stiffness: float = 1e17) -> ContactModel:
 
 
 @settings(max_examples=examples(20), deadline=None, suppress_health_check=SLOW)
-@given(contact_designs(), torques(1e-2, 1e2), SEEDS)
+@given(contact_designs(), torques(1.0, 1e2), SEEDS)
 def test_equal_linear_springs_without_clearance_share_by_the_rigid_law(
     design: Design, torque: float, seed: int
 ) -> None:
-    """For one disc, and for each disc of several with the torque it was found to carry."""
+    """For one disc, and for each disc of several with the torque it was found to carry.
+
+    From 1 N m on: a gap of zero is known to 1e-17 m, which on these springs is 1e-8 N.
+    """
     model = ideal(ContactModel.from_design(design))
     angle = some_angles(seed, model)
     sweep = swept(model, torque, angle)
@@ -139,7 +142,12 @@ def test_linear_springs_scale_with_all_lengths(
     assert two.energy_slope / factor**2 == pytest.approx(
         one.energy_slope, rel=1e-6, abs=1e-8 * abs(torque)
     )
-    assert two.stiffness / factor**2 == pytest.approx(one.stiffness, rel=1e-6)
+    # A linear contact that just touches has no stiffness of its own: it is there or not.
+    at_all = np.concatenate([one.ring_force, one.pin_force], axis=2).reshape(len(angle), -1)
+    clear = ~np.any((at_all > 0.0) & (at_all < 1e-7 * load), axis=1)
+    at_all = np.concatenate([two.ring_force, two.pin_force], axis=2).reshape(len(angle), -1)
+    clear &= ~np.any((at_all > 0.0) & (at_all < 1e-7 * factor * load), axis=1)
+    assert two.stiffness[clear] / factor**2 == pytest.approx(one.stiffness[clear], rel=1e-6)
 
 
 @settings(max_examples=examples(10), deadline=None, suppress_health_check=SLOW)

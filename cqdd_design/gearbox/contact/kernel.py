@@ -19,10 +19,13 @@ import numba
 import numpy as np
 
 from cqdd_design.gearbox.contact.kernel_blocks import evaluate_state, newton_step
-from cqdd_design.gearbox.contact.kernel_laws import radial_force
+from cqdd_design.gearbox.contact.kernel_laws import line_force, radial_force
 
 _STEPS = 300
 _SEARCHES = 200
+_ENOUGH, _LEAST = 0.7, 0.1
+"""Derivative along a step, in shares of that at its start: accepted, and aimed at."""
+
 _GOOD = 1e-11
 _NEARLY = 1e-6
 
@@ -118,17 +121,10 @@ def solve_state(
             residual = max(residual, abs(gradient[i]))
         scale = max(abs(pull), largest)
         torsional = newton_step(block, shared, gradient, carrier_stiffness, ridge, step, carrier)
-        # Rounding of the closings alone leaves forces of this size unbalanced.
-        noise = 0.0
-        for d in range(discs):
-            for k in range(contacts):
-                noise = max(noise, stiff[d, k])
-        furthest = 0.0
-        for i in range(size):
-            furthest = max(furthest, abs(state[i]))
-        noise *= 1e-15 * furthest
         stuck = (
-            iteration > 3 and residual <= max(1e-7 * scale, noise) and residual >= 0.25 * previous
+            iteration > 3
+            and residual >= 0.25 * previous
+            and residual <= max(1e-7 * scale, _rounding(stiff, state))
         )
         if residual <= _NEARLY * scale or stuck:
             # The last step is taken on the forces too, in first order: this balances them to
@@ -147,8 +143,8 @@ def solve_state(
             slope += gradient[i] * step[i]
         if not slope < 0.0:
             return NOT_CONVERGED, iteration, torsional
-        share, low, high = 1.0, 0.0, np.inf
-        for _ in range(_SEARCHES):
+        share = 1.0
+        for _ in range(2):
             for i in range(size):
                 trial[i] = state[i] + share * step[i]
             largest = evaluate_state(
@@ -162,27 +158,110 @@ def solve_state(
             there = 0.0
             for i in range(size):
                 there += gradient[i] * step[i]
-            if abs(there) <= 0.7 * abs(slope):
+            if share != 1.0 or abs(there) <= _ENOUGH * abs(slope):
                 break
-            if there > 0.0:
-                high = share
-            else:
-                low = share
-            if high == np.inf:
-                share *= 4.0
-            elif low == 0.0 and high > 1e-3:
-                share = 0.1 * high
-            elif low > 0.0 and high > 4.0 * low:
-                share = math.sqrt(low * high)
-            elif low > 0.0:
-                share = 0.5 * (low + high)
-            else:
-                share = 0.1 * high
-            if high - low <= 1e-14 * high:
-                break
+            share = _least_along(
+                rows, gaps, coefficient, teeth, codes, logarithms, series, cam, offset, half_play,
+                carrier_stiffness, pull, state, step, slope, there, closed, stiff,
+            )  # fmt: skip
         for i in range(size):
             state[i] = trial[i]
     return NOT_CONVERGED, _STEPS, torsional
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _least_along(
+    rows: Any,
+    gaps: Any,
+    coefficient: Any,
+    teeth: int,
+    codes: Any,
+    logarithms: Any,
+    series: Any,
+    cam: Any,
+    offset: Any,
+    half_play: Any,
+    carrier_stiffness: float,
+    pull: float,
+    state: Any,
+    step: Any,
+    slope: float,
+    there: float,
+    start: Any,
+    moved: Any,
+) -> float:
+    """Share of a step where the energy is least along it.
+
+    All closings but the cams' are straight lines over the share, so that a trial here costs a
+    small part of a state. `slope` and `there` are the derivatives at shares 0 and 1; `start` and
+    `moved` (D, C) are scratch for the closings at 0 and their change to 1.
+    """
+    discs, contacts = gaps.shape
+    for d in range(discs):
+        x, y, t = state[3 + 3 * d], state[4 + 3 * d], state[5 + 3 * d]
+        for k in range(contacts):
+            if k == teeth:
+                x, y, t = x - state[0], y - state[1], t - state[2]
+            start[d, k] = -(rows[d, k, 0] * x + rows[d, k, 1] * y + rows[d, k, 2] * t) - gaps[d, k]
+            moved[d, k] = _moved(rows, teeth, step, d, k)
+    held = carrier_stiffness * (step[0] * step[0] + step[1] * step[1])
+    force = carrier_stiffness * (state[0] * step[0] + state[1] * step[1]) - pull * step[2]
+    low, high = (0.0, 1.0) if there > 0.0 else (1.0, np.inf)
+    share = slope / (slope - there) if there > 0.0 else 4.0
+    for _ in range(_SEARCHES):
+        along, bend = force + share * held, held
+        for d in range(discs):
+            for k in range(contacts):
+                delta = start[d, k] + share * moved[d, k]
+                if delta > 0.0 and moved[d, k] != 0.0:
+                    if k < teeth:
+                        f, s = line_force(codes[0], coefficient[d, k], logarithms[0], 0.0, delta)
+                    else:
+                        f, s = line_force(
+                            codes[1], coefficient[d, k], logarithms[1], series[d], delta
+                        )
+                    along += f * moved[d, k]
+                    bend += s * moved[d, k] * moved[d, k]
+            vx, vy = step[3 + 3 * d], step[4 + 3 * d]
+            rx = state[3 + 3 * d] - offset[d, 0] + share * vx
+            ry = state[4 + 3 * d] - offset[d, 1] + share * vy
+            rho = math.sqrt(rx * rx + ry * ry)
+            over = rho - half_play[d]
+            if over > 0.0 and rho > 0.0:
+                f, s = radial_force(cam[0], cam[1], over)
+                out, across = (rx * vx + ry * vy) / rho, (rx * vy - ry * vx) / rho
+                along += f * out
+                bend += s * out * out + f / rho * across * across
+        if abs(along) <= _LEAST * abs(slope):
+            break
+        if along > 0.0:
+            high = share
+        else:
+            low = share
+        if high - low <= 1e-14 * high:
+            break
+        # Newton's method, and halves where it leaves what is known to hold the least.
+        share = share - along / bend if bend > 0.0 else np.inf
+        if not low < share < high:
+            if high == np.inf:
+                share = 4.0 * low
+            elif low > 0.0 and high > 4.0 * low:
+                share = math.sqrt(low * high)
+            else:
+                share = 0.5 * (low + high) if low > 0.0 else 0.1 * high
+    return share
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _rounding(stiff: Any, state: Any) -> float:
+    """Force that the rounding of the closings alone leaves unbalanced."""
+    stiffest, furthest = 0.0, 0.0
+    for d in range(stiff.shape[0]):
+        for k in range(stiff.shape[1]):
+            stiffest = max(stiffest, stiff[d, k])
+    for i in range(state.size):
+        furthest = max(furthest, abs(state[i]))
+    return 1e-15 * stiffest * furthest
 
 
 @numba.njit(cache=True, error_model="numpy")

@@ -39,7 +39,8 @@ class Backlash:
         rad.
     least, greatest : array (A,)
         Ends of the range of the carrier's angle error, rad; the greatest is where a vanishing
-        positive torque holds it, so it is the unloaded kinematic error too.
+        positive torque holds it, so it is the unloaded kinematic error too. Both are the same
+        where the parts leave no range.
     overlap : array (A,)
         Greatest overlap that no motion removes, m; above `preload_limit` the parts are
         preloaded and have no backlash there.
@@ -60,9 +61,7 @@ class Backlash:
     @property
     def free(self) -> FloatArray:
         """Backlash at every angle, (A,), rad; zero where parts are preloaded."""
-        return np.where(
-            self.overlap > self.preload_limit, 0.0, np.maximum(self.greatest - self.least, 0.0)
-        )
+        return self.greatest - self.least
 
     @property
     def mean(self) -> float:
@@ -123,13 +122,17 @@ def backlash(
         ends.append(end)
         overlaps.append(overlap)
         extremes.append(poses)
+    overlap, poses = np.maximum(*overlaps), np.stack(extremes)
+    # Parts that overlap wherever they go rest where their overlaps balance.
+    tight = (overlap > OVERLAP) | (ends[0] > ends[1])
+    rest = poses[:, :, 2].mean(axis=0) / states.length
     return Backlash(
         crank_angle=states.crank_angle,
-        least=ends[0],
-        greatest=ends[1],
-        overlap=np.maximum(*overlaps),
+        least=np.where(tight, rest, ends[0]),
+        greatest=np.where(tight, rest, ends[1]),
+        overlap=overlap,
         preload_limit=OVERLAP,
-        poses=np.stack(extremes),
+        poses=poses,
     )
 
 

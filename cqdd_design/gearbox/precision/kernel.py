@@ -100,14 +100,17 @@ def _true_gaps(
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _greatest_force(force: Any, cam_force: Any) -> float:
-    """Greatest force of any contact; on springs of 1 N/m, the greatest overlap."""
-    greatest = 0.0
+def _overlaps(force: Any, cam_force: Any) -> tuple[float, float]:
+    """Greatest overlap and the sum of their squares; on springs of 1 N/m a force is one."""
+    greatest, squares = 0.0, 0.0
     for d in range(force.shape[0]):
         for k in range(force.shape[1]):
             greatest = max(greatest, force[d, k])
-        greatest = max(greatest, math.hypot(cam_force[d, 0], cam_force[d, 1]))
-    return greatest
+            squares += force[d, k] * force[d, k]
+        cam = cam_force[d, 0] * cam_force[d, 0] + cam_force[d, 1] * cam_force[d, 1]
+        greatest = max(greatest, math.sqrt(cam))
+        squares += cam
+    return greatest, squares
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -163,7 +166,7 @@ def backlash_sweep(
         Known poses nearby, such as those of the perfect gearbox, or zeros; a state starts from
         its own plus the deviation of the one before.
     ends : array (B,)
-        Out: that angle, rad.
+        Out: that angle, rad; meaningless where parts overlap whatever they do.
     preload : array (B,)
         Out: greatest overlap that no motion removes, m; clearances give about the push.
     poses : array (B, 3 + 3 D)
@@ -194,7 +197,7 @@ def backlash_sweep(
             predict(last, before, turn, 1, deviation)
         for i in range(size):
             state[i] = starts[a, i] + deviation[i]
-        torsional, overlap, worst, still, tight = 0.0, 0.0, 0.0, False, 0
+        squares, overlap, worst, still, tight = 0.0, 0.0, 0.0, False, 0
         for round_ in range(_ROUNDS):
             if round_ > _FREE_ROUNDS:
                 # Two states that lead to each other: linearise between them.
@@ -207,7 +210,7 @@ def backlash_sweep(
             )  # fmt: skip
             # A firmer push first: it finds which contacts matter in fewer steps.
             firm = _FIRM * push if round_ == 0 else push
-            status, _, torsional = solve_state(
+            status, _, _ = solve_state(
                 rows, gaps, ones, teeth, (2, 2), (0.0, 0.0), soft, (1.0, 1.0), offset[a],
                 half_play, 0.0, firm, 1.0, state, force, cam_force, work,
             )  # fmt: skip
@@ -216,7 +219,7 @@ def backlash_sweep(
             # States that change contacts with each other end up closer than anyone can measure.
             near = _NEARLY_STILL if round_ > 2 * _FREE_ROUNDS else _STILL
             still = round_ > 0 and abs(state[2] - origin[2]) <= near
-            overlap = _greatest_force(force, cam_force)
+            overlap, squares = _overlaps(force, cam_force)
             # Parts that overlap wherever they go have no free range to converge to.
             tight = tight + 1 if overlap > OVERLAP else 0
             if round_ > _FREE_ROUNDS:
@@ -228,7 +231,9 @@ def backlash_sweep(
                 return b
             # Free by nanometres at most, on all sides: too little to be called a range.
             overlap = max(worst, 2.0 * OVERLAP)
-        ends[b] = (state[2] - push / torsional) / length
+        # What the springs yield to the push: the work of the push is that of the contact forces
+        # over gaps and overlaps, and rigid parts have the same forces without the overlaps.
+        ends[b] = (state[2] - squares / push) / length
         preload[b] = overlap
         poses[b] = state
         for i in range(size):
