@@ -137,8 +137,8 @@ def force_picture(turn: ContactSweep, machine: Machine) -> Figure:
         width,
         "".join(body),
         f"Disc {int(disc) + 1} at crank angle {decimals(degrees, 0)}\u00b0, where tooth "
-        f"{int(tooth) + 1} carries the greatest force. Arrows are forces on the disc, in N: ring teeth "
-        "red, output pins green, cam bearing violet.",
+        f"{int(tooth) + 1} carries the greatest force. Arrows are forces on the disc, in N: "
+        "ring teeth red, output pins green, cam bearing violet.",
     )
 
 
