@@ -6,6 +6,7 @@ without numpy, and size a gearbox without a CAD kernel.
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -22,8 +23,9 @@ if TYPE_CHECKING:
     from cqdd_design.gearbox.contact_analysis import ContactAnalysis
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
     from cqdd_design.report.weighing import Bodies
-    from cqdd_design.results import Provenance
+    from cqdd_design.results import Check, Provenance
     from cqdd_design.sizing import SizingResult
+    from cqdd_design.solids.clearances import AssemblyMotion
 
 Progress = Callable[[str], None]
 
@@ -188,6 +190,11 @@ class InertiaAndBalance:
     paper_disc_count: int
 
     @property
+    def torque_density(self) -> float:
+        """Peak torque over the mass of all that is drawn, N m/kg."""
+        return self.design.requirements.peak_torque / self.bodies.inertia.total.mass
+
+    @property
     def warnings(self) -> tuple[str, ...]:
         """What the figures leave out."""
         missing = tuple(
@@ -202,6 +209,7 @@ class InertiaAndBalance:
         by_count = {str(count): self._balance(count) for count in (1, 2, 3)}
         return {
             **self.bodies.inertia.to_dict(),
+            "torque_density_Nm_per_kg": self.torque_density,
             "balance": {"by_disc_count": by_count, "paper_disc_count": self.paper_disc_count},
         }
 
@@ -214,6 +222,56 @@ class InertiaAndBalance:
         # One weight at each end of the pack: half of the static part, or a pair for the couple.
         weight = 0.5 * found.static_unbalance + found.couple_unbalance / pack
         return {**found.to_dict(), "counterweight_each_end_kgm": weight}
+
+
+def assembly_motion(
+    design: Design, angles: int, progress: Callable[[int, int], None] | None = None
+) -> AssemblyMotion:
+    """Turn all solids through a revolution of the output; see `solids.clearances`.
+
+    Raises
+    ------
+    GeometryError
+        When the parts cannot exist or cannot be put together.
+    """
+    from cqdd_design.catalog import find_bearing
+    from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
+    from cqdd_design.solids.clearances import assembly_motion as turn
+    from cqdd_design.solids.clearances import output_revolution
+    from cqdd_design.solids.parts import build_parts
+
+    named = with_chosen_bearing(design)
+    parts = build_parts(named, find_bearing(named.reducer.cam_bearing.designation))
+    return turn(named, parts, output_revolution(named, angles), progress=progress)
+
+
+def assembly_check(motion: AssemblyMotion) -> Check:
+    """The check ``ASSEMBLY-CLEAR`` of what a revolution showed."""
+    from cqdd_design.gearbox.guide import check_guide
+    from cqdd_design.results import Check
+
+    guide = check_guide("ASSEMBLY-CLEAR")
+    remedy, found = "", f"{motion.pairs} pairs of solids at {motion.angles} crank angles"
+    if motion.collisions:
+        worst = motion.collisions[0]
+        found = (
+            f"{worst.first} and {worst.second} share {worst.volume * 1e9:.3g} mm3 at "
+            f"{math.degrees(worst.crank_angle):.4g} deg"
+        )
+        remedy = f"Give {worst.first} and {worst.second} {worst.thickness * 1e6:.3g} um more room."
+    return Check(
+        id=guide.id,
+        title=guide.title,
+        value=float(len({(one.first, one.second) for one in motion.collisions})),
+        limit=0.0,
+        unit=guide.unit,
+        sense=guide.sense,
+        formula=guide.formula,
+        substituted=found,
+        why=guide.why,
+        remedy=remedy,
+        source=guide.source,
+    )
 
 
 def inertia(

@@ -43,7 +43,7 @@ _UNITS = {
     "over": ("mm", 1e3),
     "up_to": ("mm", 1e3),
 }
-_LENGTH_ENDINGS = ("diameter", "diameter_max", "diameter_min", "length", "width", "height")
+_LENGTH_ENDINGS = ("diameter", "diameter_max", "diameter_min", "length", "width", "height", "depth")
 _LENGTHS = {"thread_pitch", "socket_size"}
 
 #: The columns of a listing, after the name; showing a row gives all of its columns.

@@ -33,6 +33,9 @@ class Motor:
         Of a geared actuator.
     outer_diameter, length, bore_diameter : float or None
         m; the bore is that of the stator, inside which the gearbox sits.
+    gap_diameter, stack_length, rotor_length, slot_depth : float or None
+        Of the magnetic circuit, m: the air gap, the stator's laminations, the rotor's ring of
+        magnets, the slots.
     no_load_speed : float or None
         rad/s, as printed.
     bore_note, note, source : str
@@ -58,6 +61,10 @@ class Motor:
     outer_diameter: float | None
     length: float | None
     bore_diameter: float | None
+    gap_diameter: float | None
+    stack_length: float | None
+    rotor_length: float | None
+    slot_depth: float | None
     no_load_speed: float | None
     bore_note: str
     note: str
@@ -98,6 +105,10 @@ def motors() -> dict[str, Motor]:
             outer_diameter=optional_number(row, "od_mm", 1e-3),
             length=optional_number(row, "len_mm", 1e-3),
             bore_diameter=optional_number(row, "bore_mm", 1e-3),
+            gap_diameter=optional_number(row, "gap_mm", 1e-3),
+            stack_length=optional_number(row, "stack_mm", 1e-3),
+            rotor_length=optional_number(row, "rotor_mm", 1e-3),
+            slot_depth=optional_number(row, "slot_mm", 1e-3),
             no_load_speed=optional_number(row, "noload_rpm", rpm),
             bore_note=row["bore_note"],
             note=row["note"],

@@ -61,11 +61,21 @@ def _lines(found: InertiaAndBalance) -> list[str]:
     ]
     balance_head = ["balance", "static g*mm", "couple g*mm2", "force N", "moment N*m"]
     total = found.bodies.inertia
+    inertias = total.group_inertias
+    groups = [
+        [name, number(1e3 * mass), number(1e6 * inertias[name])]
+        for name, mass in total.group_masses.items()
+    ]
+    group_head = ["group", "g", "at input kg*mm2"]
     rotor = "-" if total.rotor_inertia is None else number(1e6 * total.rotor_inertia)
     return [
         table(parts, head=head, right=(1, 2, 3, 4, 5)),
         "",
-        f"total mass                 {number(total.total.mass)} kg without the motor",
+        table(groups, head=group_head, right=(1, 2)),
+        "",
+        f"total mass                 {number(total.total.mass)} kg "
+        f"{'without' if total.motor_missing else 'with'} the motor",
+        f"torque density             {number(found.torque_density)} N*m/kg at the peak torque",
         f"rotor of {total.motor}: {rotor} kg*mm2",
         f"reflected to the input     {number(1e6 * total.reflected_input)} kg*mm2",
         f"reflected to the output    {number(total.reflected_output)} kg*m2",

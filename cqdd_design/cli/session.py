@@ -38,6 +38,9 @@ _COMMON: dict[str, Any] = {
     "debug": Annotated[bool, typer.Option("--debug", help="Show the traceback of an error.")],
 }
 
+_LINES_WITHOUT_TERMINAL = 10
+"""Of progress in a log, where a bar cannot move."""
+
 
 def command(function: Callable[..., int | None]) -> Callable[..., int | None]:
     """Turn ``f(out, ...)`` into a Typer command with ``--json``, ``--quiet`` and ``--debug``.
@@ -161,6 +164,23 @@ class Output:
             self._bar_shown = True
 
         return tell
+
+    def counting(self, noun: str) -> Callable[[int, int], None]:
+        """Progress of many equal things: a bar on a terminal; elsewhere about ten lines in all."""
+        tell: list[Callable[[str], None]] = []
+        told = [0]
+
+        def progress(done: int, total: int) -> None:
+            if not tell:
+                tell.append(self.stages(_LINES_WITHOUT_TERMINAL))
+            tenth = _LINES_WITHOUT_TERMINAL * done // total
+            if sys.stderr.isatty() or tenth > told[0]:
+                while told[0] < tenth - 1:
+                    told[0] += 1
+                told[0] = tenth
+                tell[0](f"{done} of {total} {noun}")
+
+        return progress
 
     def end_progress(self) -> None:
         """Wipe the progress bar, if one is shown."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -16,7 +14,6 @@ if TYPE_CHECKING:
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
 
 _MOST_SAMPLES = 10_000_000
-_LINES_WITHOUT_TERMINAL = 10
 _RANKED = 4
 
 
@@ -54,7 +51,7 @@ def tolerance(
     asked_torque = parse_positive("--torque", torque, TORQUE)
     loaded = load_design(design)
     ensemble = make_ensemble(loaded, torque=asked_torque, angles=angles, seed=seed)
-    progress = _progress(out)
+    progress = out.counting("gearboxes")
     if scheduler is None:
         out.note_compilation()
         result = run_ensemble(ensemble, samples, mapper=work_here, progress=progress)
@@ -68,24 +65,6 @@ def tolerance(
         out.warn(sentence)
     out.document(result.to_dict(), design=loaded)
     return INTERRUPTED_WITH_RESULTS if result.interrupted else 0
-
-
-def _progress(out: Output) -> Callable[[int, int], None]:
-    """A bar on a terminal; elsewhere about ten lines in all."""
-    tell: list[Callable[[str], None]] = []
-    told = [0]
-
-    def progress(done: int, total: int) -> None:
-        if not tell:
-            tell.append(out.stages(_LINES_WITHOUT_TERMINAL))
-        tenth = _LINES_WITHOUT_TERMINAL * done // total
-        if sys.stderr.isatty() or tenth > told[0]:
-            while told[0] < tenth - 1:
-                told[0] += 1
-            told[0] = tenth
-            tell[0](f"{done} of {total} gearboxes")
-
-    return progress
 
 
 def _lines(result: ToleranceResult) -> list[str]:

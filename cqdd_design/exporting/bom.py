@@ -10,8 +10,9 @@ import io
 from dataclasses import asdict, dataclass, fields
 from typing import TYPE_CHECKING
 
-from cqdd_design.catalog import bearings, find_material, find_motor
+from cqdd_design.catalog import bearings, find_material, find_motor, motors
 from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.solids.inertia import ROTOR
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -63,7 +64,7 @@ def export_bom(job: ExportJob) -> tuple[WrittenFile, ...]:
 
 
 def bill_of_materials(design: Design, parts: Sequence[Part]) -> tuple[BomRow, ...]:
-    """Return the bill of a gearbox and its motor.
+    """Return the bill of a machine; a motor that is not among its parts is its last line.
 
     Parameters
     ----------
@@ -71,7 +72,9 @@ def bill_of_materials(design: Design, parts: Sequence[Part]) -> tuple[BomRow, ..
     parts : sequence of Part
         From `solids.build_parts`.
     """
-    rows = [_part_row(item, part) for item, part in enumerate(parts, start=1)]
+    rows = tuple(_part_row(item, part) for item, part in enumerate(parts, start=1))
+    if any(part.name == ROTOR for part in parts):
+        return rows
     return (*rows, _motor_row(len(rows) + 1, design))
 
 
@@ -102,7 +105,7 @@ def _part_row(item: int, part: Part) -> BomRow:
 
 def _mass_note(part: Part) -> str:
     if part.catalogue_mass is not None:
-        row = bearings().get(part.designation)
+        row = bearings().get(part.designation) or motors().get(part.designation.split(",")[0])
         return "mass: catalogue" + (f" ({row.source})" if row is not None else "")
     density = find_material(part.material).density
     form = "exact profile" if part.exact_section is not None else "closed form"

@@ -396,6 +396,15 @@ _ROWS = (
         f"motor catalogue; {_PAPER}, section III-A",
         "warn",
     ),
+    CheckGuide(
+        "ASSEMBLY-CLEAR",
+        "Solids that run into each other",
+        "",
+        "max",
+        "overlaps thicker than the facets of both meshes <= 0",
+        "A part in the wrong phase, or too long, shows as an overlap somewhere in a revolution.",
+        "intersection of the solids' meshes at every crank angle (`check --assembly`)",
+    ),
 )
 
 CHECK_GUIDE: dict[str, CheckGuide] = {row.id: row for row in _ROWS}

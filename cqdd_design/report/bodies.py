@@ -14,10 +14,15 @@ from cqdd_design.report.check_rows import printed
 from cqdd_design.report.numbers import decimals, significant, with_unit
 from cqdd_design.report.svg import Figure, line, rectangle, text
 from cqdd_design.report.weighing import DISC_COUNTS, Bodies
-from cqdd_design.solids.inertia import GearboxInertia, PartInertia
+from cqdd_design.solids.inertia import ROTOR, GearboxInertia, PartInertia
 
 #: Inertia of the whole actuator that the paper prints (table II), at the motor, kg m^2.
 PAPER_INERTIA = 5.01e-4
+#: Mass of it, kg, and its torque density, N m/kg (table II).
+PAPER_MASS, PAPER_DENSITY = 1.40, 64.2
+PAPER_PEAK = 89.9
+#: Name of the design of the paper's own actuator.
+PAPER_DESIGN = "cqdd-10"
 
 
 @dataclass(frozen=True)
@@ -41,7 +46,11 @@ class BodiesView:
     Attributes
     ----------
     rows : tuple of PartRow
-    total_mass : str
+    total_mass, total_of : str
+        Of everything that is drawn, and what that is.
+    groups : tuple of (group, mass, share, inertia at the input, share)
+    paper : tuple of (quantity, here, in the paper, why)
+        Empty but for the paper's own actuator.
     reflected : tuple of (name, at the input, remark)
     balance : tuple of (discs, static, couple, force, moment, is this design)
     rule : str
@@ -53,6 +62,9 @@ class BodiesView:
 
     rows: tuple[PartRow, ...]
     total_mass: str
+    total_of: str
+    groups: tuple[tuple[str, str, str, str, str], ...]
+    paper: tuple[tuple[str, str, str, str], ...]
     reflected: tuple[tuple[str, str, str], ...]
     balance: tuple[tuple[str, str, str, str, str, bool], ...]
     rule: str
@@ -70,6 +82,9 @@ def bodies_view(design: Design, bodies: Bodies) -> BodiesView:
             for row in bill_of_materials(design, bodies.parts)
         ),
         total_mass=with_unit(inertia.total.mass, "kg", 4),
+        total_of="gearbox without motor" if inertia.motor_missing else "actuator",
+        groups=_groups(inertia),
+        paper=_beside_the_paper(design, inertia),
         reflected=_reflected(inertia),
         balance=_balance(design, bodies),
         rule=_rule(design, bodies.balance),
@@ -79,7 +94,7 @@ def bodies_view(design: Design, bodies: Bodies) -> BodiesView:
 
 
 def _part_row(row: BomRow, part: PartInertia | None, inertia: GearboxInertia) -> PartRow:
-    """A line of the bill; the motor has no part, but its rotor has inertia."""
+    """A line of the bill; a motor that is not drawn has no part, but its rotor has inertia."""
     reflected = inertia.rotor_inertia if part is None else part.reflected
     each, whole = row.mass_each_kg, row.mass_total_kg
     catalogue = row.notes.startswith("mass: catalogue")
@@ -95,6 +110,65 @@ def _part_row(row: BomRow, part: PartInertia | None, inertia: GearboxInertia) ->
     )
 
 
+def _groups(inertia: GearboxInertia) -> tuple[tuple[str, str, str, str, str], ...]:
+    mass, whole = inertia.total.mass, inertia.reflected_input
+    shares = inertia.group_inertias
+    return tuple(
+        (
+            name,
+            with_unit(1e3 * grams, "g", 4),
+            f"{decimals(100.0 * grams / mass, 1)}\u202f%",
+            _scaled(shares[name]),
+            f"{decimals(100.0 * shares[name] / whole, 1)}\u202f%",
+        )
+        for name, grams in inertia.group_masses.items()
+    )
+
+
+def _beside_the_paper(
+    design: Design, inertia: GearboxInertia
+) -> tuple[tuple[str, str, str, str], ...]:
+    """Mass and inertia beside what the paper prints, with what makes the difference."""
+    if design.name != PAPER_DESIGN or inertia.motor_missing:
+        return ()
+    groups, shares = inertia.group_masses, inertia.group_inertias
+    mass, whole = inertia.total.mass, inertia.reflected_input
+    rotor, bell = inertia.rotor_inertia or 0.0, shares["bell, cover and encoder"]
+    return (
+        (
+            "mass",
+            with_unit(mass, "kg", 4),
+            with_unit(PAPER_MASS, "kg", 3),
+            f"{1e3 * (mass - PAPER_MASS):.0f} g more. The motor is the catalogue's "
+            f"{1e3 * groups['motor']:.0f} g; other sources give 525 g for it bare, which would "
+            f"explain {1e3 * (groups['motor'] - 0.525):.0f} g. Housing, bell and cover, whose "
+            "walls the paper does not print and which are proportioned here, weigh "
+            f"{1e3 * (groups['housing'] + groups['bell, cover and encoder']):.0f} g. Discs and "
+            f"ring of steel ({1e3 * groups['discs and ring']:.0f} g) and the bearings are as the "
+            "paper describes them.",
+        ),
+        (
+            "inertia at the input",
+            f"{significant(1e4 * whole, 3)} \u00d7 10\u207b\u2074 kg\u00b7m\u00b2",
+            f"{significant(1e4 * PAPER_INERTIA, 3)} \u00d7 10\u207b\u2074 kg\u00b7m\u00b2",
+            f"{significant(1e4 * (whole - PAPER_INERTIA), 3)} more. The catalogue's rotor alone "
+            f"has {significant(1e4 * rotor, 3)}, an estimate from its size that is above the "
+            "paper's figure for everything; the bell adds "
+            f"{significant(1e4 * bell, 3)} and the gearbox "
+            f"{significant(1e4 * (whole - shares['motor'] - bell), 2)}. A rotor and bell of "
+            f"together {significant(1e4 * (PAPER_INERTIA - whole + rotor + bell), 3)} would agree.",
+        ),
+        (
+            "torque density, at the paper's 89.9\u202fN\u00b7m",
+            f"{significant(PAPER_PEAK / mass, 3)}\u202fN\u00b7m/kg",
+            f"{significant(PAPER_DENSITY, 3)}\u202fN\u00b7m/kg",
+            "follows from the mass; "
+            f"{significant(design.requirements.peak_torque / mass, 3)} at this design's "
+            f"{significant(design.requirements.peak_torque)}\u202fN\u00b7m.",
+        ),
+    )
+
+
 def _scaled(inertia: float) -> str:
     """An inertia in 1e-6 kg m^2, the unit of the table's column."""
     return "0" if inertia == 0.0 else significant(1e6 * inertia, 3)
@@ -106,7 +180,11 @@ def _reflected(inertia: GearboxInertia) -> tuple[tuple[str, str, str], ...]:
 
     estimated = "rotor inertia estimated" in find_motor(inertia.motor).note
     return (
-        ("gearbox, at the input", shown(inertia.gearbox_reflected), "all parts but the rotor"),
+        (
+            "gearbox, at the input",
+            shown(inertia.gearbox_reflected),
+            "all parts but the rotor's ring of magnets",
+        ),
         (
             "rotor of the motor",
             shown(inertia.rotor_inertia),
@@ -171,7 +249,10 @@ _WIDTH, _LEFT, _BAR_END, _PITCH = 860.0, 170.0, 700.0, 25.0
 
 def _chart(inertia: GearboxInertia) -> Figure:
     """Horizontal bars: what each moving part of the gearbox adds at the input."""
-    found = sorted((p for p in inertia.parts if p.reflected > 0.0), key=lambda p: -p.reflected)
+    found = sorted(
+        (p for p in inertia.parts if p.reflected > 0.0 and p.name != ROTOR),
+        key=lambda p: -p.reflected,
+    )
     longest = found[0].reflected
     height = 14.0 + _PITCH * len(found)
     body = []

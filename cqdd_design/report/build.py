@@ -123,6 +123,7 @@ def _context(results: ReportInput) -> dict[str, Any]:
         **_engine(results, machine),
         "bodies": None if bodies is None else bodies_view(analysis.design, bodies),
         "sizing": None if results.sizing is None else sizing_view(results.sizing),
+        "counterweights": results.design.reducer.balance.counterweights,
         "input_speed": with_unit(requirements.input_speed * 30.0 / math.pi, "rpm"),
         "planetary": planetary_view(results.planetary),
         "symbols": paper_symbols(design),
@@ -222,7 +223,8 @@ def _facts(results: ReportInput, least_margin: str) -> tuple[tuple[str, str, str
     ]
     if results.bodies is not None:
         mass = with_unit(results.bodies.inertia.total.mass, "kg", 3)
-        facts.insert(4, ("Mass", mass, "without the motor"))
+        whole = not results.bodies.inertia.motor_missing
+        facts.insert(4, ("Mass", mass, "with the motor" if whole else "without the motor"))
     return tuple(facts)
 
 

@@ -36,7 +36,8 @@ class Bodies:
         Mass properties of `parts`, in their order.
     balance : mapping of int to StackBalance
         Of the crank with one, two and three such discs, shaft included, at the required input
-        speed. A number of discs with which the machine cannot be built is left out.
+        speed; counterweights only with the design's own number. A number of discs with which the
+        machine cannot be built is left out.
     """
 
     parts: tuple[Part, ...]
@@ -70,7 +71,9 @@ def weigh(design: Design, cam_bearing: Bearing, source: MassSource = closed_form
         if count == reducer.disc_count:
             crank = crank_properties(design, parts, source)
         else:
-            variant = design.replacing({"reducer.disc_count": count})
+            variant = design.replacing(
+                {"reducer.disc_count": count, "reducer.balance.counterweights": False}
+            )
             try:
                 crank = crank_properties(variant, build_parts(variant, cam_bearing), closed_form)
             except GeometryError:

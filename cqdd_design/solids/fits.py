@@ -77,6 +77,13 @@ def seat_fits(layout: Layout) -> tuple[Fit, ...]:
     ]
     if housing.seated_motor:
         fits.append(Fit("housing", "stator register", 2.0 * housing.register_radius, "h7"))
+    if layout.motor is not None:
+        magnets = 2.0 * layout.motor.rotor_outer
+        fits.append(Fit("rotor bell", "bore", support.bore_diameter, "H7"))
+        fits.append(Fit("rotor bell", "seat of the ring of magnets", magnets, "H7"))
+    if layout.dowels.radius:
+        for part in ("ring", "housing"):
+            fits.append(Fit(part, "holes of the ring dowels", 2.0 * layout.dowels.radius, "H7"))
     if carrier.cap:
         fits.append(Fit("carrier cap", "pin holes", pin, "H7"))
     if pack.disc_count > 2:

@@ -14,8 +14,9 @@ bearing counts half to each of its rings, divided at the pitch circle.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
@@ -24,10 +25,51 @@ from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.results import MassProperties
 from cqdd_design.solids.mesh import mass_properties, mesh_volume
+from cqdd_design.solids.motor_rules import drawn_motor
 from cqdd_design.solids.part import Instance, Part
 from cqdd_design.solids.poses import Body
 
 MassSource = Callable[[Part], MassProperties]
+
+ROTOR = "motor rotor"
+
+GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "motor": ("motor rotor", "motor stator"),
+        "bell, cover and encoder": (
+            "rotor bell",
+            "motor cover",
+            "encoder magnet",
+            "encoder board",
+            "balance weight, shaft end",
+            "balance weight, output end",
+        ),
+        "discs and ring": ("disc", "disc 1", "disc 2", "disc 3", "ring", "ring pin"),
+        "shaft and bearings": (
+            "eccentric shaft",
+            "eccentric cam",
+            "cam bearing",
+            "shaft bearing",
+            "output bearing",
+        ),
+        "carrier": (
+            "carrier plate",
+            "carrier cap",
+            "bearing nut",
+            "shoulder screw",
+            "dowel pin",
+            "pin sleeve",
+        ),
+        "housing": ("housing", "ring clamp", "output cover"),
+        "fasteners": (),
+    }
+)
+"""Parts by what they belong to; what is not named is a fastener."""
+
+
+def group_of(part: str) -> str:
+    """Group of a part of this name."""
+    return next((group for group, names in GROUPS.items() if part in names), "fasteners")
 
 
 @dataclass(frozen=True)
@@ -83,13 +125,15 @@ class GearboxInertia:
     ----------
     parts : tuple of PartInertia
     total : MassProperties
-        All pieces at crank angle 0 in the ring's frame, without the motor.
+        All pieces at crank angle 0 in the ring's frame, the motor too where it is drawn.
     ratio : int
         n.
     rotor_inertia : float or None
         Of the catalogue's motor, kg m^2; None where the catalogue has none.
     motor : str
         Its name.
+    motor_missing : str
+        Why the motor is not among the parts; empty where it is.
     orbiting_mass : float
         Mass that circles at the eccentricity for each disc: the disc and its cam bearing, kg.
     """
@@ -99,17 +143,35 @@ class GearboxInertia:
     ratio: int
     rotor_inertia: float | None
     motor: str
+    motor_missing: str
     orbiting_mass: float
 
     @property
     def gearbox_reflected(self) -> float:
-        """Inertia at the input without the rotor, kg m^2."""
-        return sum(part.reflected for part in self.parts)
+        """Inertia at the input without the rotor's ring of magnets, kg m^2."""
+        return sum(part.reflected for part in self.parts if part.name != ROTOR)
 
     @property
     def reflected_input(self) -> float:
-        """Inertia at the input, rotor included where the catalogue has it, kg m^2."""
-        return self.gearbox_reflected + (self.rotor_inertia or 0.0)
+        """Inertia at the input, rotor included where it is known, kg m^2."""
+        rotor = sum(part.reflected for part in self.parts if part.name == ROTOR)
+        return self.gearbox_reflected + (rotor or self.rotor_inertia or 0.0)
+
+    @property
+    def group_masses(self) -> dict[str, float]:
+        """Mass of every group of parts, kg: motor, gears, shaft and bearings, and so on."""
+        masses = dict.fromkeys(GROUPS, 0.0)
+        for part in self.parts:
+            masses[group_of(part.name)] += part.count * part.properties.mass
+        return {name: mass for name, mass in masses.items() if mass > 0.0}
+
+    @property
+    def group_inertias(self) -> dict[str, float]:
+        """Share of every group in the inertia at the input, kg m^2."""
+        shares = dict.fromkeys(self.group_masses, 0.0)
+        for part in self.parts:
+            shares[group_of(part.name)] += part.reflected
+        return shares
 
     @property
     def reflected_output(self) -> float:
@@ -119,12 +181,15 @@ class GearboxInertia:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What the figures leave out."""
-        if self.rotor_inertia is not None:
-            return ()
-        return (
-            f"the catalogue has no rotor inertia for {self.motor}; the reflected inertia is that "
-            "of the gearbox alone.",
-        )
+        found = []
+        if self.motor_missing:
+            found.append(f"mass and solids are without the motor: {self.motor_missing}.")
+        if self.rotor_inertia is None:
+            found.append(
+                f"the catalogue has no rotor inertia for {self.motor}; the reflected inertia is "
+                "that of the gearbox alone."
+            )
+        return tuple(found)
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form (``results`` of ``inertia``, without ``balance``)."""
@@ -132,6 +197,9 @@ class GearboxInertia:
             "parts": [part.to_dict() for part in self.parts],
             "total_mass_kg": self.total.mass,
             "centre_of_mass_mm": [float(c) * 1e3 for c in self.total.centre],
+            "motor_included": not self.motor_missing,
+            "group_mass_kg": self.group_masses,
+            "group_reflected_inertia_input_kgm2": self.group_inertias,
             "rotor_inertia_kgm2": self.rotor_inertia,
             "gearbox_reflected_inertia_input_kgm2": self.gearbox_reflected,
             "reflected_inertia_input_kgm2": self.reflected_input,
@@ -183,8 +251,15 @@ def gearbox_inertia(
         ratio=design.reducer.ratio,
         rotor_inertia=motor.rotor_inertia,
         motor=motor.name,
+        motor_missing="" if any(part.name == ROTOR for part in parts) else _why(design),
         orbiting_mass=orbiting / design.reducer.disc_count,
     )
+
+
+def _why(design: Design) -> str:
+    """Why a design's parts hold no motor."""
+    missing = drawn_motor(design)[1]
+    return missing or f"{design.motor.name} does not sit round a ring of this size"
 
 
 def closed_form(part: Part) -> MassProperties:

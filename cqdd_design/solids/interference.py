@@ -8,6 +8,7 @@ can explain are reported.
 
 from __future__ import annotations
 
+import atexit
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -85,15 +86,15 @@ def find_overlaps(
     found: list[Overlap] = []
     still_done = False
     for angle in crank_angles:
-        posed = [_posed(part, piece.pose(design, angle), quality) for part, piece in pieces]
+        posed = [posed_manifold(part, piece.pose(design, angle), quality) for part, piece in pieces]
         boxes = np.array([solid.bounding_box() for solid in posed])
         for i, j in combinations(range(len(pieces)), 2):
             (part, piece), (other_part, other) = pieces[i], pieces[j]
             if still_done and piece.body == other.body:
                 continue
-            if not _boxes_meet(boxes[i], boxes[j]):
+            if not boxes_meet(boxes[i], boxes[j]):
                 continue
-            overlap = _overlap(posed[i], posed[j])
+            overlap = overlap_of(posed[i], posed[j])
             if overlap is not None:
                 allowed = surface_slack(part, quality) + surface_slack(other_part, quality)
                 found.append(Overlap(piece.name, other.name, angle, *overlap, allowed))
@@ -120,7 +121,8 @@ def shared_volume(
 ) -> float:
     """Volume (m^3) of the intersection of two pieces at a crank angle (rad)."""
     solids = [
-        _posed(part, piece.pose(design, crank_angle), FINE) for part, piece in (first, second)
+        posed_manifold(part, piece.pose(design, crank_angle), FINE)
+        for part, piece in (first, second)
     ]
     return float((solids[0] ^ solids[1]).volume()) / MM**3
 
@@ -138,17 +140,23 @@ def _manifold(part: Part, quality: Quality) -> Manifold:
     )
 
 
-def _posed(part: Part, pose: FloatArray, quality: Quality) -> Manifold:
+# Meshes that outlive the interpreter's modules would be reported as leaks.
+atexit.register(_manifold.cache_clear)
+
+
+def posed_manifold(part: Part, pose: FloatArray, quality: Quality) -> Manifold:
+    """The mesh of a part at a pose (4, 4), in mm."""
     placed = np.array(pose[:3], dtype=float)
     placed[:, 3] *= MM
     return _manifold(part, quality).transform(placed)
 
 
-def _boxes_meet(one: FloatArray, other: FloatArray) -> bool:
+def boxes_meet(one: FloatArray, other: FloatArray) -> bool:
+    """Whether two boxes (6,), lowest corner first, share a point."""
     return bool((one[:3] <= other[3:]).all() and (other[:3] <= one[3:]).all())
 
 
-def _overlap(one: Manifold, other: Manifold) -> tuple[float, float] | None:
+def overlap_of(one: Manifold, other: Manifold) -> tuple[float, float] | None:
     """Volume (m^3) of an intersection and mean thickness (m) of its thickest piece."""
     common = one ^ other
     if common.is_empty():

@@ -21,7 +21,10 @@ proportions of the ring, in *units* of a millimetre on a 72 mm ring.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+
+import numpy as np
 
 from cqdd_design.solids.selection import CapScrew, ChosenBearing, OutputPin
 
@@ -193,11 +196,114 @@ class HousingLayout:
 
 
 @dataclass(frozen=True)
+class MotorLayout:
+    """Motor around the housing's tube, its bell and cover, and the encoder on the shaft's end, m.
+
+    Attributes
+    ----------
+    stack_inner, stack_outer, slot_radius : float
+        Laminations of the stator: bore, outside, bottom of the slots, which the coils fill.
+    stack_bottom, stack_top, coil : float
+        Heights of the laminations, and how far the coils stand out beyond them.
+    rotor_inner, rotor_outer, ring_bottom, ring_top : float
+        The rotor's ring of magnets and back iron.
+    bell_radius, web_bottom, web_top : float
+        Outside of the bell that carries the ring; its web.
+    hub_radius, hub_top : float
+        The bell's hub on the shaft's stub; it ends with the web.
+    magnet_radius, magnet_height, magnet_bottom : float
+        Of the encoder's magnet: flush with the end of the shaft, or on it.
+    board_radius, board_bottom, board_top, sensor_top : float
+        Encoder board with its sensor.
+    board_screw : CapScrew
+    cover_inner, cover_outer, cover_floor, cover_wall : float
+        Inside and outside radius of the cover; height of its floor's inner face about the bell,
+        and its thickness (the dish under the board lies lower).
+    ear_count : int
+    ear_radius, ear_circle, ear_height : float
+        Ears of flange and cover, for the screws that hold them together.
+    flange_top : float
+        Height of the flange's face under the heads of those screws.
+    cover_screw : CapScrew
+    cable_radius, cable_circle : float
+        Hole in the flange for the phase leads; 0 where there is no room.
+    """
+
+    stack_inner: float
+    stack_outer: float
+    slot_radius: float
+    stack_bottom: float
+    stack_top: float
+    coil: float
+    rotor_inner: float
+    rotor_outer: float
+    ring_bottom: float
+    ring_top: float
+    bell_radius: float
+    web_bottom: float
+    web_top: float
+    hub_radius: float
+    hub_top: float
+    magnet_radius: float
+    magnet_height: float
+    magnet_bottom: float
+    board_radius: float
+    board_bottom: float
+    board_top: float
+    sensor_top: float
+    board_screw: CapScrew
+    cover_inner: float
+    cover_outer: float
+    cover_floor: float
+    cover_wall: float
+    ear_count: int
+    ear_radius: float
+    ear_circle: float
+    ear_height: float
+    flange_top: float
+    cover_screw: CapScrew
+    cable_radius: float
+    cable_circle: float
+
+    @property
+    def ear_angles(self) -> np.ndarray:
+        """Directions of the ears, rad."""
+        return (0.5 + np.arange(self.ear_count)) * 2.0 * math.pi / self.ear_count
+
+
+@dataclass(frozen=True)
+class DowelLayout:
+    """Dowels across the seam of ring and housing, which keep the ring from turning, m.
+
+    Attributes
+    ----------
+    radius : float
+        0 where there is no room for any.
+    angles : tuple of float
+        rad, where the wall is thickest.
+    bottom : float
+        Of their holes, which open at the upper face of the ring.
+    length : float
+    """
+
+    radius: float
+    angles: tuple[float, ...]
+    bottom: float
+    length: float
+
+
+@dataclass(frozen=True)
 class Layout:
-    """All of the above for one design; `unit` is a millimetre at its scale, m."""
+    """All of the above for one design; `unit` is a millimetre at its scale, m.
+
+    `motor` is None where the motor cannot be drawn, and `motor_missing` says why.
+    """
 
     unit: float
     pack: PackLayout
     shaft: ShaftLayout
     carrier: CarrierLayout
     housing: HousingLayout
+    dowels: DowelLayout
+    motor: MotorLayout | None
+    motor_missing: str

@@ -72,9 +72,9 @@ class Part:
         Mass of one piece where a catalogue gives it, kg: an envelope's volume says too much.
     inner_body : Body or None
         For bearings: what the inner ring turns with (`Instance.body` carries the outer ring).
-    exact_section : Moments or None
-        For discs and rings: plane integrals of the exact curve, of which the shape's arcs are a
-        close fit.
+    exact_section, fitted_section : Moments or None
+        For discs and rings: plane integrals of the exact curve, and of the arcs of the shape that
+        closely fit it.
     fits : tuple of Fit
         Tolerance zones of its seats.
     """
@@ -89,6 +89,7 @@ class Part:
     catalogue_mass: float | None = None
     inner_body: Body | None = None
     exact_section: Moments | None = None
+    fitted_section: Moments | None = None
     fits: tuple[Fit, ...] = ()
 
     @property
@@ -99,9 +100,10 @@ class Part:
     @property
     def exact_volume(self) -> float:
         """Closed-form volume of one piece, m^3; of the exact curve for discs and rings."""
-        if self.exact_section is None:
+        if self.exact_section is None or self.fitted_section is None:
             return self.shape.volume
-        return self.exact_section.area * (self.shape.top - self.shape.bottom)
+        off = self.exact_section.area - self.fitted_section.area
+        return self.shape.volume + off * (self.shape.top - self.shape.bottom)
 
     @property
     def density(self) -> float:
@@ -118,9 +120,15 @@ class Part:
     @cached_property
     def exact_properties(self) -> MassProperties:
         """Closed-form mass properties of one piece in the part's frame."""
-        if self.exact_section is None:
-            return self.shape.mass_properties(self.density)
-        return prism_properties(self.exact_section, self.shape.bottom, self.shape.top, self.density)
+        shape, density = self.shape, self.density
+        own = shape.mass_properties(density)
+        if self.exact_section is None or self.fitted_section is None:
+            return own
+        return (
+            own
+            + prism_properties(self.exact_section, shape.bottom, shape.top, density)
+            + prism_properties(self.fitted_section, shape.bottom, shape.top, -density)
+        )
 
     @cached_property
     def solid(self) -> Solid:

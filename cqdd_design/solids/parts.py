@@ -18,8 +18,16 @@ from cqdd_design.solids import carrier as carrier_shapes
 from cqdd_design.solids import housing as housing_shapes
 from cqdd_design.solids import rotating
 from cqdd_design.solids.clocking import DiscGroup, disc_groups
+from cqdd_design.solids.counterweights import balance_weights
 from cqdd_design.solids.fits import seat_fits
 from cqdd_design.solids.layout import Layout
+from cqdd_design.solids.motor_parts import dowel_part, motor_parts
+from cqdd_design.solids.motor_shapes import (
+    with_dowel_grooves,
+    with_dowel_notches,
+    with_magnet_pocket,
+    with_motor_flange,
+)
 from cqdd_design.solids.part import Colour, Instance, Part
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
 from cqdd_design.solids.proportions import lay_out
@@ -64,13 +72,16 @@ def build_parts(design: Design, cam_bearing: Bearing) -> tuple[Part, ...]:
         When the parts cannot exist or cannot be put together.
     """
     layout = lay_out(design, cam_bearing)
-    parts = (
+    parts = [
         *_disc_parts(design, layout),
         *_ring_parts(design, layout),
         *_shaft_parts(layout),
         *_carrier_parts(design, layout),
         *_housing_parts(design, layout),
-    )
+        *motor_parts(design, layout, FASTENER_MATERIAL),
+    ]
+    if design.reducer.balance.counterweights:
+        parts += balance_weights(design, layout, parts, _SHAFT)
     fits = seat_fits(layout)
     return tuple(
         dataclasses.replace(part, fits=tuple(fit for fit in fits if fit.belongs_to(part.name)))
@@ -116,24 +127,29 @@ def _disc_part(design: Design, layout: Layout, group: DiscGroup, *, alone: bool)
         exact_section=disc_moments(
             design, drawn, bore_diameter=bore, pin_mean_diameter=pin_diameter
         ),
+        fitted_section=contour.moments(),
     )
 
 
 def _ring_parts(design: Design, layout: Layout) -> list[Part]:
-    height = layout.pack.top
+    height, dowels = layout.pack.top, layout.dowels
+    contour = ring_contour(design)
+    plain = prism(contour, 0.0, height)
+    shape = with_dowel_notches(plain, layout.pack, dowels) if dowels.radius else plain
     ring = Part(
         name="ring",
-        shape=prism(ring_contour(design), 0.0, height),
+        shape=shape,
         material=design.reducer.ring_material,
         colour=_RING,
         source="make",
         designation=f"wire EDM, {height * 1e3:g} mm plate",
         instances=_once("ring", HOUSING),
         exact_section=ring_moments(design),
+        fitted_section=contour.moments(),
     )
     pins = ring_pins(design)
     if not pins:
-        return [ring]
+        return [ring, *dowel_part(layout)]
     diameter = 2.0 * pins[0].radius
     instances = tuple(
         Instance(f"ring pin {i + 1}", HOUSING, transform(x=pin.centre[0], y=pin.centre[1]))
@@ -148,16 +164,17 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
         designation=f"ground pin {diameter * 1e3:g} x {height * 1e3:g} mm",
         instances=instances,
     )
-    return [ring, loose]
+    return [ring, loose, *dowel_part(layout)]
 
 
 def _shaft_parts(layout: Layout) -> list[Part]:
-    pack, shaft = layout.pack, layout.shaft
+    pack, shaft, motor = layout.pack, layout.shaft, layout.motor
+    turned = rotating.eccentric_shaft(pack, shaft)
     material = RACEWAY_MATERIAL if pack.cam.bearing.kind == "needle cage" else SHAFT_MATERIAL
     parts = [
         Part(
             name="eccentric shaft",
-            shape=rotating.eccentric_shaft(pack, shaft),
+            shape=turned if motor is None else with_magnet_pocket(turned, motor),
             material=material,
             colour=_SHAFT,
             source="make",
@@ -321,7 +338,7 @@ def _housing_parts(design: Design, layout: Layout) -> list[Part]:
         for i, (x, y) in enumerate(on_circle(housing.screw_count, housing.bolt_circle_radius, 0.0))
     )
     return [
-        made("housing", housing_shapes.housing_body(layout), _HOUSING),
+        made("housing", _housing_shape(layout), _HOUSING),
         made("ring clamp", housing_shapes.ring_clamp(layout), _COVER),
         made("output cover", housing_shapes.output_cover(layout), _HOUSING),
         Part(
@@ -334,6 +351,15 @@ def _housing_parts(design: Design, layout: Layout) -> list[Part]:
             instances=screws,
         ),
     ]
+
+
+def _housing_shape(layout: Layout) -> Stack:
+    shape = housing_shapes.housing_body(layout)
+    if layout.motor is not None:
+        shape = with_motor_flange(shape, layout, layout.motor)
+    if layout.dowels.radius:
+        shape = with_dowel_grooves(shape, layout.pack, layout.dowels)
+    return shape
 
 
 def total_mass(parts: Sequence[Part]) -> float:

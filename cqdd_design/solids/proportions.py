@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from cqdd_design.catalog.bearings import Bearing
-from cqdd_design.catalog.motors import find_motor
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.cycloid import CycloidDisc
@@ -14,9 +14,11 @@ from cqdd_design.solids.layout import (
     CarrierLayout,
     HousingLayout,
     Layout,
+    MotorLayout,
     PackLayout,
     ShaftLayout,
 )
+from cqdd_design.solids.motor_rules import lay_out_motor, register_radius, ring_dowels
 from cqdd_design.solids.selection import (
     ChosenBearing,
     OutputPin,
@@ -73,9 +75,21 @@ def lay_out(design: Design, cam_bearing: Bearing) -> Layout:
         2.0 * (pins.circle_radius - _counterbore(pin, unit) - wall - 2.3 * unit),
     )
     carrier = _carrier(design, pin, pack, support, core, unit)
-    housing, seat_top = _housing(design, pack, carrier, support, unit)
+    register, row, missing = register_radius(design, pack, unit)
+    housing, seat_top = _housing(design, pack, carrier, support, unit, register, row)
+    motor = None
+    if row is not None:
+        weights = design.reducer.balance.counterweights
+        motor = lay_out_motor(row, pack, housing, support, unit, weights=weights)
     return Layout(
-        unit, pack, _shaft(pack, support, core, housing, seat_top, unit), carrier, housing
+        unit=unit,
+        pack=pack,
+        shaft=_shaft(pack, support, core, housing, seat_top, unit, motor),
+        carrier=carrier,
+        housing=housing,
+        dowels=ring_dowels(design, pack, housing, unit),
+        motor=motor,
+        motor_missing=missing,
     )
 
 
@@ -268,9 +282,10 @@ def _housing(
     carrier: CarrierLayout,
     support: ChosenBearing,
     unit: float,
+    register: float,
+    motor: Motor | None,
 ) -> tuple[HousingLayout, float]:
     """Housing, and the height of the lower support bearing's upper face."""
-    register, seated = _register(design, pack, unit)
     thread = thread_size(3.0 * unit)
     lip = max(2.0 * unit, 0.3 * thread)
     hub = 0.5 * carrier.output.bearing.outer_diameter + 2.5 * unit
@@ -298,7 +313,7 @@ def _housing(
     bottom = min(floor_top - 2.5 * unit, seat_top - support.bearing.width - unit)
     layout = HousingLayout(
         register_radius=register,
-        seated_motor=seated,
+        seated_motor=motor is not None,
         flange_radius=bolt_circle + 0.5 * head + unit,
         flange_bottom=max(flange_bottom, bottom),
         bolt_circle_radius=bolt_circle,
@@ -316,18 +331,6 @@ def _housing(
     return layout, seat_top
 
 
-def _register(design: Design, pack: PackLayout, unit: float) -> tuple[float, bool]:
-    """Outside radius of the tube, and whether it is the stator bore of the design's motor."""
-    own = pack.ring_radius + 2.0 * unit
-    bore = find_motor(design.motor.name).bore_diameter
-    if bore is None:
-        return own, False
-    wall = 0.5 * bore - pack.ring_radius
-    if unit <= wall <= 5.0 * unit:
-        return 0.5 * bore, True
-    return own, False
-
-
 def _shaft(
     pack: PackLayout,
     support: ChosenBearing,
@@ -335,6 +338,7 @@ def _shaft(
     housing: HousingLayout,
     seat_top: float,
     unit: float,
+    motor: MotorLayout | None,
 ) -> ShaftLayout:
     journal = support.bearing.bore_diameter
     cam_bore = 0.5 * pack.cam.bearing.bore_diameter
@@ -345,6 +349,11 @@ def _shaft(
         web -= 0.05e-3
     upper = pack.top + pack.gap
     hole = journal - 2.0 * max(2.5 * unit, 0.15 * journal)
+    bottom = housing.bottom - min(1.2 * journal, 12.0 * unit)
+    if motor is not None:
+        bottom = motor.web_bottom - 0.5 * unit
+        # The encoder's magnet needs a seat at the end of the bore.
+        hole = min(hole, 2.0 * motor.magnet_radius - 0.8e-3)
     return ShaftLayout(
         support=support,
         shoulder_radius=core,
@@ -352,6 +361,6 @@ def _shaft(
         bore_radius=0.5 * hole if hole >= 1.5e-3 else 0.0,
         lower_seat_top=seat_top,
         upper_seat_bottom=upper,
-        bottom=housing.bottom - min(1.2 * journal, 12.0 * unit),
+        bottom=bottom,
         top=upper + support.bearing.width,
     )

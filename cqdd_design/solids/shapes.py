@@ -17,7 +17,7 @@ plane integrals. Lengths are in metres.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -280,3 +280,51 @@ def notched_circle(radius: float, count: int, width: float, depth: float) -> Arc
     land = 2.0 * math.pi / count - 2.0 * half
     bulges = np.tile([0.0, 0.0, 0.0, math.tan(land / 4.0)], count)
     return ArcContour(as_points((turns[:, None] * slot).ravel()), bulges)
+
+
+def scalloped_circle(
+    radius: float, angles: ArrayLike, distance: float, scallop: float, *, inward: bool = False
+) -> ArcContour:
+    """A circle with round ears, or with round notches, about points near its edge.
+
+    Parameters
+    ----------
+    radius : float
+        Of the circle, m.
+    angles : array_like
+        Directions of the small circles' centres, rising, rad.
+    distance, scallop : float
+        Distance of those centres from the axis, and the radius about them, m; each small circle
+        must cut the large one, and not its neighbours.
+    inward : bool
+        Whether the small circles are taken away instead of added.
+    """
+    at = np.asarray(angles, dtype=float)
+    half = math.acos(
+        (radius * radius + distance * distance - scallop * scallop) / (2.0 * radius * distance)
+    )
+    # Sweep about the small centre from one crossing to the other, outside the large circle.
+    lean = math.atan2(radius * math.sin(half), radius * math.cos(half) - distance)
+    small = -(2.0 * math.pi - 2.0 * lean) if inward else 2.0 * lean
+    points = radius * np.exp(1j * np.stack([at - half, at + half], axis=1))
+    lands = np.diff(np.append(at, at[0] + 2.0 * math.pi)) - 2.0 * half
+    bulges = np.stack([np.full(len(at), math.tan(small / 4.0)), np.tan(lands / 4.0)], axis=1)
+    return ArcContour(as_points(points.ravel()), bulges.ravel())
+
+
+def reshaped(
+    stack: Stack, bottom: float, top: float, change: Callable[[PlanarPart], PlanarPart]
+) -> Stack:
+    """The stack with the shape of every layer between two heights changed, split there."""
+    layers = []
+    for layer in stack.layers:
+        ends = [
+            layer.bottom,
+            *(h for h in (bottom, top) if layer.bottom < h < layer.top),
+            layer.top,
+        ]
+        levels = [h for i, h in enumerate(ends) if i == 0 or h - ends[i - 1] > _SAME_HEIGHT]
+        for low, high in pairwise(levels):
+            inside = bottom < 0.5 * (low + high) < top
+            layers.append(Layer(change(layer.shape) if inside else layer.shape, low, high))
+    return Stack(tuple(layers))

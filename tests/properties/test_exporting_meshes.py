@@ -65,7 +65,7 @@ def test_one_stl_a_part(tmp_path: Path) -> None:
     assert [one.path.name for one in files][:3] == [
         "cqdd-10-disc.stl",
         "cqdd-10-ring.stl",
-        "cqdd-10-eccentric-shaft.stl",
+        "cqdd-10-ring-dowel.stl",
     ]
     assert len(files) == len(known_parts("paper"))
 

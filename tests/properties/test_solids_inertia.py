@@ -80,15 +80,29 @@ def test_sums_and_signs() -> None:
     found = gearbox_inertia(design, parts, closed_form)
     rotor = find_motor("CubeMars RO100 KV55").rotor_inertia
     assert found.rotor_inertia == rotor == 5.6e-4
-    assert found.reflected_input == pytest.approx(rotor + sum(p.reflected for p in found.parts))
+    # The rotor is one of the parts, drawn so that it has the catalogue's inertia.
+    drawn = next(p for p in found.parts if p.name == "motor rotor")
+    assert drawn.reflected == pytest.approx(rotor, rel=1e-12)
+    assert found.reflected_input == pytest.approx(sum(p.reflected for p in found.parts))
+    assert found.gearbox_reflected == pytest.approx(found.reflected_input - rotor)
+    assert sum(found.group_masses.values()) == pytest.approx(found.total.mass)
+    assert sum(found.group_inertias.values()) == pytest.approx(found.reflected_input)
+    assert found.group_masses["motor"] == pytest.approx(0.71)
     assert found.reflected_output == pytest.approx(100.0 * found.reflected_input)
     assert found.total.mass == pytest.approx(
         sum(row.count * row.properties.mass for row in found.parts)
     )
-    still = {"ring", "housing", "ring clamp", "output cover", "cover screw"}
+    still = {"ring", "ring dowel", "housing", "ring clamp", "output cover", "cover screw"}
+    still |= {"motor stator", "motor cover", "motor cover screw", "encoder board", "encoder screw"}
     assert {row.name for row in found.parts if row.reflected == 0.0} == still
-    # Two opposed discs, and everything else round: the centre of mass is on the axis.
-    assert np.abs(found.total.centre[:2]).max() < 1e-12
+    # Two opposed discs and a round shaft: what moves has its centre of mass on the axis.
+    moving = MassProperties(0.0)
+    for part in parts:
+        for piece in part.instances:
+            if piece.body.kind != "housing":
+                pose = piece.pose(design)
+                moving += part.exact_properties.moved(pose[:3, 3], pose[:3, :3])
+    assert np.abs(moving.centre[:2]).max() < 1e-12
 
 
 def test_orbiting_mass_is_disc_and_cam_bearing() -> None:
@@ -111,10 +125,12 @@ def test_discs_weigh_on_the_input_by_orbit_and_spin() -> None:
 
 def test_a_motor_without_rotor_inertia_is_told() -> None:
     design = known_design("paper").replacing({"motor.name": "CubeMars R100 KV90"})
-    found = gearbox_inertia(design, known_parts("paper"), closed_form)
+    parts = build_parts(design, find_bearing("6902"))
+    found = gearbox_inertia(design, parts, closed_form)
     assert found.rotor_inertia is None
     assert found.reflected_input == found.gearbox_reflected
-    assert "no rotor inertia for CubeMars R100 KV90" in found.warnings[0]
+    assert "no sizes of rotor and stator for CubeMars R100 KV90" in found.warnings[0]
+    assert "no rotor inertia for CubeMars R100 KV90" in found.warnings[1]
     assert gearbox_inertia(known_design("paper"), known_parts("paper"), closed_form).warnings == ()
 
 

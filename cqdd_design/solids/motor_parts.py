@@ -1,0 +1,169 @@
+"""Parts of the motor, its bell and cover, and the encoder."""
+
+from __future__ import annotations
+
+import math
+
+from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.design import Design
+from cqdd_design.solids import motor_shapes
+from cqdd_design.solids.carrier import cap_screw_shape
+from cqdd_design.solids.layout import Layout, MotorLayout
+from cqdd_design.solids.part import Colour, Instance, Part, Source
+from cqdd_design.solids.poses import HOUSING, SHAFT, transform
+from cqdd_design.solids.shapes import Stack, on_circle
+
+STATOR_MATERIAL = "Electrical steel M400-50A"
+MAGNET_MATERIAL = "NdFeB N42"
+BOARD_MATERIAL = "FR-4 glass epoxy"
+
+_STATOR: Colour = (0.72, 0.45, 0.20)
+_ROTOR: Colour = (0.30, 0.31, 0.34)
+_BELL: Colour = (0.62, 0.65, 0.70)
+_COVER: Colour = (0.40, 0.44, 0.50)
+_MAGNET: Colour = (0.80, 0.80, 0.82)
+_BOARD: Colour = (0.10, 0.40, 0.22)
+_SCREW: Colour = (0.16, 0.17, 0.19)
+_STEEL: Colour = (0.78, 0.80, 0.82)
+
+
+def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
+    """Every part of the motor's end; none when the motor cannot be drawn.
+
+    Parameters
+    ----------
+    design : Design
+    layout : Layout
+    fastener : str
+        Material of screws.
+    """
+    motor = layout.motor
+    if motor is None:
+        return []
+    row = find_motor(design.motor.name)
+    metal, unit = design.housing.material, layout.unit
+    stub = 0.5 * layout.shaft.support.bearing.bore_diameter
+    rotor_mass = _rotor_mass(row, motor)
+    stator_mass = None if row.mass is None else row.mass - rotor_mass
+    bell = motor_shapes.bell(motor, stub, unit)
+    cover = motor_shapes.motor_cover(motor, layout.housing.flange_bottom, unit)
+    magnet = motor_shapes.encoder_magnet(motor)
+    size = f"{2e3 * motor.magnet_radius:g} x {motor.magnet_height * 1e3:g} mm"
+
+    def one(
+        name: str,
+        shape: Stack,
+        material: str,
+        colour: Colour,
+        designation: str,
+        *,
+        turns: bool = False,
+        z: float = 0.0,
+        make: bool = False,
+        mass: float | None = None,
+    ) -> Part:
+        body = SHAFT if turns else HOUSING
+        placed = (Instance(name, body, transform(z=z)),)
+        source: Source = "make" if make else "buy"
+        return Part(name, shape, material, colour, source, designation, placed, mass)
+
+    return [
+        one(
+            "motor stator", motor_shapes.stator(motor), STATOR_MATERIAL, _STATOR,
+            f"{row.name}, stator", mass=stator_mass,
+        ),
+        one(
+            "motor rotor", motor_shapes.rotor(motor), MAGNET_MATERIAL, _ROTOR,
+            f"{row.name}, ring of magnets", turns=True, mass=rotor_mass,
+        ),
+        one(
+            "rotor bell", bell, metal, _BELL,
+            "turned and drilled, bonded on the shaft and to the ring of magnets",
+            turns=True, make=True,
+        ),
+        one("motor cover", cover, metal, _COVER, "turned and milled", make=True),
+        one(
+            "encoder magnet", magnet, MAGNET_MATERIAL, _MAGNET,
+            f"diametric magnet {size}", turns=True, z=motor.magnet_bottom,
+        ),
+        one(
+            "encoder board", motor_shapes.encoder_board(motor), BOARD_MATERIAL, _BOARD,
+            f"magnetic encoder, {design.drive.encoder_bits} bits, on a "
+            f"{2e3 * motor.board_radius:g} mm board",
+        ),
+        _screws(motor, fastener),
+        _cover_screws(motor, fastener),
+    ]  # fmt: skip
+
+
+def _rotor_mass(row: Motor, motor: MotorLayout) -> float:
+    """Mass of the ring of magnets that gives the catalogue's rotor inertia, kg.
+
+    Without one, two fifths of the motor's mass, as is usual for outrunners.
+    """
+    if row.rotor_inertia is None:
+        return 0.4 * (row.mass or 0.0)
+    return row.rotor_inertia / (0.5 * (motor.rotor_inner**2 + motor.rotor_outer**2))
+
+
+def _screws(motor: MotorLayout, material: str) -> Part:
+    places = on_circle(3, motor_shapes.board_screw_circle(motor), 0.0)
+    return Part(
+        name="encoder screw",
+        shape=cap_screw_shape(motor.board_screw),
+        material=material,
+        colour=_SCREW,
+        source="buy",
+        designation=motor.board_screw.designation,
+        instances=tuple(
+            Instance(f"encoder screw {i + 1}", HOUSING, transform(x=x, y=y, z=motor.board_top))
+            for i, (x, y) in enumerate(places)
+        ),
+    )
+
+
+def _cover_screws(motor: MotorLayout, material: str) -> Part:
+    first = float(motor.ear_angles[0])
+    places = on_circle(motor.ear_count, motor.ear_circle, first)
+    return Part(
+        name="motor cover screw",
+        shape=cap_screw_shape(motor.cover_screw),
+        material=material,
+        colour=_SCREW,
+        source="buy",
+        designation=motor.cover_screw.designation,
+        instances=tuple(
+            Instance(f"motor cover screw {i + 1}", HOUSING, transform(x=x, y=y, z=motor.flange_top))
+            for i, (x, y) in enumerate(places)
+        ),
+    )
+
+
+def dowel_part(layout: Layout) -> list[Part]:
+    """The dowels between ring and housing; none where there is no room."""
+    dowels, pack = layout.dowels, layout.pack
+    if dowels.radius <= 0.0:
+        return []
+    size = f"{2e3 * dowels.radius:g} m6 x {dowels.length * 1e3:g}"
+    return [
+        Part(
+            name="ring dowel",
+            shape=motor_shapes.dowel(dowels),
+            material="AISI 52100 / 100Cr6 hardened",
+            colour=_STEEL,
+            source="buy",
+            designation=f"ISO 8734 {size}, drilled and reamed with the ring in its seat",
+            instances=tuple(
+                Instance(
+                    f"ring dowel {i + 1}",
+                    HOUSING,
+                    transform(angle, *_on(pack.ring_radius, angle), dowels.bottom),
+                )
+                for i, angle in enumerate(dowels.angles)
+            ),
+        )
+    ]
+
+
+def _on(radius: float, angle: float) -> tuple[float, float]:
+    return radius * math.cos(angle), radius * math.sin(angle)

@@ -1,0 +1,217 @@
+"""Where the motor goes: an outrunner around the housing's tube, its bell on the shaft's stub.
+
+Half section, output upward; the discs are inside the tube::
+
+      ear  |  flange of the housing                     | pack_top
+      |____|_____________________________________[lip]__|  flange_bottom
+      | |  [bell| ring of |  gap  | coil          ]|tube|
+      | |  [    | magnets |       | laminations   ]|    |
+      | |  [    |_________|       | coil          ]|____|  housing bottom
+      | |  [____________ web ________________  hub ]|shaft
+      | |____________ cover __________________     [magnet]
+                                         |___ [board] ___
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.solids.layout import DowelLayout, MotorLayout
+from cqdd_design.solids.selection import cap_screw, thread_size
+
+if TYPE_CHECKING:
+    from cqdd_design.design import Design
+    from cqdd_design.solids.layout import HousingLayout, PackLayout
+    from cqdd_design.solids.selection import ChosenBearing
+
+_AIR_GAP = 0.5e-3
+"""Radial air gap of a motor whose catalogue gives only the gap's diameter."""
+_COIL_SHARE = 0.5
+"""Height of the coils' ends over the depth of the slots."""
+_SENSOR_GAP = 1.0e-3
+"""From magnet to sensor; makers of magnetic encoders ask for 0.5 to 2 mm."""
+_SENSOR_HEIGHT, _BOARD_THICKNESS = 0.9e-3, 1.6e-3
+_MAGNETS = (3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0)
+"""Diameters of diametric encoder magnets, mm; they are half as high, 2.5 mm at the most."""
+_DOWELS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+"""Diameters of ground dowels, mm (ISO 8734)."""
+_MOST_TUBE_WALL = 12.0
+"""Thickest tube, in units, that is filled up to the bore of a stator."""
+
+
+def drawn_motor(design: Design) -> tuple[Motor | None, str]:
+    """Return the design's motor if its parts can be drawn, or None and why not."""
+    motor = find_motor(design.motor.name)
+    sizes = (
+        motor.bore_diameter,
+        motor.outer_diameter,
+        motor.gap_diameter,
+        motor.stack_length,
+        motor.rotor_length,
+        motor.slot_depth,
+        motor.mass,
+    )
+    if motor.torque_at != "motor" or any(size is None for size in sizes):
+        return None, f"the catalogue has no sizes of rotor and stator for {motor.name}"
+    return motor, ""
+
+
+def register_radius(
+    design: Design, pack: PackLayout, unit: float
+) -> tuple[float, Motor | None, str]:
+    """Outside radius of the tube, the motor that sits on it, and why there is none."""
+    own = pack.ring_radius + 2.0 * unit
+    motor, missing = drawn_motor(design)
+    bore = find_motor(design.motor.name).bore_diameter
+    if bore is None:
+        return own, None, missing
+    wall = 0.5 * bore - pack.ring_radius
+    if wall < unit * (1.0 - 1e-9):
+        return (
+            own,
+            None,
+            (
+                f"a ring of {2e3 * pack.ring_radius:.4g} mm does not go into the "
+                f"{bore * 1e3:.4g} mm stator bore of {design.motor.name}; it may be "
+                f"{1e3 * (bore - 2.0 * unit):.4g} mm with a wall of {unit * 1e3:.3g} mm"
+            ),
+        )
+    if wall > _MOST_TUBE_WALL * unit:
+        return (
+            own,
+            None,
+            (
+                f"the {bore * 1e3:.4g} mm stator bore of {design.motor.name} is far larger than a "
+                f"ring of {2e3 * pack.ring_radius:.4g} mm"
+            ),
+        )
+    return 0.5 * bore, motor, missing
+
+
+def lay_out_motor(
+    motor: Motor,
+    pack: PackLayout,
+    housing: HousingLayout,
+    support: ChosenBearing,
+    unit: float,
+    *,
+    weights: bool,
+) -> MotorLayout:
+    """Lay out motor, bell, cover and encoder.
+
+    Parameters
+    ----------
+    motor : Motor
+        With the sizes that :func:`drawn_motor` asks for.
+    pack, housing : PackLayout, HousingLayout
+    support : ChosenBearing
+        Its bore is the diameter of the shaft's stub.
+    unit : float
+        A millimetre at the scale of this machine, m.
+    weights : bool
+        Whether room for balance weights is left about the bell.
+    """
+    gap, depth = motor.gap_diameter or 0.0, motor.slot_depth or 0.0
+    stack, ring = motor.stack_length or 0.0, motor.rotor_length or 0.0
+    stack_outer = 0.5 * (gap - _AIR_GAP)
+    rotor_inner = 0.5 * (gap + _AIR_GAP)
+    rotor_outer = 0.5 * (motor.outer_diameter or 0.0)
+    coil = _COIL_SHARE * depth
+    room = 2.0 * unit if weights else 0.0
+    stack_top = housing.flange_bottom - 0.5 * unit - max(coil, 0.5 * (ring - stack) + unit + room)
+    stack_bottom = stack_top - stack
+    ring_top = stack_top + 0.5 * (ring - stack)
+    web_top = min(
+        stack_bottom - coil - 0.8 * unit, ring_top - ring - unit, housing.bottom - 0.8 * unit
+    )
+    web_bottom = web_top - 2.0 * unit
+
+    journal = 0.5 * support.bearing.bore_diameter
+    magnet = next((d for d in reversed(_MAGNETS) if d <= 1.3e3 * journal), _MAGNETS[0]) * 1e-3
+    height = min(0.5 * magnet, 2.5e-3)
+    end = web_bottom - 0.5 * unit
+    # In a pocket of the shaft; on the end of a shaft too thin for one.
+    magnet_bottom = end if magnet <= 1.3 * journal + 1e-9 else end - height
+    sensor_top = magnet_bottom - _SENSOR_GAP
+    board_top = sensor_top - _SENSOR_HEIGHT
+    board_screw = cap_screw(2e-3, _BOARD_THICKNESS + 2.0e-3)
+    board = 0.5 * magnet + 9e-3
+
+    bell = rotor_outer + 1.2 * unit
+    inner = bell + unit
+    wall = 1.6 * unit
+    thread = thread_size(3.0 * unit)
+    clearance = 0.55 * thread
+    circle = inner + wall + 0.3 * clearance
+    head = cap_screw(thread, 0.0).head_diameter
+    ear_height = 2.0 * thread
+    flange = min(3.0 * unit, pack.top - housing.flange_bottom)
+    cable_room = inner - 0.5 * unit - housing.flange_radius - 0.5 * unit
+    return MotorLayout(
+        stack_inner=0.5 * (motor.bore_diameter or 0.0),
+        stack_outer=stack_outer,
+        slot_radius=stack_outer - depth,
+        stack_bottom=stack_bottom,
+        stack_top=stack_top,
+        coil=coil,
+        rotor_inner=rotor_inner,
+        rotor_outer=rotor_outer,
+        ring_bottom=ring_top - ring,
+        ring_top=ring_top,
+        bell_radius=bell,
+        web_bottom=web_bottom,
+        web_top=web_top,
+        hub_radius=journal + 3.5 * unit,
+        hub_top=housing.bottom - 0.8 * unit,
+        magnet_radius=0.5 * magnet,
+        magnet_height=height,
+        magnet_bottom=magnet_bottom,
+        board_radius=board,
+        board_bottom=board_top - _BOARD_THICKNESS,
+        board_top=board_top,
+        sensor_top=sensor_top,
+        board_screw=board_screw,
+        cover_inner=inner,
+        cover_outer=inner + wall,
+        cover_floor=web_bottom - unit - room,
+        cover_wall=wall,
+        ear_count=6,
+        ear_radius=0.5 * head + 0.8 * unit,
+        ear_circle=circle,
+        ear_height=ear_height,
+        flange_top=housing.flange_bottom + flange,
+        cover_screw=cap_screw(thread, flange + 1.2 * thread),
+        cable_radius=min(0.3 * cable_room, 4.0 * unit) if cable_room > 3.0 * unit else 0.0,
+        cable_circle=housing.flange_radius + 0.5 * unit + 0.35 * cable_room,
+    )
+
+
+def ring_dowels(
+    design: Design, pack: PackLayout, housing: HousingLayout, unit: float
+) -> DowelLayout:
+    """Dowels across the seam between the ring and the flange's part of its seat.
+
+    They are drilled and reamed with the ring in its seat, half in either part, so the wire cuts a
+    plain ring. Friction under the clamp holds the usual torque, the dowels every other.
+    """
+    most = min(
+        0.8 * (pack.ring_radius - pack.ledge_radius),
+        housing.bolt_circle_radius - 0.5 * housing.screw.thread - pack.ring_radius - 0.3 * unit,
+        3.0 * unit,
+    )
+    size = next((d for d in reversed(_DOWELS) if d * 1e-3 <= most + 1e-9), 0.0)
+    tooth_count = design.reducer.ring_tooth_count
+    count = min(4, tooth_count)
+    pitch = 2.0 * math.pi / tooth_count
+    # Behind a tooth the wall is thickest; behind the pocket of a pin it is thinnest.
+    first = 0.5 * pitch if design.reducer.ring_type == "pinwheel" else 0.0
+    teeth = [round(i * tooth_count / count) for i in range(count)]
+    bottom = max(housing.flange_bottom + 0.5 * unit, 0.0)
+    return DowelLayout(
+        radius=0.5e-3 * size,
+        angles=tuple(first + pitch * tooth for tooth in teeth),
+        bottom=bottom,
+        length=math.floor((pack.top - bottom) * 2e3) / 2e3,
+    )

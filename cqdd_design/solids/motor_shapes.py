@@ -1,0 +1,230 @@
+"""Shapes of motor, bell, cover and encoder, and of the dowels round the ring.
+
+Drawn in the frame of the body each belongs to, with heights as in `layout`.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from cqdd_design.geometry.contours import ArcContour, Circle, PlanarPart, as_points
+from cqdd_design.solids.layout import DowelLayout, Layout, MotorLayout, PackLayout
+from cqdd_design.solids.shapes import (
+    Annulus,
+    Drilling,
+    Layer,
+    Stack,
+    circle,
+    cylinder,
+    on_circle,
+    prism,
+    reshaped,
+    scalloped_circle,
+    turned,
+)
+
+_LIGHTENING, _BOARD_SCREWS, _SENSOR_SIDE = 6, 3, 3.0e-3
+_CLEARANCE_SHARE = 0.55
+"""Radius of a clearance hole over the thread, the medium series of ISO 273."""
+
+
+def stator(motor: MotorLayout) -> Stack:
+    """Laminations with their slots full, and the ends of the coils: one envelope."""
+    lower = motor.stack_bottom - motor.coil
+    upper = motor.stack_top + motor.coil
+    inside = motor.slot_radius + 0.05 * (motor.stack_outer - motor.slot_radius)
+    outside = motor.stack_outer - 0.05 * (motor.stack_outer - motor.slot_radius)
+    return turned(
+        [
+            Annulus(lower, motor.stack_bottom, inside, outside),
+            Annulus(motor.stack_bottom, motor.stack_top, motor.stack_inner, motor.stack_outer),
+            Annulus(motor.stack_top, upper, inside, outside),
+        ]
+    )
+
+
+def rotor(motor: MotorLayout) -> Stack:
+    """Ring of magnets in its back iron: one envelope."""
+    return turned(
+        [Annulus(motor.ring_bottom, motor.ring_top, motor.rotor_inner, motor.rotor_outer)]
+    )
+
+
+def bell(motor: MotorLayout, stub_radius: float, unit: float) -> Stack:
+    """The rotor's carrier: sleeve round the ring, web with lightening holes, hub on the stub."""
+    inner = motor.rotor_inner
+    rings = [
+        Annulus(motor.web_bottom, motor.web_top, stub_radius, motor.bell_radius),
+        Annulus(motor.web_top, motor.ring_bottom, inner, motor.bell_radius),
+        Annulus(motor.ring_bottom, motor.ring_top, motor.rotor_outer, motor.bell_radius),
+        Annulus(motor.web_top, motor.hub_top, stub_radius, motor.hub_radius),
+    ]
+    room = inner - 2.0 * unit - motor.hub_radius - 1.5 * unit
+    middle = motor.hub_radius + 1.5 * unit + 0.5 * room
+    hole = min(0.5 * room, middle * math.sin(math.pi / _LIGHTENING) - 1.5 * unit)
+    holes = []
+    if hole > unit:
+        centres = on_circle(_LIGHTENING, middle, math.pi / _LIGHTENING)
+        holes.append(Drilling(centres, hole, motor.web_bottom, motor.web_top))
+    return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], holes)
+
+
+def with_motor_flange(housing_stack: Stack, layout: Layout, motor: MotorLayout) -> Stack:
+    """The housing with lip and skirt for the stator, and its flange grown over the motor."""
+    housing = layout.housing
+    lip = 0.5 * (motor.stack_inner + motor.slot_radius)
+    layers = list(housing_stack.layers)
+    skirt = housing.bottom - motor.stack_bottom
+    if skirt > 1e-9:
+        tube = PlanarPart(
+            "skirt",
+            circle(housing.register_radius),
+            (circle(housing.register_radius - 2.5 * layout.unit),),
+        )
+        layers.append(Layer(tube, motor.stack_bottom, housing.bottom))
+    grown = reshaped(
+        Stack(tuple(layers)),
+        motor.stack_top,
+        housing.flange_bottom,
+        lambda shape: (
+            _with_outer(shape, circle(lip)) if _is_round(shape, housing.register_radius) else shape
+        ),
+    )
+    ears = scalloped_circle(motor.cover_outer, motor.ear_angles, motor.ear_circle, motor.ear_radius)
+    holes: list[Circle] = [
+        circle(_CLEARANCE_SHARE * motor.cover_screw.thread, centre)
+        for centre in _ear_centres(motor)
+    ]
+    if motor.cable_radius:
+        # Between two ears, whose screws stand half a pitch off +x.
+        centre = motor.cable_circle * np.array([1.0, 0.0])
+        holes.append(circle(motor.cable_radius, centre))
+    return reshaped(
+        grown,
+        housing.flange_bottom,
+        motor.flange_top,
+        lambda shape: (
+            PlanarPart(shape.name, ears, (*shape.holes, *holes))
+            if _is_round(shape, housing.flange_radius)
+            else shape
+        ),
+    )
+
+
+def _is_round(shape: PlanarPart, radius: float) -> bool:
+    """Whether a layer ends in the circle of this radius; the floor's boss is a layer beside."""
+    return isinstance(shape.outer, Circle) and abs(shape.outer.radius - radius) < 1e-9
+
+
+def _ear_centres(motor: MotorLayout) -> np.ndarray:
+    return as_points(motor.ear_circle * np.exp(1j * motor.ear_angles))
+
+
+def _with_outer(shape: PlanarPart, outer: Circle | ArcContour) -> PlanarPart:
+    return PlanarPart(shape.name, outer, shape.holes)
+
+
+def motor_cover(motor: MotorLayout, flange_bottom: float, unit: float) -> Stack:
+    """The can over the bell: wall with ears, floor, and a dish for the encoder's board."""
+    floor, wall = motor.cover_floor, motor.cover_wall
+    dish = motor.board_radius + 1.0 * unit
+    # The board's screws need a plate they do not come through.
+    reach = motor.board_screw.length - (motor.board_top - motor.board_bottom) + 0.3e-3
+    bottom = motor.board_bottom - max(2.0 * unit, reach + 0.5e-3)
+    floor_bottom = floor - wall
+    # The dish's plate, its wall up to the floor, the floor, and the can.
+    dish_wall_bottom = min(motor.board_bottom, floor_bottom)
+    rings = [
+        Annulus(bottom, motor.board_bottom, 0.0, dish + wall),
+        Annulus(dish_wall_bottom, floor_bottom, dish, dish + wall)
+        if motor.board_bottom < floor_bottom
+        else Annulus(0.0, 0.0, 0.0, 0.0),
+        Annulus(max(floor_bottom, motor.board_bottom), floor, dish, motor.cover_outer),
+        Annulus(floor, flange_bottom - motor.ear_height, motor.cover_inner, motor.cover_outer),
+        Annulus(flange_bottom - motor.ear_height, flange_bottom, motor.cover_inner,
+                motor.cover_outer),
+    ]  # fmt: skip
+    screws = on_circle(_BOARD_SCREWS, board_screw_circle(motor), 0.0)
+    tapped = Drilling(
+        screws,
+        0.5 * motor.board_screw.thread,
+        motor.board_bottom - reach,
+        motor.board_bottom,
+    )
+    body = turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], [tapped])
+    ears = scalloped_circle(motor.cover_outer, motor.ear_angles, motor.ear_circle, motor.ear_radius)
+    holes = [circle(0.5 * motor.cover_screw.thread, centre) for centre in _ear_centres(motor)]
+    return reshaped(
+        body,
+        flange_bottom - motor.ear_height,
+        flange_bottom,
+        lambda shape: PlanarPart(shape.name, ears, (*shape.holes, *holes)),
+    )
+
+
+def board_screw_circle(motor: MotorLayout) -> float:
+    """Radius of the circle of the board's screws, m."""
+    return motor.board_radius - 0.5 * motor.board_screw.head_diameter - 0.4e-3
+
+
+def encoder_magnet(motor: MotorLayout) -> Stack:
+    """Diametric magnet in the end of the shaft, standing on z = 0."""
+    return prism(PlanarPart("magnet", circle(motor.magnet_radius)), 0.0, motor.magnet_height)
+
+
+def encoder_board(motor: MotorLayout) -> Stack:
+    """Round board with the sensor's package over its middle."""
+    screws = on_circle(_BOARD_SCREWS, board_screw_circle(motor), 0.0)
+    clearance = _CLEARANCE_SHARE * motor.board_screw.thread
+    half = 0.5 * _SENSOR_SIDE
+    package = ArcContour(
+        np.array([[half, -half], [half, half], [-half, half], [-half, -half]]), np.zeros(4)
+    )
+    board = turned(
+        [Annulus(motor.board_bottom, motor.board_top, 0.0, motor.board_radius)],
+        [Drilling(screws, clearance, motor.board_bottom, motor.board_top)],
+    )
+    sensor = Layer(PlanarPart("sensor", package), motor.board_top, motor.sensor_top)
+    return Stack((*board.layers, sensor))
+
+
+def with_magnet_pocket(shaft: Stack, motor: MotorLayout) -> Stack:
+    """The shaft with a pocket for the magnet in its lower end, where the magnet is inside."""
+    if motor.magnet_bottom < shaft.bottom - 1e-9:
+        return shaft
+
+    def pocketed(shape: PlanarPart) -> PlanarPart:
+        return PlanarPart(shape.name, shape.outer, (circle(motor.magnet_radius),))
+
+    return reshaped(shaft, shaft.bottom, shaft.bottom + motor.magnet_height, pocketed)
+
+
+def with_dowel_notches(ring: Stack, pack: PackLayout, dowels: DowelLayout) -> Stack:
+    """The ring with the halves of the dowels' holes that lie in it."""
+    notched = scalloped_circle(
+        pack.ring_radius, dowels.angles, pack.ring_radius, dowels.radius, inward=True
+    )
+    return reshaped(ring, dowels.bottom, ring.top, lambda shape: _with_outer(shape, notched))
+
+
+def with_dowel_grooves(housing: Stack, pack: PackLayout, dowels: DowelLayout) -> Stack:
+    """The housing with the halves of the dowels' holes that lie in it."""
+    grooved = scalloped_circle(pack.ring_radius, dowels.angles, pack.ring_radius, dowels.radius)
+
+    def change(shape: PlanarPart) -> PlanarPart:
+        holes = tuple(
+            grooved
+            if isinstance(hole, Circle) and abs(hole.radius - pack.ring_radius) < 1e-9
+            else hole
+            for hole in shape.holes
+        )
+        return PlanarPart(shape.name, shape.outer, holes)
+
+    return reshaped(housing, dowels.bottom, pack.top, change)
+
+
+def dowel(dowels: DowelLayout) -> Stack:
+    """A ground dowel, standing on z = 0."""
+    return Stack((cylinder(dowels.radius, 0.0, dowels.length),))
