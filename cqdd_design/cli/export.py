@@ -3,36 +3,109 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, Force
+from cqdd_design.cli.options import Force, parse_positive
 from cqdd_design.cli.session import Output
+
+if TYPE_CHECKING:
+    from cqdd_design.exporting import ExportOptions
+
+WITHOUT_SOLIDS = {"dxf", "svg", "edm", "gcode"}
+"""Kinds that need no parts of the machine."""
 
 
 def export(
     out: Output,
-    design: DesignFile,
+    design: Annotated[
+        list[Path],
+        typer.Argument(metavar="DESIGN...", help="Design files (TOML); several at once."),
+    ],
     to: Annotated[
         str,
-        typer.Option("--to", metavar="LIST", help="Kinds: dxf, step, stl, 3mf, glb, svg, bom."),
+        typer.Option(
+            "--to",
+            metavar="LIST",
+            help="Kinds: dxf, edm, gcode, step, stl, 3mf, glb, svg, bom.",
+        ),
     ] = "dxf,step",
     folder: Annotated[
         Path | None,
         typer.Option("--out", metavar="DIR", help="Where to; default exports/NAME."),
     ] = None,
+    dxf_version: Annotated[
+        str, typer.Option("--dxf-version", metavar="R12|R2000|R2010", help="Dialect of DXF.")
+    ] = "R2000",
+    dxf_style: Annotated[
+        str,
+        typer.Option(
+            "--dxf-style",
+            metavar="polyline|entities",
+            help="Contours closed, or as lines and arcs end to end.",
+        ),
+    ] = "polyline",
+    step_schema: Annotated[
+        str, typer.Option("--step-schema", metavar="AP214|AP242", help="Protocol of STEP.")
+    ] = "AP214",
+    tab_length: Annotated[
+        str | None,
+        typer.Option(
+            "--tab-length", metavar="Q", help='Left uncut in G-code until held; default "3 mm".'
+        ),
+    ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option(metavar="N", min=1, help="Designs at a time; default one for each core."),
+    ] = None,
     force: Force = False,
-) -> None:
-    """Files for makers: DXF for wire EDM, STEP, meshes, bill of materials."""
+) -> int:
+    """Files for makers: DXF, wire-EDM package, G-code, STEP, meshes, bill of materials."""
     from cqdd_design.design import load_design
+    from cqdd_design.exporting import ExportOptions, read_kinds
     from cqdd_design.exporting import export as write
-    from cqdd_design.exporting import read_kinds
+    from cqdd_design.units import LENGTH
 
     kinds = read_kinds(to)
-    loaded = load_design(design)
-    solids = bool(set(kinds) - {"dxf", "svg"})
-    stages = out.stages(len(kinds) + solids)
-    files = write(loaded, kinds, folder, force=force, progress=stages)
+    tab = parse_positive("--tab-length", tab_length, LENGTH)
+    options = ExportOptions(
+        dxf_version=dxf_version.upper(),
+        dxf_style=dxf_style.lower(),
+        step_schema=step_schema.upper(),
+        **({} if tab is None else {"tab_length": tab}),
+    )
+    if len(design) > 1:
+        return _several(out, design, kinds, folder, options, workers=workers, force=force)
+    loaded = load_design(design[0])
+    stages = out.stages(len(kinds) + bool(set(kinds) - WITHOUT_SOLIDS))
+    files = write(loaded, kinds, folder, force=force, progress=stages, options=options)
     out.wrote(files)
     out.document({"kinds": list(kinds)}, design=loaded, files=files)
+    return 0
+
+
+def _several(
+    out: Output,
+    designs: list[Path],
+    kinds: tuple[str, ...],
+    folder: Path | None,
+    options: ExportOptions,
+    *,
+    workers: int | None,
+    force: bool,
+) -> int:
+    """Each design in a process of its own; the exit code of the first that failed."""
+    from cqdd_design.exporting.many import export_many
+
+    arguments = ["--to", ",".join(kinds), *options.arguments()]
+    arguments += ["--out", str(folder)] if folder is not None else []
+    arguments += ["--force"] if force else []
+    found = export_many(designs, arguments, workers=workers, progress=out.counting("designs"))
+    for one in found:
+        if one.error:
+            out.warn(f"{one.path}: {one.error}")
+        else:
+            out.say(f"{one.path}: {len(one.files)} files")
+    out.document({"kinds": list(kinds), "designs": [one.to_dict() for one in found]})
+    return next((one.exit_code for one in found if one.exit_code), 0)

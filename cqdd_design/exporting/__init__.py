@@ -21,13 +21,14 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from cqdd_design.errors import UsageError, did_you_mean
+from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 from cqdd_design.files import WrittenFile, ensure_folder, refuse_overwrite
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
     from cqdd_design.solids.parts import Part
 
-__all__ = ["EXPORTERS", "ExportJob", "default_folder", "export", "read_kinds"]
+__all__ = ["EXPORTERS", "ExportJob", "ExportOptions", "default_folder", "export", "read_kinds"]
 
 EXPORTERS: Mapping[str, str] = MappingProxyType(
     {
@@ -38,6 +39,8 @@ EXPORTERS: Mapping[str, str] = MappingProxyType(
         "glb": "cqdd_design.exporting.meshes:export_glb",
         "svg": "cqdd_design.exporting.svg:export_svg",
         "bom": "cqdd_design.exporting.bom:export_bom",
+        "edm": "cqdd_design.exporting.edm:export_edm",
+        "gcode": "cqdd_design.exporting.gcode:export_gcode",
     }
 )
 """Kind of file, and the function that writes all files of that kind from an `ExportJob`."""
@@ -56,15 +59,21 @@ class ExportJob:
         Exists; files go here under names that begin with the design's.
     progress : callable
         Told in a few words what is being done.
+    options : ExportOptions
+        How files are written.
     """
 
     design: Design
     folder: Path
     progress: Progress
+    options: ExportOptions = DEFAULTS
 
-    def path(self, ending: str) -> Path:
-        """File of this design: ``path("-disc.dxf")`` is ``<folder>/<name>-disc.dxf``."""
-        return self.folder / f"{self.design.name}{ending}"
+    def path(self, ending: str, within: str = "") -> Path:
+        """File of this design: ``path("-disc.dxf")`` is ``<folder>/<name>-disc.dxf``.
+
+        `within` names a folder below it, which need not exist yet.
+        """
+        return self.folder / within / f"{self.design.name}{ending}"
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:
@@ -117,6 +126,7 @@ def export(
     *,
     force: bool = False,
     progress: Progress | None = None,
+    options: ExportOptions = DEFAULTS,
 ) -> tuple[WrittenFile, ...]:
     """Write the files of a design.
 
@@ -132,6 +142,8 @@ def export(
         Replace existing files in a named folder.
     progress : callable, optional
         Called with a few words before each kind of file.
+    options : ExportOptions, optional
+        How files are written.
 
     Returns
     -------
@@ -157,16 +169,21 @@ def export(
     placed: list[WrittenFile] = []
     try:
         ensure_folder(staging)
-        job = ExportJob(design, staging, tell)
+        job = ExportJob(design, staging, tell, options)
         for kind in wanted:
             tell(f"writing {kind}")
             placed += [
-                dataclasses.replace(one, path=target / one.path.name) for one in _writer(kind)(job)
+                dataclasses.replace(one, path=target / one.path.relative_to(staging))
+                for one in _writer(kind)(job)
             ]
         for one in placed:
             refuse_overwrite(one.path, force=force or folder is None)
+        below = {one.path.parent for one in placed} - {target}
+        made = [*dict.fromkeys(lost for path in sorted(below) for lost in _missing(path)), *made]
+        for path in sorted(below):
+            ensure_folder(path)
         for one in placed:
-            _move(staging / one.path.name, one.path)
+            _move(staging / one.path.relative_to(target), one.path)
         made = []
     except UsageError as error:
         # Writers know only the staging folder, readers of the message only the target.

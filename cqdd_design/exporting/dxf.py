@@ -1,8 +1,10 @@
 """DXF for wire EDM: the nominal contour as one closed polyline of arcs, holes as true circles.
 
 Layers: CUT_OUTER and CUT_INNER hold what is cut, START_HOLE where the wire is threaded, REF the
-centre lines and pitch circle, NOTES the text. Units are millimetres, in the header and in a note,
-because some controls read neither. No kerf offset: that is the control's, by its own technology.
+centre lines and pitch circle, NOTES the text. Units are millimetres, in the header (R12 has none
+there) and in a note, because some controls read neither. No kerf offset in these layers: that is
+the control's, by its own technology. Files of the EDM package have two more: WIRE_PATH, the path
+of the wire's centre, and LEAD_IN, from each start hole onto it.
 
 A file is read back from disk before it gets its name (`readback`); what was measured there stands
 in its notes.
@@ -24,11 +26,16 @@ from cqdd_design.catalog import find_material
 from cqdd_design.errors import ReadBackError
 from cqdd_design.exporting.flat_parts import FlatPart, flat_parts, reach_of
 from cqdd_design.exporting.loops import Loop, LoopFit, fit_of
+from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 from cqdd_design.exporting.readback import (
     CUT_INNER,
     CUT_OUTER,
+    LEAD_IN,
     MILLIMETRES,
+    NOTES,
     START_HOLE,
+    UNITS_NOTE,
+    WIRE_PATH,
     read_back,
 )
 from cqdd_design.exporting.start_holes import start_holes
@@ -41,11 +48,11 @@ if TYPE_CHECKING:
 
     from cqdd_design.design import Design
     from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.wire_path import WirePath
 
-VERSION = "R2000"
-"""AC1015, the oldest dialect with light-weight polylines: every wire-EDM CAM reads it."""
-REF, NOTES = "REF", "NOTES"
+REF = "REF"
 LAYERS = {CUT_OUTER: 1, CUT_INNER: 5, START_HOLE: 3, REF: 8, NOTES: 7}
+WIRE_LAYERS = {WIRE_PATH: 6, LEAD_IN: 4}
 """Layers and their AutoCAD colour numbers."""
 
 _MM = 1e3
@@ -55,13 +62,31 @@ _TEXT_HEIGHT, _LINE_PITCH, _NOTE_GAP, _CROSS = 2.0, 3.5, 8.0, 4.0
 def export_dxf(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write one DXF for every flat part of a design: ``<name>-disc.dxf``, ``<name>-ring.dxf``."""
     return tuple(
-        write_flat_part(flat, job.design, job.path(f"-{flat.label}.dxf"))
+        write_flat_part(flat, job.design, job.path(f"-{flat.label}.dxf"), job.options)
         for flat in flat_parts(job.design)
     )
 
 
-def write_flat_part(flat: FlatPart, design: Design, path: Path) -> WrittenFile:
+def write_flat_part(
+    flat: FlatPart,
+    design: Design,
+    path: Path,
+    options: ExportOptions = DEFAULTS,
+    *,
+    wire: Sequence[WirePath] = (),
+) -> WrittenFile:
     """Write one part, read it back, and put it in place only if it is the part.
+
+    Parameters
+    ----------
+    flat : FlatPart
+    design : Design
+    path : Path
+        Of the file.
+    options : ExportOptions, optional
+        Dialect and style.
+    wire : sequence of WirePath
+        Paths of the wire's centre to draw beside the contours.
 
     Raises
     ------
@@ -71,9 +96,10 @@ def write_flat_part(flat: FlatPart, design: Design, path: Path) -> WrittenFile:
     fit = contour_fit(flat)
 
     def write(temporary: Path) -> None:
-        with _reproducible():
-            draw(flat, design, fit).saveas(temporary)
-        found = read_back(temporary, flat, design.edm).fit.largest_deviation
+        with reproducible():
+            draw(flat, design, fit, options, wire=wire).saveas(temporary)
+        back = read_back(temporary, flat, design.edm, options, wire_paths=bool(wire))
+        found = back.fit.largest_deviation
         if not math.isclose(found, fit.largest_deviation, rel_tol=1e-6, abs_tol=1e-12):
             raise ReadBackError(
                 f"{flat.label}: the file measures {found * 1e6:.4g} um where its notes say "
@@ -92,7 +118,14 @@ def contour_fit(flat: FlatPart) -> LoopFit:
     return fit_of(loop, flat.exact, outer=contours[0] is outer)
 
 
-def draw(flat: FlatPart, design: Design, fit: LoopFit) -> Drawing:
+def draw(
+    flat: FlatPart,
+    design: Design,
+    fit: LoopFit,
+    options: ExportOptions = DEFAULTS,
+    *,
+    wire: Sequence[WirePath] = (),
+) -> Drawing:
     """Draw a part in a new document; `fit` goes into its notes.
 
     Raises
@@ -102,19 +135,24 @@ def draw(flat: FlatPart, design: Design, fit: LoopFit) -> Drawing:
     """
     from ezdxf.filemanagement import new
 
-    drawing = new(VERSION, setup=False, units=MILLIMETRES)
-    for name, colour in LAYERS.items():
+    drawing = new("R2000", setup=False, units=MILLIMETRES)
+    drawing.dxfversion = options.dxf_version
+    for name, colour in (LAYERS | (WIRE_LAYERS if wire else {})).items():
         drawing.layers.add(name, color=colour)
     space = drawing.modelspace()
-    _add_contour(space, flat.shape.outer, CUT_OUTER)
+    _add_contour(space, flat.shape.outer, CUT_OUTER, options)
     for hole in flat.shape.holes:
-        _add_contour(space, hole, CUT_INNER)
+        _add_contour(space, hole, CUT_INNER, options)
     starts = start_holes(flat, design.edm.wire_diameter)
     for start in starts:
-        _add_contour(space, start, START_HOLE)
+        _add_contour(space, start, START_HOLE, options)
+    for path in wire:
+        _add_contour(space, path.contour, WIRE_PATH, options)
+        begin, end = ((_MM * at.real, _MM * at.imag) for at in (path.start, path.joint))
+        space.add_line(begin, end, dxfattribs={"layer": LEAD_IN})
     reach = _MM * reach_of(flat.shape.outer)
     _add_reference(space, flat, reach)
-    lines = note_lines(flat, design, fit, starts)
+    lines = note_lines(flat, design, fit, starts, wire)
     for number, line in enumerate(lines):
         place = (-reach, -reach - _NOTE_GAP - number * _LINE_PITCH)
         space.add_text(line, height=_TEXT_HEIGHT, dxfattribs={"layer": NOTES, "insert": place})
@@ -129,7 +167,13 @@ def draw(flat: FlatPart, design: Design, fit: LoopFit) -> Drawing:
     return drawing
 
 
-def note_lines(flat: FlatPart, design: Design, fit: LoopFit, starts: Sequence[Circle]) -> list[str]:
+def note_lines(
+    flat: FlatPart,
+    design: Design,
+    fit: LoopFit,
+    starts: Sequence[Circle],
+    wire: Sequence[WirePath] = (),
+) -> list[str]:
     """Return the notes of a file, one line each."""
     edm = design.edm
     rounds = [hole for hole in flat.shape.holes if isinstance(hole, Circle)]
@@ -140,12 +184,21 @@ def note_lines(flat: FlatPart, design: Design, fit: LoopFit, starts: Sequence[Ci
     start_sizes = sorted({f"{2.0 * _MM * s.radius:.2f}" for s in starts})
     return [
         f"PART {design.name}-{flat.label}",
-        "UNITS mm",
+        UNITS_NOTE,
         f"MATERIAL {flat.material}" + (f" ({hardness})" if hardness else ""),
         f"THICKNESS {_MM * flat.thickness:g}",
         f"QUANTITY {flat.quantity}",
         *flat.remarks,
-        "NOMINAL FINISHED CONTOUR, NO KERF OFFSET: THE CONTROL OFFSETS THE WIRE",
+        ("CUT_OUTER, CUT_INNER: " if wire else "")
+        + "NOMINAL FINISHED CONTOUR, NO KERF OFFSET: THE CONTROL OFFSETS THE WIRE",
+        *(
+            [
+                f"{WIRE_PATH}: CENTRE OF THE WIRE ON THE FINISHING CUT, OFFSET "
+                f"{_MM * wire[0].offset:g} INTO THE WASTE; NO FURTHER OFFSET; {LEAD_IN} LEADS ON"
+            ]
+            if wire
+            else []
+        ),
         f"WIRE DIA {_MM * edm.wire_diameter:g}, SPARK GAP {_MM * edm.spark_gap:g}; "
         f"LEAST CONCAVE RADIUS {_MM * concave:.4f}",
         f"CONTOUR OF {fit.segments} ARCS, PROFILE TOLERANCE OF THIS FILE "
@@ -159,17 +212,43 @@ def note_lines(flat: FlatPart, design: Design, fit: LoopFit, starts: Sequence[Ci
     ]
 
 
-def _add_contour(space: Modelspace, contour: Contour, layer: str) -> None:
+def _add_contour(space: Modelspace, contour: Contour, layer: str, options: ExportOptions) -> None:
     attributes = {"layer": layer}
     if isinstance(contour, Circle):
         x, y = (float(v) * _MM for v in contour.centre)
         space.add_circle((x, y), contour.radius * _MM, dxfattribs=attributes)
-        return
-    rows = [
-        (float(x) * _MM, float(y) * _MM, float(bulge))
-        for (x, y), bulge in zip(contour.points, contour.bulges, strict=True)
-    ]
-    space.add_lwpolyline(rows, format="xyb", close=True, dxfattribs=attributes)
+    elif options.dxf_style == "entities":
+        _add_segments(space, contour, attributes)
+    else:
+        rows = [
+            (float(x) * _MM, float(y) * _MM, float(bulge))
+            for (x, y), bulge in zip(contour.points, contour.bulges, strict=True)
+        ]
+        if options.dxf_version == "R12":
+            space.add_polyline2d(rows, format="xyb", close=True, dxfattribs=attributes)
+        else:
+            space.add_lwpolyline(rows, format="xyb", close=True, dxfattribs=attributes)
+
+
+def _add_segments(space: Modelspace, contour: ArcContour, attributes: dict[str, str]) -> None:
+    """Lines and arcs end to end; an arc of the format runs counter-clockwise, always."""
+    ends = np.roll(contour.points, -1, axis=0)
+    arcs = contour.arcs()
+    for number, sweep in enumerate(arcs.sweeps):
+        if sweep == 0.0:
+            start, end = (tuple(float(v) * _MM for v in p[number]) for p in (contour.points, ends))
+            space.add_line(start, end, dxfattribs=attributes)
+            continue
+        centre = tuple(float(v) * _MM for v in arcs.centres[number])
+        from_angle = float(arcs.start_angles[number])
+        low, high = sorted((from_angle, from_angle + float(sweep)))
+        space.add_arc(
+            centre,
+            float(arcs.radii[number]) * _MM,
+            math.degrees(low),
+            math.degrees(high),
+            dxfattribs=attributes,
+        )
 
 
 def _add_reference(space: Modelspace, flat: FlatPart, reach: float) -> None:
@@ -181,7 +260,7 @@ def _add_reference(space: Modelspace, flat: FlatPart, reach: float) -> None:
 
 
 @contextlib.contextmanager
-def _reproducible() -> Iterator[None]:
+def reproducible() -> Iterator[None]:
     """Write fixed dates and identifiers, so that the same design gives the same bytes."""
     from ezdxf._options import options
 

@@ -46,6 +46,8 @@ class FlatPart:
         Circle drawn for reference, m: through the output holes, or through the teeth.
     remarks : tuple of str
         What the shop must know of this part.
+    turned_over : int
+        How many of them are put in turned over.
     """
 
     label: str
@@ -56,6 +58,7 @@ class FlatPart:
     quantity: int
     reference_radius: float
     remarks: tuple[str, ...]
+    turned_over: int = 0
 
 
 def flat_parts(design: Design) -> tuple[FlatPart, ...]:
@@ -121,6 +124,7 @@ def _disc(design: Design, group: DiscGroup, *, alone: bool) -> FlatPart:
         quantity=len(group.placements),
         reference_radius=reducer.output_pins.circle_radius,
         remarks=_disc_remarks(group, reducer.disc_count),
+        turned_over=sum(placed.turned_over for placed in group.placements),
     )
 
 

@@ -1,8 +1,7 @@
 """Reading a written DXF back and refusing it unless it is the part it stands for.
 
-The file is read from disk as plain group codes and values, not by the library that wrote it. What
-is on the cut layers is turned into loops by `loops` and compared with the exact curve and with the
-circles of the design.
+What `dxf_reader` finds on the cut layers is compared with the exact curve and with the circles of
+the design; what is on the layers of the wire, with the contours of the same file.
 """
 
 from __future__ import annotations
@@ -10,14 +9,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cqdd_design.errors import ReadBackError
+from cqdd_design.exporting.dxf_reader import DxfContents, circles_of, loops_of, read_dxf
 from cqdd_design.exporting.loops import Loop, LoopFit, fit_of
+from cqdd_design.exporting.options import DEFAULTS, ExportOptions
+from cqdd_design.exporting.wire_check import PathFit, measure_paths
 from cqdd_design.geometry.contours import Circle
 
 if TYPE_CHECKING:
@@ -25,6 +26,10 @@ if TYPE_CHECKING:
     from cqdd_design.exporting.flat_parts import FlatPart
 
 CUT_OUTER, CUT_INNER, START_HOLE = "CUT_OUTER", "CUT_INNER", "START_HOLE"
+WIRE_PATH, LEAD_IN, NOTES = "WIRE_PATH", "LEAD_IN", "NOTES"
+UNITS_NOTE = "UNITS mm"
+R12 = "AC1009"
+"""Value of $ACADVER in the dialect whose header knows no units."""
 MILLIMETRES, METRIC = 4, 1
 """Values of $INSUNITS and $MEASUREMENT."""
 
@@ -35,8 +40,6 @@ SAME_PLACE = 1e-9
 PERIMETER_SLACK = 0.05
 """Share of the perimeter by which only a stretch run twice or left out can miss it: the coarsest
 fit that a design may ask for, 50 um on a 6 mm gearbox, is within 0.01."""
-
-_MM = 1e-3
 
 
 @dataclass(frozen=True)
@@ -53,81 +56,25 @@ class ReadBack:
         Circles on the layer of start holes.
     least_concave_radius : float
         Over all loops, m; infinite when nothing is concave.
+    paths : tuple of PathFit
+        Of the wire, in the order of the start holes; empty where the file has none.
     """
 
     fit: LoopFit
     loops: int
     start_holes: int
     least_concave_radius: float
+    paths: tuple[PathFit, ...] = ()
 
 
-@dataclass(frozen=True)
-class Entity:
-    """A graphic entity of a file: its type, and its group codes and values in order."""
-
-    kind: str
-    tags: tuple[tuple[int, str], ...]
-
-    def numbers(self, code: int) -> list[float]:
-        """Every value of a group code."""
-        return [float(value) for key, value in self.tags if key == code]
-
-    def first(self, code: int, default: str = "") -> str:
-        """First value of a group code."""
-        return next((value for key, value in self.tags if key == code), default)
-
-
-@dataclass(frozen=True)
-class DxfContents:
-    """What this package needs of a DXF: header variables and the entities of the model space."""
-
-    header: dict[str, str]
-    entities: tuple[Entity, ...]
-
-    def on_layer(self, layer: str) -> list[Entity]:
-        """Entities of one layer, in file order."""
-        return [entity for entity in self.entities if entity.first(8) == layer]
-
-
-def read_dxf(path: Path) -> DxfContents:
-    """Read an ASCII DXF as group codes and values.
-
-    Raises
-    ------
-    ReadBackError
-        When it is not an ASCII DXF, or stops half-way.
-    """
-    lines = path.read_text(encoding="cp1252", errors="replace").splitlines()
-    try:
-        tags = [
-            (int(code), value.strip()) for code, value in zip(lines[::2], lines[1::2], strict=True)
-        ]
-    except ValueError as error:
-        raise ReadBackError(
-            f"{path.name}: this is not an ASCII DXF, or only half of one."
-        ) from error
-    if not tags or tags[-1] != (0, "EOF"):
-        raise ReadBackError(f"{path.name}: the DXF stops before its end.")
-    header = {
-        name: value for (code, name), (_, value) in pairwise(_section(tags, "HEADER")) if code == 9
-    }
-    drawn = _section(tags, "ENTITIES")
-    starts = [index for index, (code, _) in enumerate(drawn) if code == 0]
-    entities = tuple(
-        Entity(drawn[begin][1], tuple(drawn[begin + 1 : end]))
-        for begin, end in pairwise([*starts, len(drawn)])
-    )
-    return DxfContents(header, entities)
-
-
-def _section(tags: list[tuple[int, str]], name: str) -> list[tuple[int, str]]:
-    if (2, name) not in tags:
-        return []
-    begin = tags.index((2, name)) + 1
-    return tags[begin : tags.index((0, "ENDSEC"), begin)]
-
-
-def read_back(path: Path, flat: FlatPart, edm: Edm) -> ReadBack:
+def read_back(
+    path: Path,
+    flat: FlatPart,
+    edm: Edm,
+    options: ExportOptions = DEFAULTS,
+    *,
+    wire_paths: bool = False,
+) -> ReadBack:
     """Read a DXF from disk and compare it with the part it stands for.
 
     Parameters
@@ -138,6 +85,10 @@ def read_back(path: Path, flat: FlatPart, edm: Edm) -> ReadBack:
         What should be in it.
     edm : Edm
         The design's table: profile tolerance, wire and gap.
+    options : ExportOptions, optional
+        In which style it should be.
+    wire_paths : bool
+        Whether it should hold the paths of the wire.
 
     Raises
     ------
@@ -145,14 +96,9 @@ def read_back(path: Path, flat: FlatPart, edm: Edm) -> ReadBack:
         When the file is not a whole DXF in millimetres, or is not the part.
     """
     label, contents = flat.label, read_dxf(path)
-    units = tuple(contents.header.get(name) for name in ("$INSUNITS", "$MEASUREMENT"))
-    if units != (str(MILLIMETRES), str(METRIC)):
-        raise ReadBackError(
-            f"{label}: $INSUNITS and $MEASUREMENT are {units}, not "
-            f"{(MILLIMETRES, METRIC)}, millimetres."
-        )
-    outer = _cut_layer(contents, CUT_OUTER, label)
-    inner = _cut_layer(contents, CUT_INNER, label)
+    _refuse_other_units(label, contents)
+    outer = _cut_layer(contents, CUT_OUTER, label, options)
+    inner = _cut_layer(contents, CUT_INNER, label, options)
     _same_circles(label, CUT_OUTER, outer.circles, [flat.shape.outer])
     _same_circles(label, CUT_INNER, inner.circles, flat.shape.holes)
     loops = outer.loops + inner.loops
@@ -163,13 +109,36 @@ def read_back(path: Path, flat: FlatPart, edm: Edm) -> ReadBack:
             f"{CUT_INNER}; the part has one, on {CUT_OUTER if lobed else CUT_INNER}."
         )
     fit = fit_of(loops[0], flat.exact, outer=lobed)
-    _refuse_misfit(label, fit, edm.profile_tolerance)
-    starts = [_circle(entity) for entity in contents.on_layer(START_HOLE)]
+    refuse_misfit(label, fit, edm.profile_tolerance)
+    starts = circles_of(contents, START_HOLE)
     _refuse_bad_starts(label, starts, outer, inner)
     concave = min([fit.least_concave_radius, *(circle.radius for circle in inner.circles)])
     _refuse_thick_wire(label, concave, edm)
     count = len(loops) + len(outer.circles) + len(inner.circles)
-    return ReadBack(fit, count, len(starts), concave)
+    paths: tuple[PathFit, ...] = ()
+    if wire_paths:
+        paths = measure_paths(
+            label,
+            loops_of(contents, WIRE_PATH, label, options),
+            [entity.ends for entity in contents.on_layer(LEAD_IN)],
+            starts,
+            (outer.all_loops, inner.all_loops),
+            edm,
+        )
+    return ReadBack(fit, count, len(starts), concave, paths)
+
+
+def _refuse_other_units(label: str, contents: DxfContents) -> None:
+    notes = [entity.first(1) for entity in contents.on_layer(NOTES)]
+    if UNITS_NOTE not in notes:
+        raise ReadBackError(f"{label}: no note says '{UNITS_NOTE}'.")
+    units = tuple(contents.header.get(name) for name in ("$INSUNITS", "$MEASUREMENT"))
+    absent = (None, None) if contents.header.get("$ACADVER") == R12 else None
+    if units not in ((str(MILLIMETRES), str(METRIC)), absent):
+        raise ReadBackError(
+            f"{label}: $INSUNITS and $MEASUREMENT are {units}, not "
+            f"{(MILLIMETRES, METRIC)}, millimetres."
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,44 +151,19 @@ class _CutLayer:
         to_circles = [abs(point - complex(*c.centre)) - c.radius for c in self.circles]
         return to_circles + [loop.clearance(point) for loop in self.loops]
 
-
-def _cut_layer(contents: DxfContents, layer: str, label: str) -> _CutLayer:
-    """Everything on one cut layer: closed polylines and circles, and nothing else."""
-    loops, circles = [], []
-    for entity in contents.on_layer(layer):
-        if entity.kind == "CIRCLE":
-            circles.append(_circle(entity))
-        elif entity.kind == "LWPOLYLINE":
-            loops.append(_loop(entity, label))
-        else:
-            raise ReadBackError(f"{label}: a stray {entity.kind} is on layer {layer}.")
-    return _CutLayer(loops, circles)
+    @property
+    def all_loops(self) -> list[Loop]:
+        """Every contour as a loop of arcs, circles as two half circles."""
+        halves = [
+            (complex(*c.centre) + c.radius, complex(*c.centre) - c.radius) for c in self.circles
+        ]
+        rounds = [Loop(np.array(h), np.array(h[::-1]), np.ones(2)) for h in halves]
+        return rounds + self.loops
 
 
-def _circle(entity: Entity) -> Circle:
-    centre = np.array([entity.numbers(10)[0], entity.numbers(20)[0]])
-    return Circle(centre * _MM, entity.numbers(40)[0] * _MM)
-
-
-def _loop(entity: Entity, label: str) -> Loop:
-    """Read a closed polyline; a joint without a bulge of its own starts a line."""
-    if not int(entity.first(70, "0")) & 1:
-        raise ReadBackError(f"{label}: a contour is not closed.")
-    rows: list[list[float]] = []
-    for code, value in entity.tags:
-        if code == 10:
-            rows.append([float(value), 0.0, 0.0])
-        elif code in (20, 42) and rows:
-            rows[-1][1 if code == 20 else 2] = float(value)
-    x, y, bulges = np.array(rows).T
-    joints = (x + 1j * y) * _MM
-    following = np.roll(joints, -1)
-    if (joints == following).any():
-        raise ReadBackError(f"{label}: a contour has a joint twice in the same place.")
-    loop = Loop(joints, following, bulges)
-    if loop.area <= 0.0:
-        raise ReadBackError(f"{label}: a contour runs clockwise.")
-    return loop
+def _cut_layer(contents: DxfContents, layer: str, label: str, options: ExportOptions) -> _CutLayer:
+    """Everything on one cut layer: closed contours and circles, and nothing else."""
+    return _CutLayer(loops_of(contents, layer, label, options), circles_of(contents, layer))
 
 
 def _same_circles(
@@ -244,16 +188,22 @@ def _same_circles(
         )
 
 
-def _refuse_misfit(label: str, fit: LoopFit, tolerance: float) -> None:
+def refuse_misfit(label: str, fit: LoopFit, tolerance: float, smooth: float = SMOOTH) -> None:
+    """Refuse a contour that leaves the exact curve, has kinks, or another area or length.
+
+    Raises
+    ------
+    ReadBackError
+    """
     if not fit.largest_deviation <= tolerance:
         raise ReadBackError(
             f"{label}: the contour leaves the exact curve by {fit.largest_deviation * 1e6:.4g} um, "
             f"more than edm.profile_tolerance {tolerance * 1e6:g} um."
         )
-    if not fit.tangent_break <= SMOOTH:
+    if not fit.tangent_break <= smooth:
         raise ReadBackError(
             f"{label}: the contour turns by {fit.tangent_break:.2g} rad at a joint; a wire path "
-            f"is tangent within {SMOOTH:g} rad."
+            f"is tangent within {smooth:g} rad."
         )
     # A contour that stays within the tolerance cannot differ by more area than a band of it.
     if not abs(fit.area_error) <= tolerance * fit.perimeter:
@@ -294,7 +244,7 @@ def _refuse_bad_starts(
 
 def _refuse_thick_wire(label: str, concave: float, edm: Edm) -> None:
     if concave < edm.wire_diameter / 2.0 + edm.spark_gap:
-        most = max(2.0 * (concave - edm.spark_gap), 0.0)
+        most = max(math.floor(2e6 * (concave - edm.spark_gap)) * 1e-6, 0.0)
         raise ReadBackError(
             f"{label}: the least concave radius is {concave * 1e3:.4f} mm, but edm.wire_diameter "
             f"{edm.wire_diameter * 1e3:g} mm with a gap of {edm.spark_gap * 1e6:g} um cuts none "

@@ -10,6 +10,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from cqdd_design.errors import GeometryError
@@ -30,6 +32,9 @@ WALL = 1.0e-3
 THREADING = 0.1e-3
 """A start hole is at least this much wider than the wire, m."""
 
+THINNEST_WIRE = 0.02e-3
+"""The least edm.wire_diameter of a design, m."""
+
 _PLACES = 96
 
 
@@ -48,10 +53,16 @@ def start_holes(flat: FlatPart, wire_diameter: float) -> tuple[Circle, ...]:
         radius = scale * DIAMETER / 2.0
         if 2.0 * radius < wire_diameter + THREADING:
             need = (wire_diameter + THREADING) * (1.0 + 2.0 * WALL / DIAMETER)
+            most = 2.0 * radius - THREADING
+            thinner = (
+                f"choose a wire of at most {math.floor(most * 1e6) * 1e-3:.3f} mm"
+                if most >= THINNEST_WIRE
+                else f"no wire of {THINNEST_WIRE * 1e3:g} mm or more fits it"
+            )
             raise GeometryError(
                 f"{flat.label}: inner contour {number} is {2e3 * room:.3g} mm across, too small "
                 f"for a start hole that takes edm.wire_diameter {wire_diameter * 1e3:g} mm and is "
-                f"clear of the wall; make it {need * 1e3:.3g} mm or choose a thinner wire."
+                f"clear of the wall; make it {need * 1e3:.3g} mm, or {thinner}."
             )
         holes.append(_beside(contour, 1.0, radius, scale * WALL))
     return tuple(holes)

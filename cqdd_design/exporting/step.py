@@ -1,4 +1,4 @@
-"""STEP files (AP214): the whole machine with names and colours, and every made part by itself.
+"""STEP files (AP214 or AP242): the machine with names and colours, every made part by itself.
 
 The kernel stamps its own name and the present time into the header; both are replaced, so that a
 file says which design it came from and the same design gives the same bytes.
@@ -6,10 +6,11 @@ file says which design it came from and the same design gives the same bytes.
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
     from cqdd_design.solids.parts import Colour, Part
 
 _AUTHOR = "cqdd-design"
+_SCHEMA_SETTING = "write.step.schema"
+_SCHEMAS = {"AP214": "AP214IS", "AP242": "AP242DIS"}
 _HEADER = re.compile(rb"FILE_DESCRIPTION\(.*?\);\s*FILE_NAME\(.*?\);", re.DOTALL)
 _OCCURRENCE = re.compile(rb"NEXT_ASSEMBLY_USAGE_OCCURRENCE\('[^']*'(.*?)\);", re.DOTALL)
 _SOLID = re.compile(rb"#(\d+) = MANIFOLD_SOLID_BREP\(")
@@ -38,10 +41,11 @@ _LINE_END = re.compile(rb"\s*\n\s*")
 def export_step(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>.step`` and ``<name>-<part>.step`` for every part that is made."""
     made = [part for part in job.parts if part.source == "make"]
+    schema = job.options.step_schema
     return (
-        write_step(job.design, job.parts, job.path(".step")),
+        write_step(job.design, job.parts, job.path(".step"), schema=schema),
         *(
-            write_part_step(job.design, part, job.path(f"-{file_label(part.name)}.step"))
+            write_part_step(job.design, part, job.path(f"-{file_label(part.name)}.step"), schema)
             for part in made
         ),
     )
@@ -59,7 +63,11 @@ def file_label(name: str) -> str:
 
 
 def write_step(
-    design: Design, parts: Sequence[Part], path: Path, crank_angle: float = 0.0
+    design: Design,
+    parts: Sequence[Part],
+    path: Path,
+    crank_angle: float = 0.0,
+    schema: str = "AP214",
 ) -> WrittenFile:
     """Write the assembly.
 
@@ -72,11 +80,12 @@ def write_step(
         Destination, ending in ``.step``.
     crank_angle : float
         rad.
+    schema : {"AP214", "AP242"}
 
     Returns
     -------
     WrittenFile
-        AP214, mm; one product a part, one named and coloured occurrence a piece.
+        In mm; one product a part, one named and coloured occurrence a piece.
 
     Raises
     ------
@@ -88,10 +97,12 @@ def write_step(
     from cqdd_design.solids.assembly import build_assembly
 
     assembly = build_assembly(design, parts, crank_angle)
-    return write_with(path, "step", lambda place: _write(assembly, design, path.name, parts, place))
+    return write_with(
+        path, "step", lambda place: _write(assembly, design, path.name, parts, place, schema)
+    )
 
 
-def write_part_step(design: Design, part: Part, path: Path) -> WrittenFile:
+def write_part_step(design: Design, part: Part, path: Path, schema: str = "AP214") -> WrittenFile:
     """Write one part in its own frame; see `write_step`."""
     from cqdd_design.solids.kernel import import_cadquery
 
@@ -99,16 +110,22 @@ def write_part_step(design: Design, part: Part, path: Path) -> WrittenFile:
     assembly = cadquery.Assembly(name=design.name)
     assembly.add(part.solid, name=part.name, color=cadquery.Color(*part.colour, 1.0))
     return write_with(
-        path, "step", lambda place: _write(assembly, design, path.name, [part], place)
+        path, "step", lambda place: _write(assembly, design, path.name, [part], place, schema)
     )
 
 
 def _write(
-    assembly: Assembly, design: Design, file_name: str, parts: Sequence[Part], place: Path
+    assembly: Assembly,
+    design: Design,
+    file_name: str,
+    parts: Sequence[Part],
+    place: Path,
+    schema: str,
 ) -> None:
     from cadquery.occ_impl.exporters.assembly import exportAssembly
 
-    done = exportAssembly(assembly, str(place), write_pcurves=False)
+    with _schema(schema):
+        done = exportAssembly(assembly, str(place), write_pcurves=False)
     content = place.read_bytes() if done else b""
     written = len(_SOLID.findall(content))
     if written != len(parts) or not _HEADER.search(content):
@@ -117,6 +134,22 @@ def _write(
         )
     content = _coloured(content, [part.colour for part in parts])
     place.write_bytes(_reproducible(content, design, file_name))
+
+
+@contextlib.contextmanager
+def _schema(name: str) -> Iterator[None]:
+    """The kernel's schema is a setting of the whole process; it is put back afterwards."""
+    from OCP.Interface import Interface_Static
+    from OCP.STEPCAFControl import STEPCAFControl_Writer
+
+    # The setting exists only once a writer has been made.
+    STEPCAFControl_Writer()
+    former = Interface_Static.CVal_s(_SCHEMA_SETTING)
+    Interface_Static.SetCVal_s(_SCHEMA_SETTING, _SCHEMAS[name])
+    try:
+        yield
+    finally:
+        Interface_Static.SetCVal_s(_SCHEMA_SETTING, former)
 
 
 def _coloured(content: bytes, colours: Sequence[Colour]) -> bytes:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import math
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,7 @@ from cqdd_design.report.bodies import bodies_view
 from cqdd_design.report.check_rows import chapters, printed
 from cqdd_design.report.closing import ERRATA, model_assumptions, paper_symbols, sources_used
 from cqdd_design.report.contact_view import contact_view
+from cqdd_design.report.edm_view import edm_view
 from cqdd_design.report.front_view import front_view
 from cqdd_design.report.input import ReportInput
 from cqdd_design.report.life_view import life_view
@@ -32,6 +34,8 @@ from cqdd_design.report.verdict import pin_figure, verdict
 
 if TYPE_CHECKING:
     from jinja2 import Environment
+
+    from cqdd_design.solids.part import Part
 
 _TEMPLATES = Path(__file__).parent / "templates"
 
@@ -126,6 +130,7 @@ def _context(results: ReportInput) -> dict[str, Any]:
         "counterweights": results.design.reducer.balance.counterweights,
         "input_speed": with_unit(requirements.input_speed * 30.0 / math.pi, "rpm"),
         "planetary": planetary_view(results.planetary),
+        "edm": edm_view(design),
         "symbols": paper_symbols(design),
         "errata": ERRATA,
         "assumptions": model_assumptions(design),
@@ -175,6 +180,7 @@ _CONTENTS = (
     ("life", "Life"),
     ("tolerances", "Tolerances"),
     ("planetary", "Planetary"),
+    ("edm", "Wire EDM"),
     ("inertia", "Inertia"),
     ("bom", "Bill of materials"),
     ("sizing", "Sizing"),
@@ -225,7 +231,24 @@ def _facts(results: ReportInput, least_margin: str) -> tuple[tuple[str, str, str
         mass = with_unit(results.bodies.inertia.total.mass, "kg", 3)
         whole = not results.bodies.inertia.motor_missing
         facts.insert(4, ("Mass", mass, "with the motor" if whole else "without the motor"))
+        if whole:
+            facts.insert(3, ("Actuator", _size(results.bodies.parts), "over everything"))
     return tuple(facts)
+
+
+def _size(parts: Sequence[Part]) -> str:
+    """Largest diameter and length of a machine: parts that stand still, and the output's face."""
+    pieces = [(part, piece) for part in parts for piece in part.instances]
+    ends = [
+        piece.placement[2, 3] + (end if piece.placement[2, 2] > 0.0 else -end)
+        for part, piece in pieces
+        for end in (part.shape.bottom, part.shape.top)
+    ]
+    reach = max(
+        math.hypot(*piece.placement[:2, 3]) + part.shape.outside_radius for part, piece in pieces
+    )
+    length = max(ends) - min(ends)
+    return f"\u2300 {significant(2e3 * reach, 4)} {TIMES} {with_unit(1e3 * length, 'mm', 3)}"
 
 
 def _derived(results: ReportInput) -> tuple[tuple[str, str, str], ...]:

@@ -46,16 +46,19 @@ def test_columns_and_items(rows):
 
 def test_every_part_is_there_in_its_number(rows, parts):
     listed = {row["part"]: int(row["quantity"]) for row in rows}
-    assert listed == {part.name: part.count for part in parts} | {"motor": 1}
+    assert listed == {part.name: part.count for part in parts}
+    assert (listed["motor stator"], listed["motor rotor"]) == (1, 1)
     assert listed["disc"] == 2
     assert listed["shoulder screw"] == 5
     assert listed["cam bearing"] == 2
 
 
-def test_masses_add_up_to_the_gearbox_and_its_motor(rows, parts, paper):
+def test_masses_add_up_to_the_machine_with_its_motor(rows, parts, paper):
     total = math.fsum(float(row["mass_total_kg"]) for row in rows)
-    motor = find_motor(paper.motor.name).mass
-    assert math.isclose(total, total_mass(parts) + motor, abs_tol=1e-5 * len(rows))
+    assert math.isclose(total, total_mass(parts), abs_tol=1e-5 * len(rows))
+    motor = [row for row in rows if row["part"] in ("motor stator", "motor rotor")]
+    mass = math.fsum(float(row["mass_total_kg"]) for row in motor)
+    assert math.isclose(mass, find_motor(paper.motor.name).mass, abs_tol=2e-5)
     for row in rows:
         each, every = float(row["mass_each_kg"]), float(row["mass_total_kg"])
         assert math.isclose(each * int(row["quantity"]), every, abs_tol=1e-5 * int(row["quantity"]))
@@ -75,18 +78,16 @@ def test_bought_parts_can_be_ordered(rows):
     assert by_part["cam bearing"]["designation"] == "6902"
     assert by_part["cam bearing"]["designation"] in bearings()
     assert by_part["shoulder screw"]["designation"].startswith("ISO 7379 4 f9")
-    assert by_part["motor"]["designation"] == "CubeMars RO100 KV55"
-    assert "catalogue" in by_part["motor"]["notes"]
+    assert by_part["motor stator"]["designation"] == "CubeMars RO100 KV55, stator"
+    assert "catalogue (github.com" in by_part["motor stator"]["notes"]
     assert "exact profile x 7850 kg/m3" in by_part["ring"]["notes"]
 
 
-def test_a_motor_without_a_mass_leaves_the_cell_empty(paper, parts, monkeypatch):
-    nameless = find_motor(paper.motor.name)
-    monkeypatch.setattr(
-        "cqdd_design.exporting.bom.find_motor",
-        lambda name: type(nameless)(**{**vars(nameless), "mass": None}),
-    )
-    (*_, motor) = csv.DictReader(io.StringIO(bom_csv(bill_of_materials(paper, parts))))
+def test_a_motor_that_is_not_drawn_is_the_last_line(paper):
+    design = paper.replacing({"motor.name": "MAD 5010 110KV"})
+    parts = build_parts(design, find_bearing(paper.reducer.cam_bearing.designation))
+    (*_, motor) = csv.DictReader(io.StringIO(bom_csv(bill_of_materials(design, parts))))
+    assert (motor["part"], motor["designation"]) == ("motor", "MAD 5010 110KV")
     assert (motor["mass_each_kg"], motor["mass_total_kg"]) == ("", "")
     assert "not in the catalogue" in motor["notes"]
 

@@ -1,0 +1,118 @@
+"""Many designs at once, each in a process of its own.
+
+A CAD kernel that crashes takes its process with it. With a process to each design that is one
+failed design, told with its name, while all others are written.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+COMMAND = (sys.executable, "-m", "cqdd_design")
+
+
+@dataclass(frozen=True)
+class DesignExport:
+    """What became of one design.
+
+    Attributes
+    ----------
+    path : Path
+        Design file.
+    exit_code : int
+        Of its process: 0, one of the command line's codes, or 1 after a crash.
+    files : tuple of dict
+        ``path``, ``kind``, ``bytes``, ``sha256`` of every file; none of a design that failed.
+    error : str
+        Why it failed; empty where it did not.
+    """
+
+    path: Path
+    exit_code: int
+    files: tuple[dict[str, Any], ...]
+    error: str
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form."""
+        return {
+            "design_file": str(self.path),
+            "exit_code": self.exit_code,
+            "files": list(self.files),
+            "error": self.error or None,
+        }
+
+
+def export_many(
+    designs: Sequence[Path],
+    arguments: Sequence[str],
+    *,
+    workers: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+    command: Sequence[str] = COMMAND,
+) -> tuple[DesignExport, ...]:
+    """Export several designs in parallel.
+
+    Parameters
+    ----------
+    designs : sequence of Path
+    arguments : sequence of str
+        Options of ``cqdd-design export``, the same for all.
+    workers : int, optional
+        Processes at a time; default one for each core.
+    progress : callable, optional
+        Told how many designs of how many are done.
+    command : sequence of str
+        How to start the command line.
+
+    Returns
+    -------
+    tuple of DesignExport
+        In the order of `designs`, the failed ones among them.
+    """
+    most = min(workers or os.cpu_count() or 1, len(designs))
+    found: dict[int, DesignExport] = {}
+    with ThreadPoolExecutor(most) as pool:
+        waiting = {
+            pool.submit(_export_one, path, arguments, command): place
+            for place, path in enumerate(designs)
+        }
+        for done in as_completed(waiting):
+            found[waiting[done]] = done.result()
+            if progress is not None:
+                progress(len(found), len(designs))
+    return tuple(found[place] for place in range(len(designs)))
+
+
+def _export_one(path: Path, arguments: Sequence[str], command: Sequence[str]) -> DesignExport:
+    process = subprocess.run(
+        [*command, "export", str(path), *arguments, "--json"],
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        errors="replace",
+        check=False,
+    )
+    code = process.returncode
+    if code == 0:
+        return DesignExport(path, 0, tuple(json.loads(process.stdout)["files"]), "")
+    # The sentence comes last, after the progress.
+    last = process.stderr.strip().rpartition("cqdd-design: ")[2] or "it said nothing"
+    if code < 0:
+        return DesignExport(path, 1, (), f"the process was ended by {_signal_name(-code)}: {last}")
+    return DesignExport(path, code, (), last)
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"

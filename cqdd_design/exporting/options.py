@@ -1,0 +1,82 @@
+"""How files are written: dialects, styles and the few sizes that a shop may want otherwise."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from cqdd_design.errors import UsageError, did_you_mean
+
+CHOICES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "dxf_version": ("R12", "R2000", "R2010"),
+        "dxf_style": ("polyline", "entities"),
+        "step_schema": ("AP214", "AP242"),
+    }
+)
+"""What each option may be, the default among them."""
+
+LEAST_TAB, MOST_TAB = 0.1e-3, 50e-3
+"""Between these a tab holds a slug and is still a tab, m."""
+
+
+@dataclass(frozen=True)
+class ExportOptions:
+    """Choices that no design makes: how its files are written.
+
+    Attributes
+    ----------
+    dxf_version : str
+        ``R12`` (polylines with bulges, no units in the header), ``R2000`` (the oldest dialect with
+        light-weight polylines) or ``R2010``.
+    dxf_style : str
+        ``polyline``: each contour is one closed entity; ``entities``: lines and arcs end to end,
+        for controls that chain them by themselves.
+    step_schema : str
+        ``AP214`` or ``AP242``.
+    tab_length : float
+        Of every contour, left uncut in G-code until the slug or the part is held, m. Contours
+        shorter than eight tabs get an eighth of their length.
+
+    Raises
+    ------
+    UsageError
+        For a value that is not among the choices.
+    """
+
+    dxf_version: str = "R2000"
+    dxf_style: str = "polyline"
+    step_schema: str = "AP214"
+    tab_length: float = 3e-3
+
+    def __post_init__(self) -> None:
+        """Refuse what no writer knows."""
+        for field, choices in CHOICES.items():
+            value = getattr(self, field)
+            if value not in choices:
+                option = "--" + field.replace("_", "-")
+                hint = did_you_mean(str(value), choices) or "."
+                raise UsageError(
+                    f"{option} cannot be '{value}'{hint} The choices are {', '.join(choices)}."
+                )
+        if not (math.isfinite(self.tab_length) and LEAST_TAB <= self.tab_length <= MOST_TAB):
+            nearest = LEAST_TAB if self.tab_length < LEAST_TAB else MOST_TAB
+            raise UsageError(
+                f"--tab-length {self.tab_length * 1e3:g} mm is outside {LEAST_TAB * 1e3:g} mm to "
+                f"{MOST_TAB * 1e3:g} mm; the nearest is {nearest * 1e3:g} mm."
+            )
+
+    def arguments(self) -> list[str]:
+        """These options as arguments of the command line."""
+        return [
+            *("--dxf-version", self.dxf_version),
+            *("--dxf-style", self.dxf_style),
+            *("--step-schema", self.step_schema),
+            *("--tab-length", f"{self.tab_length * 1e3!r} mm"),
+        ]
+
+
+DEFAULTS = ExportOptions()
+"""What files look like when nobody asks for anything else."""

@@ -1,0 +1,84 @@
+"""The EDM package and G-code as processes: options, exit codes, what is left behind."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import ezdxf
+import pytest
+
+
+def test_package_and_programs_in_one_go(cqdd, paper_design_file, tmp_path):
+    done = cqdd(
+        *("export", paper_design_file, "--to", "edm,gcode,dxf", "--json"),
+        *("--dxf-version", "r12", "--dxf-style", "entities", "--tab-length", "2 mm"),
+    )
+    assert done.code == 0, done.err
+    files = done.document["files"]
+    assert all((tmp_path / file["path"]).stat().st_size == file["bytes"] for file in files)
+    assert {Path(file["path"]).parent for file in files} == {
+        Path("exports/cqdd-10"),
+        Path("exports/cqdd-10/edm"),
+    }
+    for file in files:
+        if file["path"].endswith(".dxf"):
+            assert ezdxf.readfile(tmp_path / file["path"]).dxfversion == "AC1009"
+    program = (tmp_path / "exports/cqdd-10/edm/cqdd-10-disc.nc").read_text(encoding="ascii")
+    assert "TAB OF 2.000 MM LEFT" in program
+    assert "INSUNITS" not in done.err
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "said"),
+    [
+        ("--dxf-version", "R14", "R12, R2000, R2010"),
+        ("--dxf-style", "spline", "polyline, entities"),
+        ("--step-schema", "AP203", "AP214, AP242"),
+        ("--tab-length", "2", "mm"),
+        ("--tab-length", "1 m", "nearest is 50 mm"),
+        ("--tab-length", "0 mm", "not above zero"),
+    ],
+)
+def test_a_wrong_option_is_exit_2_and_names_the_choices(
+    cqdd, paper_design_file, tmp_path, option, value, said
+):
+    done = cqdd("export", paper_design_file, "--to", "edm", option, value)
+    assert done.code == 2
+    assert said in " ".join(done.err.split())
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "nearest"), [("0 um", "0.05 um"), ("1 m", "50 um"), ("-1 um", "0.05 um")]
+)
+def test_a_tolerance_that_no_file_can_have_is_exit_3(
+    cqdd, paper_design_file, tmp_path, tolerance, nearest
+):
+    text = paper_design_file.read_text(encoding="utf-8")
+    odd = text.replace('profile_tolerance = "0.5 um"', f'profile_tolerance = "{tolerance}"')
+    assert odd != text
+    (tmp_path / "odd.toml").write_text(odd, encoding="utf-8")
+    done = cqdd("export", "odd.toml", "--to", "edm,gcode", "--out", "files")
+    assert done.code == 3
+    assert "edm.profile_tolerance" in done.err
+    assert f"the nearest allowed is {nearest}" in done.err
+    assert [path.name for path in tmp_path.iterdir()] == ["odd.toml"]
+
+
+def test_a_wire_too_thick_for_a_valley_is_exit_4_and_leaves_nothing(
+    cqdd, paper_design_file, tmp_path
+):
+    text = paper_design_file.read_text(encoding="utf-8")
+    sharp = (
+        text.replace('ring_pin_diameter = "7 mm"', 'ring_pin_diameter = "4 mm"')
+        .replace("ratio = 10", "ratio = 40")
+        .replace('eccentricity = "1.6 mm"', 'eccentricity = "0.55 mm"')
+        .replace('wire_diameter = "0.25 mm"', 'wire_diameter = "0.5 mm"')
+        .replace('spark_gap = "12 um"', 'spark_gap = "200 um"')
+    )
+    (tmp_path / "sharp.toml").write_text(sharp, encoding="utf-8")
+    done = cqdd("export", "sharp.toml", "--to", "edm,gcode", "--out", "files")
+    assert done.code == 4, done.err
+    assert "ring, inner contour 1: edm.wire_diameter 0.5 mm" in done.err
+    assert "choose a wire of at most" in done.err
+    assert [path.name for path in tmp_path.iterdir()] == ["sharp.toml"]

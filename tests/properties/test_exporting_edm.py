@@ -1,0 +1,323 @@
+"""The EDM package: what is in it, sheets without collisions, the same bytes every time."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from lxml import etree
+from solids_designs import machines
+
+from cqdd_design.catalog import find_bearing, find_material, materials
+from cqdd_design.design import load_design
+from cqdd_design.errors import CqddError, UsageError
+from cqdd_design.exporting import ExportOptions, export
+from cqdd_design.exporting.cut_facts import facts_of, heat_treatment, zone_text
+from cqdd_design.exporting.cut_sheet import SCALES, draw_sheet, sheet_scale
+from cqdd_design.exporting.flat_parts import flat_parts
+from cqdd_design.exporting.seats import seats_of
+from cqdd_design.exporting.sheet_canvas import pdf_bytes
+from cqdd_design.exporting.sheet_frame import BOTTOM, LEFT, RIGHT, TOP
+from cqdd_design.exporting.sheet_text import WIDTHS, fitting_height, printable, text_width
+from cqdd_design.solids.fits import seat_fits
+from cqdd_design.solids.proportions import lay_out
+
+SEVERAL = settings(
+    max_examples=8, deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
+)
+
+
+@pytest.fixture(scope="module")
+def paper(paper_design_file):
+    return load_design(paper_design_file)
+
+
+@pytest.fixture(scope="module")
+def package(paper, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("package")
+    return {file.path.name: file for file in export(paper, "edm,gcode", folder)}
+
+
+def test_a_folder_of_its_own_with_a_set_for_every_part(package):
+    parts = ("disc", "ring")
+    assert sorted(package) == sorted(
+        ["README.txt", *(f"cqdd-10-{p}.{e}" for p in parts for e in ("dxf", "nc", "pdf", "svg"))]
+    )
+    assert {file.path.parent.name for file in package.values()} == {"edm"}
+    assert sorted(p.name for p in package["README.txt"].path.parent.iterdir()) == sorted(package)
+
+
+def test_the_readme_answers_what_a_shop_asks(package):
+    text = package["README.txt"].path.read_text(encoding="ascii")
+    flowing = " ".join(text.split())
+    for phrase in (
+        "All files are in millimetres",
+        "Quantity 2, plate 8 mm thick",
+        "AISI 4140 Q&T 540C: quenched and tempered at 540 deg C before cutting",
+        "hardness 335 HB",
+        "270 arcs; largest deviation from the exact curve 0.488 um, rms 0.252 um",
+        "Wire of diameter 0.25 mm, spark gap 0.012 mm",
+        "holes first, the outer contour last",
+        "zone 0.004 mm wide",
+        "28 N7 (-0.007/-0.028)",
+        "2 discs are one program, cut 2 times without change; 1 of them goes in turned over",
+        "Mark the upper face of every disc",
+        "M60",
+    ):
+        assert phrase in flowing
+    assert max(map(len, text.splitlines())) <= 78
+
+
+def test_discs_that_are_not_one_part_are_not_said_to_be(paper, tmp_path):
+    design = paper.replacing({"reducer.output_pins.hole_clocking": "0 deg"})
+    files = {file.path.name: file.path for file in export(design, "edm", tmp_path)}
+    assert "cqdd-10-disc-2.dxf" in files
+    assert "turned over" not in files["README.txt"].read_text(encoding="ascii")
+    sheet = files["cqdd-10-disc-1.svg"].read_text(encoding="utf-8")
+    assert "turned over" not in sheet
+    assert "mark upper face" not in sheet
+
+
+def _apart(one, two):
+    """Whether two rectangles of text have a gap between them."""
+    for corners in (one, two):
+        for begin, end in ((0, 1), (1, 2)):
+            across = corners[end] - corners[begin]
+            sides = [[(z * across.conjugate()).real / abs(across) for z in c] for c in (one, two)]
+            if max(sides[0]) < min(sides[1]) + 0.1 or max(sides[1]) < min(sides[0]) + 0.1:
+                return True
+    return False
+
+
+def _assert_legible(canvas):
+    for number, label in enumerate(canvas.labels):
+        assert label.height >= 1.0, label
+        for corner in label.corners:
+            assert LEFT < corner.real < RIGHT, label
+            assert BOTTOM < corner.imag < TOP, label
+        for other in canvas.labels[:number]:
+            assert _apart(label.corners, other.corners), (label, other)
+    numbers = re.findall(
+        r"-?[\d.]+", " ".join(step for steps in canvas.strokes.values() for step in steps)
+    )
+    assert all(0.0 <= float(number) <= 420.0 for number in numbers)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {},
+        {"reducer.ring_type": "conjugate"},
+        {"reducer.ring_type": "pinwheel"},
+        {"reducer.disc_count": 3},
+        {"reducer.output_pins.hole_clocking": "0 deg"},
+        {"reducer.output_pins.hole_clocking": "-40 deg"},
+    ],
+)
+def test_text_of_a_sheet_is_apart_and_on_the_page(paper, change):
+    design = paper.replacing(change)
+    for flat in flat_parts(design):
+        _assert_legible(draw_sheet(facts_of(flat, design)))
+
+
+@SEVERAL
+@given(machines())
+def test_sheets_of_any_design_are_legible(machine):
+    design, _ = machine
+    try:
+        facts = [facts_of(flat, design) for flat in flat_parts(design)]
+    except CqddError:
+        return
+    for one in facts:
+        _assert_legible(draw_sheet(one))
+        assert sheet_scale(one) in SCALES
+
+
+def _words(package, name):
+    tree = etree.parse(package[name].path)
+    return [e.text for e in tree.iter("{http://www.w3.org/2000/svg}text")]
+
+
+def test_the_disc_sheet_shows_what_it_must(package):
+    words = _words(package, "cqdd-10-disc.svg")
+    for phrase in (
+        "5 \u00d7 \u00d87.191 \u00b10.002",
+        "\u00d80.012",
+        "\u00d828 N7 (-0.007/-0.028)",
+        "\u00d839",
+        "9\u00b0",
+        "R4.783",
+        "8 +0/-0.02",
+        "(\u00d860.188)",
+        "0.004",
+        "0.005",
+        "AISI 4140 Q&T 540C",
+        "335 HB @538C",
+        "2, 1 turned over",
+        "mark upper face",
+        "2 : 1",
+        "ISO 2768-fH, sizes in mm, edges broken 0.1 \u00d7 45\u00b0",
+        "Cut 2, flip 1: disc 1 as drawn, disc 2 turned over about the X axis.",
+    ):
+        assert phrase in words, phrase
+    assert any("270 arcs" in line for line in words)
+
+
+def test_the_ring_sheet_shows_what_it_must(package):
+    words = _words(package, "cqdd-10-ring.svg")
+    for phrase in ("\u00d872 n6 (+0.039/+0.020)", "\u00d864", "32.727\u00b0", "R5.002", "0.0089"):
+        assert phrase in words, phrase
+
+
+def test_the_mass_on_the_sheet_is_area_times_thickness_times_density(paper):
+    for flat in flat_parts(paper):
+        facts = facts_of(flat, paper)
+        # Area by Green's theorem over fine polygons of every contour.
+        area = 0.0
+        for sign, contour in ((1, flat.shape.outer), *((-1, h) for h in flat.shape.holes)):
+            x, y = contour.sample(1e-8).T
+            area += sign * 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+        density = find_material(flat.material).density
+        assert math.isclose(facts.mass, area * flat.thickness * density, rel_tol=1e-5)
+
+
+def test_a_pdf_is_one_whole_page(package):
+    data = package["cqdd-10-disc.pdf"].path.read_bytes()
+    assert data.startswith(b"%PDF-1.4")
+    assert data.endswith(b"%%EOF\n")
+    # A3 lying, in points.
+    assert b"/MediaBox [0 0 1190.551 841.890]" in data
+    place = int(re.search(rb"startxref\n(\d+)\n", data).group(1))
+    assert data[place:].startswith(b"xref\n0 7\n")
+    entries = re.findall(rb"(\d{10}) 00000 n", data[place:])
+    for number, offset in enumerate(entries, start=1):
+        assert data[int(offset) :].startswith(b"%d 0 obj" % number)
+    length = int(re.search(rb"/Length (\d+)", data).group(1))
+    begin = data.index(b"stream\n") + len(b"stream\n")
+    assert data[begin + length :].startswith(b"\nendstream")
+
+
+def test_a_date_is_that_of_source_date_epoch_or_none(paper, monkeypatch):
+    facts = facts_of(flat_parts(paper)[1], paper)
+    monkeypatch.delenv("SOURCE_DATE_EPOCH", raising=False)
+    assert b"CreationDate" not in pdf_bytes(draw_sheet(facts), "x")
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "86400")
+    canvas = draw_sheet(facts)
+    assert b"/CreationDate (D:19700102000000Z)" in pdf_bytes(canvas, "x")
+    assert "1970-01-02" in [label.text for label in canvas.labels]
+
+
+def test_bytes_are_the_same_in_every_process(paper_design_file, tmp_path):
+    code = (
+        "import sys; from pathlib import Path; from cqdd_design.design import load_design\n"
+        "from cqdd_design.exporting import ExportOptions, export\n"
+        "for style in ('polyline', 'entities'):\n"
+        "    options = ExportOptions(dxf_version='R12', dxf_style=style)\n"
+        "    files = export(load_design(Path(sys.argv[1])), 'edm,gcode', Path(sys.argv[2]),\n"
+        "                   force=True, options=options)\n"
+        "    print([file.sha256 for file in files])\n"
+        "heavy = {'cadquery', 'OCP', 'matplotlib', 'trimesh', 'scipy'} & set(sys.modules)\n"
+        "assert not heavy, heavy\n"
+    )
+    root = str(paper_design_file.parents[1])
+    seen = []
+    for run in ("1", "2"):
+        done = subprocess.run(
+            [sys.executable, "-c", code, str(paper_design_file), str(tmp_path / run)],
+            env={**os.environ, "PYTHONHASHSEED": run, "PYTHONPATH": root},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        assert "INSUNITS" not in done.stderr
+        seen.append(done.stdout)
+    assert seen[0] == seen[1]
+
+
+def test_files_in_a_folder_of_the_package_are_kept_unless_forced(paper, tmp_path):
+    (tmp_path / "edm").mkdir()
+    (tmp_path / "edm" / "README.txt").write_text("mine")
+    with pytest.raises(UsageError, match=r"edm.README\.txt exists already"):
+        export(paper, "dxf,edm", tmp_path)
+    assert [str(p.relative_to(tmp_path)) for p in tmp_path.rglob("*") if p.is_file()] == [
+        os.path.join("edm", "README.txt")
+    ]
+    assert (tmp_path / "edm" / "README.txt").read_text() == "mine"
+    export(paper, "edm", tmp_path, force=True, options=ExportOptions(dxf_style="entities"))
+    text = (tmp_path / "edm" / "README.txt").read_text(encoding="ascii")
+    assert "lines and arcs end to end" in text
+
+
+def test_a_file_where_the_folder_should_be(paper, tmp_path):
+    (tmp_path / "edm").write_text("mine")
+    with pytest.raises(UsageError, match="cannot write"):
+        export(paper, "dxf,edm", tmp_path)
+    assert [p.name for p in tmp_path.iterdir()] == ["edm"]
+
+
+def test_seats_are_brought_to_the_middle_of_their_zones(paper):
+    disc, ring = flat_parts(paper)
+    (bore,) = seats_of(disc)
+    (outside,) = seats_of(ring)
+    for seat in (bore, outside):
+        low, high = (seat.diameter + d for d in (seat.limits.lower, seat.limits.upper))
+        assert low < seat.middle < high
+        # Into the waste makes a hole smaller and the outside larger.
+        sign = 1.0 if seat.contour == 0 else -1.0
+        assert math.isclose(seat.diameter + sign * 2.0 * seat.shift, seat.middle, rel_tol=1e-12)
+    assert (bore.contour, bore.limits.zone) == (1, "N7")
+    assert (outside.contour, outside.limits.zone) == (0, "n6")
+
+
+def test_seats_are_those_of_the_machine(paper):
+    bearing = find_bearing(paper.reducer.cam_bearing.designation)
+    fits = seat_fits(lay_out(paper, bearing))
+    for flat in flat_parts(paper):
+        (seat,) = seats_of(flat)
+        part = "ring" if flat.label == "ring" else "disc"
+        (fit,) = [f for f in fits if f.part == part and math.isclose(f.diameter, seat.diameter)]
+        assert fit.limits == seat.limits
+
+
+def test_what_is_not_cut_by_wire_is_said(paper, package):
+    disc, ring = (facts_of(flat, paper) for flat in flat_parts(paper))
+    assert disc.later == ()
+    (said,) = ring.later
+    assert re.search(r"\d holes \u00d8[\d.]+ H7 across the seam", said)
+    readme = " ".join(package["README.txt"].path.read_text(encoding="ascii").split())
+    assert said.replace("\u00d8", "dia ") in readme
+
+
+def test_every_material_has_a_heat_treatment_in_words():
+    found = {name: heat_treatment(name) for name in materials()}
+    assert found["AISI 4140 Q&T 205C"].startswith("quenched and tempered at 205")
+    assert found["17-4PH H900"].startswith("precipitation hardened, condition H900")
+    assert found["SCM415/16MnCr5 case hardened"].startswith("case hardened")
+    assert found["AISI 52100 / 100Cr6 hardened"].startswith("through hardened")
+    assert found["AISI 4140 QT 28-32 HRC prehard (lib)"].startswith("prehardened to 28-32 HRC")
+    assert all(printable(words) == words for words in found.values())
+
+
+def test_zones_follow_the_tolerances_of_the_design(paper):
+    disc = flat_parts(paper)[0]
+    wide = paper.replacing({"tolerances.disc_profile": "2 um", "tolerances.hole_position": "5 um"})
+    even = paper.replacing({"tolerances.distribution": "uniform"})
+    assert zone_text(facts_of(disc, paper).zones.profile) == "0.004"
+    assert zone_text(facts_of(disc, wide).zones.profile) == "0.008"
+    assert zone_text(facts_of(disc, wide).zones.hole_position) == "0.02"
+    assert math.isclose(facts_of(disc, even).zones.profile, 2e-6 * math.sqrt(3.0))
+
+
+def test_widths_are_those_of_helvetica():
+    # Adobe's own metrics of some words, summed from the AFM file.
+    assert text_width("HAMBURGEFONTS", 0.718) == pytest.approx(9.167)
+    assert text_width("0123456789", 0.718) == pytest.approx(5.56)
+    assert len(WIDTHS) > 90
+    assert fitting_height("0" * 100, 2.5, 50.0) < 1.0

@@ -1,0 +1,250 @@
+"""G-code: read here by a small control of its own, and compared with the formula of the profile.
+
+The reader below shares nothing with the package; the package's own is shown spoilt programs.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+
+import numpy as np
+import pytest
+from geometry_designs import design_of, discs
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from cqdd_design.design import load_design
+from cqdd_design.errors import CqddError, ReadBackError
+from cqdd_design.exporting import ExportOptions, export
+from cqdd_design.exporting.flat_parts import flat_parts
+from cqdd_design.exporting.gcode import program
+from cqdd_design.exporting.gcode_check import check_program
+from cqdd_design.geometry.contours import Circle
+
+SEVERAL = settings(
+    max_examples=8, deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
+)
+NUMBER = r"([XYIJ])(-?\d+\.\d{4})(?!\d)"
+
+
+@pytest.fixture(scope="module")
+def paper(paper_design_file):
+    return load_design(paper_design_file)
+
+
+@pytest.fixture(scope="module")
+def parts(paper):
+    return flat_parts(paper)
+
+
+@pytest.fixture(scope="module")
+def text(paper, parts):
+    return program(parts[0], paper)
+
+
+def _cuts(text):
+    """Blocks of each cut: from a rapid to the next, as (command, end, centre, words), mm."""
+    cuts, here, motion = [], 0j, None
+    for line in text.splitlines():
+        block = re.sub(r"\(.*", "", line).strip()
+        if not block:
+            continue
+        words = dict(re.findall(NUMBER, block))
+        command = re.search(r"G0[0-3]", block)
+        motion = command.group() if command else motion
+        if motion == "G00" and "X" in words:
+            cuts.append([])
+        if "X" in words:
+            end = complex(float(words["X"]), float(words["Y"]))
+            centre = here + complex(float(words.get("I", 0)), float(words.get("J", 0)))
+            cuts[-1].append((motion, here, end, centre if "I" in words else None, block))
+            here = end
+        elif cuts and block == "M01":
+            cuts[-1].append(("M01", here, here, None, block))
+    return cuts
+
+
+def _points(moves, count=7):
+    """Points on the arcs and lines of a cut, mm."""
+    found = []
+    for motion, start, end, centre, _ in moves:
+        if centre is None:
+            found += [start + (end - start) * f for f in np.linspace(0.0, 1.0, count)]
+            continue
+        turn = cmath.phase((end - centre) / (start - centre)) % (2.0 * math.pi)
+        if motion == "G02":
+            turn -= 2.0 * math.pi
+        found += [
+            centre + (start - centre) * cmath.exp(1j * turn * f)
+            for f in np.linspace(0.0, 1.0, count)
+        ]
+    return np.array(found)
+
+
+def _psi_form(design, count):
+    """The profile by the angle psi of the literature, mm."""
+    reducer = design.reducer
+    R, r, e, n = (
+        1e3 * reducer.ring_pitch_radius,
+        1e3 * (reducer.ring_pin_diameter / 2.0 + reducer.modification.equidistant),
+        1e3 * reducer.eccentricity,
+        reducer.ratio,
+    )
+    t = np.linspace(0.0, 2.0 * math.pi, count, endpoint=False)
+    psi = -np.arctan2(np.sin(n * t), R / (e * (n + 1)) - np.cos(n * t))
+    x = R * np.cos(t) - r * np.cos(t + psi) - e * np.cos((n + 1) * t)
+    y = R * np.sin(t) - r * np.sin(t + psi) - e * np.sin((n + 1) * t)
+    return x + 1j * y
+
+
+def _contour_moves(cut):
+    """Without the rapid, lead-in, M01 and lead-out."""
+    return [move for move in cut[2:-1] if move[0] != "M01"]
+
+
+def test_the_lobed_contour_is_the_exact_curve_within_fit_and_rounding(text, paper):
+    moves = _contour_moves(_cuts(text)[-1])
+    exact = _psi_form(paper, 200_000)
+    angle = np.unwrap(np.angle(exact))
+    found = _points(moves)
+    place = np.searchsorted(angle, np.mod(np.angle(found), 2.0 * math.pi))
+    around = (place[:, None] + np.arange(-10, 10)) % len(exact)
+    chord = exact[(around + 1) % len(exact)] - exact[around]
+    local = (found[:, None] - exact[around]) / chord
+    off = np.abs(local - np.clip(local.real, 0.0, 1.0)) * np.abs(chord)
+    assert off.min(axis=1).max() * 1e3 <= 0.5 + 0.1
+    assert abs(moves[0][1] - moves[-1][2]) == 0.0
+
+
+def test_the_holes_are_the_circles_of_the_design(text, parts):
+    holes = parts[0].shape.holes
+    for cut, hole in zip(_cuts(text), holes, strict=False):
+        off = np.abs(_points(_contour_moves(cut)) - 1e3 * complex(*hole.centre)) - 1e3 * hole.radius
+        assert np.abs(off).max() < 1.5e-4
+
+
+@pytest.mark.parametrize("index", [0, 1])
+def test_radii_of_every_arc_agree_and_sides_keep_the_material(paper, parts, index):
+    cuts = _cuts(program(parts[index], paper))
+    for number, cut in enumerate(cuts, start=1):
+        for _, start, end, centre, _ in cut:
+            if centre is not None:
+                assert abs(abs(start - centre) - abs(end - centre)) < 1.5e-4
+        outer = number == len(cuts)
+        code = re.search(r"G4[12]", cut[1][4]).group()
+        moves = _contour_moves(cut)
+        points = _points(moves)
+        centre = moves[0][3]
+        along = 1j * (moves[0][1] - centre)
+        area = 0.5 * np.sum((points.conjugate() * np.roll(points, -1)).imag)
+        # Left of a counter-clockwise path is the inside: the waste of a hole, never of the part.
+        left_is_waste = (area > 0.0) != outer
+        assert code == ("G41" if left_is_waste else "G42")
+        lead = cut[1][2] - cut[1][1]
+        # Rounding by 0.05 um turns the shortest arcs most.
+        assert abs((lead * along.conjugate()).real) < 2e-4 * abs(lead) * abs(along)
+
+
+@pytest.mark.parametrize("tab", [0.5e-3, 3e-3])
+def test_the_tab_is_as_long_as_asked(paper, parts, tab):
+    for flat in parts:
+        for cut in _cuts(program(flat, paper, ExportOptions(tab_length=tab))):
+            stop = next(k for k, move in enumerate(cut) if move[0] == "M01")
+            whole, left = (
+                np.abs(np.diff(_points(moves, 200))).sum()
+                for moves in (_contour_moves(cut), cut[stop + 1 : -1])
+            )
+            assert left == pytest.approx(min(1e3 * tab, whole / 8.0), abs=2e-3)
+            assert cut[-1][4].startswith("G40 G01")
+            assert cut[-1][2] == cut[0][2]
+
+
+def test_holes_come_first_and_the_wire_is_cut_between(text):
+    assert text.startswith("%\nO0001\n")
+    assert text.endswith("M02\n%\n")
+    assert text.isascii()
+    titles = re.findall(r"\(CUT (\d) OF 7: (\w+) CONTOUR", text)
+    assert titles == [(str(k), "INNER") for k in range(1, 7)] + [("7", "OUTER")]
+    assert text.count("\nM00\n") == 7 + 6
+    assert text.count("\nM01\n") == 7
+    assert re.search(r"^G90 G21", text, re.MULTILINE)
+    # A bracket within a comment would end it.
+    assert all(line.count("(") == line.count(")") <= 1 for line in text.splitlines())
+
+
+def test_a_seat_has_an_offset_of_its_own(text, paper, parts):
+    (note,) = re.findall(r"\((D02 FOR INNER CONTOUR 1[^)]*)\)", text)
+    assert "28 N7" in note
+    # 28 N7 is -7 to -28 um: the middle is 17.5 um less, half of it on each side.
+    assert "+0.0087 MORE, TO CUT DIA 27.9825" in note
+    assert re.findall(r"G41 (D\d+)", text) == ["D02"] + ["D01"] * 5
+    ring = program(parts[1], paper)
+    assert "72 N6" in ring
+    assert "+0.0147 MORE, TO CUT DIA 72.0295" in ring
+    assert re.findall(r"G42 (D\d+)", ring) == ["D02"]
+
+
+def _replaced(text, old, new, count=1):
+    assert re.search(old, text)
+    return re.sub(old, new, text, count=count)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("G42", "G41", "G41 puts the wire into the material"),
+        ("G41", "G42", "G42 puts the wire into the material"),
+        ("G90 ", "G91 ", "G90 G21"),
+        ("G21", "G20", "G90 G21"),
+        (r"\nM01\n", "\n", "does not stop once"),
+        (r"G02 X27\.", "G02 X27.1", "radii of|close"),
+        (r"G02 (X\S+ Y\S+ I)-", r"G02 \1", "radii of"),
+        (r"G02 X", "G03 X", "exact curve|clockwise|turns by|threaded in the material"),
+        (r"G00 X12", "G00 X19", "lead out as it led in|threaded in the material"),
+        (r"%\n$", "", "begin and end with %"),
+        (r"G01 X", "G01 Q", "without an offset"),
+    ],
+)
+def test_a_spoilt_program_is_refused(text, paper, parts, old, new, said):
+    check_program(text, parts[0], paper.edm)
+    with pytest.raises(ReadBackError, match=said):
+        check_program(_replaced(text, old, new), parts[0], paper.edm)
+
+
+def test_a_missing_cut_and_the_wrong_part_are_refused(text, paper, parts):
+    with pytest.raises(ReadBackError, match="7 cuts for 2 contours"):
+        check_program(text, parts[1], paper.edm)
+    bigger = program(flat_parts(paper.replacing({"reducer.eccentricity": "1.61 mm"}))[0], paper)
+    with pytest.raises(ReadBackError, match=r"disc, cut \d"):
+        check_program(bigger, parts[0], paper.edm)
+
+
+@SEVERAL
+@given(
+    discs(modified=True, least_lobes=4, most_lobes=40),
+    st.sampled_from(["solid", "conjugate", "pinwheel"]),
+)
+def test_any_design_gives_programs_that_pass_their_check(tmp_path_factory, disc, ring_type):
+    folder = tmp_path_factory.mktemp("any")
+    try:
+        design = design_of(disc, ring_type=ring_type)
+        parts = flat_parts(design)
+        files = export(design, "gcode", folder)
+    except CqddError as error:
+        refused = error
+    else:
+        refused = None
+    if refused is not None:
+        # Too thick a wire is the design's fault; nothing else may be refused as a bad program.
+        assert not isinstance(refused, ReadBackError) or "choose a wire" in str(refused)
+        assert list(folder.iterdir()) == []
+        return
+    for file, flat in zip(files, parts, strict=True):
+        cuts = _cuts(file.path.read_text(encoding="ascii"))
+        assert len(cuts) == 1 + len(flat.shape.holes)
+        for cut, hole in zip(cuts, flat.shape.holes, strict=False):
+            if isinstance(hole, Circle):
+                off = np.abs(_points(_contour_moves(cut)) - 1e3 * complex(*hole.centre))
+                assert np.abs(off - 1e3 * hole.radius).max() < 2e-4
