@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 Progress = Callable[[str], None]
 
 #: How often sizing and `write_report` tell their progress.
-SIZING_STAGES, REPORT_STAGES = 2, 4
+SIZING_STAGES, REPORT_STAGES = 2, 5
 
 #: Toleranced gearboxes of a report, fewer of those with many teeth: percentiles to a few per
 #: cent in some seconds, and never too few for a ranking.
@@ -350,6 +350,7 @@ def write_report(
     from cqdd_design.files import refuse_overwrite, write_atomically
     from cqdd_design.gearbox import analyse_gearbox
     from cqdd_design.report import ReportInput, build_report, read_comments
+    from cqdd_design.report.machine_view.apart import start_drawing
     from cqdd_design.report.weighing import weigh_if_possible
     from cqdd_design.sizing.comparison import compare_with_planetary
 
@@ -358,7 +359,12 @@ def write_report(
     progress("analysing loads and the planetary")
     analysis = analyse_gearbox(design)
     bodies, notes = weigh_if_possible(analysis.design, analysis.cam_bearing.bearing)
+    drawing = start_drawing(analysis.design, analysis.cam_bearing.bearing) if bodies else None
     contact, ensemble, unsolved = _contact_and_tolerances(analysis.design, samples, progress)
+    progress("drawing the machine")
+    machine = None if drawing is None else drawing.fetch()
+    if isinstance(machine, str):
+        notes, machine = (*notes, machine), None
     results = ReportInput(
         design=design,
         gearbox=analysis,
@@ -371,6 +377,7 @@ def write_report(
         files=files,
         contact=contact,
         tolerance=ensemble,
+        machine=machine,
     )
     progress("writing the report")
     return write_atomically(target, build_report(results), "report"), analysis

@@ -131,6 +131,8 @@ def _context(results: ReportInput) -> dict[str, Any]:
         "input_speed": with_unit(requirements.input_speed * 30.0 / math.pi, "rpm"),
         "planetary": planetary_view(results.planetary),
         "edm": edm_view(design),
+        "machine_views": None if results.machine is None else results.machine[0],
+        "machine_viewer": None if results.machine is None else results.machine[1],
         "symbols": paper_symbols(design),
         "errata": ERRATA,
         "assumptions": model_assumptions(design),
@@ -171,6 +173,7 @@ _CONTENTS = (
     ("requirements", "Requirements"),
     ("drawings", "Drawings"),
     ("mesh-section", "Mesh"),
+    ("machine", "The machine"),
     ("values", "Design values"),
     ("checks", "Checks"),
     ("loads", "Forces"),
@@ -195,6 +198,8 @@ def _contents(results: ReportInput) -> tuple[tuple[str, str], ...]:
     absent = set()
     if results.bodies is None:
         absent |= {"inertia", "bom"}
+    if results.machine is None:
+        absent.add("machine")
     if results.sizing is None:
         absent.add("sizing")
     if results.contact is None:

@@ -16,6 +16,8 @@ from cqdd_design.results import Provenance
 if TYPE_CHECKING:
     from cqdd_design.gearbox.contact_analysis import ContactAnalysis
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
+    from cqdd_design.report.machine_view.pictures import MachineViews
+    from cqdd_design.report.machine_view.viewer_data import ViewerData
     from cqdd_design.sizing.result import SizingResult
 
 
@@ -46,6 +48,8 @@ class ReportInput:
         At the torques of the requirements: contact, precision, losses and life.
     tolerance : ToleranceResult or None
         An ensemble of toleranced gearboxes.
+    machine : (MachineViews, ViewerData) or None
+        Pictures of the solids, and their model in three dimensions.
     """
 
     design: Design
@@ -59,3 +63,4 @@ class ReportInput:
     files: tuple[WrittenFile, ...] = ()
     contact: ContactAnalysis | None = None
     tolerance: ToleranceResult | None = None
+    machine: tuple[MachineViews, ViewerData] | None = None

@@ -1,0 +1,48 @@
+"""Start drawing a machine in another process, and fetch what it has drawn."""
+
+from __future__ import annotations
+
+import pickle
+import subprocess
+import sys
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from cqdd_design.catalog.bearings import Bearing
+    from cqdd_design.design import Design
+    from cqdd_design.report.machine_view.pictures import MachineViews
+    from cqdd_design.report.machine_view.viewer_data import ViewerData
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A machine being drawn."""
+
+    process: subprocess.Popen[bytes]
+    job: bytes
+
+    def fetch(self) -> tuple[MachineViews, ViewerData] | str:
+        """Wait for the views; a sentence on why there are none, where the process failed."""
+        try:
+            drawn, said = self.process.communicate(self.job)
+        except BaseException:
+            self.process.kill()
+            raise
+        if self.process.returncode == 0:
+            found: tuple[MachineViews, ViewerData] = pickle.loads(drawn)
+            return found
+        lines = said.decode("utf-8", "replace").strip().splitlines()
+        why = lines[-1] if lines else "the CAD kernel crashed"
+        return f"no pictures of the machine: {why}"
+
+
+def start_drawing(design: Design, cam_bearing: Bearing) -> Drawing:
+    """Begin; a design that cannot be built is told by :meth:`Drawing.fetch`."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "cqdd_design.report.machine_view"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    return Drawing(process, pickle.dumps((design, cam_bearing)))
