@@ -78,7 +78,7 @@ class Timing:
 
 def our_commands() -> list[Command]:
     """Return the commands of this package that have a goal."""
-    kinds = "dxf,step,stl,3mf,glb,bom"
+    kinds = "dxf,edm,gcode,step,stl,3mf,glb,svg,bom"
 
     def ours(name: str, line: str, limit: float, *extra: str) -> Command:
         shown = line.replace(str(DESIGN), "designs/cqdd-10.toml")
@@ -89,7 +89,8 @@ def our_commands() -> list[Command]:
         ours("help", "--help", 0.25),
         ours("size", "size --ratio 10", 2.0, "--json"),
         ours("dxf", f"export {DESIGN} --to dxf", 1.0),
-        ours("full", f"export {DESIGN} --to {kinds}", 8.0),
+        ours("full", f"export {DESIGN} --to {kinds}", 10.0),
+        ours("report", f"report {DESIGN}", 30.0),
     ]
 
 
@@ -139,6 +140,35 @@ def measure(commands: Sequence[Command], runs: int) -> list[Timing]:
     return [Timing(c, tuple(seconds[c.name]), outputs[c.name]) for c in commands]
 
 
+def fit_times(runs: int = 20) -> list[str]:
+    """Time the fit of arcs to the exact curves, in this process; the lines of a table."""
+    from cqdd_design.design import load_design
+    from cqdd_design.geometry.disc import disc_contour
+    from cqdd_design.geometry.ring import ring_contour
+
+    sized = {"bore_diameter": 28e-3, "pin_mean_diameter": 3.975e-3}
+    kinds = {
+        "disc": ("solid", lambda design: disc_contour(design, 0, **sized)),
+        "solid ring": ("solid", ring_contour),
+        "conjugate ring": ("conjugate", ring_contour),
+    }
+    rows = ["| contour, at 0.5 µm | arcs | fit | goal |", "|---|---|---|---|"]
+    for name, (ring, fitted) in kinds.items():
+        taken = []
+        for run in range(runs):
+            # Another design every time: fits are remembered.
+            tolerance = 0.5e-6 * (1.0 + 1e-6 * run)
+            design = load_design(DESIGN).replacing(
+                {"reducer.ring_type": ring, "edm.profile_tolerance": tolerance}
+            )
+            begin = time.perf_counter()
+            shape = fitted(design)
+            taken.append(time.perf_counter() - begin)
+        arcs = max(len(c) for c in (shape.outer, *shape.holes) if hasattr(c, "bulges"))
+        rows.append(f"| {name} | {arcs} | {statistics.median(taken) * 1e3:.1f} ms | under 20 ms |")
+    return rows
+
+
 def machine() -> list[str]:
     """Return what the times depend on, one line each."""
     versions = [f"{name} {metadata.version(name)}" for name in PACKAGES]
@@ -173,6 +203,8 @@ def page(timings: Sequence[Timing], runs: int) -> str:
         "| command | median | least | most | goal |",
         "|---|---|---|---|---|",
         *(_row(timing) for timing in timings),
+        "",
+        *fit_times(),
         "",
         *_remarks(by_name),
     ]

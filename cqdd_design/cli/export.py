@@ -99,9 +99,10 @@ def _several(
     from cqdd_design.exporting.many import export_many
 
     arguments = ["--to", ",".join(kinds), *options.arguments()]
-    arguments += ["--out", str(folder)] if folder is not None else []
     arguments += ["--force"] if force else []
-    found = export_many(designs, arguments, workers=workers, progress=out.counting("designs"))
+    found = export_many(
+        designs, arguments, folder, workers=workers, progress=out.counting("designs")
+    )
     for one in found:
         if one.error:
             out.warn(f"{one.path}: {one.error}")

@@ -54,6 +54,7 @@ class DesignExport:
 def export_many(
     designs: Sequence[Path],
     arguments: Sequence[str],
+    folder: Path | None = None,
     *,
     workers: int | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -66,6 +67,9 @@ def export_many(
     designs : sequence of Path
     arguments : sequence of str
         Options of ``cqdd-design export``, the same for all.
+    folder : Path, optional
+        Where to; each design has a folder of its own there, called like its file. Default
+        ``exports/NAME``.
     workers : int, optional
         Processes at a time; default one for each core.
     progress : callable, optional
@@ -82,7 +86,7 @@ def export_many(
     found: dict[int, DesignExport] = {}
     with ThreadPoolExecutor(most) as pool:
         waiting = {
-            pool.submit(_export_one, path, arguments, command): place
+            pool.submit(_export_one, path, [*arguments, *_place(folder, path)], command): place
             for place, path in enumerate(designs)
         }
         for done in as_completed(waiting):
@@ -109,6 +113,10 @@ def _export_one(path: Path, arguments: Sequence[str], command: Sequence[str]) ->
     if code < 0:
         return DesignExport(path, 1, (), f"the process was ended by {_signal_name(-code)}: {last}")
     return DesignExport(path, code, (), last)
+
+
+def _place(folder: Path | None, path: Path) -> list[str]:
+    return [] if folder is None else ["--out", str(folder / path.stem)]
 
 
 def _signal_name(number: int) -> str:

@@ -39,14 +39,13 @@ _LINE_END = re.compile(rb"\s*\n\s*")
 
 
 def export_step(job: ExportJob) -> tuple[WrittenFile, ...]:
-    """Write ``<name>.step`` and ``<name>-<part>.step`` for every part that is made."""
-    made = [part for part in job.parts if part.source == "make"]
+    """Write ``<name>.step`` and ``<name>-<part>.step`` for every part."""
     schema = job.options.step_schema
     return (
         write_step(job.design, job.parts, job.path(".step"), schema=schema),
         *(
             write_part_step(job.design, part, job.path(f"-{file_label(part.name)}.step"), schema)
-            for part in made
+            for part in job.parts
         ),
     )
 

@@ -8,12 +8,14 @@ from dataclasses import dataclass
 
 from cqdd_design.catalog.motors import find_motor
 from cqdd_design.design import Design
+from cqdd_design.errors import CatalogError
 from cqdd_design.exporting.bom import BomRow, bill_of_materials
 from cqdd_design.gearbox.balance import paper_disc_count
 from cqdd_design.report.check_rows import printed
 from cqdd_design.report.numbers import decimals, significant, with_unit
 from cqdd_design.report.svg import Figure, line, rectangle, text
 from cqdd_design.report.weighing import DISC_COUNTS, Bodies
+from cqdd_design.solids.fits import Fit
 from cqdd_design.solids.inertia import ROTOR, GearboxInertia, PartInertia
 
 #: Inertia of the whole actuator that the paper prints (table II), at the motor, kg m^2.
@@ -58,6 +60,8 @@ class BodiesView:
     chart : Figure
         Shares of the reflected inertia.
     notes : tuple of str
+    seats : tuple of (part, seat, diameter, zone, upper, lower)
+        ISO 286 zones of the seats.
     """
 
     rows: tuple[PartRow, ...]
@@ -70,6 +74,7 @@ class BodiesView:
     rule: str
     chart: Figure
     notes: tuple[str, ...]
+    seats: tuple[tuple[str, str, str, str, str, str], ...]
 
 
 def bodies_view(design: Design, bodies: Bodies) -> BodiesView:
@@ -90,7 +95,18 @@ def bodies_view(design: Design, bodies: Bodies) -> BodiesView:
         rule=_rule(design, bodies.balance),
         chart=_chart(inertia),
         notes=inertia.warnings,
+        seats=tuple(_seat(part.name, fit) for part in bodies.parts for fit in part.fits),
     )
+
+
+def _seat(part: str, fit: Fit) -> tuple[str, str, str, str, str, str]:
+    try:
+        limits = fit.limits
+    except CatalogError:
+        upper = lower = "beyond the table"
+    else:
+        upper, lower = (f"{1e6 * value:+.4g}" for value in (limits.upper, limits.lower))
+    return part, fit.feature, with_unit(1e3 * fit.diameter, "mm"), fit.zone, upper, lower
 
 
 def _part_row(row: BomRow, part: PartInertia | None, inertia: GearboxInertia) -> PartRow:

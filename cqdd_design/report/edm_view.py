@@ -18,7 +18,8 @@ class EdmView:
     Attributes
     ----------
     lead : str
-    rows : tuple of (program, pieces, plate, arcs, largest, rms, tangent break, least radius)
+    rows : tuple of (program, pieces, plate, arcs, largest, rms, perimeter, area, tangent break,
+        least radius)
     remarks : tuple of str
         What the shop must know of each part.
     """
@@ -56,6 +57,8 @@ def _row(flat: FlatPart) -> tuple[str, ...]:
         str(fit.segments),
         decimals(fit.largest_deviation * 1e6, 3),
         decimals(fit.rms_deviation * 1e6, 3),
+        with_unit(fit.perimeter * 1e3, "mm", 7),
+        with_unit(fit.area * 1e6, "mm^2", 7),
         "0" if fit.tangent_break < 1e-12 else significant(fit.tangent_break, 2),
         "none" if math.isinf(concave) else with_unit(concave * 1e3, "mm"),
     )

@@ -37,7 +37,8 @@ def test_a_crash_is_that_designs_failure(folder: Path) -> None:
     names = ("one", "crash", "broken", "two")
     found = export_many(
         [folder / f"{name}.toml" for name in names],
-        ["--to", "dxf", "--out", str(folder / "files")],
+        ["--to", "edm"],
+        folder / "files",
         workers=2,
         progress=lambda *done: told.append(done),
         command=[sys.executable, str(wrapper)],
@@ -47,9 +48,11 @@ def test_a_crash_is_that_designs_failure(folder: Path) -> None:
     assert "SIGSEGV" in by_name["crash"].error
     assert "eccentricity" in by_name["broken"].error
     assert told == [(1, 4), (2, 4), (3, 4), (4, 4)]
-    written = sorted(path.name for path in (folder / "files").iterdir())
-    assert written == ["one-disc.dxf", "one-ring.dxf", "two-disc.dxf", "two-ring.dxf"]
-    assert [file["kind"] for file in by_name["two"].files] == ["dxf", "dxf"]
+    assert sorted(path.name for path in (folder / "files").iterdir()) == ["one", "two"]
+    for name in ("one", "two"):
+        written = sorted(path.name for path in (folder / "files" / name / "edm").glob("*.dxf"))
+        assert written == [f"{name}-disc.dxf", f"{name}-ring.dxf"]
+        assert len(by_name[name].files) == len(list((folder / "files" / name / "edm").iterdir()))
 
 
 def test_the_command_line_takes_several_designs(folder: Path, cqdd) -> None:  # type: ignore[no-untyped-def]
@@ -59,8 +62,8 @@ def test_the_command_line_takes_several_designs(folder: Path, cqdd) -> None:  # 
     results = json.loads(done.out)["results"]
     assert [one["exit_code"] for one in results["designs"]] == [0, 0, 3]
     assert "broken.toml" in done.err
-    assert (folder / "out" / "one-disc.dxf").exists()
-    assert not list((folder / "out").glob("broken*"))
+    assert (folder / "out" / "one" / "one-disc.dxf").exists()
+    assert not (folder / "out" / "broken").exists()
 
 
 def test_options_travel(folder: Path, cqdd) -> None:  # type: ignore[no-untyped-def]
@@ -69,8 +72,8 @@ def test_options_travel(folder: Path, cqdd) -> None:  # type: ignore[no-untyped-
     done = cqdd("export", *files, "--to", "dxf,gcode", "--out", str(folder / "o"), *options)
     assert done.code == 0
     for name in ("one", "two"):
-        assert "AC1009" in (folder / "o" / f"{name}-disc.dxf").read_text(encoding="utf-8")
-        assert "TAB OF 2.000 MM" in (folder / "o" / "edm" / f"{name}-disc.nc").read_text()
+        assert "AC1009" in (folder / "o" / name / f"{name}-disc.dxf").read_text(encoding="utf-8")
+        assert "TAB OF 2.000 MM" in (folder / "o" / name / "edm" / f"{name}-disc.nc").read_text()
 
 
 def test_command_starts_this_python() -> None:

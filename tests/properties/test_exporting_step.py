@@ -98,14 +98,30 @@ def test_disc_has_the_arcs_of_the_drawing_and_no_spline(tmp_path: Path) -> None:
     )
 
 
-def test_one_file_for_the_machine_and_one_for_every_made_part(tmp_path: Path) -> None:
+def test_one_file_for_the_machine_and_one_for_every_part(tmp_path: Path) -> None:
     job = ExportJob(known_design("paper"), tmp_path, lambda _: None)
     job.__dict__["parts"] = known_parts("paper")
     names = [one.path.name for one in export_step(job)]
     assert names[0] == "cqdd-10.step"
-    made = [part.name for part in known_parts("paper") if part.source == "make"]
-    assert names[1:] == [f"cqdd-10-{file_label(name)}.step" for name in made]
+    every = [part.name for part in known_parts("paper")]
+    assert names[1:] == [f"cqdd-10-{file_label(name)}.step" for name in every]
     assert {path.name for path in tmp_path.iterdir()} == set(names)
+
+
+def test_ap242_says_so_and_the_next_file_does_not(tmp_path: Path) -> None:
+    import cadquery
+
+    disc = part_named(known_parts("paper"), "disc")
+    texts = []
+    for schema in ("AP242", "AP214", "AP242"):
+        path = tmp_path / "disc.step"
+        write_part_step(known_design("paper"), disc, path, schema)
+        texts.append(path.read_text(encoding="ascii"))
+        shape = cadquery.importers.importStep(str(path)).val()
+        assert shape.Volume() * 1e-9 == pytest.approx(disc.exact_volume, rel=1e-5)
+    assert "AP242_MANAGED_MODEL_BASED_3D_ENGINEERING" in texts[0]
+    assert "AUTOMOTIVE_DESIGN" in texts[1]
+    assert texts[2] == texts[0]
 
 
 def test_a_file_that_lost_a_solid_is_not_kept(
