@@ -17,6 +17,8 @@ from typing import TYPE_CHECKING
 from cqdd_design import __version__
 
 if TYPE_CHECKING:
+    from cqdd_design.actuator.bench import BenchResult
+    from cqdd_design.actuator.parameters import FloatArray
     from cqdd_design.design import Design, Requirements
     from cqdd_design.files import WrittenFile
     from cqdd_design.gearbox import GearboxAnalysis
@@ -29,8 +31,8 @@ if TYPE_CHECKING:
 
 Progress = Callable[[str], None]
 
-#: How often sizing and `write_report` tell their progress.
-SIZING_STAGES, REPORT_STAGES = 2, 5
+#: How often sizing, `write_report` and a whole `bench` tell their progress.
+SIZING_STAGES, REPORT_STAGES, BENCH_STAGES = 2, 5, 16
 
 #: Toleranced gearboxes of a report, fewer of those with many teeth: percentiles to a few per
 #: cent in some seconds, and never too few for a ranking.
@@ -272,6 +274,54 @@ def assembly_check(motion: AssemblyMotion) -> Check:
         remedy=remedy,
         source=guide.source,
     )
+
+
+def bench(
+    design: Design,
+    *,
+    only: tuple[str, ...] = (),
+    voltage: float | None = None,
+    progress: Progress = _silent,
+) -> BenchResult:
+    """Measure the actuator of a design on the virtual test bench; see `actuator.bench`."""
+    from cqdd_design.actuator.bench import run_bench
+    from cqdd_design.actuator.bench.run import VOLTAGE
+    from cqdd_design.actuator.build import actuator_parameters
+    from cqdd_design.catalog import find_motor
+
+    return run_bench(
+        actuator_parameters(design),
+        rated_current=find_motor(design.motor.name).rated_current,
+        voltage=VOLTAGE if voltage is None else voltage,
+        only=only,
+        beside_paper=design.name == "cqdd-10",
+        progress=progress,
+    )
+
+
+def write_traces(
+    result: BenchResult, folder: Path, *, force: bool = False
+) -> tuple[WrittenFile, ...]:
+    """Write the trace of every measurement as ``<name>-<measurement>.npz``, columns with units."""
+    import numpy as np
+
+    from cqdd_design.files import ensure_folder, refuse_overwrite, write_with
+
+    ensure_folder(folder)
+    files = []
+    for metric in result.metrics:
+        if not metric.trace:
+            continue
+        path = folder / f"{result.name}-{metric.name.replace('_', '-')}.npz"
+        refuse_overwrite(path, force=force)
+        columns = dict(metric.trace)
+
+        def write(place: Path, columns: dict[str, FloatArray] = columns) -> None:
+            with place.open("wb") as stream:
+                np.savez(stream, allow_pickle=False, **columns)
+
+        files.append(write_with(path, "npz", write))
+    return tuple(files)
 
 
 def inertia(

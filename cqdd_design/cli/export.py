@@ -13,7 +13,7 @@ from cqdd_design.cli.session import Output
 if TYPE_CHECKING:
     from cqdd_design.exporting import ExportOptions
 
-WITHOUT_SOLIDS = {"dxf", "svg", "edm", "gcode"}
+WITHOUT_SOLIDS = {"dxf", "svg", "edm", "gcode", "mjcf", "urdf", "card", "bam"}
 """Kinds that need no parts of the machine."""
 
 
@@ -28,7 +28,8 @@ def export(
         typer.Option(
             "--to",
             metavar="LIST",
-            help="Kinds: dxf, edm, gcode, step, stl, 3mf, glb, svg, bom.",
+            help="Kinds: dxf, edm, gcode, step, stl, 3mf, glb, svg, bom; "
+            "mjcf, urdf, card, bam for simulators.",
         ),
     ] = "dxf,step",
     folder: Annotated[
@@ -61,7 +62,7 @@ def export(
     ] = None,
     force: Force = False,
 ) -> int:
-    """Files for makers: DXF, wire-EDM package, G-code, STEP, meshes, bill of materials."""
+    """Files for makers (DXF, EDM package, STEP, meshes, bill of materials) and simulators."""
     from cqdd_design.design import load_design
     from cqdd_design.exporting import ExportOptions, read_kinds
     from cqdd_design.exporting import export as write

@@ -13,6 +13,7 @@ from typer.exceptions import Abort, TyperException
 from cqdd_design import __version__
 from cqdd_design.cli import (
     analyse,
+    bench,
     catalog,
     check,
     compare,
@@ -45,6 +46,7 @@ COMMANDS = (
     size.size,
     check.check,
     analyse.analyse,
+    bench.bench,
     tolerance.tolerance,
     compare.compare,
     inertia.inertia,

@@ -39,6 +39,10 @@ EXPORTERS: Mapping[str, str] = MappingProxyType(
         "glb": "cqdd_design.exporting.meshes:export_glb",
         "svg": "cqdd_design.exporting.svg:export_svg",
         "bom": "cqdd_design.exporting.bom:export_bom",
+        "mjcf": "cqdd_design.exporting.mjcf:export_mjcf",
+        "urdf": "cqdd_design.exporting.urdf:export_urdf",
+        "card": "cqdd_design.exporting.actuator_card:export_card",
+        "bam": "cqdd_design.exporting.bam:export_bam",
         "edm": "cqdd_design.exporting.edm:export_edm",
         "gcode": "cqdd_design.exporting.gcode:export_gcode",
     }

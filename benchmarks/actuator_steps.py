@@ -1,0 +1,222 @@
+"""Time the actuator in time: steps a second on one core and over parameter sets; beside scipy.
+
+    python benchmarks/actuator_steps.py [--write]
+
+Everything is measured in one run, after compilation (warm), on the paper's design with one drawn
+gearbox: kinematic error and stiffness in 64 orders, backlash, stiffening spring, load-dependent
+friction with stick and slip, current loop with delay, thermal network. A step is one implicit step
+of the whole actuator. `--write` puts the result into docs/benchmarks.md. Run it by hand on a
+machine that does nothing else.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import os
+import time
+from dataclasses import replace
+from importlib import metadata
+from pathlib import Path
+
+import numpy as np
+from processes import PAGE, machine
+
+from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.columns import LEDGER, PARAMETERS, TRACES
+from cqdd_design.actuator.kernel import run_sets
+from cqdd_design.actuator.packing import (
+    gear_table,
+    kinematic_error,
+    pack,
+    stiffness_share,
+    table_points,
+)
+from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.actuator.scenario import Command, Load, Scenario, Sine, Wall
+from cqdd_design.actuator.simulate import simulate
+from cqdd_design.design import load_design
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+DESIGN = REPOSITORY / "designs" / "cqdd-10.toml"
+HEADING = "## The actuator in time"
+BEGIN, END = "<!-- actuator: written by actuator_steps.py -->", "<!-- end of actuator -->"
+STEP, STEPS, GOAL = 2e-5, 500_000, 5e6
+
+SCENES = {
+    "locked": Scenario(Command("torque", Sine(20.0, 2.0)), Load.locked(2e4, 1.0)),
+    "pendulum": Scenario(Command("impedance", Sine(1.0, 0.8)), Load.pendulum(2.28, 0.5)),
+    "pendulum before a wall": Scenario(
+        Command("impedance", Sine(1.0, 0.8)), Load.pendulum(2.28, 0.5, wall=Wall(0.5, 2000.0))
+    ),
+}
+
+
+def kernel_rate(
+    sets: list[ActuatorParameters], scene: Scenario, steps: int, threads: int, runs: int = 5
+) -> float:
+    """Actuator steps a second of the kernel alone, best of some runs."""
+    import numba
+
+    rows = np.array([pack(one, scene, STEP) for one in sets])
+    points = max(table_points(one.gear) for one in sets)
+    tables = np.array([gear_table(one.gear, points) for one in sets])
+    middle = STEP * (np.arange(steps) + 0.5)
+    reference = scene.command.reference.values(middle)[None]
+    rate = scene.command.reference.rates(middle)[None]
+    none = np.zeros((1, 1))
+    traces = np.zeros((len(sets), len(TRACES), steps // 50))
+    ledgers = np.zeros((len(sets), len(LEDGER)))
+    former = numba.get_num_threads()
+    numba.set_num_threads(threads)
+    best = math.inf
+    for _ in range(runs):
+        began = time.perf_counter()
+        run_sets(rows, tables, reference, rate, none, none, none, STEP, steps, 50, traces, ledgers)
+        best = min(best, time.perf_counter() - began)
+    numba.set_num_threads(former)
+    return len(sets) * steps / best
+
+
+def plain_rate(one: ActuatorParameters, scene: Scenario, steps: int = 2000) -> float:
+    """Steps a second of the numpy twin."""
+    began = time.perf_counter()
+    simulate(one, scene, steps * STEP, STEP, engine="plain")
+    return steps / (time.perf_counter() - began)
+
+
+def scipy_times(one: ActuatorParameters, seconds: float) -> dict[str, float]:
+    """Seconds that scipy takes for the locked actuator; nan where it gives up.
+
+    The equations are the same, gap, stiffening, load-dependent friction and contact that only
+    pushes included; dry friction is smoothed to a tanh of 0.1 rad/s at the motor, because a jump
+    stops an integrator of smooth equations. Harmonics are tabulated, so that it does not pay for
+    their sums.
+    """
+    from scipy.integrate import solve_ivp
+
+    gear, motor, friction = one.gear, one.motor, one.friction
+    n, count = abs(gear.ratio), 16384
+    turn = 2.0 * math.pi * n
+    grid = turn * np.arange(count + 1) / count
+    error, share = kinematic_error(gear, grid), stiffness_share(gear, grid)
+    error_slope, share_slope = np.gradient(error, grid), np.gradient(share, grid)
+    sensor = SCENES["locked"].load
+
+    def at(values: np.ndarray, angle: float) -> float:
+        place = angle / turn % 1.0 * count
+        low = int(place)
+        return float(values[low] + (place - low) * (values[low + 1] - values[low]))
+
+    def rates(t: float, state: np.ndarray) -> tuple[float, ...]:
+        current, angle, speed, out, out_speed = state
+        shape = 1.0 / gear.ratio + at(error_slope, angle)
+        closing = angle / gear.ratio + at(error, angle) - out
+        beyond = math.copysign(max(abs(closing) - 0.5 * gear.backlash, 0.0), closing)
+        spring = (
+            gear.error_torque
+            * (gear.stiffness * abs(beyond) / gear.error_torque) ** gear.stiffening
+        )
+        torque = at(share, angle) * math.copysign(spring, closing)
+        if beyond:
+            pushed = torque + gear.damping * (shape * speed - out_speed)
+            torque = pushed if pushed * torque > 0.0 else 0.0
+        varying = spring * abs(beyond) / (gear.stiffening + 1.0) * at(share_slope, angle)
+        slip, out_slip = math.tanh(speed / 0.1), math.tanh(out_speed * n / 0.1)
+        level = friction.motor_coulomb + friction.load_forward * abs(torque) / n
+        level *= 1.0 + friction.stribeck_extra * math.exp(-((speed / friction.stribeck_speed) ** 2))
+        drive = motor.torque_constant * current - friction.motor_viscous * speed - level * slip
+        wanted = 20.0 * math.sin(4.0 * math.pi * t) / (gear.ratio * motor.torque_constant)
+        held = sensor.sensor_stiffness * out + sensor.sensor_damping * out_speed
+        held += friction.output_viscous * out_speed + friction.output_coulomb * out_slip
+        return (
+            2.0 * math.pi * one.drive.current_bandwidth * (wanted - current),
+            speed,
+            (drive - shape * torque - varying) / one.motor_side_inertia,
+            out_speed,
+            (torque - held) / gear.output_inertia,
+        )
+
+    first = pack(one, SCENES["locked"], STEP)[PARAMETERS.index("motor_angle")]
+    found = {}
+    for method in ("RK45", "LSODA", "Radau"):
+        began = time.perf_counter()
+        end = solve_ivp(
+            rates, (0.0, seconds), [0.0, first, 0.0, 0.0, 0.0], method, rtol=1e-6, atol=1e-9
+        )
+        found[method] = time.perf_counter() - began if end.success else math.nan
+    return found
+
+
+def measure() -> list[tuple[str, str, str]]:
+    """Rows of (what, measured, goal)."""
+    one = actuator_parameters(load_design(DESIGN), seed=1)
+    rows = []
+    for name, scene in SCENES.items():
+        kernel_rate([one], scene, 1000, 1, 1)
+        rate = kernel_rate([one], scene, STEPS, 1)
+        goal = f"at least {GOAL:,.0f}" if "wall" not in name else ""
+        rows.append((f"steps a second, one core, {name}", f"{rate:,.0f}", goal))
+    cores = min(os.cpu_count() or 1, 4)
+    sets = [replace(one, gear=replace(one.gear, backlash=1e-4 * (1 + i % 9))) for i in range(64)]
+    alone = kernel_rate(sets[:1], SCENES["pendulum"], STEPS // 10, 1)
+    for number in (4, 16, 64):
+        some = kernel_rate(sets[:number], SCENES["pendulum"], STEPS // 10, cores)
+        rows.append(
+            (
+                f"the same, pendulum, {number} parameter sets on {cores} cores",
+                f"{some:,.0f}: {some / alone:.2f} times one core",
+                "linear",
+            )
+        )
+    slow = plain_rate(one, SCENES["pendulum"])
+    fast = kernel_rate([one], SCENES["pendulum"], STEPS, 1)
+    rows.append(
+        ("the plain twin in numpy, pendulum", f"{slow:,.0f}: {fast / slow:,.0f} times slower", "")
+    )
+    seconds = 0.25
+    ours = seconds / STEP / kernel_rate([one], SCENES["locked"], STEPS, 1)
+    for method, theirs in scipy_times(one, seconds).items():
+        rows.append(
+            (
+                f"scipy.integrate.solve_ivp, {method}, rtol 1e-6, {seconds:g} s of the locked "
+                "actuator, dry friction smoothed",
+                f"{theirs:.2f} s against {1e3 * ours:.2f} ms: {theirs / ours:,.0f} times slower",
+                "",
+            )
+        )
+    return rows
+
+
+def main() -> None:
+    """Measure and show, or write into the page."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--write", action="store_true")
+    asked = parser.parse_args()
+    rows = measure()
+    versions = ", ".join(f"{name} {metadata.version(name)}" for name in ("numpy", "scipy", "numba"))
+    lines = [
+        "Written by `python benchmarks/actuator_steps.py --write`, in one run, after compilation",
+        f"(warm); steps of {1e6 * STEP:g} \u00b5s, one drawn gearbox of `designs/cqdd-10.toml`.",
+        "",
+        *machine()[:1],
+        f"- {versions}",
+        "",
+        "| what | measured | goal |",
+        "|---|---|---|",
+        *(f"| {what} | {found} | {goal} |" for what, found, goal in rows),
+    ]
+    text = "\n".join(lines) + "\n"
+    if not asked.write:
+        print(text)
+        return
+    page = PAGE.read_text(encoding="utf-8")
+    if BEGIN not in page:
+        page += f"\n{HEADING}\n\n{BEGIN}\n{END}\n"
+    before, _, rest = page.partition(BEGIN)
+    after = rest.partition(END)[2]
+    PAGE.write_text(f"{before}{BEGIN}\n\n{text}\n{END}{after}", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""The whole actuator in time: motor, drive, gearbox, thermal network, loads."""

@@ -1,0 +1,194 @@
+"""Rows of a data sheet that come from the gearbox: backlash, backdrive torque, ripple."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from cqdd_design.actuator.bench.metric import Metric
+from cqdd_design.actuator.bench.steady import cold, safe_step
+from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.actuator.scenario import (
+    Command,
+    Constant,
+    Load,
+    Ramp,
+    Sampled,
+    Scenario,
+    Start,
+)
+from cqdd_design.actuator.simulate import Simulation, simulate
+
+ARCMIN = 60.0 * 180.0 / math.pi
+DIAL = 0.0127e-3
+"""Least movement a dial gauge shows, m: half a thousandth of an inch (Gebler 1998)."""
+DIAL_RADIUS = 0.1
+"""Where the dial touches an arm on the output, m."""
+_MOVING = 5e-4
+"""Output speed above which it counts as broken away, rad/s."""
+
+
+def backlash(parameters: ActuatorParameters, positions: int = 6) -> Metric:
+    """Gebler's method: turn the motor until the output moves, from either flank."""
+    gear = parameters.gear
+    threshold = DIAL / DIAL_RADIUS
+    sweep = gear.backlash + 6.0 * threshold + 2.0 / ARCMIN
+    lead, back = 0.4, 2.0
+    scenes = []
+    for place in 2.0 * math.pi * np.arange(positions) / positions:
+        for sense in (1.0, -1.0):
+            # Onto one flank, rest, then slowly off it and onto the other.
+            times = np.array([0.0, lead, 2.0 * lead, 2.0 * lead + back])
+            path = place + sense * np.array([0.0, 1.0, 1.0, -1.0]) * sweep
+            scenes.append(
+                Scenario(
+                    Command(
+                        "position",
+                        Sampled(times, path),
+                        position_gain=40.0 * parameters.drive.position_gain,
+                        velocity_gain=10.0 * parameters.drive.velocity_gain,
+                        integral_gain=400.0 * parameters.drive.position_gain,
+                    ),
+                    Load.free(),
+                    Start(output_angle=place),
+                )
+            )
+    step = safe_step(parameters, *scenes)
+    every = max(1, round(5e-4 / step))
+    run = simulate(cold(parameters), scenes, 2.0 * lead + back, step, every=every)
+    ratio = gear.ratio
+    rest = int(np.searchsorted(run.time, 1.9 * lead))
+    found = []
+    for i in range(len(scenes)):
+        motor = run.motor_angle[i] / ratio
+        output = run.output_angle[i]
+        moved = np.flatnonzero(np.abs(output[rest:] - output[rest]) > threshold)
+        if moved.size:
+            at = rest + int(moved[0])
+            found.append(abs(motor[at] - motor[rest]) - threshold)
+    values = np.array(found) * ARCMIN
+    return Metric(
+        "backlash",
+        float(values.mean()) if values.size else 0.0,
+        "predicted",
+        f"Gebler: onto one flank, then the motor slowly back until a dial of {DIAL * 1e3:g} mm at "
+        f"{DIAL_RADIUS * 1e3:g} mm moves, at {positions} places from both flanks; the dial's own "
+        "threshold is taken off.",
+        spread=float(values.std(ddof=1)) if values.size > 1 else None,
+        details={"dead_zone_arcmin": gear.backlash * ARCMIN, "readings": float(values.size)},
+        trace={
+            "motor over ratio [rad]": run.motor_angle[0] / ratio,
+            "output [rad]": run.output_angle[0],
+        },
+    )
+
+
+def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Metric:
+    """Phases open, torque on the output ramped until it breaks away."""
+    friction = parameters.friction
+    ratio = abs(parameters.gear.ratio)
+    motor = parameters.motor
+    expected = (
+        (friction.motor_coulomb + motor.hysteresis) * (1.0 + friction.stribeck_extra) * ratio
+        + motor.cogging_amplitude * ratio
+        + friction.output_coulomb * (1.0 + friction.stribeck_extra)
+    )
+    slope, duration = max(0.8 * expected, 0.01), 2.5
+    turn = 2.0 * math.pi / ratio
+    scenes = [
+        Scenario(
+            Command("open"),
+            Load.free(Ramp(0.0, sense * slope)),
+            Start(output_angle=turn * place / positions),
+        )
+        for place in range(positions)
+        for sense in (1.0, -1.0)
+    ]
+    step = safe_step(parameters, *scenes)
+    run = simulate(cold(parameters), scenes, duration, step, every=max(1, round(1e-3 / step)))
+    found = []
+    for i in range(len(scenes)):
+        moving = np.flatnonzero(np.abs(run.motor_speed[i]) > _MOVING * ratio)
+        if moving.size:
+            found.append(slope * run.time[moving[0]])
+    values = np.array(found)
+    return Metric(
+        "backdrive_static",
+        float(values.mean()) if values.size else math.nan,
+        "predicted",
+        f"Phases open, output torque ramped at {slope:.3g} N m/s until the motor turns faster than "
+        f"{_MOVING:g} rad/s of output, at {positions} places in both senses.",
+        spread=float(values.std(ddof=1)) if values.size > 1 else None,
+        details={"readings": float(values.size)},
+    )
+
+
+def backdrive_dynamic(parameters: ActuatorParameters, speed: float = 1.0) -> Metric:
+    """Phases open, the output turned slowly at a steady speed."""
+    run = _driven(parameters, Command("open"), speed, 2.5)
+    late = run.time > 0.5
+    torque = -np.sign(speed) * run.output_torque[0][late]
+    return Metric(
+        "backdrive_dynamic",
+        float(torque.mean()),
+        "predicted",
+        f"Phases open, output turned at {speed:g} rad/s, mean torque over 2 s.",
+        spread=float(torque.std()),
+        trace={
+            "output angle [rad]": run.output_angle[0][late],
+            "output torque [N m]": run.output_torque[0][late],
+        },
+    )
+
+
+def torque_ripple(parameters: ActuatorParameters, speed: float = 1.0) -> Metric:
+    """Steady speed and current: half of the peak-to-peak torque over each turn of the motor."""
+    motor, gear = parameters.motor, parameters.gear
+    current = gear.error_torque / (abs(gear.ratio) * motor.torque_constant)
+    turning = math.copysign(speed, gear.ratio)
+    whole, rise = 2.0 * math.pi / speed, 1.0
+    # Brought up slowly: a jump would leave the motor swinging on the gearbox's stiffness.
+    slowly = Sampled(np.array([0.0, rise]), np.array([0.0, current]))
+    run = _driven(parameters, Command("current", slowly), turning, 1.5 * rise + whole)
+    late = run.time > 1.5 * rise
+    torque = run.output_torque[0][late]
+    angle = np.abs(run.motor_angle[0][late] - run.motor_angle[0][late][0])
+    turns = np.floor(angle / (2.0 * math.pi)).astype(int)
+    halves = [
+        0.5 * np.ptp(torque[turns == turn])
+        for turn in range(int(turns.max()))
+        if np.any(turns == turn)
+    ]
+    orders, amplitudes = order_spectrum(angle / abs(gear.ratio), torque)
+    strongest = np.argsort(amplitudes)[::-1][:5]
+    return Metric(
+        "torque_ripple",
+        float(np.mean(halves)),
+        "predicted",
+        f"Output at {speed:g} rad/s, {current:.3g} A in the motor: half of the peak-to-peak torque "
+        "over each turn of the motor, mean over a turn of the output.",
+        spread=float(np.std(halves, ddof=1)) if len(halves) > 1 else None,
+        details={f"order_{int(orders[k])}_Nm": float(amplitudes[k]) for k in strongest},
+        trace={"order of the output": orders, "amplitude [N m]": amplitudes},
+    )
+
+
+def order_spectrum(
+    angle: np.ndarray, torque: np.ndarray, most: int = 400
+) -> tuple[np.ndarray, np.ndarray]:
+    """Amplitudes (most,) at whole orders 1 to `most` of one turn of the output angle (rad)."""
+    count = 4 * most
+    even = np.linspace(0.0, 2.0 * math.pi, count, endpoint=False)
+    reach = float(angle[-1])
+    sampled = np.interp(even * min(reach / (2.0 * math.pi), 1.0), angle, torque)
+    amplitudes = 2.0 * np.abs(np.fft.rfft(sampled - sampled.mean())) / count
+    return np.arange(1, most + 1), amplitudes[1 : most + 1]
+
+
+def _driven(
+    parameters: ActuatorParameters, command: Command, speed: float, duration: float
+) -> Simulation:
+    scene = Scenario(command, Load.driven(Constant(speed)), Start(output_speed=speed))
+    step = safe_step(parameters, scene)
+    return simulate(cold(parameters), scene, duration, step, every=max(1, round(1e-4 / step)))

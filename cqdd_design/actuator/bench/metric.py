@@ -1,0 +1,142 @@
+"""What a bench measurement says: value, spread, protocol, trace, and how it compares."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Literal
+
+from cqdd_design.actuator.parameters import FloatArray
+
+Relation = Literal["given", "calibrated", "predicted", "not comparable"]
+
+METRICS: Mapping[str, str] = MappingProxyType(
+    {
+        "continuous_torque": "N*m",
+        "peak_torque": "N*m",
+        "no_load_speed": "rpm",
+        "rated_power": "W",
+        "output_resolution": "deg",
+        "efficiency_peak": "",
+        "torque_density": "N*m/kg",
+        "actuator_inertia": "kg*m^2",
+        "mass": "kg",
+        "backlash": "arcmin",
+        "backdrive_static": "N*m",
+        "backdrive_dynamic": "N*m",
+        "torque_ripple": "N*m",
+        "torque_bandwidth": "Hz",
+        "position_bandwidth_45deg": "Hz",
+        "position_bandwidth_5deg": "Hz",
+    }
+)
+"""Names of all measurements and their units."""
+
+PAPER: Mapping[str, tuple[float, float | None]] = MappingProxyType(
+    {
+        "continuous_torque": (37.5, None),
+        "peak_torque": (89.9, None),
+        "no_load_speed": (128.6, None),
+        "rated_power": (960.0, None),
+        "output_resolution": (0.00219, None),
+        "efficiency_peak": (0.823, None),
+        "torque_density": (64.2, None),
+        "actuator_inertia": (5.01e-4, None),
+        "mass": (1.40, None),
+        "backlash": (7.03, 1.3),
+        "backdrive_static": (1.99, None),
+        "backdrive_dynamic": (1.36, None),
+        "torque_ripple": (1.5, None),
+        "torque_bandwidth": (34.3, None),
+        "position_bandwidth_45deg": (3.3, None),
+        "position_bandwidth_5deg": (22.13, None),
+    }
+)
+"""Value and spread of the paper's own actuator (Zhu, Tanaka, Rafeedi and Hong 2024, table II)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Metric:
+    """One measurement.
+
+    Attributes
+    ----------
+    name : str
+        Of `METRICS`.
+    value : float
+        In the unit of `METRICS`.
+    spread : float or None
+        Standard deviation over positions or repetitions; None for a single figure.
+    relation : {"given", "calibrated", "predicted", "not comparable"}
+        How an agreement with a measured value would have to be read: an input or an identity, a
+        fit, a prediction, or something measured under other conditions.
+    protocol : str
+        A sentence.
+    details : mapping of str to float
+        Other figures of the same run, each with its unit in its name.
+    trace : mapping of str to array
+        Columns, each with its unit in its name.
+    """
+
+    name: str
+    value: float
+    relation: Relation
+    protocol: str
+    spread: float | None = None
+    details: Mapping[str, float] = field(default_factory=dict)
+    trace: Mapping[str, FloatArray] = field(default_factory=dict)
+
+    @property
+    def unit(self) -> str:
+        """Unit of value and spread."""
+        return METRICS[self.name]
+
+
+@dataclass(frozen=True, eq=False)
+class BenchResult:
+    """Measurements of one actuator.
+
+    Attributes
+    ----------
+    name : str
+        Of the actuator.
+    metrics : tuple of Metric
+    beside_paper : bool
+        Whether it is the paper's own, so that the paper's values stand beside.
+    voltage : float
+        Of the dynamic rows, V.
+    seconds : float
+        Time taken.
+    warnings : tuple of str
+    """
+
+    name: str
+    metrics: tuple[Metric, ...]
+    beside_paper: bool
+    voltage: float
+    seconds: float
+    warnings: tuple[str, ...] = ()
+
+    def paper(self, name: str) -> float | None:
+        """The paper's value of a measurement, beside the paper's own actuator only."""
+        return PAPER[name][0] if self.beside_paper else None
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form (``results`` of ``bench``)."""
+        return {
+            "voltage_V": self.voltage,
+            "seconds": self.seconds,
+            "metrics": {
+                metric.name: {
+                    "value": metric.value,
+                    "spread": metric.spread,
+                    "unit": metric.unit,
+                    "paper": self.paper(metric.name),
+                    "relation": metric.relation,
+                    "protocol": metric.protocol,
+                    **({"details": dict(metric.details)} if metric.details else {}),
+                }
+                for metric in self.metrics
+            },
+        }

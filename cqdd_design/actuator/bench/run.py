@@ -1,0 +1,91 @@
+"""The whole bench in one call."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Collection
+
+from cqdd_design.actuator.bench import bandwidth, gear, steady
+from cqdd_design.actuator.bench.metric import METRICS, BenchResult, Metric
+from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.errors import UsageError, did_you_mean
+
+VOLTAGE = 24.0
+"""Of the dynamic rows, V: what the paper measured at."""
+
+Progress = Callable[[str], None]
+
+
+def run_bench(
+    parameters: ActuatorParameters,
+    *,
+    rated_current: float | None = None,
+    voltage: float = VOLTAGE,
+    only: Collection[str] = (),
+    beside_paper: bool = False,
+    progress: Progress | None = None,
+) -> BenchResult:
+    """Measure an actuator.
+
+    Parameters
+    ----------
+    parameters : ActuatorParameters
+    rated_current : float, optional
+        Of the motor by its catalogue, A.
+    voltage : float
+        Supply of the no-load speed and of the position bandwidths, V.
+    only : collection of str
+        Names of `METRICS`; default all.
+    beside_paper : bool
+        Whether the paper's values stand beside.
+    progress : callable, optional
+        Told the name of each measurement before it begins.
+
+    Raises
+    ------
+    UsageError
+        For an unknown name, or a voltage that is not above zero.
+    """
+    for name in only:
+        if name not in METRICS:
+            raise UsageError(
+                f"'{name}' is not a measurement{did_you_mean(name, METRICS) or '.'} "
+                f"The bench knows {', '.join(METRICS)}."
+            )
+    if not voltage > 0.0:
+        raise UsageError(f"--voltage {voltage:g} V must be above 0; the paper's is {VOLTAGE:g} V.")
+    began = time.perf_counter()
+    measures: dict[str, Callable[[], Metric | None]] = {
+        "continuous_torque": lambda: steady.continuous_torque(parameters),
+        "peak_torque": lambda: steady.peak_torque(parameters),
+        "no_load_speed": lambda: steady.no_load_speed(parameters, voltage),
+        "rated_power": lambda: steady.rated_power(parameters, rated_current),
+        "output_resolution": lambda: steady.output_resolution(parameters),
+        "efficiency_peak": lambda: steady.efficiency_peak(parameters),
+        "torque_density": lambda: steady.torque_density(steady.peak_torque(parameters), parameters),
+        "actuator_inertia": lambda: steady.actuator_inertia(parameters),
+        "mass": lambda: steady.mass(parameters),
+        "backlash": lambda: gear.backlash(parameters),
+        "backdrive_static": lambda: gear.backdrive_static(parameters),
+        "backdrive_dynamic": lambda: gear.backdrive_dynamic(parameters),
+        "torque_ripple": lambda: gear.torque_ripple(parameters),
+        "torque_bandwidth": lambda: bandwidth.torque_bandwidth(parameters),
+        "position_bandwidth_45deg": lambda: bandwidth.position_bandwidth(parameters, 45.0, voltage),
+        "position_bandwidth_5deg": lambda: bandwidth.position_bandwidth(parameters, 5.0, voltage),
+    }
+    found = []
+    for name, measure in measures.items():
+        if only and name not in only:
+            continue
+        if progress is not None:
+            progress(name.replace("_", " "))
+        metric = measure()
+        if metric is not None:
+            found.append(metric)
+    return BenchResult(
+        name=parameters.name,
+        metrics=tuple(found),
+        beside_paper=beside_paper,
+        voltage=voltage,
+        seconds=time.perf_counter() - began,
+    )

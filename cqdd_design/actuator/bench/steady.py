@@ -1,0 +1,242 @@
+"""Rows of a data sheet that are steady: torques, speed, efficiency, inertia."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+
+from cqdd_design.actuator.bench.metric import Metric
+from cqdd_design.actuator.motor import torque_constant_at
+from cqdd_design.actuator.packing import largest_step
+from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
+from cqdd_design.actuator.scenario import Command, Constant, Load, Sampled, Scenario, Start
+from cqdd_design.actuator.simulate import Simulation, simulate
+from cqdd_design.actuator.thermal import continuous_current
+
+RPM = 30.0 / math.pi
+
+
+def safe_step(parameters: ActuatorParameters, *scenarios: Scenario, most: float = 1e-4) -> float:
+    """Half the largest step that every scenario stands, s."""
+    return min(most, *(0.5 * largest_step(parameters, scene)[0] for scene in scenarios))
+
+
+def with_voltage(parameters: ActuatorParameters, voltage: float) -> ActuatorParameters:
+    """The same actuator at another supply."""
+    drive = dataclasses.replace(parameters.drive, supply_voltage=voltage)
+    return dataclasses.replace(parameters, drive=drive)
+
+
+def cold(parameters: ActuatorParameters) -> ActuatorParameters:
+    """The same actuator, so large a heat capacity in it that nothing warms during a test."""
+    thermal = dataclasses.replace(parameters.thermal, winding_capacity=1e9, housing_capacity=1e9)
+    return dataclasses.replace(parameters, thermal=thermal)
+
+
+def output_resolution(parameters: ActuatorParameters) -> Metric:
+    """One count of the motor's encoder at the output."""
+    counts = 2.0**parameters.drive.encoder_bits * abs(parameters.gear.ratio)
+    return Metric(
+        "output_resolution",
+        360.0 / counts,
+        "given",
+        "One count of the encoder on the motor's shaft, through the ratio.",
+    )
+
+
+def rated_power(parameters: ActuatorParameters, rated_current: float | None) -> Metric | None:
+    """Supply voltage times the motor's rated current; None where the catalogue gives none."""
+    if rated_current is None:
+        return None
+    return Metric(
+        "rated_power",
+        parameters.drive.supply_voltage * rated_current,
+        "given",
+        "Supply voltage times the rated current of the motor's catalogue.",
+    )
+
+
+def _locked_torque(
+    parameters: ActuatorParameters, current: float, positions: int = 12
+) -> FloatArray:
+    """Torque of the locked output at a steady current, at even places of one motor turn, N m.
+
+    The current rises slowly, as on a bench, and friction holds back what it can.
+    """
+    turn = 2.0 * math.pi / abs(parameters.gear.ratio)
+    rise, hold = 0.3, 0.3
+    slowly = Sampled(np.array([0.0, rise]), np.array([0.0, current]))
+    scenes = [
+        Scenario(
+            Command("current", slowly),
+            Load.driven(Constant(0.0)),
+            Start(output_angle=turn * place / positions),
+        )
+        for place in range(positions)
+    ]
+    step = safe_step(parameters, *scenes)
+    every = max(1, round(5e-4 / step))
+    run = simulate(cold(parameters), scenes, rise + hold, step, every=every)
+    settled = run.output_torque[:, run.time > rise + 0.5 * hold]
+    return np.asarray(np.abs(settled.mean(axis=1)))
+
+
+def peak_torque(parameters: ActuatorParameters) -> Metric:
+    """Locked output, current ramped to the driver's limit."""
+    motor = parameters.motor
+    limit = parameters.drive.current_limit
+    by_driver = _locked_torque(parameters, limit)
+    ratio = abs(parameters.gear.ratio)
+    ideal = motor.torque_constant * limit * ratio
+    by_motor = motor.peak_torque * ratio
+    details = {"driver_limited_Nm": float(by_driver.mean()), "without_losses_Nm": ideal}
+    if math.isfinite(by_motor):
+        details["motor_limited_without_losses_Nm"] = by_motor
+    share = float(by_driver.mean()) / ideal
+    value = share * min(ideal, by_motor) if math.isfinite(by_motor) else float(by_driver.mean())
+    return Metric(
+        "peak_torque",
+        value,
+        "given",
+        "Output held still, current ramped to the driver's limit in 0.3 s and held, at 12 places "
+        "of a motor turn; the lower of driver and motor.",
+        spread=float(by_driver.std(ddof=1)),
+        details=details,
+    )
+
+
+def continuous_torque(parameters: ActuatorParameters) -> Metric:
+    """Locked output at the current that the thermal network carries for ever."""
+    thermal = parameters.thermal
+    current = min(continuous_current(parameters.motor, thermal), parameters.drive.current_limit)
+    hot = float(
+        torque_constant_at(parameters.motor, thermal.most) / parameters.motor.torque_constant
+    )
+    torques = hot * _locked_torque(parameters, current)
+    calibrated = parameters.origins.get("thermal.housing_to_ambient", "").startswith("calibrated")
+    return Metric(
+        "continuous_torque",
+        float(torques.mean()),
+        "calibrated" if calibrated else "predicted",
+        "Output held still at the current whose heat the two-node network carries off at the "
+        f"winding's limit of {thermal.most:g} deg C in {thermal.ambient:g} deg C.",
+        spread=float(torques.std(ddof=1)),
+        details={"current_A": current},
+    )
+
+
+def no_load_speed(parameters: ActuatorParameters, voltage: float) -> Metric:
+    """Free output at a steady voltage, mean over whole turns of the output."""
+    scene = Scenario(Command("voltage", Constant(voltage)), Load.free())
+    run = _run(with_voltage(parameters, voltage), scene, 4.0)
+    speed = np.abs(run.output_speed[0])
+    late = run.time > 2.0
+    return Metric(
+        "no_load_speed",
+        float(speed[late].mean()) * RPM,
+        "predicted",
+        f"Output free, {voltage:g} V on the motor, mean speed from 2 s to 4 s.",
+        spread=float(speed[late].std()) * RPM,
+        details={"current_A": float(run.current[0][late].mean())},
+        trace=_columns(run, "output_speed", "current"),
+    )
+
+
+def _run(parameters: ActuatorParameters, scene: Scenario, duration: float) -> Simulation:
+    step = safe_step(parameters, scene)
+    return simulate(cold(parameters), scene, duration, step, every=max(1, round(5e-4 / step)))
+
+
+def _columns(run: Simulation, *names: str, index: int = 0) -> dict[str, FloatArray]:
+    wanted = {name for name in names}
+    every = run.columns(index)
+    return {key: value for key, value in every.items() if key.split(" ")[0] in wanted | {"time"}}
+
+
+def efficiency_peak(parameters: ActuatorParameters, points: int = 8) -> Metric:
+    """Steady grid of speed and torque, the output driven at the speed, the motor at a current."""
+    motor, ratio = parameters.motor, parameters.gear.ratio
+    top = 0.8 * parameters.drive.supply_voltage / motor.torque_constant / abs(ratio)
+    speeds = top * (np.arange(points) + 1.0) / points
+    rated = motor.rated_torque if math.isfinite(motor.rated_torque) else 0.3 * motor.peak_torque
+    most = min(2.0 * rated / motor.torque_constant, parameters.drive.current_limit)
+    currents = most * (np.arange(points) + 1.0) / points
+    scenes, grid = [], []
+    for speed in speeds:
+        for current in currents:
+            # A positive current turns the motor forwards, and the output by the ratio's sign.
+            turning = math.copysign(speed, ratio)
+            scenes.append(
+                Scenario(
+                    Command("current", Constant(current)),
+                    Load.driven(Constant(turning)),
+                    Start(output_speed=turning, current=current),
+                )
+            )
+            grid.append((speed, current))
+    step = safe_step(parameters, *scenes)
+    run = simulate(cold(parameters), scenes, 0.6, step, every=max(1, round(2e-4 / step)))
+    late = run.time > 0.2
+    electrical = (run.voltage * run.current)[:, late].mean(axis=1)
+    mechanical = (run.output_torque * run.output_speed)[:, late].mean(axis=1)
+    efficiency = np.where(electrical > 0.0, mechanical / electrical, 0.0)
+    best = int(efficiency.argmax())
+    torque = np.abs(run.output_torque[:, late].mean(axis=1))
+    return Metric(
+        "efficiency_peak",
+        float(efficiency[best]),
+        "predicted",
+        f"Steady grid of {points} speeds up to {top * RPM:.0f} rpm and {points} currents: mean "
+        "mechanical over mean electrical power at the motor's terminals.",
+        details={
+            "speed_rpm": float(grid[best][0]) * RPM,
+            "torque_Nm": float(torque[best]),
+        },
+        trace={
+            "speed [rpm]": np.array([speed for speed, _ in grid]) * RPM,
+            "torque [N m]": torque,
+            "efficiency": efficiency,
+        },
+    )
+
+
+def actuator_inertia(parameters: ActuatorParameters) -> Metric:
+    """Spin-up of the free output at two currents: friction cancels in their difference."""
+    motor = parameters.motor
+    currents = (0.25, 0.5)
+    scenes = [
+        Scenario(Command("current", Constant(share * parameters.drive.current_limit)), Load.free())
+        for share in currents
+    ]
+    step = safe_step(parameters, *scenes)
+    run = simulate(cold(parameters), scenes, 0.06, step)
+    begin, end = np.searchsorted(run.time, (0.01, 0.03))
+    rises = [
+        (run.motor_speed[i][end] - run.motor_speed[i][begin]) / (run.time[end] - run.time[begin])
+        for i in range(2)
+    ]
+    mean = [float(run.current[i][begin:end].mean()) for i in range(2)]
+    value = motor.torque_constant * (mean[1] - mean[0]) / (rises[1] - rises[0])
+    computed = (
+        parameters.motor_side_inertia + parameters.gear.output_inertia / parameters.gear.ratio**2
+    )
+    return Metric(
+        "actuator_inertia",
+        float(value),
+        "predicted",
+        "Spin-up of the free output at a quarter and at half of the current limit: difference of "
+        "torques over difference of accelerations, at the motor.",
+        details={"from_solids_kgm2": computed},
+    )
+
+
+def mass(parameters: ActuatorParameters) -> Metric:
+    """Of all parts."""
+    return Metric("mass", parameters.mass, "predicted", "Sum of all parts drawn, motor included.")
+
+
+def torque_density(peak: Metric, parameters: ActuatorParameters) -> Metric:
+    """Peak torque over mass."""
+    return Metric("torque_density", peak.value / parameters.mass, "given", "Peak torque over mass.")

@@ -1,0 +1,362 @@
+"""From a design to the actuator's parameters: catalogue, geometry, contact, losses, mass.
+
+What the design and the catalogue do not say is assumed by a stated rule and marked in `origins`.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from dataclasses import dataclass
+
+from cqdd_design.actuator.parameters import (
+    ActuatorParameters,
+    DriveParameters,
+    FrictionParameters,
+    GearParameters,
+    MotorParameters,
+    ThermalParameters,
+)
+from cqdd_design.actuator.transmission import Transmission, transmission
+from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.design import Design
+from cqdd_design.errors import DesignError
+from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.losses import LossModel, loss_model
+from cqdd_design.solids.inertia import ROTOR, GearboxInertia, closed_form, gearbox_inertia
+from cqdd_design.solids.parts import build_parts
+
+ELECTRICAL_TIME = 1e-3
+"""L/R where the catalogue has no inductance, s: common for large flat motors."""
+POLE_PAIRS = 21
+ROTOR_SHARE, ROTOR_RADIUS_SHARE = 0.3, 0.95
+"""Rotor of an unknown motor: a ring of this share of its mass at this share of its radius."""
+WINDING_SHARE, COPPER_HEAT, METAL_HEAT = 0.15, 385.0, 600.0
+"""Copper's share of a motor's mass; specific heats of copper, and of steel with aluminium,
+J/(kg K)."""
+WINDING_RESISTANCE_SHARE = 1.0 / 3.0
+"""Of the whole thermal resistance, between winding and housing."""
+STRIBECK_SPEED = 2.0
+"""Motor speed by which breakaway has fallen off, rad/s."""
+DAMPING_RATIO = 0.03
+"""Of the motor swinging on the gearbox's stiffness: greased steel joints, 0.01 to 0.05."""
+
+
+@dataclass(frozen=True)
+class _Split:
+    """Inertias of one machine: at the crank without the rotor, at the output; whole mass."""
+
+    input: float
+    output: float
+    mass: float
+
+
+def actuator_parameters(
+    design: Design, *, seed: int | None = None, supply_voltage: float | None = None
+) -> ActuatorParameters:
+    """Parameters of the actuator that a design describes.
+
+    Parameters
+    ----------
+    design : Design
+    seed : int, optional
+        Draw one gearbox from the design's tolerances; default perfect parts.
+    supply_voltage : float, optional
+        V; default that of the design.
+
+    Returns
+    -------
+    ActuatorParameters
+        With the origin of every value.
+
+    Raises
+    ------
+    DesignError
+        When the motor's data do not make a machine, a limit can never bind, or the gearbox has no
+        equilibrium or no solids.
+    """
+    design = with_chosen_bearing(design)
+    origins: dict[str, str] = {}
+    motor_row = find_motor(design.motor.name)
+    inertia = _inertia(design)
+    motor = _motor(motor_row, inertia, origins)
+    drive = _drive(design, motor, supply_voltage, origins)
+    torque = design.requirements.continuous_torque
+    model = _contact_model(design)
+    found = transmission(model, design, torque, seed=seed)
+    split = _split(inertia)
+    gear = _gear(design, found, split, motor.rotor_inertia, seed, origins)
+    friction = friction_parameters(_losses(design), torque, design.requirements.input_speed)
+    for name in ("motor_coulomb", "output_coulomb", "load_forward", "load_backward"):
+        origins[f"friction.{name}"] = (
+            f"computed: losses of the gearbox at {torque:g} N m, and its backdrive torque"
+        )
+    speed = design.requirements.input_speed
+    for name in ("motor_viscous", "output_viscous"):
+        origins[f"friction.{name}"] = (
+            f"computed: drag of bearings and grease up to {speed:.4g} rad/s"
+        )
+    origins["friction.stribeck_extra"] = "computed: static over dynamic backdrive torque"
+    origins["friction.stribeck_speed"] = f"assumed: {STRIBECK_SPEED:g} rad/s of the motor"
+    origins["friction.bristle_deflection"] = "assumed"
+    origins["friction.bristle_damping"] = "assumed: none"
+    thermal = _thermal(design, motor_row, split.mass, origins)
+    drawn = not inertia.motor_missing
+    origins["mass"] = "computed: solids in closed form" + ("" if drawn else ", without the motor")
+    if not drawn and motor_row.mass is not None:
+        split = _Split(split.input, split.output, split.mass + motor_row.mass)
+        origins["mass"] = "computed: solids in closed form, and the motor by its catalogue"
+    return ActuatorParameters(
+        name=design.name,
+        motor=motor,
+        drive=drive,
+        thermal=thermal,
+        friction=friction,
+        gear=gear,
+        mass=split.mass,
+        origins=origins,
+    )
+
+
+@functools.lru_cache(maxsize=4)
+def _contact_model(design: Design) -> ContactModel:
+    return ContactModel.from_design(design)
+
+
+@functools.lru_cache(maxsize=4)
+def _losses(design: Design) -> LossModel:
+    return loss_model(_contact_model(design), design)
+
+
+@functools.lru_cache(maxsize=4)
+def _inertia(design: Design) -> GearboxInertia:
+    parts = build_parts(design, find_bearing(design.reducer.cam_bearing.designation))
+    return gearbox_inertia(design, parts, closed_form)
+
+
+def _split(inertia: GearboxInertia) -> _Split:
+    """What turns with the carrier counts at the output, all else that moves at the crank."""
+    own = {"carrier plate", "carrier cap", "bearing nut", "shoulder screw", "dowel pin"}
+    own |= {"pin sleeve", "output bearing"}
+    output = sum(part.reflected for part in inertia.parts if part.name in own)
+    return _Split(
+        input=inertia.gearbox_reflected - output,
+        output=output * inertia.ratio**2,
+        mass=inertia.total.mass,
+    )
+
+
+def _motor(row: Motor, inertia: GearboxInertia, origins: dict[str, str]) -> MotorParameters:
+    if row.torque_at != "motor":
+        raise DesignError(
+            f"{row.name} is a geared actuator, whose data count at its output; name a bare motor "
+            "in motor.name (see `cqdd-design catalog motors`)."
+        )
+    for key, value in (
+        ("torque constant", row.torque_constant),
+        ("resistance", row.line_resistance),
+    ):
+        if not value:
+            raise DesignError(
+                f"the catalogue has no {key} of {row.name}, without which it cannot be simulated; "
+                "name a motor that has one, such as 'CubeMars RO100 KV55'."
+            )
+    assert row.torque_constant is not None
+    assert row.line_resistance is not None
+    constant, resistance = row.torque_constant, row.line_resistance
+    by_speed = "1/KV in SI" if row.speed_constant else "as printed"
+    origins["motor.torque_constant"] = f"catalogue: {row.name}, {by_speed}"
+    origins["motor.resistance"] = f"catalogue: {row.name}, line to line"
+    inductance, pairs = row.line_inductance, row.pole_pairs
+    origins["motor.inductance"] = f"catalogue: {row.name}, line to line"
+    if inductance is None:
+        inductance = ELECTRICAL_TIME * resistance
+        origins["motor.inductance"] = f"assumed: L/R of {1e3 * ELECTRICAL_TIME:g} ms"
+    origins["motor.pole_pairs"] = f"catalogue: {row.name}"
+    if pairs is None:
+        pairs = POLE_PAIRS
+        origins["motor.pole_pairs"] = "assumed"
+    for key in ("cogging_amplitude", "iron_loss", "hysteresis"):
+        origins[f"motor.{key}"] = "assumed: 0, the catalogue gives none"
+    for key, value in (("rated_torque", row.rated_torque), ("peak_torque", row.peak_torque)):
+        origins[f"motor.{key}"] = f"catalogue: {row.name}" if value else "missing"
+    return MotorParameters(
+        torque_constant=constant,
+        resistance=resistance,
+        inductance=inductance,
+        rotor_inertia=_rotor_inertia(row, inertia, origins),
+        pole_pairs=pairs,
+        rated_torque=row.rated_torque or math.nan,
+        peak_torque=row.peak_torque or math.nan,
+    )
+
+
+def _rotor_inertia(row: Motor, inertia: GearboxInertia, origins: dict[str, str]) -> float:
+    drawn = sum(part.reflected for part in inertia.parts if part.name == ROTOR)
+    if row.rotor_inertia is not None:
+        origins["motor.rotor_inertia"] = f"catalogue: {row.name}"
+        return row.rotor_inertia
+    if drawn > 0.0:
+        origins["motor.rotor_inertia"] = "computed: solid of the rotor"
+        return drawn
+    if row.mass is None or row.outer_diameter is None:
+        raise DesignError(
+            f"the catalogue has neither rotor inertia nor mass and diameter of {row.name}; name a "
+            "motor that has them, such as 'CubeMars RO100 KV55'."
+        )
+    origins["motor.rotor_inertia"] = (
+        f"assumed: ring of {100.0 * ROTOR_SHARE:g} % of the motor's mass near its outside diameter"
+    )
+    radius = 0.5 * ROTOR_RADIUS_SHARE * row.outer_diameter
+    return ROTOR_SHARE * row.mass * radius**2
+
+
+def _drive(
+    design: Design, motor: MotorParameters, supply: float | None, origins: dict[str, str]
+) -> DriveParameters:
+    voltage = design.motor.voltage if supply is None else supply
+    given = "design" if "motor.voltage" not in design.assumed else "assumed: default of the design"
+    origins["drive.supply_voltage"] = given if supply is None else "given"
+    limit = design.motor.current_limit
+    origins["drive.current_limit"] = "design"
+    most = voltage / motor.resistance if voltage > 0.0 else math.inf
+    if limit > most:
+        if "motor.current_limit" not in design.assumed:
+            raise DesignError(
+                f"motor.current_limit {limit:g} A never binds: {voltage:g} V drive no more than "
+                f"{most:.4g} A through {motor.resistance:g} ohm; lower it to {most:.3g} A, or "
+                "raise the voltage."
+            )
+        limit = most
+        origins["drive.current_limit"] = "computed: stall current, below the design's default"
+    for key in ("current_bandwidth", "control_rate", "encoder_bits", "position_gain"):
+        origins[f"drive.{key}"] = "design"
+    origins["drive.velocity_gain"] = "design"
+    for key in ("current_bandwidth", "control_rate", "encoder_bits"):
+        if f"drive.{key}" in design.assumed:
+            origins[f"drive.{key}"] = "assumed: default of the design"
+    origins["drive.delay"] = "assumed: a twentieth of a period of the current loop"
+    drive = design.drive
+    return DriveParameters(
+        supply_voltage=voltage,
+        current_limit=limit,
+        current_bandwidth=drive.current_bandwidth,
+        delay=0.05 / drive.current_bandwidth,
+        control_rate=drive.control_rate,
+        encoder_bits=drive.encoder_bits,
+        position_gain=drive.position_gain,
+        velocity_gain=drive.velocity_gain,
+    )
+
+
+def _gear(
+    design: Design,
+    found: Transmission,
+    split: _Split,
+    rotor_inertia: float,
+    seed: int | None,
+    origins: dict[str, str],
+) -> GearParameters:
+    parts = "perfect parts" if seed is None else f"gearbox drawn with seed {seed}"
+    for key in ("error_orders", "error_cosine", "error_sine", "stiffness", "backlash"):
+        origins[f"gear.{key}"] = f"computed: contact equilibrium of {parts}, both senses"
+    for key in ("stiffness_cosine", "stiffness_sine", "stiffening"):
+        origins[f"gear.{key}"] = origins["gear.stiffness"]
+    origins["gear.error_torque"] = "design: continuous torque"
+    origins["gear.ratio"] = "design: fixed ring, output against the motor"
+    origins["gear.input_inertia"] = origins["gear.output_inertia"] = (
+        "computed: solids in closed form"
+    )
+    origins["gear.damping"] = (
+        f"assumed: damping ratio {DAMPING_RATIO:g} with the motor's inertia, output held"
+    )
+    swinging = design.reducer.ratio**2 * (rotor_inertia + split.input)
+    return GearParameters(
+        ratio=-float(design.reducer.ratio),
+        input_inertia=split.input,
+        output_inertia=split.output,
+        error_orders=found.error_orders,
+        error_cosine=found.error_cosine,
+        error_sine=found.error_sine,
+        error_torque=found.torque,
+        stiffness=found.stiffness,
+        stiffness_cosine=found.stiffness_cosine,
+        stiffness_sine=found.stiffness_sine,
+        stiffening=found.stiffening,
+        damping=2.0 * DAMPING_RATIO * math.sqrt(found.stiffness * swinging),
+        backlash=found.backlash,
+    )
+
+
+def friction_parameters(losses: LossModel, torque: float, input_speed: float) -> FrictionParameters:
+    """Friction with the efficiencies and the backdrive torques of a loss model.
+
+    Parameters
+    ----------
+    losses : LossModel
+    torque : float
+        At which efficiency is kept in both directions, N m.
+    input_speed : float
+        Up to which the viscous part stands for the drag, rad/s.
+
+    Notes
+    -----
+    The loss torque at the output is ``c + mu T``: mu from the Coulomb work at the torque, c such
+    that the slow dynamic backdrive torque ``c/(1 - mu)`` is that of the loss model, which knows
+    that the first loads are carried by fewer teeth. The static one, ``(1 + x) c/(1 - (1 + x) mu)``,
+    gives the Stribeck share x. Where friction holds any torque, c is the drag itself.
+    """
+    machine, n = losses.machine, losses.machine.lobe_count
+    at_rest, none = losses.coulomb_work([torque, 0.0]).sum(axis=-1)
+    load = n * float(at_rest - none) / torque
+    slow, fast = machine.drag(0.0), machine.drag(input_speed)
+    preload = float(none)
+    output = float(slow["output_bearing"]) * n
+    motor = sum(float(v) for k, v in slow.items() if k != "output_bearing") + preload
+    motor_rise = sum(float(fast[k] - slow[k]) for k in slow if k != "output_bearing")
+    output_rise = float(fast["output_bearing"] - slow["output_bearing"]) * n
+    found = losses.backdrive()
+    constant = motor * n + output
+    scale, extra = 1.0, found.static_ratio - 1.0
+    if found.dynamic_torque and load < 1.0 and constant > 0.0:
+        wanted = found.dynamic_torque * (1.0 - load)
+        scale = wanted / constant
+        if found.static_torque:
+            share = found.static_torque / (wanted + found.static_torque * load)
+            extra = max(share - 1.0, 0.0)
+    return FrictionParameters(
+        motor_coulomb=scale * motor,
+        output_coulomb=scale * output,
+        motor_viscous=motor_rise / input_speed,
+        output_viscous=output_rise / (input_speed / n),
+        stribeck_extra=extra,
+        stribeck_speed=STRIBECK_SPEED,
+        load_forward=load,
+        load_backward=load,
+    )
+
+
+def _thermal(design: Design, row: Motor, mass: float, origins: dict[str, str]) -> ThermalParameters:
+    whole = design.drive.thermal_resistance
+    motor_mass = row.mass if row.mass is not None else 0.4 * mass
+    winding = WINDING_SHARE * motor_mass
+    share = WINDING_RESISTANCE_SHARE
+    given = "design" if "drive.thermal_resistance" not in design.assumed else "default"
+    for key in ("winding_to_housing", "housing_to_ambient"):
+        origins[f"thermal.{key}"] = f"assumed: drive.thermal_resistance ({given}) split 1 to 2"
+    origins["thermal.winding_capacity"] = (
+        f"assumed: copper of {100.0 * WINDING_SHARE:g} % of the motor's mass"
+    )
+    origins["thermal.housing_capacity"] = (
+        f"assumed: the rest of the mass at {METAL_HEAT:g} J/(kg K)"
+    )
+    for key in ("ambient", "derating_begins", "most"):
+        origins[f"thermal.{key}"] = "assumed"
+    return ThermalParameters(
+        winding_to_housing=share * whole,
+        housing_to_ambient=(1.0 - share) * whole,
+        winding_capacity=winding * COPPER_HEAT,
+        housing_capacity=max(mass - winding, 0.5 * mass) * METAL_HEAT,
+    )

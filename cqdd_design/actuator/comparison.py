@@ -1,0 +1,138 @@
+"""The paper's table of actuators, recomputed, with further actuators and the present design beside.
+
+The numbers stand in ``data/comparison.csv`` with their source; torque density is computed from peak
+torque and mass and kept beside the printed one. Geared actuators of the motor catalogue that have
+both join by name.
+"""
+
+from __future__ import annotations
+
+import csv
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import resources
+
+from cqdd_design.catalog.motors import find_motor
+from cqdd_design.errors import CatalogError
+
+_ROUNDING = 0.5
+"""Of the last printed digit."""
+
+
+@dataclass(frozen=True)
+class ComparedActuator:
+    """One column of the table.
+
+    Attributes
+    ----------
+    name, gearing, source : str
+    ratio : float or None
+    peak_torque, mass : float
+        N m at the output, kg.
+    torque_density_printed : float or None
+        As the source prints it, N m/kg.
+    printed_digits : int
+        Its decimals.
+    efficiency : float or None
+        0 to 1.
+    """
+
+    name: str
+    gearing: str
+    source: str
+    ratio: float | None
+    peak_torque: float
+    mass: float
+    torque_density_printed: float | None = None
+    printed_digits: int = 0
+    efficiency: float | None = None
+
+    @property
+    def torque_density(self) -> float:
+        """Peak torque over mass, N m/kg."""
+        return self.peak_torque / self.mass
+
+    @property
+    def remark(self) -> str:
+        """What the printed torque density should have been; empty where it is right."""
+        printed, digits = self.torque_density_printed, self.printed_digits
+        if printed is None or abs(printed - self.torque_density) <= _ROUNDING * 10.0**-digits:
+            return ""
+        return (
+            f"{self.name}: {self.peak_torque:g} N m / {self.mass:g} kg is "
+            f"{self.torque_density:.2f} N m/kg, printed {printed:g}"
+        )
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form."""
+        return {
+            "name": self.name,
+            "gearing": self.gearing,
+            "ratio": self.ratio,
+            "peak_torque_Nm": self.peak_torque,
+            "mass_kg": self.mass,
+            "torque_density_Nm_per_kg": self.torque_density,
+            "torque_density_printed_Nm_per_kg": self.torque_density_printed,
+            "efficiency": self.efficiency,
+            "remark": self.remark,
+            "source": self.source,
+        }
+
+
+@functools.lru_cache(maxsize=1)
+def published_actuators() -> tuple[ComparedActuator, ...]:
+    """The columns of the paper's table, in its order."""
+    text = (resources.files("cqdd_design.actuator") / "data" / "comparison.csv").read_text("utf-8")
+    found = []
+    for row in csv.DictReader(text.splitlines()):
+        printed = row["torque_density_printed_Nm_per_kg"]
+        efficiency = row["efficiency_percent"]
+        found.append(
+            ComparedActuator(
+                name=row["name"],
+                gearing=row["gearing"],
+                source=row["source"],
+                ratio=float(row["ratio"]),
+                peak_torque=float(row["peak_torque_Nm"]),
+                mass=float(row["mass_kg"]),
+                torque_density_printed=float(printed),
+                printed_digits=len(printed.partition(".")[2]),
+                efficiency=float(efficiency) / 100.0 if efficiency else None,
+            )
+        )
+    return tuple(found)
+
+
+def catalogue_actuator(name: str) -> ComparedActuator:
+    """A geared actuator of the motor catalogue.
+
+    Raises
+    ------
+    CatalogError
+        Where the catalogue has no such row, or one without peak torque and mass at an output.
+    """
+    row = find_motor(name)
+    if row.torque_at != "output" or not row.peak_torque or not row.mass:
+        raise CatalogError(
+            f"{row.name} has no peak torque at a gearbox's output and mass to compare; choose a "
+            "geared actuator such as 'CubeMars AK10-9 V2 KV60'."
+        )
+    kind = row.kind.removesuffix(" actuator")
+    return ComparedActuator(row.name, kind, row.source, row.gear_ratio, row.peak_torque, row.mass)
+
+
+def compare_actuators(
+    own: ComparedActuator | None = None, more: Sequence[str] = ()
+) -> tuple[ComparedActuator, ...]:
+    """The paper's columns, then the present design, then catalogue rows by name.
+
+    Parameters
+    ----------
+    own : ComparedActuator, optional
+        Peak torque and efficiency as the virtual test bench finds them, mass from the solids.
+    more : sequence of str
+        Catalogue names of geared actuators.
+    """
+    present = () if own is None else (own,)
+    return (*published_actuators(), *present, *(catalogue_actuator(name) for name in more))

@@ -1,0 +1,270 @@
+"""Motor and drive in the steady state: constants in every convention, envelope, limits.
+
+The one convention inside is the power-equivalent DC machine of :mod:`.parameters`. With sinusoidal
+EMF and field-oriented currents the DC voltage is the peak of the line-to-line voltage and the DC
+current is sqrt(3)/2 of the peak of the phase current, so that v i is the whole electrical power,
+3/2 v_phase i_phase, and R i^2 with R line to line the whole copper loss (wye)::
+
+    K = K_line,peak = sqrt(3) K_phase,peak        emf over speed
+    tau = sqrt(3)/2 K i_peak = sqrt(3/2) K i_rms  per ampere of phase current
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from cqdd_design.actuator.parameters import (
+    ActuatorParameters,
+    DriveParameters,
+    FloatArray,
+    MotorParameters,
+)
+from cqdd_design.errors import DesignError
+
+COPPER_COEFFICIENT = 0.0039
+"""Rise of copper's resistance per kelvin, at 25 deg C."""
+MAGNET_COEFFICIENT = 0.0011
+"""Fall of the flux of NdFeB per kelvin (remanence of common grades: 0.09 to 0.12 % a kelvin)."""
+
+
+@dataclass(frozen=True)
+class MotorConstants:
+    """The same motor in the usual conventions.
+
+    Attributes
+    ----------
+    dc : float
+        K: N m per DC (six-step) ampere, V s/rad of line-to-line peak EMF.
+    torque_per_peak, torque_per_rms : float
+        N m per ampere of sinusoidal phase current (q axis), peak and r.m.s.
+    emf_line_peak, emf_line_rms, emf_phase_peak, emf_phase_rms : float
+        V s/rad.
+    resistance_line, resistance_phase : float
+        Line to line, and of one phase in wye, ohm.
+    speed_constant : float
+        KV, rad/s/V.
+    """
+
+    dc: float
+    torque_per_peak: float
+    torque_per_rms: float
+    emf_line_peak: float
+    emf_line_rms: float
+    emf_phase_peak: float
+    emf_phase_rms: float
+    resistance_line: float
+    resistance_phase: float
+    speed_constant: float
+
+    def to_dict(self) -> dict[str, float]:
+        """Return the JSON form."""
+        return {
+            "torque_per_dc_ampere_Nm_per_A": self.dc,
+            "torque_per_peak_ampere_Nm_per_A": self.torque_per_peak,
+            "torque_per_rms_ampere_Nm_per_A": self.torque_per_rms,
+            "emf_line_peak_Vs_per_rad": self.emf_line_peak,
+            "emf_line_rms_Vs_per_rad": self.emf_line_rms,
+            "emf_phase_peak_Vs_per_rad": self.emf_phase_peak,
+            "emf_phase_rms_Vs_per_rad": self.emf_phase_rms,
+            "resistance_line_ohm": self.resistance_line,
+            "resistance_phase_ohm": self.resistance_phase,
+            "speed_constant_rpm_per_V": self.speed_constant * 30.0 / math.pi,
+        }
+
+
+CONVENTIONS: dict[str, float] = {
+    "dc": 1.0,
+    "torque_per_peak": 0.5 * math.sqrt(3.0),
+    "torque_per_rms": math.sqrt(1.5),
+    "emf_line_peak": 1.0,
+    "emf_line_rms": math.sqrt(0.5),
+    "emf_phase_peak": math.sqrt(1.0 / 3.0),
+    "emf_phase_rms": math.sqrt(1.0 / 6.0),
+}
+"""Every convention's constant over K."""
+
+
+def motor_constants(torque_constant: float, resistance: float) -> MotorConstants:
+    """Constants of a motor in every convention.
+
+    Parameters
+    ----------
+    torque_constant : float
+        K of the DC machine, N m/A.
+    resistance : float
+        Line to line, ohm.
+
+    Examples
+    --------
+    >>> constants = motor_constants(9.549 / 55.0, 0.143)
+    >>> round(constants.torque_per_peak, 4), round(constants.torque_per_rms, 4)
+    (0.1504, 0.2126)
+    """
+    return MotorConstants(
+        **{name: share * torque_constant for name, share in CONVENTIONS.items()},
+        resistance_line=resistance,
+        resistance_phase=0.5 * resistance,
+        speed_constant=1.0 / torque_constant,
+    )
+
+
+def torque_constant_from(value: float, convention: str) -> float:
+    """K of the DC machine from a constant in another convention.
+
+    Parameters
+    ----------
+    value : float
+        N m/A or V s/rad.
+    convention : str
+        One of `CONVENTIONS`.
+
+    Raises
+    ------
+    DesignError
+        For an unknown convention or a value that is not positive.
+
+    Examples
+    --------
+    >>> round(torque_constant_from(0.2126, "torque_per_rms"), 4)
+    0.1736
+    """
+    if convention not in CONVENTIONS:
+        known = ", ".join(CONVENTIONS)
+        raise DesignError(
+            f"there is no convention {convention!r} of a motor constant; use {known}."
+        )
+    if not (math.isfinite(value) and value > 0.0):
+        raise DesignError(f"a motor constant of {value:g} is not above zero; 1/KV in SI is one.")
+    return value / CONVENTIONS[convention]
+
+
+def resistance_at(motor: MotorParameters, temperature: ArrayLike) -> FloatArray:
+    """Line-to-line resistance at winding temperatures (deg C), ohm."""
+    rise = np.asarray(temperature, dtype=float) - motor.reference_temperature
+    return np.asarray(motor.resistance * (1.0 + COPPER_COEFFICIENT * rise))
+
+
+def torque_constant_at(motor: MotorParameters, temperature: ArrayLike) -> FloatArray:
+    """K at magnet temperatures (deg C), N m/A."""
+    rise = np.asarray(temperature, dtype=float) - motor.reference_temperature
+    return np.asarray(motor.torque_constant * (1.0 - MAGNET_COEFFICIENT * rise))
+
+
+def stall_torque(motor: MotorParameters, drive: DriveParameters, temperature: float) -> float:
+    """Greatest torque at rest by the supply and by the driver, N m at the motor."""
+    most = drive.supply_voltage / float(resistance_at(motor, temperature))
+    return float(torque_constant_at(motor, temperature)) * min(most, drive.current_limit)
+
+
+def no_load_speed(
+    motor: MotorParameters,
+    voltage: float,
+    *,
+    temperature: float = 25.0,
+    drag: float = 0.0,
+    viscous: float = 0.0,
+) -> float:
+    """Speed at which the motor's torque just overcomes its own drag and what else is given.
+
+    Parameters
+    ----------
+    motor : MotorParameters
+    voltage : float
+        V; its sign is that of the speed.
+    temperature : float
+        deg C.
+    drag, viscous : float
+        Further drag torque and drag torque over speed at the motor, N m and N m s/rad.
+
+    Returns
+    -------
+    float
+        rad/s; 0 where the drag holds the motor.
+    """
+    resistance = float(resistance_at(motor, temperature))
+    constant = float(torque_constant_at(motor, temperature))
+    driving = constant * abs(voltage) / resistance - motor.hysteresis - drag
+    speed = driving / (constant**2 / resistance + motor.iron_loss + viscous)
+    return math.copysign(max(speed, 0.0), voltage)
+
+
+@dataclass(frozen=True, eq=False)
+class Envelope:
+    """Shaft torque the motor can be asked for over speed, all four quadrants.
+
+    Attributes
+    ----------
+    speed : array (S,)
+        rad/s at the motor.
+    low, high : array (S,)
+        N m at the motor's shaft, iron losses taken off.
+    current_low, current_high : array (S,)
+        A.
+    """
+
+    speed: FloatArray
+    low: FloatArray
+    high: FloatArray
+    current_low: FloatArray
+    current_high: FloatArray
+
+
+def envelope(
+    motor: MotorParameters,
+    drive: DriveParameters,
+    speed: ArrayLike,
+    *,
+    winding_temperature: float = 25.0,
+    current_limit: float | None = None,
+) -> Envelope:
+    """Torque envelope of motor and drive.
+
+    Parameters
+    ----------
+    motor, drive
+    speed : array_like (S,)
+        rad/s, either sense.
+    winding_temperature : float
+        deg C; the magnets are taken to be as warm.
+    current_limit : float, optional
+        A, where derating lowers that of the drive.
+
+    Returns
+    -------
+    Envelope
+        The current lies within both limits. Where the EMF drives more than the current limit
+        through the winding whatever the drive does, it is what the circuit gives.
+    """
+    w = np.atleast_1d(np.asarray(speed, dtype=float))
+    limit = drive.current_limit if current_limit is None else current_limit
+    resistance = float(resistance_at(motor, winding_temperature))
+    constant = float(torque_constant_at(motor, winding_temperature))
+    upper = (drive.supply_voltage - constant * w) / resistance
+    lower = (-drive.supply_voltage - constant * w) / resistance
+    high = np.where(lower > limit, lower, np.minimum(upper, limit))
+    low = np.where(upper < -limit, upper, np.maximum(lower, -limit))
+    drag = motor.iron_loss * w + motor.hysteresis * np.sign(w)
+    return Envelope(w, constant * low - drag, constant * high - drag, low, high)
+
+
+def idle_limits(parameters: ActuatorParameters) -> tuple[str, ...]:
+    """Limits that can never bind, each in a sentence; empty for a sound actuator."""
+    motor, drive = parameters.motor, parameters.drive
+    found = []
+    most = drive.supply_voltage / motor.resistance
+    if drive.current_limit > most:
+        found.append(
+            f"current_limit {drive.current_limit:g} A never binds: {drive.supply_voltage:g} V "
+            f"drive no more than {most:.4g} A through {motor.resistance:g} ohm; lower it below "
+            "that, or raise the voltage."
+        )
+    if drive.current_bandwidth > 10.0 * drive.control_rate:
+        found.append(
+            f"current_bandwidth {drive.current_bandwidth:g} Hz never binds: the command changes "
+            f"{drive.control_rate:g} times a second."
+        )
+    return tuple(found)

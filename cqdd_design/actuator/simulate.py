@@ -1,0 +1,292 @@
+"""Simulate actuators in time: many parameter sets at once, compiled, deterministic."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from cqdd_design.actuator.columns import LEDGER, TRACES
+from cqdd_design.actuator.packing import (
+    gear_table,
+    largest_step,
+    pack,
+    rounded_down,
+    table_points,
+)
+from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
+from cqdd_design.actuator.scenario import Constant, Scenario, Signal
+from cqdd_design.errors import UsageError
+
+Engine = Literal["compiled", "plain"]
+
+_LOSSES = ("copper", "iron", "motor_friction", "output_friction", "gear_damping", "load_damping")
+
+
+@dataclass(frozen=True, eq=False)
+class EnergyLedger:
+    """Where the energy of every run went, J, arrays (S,).
+
+    Attributes
+    ----------
+    electrical, external : array
+        Put in by the drive, and from outside at the output.
+    copper, iron, motor_friction, output_friction, gear_damping, load_damping : array
+        Lost.
+    stored_before, stored_after : array
+        In inductance, masses, springs, gravity.
+    throughput : array
+        Integral of the absolute powers of drive and outside.
+    """
+
+    electrical: FloatArray
+    copper: FloatArray
+    iron: FloatArray
+    motor_friction: FloatArray
+    output_friction: FloatArray
+    gear_damping: FloatArray
+    load_damping: FloatArray
+    external: FloatArray
+    throughput: FloatArray
+    stored_before: FloatArray
+    stored_after: FloatArray
+
+    @property
+    def lost(self) -> FloatArray:
+        """All losses, J."""
+        return np.asarray(sum(getattr(self, name) for name in _LOSSES))
+
+    @property
+    def residual(self) -> FloatArray:
+        """What the balance misses, J: input less losses less what is stored."""
+        gained = self.electrical + self.external - self.lost
+        return np.asarray(gained - (self.stored_after - self.stored_before))
+
+    @property
+    def residual_share(self) -> FloatArray:
+        """The residual's size over the throughput; of the stored energy where nothing flows."""
+        scale = np.maximum(self.throughput, np.abs(self.stored_before))
+        return np.asarray(np.abs(self.residual) / np.where(scale > 0.0, scale, 1.0))
+
+    def to_dict(self) -> dict[str, list[float]]:
+        """Return the JSON form, one list an entry."""
+        found = {f"{name}_J": getattr(self, name).tolist() for name in self.__dataclass_fields__}
+        return found | {"residual_J": self.residual.tolist()}
+
+
+@dataclass(frozen=True, eq=False)
+class Simulation:
+    """Traces of S actuators at N instants.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Of the actuators.
+    time : array (N,)
+        s, the ends of the steps recorded.
+    motor_angle, motor_speed, output_angle, output_speed : array (S, N)
+        rad and rad/s.
+    current, voltage : array (S, N)
+        A and V of the DC machine; the voltage is the mean of the step, 0 with open phases.
+    deflection : array (S, N)
+        theta/ratio + eps(theta) - q, rad.
+    gear_torque : array (S, N)
+        On the output, N m, mean of the step.
+    output_torque : array (S, N)
+        What the flange gives to the load, N m, mean of the step; a sensor reads it.
+    motor_friction, output_friction : array (S, N)
+        N m, mean of the step; iron losses left out of the viscous part.
+    commanded_torque : array (S, N)
+        The command in its own unit: V, A or N m.
+    winding_temperature, housing_temperature : array (S, N)
+        deg C.
+    step : float
+        s.
+    ledger : EnergyLedger
+    warnings : tuple of str
+    """
+
+    names: tuple[str, ...]
+    time: FloatArray
+    motor_angle: FloatArray
+    motor_speed: FloatArray
+    output_angle: FloatArray
+    output_speed: FloatArray
+    current: FloatArray
+    voltage: FloatArray
+    deflection: FloatArray
+    gear_torque: FloatArray
+    output_torque: FloatArray
+    motor_friction: FloatArray
+    output_friction: FloatArray
+    commanded_torque: FloatArray
+    winding_temperature: FloatArray
+    housing_temperature: FloatArray
+    step: float
+    ledger: EnergyLedger
+    warnings: tuple[str, ...] = ()
+
+    def columns(self, index: int = 0) -> dict[str, FloatArray]:
+        """Time and traces of one actuator by name with unit, such as ``motor_speed [rad/s]``."""
+        found = {"time [s]": self.time}
+        for name, unit in TRACES.items():
+            found[f"{name} [{unit}]"] = getattr(self, name)[index]
+        return found
+
+
+def simulate(
+    parameters: ActuatorParameters | Sequence[ActuatorParameters],
+    scenario: Scenario | Sequence[Scenario],
+    duration: float,
+    step: float,
+    *,
+    every: int = 1,
+    threads: int | None = None,
+    engine: Engine = "compiled",
+) -> Simulation:
+    """Simulate one actuator or many.
+
+    Parameters
+    ----------
+    parameters : ActuatorParameters or sequence of them
+        S sets; one is used for all scenarios.
+    scenario : Scenario or sequence of them
+        One for all sets, or one each.
+    duration : float
+        s; rounded to whole steps.
+    step : float
+        s; see `packing.largest_step`.
+    every : int
+        Steps a record.
+    threads : int, optional
+        Default all; the numbers do not depend on it.
+    engine : {"compiled", "plain"}
+        The kernel, or its twin in numpy, some thousand times slower.
+
+    Returns
+    -------
+    Simulation
+
+    Raises
+    ------
+    UsageError
+        For a step too large for the stiffness, naming one that works; a duration, step or number
+        of scenarios that makes no sense.
+    """
+    sets, scenes = _paired(parameters, scenario)
+    steps = _steps(duration, step, every)
+    _refuse_large(sets, scenes, step)
+    rows = np.array([pack(one, scene, step) for one, scene in zip(sets, scenes, strict=True)])
+    points = max(table_points(one.gear) for one in sets)
+    unique = {id(one.gear): one.gear for one in sets}
+    built = {key: gear_table(gear, points) for key, gear in unique.items()}
+    tables = np.array([built[id(one.gear)] for one in sets])
+    middle: FloatArray = step * (np.arange(steps, dtype=np.float64) + 0.5)
+    ends: FloatArray = step * np.arange(steps + 1, dtype=np.float64)
+    reference = [scene.command.reference for scene in scenes]
+    rates = [s.command.reference if s.command.mode == "impedance" else Constant() for s in scenes]
+    signals = (
+        _sampled(reference, middle),
+        _sampled(rates, middle, rate=True),
+        _sampled([scene.command.feedforward for scene in scenes], middle),
+        _sampled([scene.load.torque for scene in scenes], middle),
+        _sampled([scene.load.speed or Constant() for scene in scenes], ends),
+    )
+    traces = np.zeros((len(sets), len(TRACES), steps // every))
+    ledgers = np.zeros((len(sets), len(LEDGER)))
+    work: tuple[Any, ...] = (rows, tables, *signals, step, steps, every, traces, ledgers)
+    if engine == "plain":
+        from cqdd_design.actuator.plain import run_sets
+
+        run_sets(*work)
+    else:
+        _compiled(work, threads)
+    if not np.all(np.isfinite(ledgers)):
+        raise UsageError(
+            f"the simulation left the finite numbers at a step of {step:g} s; look for forces far "
+            "beyond what the gearbox stands, or shorten the step."
+        )
+    entries = {name: ledgers[:, i] for i, name in enumerate(LEDGER) if name != "unsettled"}
+    unsettled = int(ledgers[:, LEDGER.index("unsettled")].sum())
+    return Simulation(
+        names=tuple(one.name for one in sets),
+        time=ends[every::every],
+        **{name: traces[:, i] for i, name in enumerate(TRACES)},
+        step=step,
+        ledger=EnergyLedger(**entries),
+        warnings=()
+        if not unsettled
+        else (f"the equations of {unsettled} of {steps * len(sets)} steps did not settle.",),
+    )
+
+
+def _compiled(work: tuple[Any, ...], threads: int | None) -> None:
+    import numba
+
+    from cqdd_design.actuator.kernel import run_sets
+
+    former = numba.get_num_threads()
+    numba.set_num_threads(min(threads or former, former))
+    try:
+        run_sets(*work)
+    finally:
+        numba.set_num_threads(former)
+
+
+def _paired(
+    parameters: ActuatorParameters | Sequence[ActuatorParameters],
+    scenario: Scenario | Sequence[Scenario],
+) -> tuple[list[ActuatorParameters], list[Scenario]]:
+    sets = [parameters] if isinstance(parameters, ActuatorParameters) else list(parameters)
+    scenes = [scenario] if isinstance(scenario, Scenario) else list(scenario)
+    if not sets or not scenes:
+        raise UsageError("a simulation needs an actuator and a scenario; there is none.")
+    if len(sets) == 1:
+        sets = sets * len(scenes)
+    if len(scenes) == 1:
+        scenes = scenes * len(sets)
+    if len(sets) != len(scenes):
+        raise UsageError(
+            f"{len(sets)} actuators and {len(scenes)} scenarios do not pair; give one scenario "
+            "for all, or one for each."
+        )
+    return sets, scenes
+
+
+def _steps(duration: float, step: float, every: int) -> int:
+    for name, value in (("duration", duration), ("step", step)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise UsageError(f"{name} {value:g} s must be above 0.")
+    if every < 1:
+        raise UsageError(f"every {every} must be 1 or more steps a record.")
+    steps = round(duration / step)
+    if steps < every:
+        raise UsageError(
+            f"a duration of {duration:g} s is less than a record of {every} steps of {step:g} s; "
+            "lower every or the step."
+        )
+    return steps
+
+
+def _refuse_large(
+    sets: Sequence[ActuatorParameters], scenes: Sequence[Scenario], step: float
+) -> None:
+    limit, cause = min(largest_step(*pair) for pair in zip(sets, scenes, strict=True))
+    if step > limit * (1.0 + 1e-9):
+        raise UsageError(
+            f"a step of {step:g} s is too large for {cause}, which needs {limit:.3g} s or less; "
+            f"use {rounded_down(limit):g} s."
+        )
+
+
+def _sampled(signals: Sequence[Signal], times: FloatArray, *, rate: bool = False) -> FloatArray:
+    """Signals at times, with one row where all are the same, one column where all stand still."""
+    same = all(signal is signals[0] for signal in signals)
+    used = signals[:1] if same or all(signal == signals[0] for signal in signals) else signals
+    still = all(isinstance(signal, Constant) for signal in used)
+    at = times[:1] if still else times
+    rows = [signal.rates(at) if rate else signal.values(at) for signal in used]
+    return np.ascontiguousarray(np.array(rows, dtype=float))

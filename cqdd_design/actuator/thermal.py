@@ -1,0 +1,180 @@
+"""Winding and housing as two thermal nodes: exact steps, steady state, continuous current.
+
+Copper loss grows with the winding's temperature, but linearly, so that under a constant current
+the network stays linear and its response is exact::
+
+    C_w dT_w/dt = i^2 R0 (1 + a (T_w - T_0)) - (T_w - T_h)/R_wh
+    C_h dT_h/dt = P_h + (T_w - T_h)/R_wh - (T_h - T_a)/R_ha
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from cqdd_design.actuator.motor import COPPER_COEFFICIENT, resistance_at
+from cqdd_design.actuator.parameters import (
+    DriveParameters,
+    FloatArray,
+    MotorParameters,
+    ThermalParameters,
+)
+from cqdd_design.errors import DesignError
+
+
+def runaway_current(motor: MotorParameters, thermal: ThermalParameters) -> float:
+    """Current above which the winding heats without end, since its loss grows faster, A."""
+    total = thermal.winding_to_housing + thermal.housing_to_ambient
+    return math.sqrt(1.0 / (COPPER_COEFFICIENT * motor.resistance * total))
+
+
+def continuous_current(
+    motor: MotorParameters,
+    thermal: ThermalParameters,
+    *,
+    most: float | None = None,
+    housing_heat: float = 0.0,
+) -> float:
+    """Current whose heat the network carries off for ever at the winding's limit.
+
+    Parameters
+    ----------
+    motor, thermal
+    most : float, optional
+        deg C; default that of `thermal`.
+    housing_heat : float
+        Further heat in the housing (iron, gear friction), W.
+
+    Returns
+    -------
+    float
+        A; i^2 R(T_max) (R_wh + R_ha) + P_h R_ha = T_max - T_ambient.
+
+    Raises
+    ------
+    DesignError
+        When the ambient or the housing's own heat already reaches the limit.
+    """
+    hottest = thermal.most if most is None else most
+    rise = hottest - thermal.ambient - housing_heat * thermal.housing_to_ambient
+    if not rise > 0.0:
+        raise DesignError(
+            f"a winding limit of {hottest:g} deg C leaves nothing for copper at an ambient of "
+            f"{thermal.ambient:g} deg C and {housing_heat:g} W in the housing; raise thermal.most, "
+            "or lower housing_to_ambient."
+        )
+    total = thermal.winding_to_housing + thermal.housing_to_ambient
+    return math.sqrt(rise / (total * float(resistance_at(motor, hottest))))
+
+
+def derated_limit(
+    motor: MotorParameters,
+    drive: DriveParameters,
+    thermal: ThermalParameters,
+    temperature: ArrayLike,
+) -> FloatArray:
+    """Current limit at winding temperatures (deg C), A.
+
+    The drive's limit up to `derating_begins`, then straight down to the continuous current of
+    `most`, and no further.
+    """
+    hold = min(continuous_current(motor, thermal), drive.current_limit)
+    span = max(thermal.most - thermal.derating_begins, 1e-9)
+    over = (np.asarray(temperature, dtype=float) - thermal.derating_begins) / span
+    share = np.clip(over, 0.0, 1.0)
+    return np.asarray(drive.current_limit + share * (hold - drive.current_limit))
+
+
+def system(
+    motor: MotorParameters, thermal: ThermalParameters, current: float, housing_heat: float = 0.0
+) -> tuple[FloatArray, FloatArray]:
+    """Matrix (2, 2) and forcing (2,) of dT/dt = A T + b for winding and housing, K/s."""
+    to_housing, to_ambient = 1.0 / thermal.winding_to_housing, 1.0 / thermal.housing_to_ambient
+    slope = current**2 * motor.resistance * COPPER_COEFFICIENT
+    base = current**2 * motor.resistance * (1.0 - COPPER_COEFFICIENT * motor.reference_temperature)
+    winding, housing = thermal.winding_capacity, thermal.housing_capacity
+    matrix = np.array(
+        [
+            [(slope - to_housing) / winding, to_housing / winding],
+            [to_housing / housing, -(to_housing + to_ambient) / housing],
+        ]
+    )
+    forcing = np.array([base / winding, (housing_heat + to_ambient * thermal.ambient) / housing])
+    return matrix, forcing
+
+
+def steady_state(
+    motor: MotorParameters, thermal: ThermalParameters, current: float, housing_heat: float = 0.0
+) -> tuple[float, float]:
+    """Temperatures of winding and housing that a constant current ends at, deg C.
+
+    Raises
+    ------
+    DesignError
+        At or above the current of thermal runaway.
+    """
+    limit = runaway_current(motor, thermal)
+    if not abs(current) < limit:
+        raise DesignError(
+            f"{abs(current):g} A heat the winding without end; this network holds currents below "
+            f"{limit:.4g} A."
+        )
+    matrix, forcing = system(motor, thermal, current, housing_heat)
+    winding, housing = np.linalg.solve(matrix, -forcing)
+    return float(winding), float(housing)
+
+
+def response(
+    motor: MotorParameters,
+    thermal: ThermalParameters,
+    current: float,
+    times: ArrayLike,
+    *,
+    start: tuple[float, float] | None = None,
+    housing_heat: float = 0.0,
+) -> FloatArray:
+    """Exact temperatures under a constant current from a given start.
+
+    Parameters
+    ----------
+    motor, thermal
+    current : float
+        A, switched on at time 0.
+    times : array_like (N,)
+        s.
+    start : tuple of float, optional
+        Winding and housing, deg C; default both at ambient.
+    housing_heat : float
+        W.
+
+    Returns
+    -------
+    array (N, 2)
+        Winding and housing, deg C.
+    """
+    t = np.atleast_1d(np.asarray(times, dtype=float))
+    first = np.array(start if start is not None else (thermal.ambient, thermal.ambient))
+    matrix, forcing = system(motor, thermal, current, housing_heat)
+    stepping, adding = transition(matrix, t)
+    return np.asarray(stepping @ first + adding @ forcing)
+
+
+def transition(matrix: FloatArray, times: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """exp(A t) and the integral of exp(A s) from 0 to t, both (N, 2, 2), for a network's A.
+
+    Its eigenvalues are real and distinct: the coupling of the two nodes has one sign.
+    """
+    half_trace = 0.5 * (matrix[0, 0] + matrix[1, 1])
+    half_gap = math.sqrt((0.5 * (matrix[0, 0] - matrix[1, 1])) ** 2 + matrix[0, 1] * matrix[1, 0])
+    values = np.array([half_trace - half_gap, half_trace + half_gap])
+    one = np.eye(2)
+    # Projectors on the two modes.
+    upper = (matrix - values[0] * one) / (values[1] - values[0])
+    modes = np.stack([one - upper, upper])
+    exponent = np.multiply.outer(np.asarray(times, dtype=float), values)
+    safe = np.where(values == 0.0, 1.0, values)
+    growth = np.where(values == 0.0, np.asarray(times)[..., None], np.expm1(exponent) / safe)
+    stepping = np.einsum("...m,mij->...ij", np.exp(exponent), modes)
+    return np.asarray(stepping), np.asarray(np.einsum("...m,mij->...ij", growth, modes))

@@ -1,0 +1,165 @@
+"""The gearbox as the actuator feels it, from the contact engine: error, stiffness, backlash.
+
+The carrier's angle error gamma(theta, T) changes with the load. One kinematic error and one
+stiffness over angle stand for it such that the work is right: with the energy Pi = min(E - T gamma)
+of the contact engine under T and -T::
+
+    eps(theta) = -(Pi(T) - Pi(-T))/(2 T)                  mean of gamma over loads from -T to T
+    u(theta)   = ((p+1)/p) (-(Pi(T) + Pi(-T))/(2 T) - b/2)    windup of a spring of exponent p
+
+Behind them the torque that holds the motor under the loads T and -T varies over angle exactly as
+n dPi/dphi does in the contact engine: its torque ripple. The loaded angle error itself is that of
+the mean load; mean windup, stiffening and backlash are those of the loaded curve.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from cqdd_design.actuator.parameters import FloatArray, IntArray
+from cqdd_design.design import Design
+from cqdd_design.errors import DesignError
+from cqdd_design.gearbox import kinematics
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.states import nominal_states
+from cqdd_design.gearbox.contact.sweep import (
+    ContactSweep,
+    contact_sweep,
+    output_turn_angles,
+    perfect_angles,
+)
+from cqdd_design.gearbox.precision.backlash import backlash
+from cqdd_design.gearbox.tolerance.draws import draw_errors
+
+MOST_ORDERS = 64
+NOISE_FLOOR = 1e-3
+"""Harmonics weaker than this share of the strongest are left out."""
+_PERFECT_ANGLES = 120
+_LEAST_WINDUP = 0.25
+"""Share of the mean that no spot falls below, where backlash varies much."""
+
+
+@dataclass(frozen=True, eq=False)
+class Transmission:
+    """What the contact engine says of one gearbox at one torque.
+
+    Attributes
+    ----------
+    torque : float
+        N m.
+    error_orders : array (H,) of int
+        Periods in an output turn.
+    error_cosine, error_sine : array (H,)
+        Of the kinematic error, rad.
+    stiffness_cosine, stiffness_sine : array (H,)
+        Relative.
+    stiffness : float
+        Secant from the end of the dead zone, N m/rad.
+    stiffening : float
+        Exponent of torque over deflection, from half of the torque to it.
+    backlash : float
+        Mean over the turn, rad.
+    """
+
+    torque: float
+    error_orders: IntArray
+    error_cosine: FloatArray
+    error_sine: FloatArray
+    stiffness_cosine: FloatArray
+    stiffness_sine: FloatArray
+    stiffness: float
+    stiffening: float
+    backlash: float
+
+
+def transmission(
+    model: ContactModel, design: Design, torque: float, *, seed: int | None = None
+) -> Transmission:
+    """Solve a gearbox for what the actuator feels of it.
+
+    Parameters
+    ----------
+    model : ContactModel
+        Of the same design.
+    design : Design
+        Whose tolerances the seed draws from.
+    torque : float
+        N m, above zero.
+    seed : int, optional
+        Of one drawn gearbox, solved over a whole output turn; default perfect parts.
+
+    Raises
+    ------
+    ContactError
+        When the gearbox has no equilibrium at the torque.
+    DesignError
+        When its springs do not wind up under load.
+    """
+    n = model.lobe_count
+    if seed is None:
+        errors = None
+        angle = perfect_angles(model, _PERFECT_ANGLES)
+        per_turn = round(
+            kinematics.imperfect_period(n) / kinematics.mesh_period(n, model.pin_count)
+        )
+    else:
+        errors = draw_errors(model, design.tolerances, seed, 0, 1).one(0)
+        angle, per_turn = output_turn_angles(model), 1
+    states = nominal_states(model, angle)
+
+    def loaded(load: float) -> ContactSweep:
+        return contact_sweep(model, load, errors=errors, states=states)
+
+    free = float(backlash(model, errors=errors, states=states).free.mean())
+    ahead, behind = loaded(torque), loaded(-torque)
+    mean = _opening(ahead, behind) - 0.5 * free
+    half_mean = _opening(loaded(0.5 * torque), loaded(-0.5 * torque)) - 0.5 * free
+    if not 0.0 < half_mean < mean:
+        raise DesignError(
+            f"the gearbox does not wind up beyond its backlash at {torque:g} N*m; raise "
+            "requirements.continuous_torque, or lower the clearances."
+        )
+    power = float(np.clip(math.log(2.0) / math.log(mean / half_mean), 1.0, 4.0))
+    error = -(ahead.energy - behind.energy) / (2.0 * torque)
+    work = -(ahead.energy + behind.energy) / (2.0 * torque)
+    windup = mean + (power + 1.0) / power * (work - work.mean())
+    share = (mean / np.maximum(windup, _LEAST_WINDUP * mean)) ** power
+    orders, series = _harmonics(error, share / share.mean(), per_turn, mean)
+    return Transmission(
+        torque=torque,
+        error_orders=orders,
+        error_cosine=series[0],
+        error_sine=series[1],
+        stiffness_cosine=series[2],
+        stiffness_sine=series[3],
+        stiffness=torque / mean,
+        stiffening=power,
+        backlash=free,
+    )
+
+
+def _opening(ahead: ContactSweep, behind: ContactSweep) -> float:
+    """Half of the mean angle between the carrier's places under opposite loads, rad."""
+    return 0.5 * float(np.mean(ahead.carrier_angle_error - behind.carrier_angle_error))
+
+
+def _harmonics(
+    error: FloatArray, share: FloatArray, per_turn: int, windup: float
+) -> tuple[IntArray, tuple[FloatArray, FloatArray, FloatArray, FloatArray]]:
+    """Orders worth keeping, and cosine and sine coefficients of error and stiffness share."""
+    count = len(error)
+    spectra = [np.fft.rfft(values) * (2.0 / count) for values in (error, share)]
+    size = np.abs(spectra[0]) + windup * np.abs(spectra[1])
+    size[0] = 0.0
+    if count % 2 == 0:
+        # The last line of an even count has no sine: its phase is not known.
+        size[-1] = 0.0
+    index = np.flatnonzero(size > NOISE_FLOOR * size.max())
+    if len(index) > MOST_ORDERS:
+        # Ripple grows with the order.
+        index = np.sort(index[np.argsort(-size[index] * index, kind="stable")[:MOST_ORDERS]])
+    coefficients = [part for s in spectra for part in (s.real[index], -s.imag[index])]
+    return index * per_turn, tuple(coefficients)  # type: ignore[return-value]

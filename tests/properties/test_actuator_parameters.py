@@ -1,0 +1,250 @@
+"""Motor constants and envelope, thermal network, and the parameters built from a design."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from cqdd_design.actuator import motor as motors
+from cqdd_design.actuator import thermal as thermals
+from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.packing import gear_table, kinematic_error, stiffness_share
+from cqdd_design.actuator.parameters import ActuatorParameters, MotorParameters, ThermalParameters
+from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Start
+from cqdd_design.actuator.simulate import simulate
+from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.design import Design, load_design
+from cqdd_design.errors import DesignError
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles
+from cqdd_design.gearbox.losses import LossModel, loss_model
+from cqdd_design.gearbox.tolerance.draws import draw_errors
+from cqdd_design.solids.inertia import closed_form, gearbox_inertia
+from cqdd_design.solids.parts import build_parts
+
+PAPER = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
+MOTOR = MotorParameters(0.1736, 0.143, 137e-6, 5.6e-4, 21, 4.0, 12.0, iron_loss=1e-4)
+THERMAL = ThermalParameters(0.4, 0.8, 40.0, 1000.0)
+
+
+@lru_cache(maxsize=4)
+def built(seed: int | None = None) -> ActuatorParameters:
+    return actuator_parameters(PAPER, seed=seed)
+
+
+@lru_cache(maxsize=1)
+def loss_of_paper() -> LossModel:
+    return loss_model(ContactModel.from_design(PAPER), PAPER)
+
+
+@given(st.floats(1e-3, 10.0), st.floats(1e-3, 10.0), st.floats(0.1, 100.0))
+def test_conventions_carry_the_same_power_and_heat(k: float, r: float, dc: float) -> None:
+    found = motors.motor_constants(k, r)
+    peak = 2.0 / math.sqrt(3.0) * dc
+    assert found.torque_per_peak * peak == pytest.approx(k * dc)
+    assert found.torque_per_rms * peak / math.sqrt(2.0) == pytest.approx(k * dc)
+    # Three phases at an EMF and a current in phase give torque times speed.
+    assert 1.5 * found.emf_phase_peak * peak == pytest.approx(k * dc)
+    assert 3.0 * found.emf_phase_rms * peak / math.sqrt(2.0) == pytest.approx(k * dc)
+    assert 1.5 * found.resistance_phase * peak**2 == pytest.approx(r * dc**2)
+    assert found.emf_line_rms == pytest.approx(math.sqrt(3.0) * found.emf_phase_rms)
+    for name in motors.CONVENTIONS:
+        assert motors.torque_constant_from(getattr(found, name), name) == pytest.approx(k)
+
+
+def test_envelope_is_point_symmetric_and_bound_by_both_limits() -> None:
+    drive = built().drive
+    speed = np.linspace(-600.0, 600.0, 241)
+    found = motors.envelope(MOTOR, drive, speed)
+    np.testing.assert_allclose(found.low, -found.high[::-1], atol=1e-12)
+    rest = motors.envelope(MOTOR, drive, 0.0)
+    assert rest.high[0] == pytest.approx(motors.stall_torque(MOTOR, drive, 25.0))
+    terminal = MOTOR.resistance * found.current_high + MOTOR.torque_constant * speed
+    assert np.all(terminal <= drive.supply_voltage + 1e-9)
+    driving = np.abs(speed) < drive.supply_voltage / MOTOR.torque_constant
+    assert np.all(np.abs(found.current_high[driving]) <= drive.current_limit + 1e-9)
+    # The torque vanishes at the no-load speed.
+    free = motors.no_load_speed(MOTOR, drive.supply_voltage)
+    at = motors.envelope(replace(MOTOR, hysteresis=0.0), drive, free)
+    assert at.high[0] == pytest.approx(0.0, abs=1e-9)
+    hot = motors.envelope(MOTOR, drive, speed, winding_temperature=120.0)
+    fast = np.argmax(speed > 200.0)
+    assert hot.high[fast] != found.high[fast]
+    assert motors.no_load_speed(MOTOR, 24.0, temperature=100.0) > motors.no_load_speed(MOTOR, 24.0)
+    assert motors.no_load_speed(MOTOR, 24.0, drag=50.0) == 0.0
+
+
+@given(st.floats(0.0, 30.0), st.floats(0.0, 20.0))
+@settings(max_examples=30)
+def test_thermal_response_obeys_its_equations(current: float, heat: float) -> None:
+    t = np.linspace(0.0, 3000.0, 31)
+    found = thermals.response(MOTOR, THERMAL, current, t, housing_heat=heat)
+    assert found[0] == pytest.approx([25.0, 25.0])
+    d = 0.01
+    near = thermals.response(MOTOR, THERMAL, current, t[1:, None] + [-d, d], housing_heat=heat)
+    slope = (near[..., 1, :] - near[..., 0, :]) / (2.0 * d)
+    winding, housing = found[1:, 0], found[1:, 1]
+    copper = current**2 * motors.resistance_at(MOTOR, winding)
+    across = (winding - housing) / THERMAL.winding_to_housing
+    out = (housing - 25.0) / THERMAL.housing_to_ambient
+    np.testing.assert_allclose(slope[:, 0] * 40.0, copper - across, atol=1e-3 + 1e-4 * copper.max())
+    np.testing.assert_allclose(slope[:, 1] * 1000.0, heat + across - out, atol=1e-2 + 1e-4 * heat)
+
+
+def test_continuous_current_ends_at_the_limit_and_derating_there() -> None:
+    current = thermals.continuous_current(MOTOR, THERMAL, housing_heat=10.0)
+    ends = thermals.steady_state(MOTOR, THERMAL, current, 10.0)
+    assert ends[0] == pytest.approx(THERMAL.most)
+    late = thermals.response(MOTOR, THERMAL, current, [1e6], housing_heat=10.0)[0]
+    assert late == pytest.approx(ends)
+    drive = built().drive
+    limits = thermals.derated_limit(MOTOR, drive, THERMAL, [25.0, 100.0, 110.0, 120.0, 200.0])
+    held = thermals.continuous_current(MOTOR, THERMAL)
+    middle = 0.5 * (held + drive.current_limit)
+    full = drive.current_limit
+    np.testing.assert_allclose(limits, [full, full, middle, held, held])
+    with pytest.raises(DesignError, match="without end"):
+        thermals.steady_state(MOTOR, THERMAL, thermals.runaway_current(MOTOR, THERMAL))
+    with pytest.raises(DesignError, match="leaves nothing"):
+        thermals.continuous_current(MOTOR, THERMAL, most=30.0, housing_heat=50.0)
+
+
+def test_friction_keeps_efficiencies_and_backdrive_torques() -> None:
+    one, losses = built(), loss_of_paper()
+    friction, n = one.friction, abs(one.gear.ratio)
+    torque, speed = PAPER.requirements.continuous_torque, PAPER.requirements.input_speed
+    found = losses.at(speed, torque)
+    constant = n * friction.motor_coulomb + friction.output_coulomb
+    drag = constant + n * friction.motor_viscous * speed + friction.output_viscous * speed / n
+    assert found.efficiency_forward is not None
+    assert found.efficiency_backward is not None
+    forward = torque / (torque * (1.0 + friction.load_forward) + drag)
+    assert forward == pytest.approx(found.efficiency_forward, rel=2e-3)
+    backward = 1.0 - friction.load_backward - drag / torque
+    assert backward == pytest.approx(found.efficiency_backward, abs=2e-3)
+    back = losses.backdrive()
+    assert constant / (1.0 - friction.load_backward) == pytest.approx(back.dynamic_torque)
+    rise = 1.0 + friction.stribeck_extra
+    static = rise * constant / (1.0 - rise * friction.load_backward)
+    assert static == pytest.approx(back.static_torque)
+
+
+def test_simulated_backdrive_is_that_of_the_losses() -> None:
+    one = built()
+    scene = Scenario(Command("open"), Load.driven(Constant(0.5)), Start(motor_angle=0.0))
+    found = simulate(one, scene, 15.0, 5e-5, every=20)
+    late = found.time > 2.0
+    mean = -float(found.output_torque[0, late].mean()) + 0.0
+    assert mean == pytest.approx(
+        loss_of_paper().backdrive(output_speed=0.5).dynamic_torque, rel=0.2
+    )
+
+
+def test_simulated_no_load_speed_is_the_closed_form() -> None:
+    one = actuator_parameters(PAPER, supply_voltage=24.0)
+    assert one.drive.supply_voltage == 24.0
+    friction, n = one.friction, abs(one.gear.ratio)
+    wanted = motors.no_load_speed(
+        one.motor,
+        24.0,
+        drag=friction.motor_coulomb + friction.output_coulomb / n,
+        viscous=friction.motor_viscous + friction.output_viscous / n**2,
+    )
+    found = simulate(one, Scenario(Command("voltage", Constant(24.0))), 1.0, 5e-5, every=10)
+    late = found.time > 0.7
+    assert float(found.motor_speed[0, late].mean()) == pytest.approx(wanted, rel=2e-3)
+
+
+@pytest.mark.parametrize("seed", [None, 1, 2])
+def test_virtual_work_gives_the_ripple_of_the_contact_engine(seed: int | None) -> None:
+    """Motor torque that holds the output's load: shape of eps and stiffness, against n dPi/dphi."""
+    one, model = built(seed), ContactModel.from_design(PAPER)
+    errors = None if seed is None else draw_errors(model, PAPER.tolerances, seed, 0, 1).one(0)
+    gear, torque, angle = one.gear, one.gear.error_torque, output_turn_angles(model)
+    d = 1e-5
+    error_slope = (kinematic_error(gear, angle + d) - kinematic_error(gear, angle - d)) / (2.0 * d)
+    share_slope = (stiffness_share(gear, angle + d) - stiffness_share(gear, angle - d)) / (2.0 * d)
+    share, p = stiffness_share(gear, angle), gear.stiffening
+    energy = torque / share * torque / gear.stiffness * share ** (-1.0 / p) / (p + 1.0)
+    for sense in (1.0, -1.0):
+        engine = contact_sweep(model, sense * torque, angle, errors=errors).energy_slope
+        ours = -sense * torque * error_slope + share_slope * energy
+        assert np.ptp(ours) == pytest.approx(np.ptp(engine), rel=0.1)
+        assert np.sqrt(np.mean((ours - engine) ** 2)) < 0.1 * np.std(engine)
+
+
+def test_inertias_and_mass_are_those_of_the_solids() -> None:
+    parts = build_parts(PAPER, find_bearing(PAPER.reducer.cam_bearing.designation))
+    solids = gearbox_inertia(PAPER, parts, closed_form)
+    one = built()
+    n = abs(one.gear.ratio)
+    whole = one.motor_side_inertia + one.gear.output_inertia / n**2
+    assert whole == pytest.approx(solids.reflected_input)
+    assert one.reflected_inertia == pytest.approx(solids.reflected_output)
+    assert one.mass == pytest.approx(solids.total.mass)
+    plates = sum(p.reflected for p in solids.parts if p.name.startswith("carrier"))
+    assert one.gear.output_inertia > n**2 * plates
+
+
+def test_a_seed_draws_one_gearbox_and_always_the_same() -> None:
+    first, again = built(1), actuator_parameters(PAPER, seed=1)
+    assert first.gear.backlash == again.gear.backlash
+    np.testing.assert_array_equal(first.gear.error_cosine, again.gear.error_cosine)
+    assert first.gear.backlash != built(2).gear.backlash
+    assert len(first.gear.error_orders) <= 64
+    assert {10, 11} <= set(first.gear.error_orders)
+    assert set(built().gear.error_orders) <= set(range(55, 6000, 55))
+
+
+def test_table_follows_the_series() -> None:
+    gear = built(1).gear
+    table = gear_table(gear, 16384)
+    turn = 2.0 * math.pi * abs(gear.ratio)
+    angle = turn * np.arange(16384) / 16384
+    np.testing.assert_allclose(table[:, 0], kinematic_error(gear, angle), atol=1e-15)
+    np.testing.assert_allclose(table[:, 2], stiffness_share(gear, angle), atol=1e-12)
+    slope = np.gradient(table[:, 0])[1:-1]
+    np.testing.assert_allclose(table[1:-1, 1], slope, atol=0.05 * np.abs(slope).max())
+
+
+def test_every_number_says_where_it_comes_from() -> None:
+    one = built()
+    known = ("catalogue", "computed", "assumed", "calibrated", "design", "given", "missing")
+    for table in ("motor", "drive", "thermal", "friction", "gear"):
+        for name in type(getattr(one, table)).__dataclass_fields__:
+            if name in ("cogging_order", "reference_temperature"):
+                continue
+            assert one.origins[f"{table}.{name}"].startswith(known), (table, name)
+    assert one.origins["mass"].startswith("computed")
+
+
+def changed(**keys: object) -> Design:
+    return PAPER.replacing({key.replace("__", "."): value for key, value in keys.items()})
+
+
+def test_motors_that_cannot_be_simulated_are_refused() -> None:
+    with pytest.raises(DesignError, match="geared actuator"):
+        actuator_parameters(changed(motor__name="CubeMars AK80-9 V3"))
+    with pytest.raises(DesignError, match="no resistance"):
+        actuator_parameters(changed(motor__name="VT8020"))
+    with pytest.raises(DesignError, match="never binds"):
+        actuator_parameters(changed(motor__current_limit="500 A"))
+    with pytest.raises(DesignError, match="supply_voltage"):
+        actuator_parameters(PAPER, supply_voltage=0.0)
+
+
+def test_missing_catalogue_data_are_assumed_and_said() -> None:
+    one = actuator_parameters(changed(motor__name="T-Motor MN8014 KV100"))
+    assert one.origins["motor.inductance"].startswith("assumed")
+    assert one.origins["motor.rotor_inertia"].startswith(("assumed", "computed"))
+    assert math.isnan(one.motor.rated_torque)
+    assert not motors.idle_limits(one)
+    idle = replace(one, drive=replace(one.drive, current_limit=1e5))
+    assert "never binds" in motors.idle_limits(idle)[0]

@@ -1,0 +1,240 @@
+"""The virtual bench against closed forms of the very actuator it measures."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cqdd_design.actuator.bench import METRICS, run_bench
+from cqdd_design.actuator.bench.bandwidth import crossing
+from cqdd_design.actuator.bench.calibrate import UNKNOWNS, calibrate
+from cqdd_design.actuator.bench.gear import order_spectrum
+from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.design import load_design
+from cqdd_design.errors import UsageError
+
+PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
+RPM = 30.0 / math.pi
+
+
+@pytest.fixture(scope="module")
+def actuator() -> ActuatorParameters:
+    return actuator_parameters(load_design(PAPER))
+
+
+def changed(actuator: ActuatorParameters, **parts: dict[str, float]) -> ActuatorParameters:
+    """The actuator with fields of its parts replaced: ``friction={"load_forward": 0.0}``."""
+    new = {
+        part: dataclasses.replace(getattr(actuator, part), **fields)
+        for part, fields in parts.items()
+    }
+    return dataclasses.replace(actuator, **new)
+
+
+def smooth(actuator: ActuatorParameters) -> ActuatorParameters:
+    """The same without friction, backlash and kinematic error."""
+    gear = actuator.gear
+    zero = np.zeros_like(gear.error_cosine)
+    free = dataclasses.replace(
+        gear,
+        error_cosine=zero,
+        error_sine=zero,
+        stiffness_cosine=zero,
+        stiffness_sine=zero,
+        stiffening=1.0,
+        backlash=0.0,
+    )
+    none = dict.fromkeys(
+        (
+            "motor_coulomb",
+            "output_coulomb",
+            "motor_viscous",
+            "output_viscous",
+            "stribeck_extra",
+            "load_forward",
+            "load_backward",
+        ),
+        0.0,
+    )
+    found = changed(actuator, friction=none)
+    return dataclasses.replace(found, gear=free)
+
+
+def measured(actuator: ActuatorParameters, name: str, **options: object):  # type: ignore[no-untyped-def]
+    (metric,) = run_bench(actuator, only=[name], **options).metrics  # type: ignore[arg-type]
+    assert metric.name == name
+    return metric
+
+
+def test_resolution_is_a_count_through_the_ratio(actuator: ActuatorParameters) -> None:
+    assert measured(actuator, "output_resolution").value == pytest.approx(360.0 / 2**14 / 10.0)
+    coarse = changed(actuator, drive={"encoder_bits": 10})
+    assert measured(coarse, "output_resolution").value == pytest.approx(360.0 / 2**10 / 10.0)
+
+
+@pytest.mark.parametrize("voltage", [12.0, 24.0, 36.0])
+def test_no_load_speed_is_that_of_the_circuit_and_the_drag(
+    actuator: ActuatorParameters, voltage: float
+) -> None:
+    motor, friction, n = actuator.motor, actuator.friction, abs(actuator.gear.ratio)
+    drag = friction.motor_coulomb + friction.output_coulomb / n
+    viscous = friction.motor_viscous + friction.output_viscous / n**2
+    speed = (motor.torque_constant * voltage / motor.resistance - drag) / (
+        motor.torque_constant**2 / motor.resistance + viscous
+    )
+    found = measured(actuator, "no_load_speed", voltage=voltage).value
+    assert found == pytest.approx(speed / n * RPM, rel=5e-3)
+
+
+def test_inertia_is_that_of_the_parameters(actuator: ActuatorParameters) -> None:
+    computed = actuator.motor_side_inertia + actuator.gear.output_inertia / actuator.gear.ratio**2
+    assert measured(actuator, "actuator_inertia").value == pytest.approx(computed, rel=0.01)
+    heavier = changed(actuator, motor={"rotor_inertia": 3.0 * actuator.motor.rotor_inertia})
+    more = (
+        measured(heavier, "actuator_inertia").value - measured(actuator, "actuator_inertia").value
+    )
+    assert more == pytest.approx(2.0 * actuator.motor.rotor_inertia, rel=0.02)
+
+
+@pytest.mark.parametrize("arcmin", [2.0, 7.0, 15.0])
+def test_gebler_finds_the_dead_zone(actuator: ActuatorParameters, arcmin: float) -> None:
+    loose = changed(actuator, gear={"backlash": math.radians(arcmin / 60.0)})
+    assert measured(loose, "backlash").value == pytest.approx(arcmin, abs=0.2 + 0.02 * arcmin)
+
+
+def test_breakaway_is_the_friction_seen_from_the_output(actuator: ActuatorParameters) -> None:
+    plain = changed(smooth(actuator), friction={"motor_coulomb": 0.05, "output_coulomb": 0.2})
+    found = measured(plain, "backdrive_static")
+    assert found.value == pytest.approx(0.05 * 10.0 + 0.2, rel=0.03)
+    extra = changed(plain, friction={"stribeck_extra": 0.5})
+    assert measured(extra, "backdrive_static").value == pytest.approx(1.5 * 0.7, rel=0.03)
+
+
+def test_running_torque_is_the_drag_seen_from_the_output(actuator: ActuatorParameters) -> None:
+    plain = changed(
+        smooth(actuator),
+        friction={"motor_coulomb": 0.05, "output_coulomb": 0.2, "motor_viscous": 1e-3},
+    )
+    # At 1 rad/s of the output the motor turns at 10.
+    wanted = (0.05 + 1e-3 * 10.0) * 10.0 + 0.2
+    assert measured(plain, "backdrive_dynamic").value == pytest.approx(wanted, rel=0.01)
+
+
+def test_locked_torque_without_losses_is_current_times_constant(
+    actuator: ActuatorParameters,
+) -> None:
+    found = measured(smooth(actuator), "peak_torque")
+    ideal = actuator.motor.torque_constant * actuator.drive.current_limit * 10.0
+    assert found.details["driver_limited_Nm"] == pytest.approx(ideal, rel=2e-3)
+    assert found.relation == "given"
+    density = measured(smooth(actuator), "torque_density").value
+    assert density == pytest.approx(found.value / actuator.mass)
+
+
+@pytest.mark.parametrize("bandwidth", [15.0, 40.0])
+def test_torque_bandwidth_of_a_stiff_actuator_is_the_current_loops(
+    actuator: ActuatorParameters, bandwidth: float
+) -> None:
+    slow = changed(smooth(actuator), drive={"current_bandwidth": bandwidth, "delay": 0.0})
+    stiff = dataclasses.replace(
+        slow, gear=dataclasses.replace(slow.gear, stiffness=4e5, damping=60.0)
+    )
+    found = measured(stiff, "torque_bandwidth")
+    assert found.value == pytest.approx(bandwidth, rel=0.06)
+    assert found.details["low_frequency_gain"] == pytest.approx(1.0, abs=0.02)
+
+
+@pytest.mark.parametrize("name", ["position_bandwidth_45deg", "position_bandwidth_5deg"])
+def test_position_bandwidth_stays_below_what_saturation_allows(
+    actuator: ActuatorParameters, name: str
+) -> None:
+    quick = changed(actuator, drive={"position_gain": 4000.0, "velocity_gain": 60.0})
+    found = measured(quick, name)
+    limits = (found.details["limit_by_speed_Hz"], found.details["limit_by_torque_Hz"])
+    assert found.value <= 1.05 * min(limits)
+    assert found.relation == "not comparable"
+    assert "60 N m s/rad at 24 V" in found.protocol
+
+
+def test_efficiency_without_friction_is_the_motors(actuator: ActuatorParameters) -> None:
+    found = measured(smooth(actuator), "efficiency_peak")
+    speed = found.details["speed_rpm"] / RPM * 10.0
+    motor = actuator.motor
+    current = found.details["torque_Nm"] / 10.0 / motor.torque_constant
+    emf = motor.torque_constant * speed
+    assert found.value == pytest.approx(emf / (emf + motor.resistance * current), rel=0.01)
+
+
+def test_order_spectrum_finds_what_is_there() -> None:
+    angle = np.linspace(0.0, 2.0 * math.pi, 20_001)
+    torque = 3.0 + 0.4 * np.cos(110 * angle + 0.3) + 0.1 * np.sin(10 * angle)
+    orders, amplitudes = order_spectrum(angle, torque)
+    assert amplitudes[orders == 110][0] == pytest.approx(0.4, rel=0.03)
+    assert amplitudes[orders == 10][0] == pytest.approx(0.1, rel=0.03)
+    assert np.sort(amplitudes)[-3] < 0.01
+
+
+def test_crossing_is_between_the_points() -> None:
+    assert crossing(np.array([1.0, 2.0, 3.0]), np.array([1.0, 0.8, 0.4]), 0.6) == pytest.approx(2.5)
+    assert crossing(np.array([1.0, 2.0]), np.array([1.0, 0.9]), 0.5) == 2.0
+
+
+def test_every_measurement_of_the_papers_actuator(actuator: ActuatorParameters) -> None:
+    told: list[str] = []
+    result = run_bench(actuator, rated_current=20.0, beside_paper=True, progress=told.append)
+    assert [metric.name for metric in result.metrics] == list(METRICS)
+    assert len(told) == len(METRICS)
+    document = json.loads(json.dumps(result.to_dict(), allow_nan=False))
+    for name, unit in METRICS.items():
+        row = document["metrics"][name]
+        assert row["unit"] == unit
+        assert row["protocol"].endswith(".")
+        assert row["paper"] > 0.0
+    assert run_bench(actuator, only=["mass"]).to_dict()["metrics"]["mass"]["paper"] is None  # type: ignore[index]
+
+
+def test_bad_requests(actuator: ActuatorParameters) -> None:
+    with pytest.raises(UsageError, match="did you mean 'backlash'"):
+        run_bench(actuator, only=["backlsh"])
+    with pytest.raises(UsageError, match="above 0"):
+        run_bench(actuator, voltage=0.0)
+
+
+# ------------------------------------------------------------------ calibration
+
+
+def test_calibration_finds_what_was_changed(actuator: ActuatorParameters) -> None:
+    """Rows of an actuator with other friction and cooling bring these back from the first one."""
+    true = {"backdrive_static": 3.0, "continuous_torque": 0.7, "efficiency_peak": 0.6}
+    other = actuator
+    for name, factor in true.items():
+        other = UNKNOWNS[name].change(other, factor)
+    rows = {m.name: m.value for m in run_bench(other, only=list(true)).metrics}
+    found = calibrate(actuator, rows)
+    assert found.largest_residual < 1e-3
+    for name, factor in true.items():
+        assert found.factors[name] == pytest.approx(factor, rel=0.03), name
+    marked = {key for key, origin in found.parameters.origins.items() if "calibrated" in origin}
+    assert marked == {unknown for name in true for unknown in UNKNOWNS[name].names}
+    # Rows that were not fitted are predicted as the other actuator has them.
+    rest = ["no_load_speed", "backdrive_dynamic"]
+    here = {m.name: m.value for m in run_bench(found.parameters, only=rest).metrics}
+    there = {m.name: m.value for m in run_bench(other, only=rest).metrics}
+    assert here == pytest.approx(there, rel=0.02)
+    (row,) = run_bench(found.parameters, only=["continuous_torque"]).metrics
+    assert row.relation == "calibrated"
+
+
+def test_calibration_refuses_what_tells_nothing(actuator: ActuatorParameters) -> None:
+    with pytest.raises(UsageError, match="decides no unknown"):
+        calibrate(actuator, {"mass": 1.4})
+    with pytest.raises(UsageError, match="above 0"):
+        calibrate(actuator, {"backdrive_static": math.nan})
+    with pytest.raises(UsageError, match="nothing to calibrate"):
+        calibrate(actuator, {})

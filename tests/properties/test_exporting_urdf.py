@@ -1,0 +1,139 @@
+"""URDF: what is written, and what arrives in those real clients that are installed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from actuator_samples import paper_actuator, random_actuators
+from hypothesis import given, settings
+
+from cqdd_design import __version__
+from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.exporting.urdf import DRAKE, urdf_text, write_urdf
+
+
+def expected(p: ActuatorParameters) -> dict[str, float]:
+    """Joint side by the formulas of reflection, written out."""
+    n, motor, friction = abs(p.gear.ratio), p.motor, p.friction
+    amps = min(p.drive.supply_voltage / motor.resistance, p.drive.current_limit)
+    return {
+        "effort": n * motor.torque_constant * amps,
+        "friction": n * (friction.motor_coulomb + motor.hysteresis) + friction.output_coulomb,
+        "damping": n**2 * (friction.motor_viscous + motor.iron_loss) + friction.output_viscous,
+        "rotor": motor.rotor_inertia + p.gear.input_inertia,
+        "ratio": n,
+        "output": p.gear.output_inertia,
+    }
+
+
+@pytest.fixture(params=[-10.0, 10.0])
+def written(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[str, dict[str, float]]:
+    p = paper_actuator(request.param)
+    file = write_urdf(p, "paper", tmp_path / "paper.urdf", design_sha256="c0ffee")
+    return str(file.path), expected(p)
+
+
+@settings(max_examples=60, deadline=None)
+@given(p=random_actuators())
+def test_values_in_the_text(p: ActuatorParameters) -> None:
+    root = ElementTree.fromstring(urdf_text(p, "drawn"))
+    wanted = expected(p)
+    limit, dynamics = root.find("joint/limit"), root.find("joint/dynamics")
+    actuator = root.find("transmission/actuator")
+    inertia = root.find("link[@name='output']/inertial/inertia")
+    assert limit is not None
+    assert dynamics is not None
+    assert actuator is not None
+    assert inertia is not None
+    found = {
+        "effort": limit.get("effort"),
+        "friction": dynamics.get("friction"),
+        "damping": dynamics.get("damping"),
+        "rotor": actuator.find(f"{{{DRAKE}}}rotor_inertia").get("value"),  # type: ignore[union-attr]
+        "ratio": actuator.find(f"{{{DRAKE}}}gear_ratio").get("value"),  # type: ignore[union-attr]
+        "output": inertia.get("izz"),
+    }
+    assert {key: float(str(value)) for key, value in found.items()} == pytest.approx(
+        wanted, rel=1e-8
+    )
+    assert float(str(actuator.findtext("mechanicalReduction"))) == abs(p.gear.ratio)
+    speed = float(str(limit.get("velocity")))
+    fastest = p.drive.supply_voltage / p.motor.torque_constant / abs(p.gear.ratio)
+    assert 0.0 <= speed <= fastest * (1.0 + 1e-8)
+
+
+def test_reproducible_and_with_its_origin(tmp_path: Path) -> None:
+    p = paper_actuator()
+    first = write_urdf(p, "paper", tmp_path / "a.urdf", design_sha256="c0ffee")
+    assert (
+        first.sha256 == write_urdf(p, "paper", tmp_path / "b.urdf", design_sha256="c0ffee").sha256
+    )
+    text = first.path.read_text()
+    assert f"cqdd-design {__version__}" in text
+    assert "c0ffee" in text
+    assert "armature" in text
+
+
+def test_mujoco_reads_it_and_positive_torque_turns_it_positive(
+    written: tuple[str, dict[str, float]],
+) -> None:
+    mujoco = pytest.importorskip("mujoco", reason="MuJoCo is not installed")
+    path, wanted = written
+    model = mujoco.MjModel.from_xml_path(path)
+    data = mujoco.MjData(model)
+    joint = model.joint("paper")
+    assert model.njnt == 1
+    assert joint.axis == pytest.approx([0.0, 0.0, 1.0])
+    assert joint.damping == pytest.approx(wanted["damping"])
+    assert joint.frictionloss == pytest.approx(wanted["friction"])
+    assert model.jnt_actfrcrange[0] == pytest.approx([-wanted["effort"], wanted["effort"]])
+    assert max(model.body("output").inertia) == pytest.approx(wanted["output"])
+    # Rotor inertia has no place in what MuJoCo reads of a URDF, as the file says.
+    assert joint.armature == 0.0
+    data.qfrc_applied[0] = 2.0 * wanted["friction"]
+    for _ in range(100):
+        mujoco.mj_step(model, data)
+    assert data.qvel[0] > 0.0
+    assert data.qpos[0] > 0.0
+
+
+def test_drake_reflects_the_rotor(written: tuple[str, dict[str, float]]) -> None:
+    parsing = pytest.importorskip("pydrake.multibody.parsing", reason="Drake is not installed")
+    plants = pytest.importorskip("pydrake.multibody.plant")
+    path, wanted = written
+    plant = plants.MultibodyPlant(1e-3)
+    parsing.Parser(plant).AddModels(path)
+    plant.WeldFrames(plant.world_frame(), plant.GetFrameByName("housing"))
+    plant.Finalize()
+    actuator = plant.GetJointActuatorByName("paper-motor")
+    assert actuator.effort_limit() == pytest.approx(wanted["effort"])
+    assert actuator.default_rotor_inertia() == pytest.approx(wanted["rotor"])
+    assert actuator.default_gear_ratio() == wanted["ratio"]
+    assert plant.GetJointByName("paper").default_damping() == pytest.approx(wanted["damping"])
+    mass = plant.CalcMassMatrix(plant.CreateDefaultContext())
+    whole = wanted["rotor"] * wanted["ratio"] ** 2 + wanted["output"]
+    assert mass[0, 0] == pytest.approx(whole)
+
+
+def test_pinocchio_reads_limits_and_friction(written: tuple[str, dict[str, float]]) -> None:
+    pinocchio = pytest.importorskip("pinocchio", reason="Pinocchio is not installed")
+    path, wanted = written
+    model = pinocchio.buildModelFromUrdf(path)
+    assert model.upperEffortLimit[0] == pytest.approx(wanted["effort"])
+    assert model.upperDryFrictionLimit[0] == pytest.approx(wanted["friction"])
+    assert model.damping[0] == pytest.approx(wanted["damping"])
+    # Set by hand, as the card says; either pair or armature.
+    model.rotorInertia[0], model.rotorGearRatio[0] = wanted["rotor"], wanted["ratio"]
+    assert model.rotorInertia[0] * model.rotorGearRatio[0] ** 2 == pytest.approx(
+        wanted["rotor"] * wanted["ratio"] ** 2
+    )
+
+
+def test_yourdfpy_reads_it(written: tuple[str, dict[str, float]]) -> None:
+    yourdfpy = pytest.importorskip("yourdfpy", reason="yourdfpy is not installed")
+    path, wanted = written
+    joint = yourdfpy.URDF.load(path).joint_map["paper"]
+    assert joint.limit.effort == pytest.approx(wanted["effort"])
+    assert float(joint.dynamics.damping) == pytest.approx(wanted["damping"])
