@@ -1,11 +1,12 @@
-"""Time the actuator in time: steps a second on one core and over parameter sets; beside scipy.
+"""Time the actuator in time: steps a second, over parameter sets, beside MuJoCo and scipy.
 
     python benchmarks/actuator_steps.py [--write]
 
 Everything is measured in one run, after compilation (warm), on the paper's design with one drawn
 gearbox: kinematic error and stiffness in 64 orders, backlash, stiffening spring, load-dependent
 friction with stick and slip, current loop with delay, thermal network. A step is one implicit step
-of the whole actuator. `--write` puts the result into docs/benchmarks.md. Run it by hand on a
+of the whole actuator. MuJoCo steps the MJCF that `export --to mjcf` writes, many steps to a call of
+`mj_step`, in one thread. `--write` puts the result into docs/benchmarks.md. Run it by hand on a
 machine that does nothing else.
 """
 
@@ -24,7 +25,6 @@ from processes import PAGE, machine
 
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.columns import LEDGER, PARAMETERS, TRACES
-from cqdd_design.actuator.kernel import run_sets
 from cqdd_design.actuator.packing import (
     gear_table,
     kinematic_error,
@@ -33,15 +33,20 @@ from cqdd_design.actuator.packing import (
     table_points,
 )
 from cqdd_design.actuator.parameters import ActuatorParameters
-from cqdd_design.actuator.scenario import Command, Load, Scenario, Sine, Wall
-from cqdd_design.actuator.simulate import simulate
+from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Sine, Wall
+from cqdd_design.actuator.simulate import run_compiled, simulate
 from cqdd_design.design import load_design
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 DESIGN = REPOSITORY / "designs" / "cqdd-10.toml"
 HEADING = "## The actuator in time"
 BEGIN, END = "<!-- actuator: written by actuator_steps.py -->", "<!-- end of actuator -->"
+PACKAGES = ("numpy", "scipy", "numba", "mujoco")
 STEP, STEPS, GOAL = 2e-5, 500_000, 5e6
+
+VOLTS = 12.0
+"""At the motor with its output free: what the exported MJCF is, stepped by both."""
+THREADS = (1, 2, 4)
 
 SCENES = {
     "locked": Scenario(Command("torque", Sine(20.0, 2.0)), Load.locked(2e4, 1.0)),
@@ -56,8 +61,6 @@ def kernel_rate(
     sets: list[ActuatorParameters], scene: Scenario, steps: int, threads: int, runs: int = 5
 ) -> float:
     """Actuator steps a second of the kernel alone, best of some runs."""
-    import numba
-
     rows = np.array([pack(one, scene, STEP) for one in sets])
     points = max(table_points(one.gear) for one in sets)
     tables = np.array([gear_table(one.gear, points) for one in sets])
@@ -67,14 +70,14 @@ def kernel_rate(
     none = np.zeros((1, 1))
     traces = np.zeros((len(sets), len(TRACES), steps // 50))
     ledgers = np.zeros((len(sets), len(LEDGER)))
-    former = numba.get_num_threads()
-    numba.set_num_threads(threads)
     best = math.inf
     for _ in range(runs):
         began = time.perf_counter()
-        run_sets(rows, tables, reference, rate, none, none, none, STEP, steps, 50, traces, ledgers)
+        run_compiled(
+            (rows, tables, reference, rate, none, none, none, STEP, steps, 50, traces, ledgers),
+            threads,
+        )
         best = min(best, time.perf_counter() - began)
-    numba.set_num_threads(former)
     return len(sets) * steps / best
 
 
@@ -148,6 +151,83 @@ def scipy_times(one: ActuatorParameters, seconds: float) -> dict[str, float]:
     return found
 
 
+def mujoco_rate(one: ActuatorParameters, step: float | None = None, runs: int = 5) -> float:
+    """Steps a second of MuJoCo on the exported model, output free; its own step by default."""
+    import mujoco
+
+    from cqdd_design.exporting.mjcf import model_text
+
+    model = mujoco.MjModel.from_xml_string(model_text(one, "actuator"))
+    if step is not None:
+        model.opt.timestep = step
+    data = mujoco.MjData(model)
+    data.ctrl[0] = VOLTS
+    steps, best = 20_000, math.inf
+    for _ in range(runs):
+        began = time.perf_counter()
+        mujoco.mj_step(model, data, nstep=steps)
+        best = min(best, time.perf_counter() - began)
+    return steps / best
+
+
+def beside_mujoco(one: ActuatorParameters) -> list[tuple[str, str, str]]:
+    """Rows of the same actuator, free at a constant voltage, in MuJoCo and here."""
+    import mujoco
+
+    from cqdd_design.exporting.mjcf_classes import time_step
+
+    free = Scenario(Command("voltage", Constant(VOLTS)), Load.free())
+    kernel_rate([one], free, 1000, 1, 1)
+    ours, theirs = kernel_rate([one], free, STEPS, 1), mujoco_rate(one, STEP)
+    own = time_step(one)
+    coarse = mujoco_rate(one, own) * own
+    return [
+        (
+            f"MuJoCo {mujoco.__version__}, `mj_step` of the exported MJCF, one thread, free at "
+            f"{VOLTS:g} V, the same step",
+            f"{theirs:,.0f} against {ours:,.0f}: {ours / theirs:.0f} times slower",
+            "",
+        ),
+        (
+            f"the same, MuJoCo at the file's own step of {1e6 * own:g} \u00b5s, in simulated "
+            "seconds a second",
+            f"{coarse:,.1f} against {ours * STEP:,.0f}: {ours * STEP / coarse:.1f} times slower",
+            "",
+        ),
+    ]
+
+
+def beside_scipy(one: ActuatorParameters, seconds: float = 0.25) -> list[tuple[str, str, str]]:
+    """Rows of the locked actuator integrated by scipy and here."""
+    ours = seconds / STEP / kernel_rate([one], SCENES["locked"], STEPS, 1)
+    return [
+        (
+            f"scipy.integrate.solve_ivp, {method}, rtol 1e-6, {seconds:g} s of the locked "
+            "actuator, dry friction smoothed",
+            f"{theirs:.2f} s against {1e3 * ours:.2f} ms: {theirs / ours:,.0f} times slower",
+            "",
+        )
+        for method, theirs in scipy_times(one, seconds).items()
+    ]
+
+
+def over_sets(one: ActuatorParameters) -> list[tuple[str, str, str]]:
+    """Rows of many parameter sets on several threads; all on one core is measured beside them."""
+    sets = [replace(one, gear=replace(one.gear, backlash=1e-4 * (1 + i % 9))) for i in range(64)]
+    rows = []
+    for number in (4, 16, 64):
+        rates = {}
+        for threads in THREADS:
+            if threads <= (os.cpu_count() or 1):
+                rates[threads] = kernel_rate(sets[:number], SCENES["pendulum"], STEPS // 5, threads)
+        found = ", ".join(
+            f"{threads}: {rate / 1e6:.1f} million ({rate / rates[1]:.2f})"
+            for threads, rate in rates.items()
+        )
+        rows.append((f"pendulum, {number} parameter sets, by threads", found, "linear to 4 cores"))
+    return rows
+
+
 def measure() -> list[tuple[str, str, str]]:
     """Rows of (what, measured, goal)."""
     one = actuator_parameters(load_design(DESIGN), seed=1)
@@ -157,35 +237,15 @@ def measure() -> list[tuple[str, str, str]]:
         rate = kernel_rate([one], scene, STEPS, 1)
         goal = f"at least {GOAL:,.0f}" if "wall" not in name else ""
         rows.append((f"steps a second, one core, {name}", f"{rate:,.0f}", goal))
-    cores = min(os.cpu_count() or 1, 4)
-    sets = [replace(one, gear=replace(one.gear, backlash=1e-4 * (1 + i % 9))) for i in range(64)]
-    alone = kernel_rate(sets[:1], SCENES["pendulum"], STEPS // 10, 1)
-    for number in (4, 16, 64):
-        some = kernel_rate(sets[:number], SCENES["pendulum"], STEPS // 10, cores)
-        rows.append(
-            (
-                f"the same, pendulum, {number} parameter sets on {cores} cores",
-                f"{some:,.0f}: {some / alone:.2f} times one core",
-                "linear",
-            )
-        )
     slow = plain_rate(one, SCENES["pendulum"])
     fast = kernel_rate([one], SCENES["pendulum"], STEPS, 1)
-    rows.append(
-        ("the plain twin in numpy, pendulum", f"{slow:,.0f}: {fast / slow:,.0f} times slower", "")
-    )
-    seconds = 0.25
-    ours = seconds / STEP / kernel_rate([one], SCENES["locked"], STEPS, 1)
-    for method, theirs in scipy_times(one, seconds).items():
-        rows.append(
-            (
-                f"scipy.integrate.solve_ivp, {method}, rtol 1e-6, {seconds:g} s of the locked "
-                "actuator, dry friction smoothed",
-                f"{theirs:.2f} s against {1e3 * ours:.2f} ms: {theirs / ours:,.0f} times slower",
-                "",
-            )
-        )
-    return rows
+    return [
+        *rows,
+        *over_sets(one),
+        ("the plain twin in numpy, pendulum", f"{slow:,.0f}: {fast / slow:,.0f} times slower", ""),
+        *beside_mujoco(one),
+        *beside_scipy(one),
+    ]
 
 
 def main() -> None:
@@ -194,7 +254,7 @@ def main() -> None:
     parser.add_argument("--write", action="store_true")
     asked = parser.parse_args()
     rows = measure()
-    versions = ", ".join(f"{name} {metadata.version(name)}" for name in ("numpy", "scipy", "numba"))
+    versions = ", ".join(f"{name} {metadata.version(name)}" for name in PACKAGES)
     lines = [
         "Written by `python benchmarks/actuator_steps.py --write`, in one run, after compilation",
         f"(warm); steps of {1e6 * STEP:g} \u00b5s, one drawn gearbox of `designs/cqdd-10.toml`.",

@@ -161,6 +161,25 @@ THERMAL_RESISTANCE = Dimension(
     ((("power", -1), ("temperature", 1)),),
     (("K/W", 1.0),),
 )
+TIME = Dimension(
+    "time", "s", 1.0, ((("time", 1),),), (("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("min", 60.0))
+)
+MASS = Dimension("mass", "kg", 1.0, ((("mass", 1),),), (("kg", 1.0), ("g", 1e-3)))
+INERTIA = Dimension(
+    "moment of inertia",
+    "kg*m^2",
+    1.0,
+    ((("length", 2), ("mass", 1)),),
+    (("kg*m^2", 1.0), ("g*cm^2", 1e-7), ("kg*mm^2", 1e-6)),
+)
+POWER = Dimension("power", "W", 1.0, ((("power", 1),),), (("W", 1.0), ("kW", 1e3)))
+TORQUE_DENSITY = Dimension(
+    "torque density",
+    "N*m/kg",
+    1.0,
+    ((("force", 1), ("length", 1), ("mass", -1)),),
+    (("N*m/kg", 1.0),),
+)
 
 
 @functools.lru_cache(maxsize=1)

@@ -111,3 +111,6 @@ LEDGER: tuple[str, ...] = (
 
 MODES: tuple[str, ...] = ("open", "voltage", "current", "torque", "impedance", "position")
 """Kinds of command."""
+
+FRICTIONS: tuple[str, ...] = ("clip", "lugre")
+"""Models of dry friction."""

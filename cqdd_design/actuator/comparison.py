@@ -122,6 +122,21 @@ def catalogue_actuator(name: str) -> ComparedActuator:
     return ComparedActuator(row.name, kind, row.source, row.gear_ratio, row.peak_torque, row.mass)
 
 
+def present_actuator(
+    name: str, ratio: float, peak_torque: float, mass: float, efficiency: float | None
+) -> ComparedActuator:
+    """The column of a design, with what the virtual test bench measured of it."""
+    return ComparedActuator(
+        name=f"{name} (this design)",
+        gearing="cycloid",
+        source="virtual test bench: peak torque at the driver's limit, mass of the solids",
+        ratio=abs(ratio),
+        peak_torque=peak_torque,
+        mass=mass,
+        efficiency=efficiency,
+    )
+
+
 def compare_actuators(
     own: ComparedActuator | None = None, more: Sequence[str] = ()
 ) -> tuple[ComparedActuator, ...]:

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from cqdd_design.actuator.columns import MODES, PARAMETERS
+from cqdd_design.actuator.columns import FRICTIONS, MODES, PARAMETERS
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray, GearParameters
 from cqdd_design.actuator.scenario import Scenario
 from cqdd_design.actuator.thermal import continuous_current, system, transition
@@ -55,7 +55,19 @@ def gear_table(gear: GearParameters, points: int) -> FloatArray:
 
 
 def pack(parameters: ActuatorParameters, scenario: Scenario, step: float) -> FloatArray:
-    """One row in the order of `columns.PARAMETERS`."""
+    """One row in the order of `columns.PARAMETERS`.
+
+    Raises
+    ------
+    UsageError
+        For a command or friction model that there is not, and for numbers that are not finite.
+    """
+    for what, name, known in (
+        ("command.mode", scenario.command.mode, MODES),
+        ("friction", scenario.friction, FRICTIONS),
+    ):
+        if name not in known:
+            raise UsageError(f"scenario.{what} {name!r} is none of {', '.join(known)}.")
     motor, drive, thermal = parameters.motor, parameters.drive, parameters.thermal
     friction, gear = parameters.friction, parameters.gear
     command, load, start = scenario.command, scenario.load, scenario.start
@@ -135,7 +147,7 @@ def pack(parameters: ActuatorParameters, scenario: Scenario, step: float) -> Flo
         "cooling": thermal.ambient / thermal.housing_to_ambient,
         "delay_steps": float(round(drive.delay / step)),
         "mode": float(MODES.index(command.mode)),
-        "lugre": float(scenario.friction == "lugre"),
+        "lugre": float(FRICTIONS.index(scenario.friction)),
         "driven": float(load.speed is not None),
         "motor_angle": motor_angle,
         "motor_speed": gear.ratio * first_speed if start.motor_speed is None else start.motor_speed,
@@ -147,7 +159,11 @@ def pack(parameters: ActuatorParameters, scenario: Scenario, step: float) -> Flo
     }
     row = np.array([numbers[name] for name in PARAMETERS], dtype=float)
     if not np.all(np.isfinite(row)):
-        wrong = [name for name, value in zip(PARAMETERS, row, strict=True) if value != value]
+        wrong = [
+            f"{name} {value:g}"
+            for name, value in zip(PARAMETERS, row, strict=True)
+            if not math.isfinite(value)
+        ]
         raise UsageError(f"a simulation needs finite numbers; look at {', '.join(wrong)}.")
     return row
 

@@ -23,6 +23,9 @@ from cqdd_design.errors import UsageError
 
 Engine = Literal["compiled", "plain"]
 
+_SHARES = 16
+"""Ranges of sets that each thread fetches one after the other."""
+
 _LOSSES = ("copper", "iron", "motor_friction", "output_friction", "gear_damping", "load_damping")
 
 
@@ -173,9 +176,13 @@ def simulate(
     Raises
     ------
     UsageError
-        For a step too large for the stiffness, naming one that works; a duration, step or number
-        of scenarios that makes no sense.
+        For a step too large for the stiffness, naming one that works; a duration, step, number of
+        threads or number of scenarios that makes no sense; signals that are not finite.
     """
+    if engine not in ("compiled", "plain"):
+        raise UsageError(f"engine {engine!r} is neither compiled nor plain.")
+    if threads is not None and threads < 1:
+        raise UsageError(f"threads {threads} must be 1 or more; leave it out to use all.")
     sets, scenes = _paired(parameters, scenario)
     steps = _steps(duration, step, every)
     _refuse_large(sets, scenes, step)
@@ -203,7 +210,7 @@ def simulate(
 
         run_sets(*work)
     else:
-        _compiled(work, threads)
+        run_compiled(work, threads)
     if not np.all(np.isfinite(ledgers)):
         raise UsageError(
             f"the simulation left the finite numbers at a step of {step:g} s; look for forces far "
@@ -223,17 +230,31 @@ def simulate(
     )
 
 
-def _compiled(work: tuple[Any, ...], threads: int | None) -> None:
+def run_compiled(work: tuple[Any, ...], threads: int | None = None) -> None:
+    """Call the kernel for all sets, on threads that fetch a few sets whenever they are free.
+
+    A core that is busy elsewhere, or has got the slow sets, so takes fewer. `work` holds the
+    kernel's arguments but for the range of sets.
+    """
+    from concurrent.futures import ThreadPoolExecutor
+
     import numba
 
-    from cqdd_design.actuator.kernel import run_sets
+    from cqdd_design.actuator import kernel
 
-    former = numba.get_num_threads()
-    numba.set_num_threads(min(threads or former, former))
-    try:
-        run_sets(*work)
-    finally:
-        numba.set_num_threads(former)
+    run_sets: Any = kernel.run_sets
+    count = len(work[0])
+    used = min(threads or numba.get_num_threads(), count)
+    if used <= 1:
+        run_sets(*work, 0, count)
+        return
+    some = max(1, count // (_SHARES * used))
+
+    def take(first: int) -> None:
+        run_sets(*work, first, min(first + some, count))
+
+    with ThreadPoolExecutor(used) as pool:
+        list(pool.map(take, range(0, count, some)))
 
 
 def _paired(
@@ -259,7 +280,7 @@ def _paired(
 def _steps(duration: float, step: float, every: int) -> int:
     for name, value in (("duration", duration), ("step", step)):
         if not (math.isfinite(value) and value > 0.0):
-            raise UsageError(f"{name} {value:g} s must be above 0.")
+            raise UsageError(f"{name} {value:g} s must be finite and above 0.")
     if every < 1:
         raise UsageError(f"every {every} must be 1 or more steps a record.")
     steps = round(duration / step)
@@ -289,4 +310,11 @@ def _sampled(signals: Sequence[Signal], times: FloatArray, *, rate: bool = False
     still = all(isinstance(signal, Constant) for signal in used)
     at = times[:1] if still else times
     rows = [signal.rates(at) if rate else signal.values(at) for signal in used]
-    return np.ascontiguousarray(np.array(rows, dtype=float))
+    found = np.ascontiguousarray(np.array(rows, dtype=float))
+    if not np.all(np.isfinite(found)):
+        first = float(at[np.flatnonzero(~np.isfinite(found).all(axis=0))[0]])
+        raise UsageError(
+            f"a signal is not finite at {first:g} s; commands, torques and speeds need finite "
+            "numbers at all times."
+        )
+    return found

@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, Force, parse_positive
-from cqdd_design.cli.session import Output
+from cqdd_design.cli.options import Calibrated, DesignFile, Force, parse_names, parse_positive
+from cqdd_design.cli.session import Output, read_factors
 from cqdd_design.cli.tables import number, table
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from cqdd_design.actuator.bench import BenchResult
+    from cqdd_design.actuator.comparison import ComparedActuator
 
 
 def bench(
@@ -25,6 +28,17 @@ def bench(
         str | None,
         typer.Option(metavar="Q", help='Supply of the dynamic rows; default "24 V".'),
     ] = None,
+    seed: Annotated[
+        int | None, typer.Option(min=0, help="Of one drawn gearbox; default perfect parts.")
+    ] = None,
+    calibration: Calibrated = None,
+    beside: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAMES",
+            help="Geared actuators of the catalogue to compare with, by semicolons.",
+        ),
+    ] = None,
     folder: Annotated[
         Path | None, typer.Option("--out", metavar="DIR", help="Write every trace there, as npz.")
     ] = None,
@@ -32,43 +46,83 @@ def bench(
 ) -> None:
     """Virtual test bench: the data sheet of the actuator, measured on its simulation."""
     from cqdd_design import pipeline
+    from cqdd_design.actuator.comparison import catalogue_actuator
     from cqdd_design.design import load_design
     from cqdd_design.units import VOLTAGE
 
-    names = tuple(name.strip() for name in only.split(",") if name.strip()) if only else ()
+    names = parse_names(only)
     asked = parse_positive("--voltage", voltage, VOLTAGE)
+    others = tuple(name.strip() for name in (beside or "").split(";") if name.strip())
+    for name in others:
+        catalogue_actuator(name)
     loaded = load_design(design)
-    out.note_compilation()
+    factors = read_factors(out, calibration, loaded)
+    out.note_compilation(simulation=True)
     result = pipeline.bench(
-        loaded, only=names, voltage=asked, progress=out.stages(len(names) or 16)
+        loaded,
+        only=names,
+        voltage=asked,
+        seed=seed,
+        calibration=factors,
+        progress=out.stages(len(names) or pipeline.BENCH_STAGES),
     )
+    actuators = pipeline.compared_actuators(loaded, result, others)
     files = () if folder is None else pipeline.write_traces(result, folder, force=force)
     out.say(*_lines(result))
+    if others or not names:
+        out.say("", *_comparison(actuators))
     out.wrote(files)
     for sentence in result.warnings:
         out.warn(sentence)
-    out.document(result.to_dict(), design=loaded, files=files)
+    document = result.to_dict() | {"comparison": [one.to_dict() for one in actuators]}
+    out.document(document, design=loaded, files=files)
 
 
 def _lines(result: BenchResult) -> list[str]:
+    head = ["measurement", "value", "spread", "unit"]
+    head += ["paper", "off %", "agreement is"] if result.beside_paper else []
     rows = []
     for metric in result.metrics:
+        row = [
+            metric.name,
+            number(metric.value),
+            "" if metric.spread is None else number(metric.spread),
+            metric.unit,
+        ]
         paper = result.paper(metric.name)
-        rows.append(
-            [
-                metric.name,
-                number(metric.value),
-                "" if metric.spread is None else number(metric.spread),
-                metric.unit,
-                "" if paper is None else number(paper),
-                metric.relation,
-            ]
-        )
-    head = ["measurement", "value", "spread", "unit", "paper", "agreement is"]
+        if paper is not None:
+            off = 100.0 * (metric.value / paper - 1.0)
+            row += [number(paper), f"{off:+.1f}", metric.relation]
+        elif result.beside_paper:
+            row += ["", "", ""]
+        rows.append(row)
     lines = [
-        table(rows, head=head, right=(1, 2, 4)),
+        table(rows, head=head, right=(1, 2, 4, 5) if result.beside_paper else (1, 2)),
         "",
         f"{len(rows)} measurements in {number(result.seconds)} s; dynamic rows at "
-        f"{result.voltage:g} V. Protocols are in the JSON.",
+        f"{result.voltage:g} V. Protocols stand in --json and in the report.",
     ]
+    if result.beside_paper:
+        lines.append(
+            "given: an input or an identity; predicted: neither fitted nor given. "
+            "`cqdd-design calibrate` fits friction and cooling."
+        )
     return lines
+
+
+def _comparison(actuators: Sequence[ComparedActuator]) -> list[str]:
+    rows = [
+        [
+            one.name,
+            one.gearing,
+            "" if one.ratio is None else number(one.ratio),
+            number(one.peak_torque),
+            number(one.mass),
+            f"{one.torque_density:.2f}",
+            "" if one.efficiency is None else f"{100.0 * one.efficiency:.1f}",
+        ]
+        for one in actuators
+    ]
+    head = ["actuator", "gearing", "ratio", "peak N*m", "kg", "N*m/kg", "efficiency %"]
+    remarks = [one.remark for one in actuators if one.remark]
+    return [table(rows, head=head, right=(2, 3, 4, 5, 6)), *remarks]

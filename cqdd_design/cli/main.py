@@ -14,6 +14,7 @@ from cqdd_design import __version__
 from cqdd_design.cli import (
     analyse,
     bench,
+    calibrate,
     catalog,
     check,
     compare,
@@ -24,6 +25,7 @@ from cqdd_design.cli import (
     interruption,
     report,
     schema,
+    simulate,
     size,
     tolerance,
 )
@@ -47,6 +49,8 @@ COMMANDS = (
     check.check,
     analyse.analyse,
     bench.bench,
+    calibrate.calibrate,
+    simulate.simulate,
     tolerance.tolerance,
     compare.compare,
     inertia.inertia,

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 
 DesignFile = Annotated[Path, typer.Argument(metavar="DESIGN", help="Design file (TOML).")]
 Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
+Calibrated = Annotated[
+    Path | None,
+    typer.Option("--calibration", metavar="FILE", help="Factors that `calibrate` wrote."),
+]
 
 LEAST_RATIO, MOST_RATIO = 4, 119
 
@@ -89,3 +93,8 @@ def parse_whole_list(name: str, text: str, count: int, example: str) -> tuple[in
             f"{name} {text!r} must be {count} whole numbers with commas, such as {example}."
         )
     return tuple(int(part) for part in parts)
+
+
+def parse_names(text: str | None) -> tuple[str, ...]:
+    """Names separated by commas; none for None."""
+    return tuple(name.strip() for name in (text or "").split(",") if name.strip())

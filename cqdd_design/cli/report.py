@@ -26,7 +26,7 @@ def report(
     from cqdd_design.design import load_design
 
     loaded = load_design(design)
-    out.note_compilation()
+    out.note_compilation(simulation=True)
     file, analysis = pipeline.write_report(
         loaded, target, source=design, force=force, progress=out.stages(pipeline.REPORT_STAGES)
     )

@@ -20,6 +20,8 @@ import typer
 from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from cqdd_design.design import Design
     from cqdd_design.files import WrittenFile
     from cqdd_design.results import Check
@@ -136,12 +138,17 @@ class Output:
             self.end_progress()
             print(sentence, file=sys.stderr, flush=True)
 
-    def note_compilation(self) -> None:
+    def note_compilation(self, *, simulation: bool = False) -> None:
         """Tell that the first run after installation compiles, where it does."""
         from cqdd_design.gearbox.compiled import is_compiled
 
         if not is_compiled():
             self.note("compiling the contact solver; this takes half a minute, once")
+        if simulation:
+            from cqdd_design.actuator.compiled import is_compiled as is_simulation_compiled
+
+            if not is_simulation_compiled():
+                self.note("compiling the actuator's simulation; this takes some ten seconds, once")
 
     def stages(self, total: int) -> Callable[[str], None]:
         """A function that tells, on stderr, which of about `total` stages of work begins.
@@ -217,3 +224,15 @@ class Output:
             files=files,
         )
         print_result(text)
+
+
+def read_factors(out: Output, path: Path | None, design: Design) -> Mapping[str, float] | None:
+    """Factors of ``--calibration``, with a warning where they come from another design."""
+    if path is None:
+        return None
+    from cqdd_design.actuator.bench.calibration_file import read_calibration
+
+    factors, warning = read_calibration(path, design.sha256)
+    if warning:
+        out.warn(warning)
+    return factors

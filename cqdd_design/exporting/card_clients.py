@@ -41,7 +41,8 @@ CLIENTS = (
         "MuJoCo",
         "4.0.0",
         "names and effect checked by running the model; see the MJCF export",
-        "friction that grows with load, bandwidth of the current loop, variation of stiffness",
+        "friction that grows with load, bandwidth of the current loop, variation of stiffness but "
+        "for its torque, damping of the transmission",
     ),
     Client(
         "isaac_lab",
@@ -79,7 +80,7 @@ CLIENTS = (
         "genesis",
         "Genesis",
         "1.4.5",
-        "names found in the documentation of RigidEntity, not verified by running",
+        "names read in the package's source, not run",
         f"{_MECHANICS}, breakaway, torque over speed",
     ),
     Client(
@@ -121,7 +122,7 @@ def client_settings(
             },
             "motor and joint": {
                 "motor.gear": 1.0,
-                "motor.ctrlrange": side.peak_torque,
+                "motor.ctrlrange upper, lower its negative": side.peak_torque,
                 "joint.armature": side.motor_inertia,
                 "joint.damping": side.viscous,
                 "joint.frictionloss": side.coulomb,
@@ -175,7 +176,7 @@ def client_settings(
             "RigidEntity": {
                 "set_dofs_kp": drive.position_gain,
                 "set_dofs_kv": drive.velocity_gain,
-                "set_dofs_force_range": side.peak_torque,
+                "set_dofs_force_range upper, lower its negative": side.peak_torque,
                 "set_dofs_armature": side.motor_inertia,
                 "set_dofs_damping": side.viscous,
                 "set_dofs_frictionloss": side.coulomb,

@@ -59,6 +59,7 @@ _POWER = {"n": 1, "1/n": -1, "n^2": 2}
 """How a number goes from motor to joint, and the power of n that does it."""
 
 _FRICTION = "friction.motor_coulomb motor.hysteresis"
+_OUTER = "friction.output_coulomb"
 _DRAG = "friction.motor_viscous motor.iron_loss"
 _ERROR = "gear.error_cosine gear.error_sine"
 _TURNING = "motor.rotor_inertia gear.input_inertia"
@@ -98,6 +99,14 @@ _TABLE = (
         "joint",
         "n",
         "computed: n K min(I, V/R)",
+    ),
+    (
+        "delivered_peak_torque",
+        "peak torque at the joint in motion, friction under load taken off",
+        _NM,
+        "joint",
+        "",
+        "computed: (peak torque - motor's Coulomb)/(1 + friction over torque) - output's Coulomb",
     ),
     (
         "continuous_torque",
@@ -140,14 +149,7 @@ _TABLE = (
         "n",
         "motor.cogging_order",
     ),
-    (
-        "rotor_inertia",
-        "inertia of the motor's rotor",
-        _INERTIA,
-        "motor",
-        "n^2",
-        "motor.rotor_inertia",
-    ),
+    ("rotor_inertia", "inertia of the rotor", _INERTIA, "motor", "n^2", "motor.rotor_inertia"),
     (
         "input_inertia",
         "inertia of crank, cams and discs",
@@ -190,29 +192,15 @@ _TABLE = (
         "n",
         f"{_FRICTION} friction.stribeck_extra",
     ),
-    (
-        "output_coulomb",
-        "Coulomb friction of the output side",
-        _NM,
-        "joint",
-        "n",
-        "friction.output_coulomb",
-    ),
-    (
-        "coulomb",
-        "Coulomb friction of both sides",
-        _NM,
-        "joint",
-        "n",
-        f"{_FRICTION} friction.output_coulomb",
-    ),
+    ("output_coulomb", "Coulomb friction of the output side", _NM, "joint", "n", _OUTER),
+    ("coulomb", "Coulomb friction of both sides", _NM, "joint", "n", f"{_FRICTION} {_OUTER}"),
     (
         "breakaway",
         "breakaway of both sides",
         _NM,
         "joint",
         "n",
-        f"{_FRICTION} friction.output_coulomb friction.stribeck_extra",
+        f"{_FRICTION} {_OUTER} friction.stribeck_extra",
     ),
     ("stribeck_speed", "Stribeck speed", "rad/s", "joint", "1/n", "friction.stribeck_speed"),
     (
@@ -277,7 +265,7 @@ _TABLE = (
     ("damping", "damping of the transmission", _DRAG_UNIT, "joint", "n^2", "gear.damping"),
     ("error_torque", "torque of the next two rows", _NM, "joint", "n", "gear.error_torque"),
     ("kinematic_error", "kinematic error, r.m.s.", "rad", "joint", "1/n", _ERROR),
-    ("ripple", "torque ripple, r.m.s.", _NM, "joint", "n", "computed: -T d(eps)/dq"),
+    ("ripple", "torque ripple, r.m.s.", _NM, "joint", "n", "computed: steady current, no friction"),
     (
         "position_gain",
         "stiffness of the impedance control",
@@ -363,7 +351,7 @@ def quantities(parameters: ActuatorParameters, side: JointSide) -> tuple[Quantit
 
     An ideal encoder has none; what the catalogue does not give stays without value.
     """
-    values: dict[str, float] = {**dataclasses.asdict(side), **_worked_out(parameters)}
+    values: dict[str, float] = {**dataclasses.asdict(side), **_worked_out(parameters, side)}
     rows = []
     for key, title, unit, place, reflection, of in _TABLE:
         if key == "encoder_step" and parameters.drive.encoder_bits == 0:
@@ -385,10 +373,12 @@ def quantities(parameters: ActuatorParameters, side: JointSide) -> tuple[Quantit
     return tuple(rows)
 
 
-def _worked_out(parameters: ActuatorParameters) -> dict[str, float]:
+def _worked_out(parameters: ActuatorParameters, side: JointSide) -> dict[str, float]:
     """Values of rows that are no attribute of anything."""
     gear = parameters.gear
     ripple = sum(one.amplitude**2 for one in ripple_harmonics(parameters))
+    carried = side.peak_torque - side.reduction * motor_coulomb(parameters)
+    carried /= 1.0 + parameters.friction.load_forward
     return {
         "motor_coulomb": motor_coulomb(parameters),
         "motor_breakaway": motor_breakaway(parameters),
@@ -398,5 +388,6 @@ def _worked_out(parameters: ActuatorParameters) -> dict[str, float]:
             0.5 * float(np.sum(gear.error_cosine**2 + gear.error_sine**2))
         ),
         "ripple": math.sqrt(0.5 * ripple),
+        "delivered_peak_torque": max(carried - parameters.friction.output_coulomb, 0.0),
         "encoder_step": 2.0 * math.pi / 2.0**parameters.drive.encoder_bits,
     }

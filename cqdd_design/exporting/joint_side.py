@@ -19,7 +19,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cqdd_design.actuator.motor import no_load_speed, torque_constant_at
+from cqdd_design.actuator.parameters import FloatArray
 from cqdd_design.actuator.thermal import continuous_current
+from cqdd_design.errors import DesignError
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters, ThermalParameters
@@ -27,6 +29,11 @@ if TYPE_CHECKING:
 DEAD_MASS = 1e-3
 """kg for the output body of a model, as clients refuse zero; its mass is in the housing's. Without
 effect, since its centre lies on the axis."""
+_NEGLIGIBLE = 1e-4
+"""Harmonics of ripple below this share of the largest are not told."""
+_POINTS_PER_PERIOD, _NEWTON_STEPS = 16, 30
+_LEAST_SLOPE = 0.05
+"""Of carried torque over the motor's: below it the crank as good as turns alone."""
 
 
 @dataclass(frozen=True)
@@ -177,10 +184,18 @@ class RippleHarmonic:
 def ripple_harmonics(
     parameters: ActuatorParameters, torque: float | None = None
 ) -> tuple[RippleHarmonic, ...]:
-    """Harmonics of the ripple torque that the kinematic error makes, by virtual work.
+    """Harmonics of the ripple torque at a steady current, slow motion, no friction.
 
-    The output stands at q + eps(q) when the crank stands at ratio times q. A torque T carried to
-    the output does work T d(eps) besides T dq, so the joint feels Q(q) = -T d(eps)/dq on top.
+    With the crank at ratio times q the gearbox stores ``s(q) E(c)``, ``c = q + eps(q) - output``:
+    s is the stiffness over its mean, E the spring's energy at the closing c. It carries
+    ``G = s dE/dc`` to the output, and a motor torque worth T at the joint holds it where
+
+        T = G (1 + deps/dq) + E ds/dq,    E = |G| d/((p + 1) s),    d = (T0/k) (|G|/(s T0))^(1/p)
+
+    with the windup d of a spring of stiffness k at the torque T0 and of exponent p. The ripple
+    ``Q(q) = G - T`` is to first order ``-dW/dq`` at constant output torque, with
+    ``W = T eps - p/(p + 1) |T| d``: the first part changes sign with the torque, the second does
+    not. Harmonics are those of the whole of it, sums and differences of orders included.
 
     Parameters
     ----------
@@ -191,21 +206,68 @@ def ripple_harmonics(
     Returns
     -------
     tuple of RippleHarmonic
-        In rising order, those of no amplitude left out.
+        In rising order, without those below a ten-thousandth of the largest.
+
+    Raises
+    ------
+    DesignError
+        When the kinematic error would turn the output back while the crank goes on.
     """
     gear = parameters.gear
     carried = gear.error_torque if torque is None else torque
-    sense = math.copysign(1.0, gear.ratio)
-    found = []
-    for order, cosine, sine in sorted(
-        zip(gear.error_orders, gear.error_cosine, gear.error_sine, strict=True)
-    ):
-        in_sine = carried * int(order) * float(cosine)
-        in_cosine = -sense * carried * int(order) * float(sine)
-        amplitude = math.hypot(in_sine, in_cosine)
-        if amplitude > 0.0:
-            found.append(RippleHarmonic(int(order), amplitude, math.atan2(in_cosine, in_sine)))
-    return tuple(found)
+    if len(gear.error_orders) == 0 or carried == 0.0:
+        return ()
+    ripple = _carried(parameters, carried) - carried
+    spectrum = 2.0 * np.fft.rfft(ripple)[: len(ripple) // 4] / len(ripple)
+    spectrum[0] = 0.0
+    size = np.abs(spectrum)
+    kept = np.flatnonzero(size > max(_NEGLIGIBLE * size.max(), 1e-12 * abs(carried)))
+    # c cos(x) - s sin(x) of c + i s is |c + i s| sin(x + phase).
+    return tuple(
+        RippleHarmonic(int(k), float(size[k]), math.atan2(spectrum[k].real, -spectrum[k].imag))
+        for k in kept
+    )
+
+
+def _carried(parameters: ActuatorParameters, torque: float) -> FloatArray:
+    """Torque carried to the output at even joint angles of a turn, N m, by Newton's method."""
+    gear = parameters.gear
+    most = int(np.max(gear.error_orders))
+    count = 1 << math.ceil(math.log2(max(_POINTS_PER_PERIOD * most, 64)))
+    _, error_slope = _series(parameters, gear.error_cosine, gear.error_sine, count)
+    share, share_slope = _series(parameters, gear.stiffness_cosine, gear.stiffness_sine, count)
+    share = 1.0 + share
+    power, reference = gear.stiffening, gear.error_torque
+    found = np.full(count, torque)
+    for _ in range(_NEWTON_STEPS):
+        size = np.abs(found)
+        windup = reference / gear.stiffness * (size / (share * reference)) ** (1.0 / power)
+        bend = windup * share_slope / ((power + 1.0) * share)
+        tangent = 1.0 + error_slope + (1.0 + 1.0 / power) * np.sign(found) * bend
+        missing = torque - found * (1.0 + error_slope) - size * bend
+        if np.min(tangent) <= _LEAST_SLOPE or not np.all(np.isfinite(missing)):
+            raise DesignError(
+                f"gear.error_cosine and its kin turn the output back while the crank goes on at "
+                f"{abs(torque):g} N m, so it has no torque ripple to export; lower them, or the "
+                "torque."
+            )
+        found = found + missing / tangent
+        if np.max(np.abs(missing)) <= 1e-13 * abs(torque):
+            break
+    return found
+
+
+def _series(
+    parameters: ActuatorParameters, cosine: FloatArray, sine: FloatArray, count: int
+) -> tuple[FloatArray, FloatArray]:
+    """A series and its slope over the joint's angle, at `count` even places of a turn."""
+    gear = parameters.gear
+    orders = np.asarray(gear.error_orders, dtype=int)
+    spectrum = np.zeros(count // 2 + 1, dtype=complex)
+    # The crank's angle is the ratio times the joint's, whose sign turns the sines around.
+    np.add.at(spectrum, orders, 0.5 * (cosine - 1j * math.copysign(1.0, gear.ratio) * sine))
+    slope = 1j * np.arange(len(spectrum)) * spectrum
+    return np.fft.irfft(spectrum, count) * count, np.fft.irfft(slope, count) * count
 
 
 def value_of(parameters: ActuatorParameters, name: str) -> float:

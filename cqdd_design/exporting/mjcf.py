@@ -148,7 +148,7 @@ def model_text(
     )
     head = [f"{name}: test model of one actuator for MuJoCo 4.", ""]
     return (
-        f"{comment([*head, *remarks(model)])}\n"
+        f"{comment([*head, *remarks(model, alone=True)])}\n"
         + element("mujoco", {"model": name}, *sections)
         + "\n"
     )
@@ -211,7 +211,7 @@ def fragment_text(
         "steps, and so does a motor that its peak torque brings to full speed within two.",
         "",
     ]
-    text = comment([*head, *how, *remarks(model)])
+    text = comment([*head, *how, *remarks(model, alone=False)])
     classes = element("default", {}, *default_classes(model, alone=False))
     return f"{text}\n{element('mujoco', {}, classes)}\n"
 

@@ -275,23 +275,35 @@ def _play_ends(parameters: ActuatorParameters, step: float) -> dict[str, object]
     depth r with f/r = 1/(t^2 (1 - d) a), a the inverse inertia of output against motor (MuJoCo,
     Computation, Solver parameters). Stable steps want t of two steps or more; d follows.
     """
-    side = joint_side(parameters)
-    square = parameters.gear.stiffness * (1.0 / side.output_inertia + 1.0 / side.motor_inertia)
-    constant = max(2.0 * step, 3.0 / math.sqrt(square))
-    impedance = 1.0 - 1.0 / (square * constant**2)
+    constant = _end_time(parameters, step)
+    impedance = 1.0 - 1.0 / (_swing_square(parameters) * constant**2)
     return {
         "solreflimit": numbers(constant, 1.0),
         "solimplimit": numbers(impedance, impedance, 1e-3),
     }
 
 
-def remarks(model: MjcfActuator) -> list[str]:
+def _swing_square(parameters: ActuatorParameters) -> float:
+    """Of the output's swing against the motor on the transmission, squared, rad^2/s^2."""
+    side = joint_side(parameters)
+    return parameters.gear.stiffness * (1.0 / side.output_inertia + 1.0 / side.motor_inertia)
+
+
+def _end_time(parameters: ActuatorParameters, step: float) -> float:
+    """Time constant of the limits that end the play, s."""
+    return max(2.0 * step, 3.0 / math.sqrt(_swing_square(parameters)))
+
+
+def play_damping(parameters: ActuatorParameters, *, alone: bool) -> float:
+    """Damping of the play's ends, N m s/rad: f = -(k r + 2 t k r') with a limit's time t."""
+    step = time_step(parameters) if alone else HOST_STEP
+    return 2.0 * _end_time(parameters, step) * parameters.gear.stiffness
+
+
+def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
     """What the head of both files says about sense, origin and what is missing."""
     parameters, side = model.parameters, model.side
     gear, friction = parameters.gear, parameters.friction
-    torque = model.options.ripple_torque
-    carried = gear.error_torque if torque is None else torque
-    lost = math.sqrt(0.5 * sum(one.amplitude**2 for one in model.left_out))
     sense = "against" if side.crank_sense < 0 else "with"
     lines = [
         f"Written by {provenance(model.design_sha256)}. SI units, angles in rad.",
@@ -303,22 +315,22 @@ def remarks(model: MjcfActuator) -> list[str]:
         "",
         "Constants: K in N m/A = V s/rad of the equivalent DC machine, resistance and inductance "
         f"line to line. At full voltage: stall torque {number(side.stall_torque)} N m without and "
-        f"{number(side.peak_torque)} N m with the current limit, no-load speed "
-        f"{number(side.no_load_speed)} rad/s; reflected inertia {number(side.reflected_inertia)} "
-        "kg m^2, all at the joint.",
+        f"{number(side.peak_torque)} N m with the current limit, both before friction, no-load "
+        f"speed {number(side.no_load_speed)} rad/s; reflected inertia "
+        f"{number(side.reflected_inertia)} kg m^2, all at the joint. On a locked output the "
+        f"gearbox's friction under load holds back up to {number(_held_back(model))} N m of the "
+        "torque with the limit, which this file does not.",
         "",
-        f"Ripple: {len(model.harmonics)} harmonics of -T d(eps)/dq for T = {number(carried)} N m "
-        "carried to the output; it scales with T and changes sign with it, which a passive motor "
-        f"cannot follow. Left out as small: {len(model.left_out)} harmonics, {number(lost)} N m "
-        "r.m.s. together.",
+        _ripple_remark(model),
         "",
         "Not in this file, because MuJoCo has no place for it:",
         f"- friction that grows with load ({number(friction.load_forward)} of the torque when the "
         f"motor drives, {number(friction.load_backward)} when the output drives), so neither "
         "efficiency; a step callback that writes dof_frictionloss can add it;",
         "- the kinematic error in the joint's position: only its torque is here;",
-        f"- variation of stiffness over angle, and its exponent {number(gear.stiffening)}; damping "
-        "of the transmission; without backlash the joint is rigid;",
+        f"- variation of stiffness over angle beyond its torque, and its exponent "
+        f"{number(gear.stiffening)}; without backlash the joint is rigid;",
+        _damping_remark(model, alone),
         "- bandwidth and delay of the current loop (delay: attributes delay and nsample of an "
         "actuator), quantisation of the encoder;",
         "- the winding as a node apart from the housing: one node has the same steady temperature "
@@ -329,3 +341,36 @@ def remarks(model: MjcfActuator) -> list[str]:
     if model.harmonics and parameters.gear.backlash > 0.0:
         lines.append("- ripple stays while the play is open, when no torque is carried.")
     return lines
+
+
+def _held_back(model: MjcfActuator) -> float:
+    """Friction on a locked output at the current limit that grows with load, N m at the joint."""
+    friction = model.parameters.friction
+    load = friction.load_forward * (1.0 + friction.stribeck_extra)
+    return model.side.peak_torque * load / (1.0 + load)
+
+
+def _ripple_remark(model: MjcfActuator) -> str:
+    gear, torque = model.parameters.gear, model.options.ripple_torque
+    carried = gear.error_torque if torque is None else torque
+    lost = math.sqrt(0.5 * sum(one.amplitude**2 for one in model.left_out))
+    return (
+        f"Ripple: {len(model.harmonics)} harmonics of the torque that kinematic error and varying "
+        f"stiffness add at a steady {number(carried)} N m. The part of the error scales with the "
+        "torque and changes sign with it, that of the stiffness keeps its sign and grows as power "
+        f"{number(1.0 + 1.0 / gear.stiffening)} of the torque; a passive motor can follow neither. "
+        "The gearbox's friction under load, which is not here, divides it by "
+        f"{number(1.0 + model.parameters.friction.load_forward)} where the motor drives. "
+        f"Left out as small: {len(model.left_out)} harmonics, {number(lost)} N m r.m.s. together."
+    )
+
+
+def _damping_remark(model: MjcfActuator, alone: bool) -> str:
+    gear = model.parameters.gear
+    if gear.backlash == 0.0 or (alone and not model.play):
+        return f"- damping of the transmission, {number(gear.damping)} N m s/rad;"
+    damped = play_damping(model.parameters, alone=alone)
+    return (
+        f"- damping of the transmission, {number(gear.damping)} N m s/rad: the ends of the play "
+        f"are damped critically for stable steps, which is {number(damped)} N m s/rad;"
+    )

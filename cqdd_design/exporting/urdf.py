@@ -152,6 +152,7 @@ def _remarks(
         f"{number(side.output_inertia)} kg m^2. Rotor and crank, "
         f"{number(parameters.motor_side_inertia)} kg m^2 at the motor or "
         f"{number(side.motor_inertia)} kg m^2 at the joint, are in no link: Drake takes them from "
-        "the transmission, elsewhere set the joint's armature to the latter. The housing's inertia "
+        "the transmission (it warns that it leaves mechanicalReduction and friction aside), "
+        "elsewhere set the joint's armature to the latter. The housing's inertia "
         "is that of a body of 32 mm radius of gyration, without effect on the joint.",
     ]

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
+
+
+def in_cache(kernel: Any) -> bool:
+    """Whether a former run has left a kernel compiled behind.
+
+    Told from the folder of numba's cache for it, beside its module or in the user's cache folder;
+    where numba keeps it elsewhere the answer is that it is compiled, and nothing is announced.
+    """
+    cache = getattr(kernel, "_cache", None)
+    folder = getattr(cache, "cache_path", None)
+    name = f"{kernel.__module__.rpartition('.')[2]}.{kernel.__name__}"
+    return folder is None or any(Path(folder).glob(f"{name}-*.nbi"))
 
 
 def is_compiled() -> bool:
-    """Whether a former run has left compiled kernels behind, so that none need be compiled now.
-
-    Told from the folder of numba's cache for the kernels, beside them or in the user's cache
-    folder; where numba keeps it elsewhere the answer is that they are compiled, and nothing is
-    announced.
-    """
+    """Whether the contact solver need not be compiled now."""
     from cqdd_design.gearbox.contact import kernel
 
-    cache = getattr(kernel.solve_sweep, "_cache", None)
-    folder = getattr(cache, "cache_path", None)
-    return folder is None or any(Path(folder).glob("kernel.solve_sweep-*.nbi"))
+    return in_cache(kernel.solve_sweep)

@@ -178,24 +178,6 @@ def test_ripple_is_the_work_of_the_kinematic_error(ratio: float, torque: float |
     assert spectrum[orders[kept]] == pytest.approx(amplitudes[kept], rel=CLOSE)
 
 
-def test_ripple_of_a_turning_joint() -> None:
-    """Torque measured while the joint runs, resampled over its angle."""
-    p = frictionless(paper_actuator())
-    model, data = load(model_text(p, "paper", options=MjcfOptions(backlash=False)))
-    data.ctrl[0] = 20.0
-    angles, torques = [], []
-    while not angles or angles[-1] < 4.0 * math.pi:
-        mujoco.mj_step1(model, data)
-        mujoco.mj_step2(model, data)
-        angles.append(float(data.qpos[0] - data.qvel[0] * model.opt.timestep))
-        torques.append(float(data.actuator_force[1:].sum()))
-    grid = 2.0 * math.pi * (1.0 + np.arange(256) / 256)
-    spectrum = np.abs(np.fft.rfft(np.interp(grid, angles, torques))) / 128.0
-    amplitudes = 5.0 * p.gear.error_orders * np.hypot(p.gear.error_cosine, p.gear.error_sine)
-    for order, amplitude in zip(p.gear.error_orders[:4], amplitudes[:4], strict=True):
-        assert spectrum[order] == pytest.approx(amplitude, rel=CLOSE)
-
-
 @pytest.mark.parametrize("ratio", [-10.0, 10.0])
 def test_cogging_pulls_into_its_rest_positions(ratio: float) -> None:
     """-A sin(k theta) at the motor, as the actuator's own model has it."""
@@ -302,11 +284,45 @@ def test_fragment_in_a_robot_by_the_lines_of_its_own_comment(tmp_path: Path, ang
     armature = 100.0 * p.motor_side_inertia + p.gear.output_inertia
     added = mass_matrix(model, data)[2, 2] - 0.005
     assert added == pytest.approx(armature, rel=CLOSE)
-    data.ctrl[:] = 8.0
-    for _ in range(4000):
+    for sense in (1.0, -1.0):
+        mujoco.mj_resetData(model, data)
+        data.ctrl[:] = 8.0 * sense
+        for _ in range(4000):
+            mujoco.mj_step(model, data)
+        assert np.all(np.isfinite(data.qpos))
+        assert np.all(sense * data.qpos[[0, 2]] > 1.0)
+
+
+@pytest.mark.parametrize("ratio", [-10.0, 10.0])
+@pytest.mark.parametrize("kind", ["torque", "impedance"])
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_sense_of_the_other_commands_in_a_robot(
+    tmp_path: Path, ratio: float, kind: str, sense: float
+) -> None:
+    """1 N m, or 3 rad, of the motor moves the rigid joints of a robot the same way."""
+    p = paper_actuator(ratio)
+    write_fragment(p, "paper", tmp_path / "paper.xml")
+    rigid = MjcfOptions(backlash=False)
+    lines = [
+        line
+        for joint in ("hip", "knee")
+        for line in actuator_lines(p, "paper", joint, options=rigid)
+    ]
+    robot = HOST.format(
+        angle="radian",
+        hip="".join(joint_lines("paper", "hip", play=False)),
+        knee="".join(joint_lines("paper", "knee", play=False)),
+        tendon="",
+        actuators="".join(lines).replace('class="paper"', f'class="paper-{kind}"'),
+    )
+    (tmp_path / "robot.xml").write_text(robot)
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "robot.xml"))
+    data = mujoco.MjData(model)
+    for actuator in ("hip", "knee"):
+        data.actuator(actuator).ctrl[0] = sense * (1.0 if kind == "torque" else 3.0)
+    for _ in range(400 if kind == "torque" else 4000):
         mujoco.mj_step(model, data)
-    assert np.all(np.isfinite(data.qpos))
-    assert np.all(data.qpos[[0, 2]] > 1.0)
+    assert np.all(sense * data.qpos > 0.1)
 
 
 @settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))

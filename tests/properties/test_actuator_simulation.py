@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -11,7 +13,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.columns import TRACES
+from cqdd_design.actuator.compiled import is_compiled
 from cqdd_design.actuator.packing import kinematic_error, largest_step, stiffness_share
 from cqdd_design.actuator.parameters import (
     ActuatorParameters,
@@ -36,8 +40,11 @@ from cqdd_design.actuator.scenario import (
 )
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.actuator.thermal import continuous_current, response
+from cqdd_design.design import load_design
 from cqdd_design.errors import DesignError, UsageError
+from cqdd_design.gearbox.compiled import in_cache
 
+SAMPLE = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
 LOSSES = ("copper", "iron", "motor_friction", "output_friction", "gear_damping", "load_damping")
 NO_FRICTION = FrictionParameters(0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0)
 COLD = ThermalParameters(0.4, 0.8, 1e12, 1e12)
@@ -139,6 +146,35 @@ def test_energy_is_kept_over_ten_seconds(name: str, friction: str) -> None:
     assert found.ledger.residual_share[0] < 1e-6
     assert not found.warnings
     assert all(getattr(found.ledger, loss)[0] >= 0.0 for loss in LOSSES)
+
+
+@pytest.fixture(scope="module")
+def drawn() -> ActuatorParameters:
+    """The sample design with one gearbox drawn from its tolerances."""
+    return actuator_parameters(load_design(SAMPLE), seed=3)
+
+
+LOADS = {
+    "locked": Scenario(Command("torque", Sine(20.0, 2.0)), Load.locked(2e4, 1.0)),
+    "pendulum": Scenario(Command("impedance", Sine(1.0, 0.8)), Load.pendulum(2.28, 0.5)),
+    "wall": Scenario(
+        Command("impedance", Sine(1.0, 0.8)), Load.pendulum(2.28, 0.5, wall=Wall(0.5, 2000.0))
+    ),
+    "driven": Scenario(Command("open"), Load.driven(Sine(2.0, 0.5))),
+    "free": Scenario(Command("voltage", Sine(24.0, 0.5)), Load.free()),
+    "inertia": Scenario(Command("torque", Sine(10.0, 1.0)), Load.flywheel(0.1, 0.1)),
+}
+
+
+@pytest.mark.parametrize("friction", ["clip", "lugre"])
+@pytest.mark.parametrize("name", list(LOADS))
+def test_energy_is_kept_by_a_drawn_gearbox(
+    drawn: ActuatorParameters, name: str, friction: str
+) -> None:
+    found = simulate(drawn, replace(LOADS[name], friction=friction), 10.0, 2e-5, every=1000)
+    assert found.ledger.throughput[0] > 1.0
+    assert found.ledger.residual_share[0] < 1e-9
+    assert not found.warnings
 
 
 @pytest.mark.parametrize("friction", ["clip", "lugre"])
@@ -310,6 +346,27 @@ def test_nothing_passes_the_dead_zone_until_it_is_crossed() -> None:
     assert first == pytest.approx(crossed, rel=1e-3)
 
 
+def test_what_hits_behind_the_dead_zone_rebounds_as_a_second_order_system() -> None:
+    flat = {"error_cosine": np.zeros(3), "error_sine": np.zeros(3)}
+    flat |= {"stiffness_cosine": np.zeros(3), "stiffness_sine": np.zeros(3)}
+    one = smooth(backlash=2e-3, damping=1.0, **flat)
+    gear, speed = one.gear, 0.1
+    scene = Scenario(Command("open"), Load.driven(Constant(speed)), Start(motor_speed=0.0))
+    found = simulate(one, scene, 0.016, 2e-7)
+    # The motor's inertia at rest is met by spring and damper that move with the output.
+    mass = gear.ratio**2 * one.motor_side_inertia
+    decay = 0.5 * gear.damping / mass
+    pulse = math.sqrt(gear.stiffness / mass - decay**2)
+    since = found.time - 0.5 * gear.backlash / speed
+    pushing = (since > 0.0) & (since < 0.9 * math.pi / pulse)
+    t = since[pushing]
+    pressed = speed / pulse * np.exp(-decay * t) * np.sin(pulse * t)
+    most = float(np.abs(pressed).max())
+    deflection = -found.deflection[0, pushing] - 0.5 * gear.backlash
+    assert pushing.sum() > 1000
+    np.testing.assert_allclose(deflection, pressed, atol=1e-4 * most, rtol=0)
+
+
 def test_held_torque_winds_up_gap_and_spring() -> None:
     one = smooth(backlash=2e-3, damping=5.0, error_cosine=np.zeros(3), error_sine=np.zeros(3))
     still = {"stiffness_cosine": np.zeros(3), "stiffness_sine": np.zeros(3)}
@@ -454,11 +511,75 @@ def test_impossible_machines_are_refused(changes: dict[str, Any], word: str) -> 
 
 @pytest.mark.parametrize(
     ("duration", "step", "every"),
-    [(0.0, 1e-5, 1), (1.0, 0.0, 1), (math.nan, 1e-5, 1), (1e-4, 1e-5, 20), (1.0, 1e-5, 0)],
+    [
+        (0.0, 1e-5, 1),
+        (-1.0, 1e-5, 1),
+        (math.inf, 1e-5, 1),
+        (math.nan, 1e-5, 1),
+        (1.0, 0.0, 1),
+        (1.0, -1e-5, 1),
+        (1.0, math.nan, 1),
+        (1e-4, 1e-5, 20),
+        (1.0, 1e-5, 0),
+    ],
 )
 def test_senseless_times_are_refused(duration: float, step: float, every: int) -> None:
-    with pytest.raises(UsageError):
+    times_are_sound = duration > 0.0 and step > 0.0 and math.isfinite(duration)
+    word = "every|record" if times_are_sound else "duration|step"
+    with pytest.raises(UsageError, match=word):
         simulate(machine(), SCENES["free"], duration, step, every=every)
+
+
+@dataclass(frozen=True)
+class Gap:
+    """A signal that is missing after half a second."""
+
+    def values(self, times: np.ndarray) -> np.ndarray:
+        return np.where(times < 0.5, 1.0, np.nan)
+
+    def rates(self, times: np.ndarray) -> np.ndarray:
+        return np.zeros_like(times)
+
+
+@pytest.mark.parametrize(
+    ("scenario", "word"),
+    [
+        (Scenario(Command("torque", Gap())), "0.50001 s"),
+        (Scenario(Command("impedance", feedforward=Gap())), "finite"),
+        (Scenario(Command("open"), Load.driven(Gap())), "finite"),
+        (Scenario(Command("impedance", position_gain=math.nan)), "position_gain nan"),
+        (Scenario(Command("position", integral_gain=math.inf)), "integral_gain inf"),
+        (Scenario(start=Start(output_angle=math.nan)), "output_angle nan"),
+        (Scenario(Command("torqe")), "command.mode 'torqe'.*impedance"),  # type: ignore[arg-type]
+        (Scenario(friction="dahl"), "friction 'dahl'.*lugre"),  # type: ignore[arg-type]
+    ],
+)
+def test_what_is_not_a_number_or_not_known_is_named(scenario: Scenario, word: str) -> None:
+    with pytest.raises(UsageError, match=word):
+        simulate(machine(), scenario, 1.0, 2e-5)
+
+
+def test_a_simulation_of_nothing_is_refused() -> None:
+    for sets, scenes in (([], SCENES["free"]), (machine(), [])):
+        with pytest.raises(UsageError, match="there is none"):
+            simulate(sets, scenes, 0.01, 1e-5)
+    with pytest.raises(UsageError, match="threads -1"):
+        simulate(machine(), SCENES["free"], 0.01, 1e-5, threads=-1)
+    with pytest.raises(UsageError, match="engine"):
+        simulate(machine(), SCENES["free"], 0.01, 1e-5, engine="fortran")  # type: ignore[arg-type]
+
+
+def test_compilation_is_told_from_the_cache(tmp_path: Path) -> None:
+    simulate(machine(), SCENES["free"], 1e-3, 2e-5)
+    assert is_compiled()
+    stand_in = SimpleNamespace(
+        _cache=SimpleNamespace(cache_path=str(tmp_path)),
+        __module__="somewhere.kernel",
+        __name__="run_sets",
+    )
+    assert not in_cache(stand_in)
+    (tmp_path / "kernel.run_sets-1.py311.nbi").touch()
+    assert in_cache(stand_in)
 
 
 def test_senseless_loads_and_signals_are_refused() -> None:

@@ -137,12 +137,12 @@ def test_yaml_reads_back(tmp_path: Path) -> None:
     assert set(document["clients"]) == {client.key for client in CLIENTS}
 
 
-def test_markdown_tells_both_sides_with_numbers_and_what_is_not_verified() -> None:
+def test_markdown_tells_both_sides_with_numbers_and_what_was_not_run() -> None:
     text = card_markdown(actuator_card(paper_actuator(), "paper"))
     assert "0.000501 x 100 = 0.0501 (n^2)" in text
     assert "catalogue (speed constant 55 rpm/V)" in text
     assert "v = R i + L di/dt + K w" in text
-    assert "not verified" in text
+    assert "not run" in text
     assert f"cqdd-design {__version__}" in text
     rows = [line for line in text.splitlines() if line.startswith("| backlash, whole")]
     assert len(rows) == 2

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 from actuator_samples import paper_actuator, random_actuators
 from hypothesis import given, settings
@@ -103,7 +104,7 @@ def test_drake_reflects_the_rotor(written: tuple[str, dict[str, float]]) -> None
     parsing = pytest.importorskip("pydrake.multibody.parsing", reason="Drake is not installed")
     plants = pytest.importorskip("pydrake.multibody.plant")
     path, wanted = written
-    plant = plants.MultibodyPlant(1e-3)
+    plant = plants.MultibodyPlant(0.0)
     parsing.Parser(plant).AddModels(path)
     plant.WeldFrames(plant.world_frame(), plant.GetFrameByName("housing"))
     plant.Finalize()
@@ -112,9 +113,16 @@ def test_drake_reflects_the_rotor(written: tuple[str, dict[str, float]]) -> None
     assert actuator.default_rotor_inertia() == pytest.approx(wanted["rotor"])
     assert actuator.default_gear_ratio() == wanted["ratio"]
     assert plant.GetJointByName("paper").default_damping() == pytest.approx(wanted["damping"])
-    mass = plant.CalcMassMatrix(plant.CreateDefaultContext())
-    whole = wanted["rotor"] * wanted["ratio"] ** 2 + wanted["output"]
-    assert mass[0, 0] == pytest.approx(whole)
+    reflected = wanted["rotor"] * wanted["ratio"] ** 2
+    assert actuator.default_reflected_inertia() == pytest.approx(reflected)
+    context = plant.CreateDefaultContext()
+    mass = plant.CalcMassMatrix(context)
+    assert mass[0, 0] == pytest.approx(reflected + wanted["output"])
+    for sense in (1.0, -1.0):
+        torque = 0.5 * sense * wanted["effort"]
+        plant.get_actuation_input_port().FixValue(context, [torque])
+        rise = plant.EvalTimeDerivatives(context).CopyToVector()[1]
+        assert rise == pytest.approx(torque / (reflected + wanted["output"]))
 
 
 def test_pinocchio_reads_limits_and_friction(written: tuple[str, dict[str, float]]) -> None:
@@ -124,11 +132,18 @@ def test_pinocchio_reads_limits_and_friction(written: tuple[str, dict[str, float
     assert model.upperEffortLimit[0] == pytest.approx(wanted["effort"])
     assert model.upperDryFrictionLimit[0] == pytest.approx(wanted["friction"])
     assert model.damping[0] == pytest.approx(wanted["damping"])
-    # Set by hand, as the card says; either pair or armature.
-    model.rotorInertia[0], model.rotorGearRatio[0] = wanted["rotor"], wanted["ratio"]
-    assert model.rotorInertia[0] * model.rotorGearRatio[0] ** 2 == pytest.approx(
-        wanted["rotor"] * wanted["ratio"] ** 2
-    )
+    # The transmission is not read: the armature is set by hand, as the card says.
+    assert model.rotorInertia[0] == 0.0
+    assert model.armature[0] == 0.0
+    output = model.inertias[1].inertia[2, 2]
+    assert output == pytest.approx(wanted["output"])
+    model.armature[0] = wanted["rotor"] * wanted["ratio"] ** 2
+    data = model.createData()
+    still = pinocchio.neutral(model), np.zeros(1)
+    for sense in (1.0, -1.0):
+        pushed = pinocchio.aba(model, data, *still, np.array([sense * wanted["effort"]]))
+        whole = model.armature[0] + wanted["output"]
+        assert pushed[0] == pytest.approx(sense * wanted["effort"] / whole)
 
 
 def test_yourdfpy_reads_it(written: tuple[str, dict[str, float]]) -> None:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
 
+from cqdd_design.actuator.bench.metric import METRICS, BenchResult
 from cqdd_design.actuator.bench.run import VOLTAGE, run_bench
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.errors import UsageError, did_you_mean
@@ -42,117 +43,346 @@ def _current_loop(parameters: ActuatorParameters, factor: float) -> ActuatorPara
     return dataclasses.replace(parameters, drive=slower)
 
 
+def _tolerances(parameters: ActuatorParameters, factor: float) -> ActuatorParameters:
+    own = parameters.gear
+    names = ("error_cosine", "error_sine", "stiffness_cosine", "stiffness_sine")
+    scaled = {name: factor * getattr(own, name) for name in names}
+    return dataclasses.replace(parameters, gear=dataclasses.replace(own, **scaled))
+
+
 @dataclass(frozen=True)
 class Unknown:
-    """What a measured row tells.
+    """Something that no drawing tells.
 
     Attributes
     ----------
-    names : tuple of str
+    values : tuple of str
         Dotted names of the values that one factor multiplies.
+    told_by : str
+        The measurement that decides it.
     change : callable
         Parameters and factor to parameters.
     """
 
-    names: tuple[str, ...]
+    values: tuple[str, ...]
+    told_by: str
     change: Change
 
 
 UNKNOWNS: Mapping[str, Unknown] = MappingProxyType(
     {
-        "continuous_torque": Unknown(
-            ("thermal.winding_to_housing", "thermal.housing_to_ambient"), _thermal
+        "thermal_resistance": Unknown(
+            ("thermal.winding_to_housing", "thermal.housing_to_ambient"),
+            "continuous_torque",
+            _thermal,
         ),
-        "backdrive_static": Unknown(
+        "friction_level": Unknown(
             ("friction.motor_coulomb", "friction.output_coulomb"),
+            "backdrive_static",
             _friction("motor_coulomb", "output_coulomb"),
         ),
-        "backdrive_dynamic": Unknown(
+        "friction_viscous": Unknown(
             ("friction.motor_viscous", "friction.output_viscous"),
+            "backdrive_dynamic",
             _friction("motor_viscous", "output_viscous"),
         ),
-        "efficiency_peak": Unknown(
+        "friction_load": Unknown(
             ("friction.load_forward", "friction.load_backward"),
+            "efficiency_peak",
             _friction("load_forward", "load_backward"),
         ),
-        "torque_bandwidth": Unknown(("drive.current_bandwidth",), _current_loop),
+        "current_loop": Unknown(("drive.current_bandwidth",), "torque_bandwidth", _current_loop),
+        "tolerance_scale": Unknown(
+            (
+                "gear.error_cosine",
+                "gear.error_sine",
+                "gear.stiffness_cosine",
+                "gear.stiffness_sine",
+            ),
+            "torque_ripple",
+            _tolerances,
+        ),
     }
 )
-"""Rows that can be fitted, and what each of them decides."""
+"""What can be fitted. The scale of the tolerances is that of one drawn gearbox's error and
+stiffness over angle, to which both are proportional to first order."""
+
+TELLS: Mapping[str, str] = MappingProxyType(
+    {unknown.told_by: name for name, unknown in UNKNOWNS.items()}
+)
+"""Measurement to the unknown it decides."""
+
+_MOST_FACTOR = 200.0
+_GOOD, _EFFICIENCY_POINTS = 0.2, 5.0
+
+
+@dataclass(frozen=True)
+class Row:
+    """One measurement before and after a calibration, beside its measured value.
+
+    Attributes
+    ----------
+    name, unit : str
+    measured : float or None
+        None where it was not measured.
+    before, after : float
+    relation : str
+        "calibrated", "predicted", "given" or "not comparable".
+    """
+
+    name: str
+    unit: str
+    measured: float | None
+    before: float
+    after: float
+    relation: str
+
+    @property
+    def off(self) -> float | None:
+        """After over measured, less one."""
+        return None if self.measured is None else self.after / self.measured - 1.0
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form."""
+        return {
+            "unit": self.unit,
+            "measured": self.measured,
+            "before": self.before,
+            "after": self.after,
+            "off_percent": None if self.off is None else 100.0 * self.off,
+            "relation": self.relation,
+        }
 
 
 @dataclass(frozen=True, eq=False)
 class Calibration:
-    """A fit.
+    """A fit, and what it predicts.
 
     Attributes
     ----------
     parameters : ActuatorParameters
         With the fitted values, marked so in their origins.
     factors : mapping of str to float
-        By how much each unknown was multiplied, by the row that told.
-    measured, fitted : mapping of str to float
-        The rows as given, and as the fitted actuator gives them.
+        By how much each unknown was multiplied.
+    rows : tuple of Row
+        Every measurement of the bench.
+    after : BenchResult
+        Of the fitted actuator.
     """
 
     parameters: ActuatorParameters
     factors: Mapping[str, float]
-    measured: Mapping[str, float]
-    fitted: Mapping[str, float]
+    rows: tuple[Row, ...]
+    after: BenchResult
 
     @property
     def largest_residual(self) -> float:
-        """Of a fitted row over its measured value."""
-        return max(abs(self.fitted[name] / value - 1.0) for name, value in self.measured.items())
+        """Of a calibrated row over its measured value."""
+        found = [abs(row.off) for row in self.rows if row.relation == "calibrated" and row.off]
+        return max(found, default=0.0)
+
+    @property
+    def predicted(self) -> tuple[Row, ...]:
+        """Rows that were measured and neither fitted nor given."""
+        return tuple(
+            row for row in self.rows if row.relation == "predicted" and row.measured is not None
+        )
+
+    @property
+    def within(self) -> tuple[Row, ...]:
+        """Of the predicted rows those within 20 %, efficiency within 5 points."""
+        found = []
+        for row in self.predicted:
+            assert row.measured is not None
+            assert row.off is not None
+            if row.name == "efficiency_peak":
+                good = 100.0 * abs(row.after - row.measured) <= _EFFICIENCY_POINTS
+            else:
+                good = abs(row.off) <= _GOOD
+            if good:
+                found.append(row)
+        return tuple(found)
 
     def to_dict(self) -> dict[str, object]:
-        """Return the JSON form."""
+        """Return the JSON form (``results`` of ``calibrate``)."""
         return {
-            "rows": {
+            "unknowns": {
                 name: {
-                    "measured": value,
-                    "fitted": self.fitted[name],
-                    "unknowns": list(UNKNOWNS[name].names),
-                    "factor": self.factors[name],
+                    "factor": factor,
+                    "values": {
+                        value: _value(self.parameters, value)
+                        for value in UNKNOWNS[name].values
+                        if isinstance(_value(self.parameters, value), float)
+                    },
                 }
-                for name, value in self.measured.items()
+                for name, factor in self.factors.items()
             },
+            "rows": {row.name: row.to_dict() for row in self.rows},
             "largest_residual": self.largest_residual,
+            "predicted": [row.name for row in self.predicted],
+            "predicted_within_20_percent": [row.name for row in self.within],
         }
 
 
+def _value(parameters: ActuatorParameters, dotted: str) -> object:
+    part, _, name = dotted.partition(".")
+    return getattr(getattr(parameters, part), name)
+
+
+def apply_factors(
+    parameters: ActuatorParameters, factors: Mapping[str, float]
+) -> ActuatorParameters:
+    """The actuator with unknowns multiplied, marked as calibrated in its origins.
+
+    Raises
+    ------
+    UsageError
+        For an unknown that does not exist, or a factor that is not above zero.
+    """
+    found = parameters
+    origins = dict(parameters.origins)
+    for name, factor in factors.items():
+        if name not in UNKNOWNS:
+            raise UsageError(
+                f"'{name}' is no unknown{did_you_mean(name, UNKNOWNS) or '.'} "
+                f"There are {', '.join(UNKNOWNS)}."
+            )
+        if not (math.isfinite(factor) and factor > 0.0):
+            raise UsageError(f"the factor {factor:g} of {name} must be above 0; 1 leaves it alone.")
+        found = UNKNOWNS[name].change(found, factor)
+        for value in UNKNOWNS[name].values:
+            origins[value] = f"calibrated: {name} times {factor:.4g}"
+    return dataclasses.replace(found, origins=origins)
+
+
 def calibrate(
-    parameters: ActuatorParameters, measured: Mapping[str, float], *, voltage: float = VOLTAGE
+    parameters: ActuatorParameters,
+    measured: Mapping[str, float],
+    *,
+    to: Collection[str] = (),
+    unknowns: Collection[str] = (),
+    voltage: float = VOLTAGE,
+    rated_current: float | None = None,
+    drawn: Collection[ActuatorParameters] = (),
+    progress: Callable[[str], None] | None = None,
 ) -> Calibration:
-    """Fit one unknown to each measured row.
+    """Fit unknowns to some measured rows and predict the others.
 
     Parameters
     ----------
     parameters : ActuatorParameters
     measured : mapping of str to float
-        Rows of `UNKNOWNS` in the units of the bench.
+        Measurements of the bench in its units.
+    to : collection of str
+        Rows to fit to; default all measured ones that decide an unknown.
+    unknowns : collection of str
+        Names of `UNKNOWNS`; default those that the rows decide. With more rows than unknowns the
+        fit is the best in relative squares.
     voltage : float
         Supply of the dynamic rows, V.
+    rated_current : float, optional
+        A, for the rated power.
+    drawn : collection of ActuatorParameters
+        As for `run_bench`.
+    progress : callable, optional
+        Told what begins.
 
     Raises
     ------
     UsageError
-        For a row that decides no unknown, or a value that is not above zero.
+        For rows that decide nothing, values not above zero, fewer rows than unknowns, or a fit
+        that does not come within reach.
     """
-    from scipy.optimize import least_squares
-
-    if not measured:
-        raise UsageError(f"nothing to calibrate with; name rows among {', '.join(UNKNOWNS)}.")
     for name, value in measured.items():
-        if name not in UNKNOWNS:
+        if name not in METRICS:
             raise UsageError(
-                f"'{name}' decides no unknown{did_you_mean(name, UNKNOWNS) or '.'} "
-                f"Calibrate with {', '.join(UNKNOWNS)}."
+                f"'{name}' is not a measurement{did_you_mean(name, METRICS) or '.'} "
+                f"The bench knows {', '.join(METRICS)}."
             )
         if not (math.isfinite(value) and value > 0.0):
             raise UsageError(f"{name} {value:g} must be above 0 to calibrate with.")
-    names = tuple(measured)
-    targets = np.array([measured[name] for name in names])
+    rows, names = _chosen(measured, to, unknowns)
+    if "tolerance_scale" in names and not np.any(parameters.gear.error_cosine):
+        raise UsageError(
+            "perfect parts have no kinematic error to scale; draw a gearbox with --seed, or leave "
+            "torque_ripple to prediction."
+        )
+    tell = progress or (lambda text: None)
+    tell(f"fitting {', '.join(names)}")
+    factors = _fit(parameters, {name: measured[name] for name in rows}, names, voltage)
+    final = apply_factors(parameters, factors)
+    tell("measuring before")
+    before = run_bench(parameters, rated_current=rated_current, voltage=voltage, drawn=drawn)
+    tell("measuring after")
+    after = run_bench(
+        final,
+        rated_current=rated_current,
+        voltage=voltage,
+        drawn=[apply_factors(one, factors) for one in drawn],
+        calibrated=rows,
+    )
+    old = {metric.name: metric.value for metric in before.metrics}
+    return Calibration(
+        parameters=final,
+        factors=factors,
+        rows=tuple(
+            Row(
+                metric.name,
+                metric.unit,
+                measured.get(metric.name),
+                old[metric.name],
+                metric.value,
+                metric.relation,
+            )
+            for metric in after.metrics
+        ),
+        after=after,
+    )
+
+
+def _chosen(
+    measured: Mapping[str, float], to: Collection[str], unknowns: Collection[str]
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Rows to fit to and unknowns to fit."""
+    for name in to:
+        if name not in measured:
+            raise UsageError(
+                f"there is no measured value of '{name}'{did_you_mean(name, measured) or '.'} "
+                f"Measured are {', '.join(measured) or 'none'}."
+            )
+        if not unknowns and name not in TELLS:
+            raise UsageError(
+                f"'{name}' decides no unknown of its own; calibrate to {', '.join(TELLS)}, or name "
+                "the unknowns to fit."
+            )
+    for name in unknowns:
+        if name not in UNKNOWNS:
+            raise UsageError(
+                f"'{name}' is no unknown{did_you_mean(name, UNKNOWNS) or '.'} "
+                f"There are {', '.join(UNKNOWNS)}."
+            )
+    rows = tuple(to) or tuple(name for name in measured if name in TELLS)
+    names = tuple(unknowns) or tuple(TELLS[name] for name in rows)
+    if not rows:
+        raise UsageError(f"nothing to calibrate with; give rows among {', '.join(TELLS)}.")
+    if len(rows) < len(names):
+        raise UsageError(
+            f"{len(rows)} measured rows cannot decide {len(names)} unknowns; give more rows, or "
+            "fewer unknowns."
+        )
+    return rows, names
+
+
+def _fit(
+    parameters: ActuatorParameters,
+    targets: Mapping[str, float],
+    names: tuple[str, ...],
+    voltage: float,
+) -> dict[str, float]:
+    """Factors of the unknowns by least squares of the relative misses."""
+    from scipy.optimize import least_squares
+
+    wanted = np.array(list(targets.values()))
 
     def changed(logarithms: FloatArray) -> ActuatorParameters:
         found = parameters
@@ -160,29 +390,28 @@ def calibrate(
             found = UNKNOWNS[name].change(found, math.exp(logarithm))
         return found
 
-    def rows(logarithms: FloatArray) -> FloatArray:
-        result = run_bench(changed(logarithms), only=names, voltage=voltage)
-        values = {metric.name: metric.value for metric in result.metrics}
-        return np.array([values[name] for name in names])
-
     def misses(logarithms: FloatArray) -> FloatArray:
-        return np.asarray(np.log(np.maximum(rows(logarithms), 1e-12) / targets))
+        result = run_bench(changed(logarithms), only=tuple(targets), voltage=voltage)
+        values = {metric.name: metric.value for metric in result.metrics}
+        found = np.array([values[name] for name in targets])
+        return np.asarray(np.log(np.maximum(found, 1e-12) / wanted))
 
-    reach = math.log(200.0)
-    start = np.zeros(len(names))
+    reach = math.log(_MOST_FACTOR)
     # Simulated rows are smooth to a part in a thousand only, so differences take longer steps.
     fit = least_squares(
-        misses, start, bounds=(-reach, reach), diff_step=0.02, x_scale=1.0, xtol=1e-5, max_nfev=60
+        misses,
+        np.zeros(len(names)),
+        bounds=(-reach, reach),
+        diff_step=0.02,
+        x_scale=1.0,
+        xtol=1e-5,
+        max_nfev=60,
     )
-    fitted = changed(fit.x)
-    origins = dict(fitted.origins)
-    for name in names:
-        for unknown in UNKNOWNS[name].names:
-            origins[unknown] = f"calibrated: to {name} {measured[name]:g}"
-    final = dataclasses.replace(fitted, origins=origins)
-    return Calibration(
-        parameters=final,
-        factors={name: math.exp(x) for name, x in zip(names, fit.x, strict=True)},
-        measured=dict(measured),
-        fitted=dict(zip(names, rows(fit.x).tolist(), strict=True)),
-    )
+    for name, value in zip(names, fit.x, strict=True):
+        if abs(value) > 0.99 * reach:
+            raise UsageError(
+                f"no {name} within {_MOST_FACTOR:g} times the computed one gives "
+                f"{', '.join(f'{row} {value:g}' for row, value in targets.items())}; check the "
+                "measured values and their units, or leave this row to prediction."
+            )
+    return {name: math.exp(value) for name, value in zip(names, fit.x, strict=True)}

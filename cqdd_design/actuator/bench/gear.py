@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
+from dataclasses import dataclass
 
 import numpy as np
 
 from cqdd_design.actuator.bench.metric import Metric
 from cqdd_design.actuator.bench.steady import cold, safe_step
-from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.scenario import (
     Command,
     Constant,
@@ -121,6 +123,11 @@ def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Met
         f"{_MOVING:g} rad/s of output, at {positions} places in both senses.",
         spread=float(values.std(ddof=1)) if values.size > 1 else None,
         details={"readings": float(values.size)},
+        trace={
+            "time [s]": run.time,
+            "output torque [N m]": slope * run.time,
+            "motor speed [rad/s]": run.motor_speed[0],
+        },
     )
 
 
@@ -142,10 +149,55 @@ def backdrive_dynamic(parameters: ActuatorParameters, speed: float = 1.0) -> Met
     )
 
 
-def torque_ripple(parameters: ActuatorParameters, speed: float = 1.0) -> Metric:
+def torque_ripple(
+    parameters: ActuatorParameters,
+    drawn: Collection[ActuatorParameters] = (),
+    speed: float = 1.0,
+) -> Metric:
     """Steady speed and current: half of the peak-to-peak torque over each turn of the motor."""
-    motor, gear = parameters.motor, parameters.gear
-    current = gear.error_torque / (abs(gear.ratio) * motor.torque_constant)
+    own = _ripple(parameters, speed)
+    others = [_ripple(one, speed) for one in drawn]
+    shown = others[0] if others else own
+    protocol = (
+        f"Output at {speed:g} rad/s, {_current(parameters):.3g} A in the motor for about "
+        f"{parameters.gear.error_torque:g} N m: half of the peak-to-peak torque "
+        "over each turn of the motor, mean over a turn of the output"
+    )
+    strongest = np.argsort(shown.amplitudes)[::-1][:5]
+    details = {f"order_{int(shown.orders[k])}_Nm": float(shown.amplitudes[k]) for k in strongest}
+    if others:
+        details["perfect_parts_Nm"] = float(own.halves.mean())
+        protocol += f"; mean and spread of {len(others)} gearboxes drawn from the tolerances"
+    each = np.array([one.halves.mean() for one in others]) if others else own.halves
+    return Metric(
+        "torque_ripple",
+        float(each.mean()),
+        "predicted",
+        protocol + ".",
+        spread=float(each.std(ddof=1)) if len(each) > 1 else None,
+        details=details,
+        trace={"order of the output": shown.orders, "amplitude [N m]": shown.amplitudes},
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Ripple:
+    """Half of the peak-to-peak of each motor turn, N m, and the spectrum in orders."""
+
+    halves: FloatArray
+    orders: FloatArray
+    amplitudes: FloatArray
+
+
+def _current(parameters: ActuatorParameters) -> float:
+    """For the torque at which the kinematic error stands, friction under load included, A."""
+    gear, friction = parameters.gear, parameters.friction
+    at_motor = gear.error_torque * (1.0 + friction.load_forward) / abs(gear.ratio)
+    return min(at_motor / parameters.motor.torque_constant, parameters.drive.current_limit)
+
+
+def _ripple(parameters: ActuatorParameters, speed: float) -> _Ripple:
+    gear, current = parameters.gear, _current(parameters)
     turning = math.copysign(speed, gear.ratio)
     whole, rise = 2.0 * math.pi / speed, 1.0
     # Brought up slowly: a jump would leave the motor swinging on the gearbox's stiffness.
@@ -155,23 +207,8 @@ def torque_ripple(parameters: ActuatorParameters, speed: float = 1.0) -> Metric:
     torque = run.output_torque[0][late]
     angle = np.abs(run.motor_angle[0][late] - run.motor_angle[0][late][0])
     turns = np.floor(angle / (2.0 * math.pi)).astype(int)
-    halves = [
-        0.5 * np.ptp(torque[turns == turn])
-        for turn in range(int(turns.max()))
-        if np.any(turns == turn)
-    ]
-    orders, amplitudes = order_spectrum(angle / abs(gear.ratio), torque)
-    strongest = np.argsort(amplitudes)[::-1][:5]
-    return Metric(
-        "torque_ripple",
-        float(np.mean(halves)),
-        "predicted",
-        f"Output at {speed:g} rad/s, {current:.3g} A in the motor: half of the peak-to-peak torque "
-        "over each turn of the motor, mean over a turn of the output.",
-        spread=float(np.std(halves, ddof=1)) if len(halves) > 1 else None,
-        details={f"order_{int(orders[k])}_Nm": float(amplitudes[k]) for k in strongest},
-        trace={"order of the output": orders, "amplitude [N m]": amplitudes},
-    )
+    halves = [0.5 * np.ptp(torque[turns == turn]) for turn in range(int(turns.max()))]
+    return _Ripple(np.array(halves), *order_spectrum(angle / abs(gear.ratio), torque))
 
 
 def order_spectrum(

@@ -15,6 +15,7 @@ METRICS: Mapping[str, str] = MappingProxyType(
     {
         "continuous_torque": "N*m",
         "peak_torque": "N*m",
+        "stall_torque": "N*m",
         "no_load_speed": "rpm",
         "rated_power": "W",
         "output_resolution": "deg",
@@ -118,9 +119,13 @@ class BenchResult:
     seconds: float
     warnings: tuple[str, ...] = ()
 
+    def value(self, name: str) -> float | None:
+        """Value of a measurement; None where it was not made."""
+        return next((metric.value for metric in self.metrics if metric.name == name), None)
+
     def paper(self, name: str) -> float | None:
         """The paper's value of a measurement, beside the paper's own actuator only."""
-        return PAPER[name][0] if self.beside_paper else None
+        return PAPER[name][0] if self.beside_paper and name in PAPER else None
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form (``results`` of ``bench``)."""

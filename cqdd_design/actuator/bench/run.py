@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import time
 from collections.abc import Callable, Collection
 
@@ -23,6 +24,8 @@ def run_bench(
     voltage: float = VOLTAGE,
     only: Collection[str] = (),
     beside_paper: bool = False,
+    drawn: Collection[ActuatorParameters] = (),
+    calibrated: Collection[str] = (),
     progress: Progress | None = None,
 ) -> BenchResult:
     """Measure an actuator.
@@ -38,6 +41,11 @@ def run_bench(
         Names of `METRICS`; default all.
     beside_paper : bool
         Whether the paper's values stand beside.
+    drawn : collection of ActuatorParameters
+        The same actuator with gearboxes drawn from the tolerances, whose mean ripple is the
+        ripple; default its own.
+    calibrated : collection of str
+        Rows that the actuator was fitted to.
     progress : callable, optional
         Told the name of each measurement before it begins.
 
@@ -58,6 +66,7 @@ def run_bench(
     measures: dict[str, Callable[[], Metric | None]] = {
         "continuous_torque": lambda: steady.continuous_torque(parameters),
         "peak_torque": lambda: steady.peak_torque(parameters),
+        "stall_torque": lambda: steady.stall_torque(parameters),
         "no_load_speed": lambda: steady.no_load_speed(parameters, voltage),
         "rated_power": lambda: steady.rated_power(parameters, rated_current),
         "output_resolution": lambda: steady.output_resolution(parameters),
@@ -68,7 +77,7 @@ def run_bench(
         "backlash": lambda: gear.backlash(parameters),
         "backdrive_static": lambda: gear.backdrive_static(parameters),
         "backdrive_dynamic": lambda: gear.backdrive_dynamic(parameters),
-        "torque_ripple": lambda: gear.torque_ripple(parameters),
+        "torque_ripple": lambda: gear.torque_ripple(parameters, drawn),
         "torque_bandwidth": lambda: bandwidth.torque_bandwidth(parameters),
         "position_bandwidth_45deg": lambda: bandwidth.position_bandwidth(parameters, 45.0, voltage),
         "position_bandwidth_5deg": lambda: bandwidth.position_bandwidth(parameters, 5.0, voltage),
@@ -81,7 +90,8 @@ def run_bench(
             progress(name.replace("_", " "))
         metric = measure()
         if metric is not None:
-            found.append(metric)
+            fitted = metric.name in calibrated and metric.relation == "predicted"
+            found.append(dataclasses.replace(metric, relation="calibrated") if fitted else metric)
     return BenchResult(
         name=parameters.name,
         metrics=tuple(found),

@@ -84,26 +84,38 @@ def _locked_torque(
 
 
 def peak_torque(parameters: ActuatorParameters) -> Metric:
-    """Locked output, current ramped to the driver's limit."""
-    motor = parameters.motor
-    limit = parameters.drive.current_limit
-    by_driver = _locked_torque(parameters, limit)
-    ratio = abs(parameters.gear.ratio)
-    ideal = motor.torque_constant * limit * ratio
+    """Torque constant times current times ratio, at the driver's limit or the motor's peak."""
+    motor, ratio = parameters.motor, abs(parameters.gear.ratio)
+    by_driver = motor.torque_constant * parameters.drive.current_limit * ratio
     by_motor = motor.peak_torque * ratio
-    details = {"driver_limited_Nm": float(by_driver.mean()), "without_losses_Nm": ideal}
+    details = {"driver_limited_Nm": by_driver}
     if math.isfinite(by_motor):
-        details["motor_limited_without_losses_Nm"] = by_motor
-    share = float(by_driver.mean()) / ideal
-    value = share * min(ideal, by_motor) if math.isfinite(by_motor) else float(by_driver.mean())
+        details["motor_limited_Nm"] = by_motor
     return Metric(
         "peak_torque",
-        value,
+        min(details.values()),
         "given",
-        "Output held still, current ramped to the driver's limit in 0.3 s and held, at 12 places "
-        "of a motor turn; the lower of driver and motor.",
-        spread=float(by_driver.std(ddof=1)),
+        "Torque constant times the driver's current limit times the ratio, or the motor's peak "
+        "torque by its catalogue times the ratio, whichever is less; losses left out.",
         details=details,
+    )
+
+
+def stall_torque(parameters: ActuatorParameters) -> Metric:
+    """Locked output, current ramped to the driver's limit, or to the motor's peak torque."""
+    motor = parameters.motor
+    limit = parameters.drive.current_limit
+    if math.isfinite(motor.peak_torque):
+        limit = min(limit, motor.peak_torque / motor.torque_constant)
+    torques = _locked_torque(parameters, limit)
+    return Metric(
+        "stall_torque",
+        float(torques.mean()),
+        "predicted",
+        f"Output held still, current ramped to {limit:.3g} A in 0.3 s and held, at 12 places of a "
+        "motor turn: what friction leaves of the peak torque while it rises.",
+        spread=float(torques.std(ddof=1)),
+        details={"current_A": limit},
     )
 
 
@@ -115,11 +127,10 @@ def continuous_torque(parameters: ActuatorParameters) -> Metric:
         torque_constant_at(parameters.motor, thermal.most) / parameters.motor.torque_constant
     )
     torques = hot * _locked_torque(parameters, current)
-    calibrated = parameters.origins.get("thermal.housing_to_ambient", "").startswith("calibrated")
     return Metric(
         "continuous_torque",
         float(torques.mean()),
-        "calibrated" if calibrated else "predicted",
+        "predicted",
         "Output held still at the current whose heat the two-node network carries off at the "
         f"winding's limit of {thermal.most:g} deg C in {thermal.ambient:g} deg C.",
         spread=float(torques.std(ddof=1)),
@@ -156,49 +167,57 @@ def _columns(run: Simulation, *names: str, index: int = 0) -> dict[str, FloatArr
 
 
 def efficiency_peak(parameters: ActuatorParameters, points: int = 8) -> Metric:
-    """Steady grid of speed and torque, the output driven at the speed, the motor at a current."""
+    """Steady grid of speed and torque, driving and generating; the peak is of driving."""
     motor, ratio = parameters.motor, parameters.gear.ratio
     top = 0.8 * parameters.drive.supply_voltage / motor.torque_constant / abs(ratio)
-    speeds = top * (np.arange(points) + 1.0) / points
     rated = motor.rated_torque if math.isfinite(motor.rated_torque) else 0.3 * motor.peak_torque
-    most = min(2.0 * rated / motor.torque_constant, parameters.drive.current_limit)
-    currents = most * (np.arange(points) + 1.0) / points
-    scenes, grid = [], []
-    for speed in speeds:
-        for current in currents:
-            # A positive current turns the motor forwards, and the output by the ratio's sign.
-            turning = math.copysign(speed, ratio)
-            scenes.append(
-                Scenario(
-                    Command("current", Constant(current)),
-                    Load.driven(Constant(turning)),
-                    Start(output_speed=turning, current=current),
-                )
+    most = 2.0 * rated / motor.torque_constant if math.isfinite(rated) else math.inf
+    most = min(most, parameters.drive.current_limit)
+    part = (np.arange(points) + 1.0) / points
+    speed, current = (
+        grid.ravel() for grid in np.meshgrid(top * part, most * np.r_[-part[::-1], part])
+    )
+    scenes = []
+    for at, through in zip(speed, current, strict=True):
+        # A positive current turns the motor forwards, and the output by the ratio's sign.
+        turning = math.copysign(float(at), ratio)
+        scenes.append(
+            Scenario(
+                Command("current", Constant(float(through))),
+                Load.driven(Constant(turning)),
+                Start(output_speed=turning, current=float(through)),
             )
-            grid.append((speed, current))
+        )
     step = safe_step(parameters, *scenes)
     run = simulate(cold(parameters), scenes, 0.6, step, every=max(1, round(2e-4 / step)))
     late = run.time > 0.2
     electrical = (run.voltage * run.current)[:, late].mean(axis=1)
     mechanical = (run.output_torque * run.output_speed)[:, late].mean(axis=1)
-    efficiency = np.where(electrical > 0.0, mechanical / electrical, 0.0)
-    best = int(efficiency.argmax())
-    torque = np.abs(run.output_torque[:, late].mean(axis=1))
+    driving = (electrical > 0.0) & (mechanical > 0.0)
+    generating = (electrical < 0.0) & (mechanical < 0.0)
+    efficiency = np.zeros(len(scenes))
+    efficiency[driving] = (mechanical / electrical)[driving]
+    efficiency[generating] = (electrical / mechanical)[generating]
+    torque = mechanical / speed
+    best = int(np.where(driving, efficiency, 0.0).argmax())
+    back = int(np.where(generating, efficiency, 0.0).argmax())
+    details = {"speed_rpm": float(speed[best]) * RPM, "torque_Nm": float(torque[best])}
+    if generating.any():
+        details |= {
+            "generating_peak": float(efficiency[back]),
+            "generating_speed_rpm": float(speed[back]) * RPM,
+            "generating_torque_Nm": float(torque[back]),
+        }
     return Metric(
         "efficiency_peak",
         float(efficiency[best]),
         "predicted",
-        f"Steady grid of {points} speeds up to {top * RPM:.0f} rpm and {points} currents: mean "
-        "mechanical over mean electrical power at the motor's terminals.",
-        details={
-            "speed_rpm": float(grid[best][0]) * RPM,
-            "torque_Nm": float(torque[best]),
-        },
-        trace={
-            "speed [rpm]": np.array([speed for speed, _ in grid]) * RPM,
-            "torque [N m]": torque,
-            "efficiency": efficiency,
-        },
+        f"Steady grid of {points} speeds up to {top * RPM:.0f} rpm and {points} currents up to "
+        f"{most:.3g} A in both senses: mean mechanical over mean electrical power at the motor's "
+        "terminals, the inverse where it generates; winding at "
+        f"{motor.reference_temperature:g} deg C.",
+        details=details,
+        trace={"speed [rpm]": speed * RPM, "torque [N m]": torque, "efficiency": efficiency},
     )
 
 

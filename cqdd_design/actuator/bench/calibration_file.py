@@ -1,0 +1,70 @@
+"""A calibration on disk: factors of the unknowns, and the design and rows they come from."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from cqdd_design.actuator.bench.calibrate import UNKNOWNS, Calibration
+from cqdd_design.errors import UsageError, did_you_mean
+from cqdd_design.files import WrittenFile, write_atomically
+
+FORMAT = "cqdd-design calibration 1"
+
+
+def write_calibration(calibration: Calibration, design_sha256: str, path: Path) -> WrittenFile:
+    """Write a calibration as JSON for ``--calibration``."""
+    content = {
+        "format": FORMAT,
+        "name": calibration.parameters.name,
+        "design_sha256": design_sha256,
+        **calibration.to_dict(),
+    }
+    return write_atomically(path, json.dumps(content, indent=2, allow_nan=False) + "\n", "json")
+
+
+def read_calibration(path: Path, design_sha256: str) -> tuple[Mapping[str, float], str]:
+    """Factors of the unknowns, and a warning where they come from another design (else empty).
+
+    Raises
+    ------
+    UsageError
+        When the file cannot be read or is not a calibration.
+    """
+    content = _content(path)
+    unknowns = content.get("unknowns")
+    if content.get("format") != FORMAT or not isinstance(unknowns, dict):
+        raise UsageError(
+            f"{path} is not a calibration ('{FORMAT}'); `cqdd-design calibrate` writes one."
+        )
+    factors = {}
+    for name, entry in unknowns.items():
+        if name not in UNKNOWNS:
+            raise UsageError(f"{path}: '{name}' is no unknown{did_you_mean(name, UNKNOWNS)}.")
+        factor = entry.get("factor") if isinstance(entry, dict) else None
+        if not isinstance(factor, float | int) or not math.isfinite(factor) or factor <= 0.0:
+            raise UsageError(f"{path}: the factor of {name} must be a number above 0.")
+        factors[name] = float(factor)
+    warning = ""
+    if content.get("design_sha256") != design_sha256:
+        warning = (
+            f"{path} was fitted to another design ({content.get('name')}) or an earlier state of "
+            "this one; its factors are applied all the same."
+        )
+    return factors, warning
+
+
+def _content(path: Path) -> dict[str, Any]:
+    try:
+        found = json.loads(path.read_text("utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is not text in UTF-8"
+        raise UsageError(f"cannot read {path}: {reason}.") from error
+    except json.JSONDecodeError as error:
+        raise UsageError(
+            f"{path} is not JSON (line {error.lineno}); `cqdd-design calibrate` writes one."
+        ) from error
+    return found if isinstance(found, dict) else {}

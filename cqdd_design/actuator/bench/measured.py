@@ -1,0 +1,131 @@
+"""A user's own measurements: a CSV of bench rows with their units."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+
+from cqdd_design.actuator.bench.metric import METRICS
+from cqdd_design.errors import CqddError, UsageError, did_you_mean
+from cqdd_design.units import (
+    ANGLE,
+    FREQUENCY,
+    INERTIA,
+    MASS,
+    POWER,
+    SMALL_ANGLE,
+    SPEED,
+    TORQUE,
+    TORQUE_DENSITY,
+    Dimension,
+    parse_quantity,
+)
+
+COLUMNS = ("name", "value", "unit")
+DIMENSIONS: Mapping[str, Dimension] = MappingProxyType(
+    {
+        dimension.unit: dimension
+        for dimension in (
+            TORQUE,
+            SPEED,
+            POWER,
+            ANGLE,
+            TORQUE_DENSITY,
+            INERTIA,
+            MASS,
+            SMALL_ANGLE,
+            FREQUENCY,
+        )
+    }
+)
+"""Of the units of `METRICS`; efficiency has none."""
+_EXAMPLE = "name,value,unit\nbackdrive_static,1.99,N*m"
+
+
+def read_measured(path: Path) -> dict[str, float]:
+    """Measured rows of a CSV with the columns ``name,value,unit``, in the units of the bench.
+
+    Parameters
+    ----------
+    path : Path
+        Names are those of `METRICS`; lines that begin with # and further columns are passed over.
+
+    Returns
+    -------
+    dict of str to float
+
+    Raises
+    ------
+    UsageError
+        For a file that cannot be read, other columns, a gap, a value that is not a finite number
+        above zero, an unknown or repeated name, or a unit of something else, with the line.
+    """
+    try:
+        lines = path.read_text("utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is not text in UTF-8"
+        raise UsageError(f"cannot read {path}: {reason}.") from error
+    numbered = [
+        (number, line)
+        for number, line in enumerate(lines, start=1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    if not numbered:
+        raise UsageError(f"{path} is empty; it needs lines such as\n{_EXAMPLE}")
+    head = [cell.strip() for cell in next(csv.reader([numbered[0][1]]))]
+    missing = [name for name in COLUMNS if name not in head]
+    if missing:
+        raise UsageError(
+            f"{path} has no column {', '.join(missing)} (it has {', '.join(head)}); it needs "
+            f"lines such as\n{_EXAMPLE}"
+        )
+    found: dict[str, float] = {}
+    for number, line in numbered[1:]:
+        cells = [cell.strip() for cell in next(csv.reader([line]))]
+        if len(cells) != len(head):
+            raise UsageError(
+                f"{path}, line {number}: {len(cells)} cells where the head has {len(head)}."
+            )
+        row = dict(zip(head, cells, strict=True))
+        name = row["name"]
+        if name in found:
+            raise UsageError(f"{path}, line {number}: {name} stands there twice; keep one.")
+        found[name] = _value(row, f"{path}, line {number}")
+    if not found:
+        raise UsageError(f"{path} has a head and no rows; it needs lines such as\n{_EXAMPLE}")
+    return found
+
+
+def _value(row: dict[str, str], place: str) -> float:
+    """The value of one row in the unit of the bench."""
+    name, text, unit = row["name"], row["value"], row["unit"]
+    if name not in METRICS:
+        raise UsageError(
+            f"{place}: '{name}' is not a measurement{did_you_mean(name, METRICS) or '.'} "
+            f"The bench knows {', '.join(METRICS)}."
+        )
+    wanted = METRICS[name]
+    if not text:
+        raise UsageError(f"{place}: {name} has no value; leave the line out, or fill it in.")
+    try:
+        value = float(text)
+    except ValueError:
+        raise UsageError(
+            f"{place}: the value '{text}' of {name} is not a number; the unit has its own column."
+        ) from None
+    if not (math.isfinite(value) and value > 0.0):
+        raise UsageError(f"{place}: {name} {text} must be a finite number above 0.")
+    if not wanted:
+        if unit not in ("", "%"):
+            raise UsageError(f"{place}: {name} is a share; its unit is empty or %, not '{unit}'.")
+        return value / 100.0 if unit else value
+    if not unit:
+        raise UsageError(f"{place}: {name} has no unit; write it in {wanted}.")
+    dimension = DIMENSIONS[wanted]
+    try:
+        return parse_quantity(f"{text} {unit}", dimension) / dimension.si_factor
+    except CqddError as error:
+        raise UsageError(f"{place}: {name}: {error.message.rstrip('.')}.") from error

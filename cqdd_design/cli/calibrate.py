@@ -1,0 +1,112 @@
+"""``cqdd-design calibrate``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from cqdd_design.cli.options import DesignFile, Force, parse_names, parse_positive
+from cqdd_design.cli.session import Output
+from cqdd_design.cli.tables import number, table
+
+if TYPE_CHECKING:
+    from cqdd_design.actuator.bench.calibrate import Calibration
+
+
+def calibrate(
+    out: Output,
+    design: DesignFile,
+    measured: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="CSV with the columns name,value,unit; default the paper's table, for cqdd-10.",
+        ),
+    ] = None,
+    to: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ROWS", help="Measured rows to fit to, by commas; the others are predicted."
+        ),
+    ] = None,
+    unknowns: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAMES",
+            help="What to fit: thermal_resistance, friction_level, friction_viscous, "
+            "friction_load, current_loop, tolerance_scale; default what the rows decide.",
+        ),
+    ] = None,
+    voltage: Annotated[
+        str | None,
+        typer.Option(metavar="Q", help='Supply of the dynamic rows; default "24 V".'),
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option(min=0, help="Of one drawn gearbox; default perfect parts.")
+    ] = None,
+    path: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", metavar="FILE", help="Default exports/NAME-calibration.json, its own output."
+        ),
+    ] = None,
+    force: Force = False,
+) -> None:
+    """Fit friction, cooling and other unknowns to measured rows; predict the rest."""
+    from cqdd_design import pipeline
+    from cqdd_design.actuator.bench.calibration_file import write_calibration
+    from cqdd_design.actuator.bench.measured import read_measured
+    from cqdd_design.design import load_design
+    from cqdd_design.files import refuse_overwrite
+    from cqdd_design.units import VOLTAGE
+
+    supply = parse_positive("--voltage", voltage, VOLTAGE)
+    rows = None if measured is None else read_measured(measured)
+    loaded = load_design(design)
+    if path is not None:
+        refuse_overwrite(path, force=force)
+    out.note_compilation(simulation=True)
+    found = pipeline.calibrate(
+        loaded,
+        rows,
+        to=parse_names(to),
+        unknowns=parse_names(unknowns),
+        voltage=supply,
+        seed=seed,
+        progress=out.stages(3),
+    )
+    target = path or Path("exports") / f"{loaded.name}-calibration.json"
+    file = write_calibration(found, loaded.sha256, target)
+    out.say(*_lines(found))
+    out.wrote([file])
+    out.document(found.to_dict(), design=loaded, files=[file])
+
+
+def _lines(found: Calibration) -> list[str]:
+    rows = []
+    for row in found.rows:
+        rows.append(
+            [
+                row.name,
+                row.unit,
+                "" if row.measured is None else number(row.measured),
+                number(row.before),
+                number(row.after),
+                "" if row.off is None else f"{100.0 * row.off:+.1f}",
+                row.relation,
+            ]
+        )
+    head = ["measurement", "unit", "measured", "computed", "calibrated", "off %", "agreement is"]
+    fitted = [[name, f"{factor:.4g}"] for name, factor in found.factors.items()]
+    good = [row.name for row in found.within]
+    lines = [
+        table(rows, head=head, right=(2, 3, 4, 5)),
+        "",
+        table(fitted, head=["unknown", "times"], right=(1,)),
+        "",
+        f"{len(good)} of {len(found.predicted)} predicted rows are within 20 % (efficiency: "
+        f"5 points): {', '.join(good) or 'none'}.",
+    ]
+    return lines

@@ -1,0 +1,221 @@
+"""``cqdd-design simulate``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, cast
+
+import typer
+
+from cqdd_design.cli.options import Calibrated, DesignFile, Force
+from cqdd_design.cli.session import Output, read_factors
+from cqdd_design.cli.simulate_options import COMMANDS, FRICTION, LOADS, SIGNALS, Choices, known
+from cqdd_design.cli.tables import number, table
+
+if TYPE_CHECKING:
+    from cqdd_design.actuator.recording import Recording
+    from cqdd_design.actuator.scenario import FrictionModel
+
+_MOST_SAMPLES = 10_000
+
+
+def _quantity(text: str) -> Any:
+    return typer.Option(metavar="Q", help=text)
+
+
+def _choice(known: Sequence[str], text: str) -> Any:
+    return typer.Option(metavar="|".join(known), help=text)
+
+
+def simulate(
+    out: Output,
+    design: DesignFile,
+    load: Annotated[str, _choice(LOADS, "What the output carries.")] = "free",
+    load_inertia: Annotated[
+        str | None,
+        _quantity('Of an inertia, default "0.05 kg*m^2"; of a pendulum\'s arm, default 0.'),
+    ] = None,
+    load_damping: Annotated[
+        str | None, _quantity("Viscous, of inertia and pendulum; default 0 N*m*s/rad.")
+    ] = None,
+    mass: Annotated[str | None, _quantity('Of the pendulum; default "2.28 kg".')] = None,
+    arm: Annotated[str | None, _quantity('Of the pendulum; default "0.5 m".')] = None,
+    wall_angle: Annotated[
+        str | None, _quantity('Where a wall stops the pendulum; default "0.5 rad".')
+    ] = None,
+    wall_stiffness: Annotated[str | None, _quantity('Of the wall; default "2000 N*m/rad".')] = None,
+    output_speed: Annotated[
+        str | None, _quantity('Of an output driven from outside; default "1 rad/s".')
+    ] = None,
+    sensor_stiffness: Annotated[
+        str | None,
+        _quantity('Of the torque sensor that locks the output; default "50000 N*m/rad".'),
+    ] = None,
+    start_angle: Annotated[
+        str | None, _quantity("Of the output, but a locked one; default 0, where a pendulum hangs.")
+    ] = None,
+    command: Annotated[
+        str, _choice(COMMANDS, "What the drive is told; open: no current.")
+    ] = "torque",
+    signal: Annotated[
+        str | None,
+        _choice(SIGNALS, "Of the command over time; default what the options say, or constant."),
+    ] = None,
+    amplitude: Annotated[
+        str | None,
+        _quantity(
+            "Of the command, or its constant, or the ramp's rise; default the continuous torque, "
+            'a quarter of the current limit, half of the supply, or "0.5 rad".'
+        ),
+    ] = None,
+    offset: Annotated[
+        str | None, _quantity("What a sine or chirp swings about, where a ramp starts; default 0.")
+    ] = None,
+    frequency: Annotated[
+        str | None, _quantity('Of a sine, default "0.8 Hz"; first of a chirp, default "0.5 Hz".')
+    ] = None,
+    end_frequency: Annotated[str | None, _quantity('Of a chirp; default "50 Hz".')] = None,
+    reference: Annotated[
+        Path | None,
+        typer.Option(metavar="CSV", help="Command over time: columns as time [s],torque [N m]."),
+    ] = None,
+    position_gain: Annotated[
+        str | None, _quantity("Of impedance and position control; default that of the design.")
+    ] = None,
+    velocity_gain: Annotated[
+        str | None, _quantity("Of impedance and position control; default that of the design.")
+    ] = None,
+    duration: Annotated[
+        str | None, _quantity('Default "5 s"; of a reference file, its last time.')
+    ] = None,
+    step: Annotated[
+        str | None, _quantity('As in "20 us"; default one that the stiffness surely stands.')
+    ] = None,
+    rate: Annotated[str, _quantity("Of the record.")] = "1 kHz",
+    voltage: Annotated[str | None, _quantity("Supply; default that of the design.")] = None,
+    seed: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            min=0,
+            max=2**64 - 1,
+            help="Draw the gearbox from the tolerances; default perfect parts.",
+        ),
+    ] = None,
+    samples: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            min=1,
+            max=_MOST_SAMPLES,
+            help="Gearboxes to draw, seeds from --seed (default 0) on; column `set` numbers them.",
+        ),
+    ] = None,
+    friction: Annotated[str, _choice(FRICTION, "Model of dry friction.")] = "clip",
+    calibration: Calibrated = None,
+    target: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            metavar="FILE",
+            help="As .npz or .parquet; default exports/NAME-simulation.npz.",
+        ),
+    ] = None,
+    force: Force = False,
+) -> None:
+    """Run the actuator in time and write every trace, with units, as npz or Parquet."""
+    from cqdd_design import pipeline
+    from cqdd_design.actuator.scenario import Scenario, Start
+    from cqdd_design.design import load_design
+
+    chosen = Choices(
+        given={
+            "--load-inertia": load_inertia,
+            "--load-damping": load_damping,
+            "--mass": mass,
+            "--arm": arm,
+            "--wall-angle": wall_angle,
+            "--wall-stiffness": wall_stiffness,
+            "--output-speed": output_speed,
+            "--sensor-stiffness": sensor_stiffness,
+            "--start-angle": start_angle,
+            "--amplitude": amplitude,
+            "--offset": offset,
+            "--frequency": frequency,
+            "--end-frequency": end_frequency,
+            "--reference": None if reference is None else str(reference),
+            "--position-gain": position_gain,
+            "--velocity-gain": velocity_gain,
+            "--duration": duration,
+            "--step": step,
+            "--rate": rate,
+            "--voltage": voltage,
+        }
+    )
+    known("--friction", friction, FRICTION)
+    carried, start = chosen.load(load)
+    pipeline.simulation_kind(target, force=force)
+    loaded = load_design(design)
+    supply = chosen.quantity("--voltage", "VOLTAGE", None, example="24 V")
+    told, seconds = chosen.command(command, signal, loaded, supply)
+    for sentence in chosen.warnings:
+        out.warn(sentence)
+    factors = read_factors(out, calibration, loaded)
+    out.note_compilation(simulation=True)
+    result = pipeline.simulate(
+        loaded,
+        Scenario(told, carried, Start(output_angle=start), cast("FrictionModel", friction)),
+        duration=seconds,
+        rate=chosen.quantity("--rate", "FREQUENCY", "1 kHz") or 0.0,
+        step=chosen.quantity("--step", "TIME", None, example="20 us"),
+        voltage=supply,
+        seed=seed,
+        samples=samples,
+        calibration=factors,
+        options={"--friction": friction, **chosen.resolved},
+        progress=out.counting("gearboxes") if samples else None,
+    )
+    file = pipeline.write_simulation(result, target, force=force)
+    out.say(*_lines(result))
+    out.wrote([file])
+    for sentence in result.warnings:
+        out.warn(sentence)
+    out.document(result.to_dict(), design=loaded, files=[file])
+
+
+#: Key of the summary, what it is, unit.
+_ROWS = (
+    ("output_torque_Nm_peak", "output torque, peak", "N*m"),
+    ("output_torque_Nm_rms", "output torque, r.m.s.", "N*m"),
+    ("output_speed_rad_per_s_peak", "output speed, peak", "rad/s"),
+    ("output_speed_rad_per_s_rms", "output speed, r.m.s.", "rad/s"),
+    ("current_A_peak", "current, peak", "A"),
+    ("current_A_rms", "current, r.m.s.", "A"),
+    ("winding_temperature_degC_peak", "winding, hottest", "deg C"),
+    ("electrical_J", "energy from the drive", "J"),
+    ("external_J", "energy from outside", "J"),
+    ("dissipated_J", "energy dissipated", "J"),
+    ("stored_J", "energy stored", "J"),
+    ("residual_J", "residual of the balance", "J"),
+)
+
+
+def _lines(result: Recording) -> list[str]:
+    sets = result.summary()
+    rows = []
+    for key, title, unit in _ROWS:
+        values = [one[key] for one in sets]
+        cells = [min(values), sum(values) / len(values), max(values)] if len(sets) > 1 else values
+        rows.append([title, *map(number, cells), unit])
+    head = ["", "least", "mean", "most", "unit"] if len(sets) > 1 else ["", "value", "unit"]
+    count = len(result.simulation.time)
+    drawn = f"{len(result.seeds)} drawn from the tolerances" if result.seeds else "perfect parts"
+    return [
+        f"{result.options['--load']} load, {result.options['--command']} command, {drawn}: "
+        f"{count} records at {number(result.rate)} Hz, steps of "
+        f"{number(1e6 * result.simulation.step)} us",
+        "",
+        table(rows, head=head, right=tuple(range(1, len(head) - 1))),
+        "",
+    ]

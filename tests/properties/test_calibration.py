@@ -1,0 +1,219 @@
+"""Calibration of the actuator: known unknowns come back, and what tells nothing is refused."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cqdd_design.actuator.bench import METRICS, run_bench
+from cqdd_design.actuator.bench.calibrate import TELLS, UNKNOWNS, apply_factors, calibrate
+from cqdd_design.actuator.bench.calibration_file import read_calibration, write_calibration
+from cqdd_design.actuator.bench.measured import read_measured
+from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.design import load_design
+from cqdd_design.errors import UsageError
+
+HEAD = '{"format": "cqdd-design calibration 1", '
+PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
+
+
+@pytest.fixture(scope="module")
+def actuator() -> ActuatorParameters:
+    return actuator_parameters(load_design(PAPER))
+
+
+def rows_of(actuator: ActuatorParameters, names: list[str]) -> dict[str, float]:
+    return {metric.name: metric.value for metric in run_bench(actuator, only=names).metrics}
+
+
+def test_every_unknown_is_told_by_one_measurement() -> None:
+    assert set(TELLS) <= set(METRICS)
+    assert len(TELLS) == len(UNKNOWNS)
+
+
+def test_calibration_finds_what_was_changed(actuator: ActuatorParameters) -> None:
+    """Rows of an actuator with other friction and cooling bring these back from the first one."""
+    true = {"friction_level": 3.0, "thermal_resistance": 0.7, "friction_load": 0.6}
+    other = apply_factors(actuator, true)
+    told = [UNKNOWNS[name].told_by for name in true]
+    rest = ["no_load_speed", "backdrive_dynamic"]
+    found = calibrate(actuator, rows_of(other, told + rest), to=told)
+    assert found.largest_residual < 1e-3
+    for name, factor in true.items():
+        assert found.factors[name] == pytest.approx(factor, rel=0.03), name
+    marked = {key for key, origin in found.parameters.origins.items() if "calibrated" in origin}
+    assert marked == {value for name in true for value in UNKNOWNS[name].values}
+    # Rows that were not fitted are predicted as the other actuator has them.
+    assert [row.name for row in found.predicted] == rest
+    assert {row.name for row in found.within} == set(rest)
+    assert all(abs(row.off) < 0.02 for row in found.predicted if row.off is not None)
+    relations = {row.name: row.relation for row in found.rows}
+    assert [relations[name] for name in told] == ["calibrated"] * 3
+    assert relations["peak_torque"] == "given"
+    json.dumps(found.to_dict(), allow_nan=False)
+
+
+def test_more_rows_than_unknowns_are_fitted_together(actuator: ActuatorParameters) -> None:
+    other = apply_factors(actuator, {"friction_level": 4.0})
+    names = ["backdrive_static", "backdrive_dynamic"]
+    measured = rows_of(other, names)
+    found = calibrate(actuator, measured, to=names, unknowns=["friction_level"])
+    assert found.factors == pytest.approx({"friction_level": 4.0}, rel=0.03)
+
+
+def test_scale_of_the_tolerances_is_found_for_a_drawn_gearbox() -> None:
+    drawn = actuator_parameters(load_design(PAPER), seed=1)
+    wanted = rows_of(apply_factors(drawn, {"tolerance_scale": 2.0}), ["torque_ripple"])
+    found = calibrate(drawn, wanted)
+    assert found.factors["tolerance_scale"] == pytest.approx(2.0, rel=0.03)
+
+
+def test_paper_on_three_rows(actuator: ActuatorParameters) -> None:
+    """What the documents state of the paper's actuator: three rows fitted, these predicted."""
+    from cqdd_design.actuator.bench.metric import PAPER as TABLE
+    from cqdd_design.pipeline import PAPER_ROWS
+
+    measured = {name: value for name, (value, _) in TABLE.items()}
+    found = calibrate(actuator, measured, to=PAPER_ROWS)
+    assert found.largest_residual < 1e-3
+    within = {row.name for row in found.within}
+    assert within == {"no_load_speed", "backlash", "backdrive_dynamic"}
+    off = {row.name: row.off for row in found.rows}
+    assert off["efficiency_peak"] == pytest.approx(0.0, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("measured", "options", "says"),
+    [
+        ({"mass": 1.4}, {"to": ["mass"]}, "decides no unknown"),
+        ({"mass": 1.4}, {}, "nothing to calibrate"),
+        ({}, {}, "nothing to calibrate"),
+        ({"backdrive_static": math.nan}, {}, "above 0"),
+        ({"backdrive_static": -1.0}, {}, "above 0"),
+        ({"backdrive_statc": 1.0}, {}, "did you mean 'backdrive_static'"),
+        ({"backdrive_static": 1.0}, {"to": ["efficiency_peak"]}, "no measured value"),
+        (
+            {"backdrive_static": 1.0},
+            {"unknowns": ["friction_level", "friction_load"]},
+            "cannot decide 2 unknowns",
+        ),
+        ({"backdrive_static": 1.0}, {"unknowns": ["friction"]}, "is no unknown"),
+        ({"torque_ripple": 1.0}, {}, "draw a gearbox with --seed"),
+        ({"efficiency_peak": 0.999}, {}, "no friction_load within 200 times"),
+    ],
+)
+def test_calibration_refuses_what_tells_nothing(
+    actuator: ActuatorParameters, measured: dict[str, float], options: dict[str, object], says: str
+) -> None:
+    import dataclasses
+
+    if says.startswith("draw"):
+        zero = np.zeros_like(actuator.gear.error_cosine)
+        gear = dataclasses.replace(actuator.gear, error_cosine=zero, error_sine=zero)
+        actuator = dataclasses.replace(actuator, gear=gear)
+    with pytest.raises(UsageError, match=says):
+        calibrate(actuator, measured, **options)  # type: ignore[arg-type]
+
+
+# ------------------------------------------------------------------ files
+
+
+def test_file_brings_the_factors_back(actuator: ActuatorParameters, tmp_path: Path) -> None:
+    wanted = rows_of(apply_factors(actuator, {"friction_level": 2.0}), ["backdrive_static"])
+    found = calibrate(actuator, wanted)
+    path = tmp_path / "c.json"
+    write_calibration(found, "abc", path)
+    assert read_calibration(path, "abc") == (pytest.approx(dict(found.factors)), "")
+    assert "another design" in read_calibration(path, "def")[1]
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("", "is not JSON"),
+        ("[1]", "is not a calibration"),
+        ('{"format": "cqdd-design calibration 1"}', "is not a calibration"),
+        (
+            HEAD + '"unknowns": {"friction_lvl": {"factor": 1}}}',
+            "did you mean 'friction_level'",
+        ),
+        (
+            HEAD + '"unknowns": {"friction_level": {"factor": 0}}}',
+            "a number above 0",
+        ),
+        (
+            HEAD + '"unknowns": {"friction_level": 2}}',
+            "a number above 0",
+        ),
+    ],
+)
+def test_bad_calibration_files(tmp_path: Path, text: str, says: str) -> None:
+    path = tmp_path / "c.json"
+    path.write_text(text)
+    with pytest.raises(UsageError, match=says):
+        read_calibration(path, "abc")
+
+
+def test_measured_rows_come_in_the_units_of_the_bench(tmp_path: Path) -> None:
+    path = tmp_path / "m.csv"
+    path.write_text(
+        "# our rig, 2026\nname,value,unit,spread\nbackdrive_static,1990,mN*m,0.1\n"
+        "efficiency_peak,82.3,%,\nno_load_speed,13.467,rad/s,\nactuator_inertia,5010,g*cm^2,\n"
+        "mass,1400,g,\nbacklash,0.117,deg,0.01\ntorque_bandwidth,34.3,Hz,\n\n"
+        "rated_power,0.96,kW,\ntorque_density,64.2,N*m/kg,\n",
+        encoding="utf-8-sig",
+    )
+    assert read_measured(path) == pytest.approx(
+        {
+            "backdrive_static": 1.99,
+            "efficiency_peak": 0.823,
+            "no_load_speed": 13.467 * 30.0 / math.pi,
+            "actuator_inertia": 5.01e-4,
+            "mass": 1.4,
+            "backlash": 7.02,
+            "torque_bandwidth": 34.3,
+            "rated_power": 960.0,
+            "torque_density": 64.2,
+        }
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("", "is empty"),
+        ("name,value,unit", "no rows"),
+        ("name,value\nmass,1", "has no column unit"),
+        ("name;value;unit\nmass;1;kg", "has no column name, value, unit"),
+        ("name,value,unit\nmass,,kg", "line 2: mass has no value"),
+        ("name,value,unit\nmass,nan,kg", "finite number above 0"),
+        ("name,value,unit\nmass,-1,kg", "finite number above 0"),
+        ("name,value,unit\nmass,1 kg,kg", "the unit has its own column"),
+        ("name,value,unit\nmass,1", "2 cells where the head has 3"),
+        ("name,value,unit\nmas,1,kg", "did you mean 'mass'"),
+        ("name,value,unit\nmass,1,N", "'N' is not a unit of mass"),
+        ("name,value,unit\nmass,1,", "has no unit; write it in kg"),
+        ("name,value,unit\ntorque_bandwidth,200,rad/s", "a rate is in Hz"),
+        ("name,value,unit\nbackdrive_static,2,J", "write a torque as N"),
+        ("name,value,unit\nefficiency_peak,82,W", "is empty or %"),
+        ("name,value,unit\nmass,1,kg\n\nmass,2,kg", "line 4: mass stands there twice"),
+    ],
+)
+def test_bad_measured_files(tmp_path: Path, text: str, says: str) -> None:
+    path = tmp_path / "m.csv"
+    path.write_text(text)
+    with pytest.raises(UsageError, match=says):
+        read_measured(path)
+
+
+def test_missing_measured_file(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="cannot read"):
+        read_measured(tmp_path / "none.csv")
+    (tmp_path / "b.csv").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(UsageError, match="UTF-8"):
+        read_measured(tmp_path / "b.csv")
