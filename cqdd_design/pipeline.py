@@ -17,8 +17,6 @@ from typing import TYPE_CHECKING
 from cqdd_design import __version__
 
 if TYPE_CHECKING:
-    from cqdd_design.actuator.bench import BenchResult
-    from cqdd_design.actuator.parameters import FloatArray
     from cqdd_design.design import Design, Requirements
     from cqdd_design.files import WrittenFile
     from cqdd_design.gearbox import GearboxAnalysis
@@ -31,8 +29,8 @@ if TYPE_CHECKING:
 
 Progress = Callable[[str], None]
 
-#: How often sizing, `write_report` and a whole `bench` tell their progress.
-SIZING_STAGES, REPORT_STAGES, BENCH_STAGES = 2, 5, 16
+#: How often sizing and `write_report` tell their progress.
+SIZING_STAGES, REPORT_STAGES = 2, 6
 
 #: Toleranced gearboxes of a report, fewer of those with many teeth: percentiles to a few per
 #: cent in some seconds, and never too few for a ranking.
@@ -276,54 +274,6 @@ def assembly_check(motion: AssemblyMotion) -> Check:
     )
 
 
-def bench(
-    design: Design,
-    *,
-    only: tuple[str, ...] = (),
-    voltage: float | None = None,
-    progress: Progress = _silent,
-) -> BenchResult:
-    """Measure the actuator of a design on the virtual test bench; see `actuator.bench`."""
-    from cqdd_design.actuator.bench import run_bench
-    from cqdd_design.actuator.bench.run import VOLTAGE
-    from cqdd_design.actuator.build import actuator_parameters
-    from cqdd_design.catalog import find_motor
-
-    return run_bench(
-        actuator_parameters(design),
-        rated_current=find_motor(design.motor.name).rated_current,
-        voltage=VOLTAGE if voltage is None else voltage,
-        only=only,
-        beside_paper=design.name == "cqdd-10",
-        progress=progress,
-    )
-
-
-def write_traces(
-    result: BenchResult, folder: Path, *, force: bool = False
-) -> tuple[WrittenFile, ...]:
-    """Write the trace of every measurement as ``<name>-<measurement>.npz``, columns with units."""
-    import numpy as np
-
-    from cqdd_design.files import ensure_folder, refuse_overwrite, write_with
-
-    ensure_folder(folder)
-    files = []
-    for metric in result.metrics:
-        if not metric.trace:
-            continue
-        path = folder / f"{result.name}-{metric.name.replace('_', '-')}.npz"
-        refuse_overwrite(path, force=force)
-        columns = dict(metric.trace)
-
-        def write(place: Path, columns: dict[str, FloatArray] = columns) -> None:
-            with place.open("wb") as stream:
-                np.savez(stream, allow_pickle=False, **columns)
-
-        files.append(write_with(path, "npz", write))
-    return tuple(files)
-
-
 def inertia(
     design: Design, *, speed: float | None = None, progress: Progress = _silent
 ) -> InertiaAndBalance:
@@ -397,6 +347,7 @@ def write_report(
     WrittenFile, GearboxAnalysis
         The report, and the analysis it shows.
     """
+    from cqdd_design.actuator_pipeline import measured_actuator
     from cqdd_design.files import refuse_overwrite, write_atomically
     from cqdd_design.gearbox import analyse_gearbox
     from cqdd_design.report import ReportInput, build_report, read_comments
@@ -411,6 +362,8 @@ def write_report(
     bodies, notes = weigh_if_possible(analysis.design, analysis.cam_bearing.bearing)
     drawing = start_drawing(analysis.design, analysis.cam_bearing.bearing) if bodies else None
     contact, ensemble, unsolved = _contact_and_tolerances(analysis.design, samples, progress)
+    progress("measuring the actuator on the test bench")
+    measured, unmeasured = measured_actuator(design)
     progress("drawing the machine")
     machine = None if drawing is None else drawing.fetch()
     if isinstance(machine, str):
@@ -428,6 +381,8 @@ def write_report(
         contact=contact,
         tolerance=ensemble,
         machine=machine,
+        bench=measured,
+        bench_missing=unmeasured,
     )
     progress("writing the report")
     return write_atomically(target, build_report(results), "report"), analysis

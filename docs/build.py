@@ -7,6 +7,7 @@
 * ``cli.md``: the help of every command, between its markers.
 * ``validation.md``: every number of the literature that a test compares with, as compared.
 * ``contact-model.md``: its validations and its comparison with the paper, between their markers.
+* ``actuator-model.md``: its validations and the calibrated table, between their markers.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import io
 import json
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 DOCS = Path(__file__).resolve().parent
@@ -134,21 +135,56 @@ class _Records:
             self.rows += [tuple(value) for name, value in properties if name == "validation"]
 
 
-def _validated() -> str:
-    """Table of the contact engine's validations, from a run of their tests."""
+def _recorded(*names: str) -> str:
+    """Table of what the tests of some files recorded, from a run of them."""
     import pytest
 
     seen = _Records()
     quiet = io.StringIO()
-    tests = DOCS.parent / "tests" / "properties" / "test_contact_validation.py"
+    tests = [str(DOCS.parent / "tests" / name) for name in names]
     with contextlib.redirect_stdout(quiet):
-        code = pytest.main(
-            [str(tests), "-q", "-p", "no:cacheprovider", "-p", "no:xdist"], plugins=[seen]
-        )
+        code = pytest.main([*tests, "-q", "-p", "no:cacheprovider", "-p", "no:xdist"], [seen])
     if code != 0:
-        raise SystemExit(f"{tests.name} does not pass:\n{quiet.getvalue()}")
+        raise SystemExit(f"{', '.join(names)} do not pass:\n{quiet.getvalue()}")
     rows = [f"| {what} | {against} | {met} | {bound} |" for what, against, met, bound in seen.rows]
     return "\n".join(["| quantity | against | worst met | bound |", "|---|---|---|---|", *rows])
+
+
+def _validated() -> str:
+    """Table of the contact engine's validations."""
+    return _recorded("properties/test_contact_validation.py")
+
+
+def _actuator_validated() -> str:
+    """Table of the simulation's validations, MuJoCo beside it."""
+    return _recorded("properties/test_actuator_validation.py", "cli/test_mujoco_bench.py")
+
+
+def _calibrated() -> str:
+    """Every row of the bench before and after calibration, beside the paper's."""
+    from cqdd_design.actuator_pipeline import calibrate
+    from cqdd_design.design import load_design
+
+    found = calibrate(load_design(DOCS.parent / "designs" / "cqdd-10.toml"))
+    head = [
+        "| row | unit | paper | computed | calibrated | off | agreement is |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    rows = []
+    for row in found.rows:
+        measured = "" if row.measured is None else f"{row.measured:.4g}"
+        off = "" if row.off is None else f"{100.0 * row.off:+.0f} %"
+        rows.append(
+            f"| `{row.name}` | {row.unit} | {measured} | {row.before:.3g} | {row.after:.3g} "
+            f"| {off} | {row.relation} |"
+        )
+    factors = ", ".join(f"`{name}` times {factor:.2g}" for name, factor in found.factors.items())
+    good = ", ".join(f"`{row.name}`" for row in found.within)
+    told = (
+        f"Fitted: {factors}. Within 20 % of the {len(found.predicted)} predicted rows: {good}; "
+        "efficiency is fitted, so it is within 5 points by the fit alone."
+    )
+    return "\n".join([*head, *rows, "", told])
 
 
 WIDER = {
@@ -208,8 +244,19 @@ def _paper_table() -> str:
 
 def contact_page() -> str:
     """contact-model.md with its tables as the tests and ensembles give them now."""
-    page = (DOCS / "contact-model.md").read_text(encoding="utf-8")
-    for name, make in (("validation", _validated), ("paper", _paper_table)):
+    return _with_tables("contact-model.md", {"validation": _validated, "paper": _paper_table})
+
+
+def actuator_page() -> str:
+    """actuator-model.md with its tables as the tests and the bench give them now."""
+    tables = {"calibration": _calibrated, "actuator validation": _actuator_validated}
+    return _with_tables("actuator-model.md", tables)
+
+
+def _with_tables(page_name: str, tables: Mapping[str, Callable[[], str]]) -> str:
+    """A page with what stands between its markers made anew."""
+    page = (DOCS / page_name).read_text(encoding="utf-8")
+    for name, make in tables.items():
         begin, end = f"<!-- {name}: written by docs/build.py -->", f"<!-- end of {name} -->"
         before, _, rest = page.partition(begin)
         page = f"{before}{begin}\n\n{make()}\n\n{end}{rest.partition(end)[2]}"
@@ -221,6 +268,7 @@ PAGES = {
     "cli.md": cli_page,
     "validation.md": validation_page,
     "contact-model.md": contact_page,
+    "actuator-model.md": actuator_page,
 }
 
 

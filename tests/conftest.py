@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import subprocess
 import sys
@@ -83,3 +84,22 @@ def repository() -> Path:
 def paper_design_file() -> Path:
     """The design file of the paper's actuator."""
     return REPOSITORY / "designs" / "cqdd-10.toml"
+
+
+Record = Callable[[str, object], None]
+
+
+@pytest.fixture
+def validated(record_property: Record) -> Callable[[str, str, float, float], None]:
+    """Assert that a difference is within its bound, and record both for the documentation."""
+
+    def check(quantity: str, against: str, worst: float, bound: float) -> None:
+        record_property("validation", (quantity, against, _below(worst), f"{bound:g}"))
+        assert worst <= bound
+
+    return check
+
+
+def _below(worst: float) -> str:
+    """The next power of ten, because what rounding leaves differs from machine to machine."""
+    return f"below {10.0 ** math.ceil(math.log10(max(worst, 1e-12))):.0g}"

@@ -180,6 +180,8 @@ def _motor(row: Motor, inertia: GearboxInertia, origins: dict[str, str]) -> Moto
         origins["motor.pole_pairs"] = "assumed"
     for key in ("cogging_amplitude", "iron_loss", "hysteresis"):
         origins[f"motor.{key}"] = "assumed: 0, the catalogue gives none"
+    origins["motor.cogging_order"] = "assumed: without effect, there is no cogging"
+    origins["motor.reference_temperature"] = "assumed: the catalogue's values hold at 25 deg C"
     for key, value in (("rated_torque", row.rated_torque), ("peak_torque", row.peak_torque)):
         origins[f"motor.{key}"] = f"catalogue: {row.name}" if value else "missing"
     return MotorParameters(

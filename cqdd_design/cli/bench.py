@@ -45,7 +45,7 @@ def bench(
     force: Force = False,
 ) -> None:
     """Virtual test bench: the data sheet of the actuator, measured on its simulation."""
-    from cqdd_design import pipeline
+    from cqdd_design import actuator_pipeline as pipeline
     from cqdd_design.actuator.comparison import catalogue_actuator
     from cqdd_design.design import load_design
     from cqdd_design.units import VOLTAGE

@@ -55,7 +55,7 @@ def calibrate(
     force: Force = False,
 ) -> None:
     """Fit friction, cooling and other unknowns to measured rows; predict the rest."""
-    from cqdd_design import pipeline
+    from cqdd_design import actuator_pipeline as pipeline
     from cqdd_design.actuator.bench.calibration_file import write_calibration
     from cqdd_design.actuator.bench.measured import read_measured
     from cqdd_design.design import load_design

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from cqdd_design.cli.options import Force, parse_positive
-from cqdd_design.cli.session import Output
-
-if TYPE_CHECKING:
-    from cqdd_design.exporting import ExportOptions
+from cqdd_design.cli.options import Calibrated, Force, parse_positive
+from cqdd_design.cli.session import Output, read_factors
 
 WITHOUT_SOLIDS = {"dxf", "svg", "edm", "gcode", "mjcf", "urdf", "card", "bam"}
 """Kinds that need no parts of the machine."""
@@ -60,6 +57,13 @@ def export(
         int | None,
         typer.Option(metavar="N", min=1, help="Designs at a time; default one for each core."),
     ] = None,
+    seed: Annotated[
+        int | None,
+        typer.Option(
+            min=0, help="Gearbox of simulators drawn from the tolerances; default perfect parts."
+        ),
+    ] = None,
+    calibration: Calibrated = None,
     force: Force = False,
 ) -> int:
     """Files for makers (DXF, EDM package, STEP, meshes, bill of materials) and simulators."""
@@ -77,10 +81,23 @@ def export(
         **({} if tab is None else {"tab_length": tab}),
     )
     if len(design) > 1:
-        return _several(out, design, kinds, folder, options, workers=workers, force=force)
+        more = options.arguments()
+        more += [] if seed is None else ["--seed", str(seed)]
+        more += [] if calibration is None else ["--calibration", str(calibration)]
+        return _several(out, design, kinds, folder, more, workers=workers, force=force)
     loaded = load_design(design[0])
+    factors = read_factors(out, calibration, loaded)
     stages = out.stages(len(kinds) + bool(set(kinds) - WITHOUT_SOLIDS))
-    files = write(loaded, kinds, folder, force=force, progress=stages, options=options)
+    files = write(
+        loaded,
+        kinds,
+        folder,
+        force=force,
+        progress=stages,
+        options=options,
+        seed=seed,
+        calibration=factors,
+    )
     out.wrote(files)
     out.document({"kinds": list(kinds)}, design=loaded, files=files)
     return 0
@@ -91,7 +108,7 @@ def _several(
     designs: list[Path],
     kinds: tuple[str, ...],
     folder: Path | None,
-    options: ExportOptions,
+    options: list[str],
     *,
     workers: int | None,
     force: bool,
@@ -99,7 +116,7 @@ def _several(
     """Each design in a process of its own; the exit code of the first that failed."""
     from cqdd_design.exporting.many import export_many
 
-    arguments = ["--to", ",".join(kinds), *options.arguments()]
+    arguments = ["--to", ",".join(kinds), *options]
     arguments += ["--force"] if force else []
     found = export_many(
         designs, arguments, folder, workers=workers, progress=out.counting("designs")

@@ -14,7 +14,7 @@ import os
 import shutil
 import uuid
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -25,6 +25,7 @@ from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 from cqdd_design.files import WrittenFile, ensure_folder, refuse_overwrite
 
 if TYPE_CHECKING:
+    from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.design import Design
     from cqdd_design.solids.parts import Part
 
@@ -65,12 +66,18 @@ class ExportJob:
         Told in a few words what is being done.
     options : ExportOptions
         How files are written.
+    seed : int, optional
+        Of the gearbox that simulators get; default perfect parts.
+    calibration : mapping of str to float
+        Factors of what the actuator's unknowns were computed as.
     """
 
     design: Design
     folder: Path
     progress: Progress
     options: ExportOptions = DEFAULTS
+    seed: int | None = None
+    calibration: Mapping[str, float] = field(default_factory=dict)
 
     def path(self, ending: str, within: str = "") -> Path:
         """File of this design: ``path("-disc.dxf")`` is ``<folder>/<name>-disc.dxf``.
@@ -78,6 +85,15 @@ class ExportJob:
         `within` names a folder below it, which need not exist yet.
         """
         return self.folder / within / f"{self.design.name}{ending}"
+
+    @cached_property
+    def actuator(self) -> ActuatorParameters:
+        """The actuator in time, for the first writer that asks; later ones get the same."""
+        from cqdd_design.actuator.bench.calibrate import apply_factors
+        from cqdd_design.actuator.build import actuator_parameters
+
+        found = actuator_parameters(self.design, seed=self.seed)
+        return apply_factors(found, self.calibration)
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:
@@ -131,6 +147,8 @@ def export(
     force: bool = False,
     progress: Progress | None = None,
     options: ExportOptions = DEFAULTS,
+    seed: int | None = None,
+    calibration: Mapping[str, float] | None = None,
 ) -> tuple[WrittenFile, ...]:
     """Write the files of a design.
 
@@ -148,6 +166,10 @@ def export(
         Called with a few words before each kind of file.
     options : ExportOptions, optional
         How files are written.
+    seed : int, optional
+        Simulators get a gearbox drawn from the tolerances; default perfect parts.
+    calibration : mapping of str to float, optional
+        Factors of the actuator's unknowns, for simulators.
 
     Returns
     -------
@@ -173,7 +195,7 @@ def export(
     placed: list[WrittenFile] = []
     try:
         ensure_folder(staging)
-        job = ExportJob(design, staging, tell, options)
+        job = ExportJob(design, staging, tell, options, seed, calibration or {})
         for kind in wanted:
             tell(f"writing {kind}")
             placed += [

@@ -60,11 +60,9 @@ class Card:
 
 def export_card(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-card.yaml`` and ``<name>-card.md``."""
-    from cqdd_design.actuator.build import actuator_parameters
-
     design = job.design
     return write_card(
-        actuator_parameters(design),
+        job.actuator,
         design.name,
         job.path("-card"),
         design_sha256=design.sha256,

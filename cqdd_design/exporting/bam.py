@@ -61,12 +61,10 @@ UNITS = {
 
 def export_bam(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-bam.json``."""
-    from cqdd_design.actuator.build import actuator_parameters
-
     design = job.design
     return (
         write_bam(
-            actuator_parameters(design),
+            job.actuator,
             design.name,
             job.path("-bam.json"),
             design_sha256=design.sha256,

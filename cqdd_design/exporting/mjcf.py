@@ -42,10 +42,8 @@ _UNTOUCHED = {"contype": "0", "conaffinity": "0"}
 
 def export_mjcf(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-test.xml``, which loads by itself, and ``<name>.xml``, to be included."""
-    from cqdd_design.actuator.build import actuator_parameters
-
     design = job.design
-    parameters = actuator_parameters(design)
+    parameters = job.actuator
     return (
         write_test_model(
             parameters, design.name, job.path("-test.xml"), design_sha256=design.sha256

@@ -27,12 +27,10 @@ DRAKE = "http://drake.mit.edu"
 
 def export_urdf(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>.urdf``."""
-    from cqdd_design.actuator.build import actuator_parameters
-
     design = job.design
     return (
         write_urdf(
-            actuator_parameters(design),
+            job.actuator,
             design.name,
             job.path(".urdf"),
             design_sha256=design.sha256,

@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cqdd_design.gearbox.allowables import UNEVEN_SHARING
+from cqdd_design.report.actuator_view import actuator_view
+from cqdd_design.report.bench_view import bench_view
 from cqdd_design.report.bodies import bodies_view
 from cqdd_design.report.check_rows import chapters, printed
 from cqdd_design.report.closing import ERRATA, model_assumptions, paper_symbols, sources_used
@@ -125,6 +127,7 @@ def _context(results: ReportInput) -> dict[str, Any]:
         "chapters": chapters(analysis.checks),
         "load_charts": load_charts(analysis),
         **_engine(results, machine),
+        **_bench(results),
         "bodies": None if bodies is None else bodies_view(analysis.design, bodies),
         "sizing": None if results.sizing is None else sizing_view(results.sizing),
         "counterweights": results.design.reducer.balance.counterweights,
@@ -161,6 +164,19 @@ def _engine(results: ReportInput, machine: Machine) -> dict[str, Any]:
     return values
 
 
+def _bench(results: ReportInput) -> dict[str, Any]:
+    """Values of the sections that come from the simulated actuator; None where there is none."""
+    measured = results.bench
+    if measured is None:
+        return {"actuator": None, "bench": None, "bench_missing": results.bench_missing}
+    actuator, found = measured
+    return {
+        "actuator": actuator_view(actuator, found, results.design.requirements),
+        "bench": bench_view(actuator, found, pin_count=results.design.reducer.output_pins.count),
+        "bench_missing": "",
+    }
+
+
 _PLANETARY_SOURCES = (
     "ISO 6336-1, -2 and -3:2019, load capacity of spur gears",
     "ISO 6336-5:2016, strength of gear materials",
@@ -182,6 +198,8 @@ _CONTENTS = (
     ("losses", "Losses"),
     ("life", "Life"),
     ("tolerances", "Tolerances"),
+    ("actuator", "Actuator"),
+    ("bench", "Test bench"),
     ("planetary", "Planetary"),
     ("edm", "Wire EDM"),
     ("inertia", "Inertia"),
@@ -206,6 +224,8 @@ def _contents(results: ReportInput) -> tuple[tuple[str, str], ...]:
         absent |= {"contact", "precision", "losses", "life"}
     if results.tolerance is None:
         absent.add("tolerances")
+    if results.bench is None:
+        absent |= {"bench"} if results.bench_missing else {"actuator", "bench"}
     return tuple(entry for entry in _CONTENTS if entry[0] not in absent)
 
 

@@ -14,6 +14,8 @@ from cqdd_design.report.weighing import Bodies
 from cqdd_design.results import Provenance
 
 if TYPE_CHECKING:
+    from cqdd_design.actuator.bench import BenchResult
+    from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.gearbox.contact_analysis import ContactAnalysis
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
     from cqdd_design.report.machine_view.pictures import MachineViews
@@ -50,6 +52,10 @@ class ReportInput:
         An ensemble of toleranced gearboxes.
     machine : (MachineViews, ViewerData) or None
         Pictures of the solids, and their model in three dimensions.
+    bench : (ActuatorParameters, BenchResult) or None
+        The simulated actuator, and what the virtual test bench measured on it.
+    bench_missing : str
+        A sentence on why there is none; empty where nobody asked for it.
     """
 
     design: Design
@@ -64,3 +70,5 @@ class ReportInput:
     contact: ContactAnalysis | None = None
     tolerance: ToleranceResult | None = None
     machine: tuple[MachineViews, ViewerData] | None = None
+    bench: tuple[ActuatorParameters, BenchResult] | None = None
+    bench_missing: str = ""

@@ -26,24 +26,6 @@ from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles,
 from cqdd_design.gearbox.losses import loss_model
 from cqdd_design.gearbox.precision.backlash import backlash
 
-Record = Callable[[str, object], None]
-
-
-@pytest.fixture
-def validated(record_property: Record) -> Callable[[str, str, float, float], None]:
-    """Assert that a difference is within its bound, and record both for the documentation."""
-
-    def check(quantity: str, against: str, worst: float, bound: float) -> None:
-        record_property("validation", (quantity, against, _below(worst), f"{bound:g}"))
-        assert worst <= bound
-
-    return check
-
-
-def _below(worst: float) -> str:
-    """The next power of ten, because what rounding leaves differs from machine to machine."""
-    return f"below {10.0 ** math.ceil(math.log10(max(worst, 1e-12))):.0g}"
-
 
 def _models() -> list[ContactModel]:
     paper, peer = paper_design(), peer_design()

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cqdd_design import pipeline
+from cqdd_design import actuator_pipeline as pipeline
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.packing import largest_step
 from cqdd_design.actuator.parameters import ActuatorParameters

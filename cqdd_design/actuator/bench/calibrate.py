@@ -335,6 +335,7 @@ def calibrate(
                 metric.relation,
             )
             for metric in after.metrics
+            if metric.name in old
         ),
         after=after,
     )
@@ -392,6 +393,8 @@ def _fit(
 
     def misses(logarithms: FloatArray) -> FloatArray:
         result = run_bench(changed(logarithms), only=tuple(targets), voltage=voltage)
+        if result.warnings:
+            raise UsageError(f"cannot calibrate to what cannot be measured: {result.warnings[0]}")
         values = {metric.name: metric.value for metric in result.metrics}
         found = np.array([values[name] for name in targets])
         return np.asarray(np.log(np.maximum(found, 1e-12) / wanted))

@@ -86,9 +86,11 @@ def backlash(parameters: ActuatorParameters, positions: int = 6) -> Metric:
     )
 
 
-def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Metric:
-    """Phases open, torque on the output ramped until it breaks away."""
+def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Metric | None:
+    """Phases open, torque on the output ramped until it breaks away; None where it never does."""
     friction = parameters.friction
+    if friction.load_backward * (1.0 + friction.stribeck_extra) >= 1.0:
+        return None
     ratio = abs(parameters.gear.ratio)
     motor = parameters.motor
     expected = (
@@ -114,10 +116,12 @@ def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Met
         moving = np.flatnonzero(np.abs(run.motor_speed[i]) > _MOVING * ratio)
         if moving.size:
             found.append(slope * run.time[moving[0]])
+    if not found:
+        return None
     values = np.array(found)
     return Metric(
         "backdrive_static",
-        float(values.mean()) if values.size else math.nan,
+        float(values.mean()),
         "predicted",
         f"Phases open, output torque ramped at {slope:.3g} N m/s until the motor turns faster than "
         f"{_MOVING:g} rad/s of output, at {positions} places in both senses.",
@@ -131,10 +135,18 @@ def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Met
     )
 
 
-def backdrive_dynamic(parameters: ActuatorParameters, speed: float = 1.0) -> Metric:
-    """Phases open, the output turned slowly at a steady speed."""
-    run = _driven(parameters, Command("open"), speed, 2.5)
-    late = run.time > 0.5
+def backdrive_dynamic(parameters: ActuatorParameters, speed: float = 1.0) -> Metric | None:
+    """Phases open, the output turned slowly at a steady speed; None where it does not turn."""
+    if parameters.friction.load_backward >= 1.0:
+        return None
+    # Brought up slowly: a jump would leave the motor swinging on the gearbox's stiffness.
+    rise = 1.0
+    slowly = Sampled(np.array([0.0, rise]), np.array([0.0, speed]))
+    scene = Scenario(Command("open"), Load.driven(slowly))
+    step = safe_step(parameters, scene)
+    every = max(1, round(1e-4 / step))
+    run = simulate(cold(parameters), scene, 1.5 * rise + 2.0, step, every=every)
+    late = run.time > 1.5 * rise
     torque = -np.sign(speed) * run.output_torque[0][late]
     return Metric(
         "backdrive_dynamic",
@@ -208,7 +220,10 @@ def _ripple(parameters: ActuatorParameters, speed: float) -> _Ripple:
     angle = np.abs(run.motor_angle[0][late] - run.motor_angle[0][late][0])
     turns = np.floor(angle / (2.0 * math.pi)).astype(int)
     halves = [0.5 * np.ptp(torque[turns == turn]) for turn in range(int(turns.max()))]
-    return _Ripple(np.array(halves), *order_spectrum(angle / abs(gear.ratio), torque))
+    # Every tooth of every lobe in a turn of the output, and what comes above.
+    most = max(400, math.ceil(1.5 * abs(gear.ratio) * (abs(gear.ratio) + 1.0)))
+    spectrum = order_spectrum(angle / abs(gear.ratio), torque, min(most, len(torque) // 4))
+    return _Ripple(np.array(halves), *spectrum)
 
 
 def order_spectrum(

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import time
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
+from types import MappingProxyType
 
 from cqdd_design.actuator.bench import bandwidth, gear, steady
 from cqdd_design.actuator.bench.metric import METRICS, BenchResult, Metric
@@ -13,6 +14,16 @@ from cqdd_design.errors import UsageError, did_you_mean
 
 VOLTAGE = 24.0
 """Of the dynamic rows, V: what the paper measured at."""
+
+_HOLDS = "the output does not turn the motor at any torque; the gearbox holds itself"
+_ABSENT: Mapping[str, str] = MappingProxyType(
+    {
+        "rated_power": "the motor's catalogue gives no rated current",
+        "backdrive_static": _HOLDS,
+        "backdrive_dynamic": _HOLDS,
+    }
+)
+"""Why a measurement may be missing."""
 
 Progress = Callable[[str], None]
 
@@ -82,14 +93,16 @@ def run_bench(
         "position_bandwidth_45deg": lambda: bandwidth.position_bandwidth(parameters, 45.0, voltage),
         "position_bandwidth_5deg": lambda: bandwidth.position_bandwidth(parameters, 5.0, voltage),
     }
-    found = []
+    found, warnings = [], []
     for name, measure in measures.items():
         if only and name not in only:
             continue
         if progress is not None:
             progress(name.replace("_", " "))
         metric = measure()
-        if metric is not None:
+        if metric is None:
+            warnings.append(f"{name}: {_ABSENT[name]}.")
+        else:
             fitted = metric.name in calibrated and metric.relation == "predicted"
             found.append(dataclasses.replace(metric, relation="calibrated") if fitted else metric)
     return BenchResult(
@@ -98,4 +111,5 @@ def run_bench(
         beside_paper=beside_paper,
         voltage=voltage,
         seconds=time.perf_counter() - began,
+        warnings=tuple(warnings),
     )

@@ -174,9 +174,9 @@ def efficiency_peak(parameters: ActuatorParameters, points: int = 8) -> Metric:
     most = 2.0 * rated / motor.torque_constant if math.isfinite(rated) else math.inf
     most = min(most, parameters.drive.current_limit)
     part = (np.arange(points) + 1.0) / points
-    speed, current = (
-        grid.ravel() for grid in np.meshgrid(top * part, most * np.r_[-part[::-1], part])
-    )
+    # A gearbox that holds itself cannot be turned from the output.
+    shares = part if parameters.friction.load_backward >= 1.0 else np.r_[-part[::-1], part]
+    speed, current = (grid.ravel() for grid in np.meshgrid(top * part, most * shares))
     scenes = []
     for at, through in zip(speed, current, strict=True):
         # A positive current turns the motor forwards, and the output by the ratio's sign.

@@ -1,0 +1,126 @@
+"""`bench` and `calibrate` as real processes: fixed names, files, and what they refuse."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cqdd_design.cli.main import run
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+DESIGN = str(REPOSITORY / "designs" / "cqdd-10.toml")
+FIXED = {
+    "continuous_torque", "peak_torque", "no_load_speed", "rated_power", "output_resolution",
+    "efficiency_peak", "torque_density", "actuator_inertia", "mass", "backlash",
+    "backdrive_static", "backdrive_dynamic", "torque_ripple", "torque_bandwidth",
+    "position_bandwidth_45deg", "position_bandwidth_5deg",
+}  # fmt: skip
+RELATIONS = {"given", "calibrated", "predicted", "not comparable"}
+
+
+def test_bench_measures_every_row_and_writes_its_traces(cqdd, tmp_path):
+    found = cqdd("bench", DESIGN, "--json", "--out", str(tmp_path / "traces"))
+    assert found.code == 0
+    results = found.document["results"]
+    metrics = results["metrics"]
+    assert set(metrics) >= FIXED
+    for name, metric in metrics.items():
+        assert metric["relation"] in RELATIONS, name
+        assert metric["protocol"].endswith("."), name
+        assert metric["paper"] is None if name == "stall_torque" else metric["paper"] > 0.0
+    columns = {one["name"]: one["torque_density_Nm_per_kg"] for one in results["comparison"]}
+    assert columns["Lee et al."] == pytest.approx(83.96, abs=0.005)
+    assert columns["cqdd-10 (this design)"] == pytest.approx(metrics["torque_density"]["value"])
+    written = {Path(file["path"]).name for file in found.document["files"]}
+    assert "cqdd-10-torque-bandwidth.npz" in written
+    with np.load(tmp_path / "traces" / "cqdd-10-torque-bandwidth.npz") as trace:
+        assert {"frequency [Hz]", "gain", "phase [rad]", "coherence"} == set(trace.files)
+        edge = metrics["torque_bandwidth"]["value"]
+        gain = np.interp(edge, trace["frequency [Hz]"], trace["gain"])
+    low = metrics["torque_bandwidth"]["details"]["low_frequency_gain"]
+    assert gain / low == pytest.approx(10.0**-0.15, rel=1e-6)
+
+
+def test_bench_says_what_an_agreement_is(cqdd):
+    found = cqdd("bench", DESIGN, "--only", "mass,peak_torque,no_load_speed", "--voltage", "48 V")
+    assert found.code == 0
+    lines = {line.split()[0]: line for line in found.out.splitlines() if line}
+    assert lines["mass"].split()[-1] == "predicted"
+    assert lines["peak_torque"].split()[-1] == "given"
+    # Twice the voltage, about twice the paper's speed at 24 V.
+    assert 255.0 < float(lines["no_load_speed"].split()[1]) < 270.0
+    assert "actuator  " not in found.out
+
+
+def test_calibration_goes_from_one_command_into_the_others(cqdd, tmp_path):
+    measured = tmp_path / "rig.csv"
+    measured.write_text("name,value,unit\nbackdrive_static,1500,mN*m\nno_load_speed,13.5,rad/s\n")
+    path = tmp_path / "fit.json"
+    found = cqdd("calibrate", DESIGN, "--measured", str(measured), "--out", str(path), "--json")
+    assert found.code == 0
+    rows = found.document["results"]["rows"]
+    assert rows["backdrive_static"]["relation"] == "calibrated"
+    assert rows["backdrive_static"]["after"] == pytest.approx(1.5, rel=1e-3)
+    assert found.document["results"]["predicted"] == ["no_load_speed"]
+    again = cqdd(
+        "bench", DESIGN, "--only", "backdrive_static", "--calibration", str(path), "--json"
+    )
+    value = again.document["results"]["metrics"]["backdrive_static"]["value"]
+    assert value == pytest.approx(1.5, rel=1e-3)
+    out = tmp_path / "card"
+    cqdd("export", DESIGN, "--to", "card", "--calibration", str(path), "--out", str(out))
+    assert "calibrated: friction_level" in (out / "cqdd-10-card.md").read_text()
+    file = tmp_path / "run.npz"
+    run = cqdd(
+        "simulate", DESIGN, "--duration", "0.1 s", "--calibration", str(path), "--out", str(file)
+    )
+    assert run.code == 0
+    assert "kept in" not in path.read_text()
+    assert json.loads(path.read_text())["unknowns"]["friction_level"]["factor"] > 5.0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["bench", DESIGN, "--only", "backlsh"], "did you mean 'backlash'"),
+        (["bench", DESIGN, "--voltage", "0 V"], "not above zero"),
+        (["bench", DESIGN, "--voltage", "24"], "has no unit"),
+        (["bench", DESIGN, "--beside", "Some Motor"], "no motor 'Some Motor'"),
+        (["bench", DESIGN, "--beside", "CubeMars RO100 KV55"], "geared"),
+        (["bench", DESIGN, "--calibration", "none.json"], "cannot read none.json"),
+        (["calibrate", DESIGN, "--to", "mass"], "decides no unknown"),
+        (["calibrate", DESIGN, "--measured", "none.csv"], "cannot read none.csv"),
+        (["calibrate", DESIGN, "--unknowns", "fricton_level"], "did you mean 'friction_level'"),
+    ],
+)
+def test_wrong_usage(arguments, says, capfd):
+    assert run(arguments) in (2, 3)
+    told = capfd.readouterr().err
+    assert says in " ".join(told.split())
+    assert "Traceback" not in told
+
+
+def test_designs_without_measurements_say_so(tmp_path, capfd):
+    other = tmp_path / "other.toml"
+    text = (REPOSITORY / "designs" / "cqdd-10.toml").read_text()
+    other.write_text(text.replace('name = "cqdd-10"', 'name = "mine"', 1))
+    assert run(["calibrate", str(other)]) == 2
+    assert "no measured values of mine" in " ".join(capfd.readouterr().err.split())
+
+
+@pytest.mark.parametrize(
+    ("motor", "says"),
+    [
+        ("CubeMars AK10-9 V2 KV60", "geared actuator"),
+        ("no such motor", "no motor"),
+    ],
+)
+def test_motors_that_cannot_be_simulated(motor, says, tmp_path, capfd):
+    other = tmp_path / "other.toml"
+    text = (REPOSITORY / "designs" / "cqdd-10.toml").read_text()
+    other.write_text(text.replace("CubeMars RO100 KV55", motor))
+    assert run(["bench", str(other)]) == 3
+    assert says in " ".join(capfd.readouterr().err.split())

@@ -1,0 +1,619 @@
+"""Report sections of the simulated actuator: figures and tables show what was computed."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from cqdd_design import pipeline
+from cqdd_design.actuator.bench import BenchResult, Metric, run_bench
+from cqdd_design.actuator.bench.gear import DIAL, DIAL_RADIUS
+from cqdd_design.actuator.bench.metric import PAPER
+from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.motor import envelope
+from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.actuator.thermal import continuous_current, response, steady_state
+from cqdd_design.design import Design, load_design
+from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.report import ReportInput, build_report
+from cqdd_design.report.actuator_rows import parameter_rows
+from cqdd_design.report.actuator_view import (
+    actuator_view,
+    asked_points,
+    duration,
+    envelope_curves,
+)
+from cqdd_design.report.axes import Labels, linear_axis, log_axis, thinned
+from cqdd_design.report.bench_charts import bode, spectrum
+from cqdd_design.report.bench_figures import ARCMIN, dead_zone, efficiency_maps
+from cqdd_design.report.bench_view import (
+    RELATIONS,
+    bench_view,
+    comparison,
+    is_near,
+    off_by,
+)
+from cqdd_design.report.operating import (
+    DRIVER,
+    HEAT,
+    PEAK,
+    VOLTAGE,
+    envelope_torque,
+    held_torque,
+    judge,
+    motor_torque,
+    needed,
+    output_torque,
+    time_to_limit,
+)
+from cqdd_design.report.svg import Figure
+from cqdd_design.sizing.comparison import compare_with_planetary
+
+PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
+RPM = 30.0 / math.pi
+
+
+@pytest.fixture(scope="module")
+def design() -> Design:
+    return load_design(PAPER_FILE)
+
+
+@pytest.fixture(scope="module")
+def actuator(design: Design) -> ActuatorParameters:
+    return actuator_parameters(design)
+
+
+@pytest.fixture(scope="module")
+def measured(actuator: ActuatorParameters) -> BenchResult:
+    return run_bench(actuator, rated_current=20.0, beside_paper=True)
+
+
+@pytest.fixture(scope="module")
+def page(design: Design, actuator: ActuatorParameters, measured: BenchResult) -> str:
+    return page_of(design, bench=(actuator, measured))
+
+
+def page_of(
+    design: Design,
+    *,
+    bench: tuple[ActuatorParameters, BenchResult] | None = None,
+    missing: str = "",
+) -> str:
+    analysis = analyse_gearbox(design)
+    return build_report(
+        ReportInput(
+            design=design,
+            gearbox=analysis,
+            planetary=compare_with_planetary(design, analysis=analysis),
+            provenance=pipeline.provenance(design),
+            bench=bench,
+            bench_missing=missing,
+        )
+    )
+
+
+def section(page: str, anchor: str) -> str:
+    begin = page.index(f'<section id="{anchor}"')
+    return page[begin : page.index("</section>", begin)]
+
+
+def words_of(markup: str) -> str:
+    plain = re.sub(r"<[^>]+>", " ", markup).replace("\u202f", " ").replace("&#39;", "'")
+    return re.sub(r"\s+", " ", plain)
+
+
+def tree(figure: Figure) -> ElementTree.Element:
+    return ElementTree.fromstring(figure.render())
+
+
+def classed(figure: Figure, tag: str, words: str) -> list[ElementTree.Element]:
+    wanted = set(words.split())
+    return [e for e in tree(figure).iter(tag) if wanted <= set(e.get("class", "").split())]
+
+
+def number(element: ElementTree.Element, name: str) -> float:
+    return float(element.get(name, "nan"))
+
+
+def path_of(element: ElementTree.Element) -> np.ndarray:
+    numbers = re.findall(r"-?\d+(?:\.\d+)?", element.get("d", ""))
+    return np.array([float(v) for v in numbers]).reshape(-1, 2)
+
+
+def metric_of(measured: BenchResult, name: str) -> Metric:
+    return next(metric for metric in measured.metrics if metric.name == name)
+
+
+# ------------------------------------------------------------------ operating points
+
+
+def test_friction_is_taken_off_and_put_back(actuator: ActuatorParameters) -> None:
+    rng = np.random.default_rng(2)
+    speed, torque = rng.uniform(0.0, 25.0, 200), rng.uniform(0.0, 90.0, 200)
+    shaft = motor_torque(actuator, torque, speed)
+    assert output_torque(actuator, shaft, speed) == pytest.approx(torque, abs=1e-9)
+    assert np.all(shaft > torque / abs(actuator.gear.ratio))
+
+
+def test_inside_and_outside_agree_with_the_motor_s_envelope(actuator: ActuatorParameters) -> None:
+    rng = np.random.default_rng(5)
+    n, thermal = abs(actuator.gear.ratio), actuator.thermal
+    seen = set()
+    for torque, speed, hot in zip(
+        rng.uniform(-90.0, 90.0, 300), rng.uniform(0.0, 32.0, 300), rng.random(300) < 0.5,
+        strict=True,
+    ):  # fmt: skip
+        found = judge(actuator, float(torque), float(speed), lasting=False, hot=bool(hot))
+        temperature = thermal.most if hot else thermal.ambient
+        bounds = envelope(
+            actuator.motor, actuator.drive, [n * speed], winding_temperature=temperature
+        )
+        inside = bounds.low[0] <= found.need.motor_torque <= bounds.high[0]
+        assert inside == (not {DRIVER, VOLTAGE} & set(found.binding))
+        if torque > 0.0 and PEAK not in found.binding:
+            assert found.inside == (torque <= found.most * (1.0 + 1e-9))
+        seen.add(found.binding)
+    assert {(), (DRIVER,), (VOLTAGE,)} <= seen
+
+
+def test_the_most_torque_is_where_a_limit_begins_to_bind(actuator: ActuatorParameters) -> None:
+    for speed in (0.0, 2.0, 13.0, 26.0):
+        for lasting in (False, True):
+            most = judge(actuator, 1.0, speed, lasting=lasting, hot=True).most
+            assert judge(actuator, 0.9999 * most, speed, lasting=lasting, hot=True).inside
+            assert not judge(actuator, 1.001 * most, speed, lasting=lasting, hot=True).inside
+
+
+def test_a_weak_motor_binds_before_its_driver(actuator: ActuatorParameters) -> None:
+    weak = dataclasses.replace(actuator, motor=dataclasses.replace(actuator.motor, peak_torque=4.0))
+    found = judge(weak, 40.0, 5.0, lasting=False, hot=False)
+    assert found.binding == (PEAK,)
+    assert found.most == pytest.approx(float(output_torque(weak, 4.0, 5.0)))
+
+
+def test_the_envelope_is_what_the_bench_measures(
+    actuator: ActuatorParameters, measured: BenchResult
+) -> None:
+    """The bench simulates; the figure computes."""
+    stalled = metric_of(measured, "stall_torque").value
+    assert float(envelope_torque(actuator, 0.0, 25.0)[0]) == pytest.approx(stalled, rel=0.01)
+    forever = metric_of(measured, "continuous_torque").value
+    assert float(held_torque(actuator, 0.0)[0]) == pytest.approx(forever, rel=0.01)
+
+
+def test_held_torque_heats_the_winding_to_its_limit(actuator: ActuatorParameters) -> None:
+    motor, thermal = actuator.motor, actuator.thermal
+    for speed in (0.0, 4.0, 15.0):
+        for seconds in (10.0, 60.0, math.inf):
+            torque = float(held_torque(actuator, speed, seconds)[0])
+            need = needed(actuator, torque, speed, thermal.most)
+            if math.isinf(seconds):
+                winding, _ = steady_state(motor, thermal, need.current, need.heat)
+            else:
+                winding = response(motor, thermal, need.current, [seconds], housing_heat=need.heat)[
+                    0, 0
+                ]
+                lasts = time_to_limit(actuator, need.current, need.heat)
+                assert lasts == pytest.approx(seconds, rel=1e-3)
+            assert winding == pytest.approx(thermal.most, abs=0.01)
+    still = continuous_current(motor, thermal)
+    at_rest = needed(actuator, float(held_torque(actuator, 0.0)[0]), 0.0, thermal.most)
+    assert at_rest.current == pytest.approx(still, rel=1e-6)
+
+
+def test_shorter_overloads_allow_more_and_friction_takes_from_speed(
+    actuator: ActuatorParameters,
+) -> None:
+    speed = np.array([1.0, 5.0, 10.0, 20.0])
+    ten, minute, ever = (held_torque(actuator, speed, s) for s in (10.0, 60.0, math.inf))
+    assert np.all(ten > minute)
+    assert np.all(minute > ever)
+    assert np.all(np.diff(ever) < 0.0)
+    assert np.all(held_torque(actuator, speed, 1e9) == pytest.approx(ever, rel=1e-6))
+
+
+# ------------------------------------------------------------------ envelope in the page
+
+
+def test_curves_stay_within_voltage_driver_and_each_other(actuator: ActuatorParameters) -> None:
+    curves = {curve.class_: curve for curve in envelope_curves(actuator, 31.0)}
+    assert set(curves) == {"series-1", "series-2", "held", "held-60", "held-10"}
+    for curve in curves.values():
+        assert np.all(curve.torque >= 0.0)
+        assert curve.torque[-1] == pytest.approx(0.0, abs=1e-9)
+    bound = np.maximum(
+        envelope_torque(actuator, curves["held"].speed, 25.0),
+        envelope_torque(actuator, curves["held"].speed, actuator.thermal.most),
+    )
+    for name in ("held", "held-60", "held-10"):
+        assert np.all(curves[name].torque[:-1] <= bound[: len(curves[name].torque) - 1] + 1e-9)
+
+
+def test_a_heat_line_that_never_binds_is_left_out(actuator: ActuatorParameters) -> None:
+    cool = dataclasses.replace(actuator.thermal, winding_to_housing=1e-3, housing_to_ambient=1e-3)
+    curves = envelope_curves(dataclasses.replace(actuator, thermal=cool), 31.0)
+    assert {curve.class_ for curve in curves} == {"series-1", "series-2"}
+
+
+def test_points_of_the_requirements_are_judged_and_told(
+    actuator: ActuatorParameters, design: Design
+) -> None:
+    points = {point.name: point for point in asked_points(actuator, design.requirements)}
+    assert set(points) == {"peak torque", "continuous torque"}
+    peak, ever = points["peak torque"], points["continuous torque"]
+    assert peak.found.binding == (DRIVER, PEAK)
+    assert "the driver's current and the motor's peak torque bind" in peak.sentence
+    assert peak.speed == 0.0
+    assert ever.found.binding == (HEAT,)
+    assert "heat binds" in ever.sentence
+    assert duration(ever.found.lasts) in ever.sentence
+    assert ever.speed * abs(actuator.gear.ratio) == pytest.approx(design.requirements.input_speed)
+    easy = design.requirements.model_copy(update={"peak_torque": 30.0, "continuous_torque": 5.0})
+    assert all(point.found.inside for point in asked_points(actuator, easy))
+    assert all("inside" in point.sentence for point in asked_points(actuator, easy))
+
+
+def test_every_step_of_the_duty_is_a_point_and_its_heat_is_told(
+    actuator: ActuatorParameters, measured: BenchResult, design: Design
+) -> None:
+    mapping = design.to_mapping()
+    mapping["requirements"]["duty"] = [
+        {"torque": "20 N*m", "speed": "5 rad/s", "share": 0.5},
+        {"torque": "-15 N*m", "speed": "8 rad/s", "share": 0.5},
+    ]
+    asked = Design.from_mapping(mapping).requirements
+    view = actuator_view(actuator, measured, asked)
+    assert [point.name for point in view.points[2:]] == ["duty 1", "duty 2"]
+    assert [point.generating for point in view.points[2:]] == [False, True]
+    currents = [point.found.need.current for point in view.points[2:]]
+    assert currents[0] > abs(currents[1]), "friction helps where the output drives"
+    mean = math.sqrt(0.5 * currents[0] ** 2 + 0.5 * currents[1] ** 2)
+    assert f"{mean:.3g}" in view.duty
+    assert "within its limit" in view.duty
+    assert len(classed(view.envelope, "circle", "dot")) == 4
+
+
+def test_dots_stand_at_their_points(
+    actuator: ActuatorParameters, measured: BenchResult, design: Design
+) -> None:
+    view = actuator_view(actuator, measured, design.requirements)
+    dots = classed(view.envelope, "circle", "dot")
+    grid = classed(view.envelope, "line", "grid")
+    ticks = [e for e in classed(view.envelope, "text", "tick") if e.get("text-anchor") == "end"]
+    level = {float(t.text or "nan"): number(g, "y1") for g, t in zip(grid, ticks, strict=True)}
+    scale = (level[40.0] - level[0.0]) / 40.0
+    for dot, point in zip(dots, view.points, strict=True):
+        assert number(dot, "cy") == pytest.approx(level[0.0] + scale * point.torque, abs=0.1)
+        assert ("inside" in dot.get("class", "")) == point.found.inside
+
+
+# ------------------------------------------------------------------ building blocks
+
+
+def test_axes() -> None:
+    axis = log_axis(1.0, 100.0, "x")
+    assert axis.share(10.0) == pytest.approx(0.5)
+    assert axis.ticks == (1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
+    assert linear_axis(-3.0, 7.0, "x").share(-4.0) == 0.0
+    assert linear_axis(0.0, 7.3, "x", tight=True).share(7.3) == 1.0
+
+
+def test_labels_keep_clear_of_each_other() -> None:
+    labels = Labels(0.0, 0.0, 400.0, 300.0)
+    drawn = [labels.place((200.0, 150.0), "twelve signs") for _ in range(6)]
+    places = [(float(e.get("x", "nan")), float(e.get("y", "nan"))) for e in map(
+        ElementTree.fromstring, drawn
+    )]  # fmt: skip
+    for i, (x, y) in enumerate(places):
+        for other in places[i + 1 :]:
+            assert abs(x - other[0]) > 70.0 or abs(y - other[1]) > 11.0
+
+
+def test_thinning_keeps_extremes_and_ends() -> None:
+    x = np.linspace(0.0, 1.0, 20_000)
+    y = np.sin(900.0 * x)
+    y[7777] = 5.0
+    kept_x, kept_y = thinned(x, y, 100)
+    assert len(kept_x) <= 2 * 100 + 2
+    assert kept_y.max() == 5.0
+    assert (kept_x[0], kept_x[-1]) == (0.0, 1.0)
+    assert np.all(np.diff(kept_x) > 0.0)
+
+
+def test_crossings_of_a_bode_plot_lie_on_its_curves() -> None:
+    """First order with 8 Hz: -3 dB there, -45 degrees, -90 nowhere."""
+    f = np.geomspace(0.5, 200.0, 300)
+    h = 1.0 / (1.0 + 1j * f / 8.0)
+    figure = bode(
+        "b", "t", "d", frequency=f, gain=np.abs(h), phase=np.angle(h), edge=8.0, quarter=None,
+        caption="c",
+    )  # fmt: skip
+    (dot,) = classed(figure, "circle", "dot")
+    curve = path_of(classed(figure, "path", "curve series-1")[0])
+    y = np.interp(number(dot, "cx"), curve[:, 0], curve[:, 1])
+    assert number(dot, "cy") == pytest.approx(y, abs=0.3)
+
+
+def test_faint_begins_where_coherence_falls() -> None:
+    f = np.geomspace(1.0, 100.0, 50)
+    figure = bode(
+        "b", "t", "d", frequency=f, gain=np.ones(50), phase=np.zeros(50),
+        coherence=np.where(f < 20.0, 0.95, 0.3), edge=None, quarter=None, caption="c",
+    )  # fmt: skip
+    sure = path_of(classed(figure, "path", "curve series-1")[0])
+    weak = path_of(classed(figure, "path", "curve weak")[0])
+    assert len(sure) == np.sum(f < 20.0)
+    assert weak[0] == pytest.approx(sure[-1])
+
+
+def test_bars_of_a_spectrum_are_in_proportion() -> None:
+    order = np.arange(1.0, 61.0)
+    amplitude = np.zeros(60)
+    amplitude[[9, 21, 43]] = 2.0, 4.0, 1.0
+    figure = spectrum(
+        "s", "t", "d", order=order, amplitude=amplitude, named=[22, 10], y_label="y", caption="c"
+    )
+    bars = classed(figure, "line", "order-bar")
+    tall = [number(e, "y1") - number(e, "y2") for e in bars]
+    assert tall == pytest.approx([tall[1] / 2.0, tall[1], tall[1] / 4.0], abs=0.02)
+    across = [number(e, "x1") for e in bars]
+    assert (across[2] - across[1]) / (across[1] - across[0]) == pytest.approx(22 / 12, abs=0.01)
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_the_dead_zone_of_a_drawn_loop_is_found(sense: float) -> None:
+    """Motor to one flank, rest, and back through 7 arcmin; the output follows on the flanks."""
+    half, threshold = 3.5 / ARCMIN, DIAL / DIAL_RADIUS
+    reach = 12.0 / ARCMIN
+    motor = np.r_[
+        np.linspace(0.0, reach, 400), np.full(300, reach), np.linspace(reach, -reach, 4000)
+    ]
+    output = np.empty_like(motor)
+    last = 0.0
+    for k, angle in enumerate(motor):
+        last = min(max(last, angle - half), angle + half)
+        output[k] = last
+    found = dead_zone(sense * motor, sense * output)
+    assert found is not None
+    assert sense * found[0] == pytest.approx(reach, abs=0.03 * reach)
+    assert abs(found[1] - found[0]) * ARCMIN == pytest.approx(7.0, abs=0.3)
+    assert abs(found[2]) == pytest.approx(reach - half, rel=1e-6)
+    assert threshold * ARCMIN < 1.0
+    assert dead_zone(motor, np.zeros_like(motor)) is None
+
+
+# ------------------------------------------------------------------ figures of the bench
+
+
+def test_figures_of_the_bench_show_its_numbers(
+    actuator: ActuatorParameters, measured: BenchResult
+) -> None:
+    figures = {f.id: f for f in bench_view(actuator, measured, pin_count=5).figures}
+    assert list(figures) == [
+        "torque-bode",
+        "position-bode-45",
+        "position-bode-5",
+        "backlash-loop",
+        "breakaway-trace",
+        "backdrive-trace",
+        "ripple-spectrum",
+        "ripple-orders",
+    ]
+    for name, anchor in (
+        ("torque_bandwidth", "torque-bode"),
+        ("position_bandwidth_45deg", "position-bode-45"),
+        ("position_bandwidth_5deg", "position-bode-5"),
+    ):
+        figure, metric = figures[anchor], metric_of(measured, name)
+        dot = classed(figure, "circle", "dot")[0]
+        # Gain comes first: its faint part, where there is one, and its sure one.
+        parts = [path_of(e) for e in tree(figure).iter("path") if "curve" in e.get("class", "")]
+        curve = np.vstack(parts[: 2 if anchor == "torque-bode" else 1])
+        curve = curve[np.argsort(curve[:, 0], kind="stable")]
+        y = np.interp(number(dot, "cx"), curve[:, 0], curve[:, 1])
+        assert number(dot, "cy") == pytest.approx(y, abs=0.5), name
+        labels = " ".join(e.text or "" for e in classed(figure, "text", "tick"))
+        assert f"{metric.value:.3g} Hz" in labels
+    limits = metric_of(measured, "position_bandwidth_45deg").details
+    bound = " ".join(e.text or "" for e in classed(figures["position-bode-45"], "text", "tick"))
+    for key in ("limit_by_speed_Hz", "limit_by_torque_Hz"):
+        assert f"{limits[key]:.3g} Hz" in bound
+    for told in ("60\u202fN·m/rad", "2\u202fN·m·s/rad", "24\u202fV"):
+        assert told in figures["position-bode-5"].caption
+    loop = metric_of(measured, "backlash")
+    zone = dead_zone(*loop.trace.values())
+    assert zone is not None
+    assert abs(zone[1] - zone[0]) * ARCMIN == pytest.approx(loop.value, abs=0.4)
+    widths = [number(e, "width") for e in classed(figures["ripple-orders"], "rect", "share-bar")]
+    sizes = np.sort(metric_of(measured, "torque_ripple").trace["amplitude [N m]"])[::-1]
+    assert widths[1] / widths[0] == pytest.approx(sizes[1] / sizes[0], rel=0.02)
+
+
+def test_cells_of_efficiency_are_those_measured(measured: BenchResult) -> None:
+    grid = metric_of(measured, "efficiency_peak")
+    torque, efficiency = grid.trace["torque [N m]"], grid.trace["efficiency"]
+    figures = {figure.id: figure for figure in efficiency_maps(grid)}
+    assert set(figures) == {"efficiency-driving", "efficiency-generating"}
+    for name, chosen in (("driving", torque > 0.0), ("generating", torque < 0.0)):
+        figure = figures[f"efficiency-{name}"]
+        cells = classed(figure, "rect", "cell")
+        assert len(cells) == np.sum(efficiency[chosen] > 0.0)
+        shown = [e.text or "" for e in classed(figure, "text", "cell-text")]
+        written = sorted(float(v) for v in shown if v != "\u2013")
+        expected = np.sort(100.0 * efficiency[chosen & (efficiency > 0.0)])
+        assert written == pytest.approx(expected, abs=0.0501)
+        (framed,) = classed(figure, "rect", "peak-cell")
+        texts = classed(figure, "text", "cell-text")
+        inside = [
+            e.text for e in texts
+            if 0.0 < number(e, "x") - number(framed, "x") < number(framed, "width")
+            and 0.0 < number(e, "y") - number(framed, "y") < number(framed, "height")
+        ]  # fmt: skip
+        assert inside == [f"{100.0 * efficiency[chosen].max():.1f}"]
+    driving_only = {key: values[torque > 0.0] for key, values in grid.trace.items()}
+    assert len(efficiency_maps(dataclasses.replace(grid, trace=driving_only))) == 1
+
+
+# ------------------------------------------------------------------ tables
+
+
+def test_the_table_stands_beside_the_paper_s(
+    actuator: ActuatorParameters, measured: BenchResult
+) -> None:
+    view = bench_view(actuator, measured, pin_count=5)
+    rows = {row.name: row for row in view.rows}
+    assert set(PAPER) <= set(rows)
+    assert rows["output_resolution"].value == "0.002197"
+    assert rows["output_resolution"].off == "+0.3\u202f%"
+    assert rows["backlash"].paper == "7.03 ±1.3"
+    assert rows["efficiency_peak"].off.endswith(" points")
+    assert rows["efficiency_peak"].paper == "82.3"
+    assert rows["actuator_inertia"].unit == "kg·cm²"
+    assert rows["actuator_inertia"].paper == "5.01"
+    for row in view.rows:
+        assert row.relation in dict(RELATIONS)
+        assert row.protocol.endswith(".")
+        assert (row.off == "\u2013") == (row.relation == "not comparable" or row.paper == "\u2013")
+    predicted = [m for m in measured.metrics if m.relation == "predicted" and m.name in PAPER]
+    near = [m for m in predicted if is_near(m, PAPER[m.name][0])]
+    assert f"Of {len(predicted)} predicted rows {len(near)} lie within" in view.summary
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "paper", "shown"),
+    [
+        ("mass", 1.82, 1.4, "+30\u202f%"),
+        ("no_load_speed", 126.6, 128.6, "\u22121.6\u202f%"),
+        ("efficiency_peak", 0.773, 0.823, "\u22125.0 points"),
+        ("rated_power", 960.0, 960.0, "0.0\u202f%"),
+        ("backdrive_static", math.nan, 1.99, "\u2013"),
+    ],
+)
+def test_how_far_off(name: str, value: float, paper: float, shown: str) -> None:
+    assert off_by(Metric(name, value, "predicted", "p."), paper) == shown
+    assert off_by(Metric(name, value, "not comparable", "p."), paper) == "\u2013"
+    assert off_by(Metric(name, value, "predicted", "p."), None) == "\u2013"
+
+
+def test_another_design_has_no_paper_beside_it(
+    actuator: ActuatorParameters, measured: BenchResult, design: Design
+) -> None:
+    alone = dataclasses.replace(measured, beside_paper=False)
+    view = bench_view(actuator, alone, pin_count=5)
+    assert view.summary == ""
+    assert all(row.paper == row.off == "\u2013" for row in view.rows)
+    bench = section(page_of(design, bench=(actuator, alone)), "bench")
+    assert ">Paper<" not in bench
+    assert ">Off by<" not in bench
+
+
+def test_a_gearbox_that_holds_itself_has_nothing_to_backdrive(
+    actuator: ActuatorParameters, measured: BenchResult, design: Design
+) -> None:
+    stiff = dataclasses.replace(actuator.friction, load_backward=1.3)
+    holding = dataclasses.replace(actuator, friction=stiff)
+    view = bench_view(holding, measured, pin_count=5)
+    assert {"breakaway-trace", "backdrive-trace"}.isdisjoint(figure.id for figure in view.figures)
+    rows = {row.name: row for row in view.rows}
+    for name in ("backdrive_static", "backdrive_dynamic"):
+        assert (rows[name].value, rows[name].off) == ("\u2013", "\u2013")
+        assert "holds itself" in rows[name].protocol
+    seen = actuator_view(holding, measured, design.requirements)
+    assert [figure.id for figure in seen.efficiency] == ["efficiency-driving"]
+    assert "holds itself" in seen.lead
+
+
+def test_the_comparison_has_this_design_and_the_misprint(
+    actuator: ActuatorParameters, measured: BenchResult
+) -> None:
+    table = comparison(actuator, measured)
+    assert measured.name in table.headings[table.own]
+    rows = dict(table.rows)
+    density = metric_of(measured, "peak_torque").value / actuator.mass
+    assert float(rows["torque density, N·m/kg"][table.own]) == pytest.approx(density, rel=1e-3)
+    assert any("83.96" in remark and "83.7" in remark for remark in table.remarks)
+    bare = dataclasses.replace(measured, metrics=measured.metrics[:1])
+    assert comparison(actuator, bare).own == -1
+
+
+def test_every_parameter_is_listed_with_its_origin(actuator: ActuatorParameters) -> None:
+    rows = {row.key: row for _, group in parameter_rows(actuator) for row in group}
+    for part in ("motor", "drive", "thermal", "friction", "gear"):
+        for field in dataclasses.fields(getattr(actuator, part)):
+            # One row stands for orders, cosines and sines.
+            series = field.name in ("error_orders", "error_sine", "stiffness_sine")
+            assert series or f"{part}.{field.name}" in rows, field.name
+    for key, row in rows.items():
+        assert actuator.origins.get(key, "default").startswith(row.origin)
+    assert rows["motor.torque_constant"].origin == "catalogue"
+    assert rows["gear.backlash"].shown == f"{actuator.gear.backlash * ARCMIN:.4g}\u202farcmin"
+    unknown = dataclasses.replace(actuator.motor, rated_torque=math.nan)
+    bare = parameter_rows(dataclasses.replace(actuator, motor=unknown))
+    assert any(row.shown == "not given" for _, group in bare for row in group)
+
+
+# ------------------------------------------------------------------ the page
+
+
+def test_the_page_has_both_sections_in_order(page: str) -> None:
+    headings = re.findall(r"<h[23]>([^<]+)</h[23]>", section(page, "actuator"))
+    assert headings == ["Actuator", "Efficiency"]
+    headings = re.findall(r"<h[23]>([^<]+)</h[23]>", section(page, "bench"))
+    assert headings == ["Virtual test bench", "Traces", "Beside other actuators"]
+    anchors = re.findall(r'<a href="#([\w-]+)">', page[: page.index("</nav>")])
+    assert anchors.index("actuator") + 1 == anchors.index("bench")
+    assert anchors.index("bench") + 1 == anchors.index("planetary")
+    assert "<details" in section(page, "actuator")
+
+
+def test_nothing_that_is_not_a_number_is_printed(page: str) -> None:
+    for anchor in ("actuator", "bench"):
+        markup = section(page, anchor)
+        assert not re.search(r"\b(?:nan|NaN|None|inf|Infinity)\b|\u221e", words_of(markup)), anchor
+        assert not re.search(r'="[^"]*\b(?:nan|inf)\b', markup), anchor
+
+
+def test_every_measurement_has_its_row_and_protocol(page: str, measured: BenchResult) -> None:
+    bench = section(page, "bench")
+    rows = re.findall(r'<tbody data-metric="(\w+)">(.*?)</tbody>', bench, re.S)
+    assert [name for name, _ in rows] == [metric.name for metric in measured.metrics]
+    for _, row in rows:
+        assert row.count("<tr") == 2
+    for word, meaning in RELATIONS:
+        assert word in words_of(bench)
+        assert meaning in words_of(bench)
+
+
+def test_the_same_input_gives_the_same_bytes(
+    page: str, design: Design, actuator: ActuatorParameters, measured: BenchResult
+) -> None:
+    again = page_of(design, bench=(actuator, measured))
+    for anchor in ("actuator", "bench"):
+        assert section(again, anchor) == section(page, anchor)
+
+
+def test_without_a_bench_there_are_no_sections(design: Design) -> None:
+    bare = page_of(design)
+    for anchor in ("actuator", "bench"):
+        assert f'id="{anchor}"' not in bare
+        assert f'href="#{anchor}"' not in bare
+
+
+def test_a_motor_that_cannot_be_simulated_leaves_a_sentence(design: Design) -> None:
+    mapping = design.to_mapping()
+    mapping["motor"]["name"] = "CubeMars AK10-9 V2 KV60"
+    geared = Design.from_mapping(mapping)
+    found, missing = pipeline._measured(geared)
+    assert found is None
+    assert "is a geared actuator" in missing
+    page = page_of(geared, missing=missing)
+    assert "is a geared actuator" in section(page, "actuator")
+    assert 'href="#actuator"' in page
+    assert 'href="#bench"' not in page
+    assert 'id="bench"' not in page
