@@ -51,14 +51,16 @@ def cli_page() -> str:
 def _help_texts() -> Iterator[str]:
     import os
 
-    from cqdd_design.cli.main import COMMANDS, app
+    from cqdd_design.cli.main import COMMANDS, TORQUE_COMMANDS, app
 
     os.environ["COLUMNS"] = "88"
-    for function in COMMANDS:
-        name = function.__name__
+    names = [[function.__name__] for function in COMMANDS]
+    names += [["torque", name] for name in TORQUE_COMMANDS]
+    for words in names:
+        name = " ".join(words)
         caught = io.StringIO()
         with contextlib.redirect_stdout(caught):
-            app([name, "--help"], prog_name="cqdd-design", standalone_mode=False)
+            app([*words, "--help"], prog_name="cqdd-design", standalone_mode=False)
         text = "\n".join(line.rstrip() for line in caught.getvalue().strip().splitlines())
         yield f"### {name}\n\n```text\n{text}\n```\n\n"
 

@@ -390,6 +390,6 @@ def require_pyarrow() -> tuple[Any, Any]:
         return importlib.import_module("pyarrow"), importlib.import_module("pyarrow.parquet")
     except ImportError as error:
         raise DependencyError(
-            "writing Parquet needs the Python package pyarrow, which is missing or broken "
-            f'({error}); run `pip install "cqdd-design[parquet]"`, or choose --out NAME.npz.'
+            "Parquet needs the Python package pyarrow, which is missing or broken "
+            f'({error}); run `pip install "cqdd-design[parquet]"`.'
         ) from error

@@ -44,7 +44,7 @@ def bench(
     ] = None,
     force: Force = False,
 ) -> None:
-    """Virtual test bench: the data sheet of the actuator, measured on its simulation."""
+    """The actuator's data sheet, measured on a virtual bench."""
     from cqdd_design import actuator_pipeline as pipeline
     from cqdd_design.actuator.comparison import catalogue_actuator
     from cqdd_design.design import load_design

@@ -54,7 +54,7 @@ def calibrate(
     ] = None,
     force: Force = False,
 ) -> None:
-    """Fit friction, cooling and other unknowns to measured rows; predict the rest."""
+    """Fit friction and cooling to measured rows; predict the rest."""
     from cqdd_design import actuator_pipeline as pipeline
     from cqdd_design.actuator.bench.calibration_file import write_calibration
     from cqdd_design.actuator.bench.measured import read_measured

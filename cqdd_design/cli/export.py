@@ -66,7 +66,7 @@ def export(
     calibration: Calibrated = None,
     force: Force = False,
 ) -> int:
-    """Files for makers (DXF, EDM package, STEP, meshes, bill of materials) and simulators."""
+    """Files for makers (DXF, EDM, STEP, ...) and simulators."""
     from cqdd_design.design import load_design
     from cqdd_design.exporting import ExportOptions, read_kinds
     from cqdd_design.exporting import export as write

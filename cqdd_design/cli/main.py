@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated
 
 import typer
@@ -28,6 +28,11 @@ from cqdd_design.cli import (
     simulate,
     size,
     tolerance,
+    torque_evaluate,
+    torque_export,
+    torque_generate,
+    torque_import,
+    torque_train,
 )
 from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, command, print_result
 from cqdd_design.environment import missing_dependency
@@ -63,6 +68,24 @@ COMMANDS = (
 )
 for _function in COMMANDS:
     app.command()(command(_function))
+
+#: Of ``cqdd-design torque``, by their names there.
+TORQUE_COMMANDS: dict[str, Callable[..., int | None]] = {
+    "generate": torque_generate.generate,
+    "import": torque_import.import_log,
+    "train": torque_train.train,
+    "evaluate": torque_evaluate.evaluate,
+    "export": torque_export.export_network,
+}
+torque = typer.Typer(
+    name="torque",
+    help="Learned torque estimation: data, training, files.",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+for _name, _within in TORQUE_COMMANDS.items():
+    torque.command(_name)(command(_within, f"torque {_name}"))
+app.add_typer(torque)
 
 
 def _show_version(wanted: bool) -> None:
@@ -142,7 +165,10 @@ def _end(
         from cqdd_design.cli.envelope import error_document
 
         names = [function.__name__ for function in COMMANDS]
-        name = next((a for a in arguments if a in names), None)
+        name = next((a for a in arguments if a in names or a == "torque"), None)
+        if name == "torque":
+            within = next((a for a in arguments if a in TORQUE_COMMANDS), "")
+            name = f"torque {within}".strip()
         with contextlib.suppress(UsageError):  # stdout itself may be what failed
             print_result(error_document(name, code, kind, message, details or {}))
     return code

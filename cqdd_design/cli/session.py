@@ -44,11 +44,13 @@ _LINES_WITHOUT_TERMINAL = 10
 """Of progress in a log, where a bar cannot move."""
 
 
-def command(function: Callable[..., int | None]) -> Callable[..., int | None]:
+def command(function: Callable[..., int | None], name: str = "") -> Callable[..., int | None]:
     """Turn ``f(out, ...)`` into a Typer command with ``--json``, ``--quiet`` and ``--debug``.
 
-    The function gets an `Output` first and returns its exit code, or None for 0.
+    The function gets an `Output` first and returns its exit code, or None for 0. Its name is that
+    of the command, unless another is given.
     """
+    called = name or function.__name__
     own = list(inspect.signature(function, eval_str=True).parameters.values())[1:]
     common = [
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=kind)
@@ -57,7 +59,7 @@ def command(function: Callable[..., int | None]) -> Callable[..., int | None]:
 
     def run(*, as_json: bool, quiet: bool, debug: bool, **given: Any) -> int | None:
         # `debug` is read by `main` from the raw arguments: an error may come before parsing.
-        out = Output(function.__name__, as_json=as_json, quiet=quiet)
+        out = Output(called, as_json=as_json, quiet=quiet)
         try:
             return function(out, **given)
         finally:

@@ -124,7 +124,7 @@ def simulate(
     ] = None,
     force: Force = False,
 ) -> None:
-    """Run the actuator in time and write every trace, with units, as npz or Parquet."""
+    """Run the actuator in time; every trace as npz or Parquet."""
     from cqdd_design import actuator_pipeline as pipeline
     from cqdd_design.actuator.scenario import Scenario, Start
     from cqdd_design.design import load_design

@@ -1,12 +1,20 @@
 """The C of the header: text with the network's name for ``@name@`` and ``@NAME@``."""
 
 COMMON = """\
-/* Odd over even polynomial: within 4e-7 of the tangent in single precision. */
+/* Odd over even polynomial: within 4e-7 of the tangent in single precision. The argument is
+   clamped to 7.9 by its bits, nan kept: comparing floats would stop compilers from vectorising. */
 static inline float @name@_tanh(float x)
 {
+    union {
+        float value;
+        uint32_t bits;
+    } given, size;
     float y, p, q;
-    x = x > 7.9f ? 7.9f : x;
-    x = x < -7.9f ? -7.9f : x;
+    given.value = x;
+    size.bits = given.bits & 0x7fffffffu;
+    size.bits = (size.bits > 0x40fccccdu) & (size.bits <= 0x7f800000u) ? 0x40fccccdu : size.bits;
+    size.bits |= given.bits & 0x80000000u;
+    x = size.value;
     y = x * x;
     p = -2.76076847742355e-16f;
     p = p * y + 2.00018790482477e-13f;
@@ -120,7 +128,7 @@ static inline float @name@_window(const float *samples)
 
 /* Many windows at once, one in each lane: for throughput on a computer. */
 enum {
-    @NAME@_LANES = 32,
+    @NAME@_LANES = 64,
     @NAME@_WIDEST = @NAME@_FEATURES > @NAME@_HIDDEN ? @NAME@_FEATURES : @NAME@_HIDDEN
 };
 
@@ -129,27 +137,31 @@ static inline void @name@_lane_add(const float *restrict weights,
                                    float (*restrict values)[@NAME@_LANES], int rows,
                                    float *restrict a, float *restrict b, float *restrict c)
 {
-    enum { H = @NAME@_HIDDEN, S = @NAME@_LANES };
-    float u[S], v[S], w[S];
+    enum { H = @NAME@_HIDDEN, W = 3 * H };
+    const int whole = rows - rows % 4;
     int i, s;
-    for (s = 0; s < S; s++) {
-        u[s] = a[s];
-        v[s] = b[s];
-        w[s] = c[s];
-    }
-    for (i = 0; i < rows; i++) {
-        const float p = weights[3 * H * i], q = weights[3 * H * i + H], r = weights[3 * H * i + 2 * H];
-        for (s = 0; s < S; s++) {
-            const float x = values[i][s];
-            u[s] += p * x;
-            v[s] += q * x;
-            w[s] += r * x;
+    for (i = 0; i < whole; i += 4) {
+        const float *restrict w = weights + i * W;
+        const float a0 = w[0], a1 = w[W], a2 = w[2 * W], a3 = w[3 * W];
+        const float b0 = w[H], b1 = w[W + H], b2 = w[2 * W + H], b3 = w[3 * W + H];
+        const float c0 = w[2 * H], c1 = w[W + 2 * H], c2 = w[2 * W + 2 * H],
+                    c3 = w[3 * W + 2 * H];
+        for (s = 0; s < @NAME@_LANES; s++) {
+            const float u = values[i][s], v = values[i + 1][s], x = values[i + 2][s],
+                        y = values[i + 3][s];
+            a[s] = a[s] + a0 * u + a1 * v + a2 * x + a3 * y;
+            b[s] = b[s] + b0 * u + b1 * v + b2 * x + b3 * y;
+            c[s] = c[s] + c0 * u + c1 * v + c2 * x + c3 * y;
         }
     }
-    for (s = 0; s < S; s++) {
-        a[s] = u[s];
-        b[s] = v[s];
-        c[s] = w[s];
+    for (i = whole; i < rows; i++) {
+        const float a0 = weights[i * W], b0 = weights[i * W + H], c0 = weights[i * W + 2 * H];
+        for (s = 0; s < @NAME@_LANES; s++) {
+            const float u = values[i][s];
+            a[s] += a0 * u;
+            b[s] += b0 * u;
+            c[s] += c0 * u;
+        }
     }
 }
 

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from cqdd_design import pipeline
+from cqdd_design import actuator_pipeline, pipeline
 from cqdd_design.actuator.bench import BenchResult, Metric, run_bench
 from cqdd_design.actuator.bench.gear import DIAL, DIAL_RADIUS
 from cqdd_design.actuator.bench.metric import PAPER
@@ -609,7 +609,7 @@ def test_a_motor_that_cannot_be_simulated_leaves_a_sentence(design: Design) -> N
     mapping = design.to_mapping()
     mapping["motor"]["name"] = "CubeMars AK10-9 V2 KV60"
     geared = Design.from_mapping(mapping)
-    found, missing = pipeline._measured(geared)
+    found, missing = actuator_pipeline.measured_actuator(geared)
     assert found is None
     assert "is a geared actuator" in missing
     page = page_of(geared, missing=missing)

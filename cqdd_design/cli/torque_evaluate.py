@@ -1,0 +1,212 @@
+"""``cqdd-design torque evaluate``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from cqdd_design.cli.options import Calibrated, Force, parse_names
+from cqdd_design.cli.session import Output, read_factors
+from cqdd_design.cli.tables import number, table
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from cqdd_design.actuator.parameters import ActuatorParameters
+    from cqdd_design.torque.bootstrap import Interval
+    from cqdd_design.torque.evaluation import EvaluationResult
+    from cqdd_design.torque.scoring import SetResult
+
+
+def evaluate(
+    out: Output,
+    data: Annotated[
+        Path, typer.Option("--data", metavar="DIR", help="As `torque generate` or import wrote.")
+    ],
+    model: Annotated[
+        list[Path] | None,
+        typer.Option("--model", metavar="FILE", help="A network (.npz); once for each."),
+    ] = None,
+    sets: Annotated[
+        str | None,
+        typer.Option(
+            "--set",
+            metavar="NAMES",
+            help="Test sets: trajectory,mass,wall,gearbox; default that of the first network.",
+        ),
+    ] = None,
+    design: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DESIGN",
+            help="Of the actuator, for the estimates by physics and from the current; default "
+            "what the networks' files say.",
+        ),
+    ] = None,
+    calibration: Calibrated = None,
+    split_seed: Annotated[
+        int | None,
+        typer.Option(metavar="N", min=0, help="Of the split; default that of the networks."),
+    ] = None,
+    draws: Annotated[
+        int, typer.Option(metavar="N", min=100, max=100_000, help="Resamples of the bootstrap.")
+    ] = 2000,
+    seed: Annotated[int, typer.Option(metavar="N", min=0, help="Of the bootstrap.")] = 0,
+    rollouts: Annotated[
+        int, typer.Option(metavar="N", min=0, help="Episodes that each model drives; 0: none.")
+    ] = 6,
+    report: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="One self-contained HTML page.")
+    ] = None,
+    markdown: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="The tables as Markdown.")
+    ] = None,
+    force: Force = False,
+) -> None:
+    """Score networks and baselines on held-out episodes, with intervals, beside the paper."""
+    from cqdd_design.files import refuse_overwrite, write_atomically
+    from cqdd_design.torque.episodes import read_data
+    from cqdd_design.torque.evaluation import evaluate as measure
+    from cqdd_design.torque.lineup import line_up, read_networks
+
+    for target in (report, markdown):
+        if target is not None:
+            refuse_overwrite(target, force=force)
+    known = read_data(data)
+    networks = read_networks(model or [], known)
+    lineup = line_up(
+        known,
+        networks,
+        parse_names(sets),
+        split_seed=split_seed,
+        actuator=_actuator(out, design, calibration),
+    )
+    for sentence in lineup.warnings:
+        out.warn(sentence)
+    work = len(lineup.estimators) * (len(lineup.sets) + 1)
+    result = measure(
+        known,
+        lineup.sets,
+        lineup.estimators,
+        seen=lineup.seen,
+        leaked=lineup.leaked,
+        draws=draws,
+        seed=seed,
+        rollouts=rollouts,
+        progress=out.stages(work),
+    )
+    files = []
+    if report is not None:
+        from cqdd_design.pipeline import provenance
+        from cqdd_design.report.torque_view import torque_page
+
+        date = provenance(None).time.partition("T")[0]
+        files.append(write_atomically(report, torque_page(result, date=date), "report"))
+    if markdown is not None:
+        from cqdd_design.torque.table import markdown as tables
+
+        files.append(write_atomically(markdown, tables(result), "markdown"))
+    for one in result.sets:
+        out.say(*_lines(result, one))
+    out.say(*_paper(), "", f"in {number(result.seconds)} s")
+    out.wrote(files)
+    for sentence in result.warnings:
+        out.warn(sentence)
+    document = result.to_dict()
+    out.document(document | {"files_of_models": _names(networks, model or [])}, files=files)
+
+
+def _actuator(
+    out: Output, design: Path | None, calibration: Path | None
+) -> ActuatorParameters | None:
+    from cqdd_design.errors import UsageError
+
+    if design is None:
+        if calibration is not None:
+            raise UsageError("--calibration belongs to a design; give it with --design.")
+        return None
+    from cqdd_design.actuator.bench.calibrate import apply_factors
+    from cqdd_design.actuator.build import actuator_parameters
+    from cqdd_design.design import load_design
+
+    loaded = load_design(design)
+    factors = read_factors(out, calibration, loaded)
+    out.note_compilation()
+    # The scale of the tolerances belongs to drawn gearboxes; friction and cooling to all.
+    given = {name: value for name, value in (factors or {}).items() if name != "tolerance_scale"}
+    return apply_factors(actuator_parameters(loaded), given)
+
+
+def _names(networks: Mapping[str, object], paths: list[Path]) -> dict[str, str]:
+    return {name: str(path) for name, path in zip(networks, paths, strict=True)}
+
+
+def _lines(result: EvaluationResult, found: SetResult) -> list[str]:
+    rows = []
+    for score in sorted(found.models, key=lambda one: one.overall.rmse.value):
+        own = result.behaviour(score.name)
+        band, whole, times = score.ripple, score.overall, own.latency
+        rows.append(
+            [
+                score.name,
+                number(whole.rmse.value, 3),
+                _ends(whole.rmse),
+                number(whole.bias.value, 2),
+                number(whole.variance.value, 3),
+                "" if band is None or band.share is None else f"{100.0 * band.share.value:.2g}",
+                "" if band is None else number(band.amplitude_error.value, 2),
+                "" if band is None or band.frequency is None else f"{band.frequency.value:.1f}",
+                "" if band is None or band.phase is None else f"{band.phase.value:.0f}",
+                "" if band is None else number(band.error_rms.value, 3),
+                str(own.parameters),
+                ""
+                if times is None or times.streaming_p50 is None
+                else number(times.streaming_p50, 2),
+                "" if times is None else number(times.throughput_per_sample, 2),
+            ]
+        )
+    head = [
+        "model", "RMSE N*m", "95 %", "bias", "variance", "ripple %", "off", "Hz", "deg", "in band",
+        "parameters", "step us", "batch us",
+    ]  # fmt: skip
+    lines = [
+        f"set {found.name}: {len(found.episodes)} held-out episodes, {found.samples} samples",
+        "",
+        table(rows, head=head, right=(1, *range(3, 13))),
+        "",
+    ]
+    band = next((score.ripple for score in found.models if score.ripple is not None), None)
+    if band is not None:
+        lines += [
+            f"ripple, 10 to 25 Hz in free swing: the label has {number(band.amplitude_label, 3)} "
+            f"N*m about {band.frequency_label:.1f} Hz; the band's share of the error's variance in "
+            "%, amplitude (N*m) and phase of an estimate against the label, and the error within "
+            "the band, N*m r.m.s.",
+            "",
+        ]
+    return lines
+
+
+def _ends(value: Interval) -> str:
+    if value.low is None or value.high is None:
+        return ""
+    return f"{number(value.low, 3)} to {number(value.high, 3)}"
+
+
+def _paper() -> list[str]:
+    from cqdd_design.torque.evaluation import PAPER
+
+    rows = [
+        [
+            row.title,
+            f"{row.rmse:.2f}",
+            "" if row.bias is None else f"{row.bias:.2f}",
+            f"{row.variance:.2f}",
+            f"{row.cycle_time:.2f}",
+        ]
+        for row in PAPER
+    ]
+    head = ["paper (hardware)", "RMSE N*m", "size of bias", "variance N^2*m^2", "cycle us"]
+    return [table(rows, head=head, right=(1, 2, 3, 4)), "not to be read against ours"]

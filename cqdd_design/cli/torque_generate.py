@@ -1,0 +1,139 @@
+"""``cqdd-design torque generate``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from cqdd_design.cli.options import Calibrated, DesignFile, Force, parse_option, parse_positive
+from cqdd_design.cli.session import Output, read_factors
+from cqdd_design.cli.tables import number, table
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from cqdd_design.files import WrittenFile
+
+
+def _quantity(text: str) -> Any:
+    return typer.Option(metavar="Q", help=text)
+
+
+def _count(text: str, least: int = 1) -> Any:
+    return typer.Option(metavar="N", min=least, help=text)
+
+
+def generate(
+    out: Output,
+    design: DesignFile,
+    folder: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="Default exports/NAME-torque, its own output."),
+    ] = None,
+    episodes: Annotated[int, _count("On the gearbox of training.")] = 320,
+    seconds: Annotated[float, typer.Option(metavar="S", help="Of each episode.")] = 10.0,
+    gearbox: Annotated[int, _count("Seed of the one gearbox of training.", 0)] = 1,
+    unit_gearboxes: Annotated[
+        int, _count("Further gearboxes, for the unit-to-unit test alone.", 0)
+    ] = 4,
+    held_mass: Annotated[
+        str,
+        _quantity('A mass that only the test set "mass" contains; "none" leaves the set out.'),
+    ] = "1.71 kg",
+    seed: Annotated[int, _count("Of experiments and sensor noise.", 0)] = 0,
+    voltage: Annotated[str | None, _quantity("Supply; default that of the design.")] = None,
+    position_gain: Annotated[
+        str | None, _quantity("Of the joint's controller; default that of the design.")
+    ] = None,
+    velocity_gain: Annotated[
+        str | None, _quantity("Of the joint's controller; default that of the design.")
+    ] = None,
+    calibration: Calibrated = None,
+    force: Force = False,
+) -> None:
+    """Generate pendulum data on the simulated actuator, as Parquet with a JSON manifest."""
+    from cqdd_design.actuator.recording import require_pyarrow
+    from cqdd_design.design import load_design
+    from cqdd_design.files import refuse_overwrite
+    from cqdd_design.torque.episodes import write_data
+    from cqdd_design.torque.generate import Request, describe
+    from cqdd_design.torque.generate import generate as generated
+    from cqdd_design.units import DAMPING_GAIN, MASS, STIFFNESS_GAIN, VOLTAGE
+
+    held = None if held_mass == "none" else parse_positive("--held-mass", held_mass, MASS)
+    request = Request(
+        episodes=episodes,
+        seconds=seconds,
+        gearbox=gearbox,
+        unit_gearboxes=unit_gearboxes,
+        held_mass=held,
+        seed=seed,
+        voltage=parse_positive("--voltage", voltage, VOLTAGE),
+        position_gain=parse_option("--position-gain", position_gain, STIFFNESS_GAIN),
+        velocity_gain=parse_option("--velocity-gain", velocity_gain, DAMPING_GAIN),
+    )
+    require_pyarrow()
+    loaded = load_design(design)
+    if folder is not None:
+        refuse_overwrite(folder / "manifest.json", force=force)
+    factors = read_factors(out, calibration, loaded)
+    out.note_compilation(simulation=True)
+    data, warnings = generated(
+        loaded,
+        request,
+        calibration=factors,
+        tell=out.note,
+        progress=out.counting("episodes"),
+    )
+    target = folder or Path("exports") / f"{loaded.name}-torque"
+    files = write_data(data, target, force=force or folder is None)
+    found = describe(data)
+    if found["episodes_infeasible"] or found["episodes_saturated"]:
+        warnings = (
+            *warnings,
+            f"{found['episodes_infeasible']} of {found['episodes']} targets cannot be followed "
+            f"exactly by this actuator, and {found['episodes_saturated']} episodes saturate it, "
+            f"{found['saturated_share']:.1%} of all samples; they are kept and flagged.",
+        )
+    for sentence in warnings:
+        out.warn(sentence)
+    out.say(*summary_lines(found))
+    out.say(*folder_line(target, files))
+    manifest = files[-1]
+    infeasible = data.facts["infeasible"]
+    out.document({**found, "infeasible": infeasible}, design=loaded, files=[manifest])
+
+
+def summary_lines(found: Mapping[str, Any]) -> list[str]:
+    """The data set for people."""
+    low, high = found["band_Hz"]
+    band, ripple = found["torque_in_band_Nm"], found["gearbox_ripple_Nm"]
+    rows = [
+        ["episodes", f"{found['episodes']}", ""],
+        ["samples", f"{found['samples']:,}", ""],
+        ["time", number(found["seconds"]), "s"],
+        ["sample time", number(1e3 * found["dt_s"]), "ms"],
+        ["torque, r.m.s.", number(found["torque_Nm_rms"]), "N*m"],
+        ["torque, least", number(found["torque_Nm_least"]), "N*m"],
+        ["torque, most", number(found["torque_Nm_most"]), "N*m"],
+        [
+            f"torque within {low:g} to {high:g} Hz, amplitude",
+            "" if band is None else number(band),
+            "N*m",
+        ],
+        ["  of it by the gearbox's errors", "" if ripple is None else number(ripple), "N*m"],
+        ["samples at the wall", number(100.0 * found["wall_share"]), "%"],
+        ["samples saturated", number(100.0 * found["saturated_share"]), "%"],
+        ["episodes that saturate", f"{found['episodes_saturated']}", ""],
+        ["position gain", number(found["position_gain_Nm_per_rad"]), "N*m/rad"],
+        ["velocity gain", number(found["velocity_gain_Nms_per_rad"]), "N*m*s/rad"],
+    ]
+    return [table(rows, head=["", "value", "unit"], right=(1,)), ""]
+
+
+def folder_line(folder: Path, files: tuple[WrittenFile, ...]) -> list[str]:
+    """One line for a folder of many files."""
+    size = sum(file.bytes for file in files)
+    return [f"wrote {folder} (manifest.json and {len(files) - 1} episodes, {size:,} bytes)"]

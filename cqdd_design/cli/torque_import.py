@@ -1,0 +1,168 @@
+"""``cqdd-design torque import``."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from cqdd_design.cli.options import Force, parse_positive
+from cqdd_design.cli.session import Output
+from cqdd_design.cli.torque_generate import folder_line, summary_lines
+from cqdd_design.errors import UsageError
+
+if TYPE_CHECKING:
+    from cqdd_design.torque.log_files import LogMap
+
+
+def _quantity(text: str) -> Any:
+    return typer.Option(metavar="Q", help=text)
+
+
+def _pairs_of(example: str, text: str) -> Any:
+    return typer.Option(metavar="A=B,...", help=f'{text} "{example}".')
+
+
+def import_log(
+    out: Output,
+    logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="CSV, TSV or Parquet.")],
+    position_gain: Annotated[str, _quantity('Of the joint\'s controller, such as "60 N*m/rad".')],
+    velocity_gain: Annotated[str, _quantity('Of the joint\'s controller, such as "2 N*m*s/rad".')],
+    map_file: Annotated[
+        Path | None,
+        typer.Option(
+            "--map",
+            metavar="FILE",
+            help="TOML with tables columns, units, constants, group, groups, facts; the options "
+            "below go before it.",
+        ),
+    ] = None,
+    columns: Annotated[
+        str | None,
+        _pairs_of(
+            "position=q,target=q_des,velocity=dq,torque=tau", "Quantities and the log's columns:"
+        ),
+    ] = None,
+    units: Annotated[
+        str | None, _pairs_of("position=deg,time=ms", "Units of the log, SI where left out:")
+    ] = None,
+    group: Annotated[
+        str | None, _pairs_of("mass=1.14,wall=0", "Configuration of all these logs:")
+    ] = None,
+    current_to_torque: Annotated[
+        float | None,
+        typer.Option(metavar="N*m/A", help="Joint torque over current, signed, without a torque."),
+    ] = None,
+    dt: Annotated[
+        str | None, _quantity('Sample time of logs without a time column, such as "1 ms".')
+    ] = None,
+    rate: Annotated[str, _quantity("Of the episodes.")] = "200 Hz",
+    torque_limit: Annotated[
+        str | None, _quantity("Most that the joint can be asked for; default the most recorded.")
+    ] = None,
+    cut: Annotated[
+        str | None,
+        _quantity(
+            'Cut records into pieces, such as "10 s", each a configuration of its own; for records '
+            "in which the motion changes."
+        ),
+    ] = None,
+    folder: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="Default exports/torque-logs, its own output."),
+    ] = None,
+    force: Force = False,
+) -> None:
+    """Import logs of a real joint: the same files as `torque generate` writes."""
+    from cqdd_design.actuator.recording import require_pyarrow
+    from cqdd_design.files import refuse_overwrite
+    from cqdd_design.torque.episodes import write_data
+    from cqdd_design.torque.generate import describe
+    from cqdd_design.torque.logs import import_logs
+    from cqdd_design.units import DAMPING_GAIN, FREQUENCY, STIFFNESS_GAIN, TIME, TORQUE
+
+    require_pyarrow()
+    if folder is not None:
+        refuse_overwrite(folder / "manifest.json", force=force)
+    found = import_logs(
+        logs,
+        _mapped(map_file, columns, units, group, current_to_torque),
+        position_gain=_gain("--position-gain", position_gain, STIFFNESS_GAIN),
+        velocity_gain=_gain("--velocity-gain", velocity_gain, DAMPING_GAIN),
+        rate=parse_positive("--rate", rate, FREQUENCY) or 0.0,
+        dt=parse_positive("--dt", dt, TIME),
+        torque_limit=parse_positive("--torque-limit", torque_limit, TORQUE),
+        cut=parse_positive("--cut", cut, TIME),
+    )
+    target = folder or Path("exports") / "torque-logs"
+    files = write_data(found.data, target, force=force or folder is None)
+    for gap in found.gaps:
+        out.warn(
+            f"{gap.log}: nothing for {gap.seconds:.4g} s from {gap.begin:.4g} s on; the record is "
+            "split there."
+        )
+    if found.dropped:
+        out.warn(f"{found.dropped} pieces are too short, and are left out.")
+    for sentence in found.warnings:
+        out.warn(sentence)
+    told = describe(found.data)
+    out.say(*summary_lines(told))
+    out.say(*folder_line(target, files))
+    out.document({**told, **found.to_dict()}, files=[files[-1]])
+
+
+def _gain(option: str, text: str, dimension: Any) -> float:
+    from cqdd_design.cli.options import parse_option
+
+    value = parse_option(option, text, dimension)
+    assert value is not None
+    if value < 0.0:
+        raise UsageError(
+            f"{option} {text} is below zero; a positive position error asks for a positive torque: "
+            "give the gain without its sign, and turn the log's signs where they differ."
+        )
+    return value
+
+
+def _mapped(
+    path: Path | None,
+    columns: str | None,
+    units: str | None,
+    group: str | None,
+    current_to_torque: float | None,
+) -> LogMap:
+    """The map file with the options before it."""
+    from cqdd_design.torque.log_files import LogMap, read_map
+
+    named, measured = _pairs("--columns", columns), _pairs("--units", units)
+    configured = {key: _value(text) for key, text in _pairs("--group", group).items()}
+    if path is None:
+        return LogMap(named, measured, current_to_torque, configured)
+    given: dict[str, dict[str, Any]] = {"columns": named, "units": measured, "group": configured}
+    if current_to_torque is not None:
+        given["constants"] = {"current_to_torque": current_to_torque}
+    return read_map(path, given)
+
+
+def _pairs(option: str, text: str | None) -> dict[str, str]:
+    found: dict[str, str] = {}
+    for part in (text or "").split(","):
+        if not part.strip():
+            continue
+        key, equals, value = (one.strip() for one in part.partition("="))
+        if not (key and equals and value):
+            raise UsageError(f"{option} '{part.strip()}' is not of the form A=B.")
+        if key in found:
+            raise UsageError(f"{option} names {key} twice.")
+        found[key] = value
+    return found
+
+
+def _value(text: str) -> float | str:
+    try:
+        value = float(text)
+    except ValueError:
+        return text
+    return value if math.isfinite(value) else text

@@ -1,0 +1,279 @@
+"""``cqdd-design torque train``."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, cast
+
+import typer
+
+from cqdd_design.cli.options import Force, parse_positive
+from cqdd_design.cli.session import Output, read_factors
+from cqdd_design.cli.tables import number, table
+from cqdd_design.errors import UsageError
+
+if TYPE_CHECKING:
+    from cqdd_design.actuator.parameters import ActuatorParameters
+    from cqdd_design.torque.artefact import Artefact, Mode
+    from cqdd_design.torque.episodes import DataSet
+    from cqdd_design.torque.recipe import Choice
+    from cqdd_design.torque.schedule import Reading
+
+
+def _count(text: str, least: int = 1) -> Any:
+    return typer.Option(metavar="N", min=least, help=text)
+
+
+def train(
+    out: Output,
+    folder: Annotated[
+        Path, typer.Option("--data", metavar="DIR", help="Data set of `torque generate`.")
+    ],
+    model: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="pva-gru, pv-gru, mlp, mlp-baseline, mlp-acceleration, physics-gru, phase-gru or "
+            "physics-phase-gru.",
+        ),
+    ] = "pva-gru",
+    seed: Annotated[int, _count("Of weights and order.", 0)] = 0,
+    target: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="FILE", help="Default exports/MODEL-seed-N.npz."),
+    ] = None,
+    epochs: Annotated[int, _count("At most.")] = 20,
+    protocol: Annotated[
+        str,
+        typer.Option(
+            "--split", metavar="NAME", help="What is held out: trajectory, mass, wall or gearbox."
+        ),
+    ] = "trajectory",
+    split_seed: Annotated[int, _count("Of the split.", 0)] = 0,
+    mode: Annotated[
+        str, typer.Option(metavar="window|streaming", help="How it is trained and will be run.")
+    ] = "window",
+    device: Annotated[str, typer.Option(metavar="auto|cpu|cuda")] = "auto",
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on from the checkpoint beside --out.")
+    ] = False,
+    reading: Annotated[
+        str,
+        typer.Option(
+            "--learning-rate-reading",
+            metavar="max|initial|ours",
+            help="Of the paper's 1e-4: the cycle's peak, or its start, a 25th of it; or our own.",
+        ),
+    ] = "initial",
+    batch: Annotated[int, _count("Windows in a step.")] = 64,
+    stride: Annotated[int, _count("Every how many-th window an epoch trains on.")] = 2,
+    patience: Annotated[
+        int, _count("Epochs without a better validation after which it stops; 0: never.", 0)
+    ] = 8,
+    threads: Annotated[int, _count("Of the CPU; one is the fastest for networks this small.")] = 1,
+    orders: Annotated[int, _count("Of the gearbox, for phase-gru.")] = 4,
+    sample_time: Annotated[
+        str | None,
+        typer.Option(metavar="Q", help='That the data must have, as "5 ms"; default theirs.'),
+    ] = None,
+    design: Annotated[
+        Path | None,
+        typer.Option(
+            "--design",
+            metavar="FILE",
+            help="Whose parameters physics-gru and phase-gru use; stored in the network.",
+        ),
+    ] = None,
+    gearbox: Annotated[
+        int | None,
+        _count("Seed of the gearbox drawn for --design; default that of the data.", 0),
+    ] = None,
+    calibration: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE", help="Factors that `calibrate` wrote; default those in the data."
+        ),
+    ] = None,
+    like: Annotated[
+        Path | None,
+        typer.Option(
+            "--hyperparameters-of",
+            metavar="FILE",
+            help="Network whose searched hyperparameters are taken instead of a new search.",
+        ),
+    ] = None,
+    leaked: Annotated[
+        bool,
+        typer.Option(
+            "--leaked",
+            help="Train a second time on random windows, as should not be done, and store how much "
+            "that flatters.",
+        ),
+    ] = False,
+    force: Force = False,
+) -> None:
+    """Train a torque network, with a checkpoint after every epoch."""
+    from cqdd_design.files import refuse_overwrite
+    from cqdd_design.torque.artefact import read_artefact, write_artefact
+    from cqdd_design.torque.episodes import read_data
+    from cqdd_design.torque.networks import find_model, require_torch
+    from cqdd_design.torque.recipe import Choice, Recipe
+    from cqdd_design.torque.splits import audit, split
+    from cqdd_design.torque.training import leaked_rmse
+    from cqdd_design.torque.training import train as trained
+    from cqdd_design.units import TIME
+
+    chosen = find_model(model)
+    recipe = Recipe(
+        epochs=epochs,
+        batch=batch,
+        stride=stride,
+        mode=cast("Mode", mode),
+        reading=cast("Reading", reading),
+        patience=patience,
+        orders=orders,
+        threads=threads,
+    )
+    dt = parse_positive("--sample-time", sample_time, TIME)
+    require_torch()
+    place = target or Path("exports") / f"{chosen.name}-seed-{seed}.npz"
+    kept = place.with_suffix(".checkpoint.npz")
+    if target is not None:
+        refuse_overwrite(place, force=force)
+    if kept.exists() and not (resume or force):
+        raise UsageError(
+            f"{kept} is the checkpoint of an interrupted training; add --resume to go on with it, "
+            "or --force to begin anew."
+        )
+    choice: Choice | None = None
+    if like is not None:
+        found = read_artefact(like).facts.get("choice")
+        if not isinstance(found, dict):
+            raise UsageError(f"{like} does not say what it was trained with; leave it out.")
+        choice = Choice(**found)
+    data = read_data(folder)
+    parts = split(data, protocol, split_seed)
+    audit(data, parts, chosen.history)
+    actuator = None
+    if design is not None:
+        actuator = _actuator(out, data, design, gearbox, calibration)
+    if chosen.searched and choice is None and not resume:
+        out.note("searching activation, learning rate and weight decay on validation episodes")
+    tell = out.stages(epochs)
+    try:
+        artefact = trained(
+            data,
+            parts,
+            chosen.name,
+            seed,
+            recipe=recipe,
+            actuator=actuator,
+            choice=choice,
+            device=device,
+            dt=dt,
+            checkpoint=kept,
+            resume=resume,
+            command=shlex.join(["cqdd-design", *sys.argv[1:]]),
+            progress=lambda result: tell(result.line),
+        )
+    except KeyboardInterrupt:
+        if kept.exists():
+            out.note(f"what was trained by now is in {kept}; add --resume to go on")
+        raise
+    if leaked:
+        out.note("training on random windows, for the inflated score beside the honest one")
+        flattered = leaked_rmse(
+            data,
+            chosen.name,
+            seed,
+            recipe=recipe,
+            actuator=actuator,
+            choice=Choice(**artefact.facts["choice"]),
+            device=device,
+        )
+        artefact = replace(artefact, facts={**artefact.facts, "leaked_rmse_Nm": flattered})
+    file = write_artefact(artefact, place)
+    kept.unlink(missing_ok=True)
+    out.say(*_lines(artefact))
+    out.wrote([file])
+    out.document(_results(artefact), files=[file])
+
+
+def _actuator(
+    out: Output,
+    data: DataSet,
+    path: Path,
+    gearbox: int | None,
+    calibration: Path | None,
+) -> ActuatorParameters:
+    """The actuator of a design, drawn and calibrated as the data's own where they say so."""
+    from cqdd_design.actuator.bench.calibrate import apply_factors
+    from cqdd_design.actuator.build import actuator_parameters
+    from cqdd_design.design import load_design
+
+    loaded = load_design(path)
+    facts = data.facts
+    seed = facts.get("training_gearbox") if gearbox is None else gearbox
+    own = facts.get("calibration") if calibration is None else None
+    factors = read_factors(out, calibration, loaded) or (own if isinstance(own, dict) else {})
+    out.note_compilation()
+    if facts.get("design_sha256") not in (None, loaded.sha256):
+        out.warn(f"the data are of another design or version of it than {path}.")
+    drawn = actuator_parameters(
+        loaded,
+        seed=None if seed is None else int(seed),
+        supply_voltage=facts.get("supply_voltage_V"),
+    )
+    used = {name: value for name, value in factors.items() if name != "tolerance_scale"}
+    return apply_factors(drawn, used)
+
+
+def _results(artefact: Artefact) -> dict[str, Any]:
+    facts = artefact.facts
+    names = ("seed", "epochs", "best_epoch", "validation_rmse_Nm", "training_rmse_Nm")
+    more = (
+        "seconds",
+        "data_sha256",
+        "choice",
+        "recipe",
+        "device",
+        "log",
+        "search",
+        "leaked_rmse_Nm",
+        "differentiator",
+    )
+    return {
+        "model": artefact.name,
+        "parameters": artefact.parameters,
+        "inputs": list(artefact.inputs),
+        "mode": artefact.mode,
+        "history": artefact.history,
+        **{name: facts[name] for name in (*names, *more) if name in facts},
+    }
+
+
+def _lines(artefact: Artefact) -> list[str]:
+    facts = artefact.facts
+    rows = [
+        ["trained numbers", f"{artefact.parameters:,}", ""],
+        ["RMSE, validation", number(float(facts["validation_rmse_Nm"])), "N*m"],
+        ["RMSE, training", number(float(facts["training_rmse_Nm"])), "N*m"],
+        ["epochs", f"{facts['epochs']}", f"best {facts['best_epoch']}"],
+        ["time", number(float(facts["seconds"])), "s"],
+    ]
+    if "leaked_rmse_Nm" in facts:
+        flattered = number(float(facts["leaked_rmse_Nm"]))
+        rows.append(["RMSE, random windows", flattered, "N*m, inflated: do not quote"])
+    told = facts.get("differentiator")
+    if isinstance(told, dict):
+        title = f"delay of the acceleration at {told['frequency']:g} Hz"
+        rows.append([title, number(1e3 * told["delay"]), "ms"])
+    return [
+        f"{artefact.name}, {artefact.mode}, of {', '.join(artefact.inputs)}",
+        "",
+        table(rows, right=(1,)),
+        "",
+    ]

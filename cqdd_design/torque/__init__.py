@@ -1,0 +1,1 @@
+"""Torque estimation: pendulum data, networks, training, evaluation, fast runtime."""

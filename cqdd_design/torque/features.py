@@ -1,0 +1,226 @@
+"""What a network sees of an episode: features of one sample, causal acceleration, windows."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.actuator.parameters import ActuatorParameters, GearParameters
+from cqdd_design.errors import UsageError, did_you_mean
+from cqdd_design.torque.artefact import Differentiator
+from cqdd_design.torque.episodes import Episode
+
+FloatArray = NDArray[np.float64]
+
+PLAIN = ("position_error", "velocity", "acceleration", "physics")
+"""Features that are no phase of the gearbox."""
+
+
+def savitzky_golay(dt: float, points: int = 5, order: int = 2) -> Differentiator:
+    """Slope, at its newest point, of the polynomial through the last samples in least squares.
+
+    Savitzky and Golay 1964, one-sided: no sample after the newest one takes part.
+
+    Parameters
+    ----------
+    dt : float
+        Sample time, s.
+    points : int
+        Samples that take part, 2 to 64.
+    order : int
+        Of the polynomial, 1 to ``points - 1``. From 2 on, the group delay at zero frequency is 0,
+        and the noise is greater than that of order 1.
+
+    Raises
+    ------
+    UsageError
+        For numbers that make no such filter.
+    """
+    if not (math.isfinite(dt) and dt > 0.0):
+        raise UsageError(f"a differentiator's sample time {dt:g} s must be above 0.")
+    if not (2 <= points <= 64 and 1 <= order < points):
+        raise UsageError(
+            f"a differentiator of order {order} over {points} points does not exist; take 2 to 64 "
+            "points and an order from 1 to one less than them, such as 5 and 2."
+        )
+    past = -np.arange(points, dtype=np.float64)
+    taps = np.linalg.pinv(np.vander(past, order + 1, increasing=True))[1] / dt
+    delay = -0.5 * float(np.sum(taps * (past * dt) ** 2))
+    # What is left of a sum that is zero by construction.
+    delay = 0.0 if abs(delay) < 1e-9 * dt else delay
+    return Differentiator(tuple(float(tap) for tap in taps), delay)
+
+
+def acceleration(velocity: FloatArray, differentiator: Differentiator) -> FloatArray:
+    """Acceleration (N,), rad/s^2, of a velocity (N,), rad/s; before its start it stood still at it.
+
+    Sample k depends on samples up to k only.
+    """
+    taps = np.asarray(differentiator.taps)
+    velocity = np.asarray(velocity, np.float64)
+    past = np.concatenate([np.full(len(taps) - 1, velocity[0]), velocity])
+    return np.convolve(past, taps, mode="valid")
+
+
+@dataclass(frozen=True)
+class DifferentiatorError:
+    """What a differentiator does to one frequency.
+
+    Attributes
+    ----------
+    frequency : float
+        Hz.
+    gain : float
+        Over that of a true derivative.
+    phase : float
+        Ahead of a true derivative, rad.
+    delay : float
+        The lag that this phase is, s; negative where the filter leads.
+    noise : float
+        Standard deviation of the acceleration, over that of white noise of the velocity, 1/s.
+    """
+
+    frequency: float
+    gain: float
+    phase: float
+    delay: float
+    noise: float
+
+
+def differentiator_error(
+    differentiator: Differentiator, dt: float, frequency: float
+) -> DifferentiatorError:
+    """Gain and phase of a differentiator against a true derivative at a frequency (Hz)."""
+    if not 0.0 < frequency < 0.5 / dt:
+        raise UsageError(
+            f"{frequency:g} Hz is not between 0 and {0.5 / dt:g} Hz, half of the sample rate."
+        )
+    pulse = 2.0 * math.pi * frequency
+    response = sum(
+        tap * cmath.exp(-1j * pulse * dt * k) for k, tap in enumerate(differentiator.taps)
+    )
+    ratio = response / (1j * pulse)
+    phase = cmath.phase(ratio)
+    return DifferentiatorError(
+        frequency=frequency,
+        gain=abs(ratio),
+        phase=phase,
+        delay=-phase / pulse,
+        noise=math.sqrt(sum(tap**2 for tap in differentiator.taps)),
+    )
+
+
+def strongest_orders(gear: GearParameters, count: int = 4) -> tuple[int, ...]:
+    """Orders of the output angle at which the gearbox's torque ripples most, ascending.
+
+    With one energy behind kinematic error and stiffness (`transmission`), a harmonic of order K
+    changes the torque under a held motor by ``K |eps_K|`` of itself by the error, and by
+    ``K |s_K| d/(p + 1)`` of itself by the stiffness, d being the windup under the torque the
+    error was solved for and p the stiffening.
+
+    Raises
+    ------
+    UsageError
+        For a gearbox without harmonics, or no order asked for.
+    """
+    if count < 1:
+        raise UsageError(f"{count} orders of the gearbox are none; ask for 1 or more.")
+    orders = np.asarray(gear.error_orders)
+    windup = gear.error_torque / gear.stiffness
+    error = np.hypot(gear.error_cosine, gear.error_sine)
+    share = np.hypot(gear.stiffness_cosine, gear.stiffness_sine)
+    weight = orders * (error + share * windup / (gear.stiffening + 1.0))
+    if not np.any(weight > 0.0):
+        raise UsageError(
+            "this gearbox has no kinematic error and no stiffness over angle, so no phase is worth "
+            "knowing; take pva-gru, or an actuator whose gearbox ripples."
+        )
+    best = np.argsort(-weight, kind="stable")[:count]
+    return tuple(sorted(int(orders[k]) for k in best if weight[k] > 0.0))
+
+
+def phase_inputs(orders: tuple[int, ...]) -> tuple[str, ...]:
+    """Names ``sin_K`` and ``cos_K`` of the orders' phases."""
+    return tuple(f"{wave}_{order}" for order in orders for wave in ("sin", "cos"))
+
+
+def feature_matrix(
+    episode: Episode,
+    inputs: tuple[str, ...],
+    *,
+    differentiator: Differentiator | None = None,
+    physics: ActuatorParameters | None = None,
+) -> FloatArray:
+    """Features (N, F) of every sample, raw; a sample's features depend on no later sample.
+
+    Parameters
+    ----------
+    episode : Episode
+    inputs : tuple of str
+        Names as in `Artefact.inputs`.
+    differentiator : Differentiator, optional
+        Needed for ``acceleration`` and ``physics``.
+    physics : ActuatorParameters, optional
+        Needed for ``physics``: the actuator whose torque is estimated.
+
+    Raises
+    ------
+    UsageError
+        For an unknown feature, or one without what it is made from.
+    """
+    columns = [_feature(episode, name, differentiator, physics) for name in inputs]
+    return np.stack(columns, axis=1)
+
+
+def _feature(
+    episode: Episode,
+    name: str,
+    differentiator: Differentiator | None,
+    physics: ActuatorParameters | None,
+) -> FloatArray:
+    columns = episode.columns
+    if name == "position_error":
+        return np.asarray(columns["target"], np.float64) - columns["position"]
+    if name == "velocity":
+        return np.asarray(columns["velocity"], np.float64)
+    if name in ("acceleration", "physics") and differentiator is None:
+        raise UsageError(f"the feature '{name}' needs a differentiator.")
+    if name == "acceleration" and differentiator is not None:
+        return acceleration(columns["velocity"], differentiator)
+    if name == "physics" and differentiator is not None:
+        from cqdd_design.torque.physics import physical_estimate
+
+        if physics is None:
+            raise UsageError(
+                "the feature 'physics' is an estimate from an actuator's parameters, and none is "
+                "given; name its design."
+            )
+        return physical_estimate(physics, episode, differentiator)
+    wave, _, order = name.partition("_")
+    if wave in ("sin", "cos") and order.isdecimal() and int(order) > 0:
+        turn = int(order) * np.asarray(columns["position"], np.float64)
+        return np.asarray(np.sin(turn) if wave == "sin" else np.cos(turn))
+    known = (*PLAIN, "sin_K", "cos_K")
+    raise UsageError(
+        f"there is no feature '{name}'{did_you_mean(name, known)}; there are {', '.join(known)}."
+    )
+
+
+def windows(matrix: FloatArray, history: int) -> FloatArray:
+    """Windows (N - history + 1, history, F) of a matrix (N, F), oldest sample first; a view.
+
+    Raises
+    ------
+    UsageError
+        For an episode shorter than one window.
+    """
+    if not 1 <= history <= len(matrix):
+        raise UsageError(
+            f"a window of {history} samples does not fit into an episode of {len(matrix)}."
+        )
+    view = np.lib.stride_tricks.sliding_window_view(matrix, history, axis=0)
+    return np.moveaxis(view, -1, 1)

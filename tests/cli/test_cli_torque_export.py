@@ -1,0 +1,116 @@
+"""``torque export``: files named as told, nothing half-written, every wrong input told."""
+
+from __future__ import annotations
+
+import io
+import json
+import sys
+from pathlib import Path
+
+import pytest
+import typer
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "oracles"))
+
+from torque_networks import PVA, network
+
+from cqdd_design.cli import session
+from cqdd_design.cli.torque_export import export_network
+from cqdd_design.errors import CqddError, DependencyError, UsageError
+from cqdd_design.torque.artefact import write_artefact
+
+
+@pytest.fixture
+def printed(monkeypatch):
+    stream = io.StringIO()
+    monkeypatch.setattr(session, "standard_output", lambda: stream)
+    return stream
+
+
+@pytest.fixture
+def model(tmp_path):
+    write_artefact(network(mode="window"), tmp_path / "pva-gru.npz")
+    return tmp_path / "pva-gru.npz"
+
+
+def export(*arguments, **options):
+    return export_network(session.Output("export", as_json=True, quiet=True), *arguments, **options)
+
+
+def test_every_form_is_written_and_listed(printed, model, tmp_path):
+    for package in ("torch", "onnx", "onnxruntime"):
+        pytest.importorskip(package)
+    folder = tmp_path / "files"
+    export(model, "onnx,torchscript-isaaclab,newton,mjlab,c", folder)
+    document = json.loads(printed.getvalue())
+    names = {Path(one["path"]).name for one in document["files"]}
+    assert names == {path.name for path in folder.iterdir()}
+    assert {"pva-gru.h", "pva-gru-newton.onnx", "pva-gru-window.onnx", "pva-gru-mjlab.pt"} <= names
+    assert {
+        "pva-gru-isaaclab-mlp.pt",
+        "pva-gru-isaaclab-lstm.pt",
+        "pva-gru-isaaclab-gru.pt",
+    } <= names
+    assert document["results"]["inputs"] == list(PVA)
+    assert document["results"]["sample_dt_s"] == 0.005
+    assert any("acceleration" in sentence for sentence in document["warnings"])
+
+
+def test_the_same_network_gives_the_same_bytes(printed, model, tmp_path):
+    pytest.importorskip("onnxruntime")
+    for name in ("a", "b"):
+        export(model, "onnx,c", tmp_path / name)
+    for path in (tmp_path / "a").iterdir():
+        assert path.read_bytes() == (tmp_path / "b" / path.name).read_bytes()
+
+
+def test_nothing_is_overwritten_without_force(printed, model, tmp_path):
+    export(model, "c", tmp_path / "out")
+    with pytest.raises(UsageError, match="--force"):
+        export(model, "c", tmp_path / "out")
+    export(model, "c", tmp_path / "out", force=True)
+
+
+def test_default_place_is_a_folder_of_the_models_name(printed, model, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    export(model, "c")
+    export(model, "c")
+    assert (tmp_path / "exports" / "pva-gru" / "pva-gru.h").is_file()
+
+
+@pytest.mark.parametrize(
+    ("to", "words"), [("newtn", "did you mean 'newton'"), ("", "names nothing"), ("c,x", "none of")]
+)
+def test_a_wrong_list_is_told(printed, model, tmp_path, to, words):
+    with pytest.raises(UsageError, match=words):
+        export(model, to, tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("content", [b"", b"\x80\x04K\x01.", b"PK\x03\x04broken"])
+def test_a_file_that_is_no_network_is_told(printed, tmp_path, content):
+    path = tmp_path / "net.npz"
+    path.write_bytes(content)
+    with pytest.raises(UsageError, match="not a torque network"):
+        export(path, "c", tmp_path / "out")
+    with pytest.raises(UsageError, match="there is no"):
+        export(tmp_path / "none.npz", "c", tmp_path / "out")
+
+
+def test_a_missing_package_says_what_to_install(printed, model, tmp_path, monkeypatch):
+    for kind, package in (("onnx", "onnx"), ("newton", "onnx"), ("mjlab", "torch")):
+        with monkeypatch.context() as patch:
+            patch.setitem(sys.modules, package, None)
+            with pytest.raises(DependencyError, match=r"cqdd-design\[torque\]") as caught:
+                export(model, kind, tmp_path / "out")
+            assert isinstance(caught.value, CqddError)
+            assert caught.value.exit_code == 5
+
+
+def test_it_is_a_command_with_the_common_options(printed, model, tmp_path):
+    app = typer.Typer()
+    app.command("export")(session.command(export_network))
+    application = typer.main.get_command(app)
+    arguments = [str(model), "--to", "c", "--out", str(tmp_path / "out"), "--json"]
+    application.main(arguments, standalone_mode=False)
+    assert json.loads(printed.getvalue())["files"][0]["kind"] == "c"

@@ -1,0 +1,146 @@
+"""The physical estimate against its own balance, and the fitted friction against what made it."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+from torque_samples import (
+    COULOMB,
+    DT,
+    INERTIA,
+    POSITION_GAIN,
+    VELOCITY_GAIN,
+    VISCOUS,
+    actuator,
+    data_set,
+    episode,
+)
+
+from cqdd_design.errors import UsageError
+from cqdd_design.torque.baselines import TERMS, current_estimate, fit_friction, pd_law
+from cqdd_design.torque.episodes import Episode
+from cqdd_design.torque.features import acceleration, savitzky_golay
+from cqdd_design.torque.physics import (
+    actuator_from_dict,
+    actuator_to_dict,
+    physical_estimate,
+    with_gains_of,
+)
+
+SLOPE = savitzky_golay(DT)
+
+
+def steady(speed: float, error: float, samples: int = 20) -> Episode:
+    """A joint at constant speed behind its target by a constant angle."""
+    position = speed * DT * np.arange(samples)
+    columns = {
+        "position": position,
+        "target": position + error,
+        "velocity": np.full(samples, speed),
+        "torque": np.zeros(samples),
+    }
+    return Episode("steady", {}, DT, columns)
+
+
+def without_friction():
+    parameters = actuator()
+    names = ("motor_coulomb", "output_coulomb", "motor_viscous", "output_viscous")
+    loads = ("load_forward", "load_backward")
+    friction = dataclasses.replace(parameters.friction, **dict.fromkeys((*names, *loads), 0.0))
+    motor = dataclasses.replace(parameters.motor, iron_loss=0.0, hysteresis=0.0)
+    return dataclasses.replace(parameters, friction=friction, motor=motor)
+
+
+def test_without_friction_it_is_the_law_less_the_reflected_inertia():
+    parameters, one = without_friction(), episode("e", 0.6, 0.3)
+    law = pd_law(one, POSITION_GAIN, VELOCITY_GAIN, (-1e9, 1e9))
+    rate = acceleration(one.columns["velocity"], SLOPE)
+    wanted = law - parameters.reflected_inertia * rate
+    np.testing.assert_allclose(physical_estimate(parameters, one, SLOPE), wanted, rtol=1e-9)
+
+
+@pytest.mark.parametrize("forward", [True, False])
+def test_efficiency_has_the_direction_of_power(forward):
+    bare = without_friction()
+    friction = dataclasses.replace(bare.friction, load_forward=0.1, load_backward=0.12)
+    parameters = dataclasses.replace(bare, friction=friction)
+    parameters = dataclasses.replace(
+        parameters, friction=dataclasses.replace(parameters.friction, stribeck_extra=0.0)
+    )
+    one = steady(1.0, 0.2 if forward else -0.2)
+    asked = float(pd_law(one, POSITION_GAIN, VELOCITY_GAIN, (-1e9, 1e9))[-1])
+    found = float(physical_estimate(parameters, one, SLOPE)[-1])
+    wanted = asked / 1.1 if forward else asked / (1.0 - 0.12)
+    assert found == pytest.approx(wanted, rel=1e-9)
+
+
+def test_friction_opposes_motion_and_the_estimate_is_odd():
+    parameters = actuator()
+    one = episode("e", 0.6, 0.3)
+    mirrored = dataclasses.replace(one, columns={k: -v for k, v in one.columns.items()})
+    found = physical_estimate(parameters, one, SLOPE)
+    np.testing.assert_allclose(physical_estimate(parameters, mirrored, SLOPE), -found, rtol=1e-12)
+    free = physical_estimate(without_friction(), steady(1.0, 0.2), SLOPE)[-1]
+    assert physical_estimate(parameters, steady(1.0, 0.2), SLOPE)[-1] < free
+    back = physical_estimate(without_friction(), steady(-1.0, 0.2), SLOPE)[-1]
+    assert physical_estimate(parameters, steady(-1.0, 0.2), SLOPE)[-1] > back
+
+
+def test_current_and_voltage_bind():
+    parameters = without_friction()
+    ratio, motor, drive = 10.0, parameters.motor, parameters.drive
+    stalled = physical_estimate(parameters, steady(0.0, 50.0), SLOPE)[-1]
+    assert stalled == pytest.approx(drive.current_limit * motor.torque_constant * ratio)
+    fast = 25.0
+    left = drive.supply_voltage - motor.torque_constant * ratio * fast
+    found = physical_estimate(parameters, steady(fast, 50.0), SLOPE)[-1]
+    assert found == pytest.approx(left / motor.resistance * motor.torque_constant * ratio)
+
+
+def test_gains_become_those_of_the_data_and_numbers_survive_json():
+    data = dataclasses.replace(data_set(2), position_gain=33.0)
+    assert with_gains_of(actuator(), data).drive.position_gain == 33.0
+    one = episode("e", 0.6, 0.3)
+    back = actuator_from_dict(actuator_to_dict(actuator()))
+    np.testing.assert_array_equal(
+        physical_estimate(back, one, SLOPE), physical_estimate(actuator(), one, SLOPE)
+    )
+    broken = actuator_to_dict(actuator())
+    broken["motor"]["colour"] = 1.0
+    with pytest.raises(UsageError, match="colour"):
+        actuator_from_dict(broken)
+
+
+def test_friction_is_fitted_on_the_named_episodes_alone():
+    data = data_set(6, 400)
+    names = ("e0", "e1", "e2", "e3")
+    fit = fit_friction(data, names, SLOPE)
+    told = dict(zip(TERMS, fit.coefficients, strict=True))
+    assert told["inertia"] == pytest.approx(INERTIA, rel=0.2)
+    assert told["viscous"] == pytest.approx(VISCOUS, abs=0.15)
+    assert told["base"] == pytest.approx(COULOMB, rel=0.2)
+    other = data.named(("e5",))[0]
+    error = fit.estimate(other) - other.columns["torque"]
+    law = pd_law(other, POSITION_GAIN, VELOCITY_GAIN, data.torque_range)
+    assert np.sqrt(np.mean(error**2)) < 0.4 * np.sqrt(np.mean((law - other.columns["torque"]) ** 2))
+    # An episode that is not named may hold anything.
+    spoiled = dataclasses.replace(other, columns={k: 100.0 * v for k, v in other.columns.items()})
+    changed = dataclasses.replace(data, episodes=(*data.episodes[:5], spoiled))
+    assert fit_friction(changed, names, SLOPE).coefficients == fit.coefficients
+    with pytest.raises(UsageError, match="training episodes"):
+        fit_friction(data, (), SLOPE)
+
+
+def test_current_gives_torque_by_constant_ratio_and_efficiency():
+    one, parameters = episode("e", 0.6, 0.3), actuator()
+    np.testing.assert_allclose(
+        current_estimate(parameters, one, 1.0), one.columns["torque"], rtol=1e-12
+    )
+    np.testing.assert_allclose(
+        current_estimate(parameters, one), one.columns["torque"] / 1.1, rtol=1e-12
+    )
+    columns = {k: v for k, v in one.columns.items() if k != "current"}
+    with pytest.raises(UsageError, match="has no current"):
+        current_estimate(parameters, dataclasses.replace(one, columns=columns))
