@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from cqdd_design.actuator.bench import BenchResult
     from cqdd_design.actuator.bench.calibrate import Calibration
     from cqdd_design.actuator.comparison import ComparedActuator
+    from cqdd_design.actuator.motor_file import MotorFile
     from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
     from cqdd_design.actuator.recording import Recording
     from cqdd_design.actuator.scenario import Scenario
@@ -50,6 +51,7 @@ def bench(
     voltage: float | None = None,
     seed: int | None = None,
     calibration: Mapping[str, float] | None = None,
+    motor: MotorFile | None = None,
     progress: Progress = _silent,
 ) -> BenchResult:
     """Measure the actuator of a design on the virtual test bench.
@@ -66,6 +68,8 @@ def bench(
         of drawn ones.
     calibration : mapping of str to float, optional
         Factors of unknowns, as `read_calibration` gives them.
+    motor : MotorFile, optional
+        What a file says of the motor instead of the catalogue.
     progress : callable
         Told what is measured next.
     """
@@ -73,17 +77,16 @@ def bench(
     from cqdd_design.actuator.bench.calibrate import apply_factors
     from cqdd_design.actuator.bench.run import VOLTAGE
     from cqdd_design.actuator.build import actuator_parameters
-    from cqdd_design.catalog import find_motor
 
     factors = calibration or {}
     rippling = seed is None and (not only or "torque_ripple" in only)
     return run_bench(
-        apply_factors(actuator_parameters(design, seed=seed), factors),
-        rated_current=find_motor(design.motor.name).rated_current,
+        apply_factors(actuator_parameters(design, seed=seed, own_motor=motor), factors),
+        rated_current=_rated_current(design, motor),
         voltage=VOLTAGE if voltage is None else voltage,
         only=only,
         beside_paper=design.name == PAPER_DESIGN,
-        drawn=[apply_factors(one, factors) for one in _drawn(design)] if rippling else (),
+        drawn=[apply_factors(one, factors) for one in _drawn(design, motor)] if rippling else (),
         progress=progress,
     )
 
@@ -96,6 +99,7 @@ def calibrate(
     unknowns: tuple[str, ...] = (),
     voltage: float | None = None,
     seed: int | None = None,
+    motor: MotorFile | None = None,
     progress: Progress = _silent,
 ) -> Calibration:
     """Fit what no drawing tells of a design's actuator to measured rows, and predict the others.
@@ -112,6 +116,8 @@ def calibrate(
         Supply of the dynamic rows, V; default the paper's 24 V.
     seed : int, optional
         Of one drawn gearbox; default perfect parts.
+    motor : MotorFile, optional
+        What a file says of the motor instead of the catalogue.
     progress : callable
         Told what begins.
 
@@ -124,7 +130,6 @@ def calibrate(
     from cqdd_design.actuator.bench.metric import PAPER
     from cqdd_design.actuator.bench.run import VOLTAGE
     from cqdd_design.actuator.build import actuator_parameters
-    from cqdd_design.catalog import find_motor
     from cqdd_design.errors import UsageError
 
     if measured is None:
@@ -136,25 +141,32 @@ def calibrate(
         measured = {name: value for name, (value, _) in PAPER.items()}
         to = to or PAPER_ROWS
     return fit(
-        actuator_parameters(design, seed=seed),
+        actuator_parameters(design, seed=seed, own_motor=motor),
         measured,
         to=to,
         unknowns=unknowns,
         voltage=VOLTAGE if voltage is None else voltage,
-        rated_current=find_motor(design.motor.name).rated_current,
-        drawn=() if seed is not None else _drawn(design),
+        rated_current=_rated_current(design, motor),
+        drawn=() if seed is not None else _drawn(design, motor),
         progress=progress,
     )
 
 
-def _drawn(design: Design) -> list[ActuatorParameters]:
+def _drawn(design: Design, motor: MotorFile | None = None) -> list[ActuatorParameters]:
     """Actuators with gearboxes drawn from the tolerances, for the ripple of a usual one."""
     from cqdd_design.actuator.build import actuator_parameters
 
     lobes = design.reducer.ratio
     if lobes * (lobes + 1) > MOST_DRAWN_MESHES:
         return []
-    return [actuator_parameters(design, seed=one) for one in range(RIPPLE_DRAWS)]
+    return [actuator_parameters(design, seed=one, own_motor=motor) for one in range(RIPPLE_DRAWS)]
+
+
+def _rated_current(design: Design, motor: MotorFile | None) -> float | None:
+    from cqdd_design.catalog import find_motor
+
+    row = find_motor(design.motor.name)
+    return (row if motor is None else motor.row(row)).rated_current
 
 
 def compared_actuators(
@@ -233,6 +245,7 @@ def simulate(
     seed: int | None = None,
     samples: int | None = None,
     calibration: Mapping[str, float] | None = None,
+    motor: MotorFile | None = None,
     options: Mapping[str, str] | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Recording:
@@ -254,6 +267,8 @@ def simulate(
         Gearboxes to draw, with the seeds `seed` (default 0) and those that follow it.
     calibration : mapping of str to float, optional
         Factors of unknowns, as `read_calibration` gives them.
+    motor : MotorFile, optional
+        What a file says of the motor instead of the catalogue.
     options : mapping of str to str, optional
         What was asked for, to be written beside the columns.
     progress : callable
@@ -278,7 +293,7 @@ def simulate(
         raise UsageError(f"seeds end at {2**64 - 1}; lower seed {first} or draw fewer gearboxes.")
     seeds = () if seed is None and samples is None else tuple(range(first, first + (samples or 1)))
     factors = calibration or {}
-    perfect = apply_factors(actuator_parameters(design), factors)
+    perfect = apply_factors(actuator_parameters(design, own_motor=motor), factors)
     if voltage is not None:
         perfect = with_voltage(perfect, voltage)
     # Before many gearboxes are solved for nothing.
@@ -286,7 +301,7 @@ def simulate(
     sets = [] if seeds else [perfect]
     for one in seeds:
         try:
-            drawn = apply_factors(actuator_parameters(design, seed=one), factors)
+            drawn = apply_factors(actuator_parameters(design, seed=one, own_motor=motor), factors)
         except DesignError as error:
             raise type(error)(f"the gearbox of seed {one}: {error.message}") from error
         sets.append(replace(drawn, drive=perfect.drive))

@@ -173,6 +173,27 @@ INERTIA = Dimension(
     (("kg*m^2", 1.0), ("g*cm^2", 1e-7), ("kg*mm^2", 1e-6)),
 )
 POWER = Dimension("power", "W", 1.0, ((("power", 1),),), (("W", 1.0), ("kW", 1e3)))
+TORQUE_CONSTANT = Dimension(
+    "torque constant",
+    "N*m/A",
+    1.0,
+    ((("current", -1), ("force", 1), ("length", 1)),),
+    (("N*m/A", 1.0), ("mN*m/A", 1e-3)),
+    "volts over speed are the same number as N*m/A in SI",
+)
+SPEED_CONSTANT = Dimension(
+    "speed constant",
+    "rpm/V",
+    _TURN / 60.0,
+    ((("rotational speed", 1), ("voltage", -1)), (("angle", 1), ("time", -1), ("voltage", -1))),
+    (("rpm/V", _TURN / 60.0), ("rad/s/V", 1.0)),
+)
+RESISTANCE = Dimension(
+    "resistance", "ohm", 1.0, ((("resistance", 1),),), (("ohm", 1.0), ("mohm", 1e-3))
+)
+INDUCTANCE = Dimension(
+    "inductance", "uH", 1e-6, ((("inductance", 1),),), (("uH", 1e-6), ("mH", 1e-3), ("H", 1.0))
+)
 TORQUE_DENSITY = Dimension(
     "torque density",
     "N*m/kg",
@@ -213,7 +234,10 @@ def _kind(unit: str, registry: UnitRegistry[Any]) -> str:
     for dimension, kind in kinds.items():
         if quantity.check(dimension):
             return kind
-    return "voltage" if quantity.is_compatible_with("volt") else str(quantity.dimensionality)
+    for example, kind in (("volt", "voltage"), ("ohm", "resistance"), ("henry", "inductance")):
+        if quantity.is_compatible_with(example):
+            return kind
+    return str(quantity.dimensionality)
 
 
 @functools.lru_cache(maxsize=256)

@@ -9,6 +9,7 @@ import functools
 import math
 from dataclasses import dataclass
 
+from cqdd_design.actuator.motor_file import MotorFile
 from cqdd_design.actuator.parameters import (
     ActuatorParameters,
     DriveParameters,
@@ -54,7 +55,11 @@ class _Split:
 
 
 def actuator_parameters(
-    design: Design, *, seed: int | None = None, supply_voltage: float | None = None
+    design: Design,
+    *,
+    seed: int | None = None,
+    supply_voltage: float | None = None,
+    own_motor: MotorFile | None = None,
 ) -> ActuatorParameters:
     """Parameters of the actuator that a design describes.
 
@@ -65,6 +70,8 @@ def actuator_parameters(
         Draw one gearbox from the design's tolerances; default perfect parts.
     supply_voltage : float, optional
         V; default that of the design.
+    own_motor : MotorFile, optional
+        What a file says of the motor instead of the catalogue.
 
     Returns
     -------
@@ -80,8 +87,13 @@ def actuator_parameters(
     design = with_chosen_bearing(design)
     origins: dict[str, str] = {}
     motor_row = find_motor(design.motor.name)
+    if own_motor is not None:
+        motor_row = own_motor.row(motor_row)
     inertia = _inertia(design)
     motor = _motor(motor_row, inertia, origins)
+    if own_motor is not None:
+        motor = own_motor.parameters(motor)
+        origins |= own_motor.origins()
     drive = _drive(design, motor, supply_voltage, origins)
     torque = design.requirements.continuous_torque
     model = _contact_model(design)

@@ -7,7 +7,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import Calibrated, DesignFile, Force, parse_names, parse_positive
+from cqdd_design.cli.options import (
+    Calibrated,
+    DesignFile,
+    Force,
+    OwnMotor,
+    parse_names,
+    parse_positive,
+    read_own_motor,
+)
 from cqdd_design.cli.session import Output, read_factors
 from cqdd_design.cli.tables import number, table
 
@@ -32,6 +40,7 @@ def bench(
         int | None, typer.Option(min=0, help="Of one drawn gearbox; default perfect parts.")
     ] = None,
     calibration: Calibrated = None,
+    motor_file: OwnMotor = None,
     beside: Annotated[
         str | None,
         typer.Option(
@@ -64,6 +73,7 @@ def bench(
         voltage=asked,
         seed=seed,
         calibration=factors,
+        motor=read_own_motor(motor_file),
         progress=out.stages(len(names) or pipeline.BENCH_STAGES),
     )
     actuators = pipeline.compared_actuators(loaded, result, others)

@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, Force, parse_names, parse_positive
+from cqdd_design.cli.options import (
+    DesignFile,
+    Force,
+    OwnMotor,
+    parse_names,
+    parse_positive,
+    read_own_motor,
+)
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 
@@ -46,6 +53,7 @@ def calibrate(
     seed: Annotated[
         int | None, typer.Option(min=0, help="Of one drawn gearbox; default perfect parts.")
     ] = None,
+    motor_file: OwnMotor = None,
     path: Annotated[
         Path | None,
         typer.Option(
@@ -75,6 +83,7 @@ def calibrate(
         unknowns=parse_names(unknowns),
         voltage=supply,
         seed=seed,
+        motor=read_own_motor(motor_file),
         progress=out.stages(3),
     )
     target = path or Path("exports") / f"{loaded.name}-calibration.json"

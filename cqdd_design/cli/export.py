@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from cqdd_design.cli.options import Calibrated, Force, parse_positive
+from cqdd_design.cli.options import Calibrated, Force, OwnMotor, parse_positive, read_own_motor
 from cqdd_design.cli.session import Output, read_factors
 
 WITHOUT_SOLIDS = {"dxf", "svg", "edm", "gcode", "mjcf", "urdf", "card", "bam"}
@@ -64,6 +64,7 @@ def export(
         ),
     ] = None,
     calibration: Calibrated = None,
+    motor_file: OwnMotor = None,
     force: Force = False,
 ) -> int:
     """Files for makers (DXF, EDM, STEP, ...) and simulators."""
@@ -84,6 +85,7 @@ def export(
         more = options.arguments()
         more += [] if seed is None else ["--seed", str(seed)]
         more += [] if calibration is None else ["--calibration", str(calibration)]
+        more += [] if motor_file is None else ["--motor-file", str(motor_file)]
         return _several(out, design, kinds, folder, more, workers=workers, force=force)
     loaded = load_design(design[0])
     factors = read_factors(out, calibration, loaded)
@@ -97,6 +99,7 @@ def export(
         options=options,
         seed=seed,
         calibration=factors,
+        motor=read_own_motor(motor_file),
     )
     out.wrote(files)
     out.document({"kinds": list(kinds)}, design=loaded, files=files)

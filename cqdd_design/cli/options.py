@@ -11,6 +11,7 @@ import typer
 from cqdd_design.errors import DesignError, UsageError
 
 if TYPE_CHECKING:
+    from cqdd_design.actuator.motor_file import MotorFile
     from cqdd_design.units import Dimension
 
 DesignFile = Annotated[Path, typer.Argument(metavar="DESIGN", help="Design file (TOML).")]
@@ -18,6 +19,13 @@ Force = Annotated[bool, typer.Option("--force", help="Replace files that exist."
 Calibrated = Annotated[
     Path | None,
     typer.Option("--calibration", metavar="FILE", help="Factors that `calibrate` wrote."),
+]
+
+OwnMotor = Annotated[
+    Path | None,
+    typer.Option(
+        "--motor-file", metavar="FILE", help="Motor in TOML, for what the catalogue says otherwise."
+    ),
 ]
 
 LEAST_RATIO, MOST_RATIO = 4, 119
@@ -98,3 +106,12 @@ def parse_whole_list(name: str, text: str, count: int, example: str) -> tuple[in
 def parse_names(text: str | None) -> tuple[str, ...]:
     """Names separated by commas; none for None."""
     return tuple(name.strip() for name in (text or "").split(",") if name.strip())
+
+
+def read_own_motor(path: Path | None) -> MotorFile | None:
+    """The motor of ``--motor-file``."""
+    if path is None:
+        return None
+    from cqdd_design.actuator.motor_file import read_motor
+
+    return read_motor(path)

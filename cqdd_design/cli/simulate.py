@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
-from cqdd_design.cli.options import Calibrated, DesignFile, Force
+from cqdd_design.cli.options import Calibrated, DesignFile, Force, OwnMotor, read_own_motor
 from cqdd_design.cli.session import Output, read_factors
 from cqdd_design.cli.simulate_options import COMMANDS, FRICTION, LOADS, SIGNALS, Choices, known
 from cqdd_design.cli.tables import number, table
@@ -114,6 +114,7 @@ def simulate(
     ] = None,
     friction: Annotated[str, _choice(FRICTION, "Model of dry friction.")] = "clip",
     calibration: Calibrated = None,
+    motor_file: OwnMotor = None,
     target: Annotated[
         Path | None,
         typer.Option(
@@ -173,6 +174,7 @@ def simulate(
         seed=seed,
         samples=samples,
         calibration=factors,
+        motor=read_own_motor(motor_file),
         options={"--friction": friction, **chosen.resolved},
         progress=out.counting("gearboxes") if samples else None,
     )

@@ -25,6 +25,7 @@ from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 from cqdd_design.files import WrittenFile, ensure_folder, refuse_overwrite
 
 if TYPE_CHECKING:
+    from cqdd_design.actuator.motor_file import MotorFile
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.design import Design
     from cqdd_design.solids.parts import Part
@@ -70,6 +71,8 @@ class ExportJob:
         Of the gearbox that simulators get; default perfect parts.
     calibration : mapping of str to float
         Factors of what the actuator's unknowns were computed as.
+    motor : MotorFile, optional
+        What a file says of the motor instead of the catalogue.
     """
 
     design: Design
@@ -78,6 +81,7 @@ class ExportJob:
     options: ExportOptions = DEFAULTS
     seed: int | None = None
     calibration: Mapping[str, float] = field(default_factory=dict)
+    motor: MotorFile | None = None
 
     def path(self, ending: str, within: str = "") -> Path:
         """File of this design: ``path("-disc.dxf")`` is ``<folder>/<name>-disc.dxf``.
@@ -92,7 +96,7 @@ class ExportJob:
         from cqdd_design.actuator.bench.calibrate import apply_factors
         from cqdd_design.actuator.build import actuator_parameters
 
-        found = actuator_parameters(self.design, seed=self.seed)
+        found = actuator_parameters(self.design, seed=self.seed, own_motor=self.motor)
         return apply_factors(found, self.calibration)
 
     @cached_property
@@ -149,6 +153,7 @@ def export(
     options: ExportOptions = DEFAULTS,
     seed: int | None = None,
     calibration: Mapping[str, float] | None = None,
+    motor: MotorFile | None = None,
 ) -> tuple[WrittenFile, ...]:
     """Write the files of a design.
 
@@ -170,6 +175,8 @@ def export(
         Simulators get a gearbox drawn from the tolerances; default perfect parts.
     calibration : mapping of str to float, optional
         Factors of the actuator's unknowns, for simulators.
+    motor : MotorFile, optional
+        What a file says of the motor, for simulators.
 
     Returns
     -------
@@ -195,7 +202,7 @@ def export(
     placed: list[WrittenFile] = []
     try:
         ensure_folder(staging)
-        job = ExportJob(design, staging, tell, options, seed, calibration or {})
+        job = ExportJob(design, staging, tell, options, seed, calibration or {}, motor)
         for kind in wanted:
             tell(f"writing {kind}")
             placed += [

@@ -48,13 +48,19 @@ def test_pages_show_commands_only_in_console_blocks():
 
 
 def test_readme_sets_up_in_two_commands():
-    apt, install, test = blocks(REPOSITORY / "README.md", "sh")
+    apt, install, test, torque = blocks(REPOSITORY / "README.md", "sh")
     assert re.fullmatch(r"apt-get install -y [\w ]+\n", apt)
     for command in (install, test):
         assert command.count("\n") == 1
         assert command.startswith("python3 -m venv .venv && .venv/bin/pip install -c constraints")
     assert "size --ratio 10 --report --export dxf,step" in install
     assert "pytest" in test
+    lines = torque.splitlines()
+    assert all(line.startswith(".venv/bin/pip install ") for line in lines)
+    script = (REPOSITORY / ".ci" / "run").read_text()
+    pattern = re.search(r'grep -E "([^"]*)" README.md\)', script)
+    assert pattern is not None
+    assert lines == [line for line in lines if re.search(pattern[1], line)]
 
 
 def test_ci_runs_the_readmes_own_commands():

@@ -111,9 +111,13 @@ def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Met
     ]
     step = safe_step(parameters, *scenes)
     run = simulate(cold(parameters), scenes, duration, step, every=max(1, round(1e-3 / step)))
+    # Within a well of cogging the motor gives way and does not break away.
+    well = math.pi / motor.cogging_order if motor.cogging_amplitude > 0.0 else 0.0
     found = []
     for i in range(len(scenes)):
-        moving = np.flatnonzero(np.abs(run.motor_speed[i]) > _MOVING * ratio)
+        travel = np.abs(run.motor_angle[i] - run.motor_angle[i][0])
+        fast = np.abs(run.motor_speed[i]) > _MOVING * ratio
+        moving = np.flatnonzero(fast & (travel > well))
         if moving.size:
             found.append(slope * run.time[moving[0]])
     if not found:
@@ -124,7 +128,8 @@ def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Met
         float(values.mean()),
         "predicted",
         f"Phases open, output torque ramped at {slope:.3g} N m/s until the motor turns faster than "
-        f"{_MOVING:g} rad/s of output, at {positions} places in both senses.",
+        f"{_MOVING:g} rad/s of output{', out of its well of cogging' if well else ''}, at "
+        f"{positions} places in both senses.",
         spread=float(values.std(ddof=1)) if values.size > 1 else None,
         details={"readings": float(values.size)},
         trace={

@@ -1,0 +1,196 @@
+"""A motor of one's own from a TOML file, where the catalogue has none or has it otherwise.
+
+What the file leaves out is that of the design's catalogue motor::
+
+    name = "rewound RO100"
+    torque_constant = "0.1504 N*m/A"     # or speed_constant = "55 rpm/V"
+    convention = "torque_per_peak"       # of the torque constant; default "dc"
+    resistance = "71.5 mohm"
+    measured_between = "phase"           # or "line", the default: resistance and inductance
+    cogging_amplitude = "0.02 N*m"
+    cogging_order = 252
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from cqdd_design.actuator.motor import CONVENTIONS, torque_constant_from
+from cqdd_design.actuator.parameters import MotorParameters
+from cqdd_design.catalog.motors import Motor
+from cqdd_design.errors import DesignError, UsageError, did_you_mean
+from cqdd_design.units import (
+    CURRENT,
+    DAMPING_GAIN,
+    INDUCTANCE,
+    INERTIA,
+    MASS,
+    RESISTANCE,
+    SPEED_CONSTANT,
+    TORQUE,
+    TORQUE_CONSTANT,
+    Dimension,
+    parse_quantity,
+)
+
+#: Key to its dimension, and whether it may be 0.
+QUANTITIES: Mapping[str, tuple[Dimension, bool]] = MappingProxyType(
+    {
+        "torque_constant": (TORQUE_CONSTANT, False),
+        "speed_constant": (SPEED_CONSTANT, False),
+        "resistance": (RESISTANCE, False),
+        "inductance": (INDUCTANCE, True),
+        "rotor_inertia": (INERTIA, True),
+        "mass": (MASS, False),
+        "rated_torque": (TORQUE, False),
+        "peak_torque": (TORQUE, False),
+        "rated_current": (CURRENT, False),
+        "cogging_amplitude": (TORQUE, True),
+        "hysteresis": (TORQUE, True),
+        "iron_loss": (DAMPING_GAIN, True),
+    }
+)
+WHOLE = ("pole_pairs", "cogging_order")
+WORDS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {"convention": tuple(CONVENTIONS), "measured_between": ("line", "phase")}
+)
+_OF_ROW = {
+    "speed_constant": "speed_constant",
+    "resistance": "line_resistance",
+    "inductance": "line_inductance",
+    "rotor_inertia": "rotor_inertia",
+    "mass": "mass",
+    "rated_torque": "rated_torque",
+    "peak_torque": "peak_torque",
+    "rated_current": "rated_current",
+    "pole_pairs": "pole_pairs",
+}
+_OF_PARAMETERS = ("cogging_amplitude", "cogging_order", "hysteresis", "iron_loss")
+
+
+@dataclass(frozen=True)
+class MotorFile:
+    """What a file says of a motor.
+
+    Attributes
+    ----------
+    name : str
+    values : mapping of str to float
+        SI, in the conventions inside: K of the DC machine under ``speed_constant`` as 1/K, line to
+        line.
+    place : str
+        The file.
+    """
+
+    name: str
+    values: Mapping[str, float] = field(default_factory=dict)
+    place: str = ""
+
+    def row(self, catalogue: Motor) -> Motor:
+        """The catalogue's motor with what the file says instead."""
+        told = {_OF_ROW[key]: value for key, value in self.values.items() if key in _OF_ROW}
+        if "pole_pairs" in told:
+            told["pole_pairs"] = int(told["pole_pairs"])
+        given: dict[str, Any] = {**told, "name": self.name}
+        # A file with the electrical data is that of a bare motor.
+        if {"speed_constant", "line_resistance"} <= set(told):
+            given["torque_at"] = "motor"
+        return dataclasses.replace(catalogue, **given)
+
+    def parameters(self, motor: MotorParameters) -> MotorParameters:
+        """The motor with what no catalogue has."""
+        told: dict[str, Any] = {
+            key: value for key, value in self.values.items() if key in _OF_PARAMETERS
+        }
+        if "cogging_order" in told:
+            told["cogging_order"] = int(told["cogging_order"])
+        return dataclasses.replace(motor, **told)
+
+    def origins(self) -> dict[str, str]:
+        """Where each value comes from, by its dotted name in `ActuatorParameters`."""
+        names = {"speed_constant": "torque_constant"}
+        return {
+            f"motor.{names.get(key, key)}": f"file: {self.place}"
+            for key in self.values
+            if key not in ("mass", "rated_current")
+        }
+
+
+def read_motor(path: Path) -> MotorFile:
+    """Read a motor file.
+
+    Raises
+    ------
+    UsageError
+        When it cannot be read.
+    DesignError
+        When it is not TOML, has an unknown key, a value without or with another unit, one that no
+        motor has, or a torque constant and a speed constant.
+    """
+    try:
+        content = tomllib.loads(path.read_text("utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is not text in UTF-8"
+        raise UsageError(f"cannot read {path}: {reason}.") from error
+    except tomllib.TOMLDecodeError as error:
+        raise DesignError(f"{path} is not TOML: {error}.") from error
+    known = ("name", *QUANTITIES, *WHOLE, *WORDS)
+    for key in content:
+        if key not in known:
+            raise DesignError(
+                f"{path}: '{key}' is not a key of a motor{did_you_mean(key, known) or '.'} "
+                f"There are {', '.join(known)}."
+            )
+    words = {key: _word(path, key, content.get(key, known[0])) for key, known in WORDS.items()}
+    values = {key: _number(path, key, content[key]) for key in QUANTITIES if key in content}
+    values |= {key: _whole(path, key, content[key]) for key in WHOLE if key in content}
+    if "torque_constant" in values:
+        if "speed_constant" in values:
+            raise DesignError(
+                f"{path}: torque_constant and speed_constant say the same; keep one of them."
+            )
+        constant = torque_constant_from(values.pop("torque_constant"), words["convention"])
+        values["speed_constant"] = 1.0 / constant
+    elif "convention" in content:
+        raise DesignError(f"{path}: convention is of a torque_constant, which is missing; add it.")
+    if words["measured_between"] == "phase":
+        for key in ("resistance", "inductance"):
+            if key in values:
+                values[key] *= 2.0
+    return MotorFile(str(content.get("name", path.stem)), values, path.name)
+
+
+def _word(path: Path, key: str, value: object) -> str:
+    if value not in WORDS[key]:
+        raise DesignError(f"{path}: {key} {value!r} is none of {', '.join(WORDS[key])}.")
+    return str(value)
+
+
+def _whole(path: Path, key: str, value: object) -> int:
+    if not isinstance(value, int) or isinstance(value, bool) or value < 1:
+        raise DesignError(f"{path}: {key} {value!r} must be a whole number from 1.")
+    return value
+
+
+def _number(path: Path, key: str, value: object) -> float:
+    dimension, zero = QUANTITIES[key]
+    if not isinstance(value, str):
+        raise DesignError(
+            f"{path}: {key} = {value!r} has no unit; write it like "
+            f"{key} = {dimension.example(0.1)}."
+        )
+    try:
+        found = parse_quantity(value, dimension)
+    except DesignError as error:
+        raise DesignError(f"{path}: {key}: {error.message.rstrip('.')}.") from error
+    if found < 0.0 or (found == 0.0 and not zero) or not math.isfinite(found):
+        limit = "0 or more" if zero else "above 0"
+        raise DesignError(f"{path}: {key} {value} must be {limit}; no motor has that.")
+    return found
