@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated
@@ -88,6 +89,10 @@ for _name, _within in TORQUE_COMMANDS.items():
 app.add_typer(torque)
 
 
+_FULL = {errno.ENOSPC, errno.EFBIG, errno.EDQUOT}
+"""A disk without room."""
+
+
 def _show_version(wanted: bool) -> None:
     if wanted:
         print_result(f"cqdd-design {__version__}")
@@ -132,6 +137,10 @@ def run(arguments: Sequence[str]) -> int:
         details = error.to_dict() if hasattr(error, "to_dict") else {}
         return _end(arguments, error.exit_code, type(error).__name__, error.message, details)
     except Exception as error:
+        if isinstance(error, OSError) and error.errno in _FULL:
+            # Compiled kernels are kept on disk by numba, which does not ask whether there is room.
+            place = error.filename or "what is kept for the next run"
+            return _end(arguments, 2, "UsageError", f"cannot write {place}: {error.strerror}.")
         missing = missing_dependency(error) if isinstance(error, ImportError) else None
         if missing is not None:
             return _end(arguments, missing.exit_code, type(missing).__name__, missing.message)

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cqdd_design.cli.options import Calibrated, Force, parse_names
-from cqdd_design.cli.session import Output, read_factors
+from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
+from cqdd_design.cli.torque_actuator import data_actuator
+from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.torque.bootstrap import Interval
     from cqdd_design.torque.evaluation import EvaluationResult
     from cqdd_design.torque.scoring import SetResult
@@ -74,14 +75,17 @@ def evaluate(
     for target in (report, markdown):
         if target is not None:
             refuse_overwrite(target, force=force)
+    if design is None and calibration is not None:
+        raise UsageError("--calibration belongs to a design; give it with --design.")
     known = read_data(data)
     networks = read_networks(model or [], known)
+    actuator = None if design is None else data_actuator(out, known, design, None, calibration)
     lineup = line_up(
         known,
         networks,
         parse_names(sets),
         split_seed=split_seed,
-        actuator=_actuator(out, design, calibration),
+        actuator=actuator,
     )
     for sentence in lineup.warnings:
         out.warn(sentence)
@@ -116,27 +120,6 @@ def evaluate(
         out.warn(sentence)
     document = result.to_dict()
     out.document(document | {"files_of_models": _names(networks, model or [])}, files=files)
-
-
-def _actuator(
-    out: Output, design: Path | None, calibration: Path | None
-) -> ActuatorParameters | None:
-    from cqdd_design.errors import UsageError
-
-    if design is None:
-        if calibration is not None:
-            raise UsageError("--calibration belongs to a design; give it with --design.")
-        return None
-    from cqdd_design.actuator.bench.calibrate import apply_factors
-    from cqdd_design.actuator.build import actuator_parameters
-    from cqdd_design.design import load_design
-
-    loaded = load_design(design)
-    factors = read_factors(out, calibration, loaded)
-    out.note_compilation()
-    # The scale of the tolerances belongs to drawn gearboxes; friction and cooling to all.
-    given = {name: value for name, value in (factors or {}).items() if name != "tolerance_scale"}
-    return apply_factors(actuator_parameters(loaded), given)
 
 
 def _names(networks: Mapping[str, object], paths: list[Path]) -> dict[str, str]:

@@ -11,14 +11,13 @@ from typing import TYPE_CHECKING, Annotated, Any, cast
 import typer
 
 from cqdd_design.cli.options import Force, parse_positive
-from cqdd_design.cli.session import Output, read_factors
+from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
+from cqdd_design.cli.torque_actuator import data_actuator
 from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
-    from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.torque.artefact import Artefact, Mode
-    from cqdd_design.torque.episodes import DataSet
     from cqdd_design.torque.recipe import Choice
     from cqdd_design.torque.schedule import Reading
 
@@ -159,7 +158,7 @@ def train(
     audit(data, parts, chosen.history)
     actuator = None
     if design is not None:
-        actuator = _actuator(out, data, design, gearbox, calibration)
+        actuator = data_actuator(out, data, design, gearbox, calibration)
     if chosen.searched and choice is None and not resume:
         out.note("searching activation, learning rate and weight decay on validation episodes")
     tell = out.stages(epochs)
@@ -200,35 +199,6 @@ def train(
     out.say(*_lines(artefact))
     out.wrote([file])
     out.document(_results(artefact), files=[file])
-
-
-def _actuator(
-    out: Output,
-    data: DataSet,
-    path: Path,
-    gearbox: int | None,
-    calibration: Path | None,
-) -> ActuatorParameters:
-    """The actuator of a design, drawn and calibrated as the data's own where they say so."""
-    from cqdd_design.actuator.bench.calibrate import apply_factors
-    from cqdd_design.actuator.build import actuator_parameters
-    from cqdd_design.design import load_design
-
-    loaded = load_design(path)
-    facts = data.facts
-    seed = facts.get("training_gearbox") if gearbox is None else gearbox
-    own = facts.get("calibration") if calibration is None else None
-    factors = read_factors(out, calibration, loaded) or (own if isinstance(own, dict) else {})
-    out.note_compilation()
-    if facts.get("design_sha256") not in (None, loaded.sha256):
-        out.warn(f"the data are of another design or version of it than {path}.")
-    drawn = actuator_parameters(
-        loaded,
-        seed=None if seed is None else int(seed),
-        supply_voltage=facts.get("supply_voltage_V"),
-    )
-    used = {name: value for name, value in factors.items() if name != "tolerance_scale"}
-    return apply_factors(drawn, used)
 
 
 def _results(artefact: Artefact) -> dict[str, Any]:

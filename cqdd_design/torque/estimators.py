@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -135,13 +135,27 @@ def network_estimator(
 ) -> Estimator:
     """A trained network.
 
+    Parameters
+    ----------
+    artefact : Artefact
+    name : str
+        Default the artefact's.
+    actuator : ActuatorParameters, optional
+        For a network that corrects a physical estimate and does not hold the actuator that it was
+        trained with; its own, where it does, is the only one that fits.
+
     Raises
     ------
     UsageError
-        For one that corrects a physical estimate, without the actuator it is made from.
+        For a network that corrects a physical estimate, without the actuator it is made from.
     """
     from cqdd_design.torque.features import feature_matrix
+    from cqdd_design.torque.physics import actuator_from_dict
     from cqdd_design.torque.predict import predict
+
+    stored = artefact.facts.get("actuator")
+    if isinstance(stored, Mapping):
+        actuator = actuator_from_dict(stored)
 
     if "physics" in artefact.inputs and actuator is None:
         raise UsageError(

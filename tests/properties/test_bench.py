@@ -210,6 +210,19 @@ def test_crossing_is_between_the_points() -> None:
     assert crossing(np.array([1.0, 2.0]), np.array([1.0, 0.9]), 0.5) == 2.0
 
 
+def test_winding_ends_at_its_limit_under_the_continuous_current(
+    actuator: ActuatorParameters,
+) -> None:
+    trace = measured(actuator, "continuous_torque").trace
+    assert trace["winding [deg C]"][0] == pytest.approx(actuator.thermal.ambient)
+    assert np.all(np.diff(trace["winding [deg C]"]) > -1e-9)
+    assert trace["winding [deg C]"][-1] == pytest.approx(actuator.thermal.most, abs=0.5)
+    limited = changed(actuator, drive={"current_limit": 5.0})
+    cool = measured(limited, "continuous_torque")
+    assert cool.details["current_A"] == 5.0
+    assert cool.trace["winding [deg C]"][-1] < 0.5 * actuator.thermal.most
+
+
 def test_every_measurement_of_the_papers_actuator(actuator: ActuatorParameters) -> None:
     told: list[str] = []
     result = run_bench(actuator, rated_current=20.0, beside_paper=True, progress=told.append)
@@ -221,6 +234,11 @@ def test_every_measurement_of_the_papers_actuator(actuator: ActuatorParameters) 
         assert row["unit"] == unit
         assert row["protocol"].endswith(".")
         assert row["paper"] is None if name == "stall_torque" else row["paper"] > 0.0
+    without = {metric.name for metric in result.metrics if not metric.trace}
+    # Identities, sums, and what other rows' traces show.
+    assert without == {
+        "peak_torque", "rated_power", "output_resolution", "torque_density", "mass"
+    }  # fmt: skip
     assert run_bench(actuator, only=["mass"]).to_dict()["metrics"]["mass"]["paper"] is None  # type: ignore[index]
 
 

@@ -13,7 +13,7 @@ from cqdd_design.actuator.packing import largest_step
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.scenario import Command, Constant, Load, Sampled, Scenario, Start
 from cqdd_design.actuator.simulate import Simulation, simulate
-from cqdd_design.actuator.thermal import continuous_current
+from cqdd_design.actuator.thermal import continuous_current, response
 
 RPM = 30.0 / math.pi
 
@@ -60,10 +60,11 @@ def rated_power(parameters: ActuatorParameters, rated_current: float | None) -> 
 
 def _locked_torque(
     parameters: ActuatorParameters, current: float, positions: int = 12
-) -> FloatArray:
+) -> tuple[FloatArray, dict[str, FloatArray]]:
     """Torque of the locked output at a steady current, at even places of one motor turn, N m.
 
-    The current rises slowly, as on a bench, and friction holds back what it can.
+    The current rises slowly, as on a bench, and friction holds back what it can. The trace of the
+    first place goes with it.
     """
     turn = 2.0 * math.pi / abs(parameters.gear.ratio)
     rise, hold = 0.3, 0.3
@@ -80,7 +81,8 @@ def _locked_torque(
     every = max(1, round(5e-4 / step))
     run = simulate(cold(parameters), scenes, rise + hold, step, every=every)
     settled = run.output_torque[:, run.time > rise + 0.5 * hold]
-    return np.asarray(np.abs(settled.mean(axis=1)))
+    trace = _columns(run, "current", "output_torque")
+    return np.asarray(np.abs(settled.mean(axis=1))), trace
 
 
 def peak_torque(parameters: ActuatorParameters) -> Metric:
@@ -107,7 +109,7 @@ def stall_torque(parameters: ActuatorParameters) -> Metric:
     limit = parameters.drive.current_limit
     if math.isfinite(motor.peak_torque):
         limit = min(limit, motor.peak_torque / motor.torque_constant)
-    torques = _locked_torque(parameters, limit)
+    torques, trace = _locked_torque(parameters, limit)
     return Metric(
         "stall_torque",
         float(torques.mean()),
@@ -116,6 +118,7 @@ def stall_torque(parameters: ActuatorParameters) -> Metric:
         "motor turn: what friction leaves of the peak torque while it rises.",
         spread=float(torques.std(ddof=1)),
         details={"current_A": limit},
+        trace=trace,
     )
 
 
@@ -126,7 +129,12 @@ def continuous_torque(parameters: ActuatorParameters) -> Metric:
     hot = float(
         torque_constant_at(parameters.motor, thermal.most) / parameters.motor.torque_constant
     )
-    torques = hot * _locked_torque(parameters, current)
+    torques = hot * _locked_torque(parameters, current)[0]
+    slowest = (thermal.winding_to_housing + thermal.housing_to_ambient) * (
+        thermal.winding_capacity + thermal.housing_capacity
+    )
+    times = np.linspace(0.0, 10.0 * slowest, 501)
+    warming = response(parameters.motor, thermal, current, times)
     return Metric(
         "continuous_torque",
         float(torques.mean()),
@@ -135,6 +143,11 @@ def continuous_torque(parameters: ActuatorParameters) -> Metric:
         f"winding's limit of {thermal.most:g} deg C in {thermal.ambient:g} deg C.",
         spread=float(torques.std(ddof=1)),
         details={"current_A": current},
+        trace={
+            "time [s]": times,
+            "winding [deg C]": warming[:, 0],
+            "housing [deg C]": warming[:, 1],
+        },
     )
 
 
@@ -248,6 +261,7 @@ def actuator_inertia(parameters: ActuatorParameters) -> Metric:
         "Spin-up of the free output at a quarter and at half of the current limit: difference of "
         "torques over difference of accelerations, at the motor.",
         details={"from_solids_kgm2": computed},
+        trace=_columns(run, "motor_speed", "current", index=1),
     )
 
 

@@ -1,0 +1,41 @@
+"""The actuator that data were recorded on, for the commands of ``torque``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cqdd_design.cli.session import Output, read_factors
+
+if TYPE_CHECKING:
+    from cqdd_design.actuator.parameters import ActuatorParameters
+    from cqdd_design.torque.episodes import DataSet
+
+
+def data_actuator(
+    out: Output,
+    data: DataSet,
+    path: Path,
+    gearbox: int | None,
+    calibration: Path | None,
+) -> ActuatorParameters:
+    """The actuator of a design, drawn and calibrated as the data's own where they say so."""
+    from cqdd_design.actuator.bench.calibrate import apply_factors
+    from cqdd_design.actuator.build import actuator_parameters
+    from cqdd_design.design import load_design
+
+    loaded = load_design(path)
+    facts = data.facts
+    seed = facts.get("training_gearbox") if gearbox is None else gearbox
+    own = facts.get("calibration") if calibration is None else None
+    factors = read_factors(out, calibration, loaded) or (own if isinstance(own, dict) else {})
+    out.note_compilation()
+    if facts.get("design_sha256") not in (None, loaded.sha256):
+        out.warn(f"the data are of another design or version of it than {path}.")
+    drawn = actuator_parameters(
+        loaded,
+        seed=None if seed is None else int(seed),
+        supply_voltage=facts.get("supply_voltage_V"),
+    )
+    used = {name: value for name, value in factors.items() if name != "tolerance_scale"}
+    return apply_factors(drawn, used)
