@@ -48,7 +48,7 @@ def cqdd(tmp_path: Path) -> CommandLine:
         *arguments: str | Path,
         folder: Path = tmp_path,
         environment: Mapping[str, str] | None = None,
-        timeout: float = 120.0,
+        timeout: float = 400.0,
     ) -> Finished:
         done = subprocess.run(
             [sys.executable, "-m", "cqdd_design", *map(str, arguments)],
