@@ -13,16 +13,21 @@ machine that does nothing else.
 from __future__ import annotations
 
 import argparse
+import itertools
 import math
 import os
 import time
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from processes import PAGE, machine
 
+from cqdd_design.actuator import kernel
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.columns import LEDGER, PARAMETERS, TRACES
 from cqdd_design.actuator.packing import (
@@ -46,7 +51,7 @@ STEP, STEPS, GOAL = 2e-5, 500_000, 5e6
 
 VOLTS = 12.0
 """At the motor with its output free: what the exported MJCF is, stepped by both."""
-THREADS = (1, 2, 4)
+THREADS, ROUNDS = (1, 2, 4), 10
 
 SCENES = {
     "locked": Scenario(Command("torque", Sine(20.0, 2.0)), Load.locked(2e4, 1.0)),
@@ -57,10 +62,11 @@ SCENES = {
 }
 
 
-def kernel_rate(
-    sets: list[ActuatorParameters], scene: Scenario, steps: int, threads: int, runs: int = 5
-) -> float:
-    """Actuator steps a second of the kernel alone, best of some runs."""
+Work = tuple[Any, ...]
+
+
+def work_of(sets: list[ActuatorParameters], scene: Scenario, steps: int) -> Work:
+    """Arguments of the kernel for some sets, without their range."""
     rows = np.array([pack(one, scene, STEP) for one in sets])
     points = max(table_points(one.gear) for one in sets)
     tables = np.array([gear_table(one.gear, points) for one in sets])
@@ -70,15 +76,20 @@ def kernel_rate(
     none = np.zeros((1, 1))
     traces = np.zeros((len(sets), len(TRACES), steps // 50))
     ledgers = np.zeros((len(sets), len(LEDGER)))
-    best = math.inf
-    for _ in range(runs):
-        began = time.perf_counter()
-        run_compiled(
-            (rows, tables, reference, rate, none, none, none, STEP, steps, 50, traces, ledgers),
-            threads,
-        )
-        best = min(best, time.perf_counter() - began)
-    return len(sets) * steps / best
+    return rows, tables, reference, rate, none, none, none, STEP, steps, 50, traces, ledgers
+
+
+def seconds_of(call: Callable[[], None]) -> float:
+    """Seconds that a call takes."""
+    began = time.perf_counter()
+    call()
+    return time.perf_counter() - began
+
+
+def kernel_rate(one: ActuatorParameters, scene: Scenario, steps: int, runs: int = 5) -> float:
+    """Actuator steps a second of the kernel alone on one core, best of some runs."""
+    work = work_of([one], scene, steps)
+    return steps / min(seconds_of(lambda: run_compiled(work, 1)) for _ in range(runs))
 
 
 def plain_rate(one: ActuatorParameters, scene: Scenario, steps: int = 2000) -> float:
@@ -177,8 +188,8 @@ def beside_mujoco(one: ActuatorParameters) -> list[tuple[str, str, str]]:
     from cqdd_design.exporting.mjcf_classes import time_step
 
     free = Scenario(Command("voltage", Constant(VOLTS)), Load.free())
-    kernel_rate([one], free, 1000, 1, 1)
-    ours, theirs = kernel_rate([one], free, STEPS, 1), mujoco_rate(one, STEP)
+    kernel_rate(one, free, 1000, 1)
+    ours, theirs = kernel_rate(one, free, STEPS), mujoco_rate(one, STEP)
     own = time_step(one)
     coarse = mujoco_rate(one, own) * own
     return [
@@ -199,7 +210,7 @@ def beside_mujoco(one: ActuatorParameters) -> list[tuple[str, str, str]]:
 
 def beside_scipy(one: ActuatorParameters, seconds: float = 0.25) -> list[tuple[str, str, str]]:
     """Rows of the locked actuator integrated by scipy and here."""
-    ours = seconds / STEP / kernel_rate([one], SCENES["locked"], STEPS, 1)
+    ours = seconds / STEP / kernel_rate(one, SCENES["locked"], STEPS)
     return [
         (
             f"scipy.integrate.solve_ivp, {method}, rtol 1e-6, {seconds:g} s of the locked "
@@ -211,20 +222,47 @@ def beside_scipy(one: ActuatorParameters, seconds: float = 0.25) -> list[tuple[s
     ]
 
 
+def in_processes(work: Work, number: int) -> None:
+    """The same sets shared out to processes that have nothing in common but the machine."""
+    ends = [len(work[0]) * i // number for i in range(number + 1)]
+    children = []
+    for first, last in itertools.pairwise(ends):
+        child = os.fork()
+        if not child:
+            kernel.run_sets(*work, first, last)
+            os._exit(0)
+        children.append(child)
+    for child in children:
+        os.waitpid(child, 0)
+
+
 def over_sets(one: ActuatorParameters) -> list[tuple[str, str, str]]:
-    """Rows of many parameter sets on several threads; all on one core is measured beside them."""
+    """Rows of many parameter sets on several threads, and on processes as what is to be had.
+
+    The ways take turns, and the best of each counts, so that a neighbour's load falls on all.
+    """
     sets = [replace(one, gear=replace(one.gear, backlash=1e-4 * (1 + i % 9))) for i in range(64)]
     rows = []
     for number in (4, 16, 64):
-        rates = {}
-        for threads in THREADS:
-            if threads <= (os.cpu_count() or 1):
-                rates[threads] = kernel_rate(sets[:number], SCENES["pendulum"], STEPS // 5, threads)
+        steps = STEPS * 64 // (5 * number)
+        work = work_of(sets[:number], SCENES["pendulum"], steps)
+        ways = {
+            f"{threads} thread{'s' * (threads > 1)}": partial(run_compiled, work, threads)
+            for threads in THREADS
+            if threads <= (os.cpu_count() or 1)
+        }
+        if hasattr(os, "fork"):
+            ways[f"{THREADS[-1]} processes"] = partial(in_processes, work, THREADS[-1])
+        best = dict.fromkeys(ways, math.inf)
+        for _ in range(ROUNDS):
+            for name, way in ways.items():
+                best[name] = min(best[name], seconds_of(way))
+        first = best["1 thread"]
         found = ", ".join(
-            f"{threads}: {rate / 1e6:.1f} million ({rate / rates[1]:.2f})"
-            for threads, rate in rates.items()
+            f"{name}: {number * steps / least / 1e6:.1f} million ({first / least:.2f})"
+            for name, least in best.items()
         )
-        rows.append((f"pendulum, {number} parameter sets, by threads", found, "linear to 4 cores"))
+        rows.append((f"pendulum, {number} parameter sets", found, "linear to 4 cores"))
     return rows
 
 
@@ -233,12 +271,12 @@ def measure() -> list[tuple[str, str, str]]:
     one = actuator_parameters(load_design(DESIGN), seed=1)
     rows = []
     for name, scene in SCENES.items():
-        kernel_rate([one], scene, 1000, 1, 1)
-        rate = kernel_rate([one], scene, STEPS, 1)
+        kernel_rate(one, scene, 1000, 1)
+        rate = kernel_rate(one, scene, STEPS)
         goal = f"at least {GOAL:,.0f}" if "wall" not in name else ""
         rows.append((f"steps a second, one core, {name}", f"{rate:,.0f}", goal))
     slow = plain_rate(one, SCENES["pendulum"])
-    fast = kernel_rate([one], SCENES["pendulum"], STEPS, 1)
+    fast = kernel_rate(one, SCENES["pendulum"], STEPS)
     return [
         *rows,
         *over_sets(one),
