@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from processes import PAGE, machine
+from processes import machine, write_section
 
 from cqdd_design.actuator import kernel
 from cqdd_design.actuator.build import actuator_parameters
@@ -45,7 +45,6 @@ from cqdd_design.design import load_design
 REPOSITORY = Path(__file__).resolve().parents[1]
 DESIGN = REPOSITORY / "designs" / "cqdd-10.toml"
 HEADING = "## The actuator in time"
-BEGIN, END = "<!-- actuator: written by actuator_steps.py -->", "<!-- end of actuator -->"
 PACKAGES = ("numpy", "scipy", "numba", "mujoco")
 STEP, STEPS, GOAL = 2e-5, 500_000, 5e6
 
@@ -305,15 +304,10 @@ def main() -> None:
         *(f"| {what} | {found} | {goal} |" for what, found, goal in rows),
     ]
     text = "\n".join(lines) + "\n"
-    if not asked.write:
+    if asked.write:
+        write_section("actuator", "actuator_steps.py", HEADING, text)
+    else:
         print(text)
-        return
-    page = PAGE.read_text(encoding="utf-8")
-    if BEGIN not in page:
-        page += f"\n{HEADING}\n\n{BEGIN}\n{END}\n"
-    before, _, rest = page.partition(BEGIN)
-    after = rest.partition(END)[2]
-    PAGE.write_text(f"{before}{BEGIN}\n\n{text}\n{END}{after}", encoding="utf-8")
 
 
 if __name__ == "__main__":

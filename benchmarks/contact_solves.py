@@ -22,10 +22,11 @@ from importlib import metadata
 from pathlib import Path
 
 import numpy as np
-from processes import CONTACT_HEADING, PAGE, machine
+from processes import CONTACT_HEADING, machine, write_section
 
 from cqdd_design.design import Design, load_design
-from cqdd_design.gearbox.contact import kernel, laws
+from cqdd_design.gearbox.contact import laws
+from cqdd_design.gearbox.contact.kernel_sweep import solve_sweep
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, law_arguments, stiffness_scale
@@ -36,7 +37,6 @@ from cqdd_design.gearbox.tolerance.evaluate import ensemble_tables, evaluate_gea
 REPOSITORY = Path(__file__).resolve().parents[1]
 DESIGN = REPOSITORY / "designs" / "cqdd-10.toml"
 PEER = REPOSITORY / "benchmarks" / "cycloidgen_contact.py"
-BEGIN, END = "<!-- contact: written by contact_solves.py -->", "<!-- end of contact -->"
 
 
 def peer_design() -> Design:
@@ -72,7 +72,7 @@ def kernel_rate(model: ContactModel, torque: float, angle: np.ndarray) -> tuple[
     best = np.inf
     for _ in range(7):
         began = time.perf_counter()
-        failed = kernel.solve_sweep(
+        failed = solve_sweep(
             states.rows,
             states.gaps,
             states.coefficient,
@@ -320,12 +320,7 @@ def main() -> None:
     ]
     text = "\n".join(lines) + "\n"
     if asked.write:
-        page = PAGE.read_text(encoding="utf-8")
-        if BEGIN not in page:
-            page += f"\n{CONTACT_HEADING}\n\n{BEGIN}\n{END}\n"
-        before, _, rest = page.partition(BEGIN)
-        after = rest.partition(END)[2]
-        PAGE.write_text(f"{before}{BEGIN}\n\n{text}\n{END}{after}", encoding="utf-8")
+        write_section("contact", "contact_solves.py", CONTACT_HEADING, text)
     else:
         print(text)
     print(f"peak memory here {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MB")

@@ -187,6 +187,17 @@ def _processor() -> str:
     return platform.processor() or "unknown processor"
 
 
+def write_section(name: str, script: str, heading: str, text: str) -> None:
+    """Put a script's text between its markers in the page; the first time at its end."""
+    begin, end = f"<!-- {name}: written by {script} -->", f"<!-- end of {name} -->"
+    old = PAGE.read_text(encoding="utf-8")
+    if begin not in old:
+        old += f"\n{heading}\n\n{begin}\n{end}\n"
+    before, _, rest = old.partition(begin)
+    after = rest.partition(end)[2]
+    PAGE.write_text(f"{before}{begin}\n\n{text}\n{end}{after}", encoding="utf-8")
+
+
 def page(timings: Sequence[Timing], runs: int) -> str:
     """Return the page of results."""
     by_name = {timing.command.name: timing for timing in timings}

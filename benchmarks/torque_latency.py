@@ -26,7 +26,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from processes import PAGE, machine
+from processes import machine, write_section
 
 from cqdd_design.exporting.c_header import header_text
 from cqdd_design.exporting.newton import newton_model
@@ -43,7 +43,6 @@ from cqdd_design.torque.folded import folded_gru
 from cqdd_design.torque.predict import Streaming
 
 HEADING = "## Torque estimation"
-BEGIN, END = "<!-- torque: written by torque_latency.py -->", "<!-- end of torque -->"
 PACKAGES = ("numpy", "numba", "torch", "onnxruntime")
 FLAGS = ("-O3", "-march=native", "-ffp-contract=fast")
 WINDOWS, ROUNDS = 16_000, 5
@@ -363,15 +362,10 @@ def main() -> None:
         *found,
     ]
     text = "\n".join(lines) + "\n"
-    if not asked.write:
+    if asked.write:
+        write_section("torque", "torque_latency.py", HEADING, text)
+    else:
         print(text)
-        return
-    page = PAGE.read_text(encoding="utf-8")
-    if BEGIN not in page:
-        page += f"\n{HEADING}\n\n{BEGIN}\n{END}\n"
-    before, _, rest = page.partition(BEGIN)
-    after = rest.partition(END)[2]
-    PAGE.write_text(f"{before}{BEGIN}\n\n{text}\n{END}{after}", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -32,9 +32,6 @@ PAPER_ROWS = ("continuous_torque", "backdrive_static", "efficiency_peak")
 #: Toleranced gearboxes whose mean ripple is the bench's.
 RIPPLE_DRAWS = 6
 
-#: How often a whole `bench` tells its progress.
-BENCH_STAGES = 17
-
 #: Tooth meshes of an output turn up to which gearboxes are drawn for the ripple: their equilibrium
 #: takes half a second each here, and tens of seconds with 24 lobes.
 MOST_DRAWN_MESHES = 200
@@ -74,8 +71,8 @@ def bench(
         Told what is measured next.
     """
     from cqdd_design.actuator.bench import run_bench
-    from cqdd_design.actuator.bench.calibrate import apply_factors
     from cqdd_design.actuator.bench.run import VOLTAGE
+    from cqdd_design.actuator.bench.unknowns import apply_factors
     from cqdd_design.actuator.build import actuator_parameters
 
     factors = calibration or {}
@@ -162,7 +159,7 @@ def _drawn(design: Design, motor: MotorFile | None = None) -> list[ActuatorParam
     return [actuator_parameters(design, seed=one, own_motor=motor) for one in range(RIPPLE_DRAWS)]
 
 
-def _rated_current(design: Design, motor: MotorFile | None) -> float | None:
+def _rated_current(design: Design, motor: MotorFile | None = None) -> float | None:
     from cqdd_design.catalog import find_motor
 
     row = find_motor(design.motor.name)
@@ -218,14 +215,13 @@ def measured_actuator(design: Design) -> tuple[tuple[ActuatorParameters, BenchRe
     """Parameters and measurements of a design's actuator, or a sentence on why there are none."""
     from cqdd_design.actuator.bench import run_bench
     from cqdd_design.actuator.build import actuator_parameters
-    from cqdd_design.catalog import find_motor
     from cqdd_design.errors import CqddError
 
     try:
         parameters = actuator_parameters(design)
         result = run_bench(
             parameters,
-            rated_current=find_motor(design.motor.name).rated_current,
+            rated_current=_rated_current(design),
             beside_paper=design.name == PAPER_DESIGN,
             drawn=_drawn(design),
         )
@@ -281,8 +277,8 @@ def simulate(
     DesignError
         When the design makes no actuator, naming the seed where a drawn gearbox does not.
     """
-    from cqdd_design.actuator.bench.calibrate import apply_factors
     from cqdd_design.actuator.bench.steady import with_voltage
+    from cqdd_design.actuator.bench.unknowns import apply_factors
     from cqdd_design.actuator.build import actuator_parameters
     from cqdd_design.actuator.recording import Recording, plan
     from cqdd_design.actuator.simulate import simulate as run

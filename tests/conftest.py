@@ -66,6 +66,29 @@ def cqdd(tmp_path: Path) -> CommandLine:
     return run
 
 
+@pytest.fixture
+def in_two_processes(
+    paper_design_file: Path, tmp_path: Path
+) -> Callable[[str], tuple[Finished, Finished]]:
+    """Run code in two processes that hash differently, on the paper's design and a folder each.
+
+    The code finds the design's path and the folder's in ``sys.argv``.
+    """
+
+    def run(code: str, seed: str) -> Finished:
+        done = subprocess.run(
+            [sys.executable, "-c", code, str(paper_design_file), str(tmp_path / seed)],
+            env={**process_environment(), "PYTHONHASHSEED": seed},
+            capture_output=True,
+            encoding="utf-8",
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        return Finished(done.returncode, done.stdout, done.stderr)
+
+    return lambda code: (run(code, "1"), run(code, "2"))
+
+
 def process_environment() -> dict[str, str]:
     """The environment of a child process that must find the same package as this one."""
     package = str(Path(cqdd_design.__file__).resolve().parents[1])

@@ -17,12 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cqdd_design.actuator.parameters import (
-    ActuatorParameters,
-    DriveParameters,
-    FloatArray,
-    MotorParameters,
-)
+from cqdd_design.actuator.parameters import DriveParameters, FloatArray, MotorParameters
 from cqdd_design.errors import DesignError
 
 COPPER_COEFFICIENT = 0.0039
@@ -249,22 +244,3 @@ def envelope(
     low = np.where(upper < -limit, upper, np.maximum(lower, -limit))
     drag = motor.iron_loss * w + motor.hysteresis * np.sign(w)
     return Envelope(w, constant * low - drag, constant * high - drag, low, high)
-
-
-def idle_limits(parameters: ActuatorParameters) -> tuple[str, ...]:
-    """Limits that can never bind, each in a sentence; empty for a sound actuator."""
-    motor, drive = parameters.motor, parameters.drive
-    found = []
-    most = drive.supply_voltage / motor.resistance
-    if drive.current_limit > most:
-        found.append(
-            f"current_limit {drive.current_limit:g} A never binds: {drive.supply_voltage:g} V "
-            f"drive no more than {most:.4g} A through {motor.resistance:g} ohm; lower it below "
-            "that, or raise the voltage."
-        )
-    if drive.current_bandwidth > 10.0 * drive.control_rate:
-        found.append(
-            f"current_bandwidth {drive.current_bandwidth:g} Hz never binds: the command changes "
-            f"{drive.control_rate:g} times a second."
-        )
-    return tuple(found)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cqdd_design.cli.options import (
+    BenchSeed,
+    BenchSupply,
     Calibrated,
     DesignFile,
     Force,
@@ -32,13 +34,8 @@ def bench(
     only: Annotated[
         str | None, typer.Option(metavar="NAMES", help="Measurements, separated by commas.")
     ] = None,
-    voltage: Annotated[
-        str | None,
-        typer.Option(metavar="Q", help='Supply of the dynamic rows; default "24 V".'),
-    ] = None,
-    seed: Annotated[
-        int | None, typer.Option(min=0, help="Of one drawn gearbox; default perfect parts.")
-    ] = None,
+    voltage: BenchSupply = None,
+    seed: BenchSeed = None,
     calibration: Calibrated = None,
     motor_file: OwnMotor = None,
     beside: Annotated[
@@ -55,6 +52,7 @@ def bench(
 ) -> None:
     """The actuator's data sheet, measured on a virtual bench."""
     from cqdd_design import actuator_pipeline as pipeline
+    from cqdd_design.actuator.bench import METRICS
     from cqdd_design.actuator.comparison import catalogue_actuator
     from cqdd_design.design import load_design
     from cqdd_design.units import VOLTAGE
@@ -74,7 +72,7 @@ def bench(
         seed=seed,
         calibration=factors,
         motor=read_own_motor(motor_file),
-        progress=out.stages(len(names) or pipeline.BENCH_STAGES),
+        progress=out.stages(len(names or METRICS)),
     )
     actuators = pipeline.compared_actuators(loaded, result, others)
     files = () if folder is None else pipeline.write_traces(result, folder, force=force)

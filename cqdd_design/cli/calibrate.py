@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cqdd_design.cli.options import (
+    BenchSeed,
+    BenchSupply,
     DesignFile,
     Force,
     OwnMotor,
@@ -46,13 +48,8 @@ def calibrate(
             "friction_load, current_loop, tolerance_scale; default what the rows decide.",
         ),
     ] = None,
-    voltage: Annotated[
-        str | None,
-        typer.Option(metavar="Q", help='Supply of the dynamic rows; default "24 V".'),
-    ] = None,
-    seed: Annotated[
-        int | None, typer.Option(min=0, help="Of one drawn gearbox; default perfect parts.")
-    ] = None,
+    voltage: BenchSupply = None,
+    seed: BenchSeed = None,
     motor_file: OwnMotor = None,
     path: Annotated[
         Path | None,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -14,18 +14,33 @@ if TYPE_CHECKING:
     from cqdd_design.actuator.motor_file import MotorFile
     from cqdd_design.units import Dimension
 
+
+def quantity_option(text: str) -> Any:
+    """Option of a number with its unit."""
+    return typer.Option(metavar="Q", help=text)
+
+
+def count_option(text: str, least: int = 1) -> Any:
+    """Option of a whole number."""
+    return typer.Option(metavar="N", min=least, help=text)
+
+
 DesignFile = Annotated[Path, typer.Argument(metavar="DESIGN", help="Design file (TOML).")]
 Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
 Calibrated = Annotated[
     Path | None,
     typer.Option("--calibration", metavar="FILE", help="Factors that `calibrate` wrote."),
 ]
-
 OwnMotor = Annotated[
     Path | None,
     typer.Option(
         "--motor-file", metavar="FILE", help="Motor in TOML, for what the catalogue says otherwise."
     ),
+]
+Supply = Annotated[str | None, quantity_option("Supply; default that of the design.")]
+BenchSupply = Annotated[str | None, quantity_option('Supply of the dynamic rows; default "24 V".')]
+BenchSeed = Annotated[
+    int | None, typer.Option(min=0, help="Of one drawn gearbox; default perfect parts.")
 ]
 
 LEAST_RATIO, MOST_RATIO = 4, 119

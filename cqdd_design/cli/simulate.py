@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
-from cqdd_design.cli.options import Calibrated, DesignFile, Force, OwnMotor, read_own_motor
+from cqdd_design.cli.options import (
+    Calibrated,
+    DesignFile,
+    Force,
+    OwnMotor,
+    Supply,
+    quantity_option,
+    read_own_motor,
+)
 from cqdd_design.cli.session import Output, read_factors
 from cqdd_design.cli.simulate_options import COMMANDS, FRICTION, LOADS, SIGNALS, Choices, known
 from cqdd_design.cli.tables import number, table
@@ -18,10 +26,6 @@ if TYPE_CHECKING:
     from cqdd_design.actuator.scenario import FrictionModel
 
 _MOST_SAMPLES = 10_000
-
-
-def _quantity(text: str) -> Any:
-    return typer.Option(metavar="Q", help=text)
 
 
 def _choice(known: Sequence[str], text: str) -> Any:
@@ -34,26 +38,29 @@ def simulate(
     load: Annotated[str, _choice(LOADS, "What the output carries.")] = "free",
     load_inertia: Annotated[
         str | None,
-        _quantity('Of an inertia, default "0.05 kg*m^2"; of a pendulum\'s arm, default 0.'),
+        quantity_option('Of an inertia, default "0.05 kg*m^2"; of a pendulum\'s arm, default 0.'),
     ] = None,
     load_damping: Annotated[
-        str | None, _quantity("Viscous, of inertia and pendulum; default 0 N*m*s/rad.")
+        str | None, quantity_option("Viscous, of inertia and pendulum; default 0 N*m*s/rad.")
     ] = None,
-    mass: Annotated[str | None, _quantity('Of the pendulum; default "2.28 kg".')] = None,
-    arm: Annotated[str | None, _quantity('Of the pendulum; default "0.5 m".')] = None,
+    mass: Annotated[str | None, quantity_option('Of the pendulum; default "2.28 kg".')] = None,
+    arm: Annotated[str | None, quantity_option('Of the pendulum; default "0.5 m".')] = None,
     wall_angle: Annotated[
-        str | None, _quantity('Where a wall stops the pendulum; default "0.5 rad".')
+        str | None, quantity_option('Where a wall stops the pendulum; default "0.5 rad".')
     ] = None,
-    wall_stiffness: Annotated[str | None, _quantity('Of the wall; default "2000 N*m/rad".')] = None,
+    wall_stiffness: Annotated[
+        str | None, quantity_option('Of the wall; default "2000 N*m/rad".')
+    ] = None,
     output_speed: Annotated[
-        str | None, _quantity('Of an output driven from outside; default "1 rad/s".')
+        str | None, quantity_option('Of an output driven from outside; default "1 rad/s".')
     ] = None,
     sensor_stiffness: Annotated[
         str | None,
-        _quantity('Of the torque sensor that locks the output; default "50000 N*m/rad".'),
+        quantity_option('Of the torque sensor that locks the output; default "50000 N*m/rad".'),
     ] = None,
     start_angle: Annotated[
-        str | None, _quantity("Of the output, but a locked one; default 0, where a pendulum hangs.")
+        str | None,
+        quantity_option("Of the output, but a locked one; default 0, where a pendulum hangs."),
     ] = None,
     command: Annotated[
         str, _choice(COMMANDS, "What the drive is told; open: no current.")
@@ -64,36 +71,40 @@ def simulate(
     ] = None,
     amplitude: Annotated[
         str | None,
-        _quantity(
+        quantity_option(
             "Of the command, or its constant, or the ramp's rise; default the continuous torque, "
             'a quarter of the current limit, half of the supply, or "0.5 rad".'
         ),
     ] = None,
     offset: Annotated[
-        str | None, _quantity("What a sine or chirp swings about, where a ramp starts; default 0.")
+        str | None,
+        quantity_option("What a sine or chirp swings about, where a ramp starts; default 0."),
     ] = None,
     frequency: Annotated[
-        str | None, _quantity('Of a sine, default "0.8 Hz"; first of a chirp, default "0.5 Hz".')
+        str | None,
+        quantity_option('Of a sine, default "0.8 Hz"; first of a chirp, default "0.5 Hz".'),
     ] = None,
-    end_frequency: Annotated[str | None, _quantity('Of a chirp; default "50 Hz".')] = None,
+    end_frequency: Annotated[str | None, quantity_option('Of a chirp; default "50 Hz".')] = None,
     reference: Annotated[
         Path | None,
         typer.Option(metavar="CSV", help="Command over time: columns as time [s],torque [N m]."),
     ] = None,
     position_gain: Annotated[
-        str | None, _quantity("Of impedance and position control; default that of the design.")
+        str | None,
+        quantity_option("Of impedance and position control; default that of the design."),
     ] = None,
     velocity_gain: Annotated[
-        str | None, _quantity("Of impedance and position control; default that of the design.")
+        str | None,
+        quantity_option("Of impedance and position control; default that of the design."),
     ] = None,
     duration: Annotated[
-        str | None, _quantity('Default "5 s"; of a reference file, its last time.')
+        str | None, quantity_option('Default "5 s"; of a reference file, its last time.')
     ] = None,
     step: Annotated[
-        str | None, _quantity('As in "20 us"; default one that the stiffness surely stands.')
+        str | None, quantity_option('As in "20 us"; default one that the stiffness surely stands.')
     ] = None,
-    rate: Annotated[str, _quantity("Of the record.")] = "1 kHz",
-    voltage: Annotated[str | None, _quantity("Supply; default that of the design.")] = None,
+    rate: Annotated[str, quantity_option("Of the record.")] = "1 kHz",
+    voltage: Supply = None,
     seed: Annotated[
         int | None,
         typer.Option(

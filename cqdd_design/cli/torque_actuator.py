@@ -20,7 +20,7 @@ def data_actuator(
     calibration: Path | None,
 ) -> ActuatorParameters:
     """The actuator of a design, drawn and calibrated as the data's own where they say so."""
-    from cqdd_design.actuator.bench.calibrate import apply_factors
+    from cqdd_design.actuator.bench.unknowns import apply_factors
     from cqdd_design.actuator.build import actuator_parameters
     from cqdd_design.design import load_design
 

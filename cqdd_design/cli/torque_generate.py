@@ -7,7 +7,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cqdd_design.cli.options import Calibrated, DesignFile, Force, parse_option, parse_positive
+from cqdd_design.cli.options import (
+    Calibrated,
+    DesignFile,
+    Force,
+    Supply,
+    count_option,
+    parse_option,
+    parse_positive,
+    quantity_option,
+)
 from cqdd_design.cli.session import Output, read_factors
 from cqdd_design.cli.tables import number, table
 
@@ -17,14 +26,6 @@ if TYPE_CHECKING:
     from cqdd_design.files import WrittenFile
 
 
-def _quantity(text: str) -> Any:
-    return typer.Option(metavar="Q", help=text)
-
-
-def _count(text: str, least: int = 1) -> Any:
-    return typer.Option(metavar="N", min=least, help=text)
-
-
 def generate(
     out: Output,
     design: DesignFile,
@@ -32,23 +33,25 @@ def generate(
         Path | None,
         typer.Option("--out", metavar="DIR", help="Default exports/NAME-torque, its own output."),
     ] = None,
-    episodes: Annotated[int, _count("On the gearbox of training.")] = 320,
+    episodes: Annotated[int, count_option("On the gearbox of training.")] = 320,
     seconds: Annotated[float, typer.Option(metavar="S", help="Of each episode.")] = 10.0,
-    gearbox: Annotated[int, _count("Seed of the one gearbox of training.", 0)] = 1,
+    gearbox: Annotated[int, count_option("Seed of the one gearbox of training.", 0)] = 1,
     unit_gearboxes: Annotated[
-        int, _count("Further gearboxes, for the unit-to-unit test alone.", 0)
+        int, count_option("Further gearboxes, for the unit-to-unit test alone.", 0)
     ] = 4,
     held_mass: Annotated[
         str,
-        _quantity('A mass that only the test set "mass" contains; "none" leaves the set out.'),
+        quantity_option(
+            'A mass that only the test set "mass" contains; "none" leaves the set out.'
+        ),
     ] = "1.71 kg",
-    seed: Annotated[int, _count("Of experiments and sensor noise.", 0)] = 0,
-    voltage: Annotated[str | None, _quantity("Supply; default that of the design.")] = None,
+    seed: Annotated[int, count_option("Of experiments and sensor noise.", 0)] = 0,
+    voltage: Supply = None,
     position_gain: Annotated[
-        str | None, _quantity("Of the joint's controller; default that of the design.")
+        str | None, quantity_option("Of the joint's controller; default that of the design.")
     ] = None,
     velocity_gain: Annotated[
-        str | None, _quantity("Of the joint's controller; default that of the design.")
+        str | None, quantity_option("Of the joint's controller; default that of the design.")
     ] = None,
     calibration: Calibrated = None,
     force: Force = False,

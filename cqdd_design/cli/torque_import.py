@@ -8,17 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cqdd_design.cli.options import Force, parse_positive
+from cqdd_design.cli.options import Force, parse_option, parse_positive, quantity_option
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.torque_generate import folder_line, summary_lines
 from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
     from cqdd_design.torque.log_files import LogMap
-
-
-def _quantity(text: str) -> Any:
-    return typer.Option(metavar="Q", help=text)
 
 
 def _pairs_of(example: str, text: str) -> Any:
@@ -28,8 +24,12 @@ def _pairs_of(example: str, text: str) -> Any:
 def import_log(
     out: Output,
     logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="CSV, TSV or Parquet.")],
-    position_gain: Annotated[str, _quantity('Of the joint\'s controller, such as "60 N*m/rad".')],
-    velocity_gain: Annotated[str, _quantity('Of the joint\'s controller, such as "2 N*m*s/rad".')],
+    position_gain: Annotated[
+        str, quantity_option('Of the joint\'s controller, such as "60 N*m/rad".')
+    ],
+    velocity_gain: Annotated[
+        str, quantity_option('Of the joint\'s controller, such as "2 N*m*s/rad".')
+    ],
     map_file: Annotated[
         Path | None,
         typer.Option(
@@ -56,15 +56,16 @@ def import_log(
         typer.Option(metavar="N*m/A", help="Joint torque over current, signed, without a torque."),
     ] = None,
     dt: Annotated[
-        str | None, _quantity('Sample time of logs without a time column, such as "1 ms".')
+        str | None, quantity_option('Sample time of logs without a time column, such as "1 ms".')
     ] = None,
-    rate: Annotated[str, _quantity("Of the episodes.")] = "200 Hz",
+    rate: Annotated[str, quantity_option("Of the episodes.")] = "200 Hz",
     torque_limit: Annotated[
-        str | None, _quantity("Most that the joint can be asked for; default the most recorded.")
+        str | None,
+        quantity_option("Most that the joint can be asked for; default the most recorded."),
     ] = None,
     cut: Annotated[
         str | None,
-        _quantity(
+        quantity_option(
             'Cut records into pieces, such as "10 s", each a configuration of its own; for records '
             "in which the motion changes."
         ),
@@ -114,8 +115,6 @@ def import_log(
 
 
 def _gain(option: str, text: str, dimension: Any) -> float:
-    from cqdd_design.cli.options import parse_option
-
     value = parse_option(option, text, dimension)
     assert value is not None
     if value < 0.0:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
-from cqdd_design.cli.options import Force, parse_positive
+from cqdd_design.cli.options import Force, count_option, parse_positive
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 from cqdd_design.cli.torque_actuator import data_actuator
@@ -20,10 +20,6 @@ if TYPE_CHECKING:
     from cqdd_design.torque.artefact import Artefact, Mode
     from cqdd_design.torque.recipe import Choice
     from cqdd_design.torque.schedule import Reading
-
-
-def _count(text: str, least: int = 1) -> Any:
-    return typer.Option(metavar="N", min=least, help=text)
 
 
 def train(
@@ -39,19 +35,19 @@ def train(
             "physics-phase-gru.",
         ),
     ] = "pva-gru",
-    seed: Annotated[int, _count("Of weights and order.", 0)] = 0,
+    seed: Annotated[int, count_option("Of weights and order.", 0)] = 0,
     target: Annotated[
         Path | None,
         typer.Option("--out", metavar="FILE", help="Default exports/MODEL-seed-N.npz."),
     ] = None,
-    epochs: Annotated[int, _count("At most.")] = 20,
+    epochs: Annotated[int, count_option("At most.")] = 20,
     protocol: Annotated[
         str,
         typer.Option(
             "--split", metavar="NAME", help="What is held out: trajectory, mass, wall or gearbox."
         ),
     ] = "trajectory",
-    split_seed: Annotated[int, _count("Of the split.", 0)] = 0,
+    split_seed: Annotated[int, count_option("Of the split.", 0)] = 0,
     mode: Annotated[
         str, typer.Option(metavar="window|streaming", help="How it is trained and will be run.")
     ] = "window",
@@ -67,13 +63,15 @@ def train(
             help="Of the paper's 1e-4: the cycle's peak, or its start, a 25th of it; or our own.",
         ),
     ] = "initial",
-    batch: Annotated[int, _count("Windows in a step.")] = 64,
-    stride: Annotated[int, _count("Every how many-th window an epoch trains on.")] = 2,
+    batch: Annotated[int, count_option("Windows in a step.")] = 64,
+    stride: Annotated[int, count_option("Every how many-th window an epoch trains on.")] = 2,
     patience: Annotated[
-        int, _count("Epochs without a better validation after which it stops; 0: never.", 0)
+        int, count_option("Epochs without a better validation after which it stops; 0: never.", 0)
     ] = 8,
-    threads: Annotated[int, _count("Of the CPU; one is the fastest for networks this small.")] = 1,
-    orders: Annotated[int, _count("Of the gearbox, for phase-gru.")] = 4,
+    threads: Annotated[
+        int, count_option("Of the CPU; one is the fastest for networks this small.")
+    ] = 1,
+    orders: Annotated[int, count_option("Of the gearbox, for phase-gru.")] = 4,
     sample_time: Annotated[
         str | None,
         typer.Option(metavar="Q", help='That the data must have, as "5 ms"; default theirs.'),
@@ -88,7 +86,7 @@ def train(
     ] = None,
     gearbox: Annotated[
         int | None,
-        _count("Seed of the gearbox drawn for --design; default that of the data.", 0),
+        count_option("Seed of the gearbox drawn for --design; default that of the data.", 0),
     ] = None,
     calibration: Annotated[
         Path | None,

@@ -93,7 +93,7 @@ class ExportJob:
     @cached_property
     def actuator(self) -> ActuatorParameters:
         """The actuator in time, for the first writer that asks; later ones get the same."""
-        from cqdd_design.actuator.bench.calibrate import apply_factors
+        from cqdd_design.actuator.bench.unknowns import apply_factors
         from cqdd_design.actuator.build import actuator_parameters
 
         found = actuator_parameters(self.design, seed=self.seed, own_motor=self.motor)

@@ -21,8 +21,6 @@ from cqdd_design.exporting.yaml_text import yaml_text
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.exporting import ExportJob
 
@@ -60,23 +58,10 @@ class Card:
 
 def export_card(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-card.yaml`` and ``<name>-card.md``."""
-    design = job.design
-    return write_card(
-        job.actuator,
-        design.name,
-        job.path("-card"),
-        design_sha256=design.sha256,
-    )
-
-
-def write_card(
-    parameters: ActuatorParameters, name: str, path: Path, *, design_sha256: str = "not given"
-) -> tuple[WrittenFile, ...]:
-    """Write both forms, `path` with ``.yaml`` and with ``.md`` added."""
-    card = actuator_card(parameters, name, design_sha256=design_sha256)
-    forms = ((".yaml", card_yaml(card)), (".md", card_markdown(card)))
-    return tuple(
-        write_atomically(path.with_name(path.name + ending), text, "card") for ending, text in forms
+    card = actuator_card(job.actuator, job.design.name, design_sha256=job.design.sha256)
+    return (
+        write_atomically(job.path("-card.yaml"), card_yaml(card), "card"),
+        write_atomically(job.path("-card.md"), card_markdown(card), "card"),
     )
 
 

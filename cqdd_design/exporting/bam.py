@@ -35,8 +35,6 @@ from cqdd_design.exporting.joint_side import joint_side, provenance
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.exporting import ExportJob
 
@@ -61,24 +59,9 @@ UNITS = {
 
 def export_bam(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-bam.json``."""
-    design = job.design
-    return (
-        write_bam(
-            job.actuator,
-            design.name,
-            job.path("-bam.json"),
-            design_sha256=design.sha256,
-        ),
-    )
-
-
-def write_bam(
-    parameters: ActuatorParameters, name: str, path: Path, *, design_sha256: str = "not given"
-) -> WrittenFile:
-    """Write an actuator as a parameter file of BAM."""
-    document = bam_document(parameters, name, design_sha256=design_sha256)
+    document = bam_document(job.actuator, job.design.name, design_sha256=job.design.sha256)
     text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-    return write_atomically(path, text, "bam")
+    return (write_atomically(job.path("-bam.json"), text, "bam"),)
 
 
 def load_coefficients(forward: float, backward: float, extra: float) -> dict[str, float]:

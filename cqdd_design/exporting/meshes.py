@@ -8,7 +8,6 @@ within every face of the solids.
 from __future__ import annotations
 
 import io
-import json
 import struct
 import zipfile
 from collections.abc import Sequence
@@ -19,6 +18,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from cqdd_design import __version__
+from cqdd_design.exporting import gltf
 from cqdd_design.exporting.step import file_label
 from cqdd_design.files import WrittenFile, write_atomically
 
@@ -53,6 +53,8 @@ _RELATIONS = (
 _GLTF_FLOAT, _GLTF_UINT32 = 5126, 5125
 _GLTF_VERTICES, _GLTF_INDICES = 34962, 34963
 _QUARTER_TURN = 0.7071067811865476
+_FINISH = (0.4, 0.5)
+"""Metalness and roughness of every part."""
 
 
 def export_stl(job: ExportJob) -> tuple[WrittenFile, ...]:
@@ -194,7 +196,7 @@ def write_glb(
     buffer = _GltfBuffer()
     for index, part in enumerate(parts):
         meshes.append({"name": part.name, "primitives": [_primitive(part, index, buffer)]})
-        materials.append(_material(part))
+        materials.append(gltf.material(part, *_FINISH))
         for piece in part.instances:
             body: dict[str, Any] = {"part": part.name, "body": piece.body.kind}
             if piece.body.kind == "disc":
@@ -224,7 +226,7 @@ def write_glb(
         "bufferViews": buffer.views,
         "buffers": [{"byteLength": len(buffer.content)}],
     }
-    return write_atomically(path, _glb_container(document, bytes(buffer.content)), "glb")
+    return write_atomically(path, gltf.container(document, bytes(buffer.content)), "glb")
 
 
 class _GltfBuffer:
@@ -278,35 +280,6 @@ def _primitive(part: Part, material: int, buffer: _GltfBuffer) -> dict[str, Any]
         "indices": buffer.add(found.triangles.astype("<u4").ravel(), _GLTF_INDICES),
         "material": material,
     }
-
-
-def _material(part: Part) -> dict[str, Any]:
-    # glTF colours are linear; those of the parts are sRGB (IEC 61966-2-1).
-    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in part.colour]
-    return {
-        "name": part.material,
-        "pbrMetallicRoughness": {
-            "baseColorFactor": [*(round(value, 6) for value in linear), 1.0],
-            "metallicFactor": 0.4,
-            "roughnessFactor": 0.5,
-        },
-    }
-
-
-def _glb_container(document: dict[str, Any], binary: bytes) -> bytes:
-    text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
-    text += b" " * (-len(text) % 4)
-    binary += b"\0" * (-len(binary) % 4)
-    total = 12 + 8 + len(text) + 8 + len(binary)
-    return b"".join(
-        [
-            struct.pack("<4sII", b"glTF", 2, total),
-            struct.pack("<I4s", len(text), b"JSON"),
-            text,
-            struct.pack("<I4s", len(binary), b"BIN\0"),
-            binary,
-        ]
-    )
 
 
 def _unit(vectors: FloatArray) -> FloatArray:

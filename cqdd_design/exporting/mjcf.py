@@ -32,8 +32,6 @@ from cqdd_design.exporting.xml_text import comment, element, identifier, number,
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.exporting import ExportJob
 
@@ -42,40 +40,12 @@ _UNTOUCHED = {"contype": "0", "conaffinity": "0"}
 
 def export_mjcf(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-test.xml``, which loads by itself, and ``<name>.xml``, to be included."""
-    design = job.design
-    parameters = job.actuator
+    test_model = model_text(job.actuator, job.design.name, design_sha256=job.design.sha256)
+    fragment = fragment_text(job.actuator, job.design.name, design_sha256=job.design.sha256)
     return (
-        write_test_model(
-            parameters, design.name, job.path("-test.xml"), design_sha256=design.sha256
-        ),
-        write_fragment(parameters, design.name, job.path(".xml"), design_sha256=design.sha256),
+        write_atomically(job.path("-test.xml"), test_model, "mjcf"),
+        write_atomically(job.path(".xml"), fragment, "mjcf"),
     )
-
-
-def write_test_model(
-    parameters: ActuatorParameters,
-    name: str,
-    path: Path,
-    *,
-    options: MjcfOptions | None = None,
-    design_sha256: str = "not given",
-) -> WrittenFile:
-    """Write a model of the actuator alone, output free, commanded in volts."""
-    text = model_text(parameters, name, options=options, design_sha256=design_sha256)
-    return write_atomically(path, text, "mjcf")
-
-
-def write_fragment(
-    parameters: ActuatorParameters,
-    name: str,
-    path: Path,
-    *,
-    options: MjcfOptions | None = None,
-    design_sha256: str = "not given",
-) -> WrittenFile:
-    """Write the classes to be included into a robot."""
-    text = fragment_text(parameters, name, options=options, design_sha256=design_sha256)
-    return write_atomically(path, text, "mjcf")
 
 
 def model_text(

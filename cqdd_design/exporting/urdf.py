@@ -16,8 +16,6 @@ from cqdd_design.exporting.xml_text import comment, element, identifier, number
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.exporting import ExportJob
 
@@ -27,23 +25,8 @@ DRAKE = "http://drake.mit.edu"
 
 def export_urdf(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>.urdf``."""
-    design = job.design
-    return (
-        write_urdf(
-            job.actuator,
-            design.name,
-            job.path(".urdf"),
-            design_sha256=design.sha256,
-        ),
-    )
-
-
-def write_urdf(
-    parameters: ActuatorParameters, name: str, path: Path, *, design_sha256: str = "not given"
-) -> WrittenFile:
-    """Write an actuator as a robot of one joint."""
-    text = urdf_text(parameters, name, design_sha256=design_sha256)
-    return write_atomically(path, text, "urdf")
+    text = urdf_text(job.actuator, job.design.name, design_sha256=job.design.sha256)
+    return (write_atomically(job.path(".urdf"), text, "urdf"),)
 
 
 def urdf_text(

@@ -41,21 +41,12 @@ def test_dxf_and_bom_do_not_import_cad(paper_design_file, tmp_path):
 
 
 def test_a_wire_that_cannot_cut_the_part_is_exit_4_and_leaves_nothing(
-    cqdd, paper_design_file, tmp_path
+    cqdd, sharp_design_file, tmp_path
 ):
-    text = paper_design_file.read_text(encoding="utf-8")
-    sharp = (
-        text.replace('ring_pin_diameter = "7 mm"', 'ring_pin_diameter = "4 mm"')
-        .replace("ratio = 10", "ratio = 40")
-        .replace('eccentricity = "1.6 mm"', 'eccentricity = "0.55 mm"')
-        .replace('wire_diameter = "0.25 mm"', 'wire_diameter = "0.5 mm"')
-        .replace('spark_gap = "12 um"', 'spark_gap = "200 um"')
-    )
-    (tmp_path / "sharp.toml").write_text(sharp, encoding="utf-8")
-    done = cqdd("export", "sharp.toml", "--to", "dxf", "--out", "files")
+    done = cqdd("export", sharp_design_file, "--to", "dxf", "--out", "files")
     assert done.code == 4, done.err
     assert "choose a wire of at most" in done.err
-    assert [path.name for path in tmp_path.iterdir()] == ["sharp.toml"]
+    assert [path.name for path in tmp_path.iterdir()] == [sharp_design_file.name]
 
 
 def test_a_folder_that_is_a_file(cqdd, paper_design_file, tmp_path):

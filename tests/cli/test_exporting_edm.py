@@ -66,19 +66,10 @@ def test_a_tolerance_that_no_file_can_have_is_exit_3(
 
 
 def test_a_wire_too_thick_for_a_valley_is_exit_4_and_leaves_nothing(
-    cqdd, paper_design_file, tmp_path
+    cqdd, sharp_design_file, tmp_path
 ):
-    text = paper_design_file.read_text(encoding="utf-8")
-    sharp = (
-        text.replace('ring_pin_diameter = "7 mm"', 'ring_pin_diameter = "4 mm"')
-        .replace("ratio = 10", "ratio = 40")
-        .replace('eccentricity = "1.6 mm"', 'eccentricity = "0.55 mm"')
-        .replace('wire_diameter = "0.25 mm"', 'wire_diameter = "0.5 mm"')
-        .replace('spark_gap = "12 um"', 'spark_gap = "200 um"')
-    )
-    (tmp_path / "sharp.toml").write_text(sharp, encoding="utf-8")
-    done = cqdd("export", "sharp.toml", "--to", "edm,gcode", "--out", "files")
+    done = cqdd("export", sharp_design_file, "--to", "edm,gcode", "--out", "files")
     assert done.code == 4, done.err
     assert "ring, inner contour 1: edm.wire_diameter 0.5 mm" in done.err
     assert "choose a wire of at most" in done.err
-    assert [path.name for path in tmp_path.iterdir()] == ["sharp.toml"]
+    assert [path.name for path in tmp_path.iterdir()] == [sharp_design_file.name]

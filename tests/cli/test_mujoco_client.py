@@ -27,8 +27,6 @@ from cqdd_design.exporting.mjcf import (
     joint_lines,
     model_text,
     tendon_lines,
-    write_fragment,
-    write_test_model,
 )
 
 mujoco = pytest.importorskip("mujoco", minversion="4.0.0", reason="MuJoCo 4 is not installed")
@@ -71,13 +69,12 @@ def kinematic_error(p: ActuatorParameters, output: np.ndarray) -> np.ndarray:
 
 def test_loads_from_files(tmp_path: Path) -> None:
     p = paper_actuator()
-    test_model = write_test_model(p, "paper", tmp_path / "paper-test.xml", design_sha256="ab12")
-    fragment = write_fragment(p, "paper", tmp_path / "paper.xml", design_sha256="ab12")
-    model = mujoco.MjModel.from_xml_path(str(test_model.path))
+    alone, included = tmp_path / "paper-test.xml", tmp_path / "paper.xml"
+    alone.write_text(model_text(p, "paper"))
+    included.write_text(fragment_text(p, "paper"))
+    model = mujoco.MjModel.from_xml_path(str(alone))
     assert (model.nq, model.nu) == (2, 1)
-    assert mujoco.MjModel.from_xml_path(str(fragment.path)).nu == 0
-    assert "ab12" in test_model.path.read_text()
-    assert "ab12" in fragment.path.read_text()
+    assert mujoco.MjModel.from_xml_path(str(included)).nu == 0
 
 
 @pytest.mark.parametrize("ratio", [-10.0, 10.0, -11.0])
@@ -253,8 +250,8 @@ HOST = """
 @pytest.mark.parametrize("angle", ["radian", "degree"])
 def test_fragment_in_a_robot_by_the_lines_of_its_own_comment(tmp_path: Path, angle: str) -> None:
     p = paper_actuator()
-    write_fragment(p, "paper", tmp_path / "paper.xml")
     comment = fragment_text(p, "paper")
+    (tmp_path / "paper.xml").write_text(comment)
     hip = actuator_lines(p, "paper", "hip", options=MjcfOptions(backlash=False))
     loose = joint_lines("paper", "hip", play=True)
     ties = tendon_lines("hip")
@@ -301,7 +298,7 @@ def test_sense_of_the_other_commands_in_a_robot(
 ) -> None:
     """1 N m, or 3 rad, of the motor moves the rigid joints of a robot the same way."""
     p = paper_actuator(ratio)
-    write_fragment(p, "paper", tmp_path / "paper.xml")
+    (tmp_path / "paper.xml").write_text(fragment_text(p, "paper"))
     rigid = MjcfOptions(backlash=False)
     lines = [
         line
@@ -356,7 +353,7 @@ def test_random_actuators_in_a_robot_at_its_own_step(
     peak = abs(p.gear.ratio) * p.motor.torque_constant * p.drive.current_limit
     assume(peak * 0.002 < 0.5 * most * p.reflected_inertia)
     folder = tmp_path_factory.mktemp("robot")
-    write_fragment(p, "paper", folder / "paper.xml")
+    (folder / "paper.xml").write_text(fragment_text(p, "paper"))
     play = p.gear.backlash > 0.0
     inertia = max(p.reflected_inertia, 1e-4)
     body = f'mass="1" diaginertia="{inertia} {inertia} {inertia}"'

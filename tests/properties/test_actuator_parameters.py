@@ -245,6 +245,3 @@ def test_missing_catalogue_data_are_assumed_and_said() -> None:
     assert one.origins["motor.inductance"].startswith("assumed")
     assert one.origins["motor.rotor_inertia"].startswith(("assumed", "computed"))
     assert math.isnan(one.motor.rated_torque)
-    assert not motors.idle_limits(one)
-    idle = replace(one, drive=replace(one.drive, current_limit=1e5))
-    assert "never binds" in motors.idle_limits(idle)[0]

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from cqdd_design.actuator.bench import METRICS, run_bench
-from cqdd_design.actuator.bench.calibrate import TELLS, UNKNOWNS, apply_factors, calibrate
+from cqdd_design.actuator.bench.calibrate import calibrate
 from cqdd_design.actuator.bench.calibration_file import read_calibration, write_calibration
 from cqdd_design.actuator.bench.measured import read_measured
+from cqdd_design.actuator.bench.unknowns import TELLS, UNKNOWNS, apply_factors
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.design import load_design

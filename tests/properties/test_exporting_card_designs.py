@@ -227,3 +227,15 @@ def test_limits_that_never_bind_are_refused(tmp_path: Path, old: str, new: str) 
     with pytest.raises(DesignError, match="never binds"):
         export(load_design(path), "card,mjcf,urdf,bam", tmp_path / "new")
     assert not (tmp_path / "new").exists()
+
+
+def test_files_are_named_for_the_design_and_carry_its_hash(tmp_path: Path) -> None:
+    design = load_design(DESIGN)
+    files = export(design, "card,mjcf,urdf,bam", tmp_path / "one")
+    assert [one.path.name for one in files] == [
+        f"cqdd-10{ending}"
+        for ending in ("-card.yaml", "-card.md", "-test.xml", ".xml", ".urdf", "-bam.json")
+    ]
+    assert all(design.sha256 in one.path.read_text(encoding="utf-8") for one in files)
+    again = export(design, "card,mjcf,urdf,bam", tmp_path / "two")
+    assert [one.sha256 for one in files] == [one.sha256 for one in again]

@@ -6,7 +6,6 @@ import errno
 import math
 import os
 import subprocess
-import sys
 from collections import Counter
 from pathlib import Path
 
@@ -97,7 +96,7 @@ def test_notes_say_what_a_shop_must_know(drawings, paper):
     assert text.isascii()
 
 
-def test_bytes_are_the_same_in_every_process(paper_design_file, tmp_path):
+def test_bytes_are_the_same_in_every_process(in_two_processes):
     code = (
         "import sys; from pathlib import Path; from cqdd_design.design import load_design\n"
         "from cqdd_design.exporting import export\n"
@@ -106,19 +105,8 @@ def test_bytes_are_the_same_in_every_process(paper_design_file, tmp_path):
         "heavy = {'cadquery', 'OCP', 'scipy', 'pint', 'matplotlib', 'trimesh'} & set(sys.modules)\n"
         "assert not heavy, heavy\n"
     )
-    root = str(paper_design_file.parents[1])
-    seen = []
-    for run in ("1", "2"):
-        done = subprocess.run(
-            [sys.executable, "-c", code, str(paper_design_file), str(tmp_path / run)],
-            env={**os.environ, "PYTHONHASHSEED": run, "PYTHONPATH": root},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        assert done.returncode == 0, done.stderr
-        seen.append(done.stdout)
-    assert seen[0] == seen[1]
+    first, second = in_two_processes(code)
+    assert first.out == second.out
 
 
 @SEVERAL

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 import os
 import re
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -213,7 +211,7 @@ def test_a_date_is_that_of_source_date_epoch_or_none(paper, monkeypatch):
     assert "1970-01-02" in [label.text for label in canvas.labels]
 
 
-def test_bytes_are_the_same_in_every_process(paper_design_file, tmp_path):
+def test_bytes_are_the_same_in_every_process(in_two_processes):
     code = (
         "import sys; from pathlib import Path; from cqdd_design.design import load_design\n"
         "from cqdd_design.exporting import ExportOptions, export\n"
@@ -225,20 +223,9 @@ def test_bytes_are_the_same_in_every_process(paper_design_file, tmp_path):
         "heavy = {'cadquery', 'OCP', 'matplotlib', 'trimesh', 'scipy'} & set(sys.modules)\n"
         "assert not heavy, heavy\n"
     )
-    root = str(paper_design_file.parents[1])
-    seen = []
-    for run in ("1", "2"):
-        done = subprocess.run(
-            [sys.executable, "-c", code, str(paper_design_file), str(tmp_path / run)],
-            env={**os.environ, "PYTHONHASHSEED": run, "PYTHONPATH": root},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        assert done.returncode == 0, done.stderr
-        assert "INSUNITS" not in done.stderr
-        seen.append(done.stdout)
-    assert seen[0] == seen[1]
+    first, second = in_two_processes(code)
+    assert first.out == second.out
+    assert "INSUNITS" not in first.err + second.err
 
 
 def test_files_in_a_folder_of_the_package_are_kept_unless_forced(paper, tmp_path):

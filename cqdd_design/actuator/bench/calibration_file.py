@@ -8,7 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from cqdd_design.actuator.bench.calibrate import UNKNOWNS, Calibration
+from cqdd_design.actuator.bench.calibrate import Calibration
+from cqdd_design.actuator.bench.unknowns import UNKNOWNS
 from cqdd_design.errors import UsageError, did_you_mean
 from cqdd_design.files import WrittenFile, write_atomically
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cqdd_design.actuator.bench.metric import Metric
-from cqdd_design.actuator.bench.steady import cold, safe_step
+from cqdd_design.actuator.bench.steady import run_cold
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.scenario import (
     Command,
@@ -20,7 +20,6 @@ from cqdd_design.actuator.scenario import (
     Scenario,
     Start,
 )
-from cqdd_design.actuator.simulate import Simulation, simulate
 
 ARCMIN = 60.0 * 180.0 / math.pi
 DIAL = 0.0127e-3
@@ -56,9 +55,7 @@ def backlash(parameters: ActuatorParameters, positions: int = 6) -> Metric:
                     Start(output_angle=place),
                 )
             )
-    step = safe_step(parameters, *scenes)
-    every = max(1, round(5e-4 / step))
-    run = simulate(cold(parameters), scenes, 2.0 * lead + back, step, every=every)
+    run = run_cold(parameters, scenes, 2.0 * lead + back, 5e-4)
     ratio = gear.ratio
     rest = int(np.searchsorted(run.time, 1.9 * lead))
     found = []
@@ -109,8 +106,7 @@ def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Met
         for place in range(positions)
         for sense in (1.0, -1.0)
     ]
-    step = safe_step(parameters, *scenes)
-    run = simulate(cold(parameters), scenes, duration, step, every=max(1, round(1e-3 / step)))
+    run = run_cold(parameters, scenes, duration, 1e-3)
     # Within a well of cogging the motor gives way and does not break away.
     well = math.pi / motor.cogging_order if motor.cogging_amplitude > 0.0 else 0.0
     found = []
@@ -148,9 +144,7 @@ def backdrive_dynamic(parameters: ActuatorParameters, speed: float = 1.0) -> Met
     rise = 1.0
     slowly = Sampled(np.array([0.0, rise]), np.array([0.0, speed]))
     scene = Scenario(Command("open"), Load.driven(slowly))
-    step = safe_step(parameters, scene)
-    every = max(1, round(1e-4 / step))
-    run = simulate(cold(parameters), scene, 1.5 * rise + 2.0, step, every=every)
+    run = run_cold(parameters, scene, 1.5 * rise + 2.0, 1e-4)
     late = run.time > 1.5 * rise
     torque = -np.sign(speed) * run.output_torque[0][late]
     return Metric(
@@ -219,7 +213,9 @@ def _ripple(parameters: ActuatorParameters, speed: float) -> _Ripple:
     whole, rise = 2.0 * math.pi / speed, 1.0
     # Brought up slowly: a jump would leave the motor swinging on the gearbox's stiffness.
     slowly = Sampled(np.array([0.0, rise]), np.array([0.0, current]))
-    run = _driven(parameters, Command("current", slowly), turning, 1.5 * rise + whole)
+    load, start = Load.driven(Constant(turning)), Start(output_speed=turning)
+    scene = Scenario(Command("current", slowly), load, start)
+    run = run_cold(parameters, scene, 1.5 * rise + whole, 1e-4)
     late = run.time > 1.5 * rise
     torque = run.output_torque[0][late]
     angle = np.abs(run.motor_angle[0][late] - run.motor_angle[0][late][0])
@@ -241,11 +237,3 @@ def order_spectrum(
     sampled = np.interp(even * min(reach / (2.0 * math.pi), 1.0), angle, torque)
     amplitudes = 2.0 * np.abs(np.fft.rfft(sampled - sampled.mean())) / count
     return np.arange(1, most + 1), amplitudes[1 : most + 1]
-
-
-def _driven(
-    parameters: ActuatorParameters, command: Command, speed: float, duration: float
-) -> Simulation:
-    scene = Scenario(command, Load.driven(Constant(speed)), Start(output_speed=speed))
-    step = safe_step(parameters, scene)
-    return simulate(cold(parameters), scene, duration, step, every=max(1, round(1e-4 / step)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -33,6 +34,18 @@ def cold(parameters: ActuatorParameters) -> ActuatorParameters:
     """The same actuator, so large a heat capacity in it that nothing warms during a test."""
     thermal = dataclasses.replace(parameters.thermal, winding_capacity=1e9, housing_capacity=1e9)
     return dataclasses.replace(parameters, thermal=thermal)
+
+
+def run_cold(
+    parameters: ActuatorParameters,
+    scenes: Scenario | Sequence[Scenario],
+    duration: float,
+    spacing: float = 0.0,
+) -> Simulation:
+    """Simulate scenes at their safe step, nothing warming, with records about `spacing` s apart."""
+    step = safe_step(parameters, *([scenes] if isinstance(scenes, Scenario) else scenes))
+    every = max(1, round(spacing / step))
+    return simulate(cold(parameters), scenes, duration, step, every=every)
 
 
 def output_resolution(parameters: ActuatorParameters) -> Metric:
@@ -77,9 +90,7 @@ def _locked_torque(
         )
         for place in range(positions)
     ]
-    step = safe_step(parameters, *scenes)
-    every = max(1, round(5e-4 / step))
-    run = simulate(cold(parameters), scenes, rise + hold, step, every=every)
+    run = run_cold(parameters, scenes, rise + hold, 5e-4)
     settled = run.output_torque[:, run.time > rise + 0.5 * hold]
     trace = _columns(run, "current", "output_torque")
     return np.asarray(np.abs(settled.mean(axis=1))), trace
@@ -154,7 +165,7 @@ def continuous_torque(parameters: ActuatorParameters) -> Metric:
 def no_load_speed(parameters: ActuatorParameters, voltage: float) -> Metric:
     """Free output at a steady voltage, mean over whole turns of the output."""
     scene = Scenario(Command("voltage", Constant(voltage)), Load.free())
-    run = _run(with_voltage(parameters, voltage), scene, 4.0)
+    run = run_cold(with_voltage(parameters, voltage), scene, 4.0, 5e-4)
     speed = np.abs(run.output_speed[0])
     late = run.time > 2.0
     return Metric(
@@ -168,15 +179,9 @@ def no_load_speed(parameters: ActuatorParameters, voltage: float) -> Metric:
     )
 
 
-def _run(parameters: ActuatorParameters, scene: Scenario, duration: float) -> Simulation:
-    step = safe_step(parameters, scene)
-    return simulate(cold(parameters), scene, duration, step, every=max(1, round(5e-4 / step)))
-
-
 def _columns(run: Simulation, *names: str, index: int = 0) -> dict[str, FloatArray]:
-    wanted = {name for name in names}
     every = run.columns(index)
-    return {key: value for key, value in every.items() if key.split(" ")[0] in wanted | {"time"}}
+    return {key: value for key, value in every.items() if key.split(" ")[0] in ("time", *names)}
 
 
 def efficiency_peak(parameters: ActuatorParameters, points: int = 8) -> Metric:
@@ -201,8 +206,7 @@ def efficiency_peak(parameters: ActuatorParameters, points: int = 8) -> Metric:
                 Start(output_speed=turning, current=float(through)),
             )
         )
-    step = safe_step(parameters, *scenes)
-    run = simulate(cold(parameters), scenes, 0.6, step, every=max(1, round(2e-4 / step)))
+    run = run_cold(parameters, scenes, 0.6, 2e-4)
     late = run.time > 0.2
     electrical = (run.voltage * run.current)[:, late].mean(axis=1)
     mechanical = (run.output_torque * run.output_speed)[:, late].mean(axis=1)
@@ -242,8 +246,7 @@ def actuator_inertia(parameters: ActuatorParameters) -> Metric:
         Scenario(Command("current", Constant(share * parameters.drive.current_limit)), Load.free())
         for share in currents
     ]
-    step = safe_step(parameters, *scenes)
-    run = simulate(cold(parameters), scenes, 0.06, step)
+    run = run_cold(parameters, scenes, 0.06)
     begin, end = np.searchsorted(run.time, (0.01, 0.03))
     rises = [
         (run.motor_speed[i][end] - run.motor_speed[i][begin]) / (run.time[end] - run.time[begin])

@@ -230,7 +230,7 @@ def contact_sweep(
         When a state has no equilibrium within reach of the nominal pose, naming its angle; when
         the load leaves the force law.
     """
-    from cqdd_design.gearbox.contact import kernel
+    from cqdd_design.gearbox.contact.kernel_sweep import solve_sweep
 
     if not math.isfinite(torque):
         raise ContactError(f"a torque of {torque} N*m has no equilibrium; give a finite one.")
@@ -249,7 +249,7 @@ def contact_sweep(
     cam_force, torsional = np.empty((count, discs, 2)), np.empty(count)
     steps = np.zeros(count, dtype=np.int64)
     gaps = states.gaps + changed.gaps
-    solve: Any = kernel.solve_sweep
+    solve: Any = solve_sweep
     failed = solve(
         states.rows,
         gaps,

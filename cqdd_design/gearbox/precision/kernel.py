@@ -13,7 +13,8 @@ from typing import Any
 import numba
 import numpy as np
 
-from cqdd_design.gearbox.contact.kernel import CONVERGED, predict, solve_state
+from cqdd_design.gearbox.contact.kernel import CONVERGED, solve_state
+from cqdd_design.gearbox.contact.kernel_sweep import predict
 
 OVERLAP = 1e-7
 """Overlap, m, above which parts are said to be preloaded and not merely touching."""

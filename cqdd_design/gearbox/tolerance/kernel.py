@@ -13,7 +13,8 @@ import numba
 import numpy as np
 
 from cqdd_design.gearbox.contact.fill import fill_errors
-from cqdd_design.gearbox.contact.kernel import CONVERGED, predict, solve_from_above, solve_state
+from cqdd_design.gearbox.contact.kernel import CONVERGED, solve_state
+from cqdd_design.gearbox.contact.kernel_sweep import predict, solve_from_above
 from cqdd_design.gearbox.precision.kernel import OVERLAP, backlash_sweep
 
 BACKLASH, TRANSMISSION_ERROR, RING_FORCE, STIFFNESS, RIPPLE = range(5)

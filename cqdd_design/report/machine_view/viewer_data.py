@@ -10,8 +10,6 @@ package: the report's viewer wants no other axis up.
 from __future__ import annotations
 
 import base64
-import json
-import struct
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -21,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from cqdd_design.design import Design
+from cqdd_design.exporting import gltf
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.report.machine_view.explode import take_apart
 from cqdd_design.report.machine_view.pictures import EXPLODED_TILT
@@ -99,7 +98,7 @@ def viewer_data(design: Design, parts: Sequence[Part]) -> ViewerData:
         primitive, box = _primitive(part, index, buffer)
         meshes.append({"name": part.name, "primitives": [primitive]})
         boxes.append(box)
-        materials.append(_material(part))
+        materials.append(gltf.material(part, *_finish(part)))
     nodes: list[dict[str, Any]] = [
         {
             "name": design.name,
@@ -153,7 +152,7 @@ def viewer_data(design: Design, parts: Sequence[Part]) -> ViewerData:
         "bufferViews": buffer.views,
         "buffers": [{"byteLength": len(buffer.content)}],
     }
-    return ViewerData(_container(document, bytes(buffer.content)), design.reducer.ratio)
+    return ViewerData(gltf.container(document, bytes(buffer.content)), design.reducer.ratio)
 
 
 def _hatch(parts: Sequence[Part]) -> float:
@@ -262,32 +261,3 @@ def _normals(vertices: FloatArray, triangles: np.ndarray) -> FloatArray:
 def _unit(vectors: FloatArray) -> FloatArray:
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
     return np.asarray(np.where(length > 0.0, vectors / np.maximum(length, 1e-30), (0.0, 0.0, 1.0)))
-
-
-def _material(part: Part) -> dict[str, Any]:
-    # glTF colours are linear; those of the parts are sRGB (IEC 61966-2-1).
-    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in part.colour]
-    metalness, roughness = _finish(part)
-    return {
-        "name": part.material,
-        "pbrMetallicRoughness": {
-            "baseColorFactor": [*(round(value, 6) for value in linear), 1.0],
-            "metallicFactor": metalness,
-            "roughnessFactor": roughness,
-        },
-    }
-
-
-def _container(document: dict[str, Any], binary: bytes) -> bytes:
-    text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
-    text += b" " * (-len(text) % 4)
-    total = 12 + 8 + len(text) + 8 + len(binary)
-    return b"".join(
-        [
-            struct.pack("<4sII", b"glTF", 2, total),
-            struct.pack("<I4s", len(text), b"JSON"),
-            text,
-            struct.pack("<I4s", len(binary), b"BIN\0"),
-            binary,
-        ]
-    )
