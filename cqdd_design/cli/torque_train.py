@@ -81,7 +81,8 @@ def train(
         typer.Option(
             "--design",
             metavar="FILE",
-            help="Whose parameters physics-gru and phase-gru use; stored in the network.",
+            help="Whose parameters physics-gru, physics-phase-gru and phase-gru use; stored in the "
+            "network.",
         ),
     ] = None,
     gearbox: Annotated[

@@ -1,4 +1,4 @@
-"""An estimator as one C99 header without dependencies: weights, scaling, state and differentiator.
+"""An estimator as one C99 header without dependencies: weights, scaling, state and features.
 
 Written to be vectorised by an ordinary compiler: sums run along memory over all outputs of a
 layer, activations are polynomials, nothing is allocated. Every function is ``static inline``, so a
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cqdd_design.errors import UsageError
-from cqdd_design.exporting import c_kernels
+from cqdd_design.exporting import c_kernels, c_physics
 from cqdd_design.files import WrittenFile, write_atomically
 from cqdd_design.torque.folded import folded_gru, folded_mlp
 
@@ -22,14 +22,17 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.torque.artefact import Artefact
 
 _PER_LINE = 6
-_ARGUMENTS = {
-    "position_error": ("position_error", "rad, target less position"),
-    "velocity": ("velocity", "rad/s"),
-    "physics": ("physics", "N m, of the physical estimate"),
-}
+_POSITION_ERROR = ("float", "position_error", "rad, target less position")
+_VELOCITY = ("float", "velocity", "rad/s")
+_POSITION = ("double", "position", "rad, of the joint, homed as said below")
+_HOMED = (
+    " * Homed: position counts from the zero of the training's data, for the gearbox of a design",
+    " * where the motor's angle is 0 in its record. Whole turns of the joint do not matter.",
+)
 
 
 def write_c_header(artefact: Artefact, path: Path) -> WrittenFile:
@@ -50,7 +53,14 @@ def c_name(text: str) -> str:
 
 
 def header_text(artefact: Artefact, name: str) -> str:
-    """The header as text; `name` begins every name in it."""
+    """The header as text; `name` begins every name in it.
+
+    Raises
+    ------
+    UsageError
+        For an input that cannot be made of what a joint measures.
+    """
+    actuator = c_physics.stored_actuator(artefact)
     if artefact.family == "gru":
         gru = folded_gru(artefact)
         arrays = [
@@ -67,21 +77,21 @@ def header_text(artefact: Artefact, name: str) -> str:
             arrays += [_array(f"{name}_bias_{layer}", bias)]
         head, offset, body = mlp.head, mlp.head_bias, _mlp_body(artefact)
     arrays += [_array(f"{name}_head", head)]
-    phase = any(one.startswith(("sin_", "cos_")) for one in artefact.inputs)
     text = "\n".join(
         [
-            _comment(artefact),
+            _comment(artefact, actuator),
             "#ifndef @NAME@_H",
             "#define @NAME@_H",
             "",
             "#include <stdint.h>",
-            *(["#include <math.h>"] if phase else []),
+            *(["#include <math.h>"] if _needs_math(artefact) else []),
             "",
             _sizes(artefact),
             *arrays,
             c_kernels.COMMON,
             body,
-            _entry(artefact),
+            *([c_physics.functions(artefact, actuator)] if actuator else []),
+            _entry(artefact, actuator),
             "#endif",
             "",
         ]
@@ -91,14 +101,14 @@ def header_text(artefact: Artefact, name: str) -> str:
         "@NAME@": name.upper(),
         "@name@": name,
         "@CORRECTION@": (
-            f" + newest[{artefact.inputs.index('physics')}]" if artefact.residual else ""
+            f" + newest[{artefact.inputs.index('balance')}]" if artefact.residual else ""
         ),
     }.items():
         text = text.replace(token, value)
     return text
 
 
-def _comment(artefact: Artefact) -> str:
+def _comment(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
     valid = artefact.validity
     low, high = valid.torque_range
     arguments = [f" *   {name:15s} {meaning}" for _, name, meaning in _arguments(artefact)]
@@ -106,7 +116,7 @@ def _comment(artefact: Artefact) -> str:
     if artefact.mode == "window":
         held = f"the last {artefact.history} samples run from a zero state at each call"
     lines = [
-        f"/* Output torque of a joint, estimated by the network {artefact.name}.",
+        f"/* Output torque of a joint, estimated by the network {_plain(artefact.name)}.",
         " *",
         " * Call @name@_init once, and @name@_step every",
         f" * {valid.dt:g} s, no faster and no slower, with",
@@ -129,6 +139,8 @@ def _comment(artefact: Artefact) -> str:
             if artefact.differentiator
             else []
         ),
+        *(c_physics.comment_lines(artefact, _plain(actuator.name)) if actuator else []),
+        *(_HOMED if _needs_position(artefact) else []),
         " *",
         " * Valid for the controller and sample time of its training only:",
         f" *   sample time    {valid.dt:g} s",
@@ -137,22 +149,38 @@ def _comment(artefact: Artefact) -> str:
         f" *   torque         {low:g} to {high:g} N m",
         f" * {artefact.parameters} parameters; scaling is folded into the weights.",
         " *",
-        " * C99, no dependencies. Fast with: cc -O3 -march=native -ffp-contract=fast",
+        f" * C99, {'link with -lm' if _needs_math(artefact) else 'no dependencies'}. Fast with: "
+        "cc -O3 -march=native -ffp-contract=fast",
         " */",
     ]
     return "\n".join(lines)
 
 
+def _plain(text: str) -> str:
+    """A name that neither ends a comment nor begins another."""
+    return re.sub(r"[^0-9A-Za-z_ .,:+()-]+", "-", text)
+
+
+def _needs_position(artefact: Artefact) -> bool:
+    return any(one == "ripple" or one.startswith(("sin_", "cos_")) for one in artefact.inputs)
+
+
+def _needs_math(artefact: Artefact) -> bool:
+    made = c_physics.made_inside(artefact)
+    return "friction_sign" in made or _needs_position(artefact)
+
+
 def _arguments(artefact: Artefact) -> list[tuple[str, str, str]]:
     """Type, name and meaning of the arguments of a step."""
-    found = []
-    for feature in artefact.inputs:
-        if feature in _ARGUMENTS:
-            found.append(("float", *_ARGUMENTS[feature]))
-    if artefact.differentiator and "velocity" not in artefact.inputs:
-        found.append(("float", *_ARGUMENTS["velocity"]))
-    if any(feature.startswith(("sin_", "cos_")) for feature in artefact.inputs):
-        found.append(("double", "position", "rad, of the output, homed as in the training"))
+    plain = {"position_error": _POSITION_ERROR, "velocity": _VELOCITY}
+    found = [plain[feature] for feature in artefact.inputs if feature in plain]
+    made = c_physics.made_inside(artefact)
+    if "balance" in made and _POSITION_ERROR not in found:
+        found.append(_POSITION_ERROR)
+    if (artefact.differentiator or made) and _VELOCITY not in found:
+        found.append(_VELOCITY)
+    if _needs_position(artefact):
+        found.append(_POSITION)
     return found
 
 
@@ -216,11 +244,15 @@ def _mlp_body(artefact: Artefact) -> str:
     )
 
 
-def _entry(artefact: Artefact) -> str:
+def _entry(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
     """State, init, reset and step: from what a joint measures to the network's features."""
     lines = []
+    made = c_physics.made_inside(artefact)
+    # The balance goes straight into the torque, with the acceleration times the inertia in it.
+    kind = "double" if "balance" in made else "float"
     if artefact.differentiator:
-        taps = [_number(value) for value in artefact.differentiator.taps]
+        written = c_physics.literal if kind == "double" else _number
+        taps = [written(value) for value in artefact.differentiator.taps]
         lines += [
             "    if (!state->moved)",
             "        for (i = 0; i < @NAME@_TAPS; i++)",
@@ -229,27 +261,31 @@ def _entry(artefact: Artefact) -> str:
             "    for (i = @NAME@_TAPS - 1; i > 0; i--)",
             "        state->velocity[i] = state->velocity[i - 1];",
             "    state->velocity[0] = velocity;",
-            "    acceleration = 0.0f;",
+            "    acceleration = 0.0f;" if kind == "float" else "    acceleration = 0.0;",
             *(f"    acceleration += {tap} * state->velocity[{i}];" for i, tap in enumerate(taps)),
         ]
+    if actuator:
+        lines += c_physics.step_lines(artefact, actuator)
     for place, feature in enumerate(artefact.inputs):
         value = feature
         phase = re.fullmatch(r"(sin|cos)_(\d+)", feature)
         if phase:
             value = f"(float){phase[1]}({phase[2]}.0 * position)"
-        elif feature not in (*_ARGUMENTS, "acceleration"):
+        elif feature in made or (feature == "acceleration" and kind == "double"):
+            value = f"(float){feature}"
+        elif feature not in ("position_error", "velocity", "acceleration"):
             raise UsageError(
                 f"{artefact.name} has the input '{feature}', which a C header cannot make; export "
                 "to onnx, where the caller makes the features."
             )
         lines.append(f"    features[{place}] = {value};")
     lines.append(c_kernels.RUN_STREAMING if artefact.mode == "streaming" else c_kernels.RUN_WINDOW)
-    arguments = ", ".join(f"{kind} {name}" for kind, name, _ in _arguments(artefact))
+    arguments = ", ".join(f"{what} {name}" for what, name, _ in _arguments(artefact))
     window = artefact.mode == "window"
     needs_index = window or artefact.differentiator
     declared = (
         (["    int i;"] if needs_index else [])
-        + (["    float acceleration;"] if artefact.differentiator else [])
+        + ([f"    {kind} acceleration;"] if artefact.differentiator else [])
         + ["    float features[@NAME@_FEATURES];"]
     )
     keeps = "past" if window else "hidden"

@@ -4,7 +4,7 @@
 ``NAME-window.onnx``: window (N, history, F), oldest sample first, to torque (N,).
 
 Features are raw, in the order of the metadata's ``inputs``: scaling is folded into the weights (in
-double precision), the physical estimate of a residual is added. An acceleration is a feature like
+double precision), the balance that a residual corrects is added. An acceleration is a feature like
 others, made by the caller with the metadata's taps. Operators: ONNX opset 17, GRU with
 ``linear_before_reset = 1``, gates update, reset, new.
 """
@@ -143,9 +143,9 @@ def _head(graph: Graph, artefact: Artefact, values: str, newest: str) -> None:
         graph.node("Squeeze", [column, axis], ["torque"])
         return
     bare = graph.node("Squeeze", [column, axis], ["uncorrected"])
-    place = graph.constant("physics_at", artefact.inputs.index("physics"), np.int64)
-    physics = graph.node("Gather", [newest, place], ["physics"], axis=1)
-    graph.node("Add", [bare, physics], ["torque"])
+    place = graph.constant("balance_at", artefact.inputs.index("balance"), np.int64)
+    balance = graph.node("Gather", [newest, place], ["balance"], axis=1)
+    graph.node("Add", [bare, balance], ["torque"])
 
 
 def streaming_model(artefact: Artefact) -> bytes:

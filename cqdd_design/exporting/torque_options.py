@@ -18,6 +18,7 @@ import numpy as np
 
 from cqdd_design.errors import DependencyError, ReadBackError, UsageError
 from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.torque.features import PHYSICAL
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -145,8 +146,8 @@ def require_inputs(artefact: Artefact, client: str, *, made: tuple[str, ...] = (
     for name in artefact.inputs:
         if name in known:
             continue
-        if name == "physics":
-            why = "gives no physical estimate for the network to correct"
+        if name in PHYSICAL:
+            why = "cannot make it, for want of the actuator's parameters"
         elif name.startswith(("sin_", "cos_")):
             why = "gives no absolute, homed position, on which that input depends"
         else:

@@ -13,7 +13,8 @@ from cqdd_design.torque.table import NONE, ends_shown
 
 if TYPE_CHECKING:
     from cqdd_design.torque.bootstrap import Interval
-    from cqdd_design.torque.scoring import ModelScore, SetResult
+    from cqdd_design.torque.scoring import SetResult
+    from cqdd_design.torque.seeds import ModelScore
 
 
 @dataclass(frozen=True)

@@ -37,7 +37,8 @@ from cqdd_design.torque.ripple import BAND
 
 if TYPE_CHECKING:
     from cqdd_design.torque.bootstrap import Interval
-    from cqdd_design.torque.scoring import ModelScore, SetResult
+    from cqdd_design.torque.scoring import SetResult
+    from cqdd_design.torque.seeds import ModelScore
 
 _CURVES = 4
 """Models that share one panel; more cannot be told apart."""

@@ -75,8 +75,9 @@ class Artefact:
     inputs : tuple of str
         Features of one sample, in order: ``position_error`` (target less position, rad),
         ``velocity`` (rad/s), ``acceleration`` (rad/s^2, from the differentiator), ``sin_K`` and
-        ``cos_K`` of K times the homed output position, ``physics`` (N m, of the physical
-        estimate that the network corrects).
+        ``cos_K`` of K times the homed output position, and with the actuator's parameters
+        ``balance`` (N m, of everything but dry friction), ``friction_sign`` and ``ripple`` (N m,
+        of the gearbox at the homed position).
     history : int
         Samples in a window, the newest last for a GRU; an MLP's input is the window flattened,
         newest sample first, features of one sample side by side.
@@ -91,7 +92,7 @@ class Artefact:
     torque_mean, torque_std : float
         The network's output times std plus mean is N m.
     residual : bool
-        Whether the feature ``physics`` (N m) is added to the network's torque.
+        Whether the feature ``balance`` (N m) is added to the network's torque.
     validity : Validity
     differentiator : Differentiator or None
         Where ``acceleration`` is an input.
@@ -139,8 +140,8 @@ class Artefact:
             raise UsageError(f"{self.name}: a scale of 0; the data do not move.")
         if ("acceleration" in self.inputs) != (self.differentiator is not None):
             raise UsageError(f"{self.name}: acceleration needs its differentiator, and only it.")
-        if self.residual and "physics" not in self.inputs:
-            raise UsageError(f"{self.name}: a residual needs the input 'physics'.")
+        if self.residual and "balance" not in self.inputs:
+            raise UsageError(f"{self.name}: a residual needs the input 'balance'.")
 
     @property
     def parameters(self) -> int:

@@ -10,7 +10,8 @@ from cqdd_design.torque import bootstrap
 from cqdd_design.torque.bootstrap import Interval
 from cqdd_design.torque.evaluation import PAPER, PAPER_SOURCE, Behaviour, EvaluationResult
 from cqdd_design.torque.ripple import Ripple
-from cqdd_design.torque.scoring import ModelScore, RegimeScores, SetResult
+from cqdd_design.torque.scoring import SetResult
+from cqdd_design.torque.seeds import ModelScore, RegimeScores
 
 
 def result_dict(result: EvaluationResult) -> dict[str, Any]:
@@ -138,7 +139,14 @@ def set_dict(found: SetResult) -> dict[str, Any]:
         "samples": found.samples,
         "models": {one.name: score_dict(one) for one in found.models},
         "seeds": [
-            {"model": one.model, "seeds": one.seeds, "rmse_std_Nm": one.rmse_std}
+            {
+                "model": one.model,
+                "seeds": one.seeds,
+                "rmse_std_Nm": one.rmse_std,
+                "regimes_rmse_Nm": dict(one.regimes),
+                "unknown_phase_rmse_Nm": one.unknown_phase,
+                "unknown_phase_ripple_error_rms_Nm": one.unknown_phase_ripple,
+            }
             | _with_ends(
                 {
                     "rmse_Nm": one.rmse,

@@ -67,7 +67,7 @@ class Estimator:
     def knows_phase(self) -> bool:
         """Whether the homed output position is among the inputs."""
         names = () if self.artefact is None else self.artefact.inputs
-        return any(name.startswith(("sin_", "cos_")) for name in names)
+        return any(name == "ripple" or name.startswith(("sin_", "cos_")) for name in names)
 
     @property
     def closes_loop(self) -> bool:
@@ -141,15 +141,15 @@ def network_estimator(
     name : str
         Default the artefact's.
     actuator : ActuatorParameters, optional
-        For a network that corrects a physical estimate and does not hold the actuator that it was
+        For a network that corrects an actuator's balance and does not hold the one that it was
         trained with; its own, where it does, is the only one that fits.
 
     Raises
     ------
     UsageError
-        For a network that corrects a physical estimate, without the actuator it is made from.
+        For a network that corrects an actuator's balance, without the actuator.
     """
-    from cqdd_design.torque.features import feature_matrix
+    from cqdd_design.torque.features import PHYSICAL, feature_matrix
     from cqdd_design.torque.physics import actuator_from_dict
     from cqdd_design.torque.predict import predict
 
@@ -157,14 +157,15 @@ def network_estimator(
     if isinstance(stored, Mapping):
         actuator = actuator_from_dict(stored)
 
-    if "physics" in artefact.inputs and actuator is None:
+    physical = bool(set(PHYSICAL) & set(artefact.inputs))
+    if physical and actuator is None:
         raise UsageError(
-            f"{artefact.name} corrects a physical estimate of an actuator, and none is known; "
+            f"{artefact.name} corrects what an actuator's parameters say, and none are known; "
             "give its design with --design."
         )
 
     def features(episode: Episode) -> FloatArray:
-        physics = actuator if "physics" in artefact.inputs else None
+        physics = actuator if physical else None
         found = feature_matrix(
             episode, artefact.inputs, differentiator=artefact.differentiator, physics=physics
         )

@@ -16,8 +16,12 @@ from cqdd_design.torque.episodes import Episode
 
 FloatArray = NDArray[np.float64]
 
-PLAIN = ("position_error", "velocity", "acceleration", "physics")
+PHYSICAL = ("balance", "friction_sign", "ripple")
+"""Features that are made with an actuator's parameters; see :mod:`.physics`."""
+PLAIN = ("position_error", "velocity", "acceleration", *PHYSICAL)
 """Features that are no phase of the gearbox."""
+DERIVED = ("acceleration", "balance", "ripple")
+"""Features for which the velocity is differentiated."""
 
 
 def savitzky_golay(dt: float, points: int = 5, order: int = 2) -> Differentiator:
@@ -163,9 +167,9 @@ def feature_matrix(
     inputs : tuple of str
         Names as in `Artefact.inputs`.
     differentiator : Differentiator, optional
-        Needed for ``acceleration`` and ``physics``.
+        Needed for those in `DERIVED`.
     physics : ActuatorParameters, optional
-        Needed for ``physics``: the actuator whose torque is estimated.
+        Needed for those in `PHYSICAL`: the actuator whose torque is estimated.
 
     Raises
     ------
@@ -187,19 +191,17 @@ def _feature(
         return np.asarray(columns["target"], np.float64) - columns["position"]
     if name == "velocity":
         return np.asarray(columns["velocity"], np.float64)
-    if name in ("acceleration", "physics") and differentiator is None:
+    if name in DERIVED and differentiator is None:
         raise UsageError(f"the feature '{name}' needs a differentiator.")
     if name == "acceleration" and differentiator is not None:
         return acceleration(columns["velocity"], differentiator)
-    if name == "physics" and differentiator is not None:
-        from cqdd_design.torque.physics import physical_estimate
-
+    if name in PHYSICAL:
         if physics is None:
             raise UsageError(
-                "the feature 'physics' is an estimate from an actuator's parameters, and none is "
-                "given; name its design."
+                f"the feature '{name}' is made with an actuator's parameters, and none are given; "
+                "name its design."
             )
-        return physical_estimate(physics, episode, differentiator)
+        return _physical(episode, name, differentiator, physics)
     wave, _, order = name.partition("_")
     if wave in ("sin", "cos") and order.isdecimal() and int(order) > 0:
         turn = int(order) * np.asarray(columns["position"], np.float64)
@@ -208,6 +210,24 @@ def _feature(
     raise UsageError(
         f"there is no feature '{name}'{did_you_mean(name, known)}; there are {', '.join(known)}."
     )
+
+
+def _physical(
+    episode: Episode,
+    name: str,
+    differentiator: Differentiator | None,
+    physics: ActuatorParameters,
+) -> FloatArray:
+    from cqdd_design.torque.physics import dry_friction, friction_sign, gear_ripple, motion_balance
+
+    velocity = np.asarray(episode.columns["velocity"], np.float64)
+    if name == "friction_sign" or differentiator is None:
+        return friction_sign(physics, velocity)
+    balance = motion_balance(physics, episode, differentiator)
+    if name == "balance":
+        return balance
+    left = balance - dry_friction(physics) * friction_sign(physics, velocity)
+    return gear_ripple(physics, episode.columns["position"], left)
 
 
 def windows(matrix: FloatArray, history: int) -> FloatArray:

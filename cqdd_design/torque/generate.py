@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from cqdd_design import __version__
-from cqdd_design.actuator.bench.calibrate import apply_factors
+from cqdd_design.actuator.bench.unknowns import apply_factors
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.design import Design

@@ -84,5 +84,5 @@ def _sigmoid(values: FloatArray) -> FloatArray:
 def _torque(artefact: Artefact, found: FloatArray, features: FloatArray) -> FloatArray:
     torque = artefact.torque_std * found + artefact.torque_mean
     if artefact.residual:
-        torque = torque + features[..., artefact.inputs.index("physics")]
+        torque = torque + features[..., artefact.inputs.index("balance")]
     return np.asarray(torque)

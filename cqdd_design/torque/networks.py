@@ -20,6 +20,7 @@ from cqdd_design.torque.artefact import Artefact, Family, WeightArray
 ACTIVATIONS = ("relu", "tanh", "softsign", "elu")
 PV = ("position_error", "velocity")
 PVA = (*PV, "acceleration")
+CORRECTED = (*PVA, "balance", "friction_sign")
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ class Model:
     phase : bool
         Whether the gearbox's phases are inputs besides.
     residual : bool
-        Whether it corrects the physical estimate.
+        Whether it corrects the feature ``balance``.
     searched : bool
         Whether activation, learning rate and weight decay are searched.
     about : str
@@ -84,13 +85,12 @@ MODELS: Mapping[str, Model] = {
             "the tuned MLP with acceleration: what the input alone brings",
             searched=True,
         ),
-        _gru("physics-gru", (*PVA, "physics"), "corrects the physical estimate", residual=True),
+        _gru("physics-gru", CORRECTED, "corrects the actuator's own balance", residual=True),
         _gru("phase-gru", PVA, "with the phases of the gearbox's orders", phase=True),
         _gru(
             "physics-phase-gru",
-            (*PVA, "physics"),
-            "corrects the physical estimate, with the phases of the gearbox's orders",
-            phase=True,
+            (*CORRECTED, "ripple"),
+            "the same, with the gearbox's ripple at the homed position",
             residual=True,
         ),
     )

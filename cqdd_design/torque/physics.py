@@ -1,4 +1,7 @@
-"""Output torque from the joint's motion by the actuator's known parameters, nothing learned.
+"""What the actuator's known parameters say of the output torque, nothing learned.
+
+Two estimates: all of it, and for networks to correct, the part without dry friction, which has no
+switch in it, with the sign of friction and the gearbox's ripple beside it.
 
 Balance of the motor side in the joint's frame, speeds and torques at the motor (w = n v)::
 
@@ -12,6 +15,8 @@ the direction in which power flows.
 
 from __future__ import annotations
 
+import functools
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, fields, replace
 from typing import Any
@@ -19,6 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.actuator.packing import gear_table, table_points
 from cqdd_design.actuator.parameters import (
     ActuatorParameters,
     DriveParameters,
@@ -56,6 +62,84 @@ def driven_torque(parameters: ActuatorParameters, episode: Episode) -> FloatArra
     return np.asarray(ratio * motor.torque_constant * current)
 
 
+def motion_balance(
+    parameters: ActuatorParameters, episode: Episode, differentiator: Differentiator
+) -> FloatArray:
+    """Output torque (N,), N m, without dry friction: n K i - J a - b v in the joint's frame.
+
+    J is the reflected inertia and b all viscous drag. Dry friction is left out because it is not
+    known at rest: whatever stands for its switch there, a network would have to take back.
+    """
+    friction, motor = parameters.friction, parameters.motor
+    velocity = np.asarray(episode.columns["velocity"], np.float64)
+    rate = acceleration(velocity, differentiator)
+    drag = parameters.gear.ratio**2 * (friction.motor_viscous + motor.iron_loss)
+    drag += friction.output_viscous
+    return np.asarray(
+        driven_torque(parameters, episode) - parameters.reflected_inertia * rate - drag * velocity
+    )
+
+
+def friction_sign(parameters: ActuatorParameters, velocity: FloatArray) -> FloatArray:
+    """Smooth sign (N,) of dry friction: ``tanh(n v / (SMOOTHING w_s))`` of a velocity (N,), rad/s.
+
+    At rest the friction is not known from the motion, and half of its range in either direction is
+    the best guess.
+    """
+    speed = abs(parameters.gear.ratio) * np.asarray(velocity, np.float64)
+    return np.asarray(np.tanh(speed / (SMOOTHING * parameters.friction.stribeck_speed)))
+
+
+def dry_friction(parameters: ActuatorParameters) -> float:
+    """Coulomb friction and hysteresis of the motor's side at the joint, N m."""
+    return abs(parameters.gear.ratio) * (
+        parameters.friction.motor_coulomb + parameters.motor.hysteresis
+    )
+
+
+@functools.lru_cache(maxsize=8)
+def _table(gear: GearParameters) -> FloatArray:
+    # A joint in a loop asks for its ripple sample by sample.
+    return gear_table(gear, table_points(gear))
+
+
+def gear_ripple(
+    parameters: ActuatorParameters, position: FloatArray, torque: FloatArray
+) -> FloatArray:
+    """What the gearbox's own errors add to a torque of the motor, N m at the joint.
+
+    From virtual work, T = G (1 + d eps/dq) + E ds/dq with the kinematic error eps, the stiffness s
+    over its mean, and the energy E = |T| d/((p + 1) s) of the windup
+    d = (T0/k) (|T|/(s T0))^(1/p); the ripple is G - T.
+
+    Parameters
+    ----------
+    parameters : ActuatorParameters
+        Of the gearbox that turns.
+    position : array (N,)
+        Of the joint, homed as in the gearbox's own record, rad.
+    torque : array (N,)
+        Of the motor after its dry friction, times the ratio: T, N m.
+    """
+    gear = parameters.gear
+    table = _table(gear)
+    points = len(table)
+    # A turn of the joint is a turn of the table, against it where the ratio is negative.
+    way = math.copysign(1.0, gear.ratio)
+    turns = way * np.asarray(position, np.float64) / (2.0 * math.pi)
+    grid = np.arange(points) / points
+    slope, share, share_slope = (
+        np.interp(turns, grid, table[:, column], period=1.0) for column in (1, 2, 3)
+    )
+    per_angle = way * points / (2.0 * math.pi)
+    size = np.abs(torque)
+    windup = (size / (share * gear.error_torque)) ** (1.0 / gear.stiffening)
+    windup *= gear.error_torque / gear.stiffness
+    energy = size * windup / ((gear.stiffening + 1.0) * share)
+    given = (torque - energy * per_angle * share_slope) / (1.0 + per_angle * slope)
+    return np.asarray(given - torque)
+
+
 def physical_estimate(
     parameters: ActuatorParameters, episode: Episode, differentiator: Differentiator
 ) -> FloatArray:
@@ -71,16 +155,14 @@ def physical_estimate(
 
     Notes
     -----
-    Windup, backlash, ripple and the winding's heat are left out. The smooth sign of friction is
-    ``tanh(w / (SMOOTHING w_s))``: at rest the friction is not known from the motion, and half of
-    its range in either direction is the best guess.
+    Windup, backlash, ripple and the winding's heat are left out.
     """
     friction, motor, gear = parameters.friction, parameters.motor, parameters.gear
     ratio = abs(gear.ratio)
     velocity = np.asarray(episode.columns["velocity"], np.float64)
     rate = acceleration(velocity, differentiator)
     speed = ratio * velocity
-    sign = np.tanh(speed / (SMOOTHING * friction.stribeck_speed))
+    sign = friction_sign(parameters, velocity)
     with np.errstate(under="ignore"):
         rise = 1.0 + friction.stribeck_extra * np.exp(-((speed / friction.stribeck_speed) ** 2))
     left = (

@@ -106,7 +106,7 @@ class Streaming:
     def __init__(self, artefact: Artefact, mode: Mode | None = None) -> None:
         self.artefact = artefact
         self.mode = _mode(artefact, mode)
-        self._physics = artefact.inputs.index("physics") if artefact.residual else -1
+        self._base = artefact.inputs.index("balance") if artefact.residual else -1
         self._count = len(artefact.inputs)
         gru = artefact.family == "gru"
         self._weights = (folded_gru(artefact) if gru else folded_mlp(artefact)).flat
@@ -142,7 +142,7 @@ class Streaming:
             torque = float(self._step(self._weights, self._features, self._state, self._scratch))
         else:
             torque = self._step_window(features)
-        return torque if self._physics < 0 else torque + float(features[self._physics])
+        return torque if self._base < 0 else torque + float(features[self._base])
 
     def _step_window(self, features: Sequence[float] | NDArray[Any]) -> float:
         history, past = self.artefact.history, self._past
@@ -180,7 +180,7 @@ def _streamed(artefact: Artefact, raw: FloatArray, engine: Engine) -> FloatArray
 def _corrected(artefact: Artefact, torque: NDArray[np.float32], newest: NDArray[Any]) -> FloatArray:
     found = torque.astype(np.float64)
     if artefact.residual:
-        found += newest[:, artefact.inputs.index("physics")]
+        found += newest[:, artefact.inputs.index("balance")]
     return found
 
 

@@ -38,7 +38,7 @@ class Raw:
     ----------
     features : array (S, F)
     torque : array (S,)
-        What the network is to tell: less the physical estimate where it corrects that, N m.
+        What the network is to tell: less the balance where it corrects that, N m.
     first, length : array (E,) of int
         Of each episode.
     """
@@ -69,7 +69,7 @@ def raw(
         matrix = feature_matrix(episode, inputs, differentiator=differentiator, physics=actuator)
         torque = np.asarray(episode.columns["torque"], np.float64)
         if residual:
-            torque = torque - matrix[:, inputs.index("physics")]
+            torque = torque - matrix[:, inputs.index("balance")]
         if not (np.all(np.isfinite(matrix)) and np.all(np.isfinite(torque))):
             raise UsageError(f"episode {episode.name} has features that are not finite.")
         matrices.append(matrix)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,11 +13,9 @@ from cqdd_design.torque import bootstrap, metrics
 from cqdd_design.torque.bootstrap import Interval, Paired
 from cqdd_design.torque.episodes import Episode
 from cqdd_design.torque.estimators import Estimator
-from cqdd_design.torque.metrics import REGIMES, Mask, Scores
+from cqdd_design.torque.metrics import REGIMES, Mask
 from cqdd_design.torque.ripple import (
     FLANK_SEGMENT,
-    OrderSpectrum,
-    Ripple,
     Spectra,
     Stroke,
     error_rms,
@@ -28,6 +26,7 @@ from cqdd_design.torque.ripple import (
     spectra,
     strokes,
 )
+from cqdd_design.torque.seeds import ModelScore, RegimeScores, SeedSummary, between
 from cqdd_design.torque.stretches import (
     Records,
     Trace,
@@ -37,88 +36,6 @@ from cqdd_design.torque.stretches import (
 )
 
 FloatArray = NDArray[np.float64]
-
-REFERENCES = ("mlp", "pva-gru")
-"""Models that the others are paired with, where they are there."""
-
-
-@dataclass(frozen=True)
-class RegimeScores:
-    """Scores in one regime with intervals over episodes.
-
-    Attributes
-    ----------
-    scores : Scores
-    episodes : int
-        That have such samples.
-    rmse, bias, variance : Interval
-        N m and N^2 m^2.
-    r_squared : Interval or None
-    p95 : Interval
-        Ends only over all samples, N m.
-    """
-
-    scores: Scores
-    episodes: int
-    rmse: Interval
-    bias: Interval
-    variance: Interval
-    r_squared: Interval | None
-    p95: Interval
-
-
-@dataclass(frozen=True, eq=False)
-class ModelScore:
-    """One estimator on one set.
-
-    Attributes
-    ----------
-    name, model : str
-    regimes : mapping of str to RegimeScores or None
-        None where no sample belongs to the regime.
-    ripple : Ripple or None
-    flank_ripple : Ripple or None
-        Of segments that stay on one flank of the gear; see `metrics.on_one_flank`.
-    unknown_phase : RegimeScores or None
-        With every angle off by a constant that differs between episodes; of models that use the
-        homed position.
-    unknown_phase_ripple : Ripple or None
-    error_counts : array (K,)
-        Of the set's `error_edges`.
-    spectrum : array (F,)
-        Amplitude density of the estimate in free swing, N m/sqrt(Hz).
-    orders : OrderSpectrum or None
-    """
-
-    name: str
-    model: str
-    regimes: Mapping[str, RegimeScores | None]
-    ripple: Ripple | None
-    flank_ripple: Ripple | None
-    unknown_phase: RegimeScores | None
-    unknown_phase_ripple: Ripple | None
-    error_counts: FloatArray
-    spectrum: FloatArray
-    orders: OrderSpectrum | None
-
-    @property
-    def overall(self) -> RegimeScores:
-        """Over all samples."""
-        found = self.regimes["all"]
-        assert found is not None
-        return found
-
-
-@dataclass(frozen=True)
-class SeedSummary:
-    """Mean over the seeds of one model, its interval over episodes."""
-
-    model: str
-    seeds: int
-    rmse: Interval
-    rmse_std: float
-    variance: Interval
-    ripple_error: Interval | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +51,7 @@ class SetResult:
     models : tuple of ModelScore
     seeds : tuple of SeedSummary
     paired : tuple of Paired
-        Means over seeds against those of `REFERENCES`.
+        Means over seeds against those of `seeds.REFERENCES`.
     error_edges : array (K + 1,)
         N m.
     frequency, label_spectrum : array (F,)
@@ -232,7 +149,7 @@ def score_set(
         resampled[one.name] = own
         if found is not None:
             frequency, label_spectrum, _ = mean_amplitudes(found)
-    seeds, pairs = _between(scored, resampled, len(kept))
+    seeds, pairs = between(scored, resampled, len(kept))
     return SetResult(
         name=name,
         episodes=tuple(one.name for one in kept),
@@ -357,45 +274,3 @@ def _regime(
         r_squared=None if found.r_squared is None else told("r_squared", found.r_squared),
         p95=p95,
     )
-
-
-def _between(
-    scored: Sequence[ModelScore], resampled: Mapping[str, Mapping[str, FloatArray]], episodes: int
-) -> tuple[tuple[SeedSummary, ...], tuple[Paired, ...]]:
-    """Means over the seeds of each model, and each model against the references."""
-    members: dict[str, list[ModelScore]] = {}
-    for one in scored:
-        members.setdefault(one.model, []).append(one)
-    values: dict[str, dict[str, float]] = {"rmse": {}, "variance": {}, "ripple_error": {}}
-    many: dict[str, dict[str, FloatArray]] = {metric: {} for metric in values}
-    seeds = []
-    for model, own in members.items():
-        rows = {
-            "rmse": [one.overall.rmse.value for one in own],
-            "variance": [one.overall.variance.value for one in own],
-            "ripple_error": [one.ripple.error_rms.value for one in own if one.ripple is not None],
-        }
-        told: dict[str, Interval] = {}
-        for metric, found in rows.items():
-            if len(found) < len(own):
-                continue
-            values[metric][model] = float(np.mean(found))
-            many[metric][model] = np.mean([resampled[one.name][metric] for one in own], axis=0)
-            told[metric] = bootstrap.interval(
-                values[metric][model], many[metric][model], episodes=episodes
-            )
-        spread = float(np.std(rows["rmse"], ddof=1)) if len(own) > 1 else 0.0
-        seeds.append(
-            SeedSummary(
-                model, len(own), told["rmse"], spread, told["variance"], told.get("ripple_error")
-            )
-        )
-    pairs = [
-        bootstrap.paired(model, other, metric, values[metric], many[metric], episodes=episodes)
-        for other in REFERENCES
-        for metric, found in values.items()
-        if other in found
-        for model in found
-        if model != other
-    ]
-    return tuple(seeds), tuple(pairs)

@@ -11,6 +11,7 @@ from cqdd_design.torque.scoring import SetResult
 OURS = "ours (simulated twin)"
 THEIRS = "paper (hardware)"
 NONE = "\u2013"
+_REGIMES = ("swing", "wall", "saturation", "reversal")
 
 
 def markdown(result: EvaluationResult) -> str:
@@ -24,9 +25,11 @@ def markdown(result: EvaluationResult) -> str:
     parts = []
     for one in result.sets:
         parts += [f"### Set `{one.name}`, {OURS}", "", _describe(one), ""]
-        parts += [_models(result, one), ""]
+        if any(model.seeds > 1 for model in one.seeds):
+            parts += ["Means over the seeds of each model:", "", _seeds(one), ""]
         if one.paired:
             parts += [_pairs(one), ""]
+        parts += ["Each network and baseline:", "", _models(result, one), ""]
     parts += [f"### {THEIRS[0].upper()}{THEIRS[1:]}", "", paper_table(), ""]
     return "\n".join(parts).rstrip() + "\n"
 
@@ -123,13 +126,39 @@ def _models(result: EvaluationResult, one: SetResult) -> str:
     return _table(head, rows) + remark
 
 
+def _seeds(one: SetResult) -> str:
+    """Means over seeds, best first, by regime and with unknown phase."""
+    rows = []
+    for model in sorted(one.seeds, key=lambda each: each.rmse.value):
+        regimes = [model.regimes.get(name) for name in _REGIMES]
+        rest = [*regimes, model.unknown_phase, model.unknown_phase_ripple]
+        rows.append(
+            [
+                model.model,
+                str(model.seeds),
+                shown(model.rmse),
+                f"{model.rmse_std:.2g}" if model.seeds > 1 else NONE,
+                shown(model.variance),
+                shown(model.ripple_error),
+                *(NONE if value is None else f"{value:.3g}" for value in rest),
+            ]
+        )
+    head = [
+        "model", "seeds", "RMSE, N·m", "between seeds", "variance, N²·m²",
+        "in the ripple band, N·m", *(f"RMSE, {name}" for name in _REGIMES),
+        "RMSE, unknown phase", "in the band, unknown phase",
+    ]  # fmt: skip
+    return _table(head, rows)
+
+
 def _pairs(one: SetResult) -> str:
-    names = {"rmse": "RMSE", "variance": "variance", "ripple_error": "error in the ripple band"}
-    rows = [
-        [pair.model, pair.reference, names[pair.metric], _percent(pair.ratio)]
-        for pair in one.paired
-    ]
-    return _table(["model", "against", "in", "change, %"], rows)
+    titles = {"rmse": "RMSE", "variance": "variance", "ripple_error": "in the ripple band"}
+    rows: dict[tuple[str, str], list[str]] = {}
+    for pair in one.paired:
+        row = rows.setdefault((pair.model, pair.reference), [NONE] * len(titles))
+        row[list(titles).index(pair.metric)] = _percent(pair.ratio)
+    head = ["model", "against", *(f"{title}, %" for title in titles.values())]
+    return _table(head, [[*names, *row] for names, row in rows.items()])
 
 
 def _percent(ratio: Interval) -> str:

@@ -70,7 +70,7 @@ def wanted_torque(artefact, error: np.ndarray, velocity: np.ndarray) -> np.ndarr
 
 
 @pytest.mark.parametrize(
-    "artefact", [*STREAMING.values(), network(inputs=(*PVA, "physics"), residual=True)]
+    "artefact", [*STREAMING.values(), network(inputs=(*PVA, "balance"), residual=True)]
 )
 def test_onnxruntime_streams(tmp_path, artefact):
     export_artefact(artefact, ["onnx"], tmp_path, "net")
@@ -91,7 +91,7 @@ def test_onnxruntime_streams(tmp_path, artefact):
         *WINDOWS.values(),
         network("mlp", activation="elu"),
         network("mlp", activation="relu"),
-        network("mlp", inputs=(*PV, "physics"), residual=True),
+        network("mlp", inputs=(*PV, "balance"), residual=True),
     ],
 )
 def test_onnxruntime_runs_windows(tmp_path, artefact):
@@ -427,12 +427,15 @@ def test_newtons_file_holds_what_its_loader_reads(tmp_path):
 @pytest.mark.parametrize("kind", ["torchscript-isaaclab", "newton", "mjlab"])
 @pytest.mark.parametrize(
     ("inputs", "why"),
-    [((*PVA, "sin_11", "cos_11"), "absolute, homed position"), ((*PVA, "physics"), "no physical")],
+    [
+        ((*PVA, "sin_11", "cos_11"), "absolute, homed position"),
+        ((*PVA, "balance"), "actuator's parameters"),
+    ],
 )
 def test_a_client_that_cannot_feed_an_input_is_refused(tmp_path, kind, inputs, why):
     artefact = network(inputs=inputs, mode="window")
     with pytest.raises(UsageError, match=why):
-        export_artefact(artefact, ["c", kind], tmp_path, "net")
+        export_artefact(artefact, ["onnx", kind], tmp_path, "net")
     assert not list(tmp_path.iterdir())
 
 

@@ -26,7 +26,7 @@ def network(
 ) -> Artefact:
     """Weights drawn as torch draws them, and some larger; scales as of the pendulum."""
     rng = np.random.default_rng(seed)
-    scales = {"position_error": 0.2, "velocity": 3.0, "acceleration": 40.0, "physics": 12.0}
+    scales = {"position_error": 0.2, "velocity": 3.0, "acceleration": 40.0, "balance": 12.0}
     fields: dict[str, Any] = {
         "name": f"drawn-{family}",
         "family": family,
@@ -117,5 +117,5 @@ def torch_torque(artefact: Artefact, raw: np.ndarray, mode: str) -> np.ndarray:
     if mode == "window":
         torque = np.concatenate([np.full(artefact.history - 1, np.nan), torque])
     if artefact.residual:
-        torque = torque + raw[:, artefact.inputs.index("physics")]
+        torque = torque + raw[:, artefact.inputs.index("balance")]
     return torque

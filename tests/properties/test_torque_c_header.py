@@ -6,20 +6,26 @@ import ctypes
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from torque_networks import PV, PVA, features, joint, motion, network
+from torque_networks import DT, PV, PVA, TAPS, features, joint, network
+from torque_samples import actuator
 
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting.c_header import c_name, header_text, write_c_header
+from cqdd_design.torque.episodes import Episode
+from cqdd_design.torque.features import feature_matrix
+from cqdd_design.torque.physics import actuator_to_dict, driven_torque
 from cqdd_design.torque.predict import predict
 
 COMPILERS = [name for name in ("cc", "gcc", "clang") if shutil.which(name)]
 compiled = pytest.mark.skipif(not COMPILERS, reason="no C compiler (cc, gcc, clang) on this system")
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-pedantic", "-Wconversion", "-Werror")
 TOLERANCE = 1e-5
+PHYSICS = (*PVA, "balance", "friction_sign", "ripple")
 
 
 def library(artefact, folder: Path, *, compiler: str = "", flags: tuple[str, ...] = ("-O2",)):
@@ -138,19 +144,153 @@ def test_windows_equal_numpy_one_by_one_many_at_once_and_step_by_step(tmp_path, 
 
 
 @compiled
-def test_phases_are_made_of_the_position_and_a_residual_of_the_physics(tmp_path):
-    names = (*PVA, "sin_11", "cos_110", "physics")
-    artefact = network(inputs=names, residual=True)
+def test_phases_are_made_of_the_position(tmp_path):
+    names = (*PVA, "sin_11", "cos_110")
+    artefact = network(inputs=names)
     error, velocity = joint(500)
     position = np.linspace(-3.0, 9.0, 500)
     columns = dict(zip(PVA, features(network(), error, velocity).T, strict=True))
     columns |= {"sin_11": np.sin(11 * position), "cos_110": np.cos(110 * position)}
-    columns["physics"] = motion(network(inputs=("physics",)), 500)[:, 0]
     wanted = predict(artefact, np.column_stack([columns[one] for one in names]), engine="plain")
     net = library(artefact, tmp_path)
-    inputs = zip(error, velocity, columns["physics"], position, strict=True)
+    inputs = zip(error, velocity, position, strict=True)
     found = np.array([net.step(*row) for row in inputs])
     np.testing.assert_allclose(found, wanted, atol=TOLERANCE, rtol=0.0)
+
+
+def small_drive(way: float = -1.0):
+    """An actuator that its supply and its current limit hold back in the swing below."""
+    given = actuator()
+    drive = replace(given.drive, supply_voltage=12.0, current_limit=30.0)
+    return replace(given, drive=drive, gear=replace(given.gear, ratio=way * abs(given.gear.ratio)))
+
+
+def physical(parameters, **given):
+    """A drawn network that holds an actuator."""
+    facts = {"actuator": actuator_to_dict(parameters)}
+    return network(**{"inputs": PHYSICS, "facts": facts} | given)
+
+
+def swing(samples: int = 800) -> Episode:
+    """Hard swings over several turns; error and velocity are single-precision numbers."""
+    error, velocity = (
+        (scale * values).astype(np.float32).astype(np.float64)
+        for scale, values in zip((5.0, 2.0), joint(samples), strict=True)
+    )
+    position = np.linspace(-7.0, 9.0, samples)
+    columns = {"position": position, "target": position + error, "velocity": velocity}
+    return Episode("swing", {}, DT, columns | {"torque": error, "current": error})
+
+
+def stepped(net, episode: Episode, names: tuple[str, ...]) -> np.ndarray:
+    """Torque of the header, step by step, from what a joint measures."""
+    columns = dict(episode.columns)
+    columns["position_error"] = columns["target"] - columns["position"]
+    return np.array([net.step(*row) for row in zip(*(columns[one] for one in names), strict=True)])
+
+
+def test_the_swing_meets_the_supply_and_the_current_limit():
+    episode, parameters = swing(), small_drive()
+    free = replace(parameters.drive, supply_voltage=1e4, current_limit=1e4)
+    asked = driven_torque(replace(parameters, drive=free), episode)
+    found = driven_torque(parameters, episode)
+    most = 10.0 * 0.18 * 30.0
+    for way in (-1.0, 1.0):
+        at_current = np.isclose(way * found, most) & (way * asked > 1.1 * most)
+        at_voltage = (np.abs(found) < 0.99 * most) & (way * (asked - found) > 1.0)
+        assert at_current.sum() > 20
+        assert at_voltage.sum() > 20
+
+
+@compiled
+@pytest.mark.parametrize("way", [-1.0, 1.0], ids=["against the motor", "with the motor"])
+@pytest.mark.parametrize("mode", ["streaming", "window"])
+def test_balance_friction_and_ripple_are_made_inside(tmp_path, mode, way):
+    parameters, episode = small_drive(way), swing()
+    artefact = physical(parameters, mode=mode, residual=True)
+    raw = feature_matrix(episode, PHYSICS, differentiator=TAPS, physics=parameters)
+    wanted = predict(artefact, raw, engine="plain")
+    net = library(artefact, tmp_path, flags=("-O3", "-march=native", "-ffp-contract=fast"))
+    found = stepped(net, episode, (*PV, "position"))
+    full = artefact.history - 1 if mode == "window" else 0
+    np.testing.assert_allclose(found[full:], wanted[full:], atol=TOLERANCE, rtol=0.0)
+    assert not np.any(found[:full])
+    for column in range(3, 6):
+        other = raw.copy()
+        other[:, column] = raw[:, column].mean()
+        away = np.nanmax(np.abs(predict(artefact, other, engine="plain") - wanted))
+        assert away > 1000.0 * TOLERANCE
+
+
+@compiled
+@pytest.mark.parametrize(
+    ("inputs", "arguments", "functions"),
+    [
+        (("velocity", "friction_sign"), ("velocity",), ("friction_sign",)),
+        (("acceleration", "balance"), PV, ("driven", "balance")),
+        (
+            ("ripple", "velocity", "acceleration", "sin_11"),
+            ("velocity", "position_error", "position"),
+            ("driven", "balance", "friction_sign", "ripple"),
+        ),
+    ],
+)
+def test_only_what_the_inputs_need_is_asked_for_and_made(tmp_path, inputs, arguments, functions):
+    artefact = physical(small_drive(), family="mlp", inputs=inputs)
+    text = header_text(artefact, "net")
+    made = re.findall(r"net_(driven|balance|friction_sign|ripple)\(double", text)
+    assert tuple(made) == functions
+    signature = re.search(r"net_step\(net_state \*state, ([^)]*)\)", text).group(1)
+    assert tuple(part.split()[-1] for part in signature.split(", ")) == arguments
+    episode = swing(300)
+    raw = feature_matrix(episode, inputs, differentiator=TAPS, physics=small_drive())
+    wanted = predict(artefact, raw, engine="plain")
+    full = artefact.history - 1
+    found = stepped(library(artefact, tmp_path), episode, arguments)
+    np.testing.assert_allclose(found[full:], wanted[full:], atol=TOLERANCE, rtol=0.0)
+
+
+@compiled
+def test_a_gearbox_without_harmonics_has_no_ripple(tmp_path):
+    given = small_drive()
+    none = {"error_orders": np.zeros(0, np.int64)} | {
+        f"{of}_{wave}": np.zeros(0) for of in ("error", "stiffness") for wave in ("cosine", "sine")
+    }
+    parameters = replace(given, gear=replace(given.gear, **none))
+    artefact, episode = physical(parameters, residual=True), swing(100)
+    raw = feature_matrix(episode, PHYSICS, differentiator=TAPS, physics=parameters)
+    assert not np.any(raw[:, -1])
+    found = stepped(library(artefact, tmp_path), episode, (*PV, "position"))
+    wanted = predict(artefact, raw, engine="plain")
+    np.testing.assert_allclose(found, wanted, atol=TOLERANCE, rtol=0.0)
+
+
+@pytest.mark.parametrize("name", ["balance", "friction_sign", "ripple"])
+def test_physics_without_its_actuator_or_its_differentiator_is_refused(name):
+    with pytest.raises(UsageError, match=rf"'{name}'.* actuator's parameters.* export to onnx"):
+        header_text(network(inputs=(*PVA, name)), "net")
+    if name != "friction_sign":
+        with pytest.raises(UsageError, match=rf"'{name}'.* differentiator; export to onnx"):
+            header_text(physical(actuator(), inputs=(*PV, name)), "net")
+
+
+def test_the_comment_says_what_is_made_inside_and_of_which_actuator():
+    text = header_text(physical(replace(actuator(), name="arm */ @name@\n2"), name="a/*b"), "net")
+    told = text[: text.index("*/")]
+    for part in (
+        "actuator arm - -name-2 and",
+        "balance",
+        "friction_sign",
+        "ripple",
+        "Homed:",
+        "-lm",
+    ):
+        assert part in told
+    assert "@" not in text
+    assert "/*" not in told[2:]
+    plain = header_text(network(), "net")
+    assert "math.h" not in plain
+    assert "Homed" not in plain
 
 
 @compiled

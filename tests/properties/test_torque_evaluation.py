@@ -621,7 +621,7 @@ def test_bad_input_is_refused(data):
     with pytest.raises(UsageError, match="nan at sample 77 of episode e00"):
         run(data, [Estimator("broken", broken, 0)])
     with pytest.raises(UsageError, match="give its design"):
-        network_estimator(gru(("physics", "velocity")))
+        network_estimator(gru(("balance", "velocity")))
 
 
 def test_a_column_that_is_not_recorded_leaves_the_model_out(data):

@@ -11,6 +11,7 @@ from torque_samples import DT, actuator, data_set, episode
 
 from cqdd_design.errors import UsageError
 from cqdd_design.torque.features import (
+    PHYSICAL,
     acceleration,
     differentiator_error,
     feature_matrix,
@@ -21,7 +22,7 @@ from cqdd_design.torque.features import (
 )
 from cqdd_design.torque.packing import pack_data, unpack_data
 
-ALL = ("position_error", "velocity", "acceleration", "sin_10", "cos_11", "physics")
+ALL = ("position_error", "velocity", "acceleration", "sin_10", "cos_11", *PHYSICAL)
 
 
 def test_no_feature_changes_with_later_samples():
@@ -124,7 +125,9 @@ def test_phases_are_those_of_the_homed_position():
         ("velocty", "did you mean 'velocity'"),
         ("sin_0", "no feature"),
         ("acceleration", "needs a differentiator"),
-        ("physics", "needs a differentiator"),
+        ("balance", "needs a differentiator"),
+        ("ripple", "needs a differentiator"),
+        ("friction_sign", "actuator's parameters"),
     ],
 )
 def test_features_that_cannot_be(name, told):

@@ -18,6 +18,8 @@ from torque_samples import (
     episode,
 )
 
+from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Start
+from cqdd_design.actuator.simulate import simulate
 from cqdd_design.errors import UsageError
 from cqdd_design.torque.baselines import TERMS, current_estimate, fit_friction, pd_law
 from cqdd_design.torque.episodes import Episode
@@ -25,6 +27,9 @@ from cqdd_design.torque.features import acceleration, savitzky_golay
 from cqdd_design.torque.physics import (
     actuator_from_dict,
     actuator_to_dict,
+    friction_sign,
+    gear_ripple,
+    motion_balance,
     physical_estimate,
     with_gains_of,
 )
@@ -97,6 +102,52 @@ def test_current_and_voltage_bind():
     left = drive.supply_voltage - motor.torque_constant * ratio * fast
     found = physical_estimate(parameters, steady(fast, 50.0), SLOPE)[-1]
     assert found == pytest.approx(left / motor.resistance * motor.torque_constant * ratio)
+
+
+def test_the_balance_is_the_estimate_without_dry_friction():
+    parameters, one = actuator(), episode("e", 0.6, 0.3)
+    dry = ("motor_coulomb", "output_coulomb", "load_forward", "load_backward")
+    friction = dataclasses.replace(parameters.friction, **dict.fromkeys(dry, 0.0))
+    motor = dataclasses.replace(parameters.motor, hysteresis=0.0)
+    wanted = physical_estimate(
+        dataclasses.replace(parameters, friction=friction, motor=motor), one, SLOPE
+    )
+    np.testing.assert_allclose(motion_balance(parameters, one, SLOPE), wanted, rtol=1e-9)
+
+
+def test_the_sign_of_friction_is_smooth_odd_and_of_the_motors_stribeck_speed():
+    parameters = actuator()
+    slow = 0.25 * parameters.friction.stribeck_speed / 10.0
+    found = friction_sign(parameters, np.array([-1.0, -slow, 0.0, slow, 1.0]))
+    np.testing.assert_allclose(found, [-1.0, -np.tanh(1.0), 0.0, np.tanh(1.0), 1.0], atol=1e-12)
+
+
+@pytest.mark.parametrize("ratio", [-10.0, 10.0])
+@pytest.mark.parametrize("torque", [30.0, -12.0])
+def test_the_ripple_is_that_of_the_simulated_gearbox(ratio, torque):
+    """Slowly turned against a constant current: what comes out varies by the gearbox alone."""
+    bare = without_friction()
+    gear = dataclasses.replace(bare.gear, ratio=ratio)
+    friction = dataclasses.replace(bare.friction, stribeck_extra=0.0)
+    parameters = dataclasses.replace(bare, gear=gear, friction=friction)
+    current = torque / (ratio * parameters.motor.torque_constant)
+    speed, seconds = 0.2, 5.0
+    scene = Scenario(
+        Command("current", Constant(current)),
+        Load.driven(Constant(speed)),
+        Start(output_speed=speed),
+    )
+    run = simulate(parameters, scene, seconds, 2e-5, every=50)
+    late = run.time > 2.0
+    position = run.motor_angle[0][late] / ratio
+    # The motor heats up and loses a little of its magnets' strength.
+    carried = ratio * parameters.motor.torque_constant * run.current[0][late]
+    slow = np.polyval(np.polyfit(position, run.output_torque[0][late] - carried, 1), position)
+    wanted = run.output_torque[0][late] - carried - slow
+    found = gear_ripple(parameters, position, np.full(len(position), torque))
+    found = found - np.polyval(np.polyfit(position, found, 1), position)
+    assert np.std(wanted) > 1e-3 * abs(torque)
+    assert np.std(found - wanted) < 0.02 * np.std(wanted)
 
 
 def test_gains_become_those_of_the_data_and_numbers_survive_json():

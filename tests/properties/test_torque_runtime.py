@@ -18,8 +18,8 @@ CASES = {
     "pv-gru": network(inputs=PV, seed=3),
     "odd sizes": network(inputs=("velocity",), layers=1, hidden=10, history=7, mode="window"),
     "phase": network(inputs=(*PVA, "sin_11", "cos_11"), mode="window"),
-    "residual": network(inputs=(*PVA, "physics"), residual=True),
-    "residual, window": network(inputs=(*PVA, "physics"), residual=True, mode="window"),
+    "residual": network(inputs=(*PVA, "balance"), residual=True),
+    "residual, window": network(inputs=(*PVA, "balance"), residual=True, mode="window"),
     "softsign": network("mlp", inputs=PV),
     "relu": network("mlp", inputs=PV, activation="relu", history=3, hidden=20),
     "tanh": network("mlp", inputs=PV, activation="tanh", history=24),
@@ -94,7 +94,7 @@ def test_a_residual_adds_the_physical_estimate_once():
     raw = motion(artefact, 40)
     bare = network(inputs=artefact.inputs, residual=False)
     added = predict(artefact, raw) - predict(bare, raw)
-    np.testing.assert_allclose(added, raw[:, artefact.inputs.index("physics")], atol=1e-5)
+    np.testing.assert_allclose(added, raw[:, artefact.inputs.index("balance")], atol=1e-5)
 
 
 def test_any_number_of_windows_gives_the_same_torque():

@@ -224,7 +224,7 @@ def test_a_residual_learns_what_physics_leaves_and_phases_come_from_the_gearbox(
         "physics-gru", recipe=dataclasses.replace(QUICK, stride=16), actuator=parameters
     )
     assert residual.residual
-    assert residual.inputs[-1] == "physics"
+    assert residual.inputs[-2:] == ("balance", "friction_sign")
     torque = np.concatenate([e.columns["torque"] for e in DATA.named(SPLIT.train)])
     assert residual.torque_std < 0.5 * np.std(torque)
     assert residual.facts["actuator"]["friction"]["load_forward"] == 0.1
