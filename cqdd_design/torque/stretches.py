@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,8 +45,9 @@ class Records:
 
     def estimates(self, estimator: Estimator, seed: int | None = None) -> list[FloatArray]:
         """Estimates over the scored samples; angles off by constants where a seed is given."""
-        found = []
-        for k, episode in enumerate(self.episodes):
+
+        def scored(k: int) -> FloatArray:
+            episode = self.episodes[k]
             given = episode if seed is None else without_phase(episode, seed, k)
             values = np.asarray(estimator.estimate(given), np.float64)
             if values.shape != (len(episode),):
@@ -52,8 +55,11 @@ class Records:
                     f"{estimator.name} gives {values.shape} values for the {len(episode)} samples "
                     f"of episode {episode.name}."
                 )
-            found.append(values[self.skip :])
-        return found
+            return values[self.skip :]
+
+        # Compiled networks let other threads run; each episode is by itself.
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            return list(pool.map(scored, range(len(self.episodes))))
 
     def scored_part(self) -> list[Episode]:
         """Every episode without the samples that are not scored."""
