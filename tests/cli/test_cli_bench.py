@@ -55,6 +55,7 @@ def test_bench_says_what_an_agreement_is(cqdd):
     assert "actuator  " not in found.out
 
 
+@pytest.mark.deep
 def test_calibration_goes_from_one_command_into_the_others(cqdd, tmp_path):
     measured = tmp_path / "rig.csv"
     measured.write_text("name,value,unit\nbackdrive_static,1500,mN*m\nno_load_speed,13.5,rad/s\n")

@@ -24,6 +24,7 @@ def console_commands(page: Path) -> list[str]:
     return [line[2:] for line in lines if line.startswith("$ ")]
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize(
     "page",
     # The commands of torque-estimation.md need torch; test_cli_torque_docs.py runs them.
@@ -76,6 +77,7 @@ def test_ci_runs_the_readmes_own_commands():
     assert matching == [blocks(REPOSITORY / "README.md", "sh")[2].strip()]
 
 
+@pytest.mark.deep
 def test_generated_pages_are_up_to_date():
     done = subprocess.run(
         [sys.executable, REPOSITORY / "docs" / "build.py", "--check"],

@@ -78,7 +78,7 @@ def test_export_replaces_a_named_folder_only_by_force(cqdd, tmp_path, paper_desi
     assert cqdd(*arguments, "--force").code == 0
 
 
-@pytest.mark.parametrize("command", ["export", "report"])
+@pytest.mark.parametrize("command", ["export", pytest.param("report", marks=pytest.mark.deep)])
 def test_its_own_default_output_is_replaced(cqdd, paper_design_file, command):
     options = ["--to", "dxf"] if command == "export" else []
     assert cqdd(command, paper_design_file, *options).code == 0

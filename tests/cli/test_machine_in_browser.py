@@ -21,9 +21,12 @@ from cqdd_design.report.svg import Figure
 from cqdd_design.solids.parts import Part, build_parts
 from cqdd_design.solids.poses import body_pose
 
-pytestmark = pytest.mark.skipif(
-    importlib.util.find_spec("cadquery") is None, reason="cadquery is not installed"
-)
+pytestmark = [
+    pytest.mark.deep,
+    pytest.mark.skipif(
+        importlib.util.find_spec("cadquery") is None, reason="cadquery is not installed"
+    ),
+]
 
 CRANK = 2.0
 #: Without a graphics card Chromium draws in software, if it is told that this is safe.

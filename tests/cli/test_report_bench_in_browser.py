@@ -17,6 +17,8 @@ from cqdd_design.gearbox import analyse_gearbox
 from cqdd_design.report import ReportInput, build_report
 from cqdd_design.sizing.comparison import compare_with_planetary
 
+pytestmark = pytest.mark.deep
+
 FIGURES = {
     "envelope",
     "efficiency-driving",

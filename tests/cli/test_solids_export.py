@@ -15,6 +15,7 @@ pytestmark = pytest.mark.skipif(
 KINDS = "step,stl,3mf,glb"
 
 
+@pytest.mark.deep
 def test_two_runs_give_the_same_bytes(cqdd, paper_design_file, tmp_path):
     runs = []
     for name in ("one", "two"):

@@ -25,6 +25,8 @@ from cqdd_design.sizing.distributed import dask_client, on_cluster  # noqa: E402
 DESIGN = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 SAMPLES, ANGLES = 600, 220
 
+pytestmark = pytest.mark.deep
+
 
 @pytest.fixture(scope="module")
 def cluster() -> Iterator[object]:

@@ -230,6 +230,7 @@ def test_life_tells_what_does_not_last(found: ContactAnalysis) -> None:
         assert holds[part.part] is (lasts and part.limit > 0.0)
 
 
+@pytest.mark.deep
 def test_tolerances_show_the_ensemble(ensemble: ToleranceResult) -> None:
     view = tolerance_view(ensemble)
     assert "160 gearboxes" in view.lead

@@ -37,6 +37,7 @@ def test_every_unknown_is_told_by_one_measurement() -> None:
     assert len(TELLS) == len(UNKNOWNS)
 
 
+@pytest.mark.deep
 def test_calibration_finds_what_was_changed(actuator: ActuatorParameters) -> None:
     """Rows of an actuator with other friction and cooling bring these back from the first one."""
     true = {"friction_level": 3.0, "thermal_resistance": 0.7, "friction_load": 0.6}
@@ -59,6 +60,7 @@ def test_calibration_finds_what_was_changed(actuator: ActuatorParameters) -> Non
     json.dumps(found.to_dict(), allow_nan=False)
 
 
+@pytest.mark.deep
 def test_more_rows_than_unknowns_are_fitted_together(actuator: ActuatorParameters) -> None:
     other = apply_factors(actuator, {"friction_level": 4.0})
     names = ["backdrive_static", "backdrive_dynamic"]
@@ -67,6 +69,7 @@ def test_more_rows_than_unknowns_are_fitted_together(actuator: ActuatorParameter
     assert found.factors == pytest.approx({"friction_level": 4.0}, rel=0.03)
 
 
+@pytest.mark.deep
 def test_scale_of_the_tolerances_is_found_for_a_drawn_gearbox() -> None:
     drawn = actuator_parameters(load_design(PAPER), seed=1)
     wanted = rows_of(apply_factors(drawn, {"tolerance_scale": 2.0}), ["torque_ripple"])

@@ -124,6 +124,7 @@ def test_text_of_a_sheet_is_apart_and_on_the_page(paper, change):
         _assert_legible(draw_sheet(facts_of(flat, design)))
 
 
+@pytest.mark.deep
 @SEVERAL
 @given(machines())
 def test_sheets_of_any_design_are_legible(machine):
