@@ -20,8 +20,6 @@ PHYSICAL = ("balance", "friction_sign", "ripple")
 """Features that are made with an actuator's parameters; see :mod:`.physics`."""
 PLAIN = ("position_error", "velocity", "acceleration", *PHYSICAL)
 """Features that are no phase of the gearbox."""
-DERIVED = ("acceleration", "balance", "ripple")
-"""Features for which the velocity is differentiated."""
 
 
 def savitzky_golay(dt: float, points: int = 5, order: int = 2) -> Differentiator:
@@ -167,7 +165,7 @@ def feature_matrix(
     inputs : tuple of str
         Names as in `Artefact.inputs`.
     differentiator : Differentiator, optional
-        Needed for those in `DERIVED`.
+        Needed for ``acceleration``, ``balance`` and ``ripple``.
     physics : ActuatorParameters, optional
         Needed for those in `PHYSICAL`: the actuator whose torque is estimated.
 
@@ -176,32 +174,21 @@ def feature_matrix(
     UsageError
         For an unknown feature, or one without what it is made from.
     """
-    columns = [_feature(episode, name, differentiator, physics) for name in inputs]
+    made = _physical(episode, inputs, differentiator, physics)
+    columns = [
+        made[name] if name in made else _feature(episode, name, differentiator) for name in inputs
+    ]
     return np.stack(columns, axis=1)
 
 
-def _feature(
-    episode: Episode,
-    name: str,
-    differentiator: Differentiator | None,
-    physics: ActuatorParameters | None,
-) -> FloatArray:
+def _feature(episode: Episode, name: str, differentiator: Differentiator | None) -> FloatArray:
     columns = episode.columns
     if name == "position_error":
         return np.asarray(columns["target"], np.float64) - columns["position"]
     if name == "velocity":
         return np.asarray(columns["velocity"], np.float64)
-    if name in DERIVED and differentiator is None:
-        raise UsageError(f"the feature '{name}' needs a differentiator.")
-    if name == "acceleration" and differentiator is not None:
-        return acceleration(columns["velocity"], differentiator)
-    if name in PHYSICAL:
-        if physics is None:
-            raise UsageError(
-                f"the feature '{name}' is made with an actuator's parameters, and none are given; "
-                "name its design."
-            )
-        return _physical(episode, name, differentiator, physics)
+    if name == "acceleration":
+        return acceleration(columns["velocity"], _needed(differentiator, name))
     wave, _, order = name.partition("_")
     if wave in ("sin", "cos") and order.isdecimal() and int(order) > 0:
         turn = int(order) * np.asarray(columns["position"], np.float64)
@@ -214,20 +201,35 @@ def _feature(
 
 def _physical(
     episode: Episode,
-    name: str,
+    inputs: tuple[str, ...],
     differentiator: Differentiator | None,
-    physics: ActuatorParameters,
-) -> FloatArray:
+    physics: ActuatorParameters | None,
+) -> dict[str, FloatArray]:
+    """Those of the inputs that are made with an actuator's parameters, each made once."""
+    wanted = [name for name in inputs if name in PHYSICAL]
+    if not wanted:
+        return {}
     from cqdd_design.torque.physics import dry_friction, friction_sign, gear_ripple, motion_balance
 
-    velocity = np.asarray(episode.columns["velocity"], np.float64)
-    if name == "friction_sign" or differentiator is None:
-        return friction_sign(physics, velocity)
-    balance = motion_balance(physics, episode, differentiator)
-    if name == "balance":
-        return balance
-    left = balance - dry_friction(physics) * friction_sign(physics, velocity)
-    return gear_ripple(physics, episode.columns["position"], left)
+    slopes = [_needed(differentiator, name) for name in wanted if name != "friction_sign"]
+    if physics is None:
+        raise UsageError(
+            f"the feature '{wanted[0]}' is made with an actuator's parameters, and none are given; "
+            "name its design."
+        )
+    made = {"friction_sign": friction_sign(physics, episode.columns["velocity"])}
+    if slopes:
+        made["balance"] = motion_balance(physics, episode, slopes[0])
+    if "ripple" in wanted:
+        left = made["balance"] - dry_friction(physics) * made["friction_sign"]
+        made["ripple"] = gear_ripple(physics, episode.columns["position"], left)
+    return made
+
+
+def _needed(differentiator: Differentiator | None, name: str) -> Differentiator:
+    if differentiator is None:
+        raise UsageError(f"the feature '{name}' needs a differentiator.")
+    return differentiator
 
 
 def windows(matrix: FloatArray, history: int) -> FloatArray:
