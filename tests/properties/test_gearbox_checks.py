@@ -284,6 +284,41 @@ def test_thicker_pins_named_by_the_remedy_pass_in_bending() -> None:
     assert thick["PIN-BENDING-PEAK"].status == "pass"
 
 
+@pytest.mark.parametrize("sleeve", ["0 mm", "6 mm"])
+def test_the_numbers_of_a_pin_stress_give_its_value(sleeve: str) -> None:
+    """F, diameter, thickness and arm as printed, by the formula of the guide."""
+    checks = changed(
+        {"reducer.output_pins.sleeve_diameter": sleeve, "reducer.output_pins.count": 8}
+    )
+
+    def printed(check_id: str) -> list[float]:
+        inside = re.search(r"\(F (.*)\) at", checks[check_id].substituted)
+        assert inside
+        return [float(word) for word in re.findall(r"[\d.]+", inside.group(1))]
+
+    force, d = printed("PIN-SHEAR-PEAK")
+    assert checks["PIN-SHEAR-PEAK"].value == pytest.approx(force / (math.pi / 4.0 * d**2), rel=1e-3)
+    force, d, arm = printed("PIN-BENDING-PEAK")
+    assert checks["PIN-BENDING-PEAK"].value == pytest.approx(
+        32.0 * force * arm / (math.pi * d**3), rel=1e-3
+    )
+    force, d, b = printed("PIN-BEARING-PEAK")
+    assert d == (6.0 if sleeve == "6 mm" else 4.0)
+    assert checks["PIN-BEARING-PEAK"].value == pytest.approx(force / (d * b), rel=1e-3)
+
+
+def test_a_larger_sleeve_named_by_the_remedy_passes() -> None:
+    soft = PAPER.replacing(
+        {"reducer.output_pins.sleeve_diameter": "5 mm", "requirements.peak_torque": "300 N*m"}
+    )
+    check = by_id(analyse_gearbox(soft))["PIN-BEARING-PEAK"]
+    assert check.status == "fail"
+    named = re.search(r"sleeve_diameter to ([\d.]+) mm", check.remedy)
+    assert named, check.remedy
+    wider = soft.replacing({"reducer.output_pins.sleeve_diameter": f"{named.group(1)} mm"})
+    assert by_id(analyse_gearbox(wider))["PIN-BEARING-PEAK"].status == "pass"
+
+
 def test_motor_shortfall_is_a_warning_unless_the_motor_is_named() -> None:
     more = {"requirements.peak_torque": "119 N*m"}
     assert changed(more)["MOTOR-PEAK"].status == "warn"
