@@ -330,8 +330,13 @@ def test_a_motor_without_data_is_said_not_guessed() -> None:
     analysis = analyse_gearbox(SOUND.replacing({"motor.name": "T-Motor U8 KV150"}))
     assert any("no peak torque" in words for words in analysis.warnings)
     assert "MOTOR-PEAK" not in by_id(analysis)
+    lacking = by_id(analysis)["MOTOR-DATA"]
+    assert (lacking.value, lacking.limit, lacking.status) == (1.0, 4.0, "warn")
+    assert "no peak torque, no rated torque, no stator bore" in lacking.substituted
+    assert worst_status(analysis.checks) == "warn"
     geared = analyse_gearbox(SOUND.replacing({"motor.name": "CubeMars AK80-9 V3"}))
     assert any("geared actuator" in words for words in geared.warnings)
+    assert (by_id(geared)["MOTOR-DATA"].value, worst_status(geared.checks)) == (0.0, "warn")
 
 
 def test_disc_count_rule_and_balance() -> None:
@@ -447,8 +452,9 @@ def test_guide_and_checks_speak_of_the_same_things() -> None:
             assert check.formula == guide.formula
             assert all((check.substituted, check.why, check.remedy, check.source))
             seen.add(check.id)
-    # Needle cages alone have raceways; solids are turned only when asked to.
-    assert seen == set(CHECK_GUIDE) - {"BEARING-RACEWAY", "ASSEMBLY-CLEAR"}
+    # Needle cages alone have raceways, motors without data a line that says so; solids are
+    # turned only when asked to.
+    assert seen == set(CHECK_GUIDE) - {"BEARING-RACEWAY", "ASSEMBLY-CLEAR", "MOTOR-DATA"}
     with pytest.raises(UsageError, match="BEARING-LIFE"):
         check_guide("BEARING-LIVE")
 

@@ -397,6 +397,17 @@ _ROWS = (
         "warn",
     ),
     CheckGuide(
+        "MOTOR-DATA",
+        "Motor data that the checks need",
+        "",
+        "min",
+        "known figures of: peak torque, rated torque, speed constant, stator bore",
+        "What is not known cannot be checked: without these figures nothing says that the motor "
+        "is enough. Shown only where one is missing, or a geared actuator stands for a motor.",
+        "motor catalogue",
+        "warn",
+    ),
+    CheckGuide(
         "ASSEMBLY-CLEAR",
         "Solids that run into each other",
         "",
