@@ -532,3 +532,44 @@ def test_a_disc_without_concave_valleys_says_so() -> None:
     assert "EDM-DISC" not in by_id(analysis)
     assert any("no concave valley" in words for words in analysis.warnings)
     assert by_id(analysis)["GEO-K1-LEAST"].status == "fail"
+
+
+def test_every_limit_is_the_one_the_sources_give() -> None:
+    """The constants of `allowables`, once more, in the units that their sources print."""
+    shares = {
+        "SHORTENING_LEAST": 0.3,
+        "SHORTENING_MOST": 0.85,
+        "UNDERCUT_SHARE": 0.9,
+        "TOOTH_OVERLAP_SHARE": 0.85,
+        "SHAFT_CORE_SHARE": 0.25,
+        "FIRST_YIELD_FACTOR": 1.67,
+        "PIN_SAFETY_AT_PEAK": 1.2,
+        "SHEAR_YIELD_SHARE": 0.58,
+        "PAPER_SHEAR_SHARE": 0.5,
+        "PIN_FATIGUE_SHARE": 0.25,
+        "SHAKING_SHARE": 0.1,
+        "REDUCER_EFFICIENCY": 0.88,
+        "HARDENED_HRC": 58.0,
+    }
+    assert {name: getattr(allowables, name) for name in shares} == shares
+    millimetres = {"RING_WALL": 2.5, "LIGAMENT": 1.5, "SLEEVE_WALL": 0.5, "BALANCE_GRADE": 6.3}
+    assert {name: 1e3 * getattr(allowables, name) for name in millimetres} == millimetres
+
+
+def test_limits_of_the_profile_follow_from_the_geometry() -> None:
+    checks, reducer = by_id(analyse_gearbox(SOUND)), SOUND.reducer
+    disc = CycloidDisc.from_design(SOUND)
+    undercut = 1e3 * disc.unmodified.undercut_radius_limit
+    assert checks["GEO-UNDERCUT"].limit == pytest.approx(0.9 * undercut)
+    touching = 1e3 * reducer.ring_pitch_radius * math.sin(math.pi / 11)
+    assert checks["GEO-TOOTH-OVERLAP"].limit == pytest.approx(0.85 * touching)
+
+
+@pytest.mark.parametrize("discs", [2, 3])
+def test_the_shaking_couple_is_carried_over_all_discs(discs: int) -> None:
+    """|sum m r z| omega^2 over the width of all discs, against a tenth of the cam's load."""
+    design = SOUND.replacing({"reducer.disc_count": discs, "reducer.disc_thickness": "6 mm"})
+    analysis = analyse_gearbox(design)
+    check = by_id(analysis)["BALANCE-COUPLE"]
+    assert check.value == pytest.approx(analysis.balance.shaking_moment / (discs * 6e-3))
+    assert check.limit == pytest.approx(0.1 * analysis.cam_bearing.continuous_load)

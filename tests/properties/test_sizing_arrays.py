@@ -193,3 +193,29 @@ def test_the_mass_is_that_of_the_parts():
     assert points.mass[0] < expected
     assert points.mass[0] == pytest.approx(expected, rel=2e-2)
     assert points.reflected_inertia[0] - points.gearbox_inertia[0] == pytest.approx(5.6e-4)
+
+
+def test_the_inertia_is_that_of_the_parts():
+    """Every part as a body about the crank's axis: those of disc and carrier turn at 1/n."""
+    evaluator, points = points_near(10, (160, 80, 3, 90), 12, 0)
+    design = design_of(evaluator, points, 0)
+    reducer, n = design.reducer, 10
+    bearing = find_bearing(reducer.cam_bearing.designation)
+    steel, b, e = 7850.0, reducer.disc_thickness, reducer.eccentricity
+    moments = disc_moments(
+        design,
+        0,
+        bore_diameter=bearing.outer_diameter,
+        pin_mean_diameter=pin_mean_diameter(design),
+    )
+    disc, disc_spin = steel * b * moments.area, steel * b * (moments.xx + moments.yy)
+    bore, seat = 0.5 * bearing.bore_diameter, 0.5 * bearing.outer_diameter
+    shaft = SHAFT_DENSITY * math.pi * bore**2 * b
+    # Steiner: a body turns about its own centre and its centre about the axis.
+    with_crank = shaft * (0.5 * bore**2 + e**2) + 0.5 * bearing.mass * (bore**2 + e**2)
+    round_it = (disc + 0.5 * bearing.mass) * e**2
+    with_output = (disc_spin + 0.5 * bearing.mass * seat**2) / n**2
+    pin = steel * math.pi / 4.0 * 0.004**2 * (2 * b + 3 * 0.5e-3)
+    pins = 12 * pin * reducer.output_pins.circle_radius**2 / n**2
+    expected = 2.0 * (with_crank + round_it + with_output) + pins
+    assert points.gearbox_inertia[0] == pytest.approx(expected, rel=1e-3)
