@@ -162,18 +162,6 @@ def ring_radial_force(
     return np.asarray(np.sum(force * radial, axis=-1))
 
 
-def output_pin_angles(
-    lobe_count: int, pin_count: int, hole_clocking: ArrayLike, crank_angle: ArrayLike
-) -> FloatArray:
-    """Angles of the output pins in the ring's frame, shape (..., A, N_w), rad.
-
-    -phi/n + clocking + 2 pi j/N_w, `hole_clocking` (...) in rad.
-    """
-    (clocking,) = _columns(hole_clocking, extra=2)
-    carrier = kinematics.carrier_angle(lobe_count, crank_angle)[:, None]
-    return np.asarray(carrier + clocking + 2.0 * np.pi * np.arange(pin_count) / pin_count)
-
-
 def output_pin_forces(
     lobe_count: int,
     pin_count: int,
@@ -199,7 +187,7 @@ def output_pin_forces(
         Forces in N, all along -u. The peak over a period is 4 T/(N_w R_w) for even N_w.
     """
     radius, torque = _columns(pin_circle_radius, disc_torque, extra=2)
-    pins = output_pin_angles(lobe_count, pin_count, hole_clocking, crank_angle)
+    pins = kinematics.output_pin_angles(lobe_count, pin_count, hole_clocking, crank_angle)
     angle = np.asarray(crank_angle, dtype=float)[:, None]
     return _shared(torque, radius * np.sin(angle - pins))
 
@@ -369,7 +357,7 @@ def output_stage(
         Crank angle of this disc, rad.
     """
     angle = np.asarray(crank_angle, dtype=float)
-    pins = output_pin_angles(lobe_count, pin_count, hole_clocking, angle)
+    pins = kinematics.output_pin_angles(lobe_count, pin_count, hole_clocking, angle)
     towards = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     radius, contact = _columns(pin_circle_radius, contact_radius, extra=3)
     place = radius * np.stack([np.cos(pins), np.sin(pins)], axis=-1)

@@ -29,6 +29,7 @@ from cqdd_design.gearbox.contact.sweep import (
     contact_sweep,
     perfect_angles,
 )
+from cqdd_design.geometry import kinematics
 
 SEEDS = st.integers(0, 2**32 - 1)
 SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much]
@@ -95,7 +96,7 @@ def test_discs_of_an_ideal_stack_share_by_their_stiffness() -> None:
     for phase in model.phases:
         own = angle + phase
         arms = rigid.ring_lever_arms(n, model.disc.ring_pitch_radius, model.eccentricity, own)
-        beta = rigid.output_pin_angles(n, 5, model.hole_clocking + phase / n, own)
+        beta = kinematics.output_pin_angles(n, 5, model.hole_clocking + phase / n, own)
         pins = model.pin_circle_radius * np.sin(own[:, None] - beta)
         ring_side = (np.minimum(arms, 0.0) ** 2).sum(axis=1)
         pin_side = (np.minimum(pins, 0.0) ** 2).sum(axis=1)

@@ -356,8 +356,7 @@ def _assemble(
     carrier = state[:, :2]
     energy += 0.5 * (model.carrier_stiffness or 0.0) * np.sum(carrier**2, axis=-1)
     energy -= torque * state[:, 2] / length
-    own = states.crank_angle[:, None] + model.phases
-    centre = model.eccentricity * np.stack([np.cos(own), np.sin(own)], axis=-1)
+    centre = kinematics.disc_centre(model.eccentricity, states.crank_angle[:, None], model.phases)
     pin_normal = states.rows[:, :, teeth:, :2]
     pin_at = model.pin_circle_radius * np.stack(
         [np.cos(states.pins.pin_angle), np.sin(states.pins.pin_angle)], axis=-1
