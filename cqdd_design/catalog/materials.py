@@ -27,8 +27,6 @@ class Material:
         Endurance limit in rotating bending, Pa.
     contact_allowable : float or None
         Static contact pressure quoted by the source, Pa; for information.
-    thermal_conductivity : float or None
-        W/(m K).
     source : str
         Where the row comes from.
     """
@@ -42,7 +40,6 @@ class Material:
     hardness: str
     fatigue_strength: float | None
     contact_allowable: float | None
-    thermal_conductivity: float | None
     source: str
 
     @property
@@ -76,7 +73,6 @@ def materials() -> dict[str, Material]:
             hardness=row["hardness"],
             fatigue_strength=optional_number(row, "fatigue_MPa", 1e6),
             contact_allowable=optional_number(row, "contact_allow_MPa", 1e6),
-            thermal_conductivity=optional_number(row, "k_W_mK"),
             source=row["source"],
         )
     return table

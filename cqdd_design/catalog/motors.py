@@ -27,8 +27,8 @@ class Motor:
         Number of pole pairs.
     rotor_inertia, mass : float or None
         kg m^2 and kg.
-    rated_torque, peak_torque, rated_current, peak_current, rated_voltage : float or None
-        N*m, A, V.
+    rated_torque, peak_torque, rated_current, peak_current : float or None
+        N*m, A.
     gear_ratio : float or None
         Of a geared actuator.
     outer_diameter, length, bore_diameter : float or None
@@ -56,7 +56,6 @@ class Motor:
     peak_torque: float | None
     rated_current: float | None
     peak_current: float | None
-    rated_voltage: float | None
     gear_ratio: float | None
     outer_diameter: float | None
     length: float | None
@@ -100,7 +99,6 @@ def motors() -> dict[str, Motor]:
             peak_torque=optional_number(row, "t_peak_Nm"),
             rated_current=optional_number(row, "i_rated_A"),
             peak_current=optional_number(row, "i_peak_A"),
-            rated_voltage=optional_number(row, "volt_V"),
             gear_ratio=optional_number(row, "ratio"),
             outer_diameter=optional_number(row, "od_mm", 1e-3),
             length=optional_number(row, "len_mm", 1e-3),

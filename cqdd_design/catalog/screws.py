@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from dataclasses import dataclass
 
-from cqdd_design.catalog.reader import find, number, optional_number, read_rows
+from cqdd_design.catalog.reader import number, optional_number, read_rows
 from cqdd_design.errors import CatalogError
 
 
@@ -23,7 +23,7 @@ class ShoulderScrew:
         Nominal, m.
     shoulder_diameter_max, shoulder_diameter_min : float
         Limits of the ground shoulder, m (f9 for metric screws; nominal where the source has none).
-    thread_pitch, head_diameter, head_height, thread_length, socket_size : float or None
+    head_diameter, head_height, thread_length, socket_size : float or None
         m; None where the source gives none.
     standard_lengths : str
         Range of shoulder lengths, as printed, mm.
@@ -36,7 +36,6 @@ class ShoulderScrew:
     shoulder_diameter: float
     shoulder_diameter_max: float
     shoulder_diameter_min: float
-    thread_pitch: float | None
     head_diameter: float | None
     head_height: float | None
     thread_length: float | None
@@ -63,7 +62,6 @@ def shoulder_screws() -> dict[str, ShoulderScrew]:
             shoulder_diameter=nominal,
             shoulder_diameter_max=optional_number(row, "d_max_mm", 1e-3) or nominal,
             shoulder_diameter_min=optional_number(row, "d_min_mm", 1e-3) or nominal,
-            thread_pitch=optional_number(row, "pitch_mm", 1e-3),
             head_diameter=optional_number(row, "head_d_mm", 1e-3),
             head_height=optional_number(row, "head_h_mm", 1e-3),
             thread_length=optional_number(row, "thread_len_mm", 1e-3),
@@ -96,8 +94,3 @@ def find_shoulder_screw(diameter: float) -> ShoulderScrew:
     raise CatalogError(
         f"no shoulder screw has a {diameter * 1e3:g} mm shoulder; the nearest are {sizes}."
     )
-
-
-def find_screw_by_name(name: str) -> ShoulderScrew:
-    """The shoulder screw called `name` (for the catalogue command)."""
-    return find(name, shoulder_screws(), "shoulder screw")

@@ -264,8 +264,6 @@ class RingStage:
         N, not negative.
     normal, point : array (..., A, n+1, 2)
         Unit direction of the force on the disc, and where it acts (m, ring's frame).
-    lever_arm : array (..., A, n+1)
-        About the disc centre, m, signed.
     flank_parameter : array (A, n+1)
         Parameter t of the disc flank that touches each tooth, rad.
     """
@@ -273,7 +271,6 @@ class RingStage:
     force: FloatArray
     normal: FloatArray
     point: FloatArray
-    lever_arm: FloatArray
     flank_parameter: FloatArray
 
 
@@ -309,7 +306,6 @@ def ring_stage(
         force=ring_forces(lobe_count, ring_pitch_radius, eccentricity, disc_torque, angle),
         normal=normal,
         point=radius * unit + tooth * normal,
-        lever_arm=ring_lever_arms(lobe_count, ring_pitch_radius, eccentricity, angle),
         flank_parameter=ring_flank_parameters(lobe_count, angle),
     )
 
@@ -326,14 +322,11 @@ class OutputStage:
         -u, the direction of every pin force on the disc.
     point : array (..., A, N_w, 2)
         Where it acts, m, ring's frame.
-    lever_arm : array (..., A, N_w)
-        R_w sin(phi - beta), m, signed; positive arms carry a positive torque.
     """
 
     force: FloatArray
     normal: FloatArray
     point: FloatArray
-    lever_arm: FloatArray
 
 
 def output_stage(
@@ -361,12 +354,10 @@ def output_stage(
     towards = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     radius, contact = _columns(pin_circle_radius, contact_radius, extra=3)
     place = radius * np.stack([np.cos(pins), np.sin(pins)], axis=-1)
-    (arm_radius,) = _columns(pin_circle_radius, extra=2)
     return OutputStage(
         force=output_pin_forces(
             lobe_count, pin_count, pin_circle_radius, disc_torque, angle, hole_clocking
         ),
         normal=-towards,
         point=place - contact * towards[:, None, :],
-        lever_arm=np.asarray(arm_radius * np.sin(angle[:, None] - pins)),
     )

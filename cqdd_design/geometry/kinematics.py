@@ -230,13 +230,3 @@ def cam_bearing_speed_ring_fixed(lobe_count: int, input_speed: ArrayLike) -> Flo
     the input.
     """
     return np.asarray(input_speed, dtype=float) * (1.0 + 1.0 / lobe_count)
-
-
-def cam_bearing_speed_carrier_fixed(input_speed: ArrayLike) -> FloatArray:
-    """Speed of the crank relative to the disc with the carrier fixed: the input speed."""
-    return np.asarray(input_speed, dtype=float) * 1.0
-
-
-def output_speed_ring_fixed(lobe_count: int, input_speed: ArrayLike) -> FloatArray:
-    """Speed of the carrier, -1/n of the input, same unit as the input."""
-    return np.asarray(input_speed, dtype=float) / ratio_ring_fixed(lobe_count)

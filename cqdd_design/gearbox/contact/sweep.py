@@ -157,11 +157,6 @@ class ContactSweep:
         """Loaded ring teeth, (A, D)."""
         return np.asarray(np.sum(self.ring_force > 0.0, axis=-1), dtype=np.int64)
 
-    @property
-    def pins_in_contact(self) -> IntArray:
-        """Loaded output pins, (A, D)."""
-        return np.asarray(np.sum(self.pin_force > 0.0, axis=-1), dtype=np.int64)
-
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form (``contact``): the arrays, and their maxima over this sweep."""
         share = np.abs(self.disc_torque).mean(axis=0)
