@@ -21,6 +21,7 @@ _UNITS = {
     "yield_strength": ("MPa", 1e-6),
     "ultimate_strength": ("MPa", 1e-6),
     "fatigue_strength": ("MPa", 1e-6),
+    "pulsating_strength": ("MPa", 1e-6),
     "contact_allowable": ("MPa", 1e-6),
     "density": ("kg_m3", 1.0),
     "speed_constant": ("rpm_V", 30.0 / 3.141592653589793),

@@ -573,3 +573,70 @@ def test_the_shaking_couple_is_carried_over_all_discs(discs: int) -> None:
     check = by_id(analysis)["BALANCE-COUPLE"]
     assert check.value == pytest.approx(analysis.balance.shaking_moment / (discs * 6e-3))
     assert check.limit == pytest.approx(0.1 * analysis.cam_bearing.continuous_load)
+
+
+def test_ranges_of_the_strength_rules() -> None:
+    """Pitting strength ends at 400 HB; what is not as stiff as steel is no steel."""
+    hard = allowables.contact_limit_fatigue(find_material("AISI 4340 Q&T 425C"))
+    assert hard.value == pytest.approx(2.22e6 * 400.0 + 200e6)
+    assert "held at 400 HB" in hard.basis
+    steels = [name for name, one in materials().items() if allowables.is_steel(one)]
+    assert len(steels) >= 20
+    assert not {"7075-T6", "Brass CuZn39Pb3", "Bronze CuSn12"} & set(steels)
+
+
+def test_a_case_is_no_through_hardening() -> None:
+    case = find_material("SCM415/16MnCr5 case hardened")
+    assert case.yield_strength is not None
+    static = allowables.contact_limit_static(case)
+    assert static.value == pytest.approx(1.67 * case.yield_strength)
+    assert allowables.contact_limit_fatigue(case).value == pytest.approx(1500e6)
+
+
+def test_a_sleeve_is_ground_to_size() -> None:
+    """What a sleeve leaves of the hole clearance is all of it; a pin has a band."""
+    sleeved = {"reducer.output_pins.sleeve_diameter": "6 mm", "reducer.output_pins.count": 8}
+    assert changed(sleeved)["FIT-PIN-HOLE"].value == pytest.approx(16.0)
+    assert changed({})["FIT-PIN-HOLE"].value == pytest.approx(16.0 - 15.0)
+
+
+def test_more_pins_named_by_the_remedy_carry_the_load() -> None:
+    few = SOUND.replacing(
+        {
+            "reducer.output_pins.count": 6,
+            "reducer.output_pins.diameter": "3 mm",
+            "requirements.peak_torque": "100 N*m",
+        }
+    )
+    check = by_id(analyse_gearbox(few))["PIN-BENDING-PEAK"]
+    assert check.status == "fail"
+    named = re.search(r"or (\d+) of them", check.remedy)
+    assert named, check.remedy
+    count = int(named.group(1))
+    more = by_id(analyse_gearbox(few.replacing({"reducer.output_pins.count": count})))
+    assert more["PIN-BENDING-PEAK"].status == "pass"
+    fewer = by_id(analyse_gearbox(few.replacing({"reducer.output_pins.count": count - 2})))
+    assert fewer["PIN-BENDING-PEAK"].status == "fail"
+
+
+def test_the_wire_named_by_the_remedy_passes() -> None:
+    """Valleys finer than the wire: the remedy's wire just goes through them."""
+    fine = SOUND.replacing(
+        {
+            "reducer.ring_pin_diameter": "0.3 mm",
+            "reducer.eccentricity": "2.9 mm",
+            "reducer.ring.outer_diameter": "90 mm",
+            "reducer.ring.relief_clearance": "0.01 mm",
+            "edm.wire_diameter": "0.25 mm",
+            "edm.spark_gap": "100 um",
+        }
+    )
+    check = by_id(analyse_gearbox(fine))["EDM-DISC"]
+    assert check.status == "fail"
+    named = re.search(r"wire of at most ([\d.]+) mm", check.remedy)
+    assert named, check.remedy
+    wire = float(named.group(1))
+    thinner = {"edm.wire_diameter": f"{wire} mm"}
+    assert by_id(analyse_gearbox(fine.replacing(thinner)))["EDM-DISC"].status == "pass"
+    thicker = {"edm.wire_diameter": f"{1.02 * wire:.4f} mm"}
+    assert by_id(analyse_gearbox(fine.replacing(thicker)))["EDM-DISC"].status == "fail"

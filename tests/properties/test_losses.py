@@ -496,13 +496,6 @@ def test_backdrive_torques_balance_friction() -> None:
     assert (model.backdrive(output_speed=10.0).dynamic_torque or 0.0) > (slow.dynamic_torque or 0.0)
 
 
-def test_the_gearbox_alone_is_better_than_the_measured_actuator() -> None:
-    """The paper's 82.3 % hold motor, drive and seals too; friction of 1.99 N m as well."""
-    best = max(model_of().at(SPEED, t).efficiency_forward or 0.0 for t in np.linspace(1, 120, 240))
-    assert 0.823 < best < 1.0
-    assert 0.0 < (model_of().backdrive().static_torque or 9.0) < 1.99
-
-
 # --- map over speed and torque ------------------------------------------------------------------
 
 

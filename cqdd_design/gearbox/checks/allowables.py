@@ -70,13 +70,9 @@ SHEAR_YIELD_SHARE = 0.58
 """Yield in shear over yield in tension (von Mises, 1/sqrt 3)."""
 PAPER_SHEAR_SHARE = 0.5
 """Allowable shear over ultimate strength in the paper's pin figure: 35 of 70 ksi."""
-PIN_FATIGUE_12_9 = 300e6
-"""Pulsating bending stress of a 12.9 shoulder screw, Pa (about S_u/4: ground shoulder, fillet)."""
-PIN_FATIGUE_18_8 = 120e6
-"""Pulsating bending stress of an annealed 18-8 shoulder screw, Pa (about S_u/4)."""
 PIN_FATIGUE_SHARE = 0.25
-"""Pulsating bending stress over ultimate strength for other materials: the share both values
-above have."""
+"""Pulsating bending stress over ultimate strength where the catalogue tables none: the share that
+the tabled shoulder screws have."""
 
 # Cam bearing ------------------------------------------------------------------------------------
 STATIC_SAFETY = 1.0
@@ -147,8 +143,8 @@ def brinell_estimate(material: Material) -> tuple[float, str] | None:
 
 def _through_hardened(material: Material) -> bool:
     hardness = material.rockwell_hardness
-    surface_only = "surface" in material.hardness or "case" in material.name
-    return hardness is not None and hardness >= HARDENED_HRC and not surface_only
+    through = material.treatment != "case-hardened"
+    return hardness is not None and hardness >= HARDENED_HRC and through
 
 
 def contact_limit_static(material: Material) -> Allowable:
@@ -259,10 +255,8 @@ def pin_bending_limit_continuous(material: Material, *, duty_reverses: bool) -> 
     ultimate = material.ultimate_strength
     if ultimate is None:
         return Allowable(0.0, f"no ultimate strength in the catalogue for {material.name}")
-    if material.name.startswith("Alloy steel 12.9"):
-        value, words = PIN_FATIGUE_12_9, "tabled for 12.9 screws"
-    elif material.name.startswith(("18-8", "304 / 18-8")):
-        value, words = PIN_FATIGUE_18_8, "tabled for annealed 18-8 screws"
+    if material.pulsating_strength is not None:
+        value, words = material.pulsating_strength, material.pulsating_basis
     else:
         value, words = PIN_FATIGUE_SHARE * ultimate, f"S_u/4 of {material.name}"
         if material.fatigue_strength is not None and material.fatigue_strength < value:

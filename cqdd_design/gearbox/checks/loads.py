@@ -86,7 +86,7 @@ def _harder_parts(parts: dict[str, Material], rule: _MaterialRule, pressure: flo
         enough = [
             (rule(other).value, other.name)
             for other in materials().values()
-            if rule(other).value >= pressure and (part == "pins" or not _is_fastener(other))
+            if rule(other).value >= pressure and (part == "pins" or other.form != "fastener")
         ]
         if not enough:
             most = rounded_up(pressure / _MEGA)
@@ -94,10 +94,6 @@ def _harder_parts(parts: dict[str, Material], rule: _MaterialRule, pressure: flo
         value, name = min(enough)
         words.append(f"the {part} of '{name}' ({value / _MEGA:.0f} MPa)")
     return "make " + " and ".join(words)
-
-
-def _is_fastener(material: Material) -> bool:
-    return any(word in material.name for word in ("screw", "ISO 7379", "ISO 3506", "F593"))
 
 
 def _pins(state: GearboxState) -> tuple[Check, ...]:
