@@ -1,10 +1,11 @@
-"""Shoulder screws (ISO 7379 and the commercial small sizes), used as output pins."""
+"""Shoulder screws (ISO 7379 and the commercial small sizes), and the fit of output pins."""
 
 from __future__ import annotations
 
 import functools
 from dataclasses import dataclass
 
+from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.catalog.reader import number, optional_number, read_rows
 from cqdd_design.errors import CatalogError
 
@@ -46,7 +47,7 @@ class ShoulderScrew:
     @property
     def mean_diameter(self) -> float:
         """Mean of the shoulder's limits, m: what a fit is measured to."""
-        return 0.5 * (self.shoulder_diameter_max + self.shoulder_diameter_min)
+        return 0.5 * (self.shoulder_diameter_min + self.shoulder_diameter_max)
 
 
 @functools.lru_cache(maxsize=1)
@@ -94,3 +95,27 @@ def find_shoulder_screw(diameter: float) -> ShoulderScrew:
     raise CatalogError(
         f"no shoulder screw has a {diameter * 1e3:g} mm shoulder; the nearest are {sizes}."
     )
+
+
+def pin_diameter_limits(diameter: float) -> tuple[float, float]:
+    """Least and greatest real diameter of an output pin of a nominal size, m.
+
+    From the catalogue's shoulder screw of that size, else the f9 limits that such screws have.
+
+    Examples
+    --------
+    >>> [round(1e3 * d, 3) for d in pin_diameter_limits(4e-3)]
+    [3.96, 3.99]
+    """
+    try:
+        screw = find_shoulder_screw(diameter)
+    except CatalogError:
+        zone = fit_limits("f9", diameter)
+        return diameter + zone.lower, diameter + zone.upper
+    return screw.shoulder_diameter_min, screw.shoulder_diameter_max
+
+
+def mean_pin_diameter(diameter: float) -> float:
+    """Mean of the limits of an output pin of a nominal size, to which hole clearances count, m."""
+    least, greatest = pin_diameter_limits(diameter)
+    return 0.5 * (least + greatest)

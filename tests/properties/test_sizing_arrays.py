@@ -9,11 +9,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.catalog import find_bearing
+from cqdd_design.catalog.screws import pin_diameter_limits
 from cqdd_design.design import Requirements
 from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox import analyse_gearbox
 from cqdd_design.gearbox.loads import rigid_maxima
-from cqdd_design.gearbox.stages import Stages, pin_diameter_limits, pin_mean_diameter
+from cqdd_design.gearbox.stages import Stages, pin_mean_diameter
 from cqdd_design.geometry import (
     CycloidDisc,
     disc_moments,

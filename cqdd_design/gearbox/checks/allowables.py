@@ -163,7 +163,7 @@ def contact_limit_static(material: Material) -> Allowable:
     if _through_hardened(material):
         return Allowable(
             HARDENED_STATIC_PRESSURE,
-            f"{HARDENED_STATIC_PRESSURE / 1e6:.0f} MPa for steel hardened to 58 HRC "
+            f"{HARDENED_STATIC_PRESSURE / 1e6:.0f} MPa for steel hardened to {HARDENED_HRC:g} HRC "
             f"({material.name})",
         )
     if material.yield_strength is None:
@@ -195,7 +195,7 @@ def contact_limit_fatigue(material: Material) -> Allowable:
     if rockwell is not None and rockwell >= HARDENED_HRC:
         return Allowable(
             HARDENED_FATIGUE_PRESSURE,
-            f"{HARDENED_FATIGUE_PRESSURE / 1e6:.0f} MPa at 58 HRC ({material.name})",
+            f"{HARDENED_FATIGUE_PRESSURE / 1e6:.0f} MPa at {HARDENED_HRC:g} HRC ({material.name})",
         )
     estimate = brinell_estimate(material)
     if estimate is None:
@@ -209,7 +209,8 @@ def contact_limit_fatigue(material: Material) -> Allowable:
         remark = f", an estimate below the {AGMA_LEAST_HB:.0f} HB where the rule begins"
     return Allowable(
         AGMA_SLOPE * used + AGMA_BASE,
-        f"2.22 x {used:.0f} HB + 200 MPa ({material.name}, {words}{remark})",
+        f"{AGMA_SLOPE / 1e6:g} x {used:.0f} HB + {AGMA_BASE / 1e6:g} MPa "
+        f"({material.name}, {words}{remark})",
     )
 
 
@@ -258,7 +259,10 @@ def pin_bending_limit_continuous(material: Material, *, duty_reverses: bool) -> 
     if material.pulsating_strength is not None:
         value, words = material.pulsating_strength, material.pulsating_basis
     else:
-        value, words = PIN_FATIGUE_SHARE * ultimate, f"S_u/4 of {material.name}"
+        value, words = (
+            PIN_FATIGUE_SHARE * ultimate,
+            f"S_u/{1.0 / PIN_FATIGUE_SHARE:g} of {material.name}",
+        )
         if material.fatigue_strength is not None and material.fatigue_strength < value:
             value, words = material.fatigue_strength, f"endurance limit of {material.name}"
     if not duty_reverses:

@@ -38,7 +38,8 @@ def _balance(state: GearboxState) -> tuple[Check, ...]:
             static * 1e6,
             permitted * 1e6,
             f"{reducer.disc_count} x {mass * 1e3:.1f} g at {reducer.eccentricity * 1e3:g} mm leave "
-            f"{static * 1e6:.3g} g*mm; {total * 1e3:.1f} g x 6.3 mm/s/{speed:.1f} rad/s",
+            f"{static * 1e6:.3g} g*mm; {total * 1e3:.1f} g x "
+            f"{allowables.BALANCE_GRADE * 1e3:g} mm/s/{speed:.1f} rad/s",
             "use two discs, or set balance.counterweights = true, which needs a counterweight of "
             f"{moment * 1e6:.3g} g*mm",
         ),
