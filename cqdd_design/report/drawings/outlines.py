@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from cqdd_design.catalog.bearings import Bearing
@@ -11,7 +10,7 @@ from cqdd_design.gearbox.stages import pin_mean_diameter
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.contours import Circle, PlanarPart
 from cqdd_design.geometry.cycloid import CycloidDisc
-from cqdd_design.geometry.disc import disc_contour, hole_diameter
+from cqdd_design.geometry.disc import crank_phase, disc_contour, hole_diameter
 from cqdd_design.geometry.ring import ring_contour, ring_pins
 
 #: Distance of a drawn outline from the exact one, m: a hundredth of a px at the largest scale.
@@ -76,19 +75,19 @@ class Machine:
 
     def phase(self, disc: int) -> float:
         """Crank phase of a disc, rad."""
-        return float(kinematics.crank_phases(self.design.reducer.disc_count)[disc])
+        return crank_phase(self.design, disc)
 
     def posed_disc(self, disc: int, crank_angle: float) -> PlanarPart:
         """A disc in the fixed frame at a crank angle (rad)."""
-        turned = crank_angle + self.phase(disc)
-        e = self.design.reducer.eccentricity
-        return self.discs[disc].transformed(
-            float(kinematics.lobe_pattern_rotation(self.design.reducer.ratio, turned)),
-            (e * math.cos(turned), e * math.sin(turned)),
-        )
+        reducer, phase = self.design.reducer, self.phase(disc)
+        x, y = kinematics.disc_centre(reducer.eccentricity, crank_angle, phase)
+        turned = kinematics.lobe_pattern_rotation(reducer.ratio, crank_angle, phase)
+        return self.discs[disc].transformed(float(turned), (float(x), float(y)))
 
     def pin_angles(self, crank_angle: float) -> list[float]:
         """Angles of the output pins in the fixed frame, rad."""
-        pins = self.design.reducer.output_pins
-        first = -crank_angle / self.design.reducer.ratio + pins.hole_clocking
-        return [first + 2.0 * math.pi * j / pins.count for j in range(pins.count)]
+        reducer, pins = self.design.reducer, self.design.reducer.output_pins
+        angles = kinematics.output_pin_angles(
+            reducer.ratio, pins.count, pins.hole_clocking, [crank_angle]
+        )
+        return [float(angle) for angle in angles[0]]
