@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from cqdd_design.catalog import find_bearing, find_material, find_motor
-from cqdd_design.errors import CatalogError
+from cqdd_design.errors import CatalogError, shown
 
 if TYPE_CHECKING:
     from pydantic import GetCoreSchemaHandler
@@ -42,7 +42,7 @@ class Whole:
     def _validate(self, value: object) -> int:
         wanted = f"a whole number from {self.low} to {self.high} ({self.reason})"
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise ValueError(f"{value!r} is not {wanted}")
+            raise ValueError(f"{shown(value)} is not {wanted}")
         if not math.isfinite(value) or value != math.floor(value):
             raise ValueError(f"{value} is not {wanted}")
         if not self.low <= value <= self.high:
@@ -72,7 +72,7 @@ class Share:
     def _validate(self, value: object) -> float:
         wanted = f"a number from {self.low:g} to {self.high:g} ({self.reason})"
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise ValueError(f"{value!r} is not {wanted}")
+            raise ValueError(f"{shown(value)} is not {wanted}")
         if not self.low <= value <= self.high:
             nearest = self.high if value > self.high else self.low
             raise ValueError(f"{value:g} is not {wanted}; the nearest allowed is {nearest:g}")
