@@ -27,9 +27,9 @@ from typing import Any
 import numpy as np
 from processes import machine, write_section
 
-from cqdd_design.actuator import kernel
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.columns import LEDGER, PARAMETERS, TRACES
+from cqdd_design.actuator.kernels import stepping as kernel
 from cqdd_design.actuator.packing import (
     gear_table,
     kinematic_error,
@@ -165,7 +165,7 @@ def mujoco_rate(one: ActuatorParameters, step: float | None = None, runs: int = 
     """Steps a second of MuJoCo on the exported model, output free; its own step by default."""
     import mujoco
 
-    from cqdd_design.exporting.mjcf import model_text
+    from cqdd_design.exporting.simulators.mjcf import model_text
 
     model = mujoco.MjModel.from_xml_string(model_text(one, "actuator"))
     if step is not None:
@@ -184,7 +184,7 @@ def beside_mujoco(one: ActuatorParameters) -> list[tuple[str, str, str]]:
     """Rows of the same actuator, free at a constant voltage, in MuJoCo and here."""
     import mujoco
 
-    from cqdd_design.exporting.mjcf_classes import time_step
+    from cqdd_design.exporting.simulators.mjcf_classes import time_step
 
     free = Scenario(Command("voltage", Constant(VOLTS)), Load.free())
     kernel_rate(one, free, 1000, 1)

@@ -26,10 +26,10 @@ from processes import CONTACT_HEADING, machine, write_section
 
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.contact import laws
-from cqdd_design.gearbox.contact.kernel_sweep import solve_sweep
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, law_arguments, stiffness_scale
+from cqdd_design.gearbox.contact.sweep_kernel import solve_sweep
 from cqdd_design.gearbox.tolerance.draws import draw_errors
 from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
 from cqdd_design.gearbox.tolerance.evaluate import ensemble_tables, evaluate_gearboxes

@@ -28,19 +28,19 @@ from typing import Any
 import numpy as np
 from processes import machine, write_section
 
-from cqdd_design.exporting.c_header import header_text
-from cqdd_design.exporting.newton import newton_model
-from cqdd_design.exporting.onnx import streaming_model, window_model
-from cqdd_design.torque import gru_kernel
-from cqdd_design.torque.artefact import (
+from cqdd_design.exporting.estimators.c_header import header_text
+from cqdd_design.exporting.estimators.newton import newton_model
+from cqdd_design.exporting.estimators.onnx import streaming_model, window_model
+from cqdd_design.torque.networks import gru_kernel
+from cqdd_design.torque.networks.artefact import (
     Artefact,
     Differentiator,
     Validity,
     expected_shapes,
     read_artefact,
 )
-from cqdd_design.torque.folded import folded_gru
-from cqdd_design.torque.predict import Streaming
+from cqdd_design.torque.networks.folded import folded_gru
+from cqdd_design.torque.networks.predict import Streaming
 
 HEADING = "## Torque estimation"
 PACKAGES = ("numpy", "numba", "torch", "onnxruntime")

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from cqdd_design.gearbox import GearboxAnalysis
     from cqdd_design.gearbox.contact_analysis import ContactAnalysis
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
-    from cqdd_design.report.weighing import Bodies
+    from cqdd_design.machine.weighing import Bodies
     from cqdd_design.results import Check, Provenance
     from cqdd_design.sizing import SizingResult
     from cqdd_design.solids.clearances import AssemblyMotion
@@ -247,7 +247,7 @@ def assembly_motion(
 
 def assembly_check(motion: AssemblyMotion) -> Check:
     """The check ``ASSEMBLY-CLEAR`` of what a revolution showed."""
-    from cqdd_design.gearbox.guide import check_guide
+    from cqdd_design.gearbox.checks.guide import check_guide
     from cqdd_design.results import Check
 
     guide = check_guide("ASSEMBLY-CLEAR")
@@ -295,7 +295,7 @@ def inertia(
     from cqdd_design.catalog import find_bearing
     from cqdd_design.gearbox import with_chosen_bearing
     from cqdd_design.gearbox.balance import paper_disc_count
-    from cqdd_design.report.weighing import weigh
+    from cqdd_design.machine.weighing import weigh
     from cqdd_design.solids.mesh import mass_properties
 
     chosen = with_chosen_bearing(design)
@@ -350,9 +350,9 @@ def write_report(
     from cqdd_design.actuator_pipeline import measured_actuator
     from cqdd_design.files import refuse_overwrite, write_atomically
     from cqdd_design.gearbox import analyse_gearbox
+    from cqdd_design.machine.weighing import weigh_if_possible
     from cqdd_design.report import ReportInput, build_report, read_comments
     from cqdd_design.report.machine_view.apart import start_drawing
-    from cqdd_design.report.weighing import weigh_if_possible
     from cqdd_design.sizing.comparison import compare_with_planetary
 
     target = path or Path("reports") / f"{design.name}.html"

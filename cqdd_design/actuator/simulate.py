@@ -206,7 +206,7 @@ def simulate(
     ledgers = np.zeros((len(sets), len(LEDGER)))
     work: tuple[Any, ...] = (rows, tables, *signals, step, steps, every, traces, ledgers)
     if engine == "plain":
-        from cqdd_design.actuator.plain import run_sets
+        from cqdd_design.actuator.twin.stepping import run_sets
 
         run_sets(*work)
     else:
@@ -240,7 +240,7 @@ def run_compiled(work: tuple[Any, ...], threads: int | None = None) -> None:
 
     import numba
 
-    from cqdd_design.actuator import kernel
+    from cqdd_design.actuator.kernels import stepping as kernel
 
     run_sets: Any = kernel.run_sets
     count = len(work[0])

@@ -22,7 +22,6 @@ import numpy as np
 from cqdd_design.actuator.parameters import FloatArray, IntArray
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
-from cqdd_design.gearbox import kinematics
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.contact.sweep import (
@@ -33,6 +32,7 @@ from cqdd_design.gearbox.contact.sweep import (
 )
 from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.gearbox.tolerance.draws import draw_errors
+from cqdd_design.geometry import kinematics
 
 MOST_ORDERS = 64
 NOISE_FLOOR = 1e-3

@@ -19,7 +19,7 @@ def explain(
     ] = None,
 ) -> None:
     """Tell what a check means: its rule, why it matters, where it comes from."""
-    from cqdd_design.gearbox.guide import CHECK_GUIDE, check_guide
+    from cqdd_design.gearbox.checks.guide import CHECK_GUIDE, check_guide
 
     if check is None:
         out.say(table([[g.id, g.title] for g in CHECK_GUIDE.values()], head=["check", "what"]))

@@ -9,7 +9,7 @@ from cqdd_design.cli.session import Output, read_factors
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
-    from cqdd_design.torque.episodes import DataSet
+    from cqdd_design.torque.data.episodes import DataSet
 
 
 def data_actuator(

@@ -16,9 +16,9 @@ from cqdd_design.errors import UsageError
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from cqdd_design.torque.bootstrap import Interval
-    from cqdd_design.torque.evaluation import EvaluationResult
-    from cqdd_design.torque.scoring import SetResult
+    from cqdd_design.torque.evaluation.bootstrap import Interval
+    from cqdd_design.torque.evaluation.evaluate import EvaluationResult
+    from cqdd_design.torque.evaluation.scoring import SetResult
 
 
 def evaluate(
@@ -68,9 +68,9 @@ def evaluate(
 ) -> None:
     """Score networks and baselines on held-out episodes, with intervals, beside the paper."""
     from cqdd_design.files import refuse_overwrite, write_atomically
-    from cqdd_design.torque.episodes import read_data
-    from cqdd_design.torque.evaluation import evaluate as measure
-    from cqdd_design.torque.lineup import line_up, read_networks
+    from cqdd_design.torque.data.episodes import read_data
+    from cqdd_design.torque.evaluation.evaluate import evaluate as measure
+    from cqdd_design.torque.evaluation.lineup import line_up, read_networks
 
     for target in (report, markdown):
         if target is not None:
@@ -104,12 +104,12 @@ def evaluate(
     files = []
     if report is not None:
         from cqdd_design.pipeline import provenance
-        from cqdd_design.report.torque_view import torque_page
+        from cqdd_design.report.torque.torque_view import torque_page
 
         date = provenance(None).time.partition("T")[0]
         files.append(write_atomically(report, torque_page(result, date=date), "report"))
     if markdown is not None:
-        from cqdd_design.torque.table import markdown as tables
+        from cqdd_design.torque.evaluation.table import markdown as tables
 
         files.append(write_atomically(markdown, tables(result), "markdown"))
     for one in result.sets:
@@ -179,7 +179,7 @@ def _ends(value: Interval) -> str:
 
 
 def _paper() -> list[str]:
-    from cqdd_design.torque.evaluation import PAPER
+    from cqdd_design.torque.evaluation.evaluate import PAPER
 
     rows = [
         [

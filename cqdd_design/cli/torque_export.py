@@ -31,9 +31,9 @@ def export_network(
     force: Force = False,
 ) -> None:
     """Write a trained network for simulators, onnxruntime, or as a C header."""
-    from cqdd_design.exporting.torque_export import export_artefact
-    from cqdd_design.exporting.torque_options import KINDS, metadata
-    from cqdd_design.torque.artefact import read_artefact
+    from cqdd_design.exporting.estimators.export import export_artefact
+    from cqdd_design.exporting.estimators.options import KINDS, metadata
+    from cqdd_design.torque.networks.artefact import read_artefact
 
     kinds = tuple(dict.fromkeys(parse_names(to)))
     for kind in kinds:

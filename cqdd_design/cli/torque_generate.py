@@ -60,9 +60,9 @@ def generate(
     from cqdd_design.actuator.recording import require_pyarrow
     from cqdd_design.design import load_design
     from cqdd_design.files import refuse_overwrite
-    from cqdd_design.torque.episodes import write_data
-    from cqdd_design.torque.generate import Request, describe
-    from cqdd_design.torque.generate import generate as generated
+    from cqdd_design.torque.data.episodes import write_data
+    from cqdd_design.torque.data.generate import Request, describe
+    from cqdd_design.torque.data.generate import generate as generated
     from cqdd_design.units import DAMPING_GAIN, MASS, STIFFNESS_GAIN, VOLTAGE
 
     held = None if held_mass == "none" else parse_positive("--held-mass", held_mass, MASS)

@@ -14,7 +14,7 @@ from cqdd_design.cli.torque_generate import folder_line, summary_lines
 from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
-    from cqdd_design.torque.log_files import LogMap
+    from cqdd_design.torque.data.log_files import LogMap
 
 
 def _pairs_of(example: str, text: str) -> Any:
@@ -79,9 +79,9 @@ def import_log(
     """Import logs of a real joint: the same files as `torque generate` writes."""
     from cqdd_design.actuator.recording import require_pyarrow
     from cqdd_design.files import refuse_overwrite
-    from cqdd_design.torque.episodes import write_data
-    from cqdd_design.torque.generate import describe
-    from cqdd_design.torque.logs import import_logs
+    from cqdd_design.torque.data.episodes import write_data
+    from cqdd_design.torque.data.generate import describe
+    from cqdd_design.torque.data.logs import import_logs
     from cqdd_design.units import DAMPING_GAIN, FREQUENCY, STIFFNESS_GAIN, TIME, TORQUE
 
     require_pyarrow()
@@ -133,7 +133,7 @@ def _mapped(
     current_to_torque: float | None,
 ) -> LogMap:
     """The map file with the options before it."""
-    from cqdd_design.torque.log_files import LogMap, read_map
+    from cqdd_design.torque.data.log_files import LogMap, read_map
 
     named, measured = _pairs("--columns", columns), _pairs("--units", units)
     configured = {key: _value(text) for key, text in _pairs("--group", group).items()}

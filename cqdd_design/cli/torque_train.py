@@ -17,9 +17,9 @@ from cqdd_design.cli.torque_actuator import data_actuator
 from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
-    from cqdd_design.torque.artefact import Artefact, Mode
-    from cqdd_design.torque.recipe import Choice
-    from cqdd_design.torque.schedule import Reading
+    from cqdd_design.torque.networks.artefact import Artefact, Mode
+    from cqdd_design.torque.training.recipe import Choice
+    from cqdd_design.torque.training.schedule import Reading
 
 
 def train(
@@ -115,13 +115,13 @@ def train(
 ) -> None:
     """Train a torque network, with a checkpoint after every epoch."""
     from cqdd_design.files import refuse_overwrite
-    from cqdd_design.torque.artefact import read_artefact, write_artefact
-    from cqdd_design.torque.episodes import read_data
-    from cqdd_design.torque.networks import find_model, require_torch
-    from cqdd_design.torque.recipe import Choice, Recipe
-    from cqdd_design.torque.splits import audit, split
-    from cqdd_design.torque.training import leaked_rmse
-    from cqdd_design.torque.training import train as trained
+    from cqdd_design.torque.data.episodes import read_data
+    from cqdd_design.torque.data.splits import audit, split
+    from cqdd_design.torque.networks.artefact import read_artefact, write_artefact
+    from cqdd_design.torque.networks.modules import find_model, require_torch
+    from cqdd_design.torque.training.recipe import Choice, Recipe
+    from cqdd_design.torque.training.train import leaked_rmse
+    from cqdd_design.torque.training.train import train as trained
     from cqdd_design.units import TIME
 
     chosen = find_model(model)

@@ -34,19 +34,19 @@ __all__ = ["EXPORTERS", "ExportJob", "ExportOptions", "default_folder", "export"
 
 EXPORTERS: Mapping[str, str] = MappingProxyType(
     {
-        "dxf": "cqdd_design.exporting.dxf:export_dxf",
-        "step": "cqdd_design.exporting.step:export_step",
-        "stl": "cqdd_design.exporting.meshes:export_stl",
-        "3mf": "cqdd_design.exporting.meshes:export_3mf",
-        "glb": "cqdd_design.exporting.meshes:export_glb",
-        "svg": "cqdd_design.exporting.svg:export_svg",
-        "bom": "cqdd_design.exporting.bom:export_bom",
-        "mjcf": "cqdd_design.exporting.mjcf:export_mjcf",
-        "urdf": "cqdd_design.exporting.urdf:export_urdf",
-        "card": "cqdd_design.exporting.actuator_card:export_card",
-        "bam": "cqdd_design.exporting.bam:export_bam",
-        "edm": "cqdd_design.exporting.edm:export_edm",
-        "gcode": "cqdd_design.exporting.gcode:export_gcode",
+        "dxf": "cqdd_design.exporting.edm.dxf:export_dxf",
+        "step": "cqdd_design.exporting.solids.step:export_step",
+        "stl": "cqdd_design.exporting.solids.meshes:export_stl",
+        "3mf": "cqdd_design.exporting.solids.meshes:export_3mf",
+        "glb": "cqdd_design.exporting.solids.meshes:export_glb",
+        "svg": "cqdd_design.exporting.sheets.svg:export_svg",
+        "bom": "cqdd_design.exporting.solids.bom:export_bom",
+        "mjcf": "cqdd_design.exporting.simulators.mjcf:export_mjcf",
+        "urdf": "cqdd_design.exporting.simulators.urdf:export_urdf",
+        "card": "cqdd_design.exporting.simulators.actuator_card:export_card",
+        "bam": "cqdd_design.exporting.simulators.bam:export_bam",
+        "edm": "cqdd_design.exporting.sheets.edm_package:export_edm",
+        "gcode": "cqdd_design.exporting.edm.gcode:export_gcode",
     }
 )
 """Kind of file, and the function that writes all files of that kind from an `ExportJob`."""
@@ -103,7 +103,7 @@ class ExportJob:
     def parts(self) -> tuple[Part, ...]:
         """The solids, for the first writer that asks; later ones get the same."""
         from cqdd_design.catalog import find_bearing
-        from cqdd_design.exporting.flat_parts import with_named_bearing
+        from cqdd_design.exporting.edm.flat_parts import with_named_bearing
         from cqdd_design.solids.parts import build_parts
 
         self.progress("laying out parts")

@@ -11,12 +11,12 @@ from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
 from cqdd_design.gearbox.balance import StackBalance, stack_balance
 from cqdd_design.gearbox.cam_bearing import BearingResult, cam_bearing
-from cqdd_design.gearbox.checks import gearbox_checks
+from cqdd_design.gearbox.checks.every import gearbox_checks
+from cqdd_design.gearbox.checks.state import GearboxState
 from cqdd_design.gearbox.geometry_summary import GeometrySummary, summarise_geometry
 from cqdd_design.gearbox.loads import RigidMaxima, RigidSeries, rigid_maxima, rigid_series
 from cqdd_design.gearbox.pin_strength import PinStrength, pin_strength
 from cqdd_design.gearbox.stages import Stages, pin_mean_diameter
-from cqdd_design.gearbox.state import GearboxState
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.results import Check

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import UsageError
-from cqdd_design.gearbox.kinematics import crank_phases
+from cqdd_design.geometry.kinematics import crank_phases
 from cqdd_design.results import MassProperties
 
 FloatArray = NDArray[np.float64]

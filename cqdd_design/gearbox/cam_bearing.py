@@ -9,15 +9,16 @@ from cqdd_design.catalog.bearings import Bearing, bearings, find_bearing
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
 from cqdd_design.errors import InfeasibleError
-from cqdd_design.gearbox import allowables, kinematics
-from cqdd_design.gearbox.bearings import (
+from cqdd_design.gearbox.bearing_life import (
     RollingElement,
     basic_rating_life_hours,
     life_exponent,
     static_safety,
 )
+from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.loads import rigid_maxima
 from cqdd_design.gearbox.stages import Stages
+from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.cycloid import CycloidDisc
 
 AUTO = "auto"

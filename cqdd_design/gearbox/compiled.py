@@ -20,6 +20,6 @@ def in_cache(kernel: Any) -> bool:
 
 def is_compiled() -> bool:
     """Whether the contact solver need not be compiled now."""
-    from cqdd_design.gearbox.contact.kernel_sweep import solve_sweep
+    from cqdd_design.gearbox.contact.sweep_kernel import solve_sweep
 
     return in_cache(solve_sweep)

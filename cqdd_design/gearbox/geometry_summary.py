@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.design import Design
 from cqdd_design.gearbox.cam_bearing import largest_outer_diameter
-from cqdd_design.gearbox.kinematics import ratio_ring_fixed
 from cqdd_design.gearbox.stages import pin_mean_diameter
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.disc import (
@@ -19,6 +18,7 @@ from cqdd_design.geometry.disc import (
     profile_moments,
     profile_perimeter,
 )
+from cqdd_design.geometry.kinematics import ratio_ring_fixed
 from cqdd_design.geometry.ring import ring_min_concave_radius, ring_root_radius
 
 

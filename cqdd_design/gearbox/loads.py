@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.gearbox import kinematics, rigid
+from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.stages import Stages
+from cqdd_design.geometry import kinematics
 
 FloatArray = NDArray[np.float64]
 

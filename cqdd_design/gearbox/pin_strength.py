@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
-from cqdd_design.gearbox import allowables, output_pins, rigid
+from cqdd_design.gearbox import output_pins, rigid
+from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.loads import RigidMaxima
 
 

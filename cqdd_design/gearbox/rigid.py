@@ -23,7 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cqdd_design.gearbox import kinematics
+from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.trochoid import locus_curvature, shortening_coefficient
 
 FloatArray = NDArray[np.float64]

@@ -12,8 +12,9 @@ from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.screws import find_shoulder_screw
 from cqdd_design.design import Design
 from cqdd_design.errors import CatalogError, GeometryError
-from cqdd_design.gearbox import hertz, kinematics, rigid
-from cqdd_design.gearbox.allowables import SLEEVE_WALL
+from cqdd_design.gearbox import hertz, rigid
+from cqdd_design.gearbox.checks.allowables import SLEEVE_WALL
+from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.disc import hole_diameter
 
 FloatArray = NDArray[np.float64]

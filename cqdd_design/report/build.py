@@ -9,30 +9,35 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from cqdd_design.gearbox.allowables import UNEVEN_SHARING
-from cqdd_design.report.actuator_view import actuator_view
-from cqdd_design.report.bench_view import bench_view
-from cqdd_design.report.bodies import bodies_view
-from cqdd_design.report.check_rows import chapters, printed
-from cqdd_design.report.closing import ERRATA, model_assumptions, paper_symbols, sources_used
-from cqdd_design.report.contact_view import contact_view
-from cqdd_design.report.edm_view import edm_view
-from cqdd_design.report.front_view import front_view
+from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
+from cqdd_design.report.actuator.actuator_view import actuator_view
+from cqdd_design.report.actuator.bench_view import bench_view
+from cqdd_design.report.drawings.edm_view import edm_view
+from cqdd_design.report.drawings.front_view import front_view
+from cqdd_design.report.drawings.outlines import Machine
+from cqdd_design.report.drawings.section_view import section_view
+from cqdd_design.report.drawings.turning_mesh import mesh_data, mesh_figure, mesh_readout
+from cqdd_design.report.gearbox.bodies import bodies_view
+from cqdd_design.report.gearbox.contact_view import contact_view
+from cqdd_design.report.gearbox.life_view import life_view
+from cqdd_design.report.gearbox.load_charts import load_charts
+from cqdd_design.report.gearbox.losses_view import losses_view
+from cqdd_design.report.gearbox.precision_view import precision_view
+from cqdd_design.report.gearbox.tolerance_view import tolerance_view
+from cqdd_design.report.ink.mathml import lowered
+from cqdd_design.report.ink.numbers import TIMES, significant, with_unit
 from cqdd_design.report.input import ReportInput
-from cqdd_design.report.life_view import life_view
-from cqdd_design.report.load_charts import load_charts
-from cqdd_design.report.losses_view import losses_view
-from cqdd_design.report.machine import Machine
-from cqdd_design.report.mathml import lowered
-from cqdd_design.report.mesh import mesh_data, mesh_figure, mesh_readout
-from cqdd_design.report.numbers import TIMES, significant, with_unit
-from cqdd_design.report.origins import Value, values_by_group
-from cqdd_design.report.planetary_view import planetary_view
-from cqdd_design.report.precision_view import precision_view
-from cqdd_design.report.section_view import section_view
-from cqdd_design.report.sizing_view import sizing_view
-from cqdd_design.report.tolerance_view import tolerance_view
-from cqdd_design.report.verdict import pin_figure, verdict
+from cqdd_design.report.judgement.check_rows import chapters, printed
+from cqdd_design.report.judgement.closing import (
+    ERRATA,
+    model_assumptions,
+    paper_symbols,
+    sources_used,
+)
+from cqdd_design.report.judgement.origins import Value, values_by_group
+from cqdd_design.report.judgement.planetary_view import planetary_view
+from cqdd_design.report.judgement.sizing_view import sizing_view
+from cqdd_design.report.judgement.verdict import pin_figure, verdict
 
 if TYPE_CHECKING:
     from jinja2 import Environment

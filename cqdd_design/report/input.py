@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from cqdd_design.design import Design
 from cqdd_design.files import WrittenFile
 from cqdd_design.gearbox import GearboxAnalysis
+from cqdd_design.machine.weighing import Bodies
 from cqdd_design.planetary.compare import PlanetaryComparison
-from cqdd_design.report.weighing import Bodies
 from cqdd_design.results import Provenance
 
 if TYPE_CHECKING:

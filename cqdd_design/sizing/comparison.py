@@ -9,8 +9,8 @@ from cqdd_design.catalog import find_material, find_motor
 from cqdd_design.design import Design
 from cqdd_design.errors import UsageError
 from cqdd_design.gearbox import GearboxAnalysis, analyse_gearbox
-from cqdd_design.gearbox.allowables import LIFE_HOURS, STATIC_SAFETY
-from cqdd_design.gearbox.bearings import load_for_life
+from cqdd_design.gearbox.bearing_life import load_for_life
+from cqdd_design.gearbox.checks.allowables import LIFE_HOURS, STATIC_SAFETY
 from cqdd_design.planetary.compare import PlanetaryComparison, compare_planetary
 from cqdd_design.planetary.cycloid import CycloidLimit
 from cqdd_design.planetary.gear_material import GearMaterial, gear_material

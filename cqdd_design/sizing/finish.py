@@ -11,7 +11,7 @@ from cqdd_design.design import Design, Requirements
 from cqdd_design.design.model import dump
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.analysis import analyse_gearbox
-from cqdd_design.gearbox.bearings import life_exponent
+from cqdd_design.gearbox.bearing_life import life_exponent
 from cqdd_design.gearbox.cam_bearing import rolling_element
 from cqdd_design.results import Check
 from cqdd_design.sizing.points import Evaluator, Points

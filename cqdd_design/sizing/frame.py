@@ -1,7 +1,8 @@
 """What the requirements fix before any candidate is tried: loads, limits, materials, catalogues.
 
 A :class:`Frame` is read once. Its numbers come from the same places as the checks of a finished
-design: defaults from the design model, allowables from :mod:`cqdd_design.gearbox.allowables`.
+design: defaults from the design model, allowables from
+:mod:`cqdd_design.gearbox.checks.allowables`.
 """
 
 from __future__ import annotations
@@ -14,9 +15,11 @@ from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.motors import find_motor
 from cqdd_design.design import Design, Requirements
 from cqdd_design.errors import InfeasibleError
-from cqdd_design.gearbox import allowables, hertz, kinematics
-from cqdd_design.gearbox.allowables import Allowable
-from cqdd_design.sizing.parts import (
+from cqdd_design.gearbox import hertz
+from cqdd_design.gearbox.checks import allowables
+from cqdd_design.gearbox.checks.allowables import Allowable
+from cqdd_design.geometry import kinematics
+from cqdd_design.sizing.bought_parts import (
     BearingTable,
     PinSize,
     bearing_table,

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from cqdd_design.errors import InfeasibleError
-from cqdd_design.gearbox.guide import CHECK_GUIDE
+from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.sizing.choose import strongest
 from cqdd_design.sizing.finish import LOAD_CHECKS, torque_reserve

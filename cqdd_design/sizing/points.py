@@ -15,12 +15,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.gearbox import allowables, rigid
+from cqdd_design.gearbox import rigid
+from cqdd_design.gearbox.checks import allowables
 from cqdd_design.geometry.disc import ligament_hole_to_hole
 from cqdd_design.geometry.trochoid import shortening_coefficient
-from cqdd_design.sizing import masses, reserves, shapes
+from cqdd_design.sizing import masses, reserves
+from cqdd_design.sizing import shape_limits as shapes
+from cqdd_design.sizing.bought_parts import BearingTable
 from cqdd_design.sizing.frame import THICKNESS_STEP, Frame
-from cqdd_design.sizing.parts import BearingTable
 from cqdd_design.sizing.stage_tables import StageTables
 
 FloatArray = NDArray[np.float64]

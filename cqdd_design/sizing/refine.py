@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.sizing import shapes
+from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.choose import Picks
 from cqdd_design.sizing.points import Evaluator, Pins, Points
 

@@ -12,8 +12,9 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cqdd_design.gearbox import allowables, hertz, output_pins
-from cqdd_design.gearbox.allowables import UNEVEN_SHARING
+from cqdd_design.gearbox import hertz, output_pins
+from cqdd_design.gearbox.checks import allowables
+from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
 from cqdd_design.sizing.frame import Frame
 
 FloatArray = NDArray[np.float64]

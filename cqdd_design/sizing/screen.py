@@ -22,11 +22,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.gearbox import allowables, rigid
+from cqdd_design.gearbox import rigid
+from cqdd_design.gearbox.checks import allowables
 from cqdd_design.geometry.disc import ligament_hole_to_hole
-from cqdd_design.sizing import reserves, shapes
+from cqdd_design.sizing import reserves
+from cqdd_design.sizing import shape_limits as shapes
+from cqdd_design.sizing.bought_parts import BearingTable
 from cqdd_design.sizing.frame import Frame
-from cqdd_design.sizing.parts import BearingTable
 from cqdd_design.sizing.space import SearchSpace, largest_pitch_radius
 from cqdd_design.sizing.stage_tables import StageTables
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.gearbox import allowables
+from cqdd_design.gearbox.checks import allowables
 from cqdd_design.sizing.frame import THICKNESS_STEP, Frame
 from cqdd_design.sizing.stage_tables import StageTables
 

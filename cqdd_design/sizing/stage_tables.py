@@ -20,7 +20,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.gearbox import allowables, hertz, kinematics, rigid
+from cqdd_design.gearbox import hertz, rigid
+from cqdd_design.gearbox.checks import allowables
+from cqdd_design.geometry import kinematics
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]

@@ -1,1 +1,1 @@
-"""TODO room docstring."""
+"""The machine as solids: layout, parts, assembly, meshes, mass and interference."""

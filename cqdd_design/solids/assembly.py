@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from cqdd_design.design import Design
-from cqdd_design.solids.kernel import import_cadquery, location
+from cqdd_design.solids.cad import import_cadquery, location
 from cqdd_design.solids.part import Part
 
 if TYPE_CHECKING:

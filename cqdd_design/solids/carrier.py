@@ -6,10 +6,7 @@ Drawn in the carrier's frame, where the first pin stands at the hole clocking.
 from __future__ import annotations
 
 from cqdd_design.geometry.contours import PlanarPart
-from cqdd_design.solids.layout import CarrierLayout, ShaftLayout
-from cqdd_design.solids.rotating import plain_pin
-from cqdd_design.solids.selection import CapScrew, OutputPin
-from cqdd_design.solids.shapes import (
+from cqdd_design.solids.layers import (
     Annulus,
     Drilling,
     Layer,
@@ -23,6 +20,9 @@ from cqdd_design.solids.shapes import (
     prism,
     turned,
 )
+from cqdd_design.solids.layout import CarrierLayout, ShaftLayout
+from cqdd_design.solids.rotating import plain_pin
+from cqdd_design.solids.selection import CapScrew, OutputPin
 
 _BOLTS = 6
 _NUT_SLOTS = 4

@@ -17,10 +17,10 @@ from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.contours import ArcContour, FloatArray, PlanarPart, as_points
+from cqdd_design.solids.layers import prism
 from cqdd_design.solids.layout import Layout, MotorLayout
 from cqdd_design.solids.part import Colour, Instance, Part
 from cqdd_design.solids.poses import SHAFT, body_pose, transform
-from cqdd_design.solids.shapes import prism
 
 MATERIAL = "AISI 4140 annealed"
 _HEIGHT = 1.5

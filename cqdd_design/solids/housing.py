@@ -20,8 +20,8 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
+from cqdd_design.solids.layers import Annulus, Drilling, Stack, on_circle, turned
 from cqdd_design.solids.layout import HousingLayout, Layout
-from cqdd_design.solids.shapes import Annulus, Drilling, Stack, on_circle, turned
 
 _CLEARANCE_SHARE = 1.1
 """Clearance hole over thread, the medium series of ISO 273 to a tenth of a millimetre."""

@@ -19,7 +19,7 @@ import numpy as np
 
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
-from cqdd_design.solids.kernel import MM
+from cqdd_design.solids.cad import MM
 from cqdd_design.solids.mesh import FINE, Quality, closed_mesh, surface_slack
 from cqdd_design.solids.part import Instance, Part
 

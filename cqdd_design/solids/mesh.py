@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.results import MassProperties
-from cqdd_design.solids.kernel import MM
+from cqdd_design.solids.cad import MM
 from cqdd_design.solids.part import Part
 
 if TYPE_CHECKING:

@@ -8,10 +8,10 @@ from cqdd_design.catalog.motors import Motor, find_motor
 from cqdd_design.design import Design
 from cqdd_design.solids import motor_shapes
 from cqdd_design.solids.carrier import cap_screw_shape
+from cqdd_design.solids.layers import Stack, on_circle
 from cqdd_design.solids.layout import Layout, MotorLayout
 from cqdd_design.solids.part import Colour, Instance, Part, Source
 from cqdd_design.solids.poses import HOUSING, SHAFT, transform
-from cqdd_design.solids.shapes import Stack, on_circle
 
 STATOR_MATERIAL = "Electrical steel M400-50A"
 MAGNET_MATERIAL = "NdFeB N42"

@@ -10,8 +10,7 @@ import math
 import numpy as np
 
 from cqdd_design.geometry.contours import ArcContour, Circle, PlanarPart, as_points
-from cqdd_design.solids.layout import DowelLayout, Layout, MotorLayout, PackLayout
-from cqdd_design.solids.shapes import (
+from cqdd_design.solids.layers import (
     Annulus,
     Drilling,
     Layer,
@@ -24,6 +23,7 @@ from cqdd_design.solids.shapes import (
     scalloped_circle,
     turned,
 )
+from cqdd_design.solids.layout import DowelLayout, Layout, MotorLayout, PackLayout
 
 _LIGHTENING, _BOARD_SCREWS, _SENSOR_SIDE = 6, 3, 3.0e-3
 _CLEARANCE_SHARE = 0.55

@@ -16,8 +16,8 @@ from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray, Moments
 from cqdd_design.results import MassProperties
 from cqdd_design.solids.fits import Fit
+from cqdd_design.solids.layers import Stack, prism_properties
 from cqdd_design.solids.poses import Body, body_pose
-from cqdd_design.solids.shapes import Stack, prism_properties
 
 if TYPE_CHECKING:
     from cadquery import Solid
@@ -133,6 +133,6 @@ class Part:
     @cached_property
     def solid(self) -> Solid:
         """The CadQuery solid in the part's frame, in mm."""
-        from cqdd_design.solids.kernel import build_solid
+        from cqdd_design.solids.cad import build_solid
 
         return build_solid(self.name, self.shape)

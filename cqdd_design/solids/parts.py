@@ -20,6 +20,7 @@ from cqdd_design.solids import rotating
 from cqdd_design.solids.clocking import DiscGroup, disc_groups
 from cqdd_design.solids.counterweights import balance_weights
 from cqdd_design.solids.fits import seat_fits
+from cqdd_design.solids.layers import Stack, on_circle, prism
 from cqdd_design.solids.layout import Layout
 from cqdd_design.solids.motor_parts import dowel_part, motor_parts
 from cqdd_design.solids.motor_shapes import (
@@ -32,7 +33,6 @@ from cqdd_design.solids.part import Colour, Instance, Part
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
 from cqdd_design.solids.proportions import lay_out
 from cqdd_design.solids.selection import ChosenBearing
-from cqdd_design.solids.shapes import Stack, on_circle, prism
 
 __all__ = ["Colour", "Instance", "Part", "build_parts", "total_mass"]
 

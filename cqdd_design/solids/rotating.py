@@ -11,9 +11,7 @@ import math
 import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray, PlanarPart
-from cqdd_design.solids.layout import PackLayout, ShaftLayout
-from cqdd_design.solids.selection import RING_SHARE, ChosenBearing
-from cqdd_design.solids.shapes import (
+from cqdd_design.solids.layers import (
     Annulus,
     Layer,
     Stack,
@@ -23,6 +21,8 @@ from cqdd_design.solids.shapes import (
     prism,
     turned,
 )
+from cqdd_design.solids.layout import PackLayout, ShaftLayout
+from cqdd_design.solids.selection import RING_SHARE, ChosenBearing
 
 _BAND_SHARE = 0.8
 """Width of balls and cage as a share of a bearing's width, for its envelope."""

@@ -17,7 +17,7 @@ from cqdd_design.cli.torque_import import import_log
 
 pytest.importorskip("pyarrow")
 
-from cqdd_design.torque.episodes import read_data
+from cqdd_design.torque.data.episodes import read_data
 
 DESIGN = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 SMALL = ("--episodes", "5", "--seconds", "1", "--unit-gearboxes", "0", "--held-mass", "none")

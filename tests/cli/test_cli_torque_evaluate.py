@@ -13,9 +13,9 @@ import pytest
 import typer
 
 from cqdd_design.cli import main, session, torque_evaluate
-from cqdd_design.torque.artefact import Artefact, Validity, write_artefact
-from cqdd_design.torque.episodes import DataSet, Episode, write_data
-from cqdd_design.torque.splits import random_window_split, split
+from cqdd_design.torque.data.episodes import DataSet, Episode, write_data
+from cqdd_design.torque.data.splits import random_window_split, split
+from cqdd_design.torque.networks.artefact import Artefact, Validity, write_artefact
 
 pytest.importorskip("pyarrow")
 

@@ -17,7 +17,7 @@ from torque_networks import PVA, network
 from cqdd_design.cli import session
 from cqdd_design.cli.torque_export import export_network
 from cqdd_design.errors import CqddError, DependencyError, UsageError
-from cqdd_design.torque.artefact import write_artefact
+from cqdd_design.torque.networks.artefact import write_artefact
 
 
 @pytest.fixture

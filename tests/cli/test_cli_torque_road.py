@@ -13,8 +13,8 @@ pytest.importorskip("torch")
 pytest.importorskip("onnx")
 pytest.importorskip("pyarrow")
 
-from cqdd_design.torque.artefact import read_artefact
-from cqdd_design.torque.episodes import read_data
+from cqdd_design.torque.data.episodes import read_data
+from cqdd_design.torque.networks.artefact import read_artefact
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 DESIGN, CALIBRATION = DESIGNS / "cqdd-10.toml", DESIGNS / "cqdd-10-calibration.json"

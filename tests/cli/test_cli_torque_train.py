@@ -24,9 +24,9 @@ from torque_samples import data_set
 from cqdd_design.cli import session, torque_train
 from cqdd_design.cli.session import command
 from cqdd_design.errors import UsageError
-from cqdd_design.torque import trainer
-from cqdd_design.torque.artefact import read_artefact
-from cqdd_design.torque.episodes import write_data
+from cqdd_design.torque.data.episodes import write_data
+from cqdd_design.torque.networks.artefact import read_artefact
+from cqdd_design.torque.training import trainer
 
 app = typer.Typer()
 app.command()(command(torque_train.train))

@@ -16,8 +16,8 @@ from report_browser import clipped, overlapping, run_browser
 from cqdd_design.catalog import find_bearing
 from cqdd_design.design import Design, load_design
 from cqdd_design.report.build import _environment
+from cqdd_design.report.ink.svg import Figure
 from cqdd_design.report.machine_view import MachineViews, hidden_line_views, viewer_data
-from cqdd_design.report.svg import Figure
 from cqdd_design.solids.parts import Part, build_parts
 from cqdd_design.solids.poses import body_pose
 

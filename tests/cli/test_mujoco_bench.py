@@ -26,8 +26,8 @@ from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.scenario import Command, Constant, Load, Sampled, Scenario, Start
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.design.toml import load_design
-from cqdd_design.exporting.mjcf import MjcfOptions, model_text
-from cqdd_design.exporting.mjcf_classes import play_damping
+from cqdd_design.exporting.simulators.mjcf import MjcfOptions, model_text
+from cqdd_design.exporting.simulators.mjcf_classes import play_damping
 
 mujoco = pytest.importorskip("mujoco", minversion="4.0.0", reason="MuJoCo 4 is not installed")
 

@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "oracles"))
 from actuator_samples import frictionless, paper_actuator, random_actuators
 
 from cqdd_design.actuator.parameters import ActuatorParameters
-from cqdd_design.exporting.mjcf import (
+from cqdd_design.exporting.simulators.mjcf import (
     MjcfOptions,
     actuator_lines,
     fragment_text,

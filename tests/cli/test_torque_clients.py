@@ -23,9 +23,9 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "oracles"))
 from torque_networks import DT, PV, PVA, features, joint, motion, network
 
 from cqdd_design.errors import UsageError
-from cqdd_design.exporting.torque_export import export_artefact
-from cqdd_design.exporting.torque_options import require_settings
-from cqdd_design.torque.predict import Streaming, predict
+from cqdd_design.exporting.estimators.export import export_artefact
+from cqdd_design.exporting.estimators.options import require_settings
+from cqdd_design.torque.networks.predict import Streaming, predict
 
 torch = pytest.importorskip("torch")
 pytest.importorskip("onnx")

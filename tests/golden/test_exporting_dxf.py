@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 from cqdd_design.design import load_design
-from cqdd_design.exporting.dxf import write_flat_part
-from cqdd_design.exporting.flat_parts import flat_parts
-from cqdd_design.exporting.readback import read_back
+from cqdd_design.exporting.edm.dxf import write_flat_part
+from cqdd_design.exporting.edm.flat_parts import flat_parts
+from cqdd_design.exporting.edm.readback import read_back
 
 DESIGN = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
 

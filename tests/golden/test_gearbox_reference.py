@@ -17,11 +17,12 @@ import numpy as np
 import pytest
 
 from cqdd_design.design import load_design
-from cqdd_design.gearbox import analyse_gearbox, kinematics
-from cqdd_design.gearbox.bearings import basic_rating_life_hours
+from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.gearbox.bearing_life import basic_rating_life_hours
 from cqdd_design.gearbox.hertz import effective_modulus
 from cqdd_design.gearbox.loads import rigid_maxima
 from cqdd_design.gearbox.stages import Stages
+from cqdd_design.geometry import kinematics
 
 STEEL_4140 = float(effective_modulus(205e9, 0.29, 205e9, 0.29))
 REFERENCE = Stages(

@@ -17,29 +17,7 @@ from cqdd_design.actuator.bench.gear import DIAL, DIAL_RADIUS
 from cqdd_design.actuator.bench.metric import PAPER
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.motor import envelope
-from cqdd_design.actuator.parameters import ActuatorParameters
-from cqdd_design.actuator.thermal import continuous_current, response, steady_state
-from cqdd_design.design import Design, load_design
-from cqdd_design.gearbox import analyse_gearbox
-from cqdd_design.report import ReportInput, build_report
-from cqdd_design.report.actuator_rows import parameter_rows
-from cqdd_design.report.actuator_view import (
-    actuator_view,
-    asked_points,
-    duration,
-    envelope_curves,
-)
-from cqdd_design.report.axes import Labels, linear_axis, log_axis, thinned
-from cqdd_design.report.bench_charts import bode, spectrum
-from cqdd_design.report.bench_figures import ARCMIN, dead_zone, efficiency_maps
-from cqdd_design.report.bench_view import (
-    RELATIONS,
-    bench_view,
-    comparison,
-    is_near,
-    off_by,
-)
-from cqdd_design.report.operating import (
+from cqdd_design.actuator.operating import (
     DRIVER,
     HEAT,
     PEAK,
@@ -52,7 +30,29 @@ from cqdd_design.report.operating import (
     output_torque,
     time_to_limit,
 )
-from cqdd_design.report.svg import Figure
+from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.actuator.thermal import continuous_current, response, steady_state
+from cqdd_design.design import Design, load_design
+from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.report import ReportInput, build_report
+from cqdd_design.report.actuator.actuator_rows import parameter_rows
+from cqdd_design.report.actuator.actuator_view import (
+    actuator_view,
+    asked_points,
+    duration,
+    envelope_curves,
+)
+from cqdd_design.report.actuator.bench_charts import bode, spectrum
+from cqdd_design.report.actuator.bench_figures import ARCMIN, dead_zone, efficiency_maps
+from cqdd_design.report.actuator.bench_view import (
+    RELATIONS,
+    bench_view,
+    comparison,
+    is_near,
+    off_by,
+)
+from cqdd_design.report.ink.axes import Labels, linear_axis, log_axis, thinned
+from cqdd_design.report.ink.svg import Figure
 from cqdd_design.sizing.comparison import compare_with_planetary
 
 PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"

@@ -15,15 +15,15 @@ from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox import analyse_gearbox
 from cqdd_design.gearbox.contact_analysis import ContactAnalysis, analyse_contact
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
-from cqdd_design.report.bars import bar_chart, histogram
-from cqdd_design.report.contact_view import contact_view, force_picture
-from cqdd_design.report.heat import SHADES, heat_map, labelled_map, shade
-from cqdd_design.report.life_view import life_view
-from cqdd_design.report.losses_view import losses_view
-from cqdd_design.report.machine import Machine
-from cqdd_design.report.precision_view import precision_view
-from cqdd_design.report.svg import Figure
-from cqdd_design.report.tolerance_view import tolerance_view
+from cqdd_design.report.drawings.outlines import Machine
+from cqdd_design.report.gearbox.contact_view import contact_view, force_picture
+from cqdd_design.report.gearbox.life_view import life_view
+from cqdd_design.report.gearbox.losses_view import losses_view
+from cqdd_design.report.gearbox.precision_view import precision_view
+from cqdd_design.report.gearbox.tolerance_view import tolerance_view
+from cqdd_design.report.ink.bars import bar_chart, histogram
+from cqdd_design.report.ink.heat import SHADES, heat_map, labelled_map, shade
+from cqdd_design.report.ink.svg import Figure
 
 PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 

@@ -16,16 +16,16 @@ from cqdd_design.catalog import find_bearing
 from cqdd_design.design import Design
 from cqdd_design.gearbox import CHECK_GUIDE
 from cqdd_design.geometry.contours import ArcContour, Circle
-from cqdd_design.report.charts import Curve, Level, line_chart, margin_bar, nice_step
-from cqdd_design.report.check_rows import check_row, margin_text, printed, sentence
-from cqdd_design.report.dimensions import Leader, leader_column
-from cqdd_design.report.front_view import front_view
-from cqdd_design.report.machine import Machine
-from cqdd_design.report.mathml import mathml
-from cqdd_design.report.mesh import mesh_figure
-from cqdd_design.report.numbers import decimals, quantity_text, significant, with_unit
-from cqdd_design.report.section_view import reach_along_x, section_view
-from cqdd_design.report.svg import View, contour_path, element, text
+from cqdd_design.report.drawings.front_view import front_view
+from cqdd_design.report.drawings.outlines import Machine
+from cqdd_design.report.drawings.section_view import reach_along_x, section_view
+from cqdd_design.report.drawings.turning_mesh import mesh_figure
+from cqdd_design.report.ink.charts import Curve, Level, line_chart, margin_bar, nice_step
+from cqdd_design.report.ink.dimensions import Leader, leader_column
+from cqdd_design.report.ink.mathml import mathml
+from cqdd_design.report.ink.numbers import decimals, quantity_text, significant, with_unit
+from cqdd_design.report.ink.svg import View, contour_path, element, text
+from cqdd_design.report.judgement.check_rows import check_row, margin_text, printed, sentence
 from cqdd_design.results import Check
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cqdd_design.torque.artefact import Artefact, read_artefact
+from cqdd_design.torque.networks.artefact import Artefact, read_artefact
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 NETWORKS = REPOSITORY / "designs" / "cqdd-10-torque"
@@ -56,8 +56,8 @@ def test_every_file_says_how_it_was_made():
 @pytest.mark.deep
 def test_they_score_what_the_page_says(cqdd, tmp_path):
     pytest.importorskip("pyarrow")
-    from cqdd_design.torque.episodes import read_data
-    from cqdd_design.torque.estimators import network_estimator
+    from cqdd_design.torque.data.episodes import read_data
+    from cqdd_design.torque.evaluation.estimators import network_estimator
 
     designs = REPOSITORY / "designs"
     made = cqdd(

@@ -8,10 +8,10 @@ import numpy as np
 from hypothesis import reject
 
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox import kinematics
-from cqdd_design.gearbox.contact.errors import GearboxErrors
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.sweep import ContactSweep, contact_sweep
+from cqdd_design.geometry import kinematics
 
 BALANCE = 1e-9
 

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 from cqdd_design.catalog.bearings import bearings
 from cqdd_design.design import Design, load_design
-from cqdd_design.gearbox.contact.errors import GearboxErrors
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.geometry import undercut_radius_limit
 
 PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from cqdd_design.torque.artefact import Artefact, Differentiator, Validity, expected_shapes
+from cqdd_design.torque.networks.artefact import Artefact, Differentiator, Validity, expected_shapes
 
 PV = ("position_error", "velocity")
 PVA = (*PV, "acceleration")

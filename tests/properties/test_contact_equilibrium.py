@@ -21,14 +21,14 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.design import Design
-from cqdd_design.gearbox import kinematics
-from cqdd_design.gearbox.contact.errors import GearboxErrors
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.sweep import (
     contact_sweep,
     output_turn_angles,
     perfect_angles,
 )
+from cqdd_design.geometry import kinematics
 
 LINE_MODELS = st.sampled_from(["palmgren", "johnson", "linear"])
 SEEDS = st.integers(0, 2**32 - 1)

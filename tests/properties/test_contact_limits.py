@@ -20,9 +20,9 @@ from hypothesis import strategies as st
 
 from cqdd_design.design import Design
 from cqdd_design.gearbox import rigid
-from cqdd_design.gearbox.contact.errors import GearboxErrors
 from cqdd_design.gearbox.contact.laws import CamSpring, LineLaw
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.sweep import (
     ContactSweep,
     contact_sweep,

@@ -17,14 +17,15 @@ from contact_checks import imbalance
 from contact_designs import ARCMIN, machine_of, paper_design, peer_design, random_errors, rigid_of
 from contact_oracle import solve
 
-from cqdd_design.gearbox import kinematics, rigid
+from cqdd_design.gearbox import rigid
+from cqdd_design.gearbox.contact.equilibrium_plain import solve_plain
 from cqdd_design.gearbox.contact.laws import CamSpring, LineLaw
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.plain import solve_plain
 from cqdd_design.gearbox.contact.states import error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles, perfect_angles
 from cqdd_design.gearbox.losses import loss_model
 from cqdd_design.gearbox.precision.backlash import backlash
+from cqdd_design.geometry import kinematics
 
 
 def _models() -> list[ContactModel]:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from cqdd_design import __version__
 from cqdd_design.actuator.parameters import ActuatorParameters
-from cqdd_design.exporting.bam import UNITS, bam_document
+from cqdd_design.exporting.simulators.bam import UNITS, bam_document
 
 NEEDED = {
     "kt",

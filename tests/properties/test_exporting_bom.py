@@ -13,7 +13,7 @@ import pytest
 from cqdd_design.catalog import bearings, find_bearing, find_material, find_motor
 from cqdd_design.design import load_design
 from cqdd_design.exporting import export
-from cqdd_design.exporting.bom import bill_of_materials, bom_csv
+from cqdd_design.exporting.solids.bom import bill_of_materials, bom_csv
 from cqdd_design.solids.parts import build_parts, total_mass
 
 COLUMNS = [

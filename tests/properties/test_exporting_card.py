@@ -13,14 +13,14 @@ from hypothesis import strategies as st
 
 from cqdd_design import __version__
 from cqdd_design.actuator.parameters import ActuatorParameters
-from cqdd_design.exporting.actuator_card import (
+from cqdd_design.exporting.simulators.actuator_card import (
     actuator_card,
     card_markdown,
     card_yaml,
 )
-from cqdd_design.exporting.card_clients import CLIENTS
-from cqdd_design.exporting.card_names import NAMES
-from cqdd_design.exporting.yaml_text import yaml_text
+from cqdd_design.exporting.simulators.card_clients import CLIENTS
+from cqdd_design.exporting.simulators.card_names import NAMES
+from cqdd_design.exporting.simulators.yaml_text import yaml_text
 
 TORQUES = ("torque_constant", "peak_torque", "stall_torque", "coulomb", "breakaway", "cogging")
 SPEEDS = ("no_load_speed", "ideal_speed", "stribeck_speed", "backlash", "encoder_step")

@@ -10,6 +10,7 @@ import pytest
 
 from cqdd_design.actuator.bench import steady
 from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.joint_side import ripple_harmonics
 from cqdd_design.actuator.motor import torque_constant_at
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Start
@@ -19,8 +20,7 @@ from cqdd_design.design import Design
 from cqdd_design.design.toml import load_design
 from cqdd_design.errors import DesignError
 from cqdd_design.exporting import export
-from cqdd_design.exporting.actuator_card import actuator_card, card_yaml
-from cqdd_design.exporting.joint_side import ripple_harmonics
+from cqdd_design.exporting.simulators.actuator_card import actuator_card, card_yaml
 
 DESIGN = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
 OTHER = (("CubeMars RO100 KV55", "CubeMars RI100 KV105"), ("48 V", "36 V"), ("50.5 A", "30 A"))

@@ -12,12 +12,12 @@ import pytest
 from cqdd_design.design import load_design
 from cqdd_design.errors import ReadBackError, UsageError
 from cqdd_design.exporting import ExportOptions, export
-from cqdd_design.exporting.dxf import write_flat_part
-from cqdd_design.exporting.dxf_reader import loops_of, read_dxf
-from cqdd_design.exporting.flat_parts import flat_parts
+from cqdd_design.exporting.edm.dxf import write_flat_part
+from cqdd_design.exporting.edm.dxf_reader import loops_of, read_dxf
+from cqdd_design.exporting.edm.flat_parts import flat_parts
+from cqdd_design.exporting.edm.readback import read_back
+from cqdd_design.exporting.edm.wire_path import wire_paths
 from cqdd_design.exporting.options import CHOICES
-from cqdd_design.exporting.readback import read_back
-from cqdd_design.exporting.wire_path import wire_paths
 
 DIALECTS = [
     ExportOptions(dxf_version=version, dxf_style=style)

@@ -20,8 +20,9 @@ from hypothesis import strategies as st
 from cqdd_design.catalog import find_bearing
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, GeometryError, ReadBackError, UsageError
-from cqdd_design.exporting import EXPORTERS, dxf, export, flat_parts, read_kinds
-from cqdd_design.exporting.start_holes import start_holes
+from cqdd_design.exporting import EXPORTERS, export, read_kinds
+from cqdd_design.exporting.edm import dxf, flat_parts
+from cqdd_design.exporting.edm.start_holes import start_holes
 from cqdd_design.gearbox import with_chosen_bearing
 from cqdd_design.gearbox.stages import pin_mean_diameter
 from cqdd_design.geometry import CycloidDisc, lobed_outline

@@ -16,13 +16,13 @@ from cqdd_design.catalog import find_bearing, find_material, materials
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, UsageError
 from cqdd_design.exporting import ExportOptions, export
-from cqdd_design.exporting.cut_facts import facts_of, heat_treatment, zone_text
-from cqdd_design.exporting.cut_sheet import SCALES, draw_sheet, sheet_scale
-from cqdd_design.exporting.flat_parts import flat_parts
-from cqdd_design.exporting.seats import seats_of
-from cqdd_design.exporting.sheet_canvas import pdf_bytes
-from cqdd_design.exporting.sheet_frame import BOTTOM, LEFT, RIGHT, TOP
-from cqdd_design.exporting.sheet_text import WIDTHS, fitting_height, printable, text_width
+from cqdd_design.exporting.edm.cut_facts import facts_of, heat_treatment, zone_text
+from cqdd_design.exporting.edm.flat_parts import flat_parts
+from cqdd_design.exporting.edm.seats import seats_of
+from cqdd_design.exporting.sheets.canvas import pdf_bytes
+from cqdd_design.exporting.sheets.cut_sheet import SCALES, draw_sheet, sheet_scale
+from cqdd_design.exporting.sheets.frame import BOTTOM, LEFT, RIGHT, TOP
+from cqdd_design.exporting.sheets.lettering import WIDTHS, fitting_height, printable, text_width
 from cqdd_design.solids.fits import seat_fits
 from cqdd_design.solids.proportions import lay_out
 

@@ -18,9 +18,9 @@ from hypothesis import strategies as st
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, ReadBackError
 from cqdd_design.exporting import ExportOptions, export
-from cqdd_design.exporting.flat_parts import flat_parts
-from cqdd_design.exporting.gcode import program
-from cqdd_design.exporting.gcode_check import check_program
+from cqdd_design.exporting.edm.flat_parts import flat_parts
+from cqdd_design.exporting.edm.gcode import program
+from cqdd_design.exporting.edm.gcode_check import check_program
 from cqdd_design.geometry.contours import Circle
 
 SEVERAL = settings(

@@ -14,7 +14,7 @@ import pytest
 from solids_designs import known_design, known_parts, part_named
 
 from cqdd_design.exporting import ExportJob
-from cqdd_design.exporting.meshes import (
+from cqdd_design.exporting.solids.meshes import (
     export_3mf,
     export_glb,
     export_stl,

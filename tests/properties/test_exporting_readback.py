@@ -17,11 +17,11 @@ from hypothesis import strategies as st
 
 from cqdd_design.design import load_design
 from cqdd_design.errors import ReadBackError
-from cqdd_design.exporting.dxf import contour_fit, draw, write_flat_part
-from cqdd_design.exporting.exact_curves import disc_curve, ring_curve
-from cqdd_design.exporting.flat_parts import flat_parts
-from cqdd_design.exporting.loops import Loop, fit_of
-from cqdd_design.exporting.readback import read_back
+from cqdd_design.exporting.edm.dxf import contour_fit, draw, write_flat_part
+from cqdd_design.exporting.edm.exact_curves import disc_curve, ring_curve
+from cqdd_design.exporting.edm.flat_parts import flat_parts
+from cqdd_design.exporting.edm.loops import Loop, fit_of
+from cqdd_design.exporting.edm.readback import read_back
 from cqdd_design.geometry import ArcContour, CycloidDisc, lobed_outline, ring_contour, ring_moments
 from cqdd_design.geometry.contours import as_complex
 

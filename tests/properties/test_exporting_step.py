@@ -12,8 +12,9 @@ import pytest
 from solids_designs import known_design, known_parts, part_named
 
 from cqdd_design.errors import ReadBackError
-from cqdd_design.exporting import ExportJob, step
-from cqdd_design.exporting.step import export_step, file_label, write_part_step, write_step
+from cqdd_design.exporting import ExportJob
+from cqdd_design.exporting.solids import step
+from cqdd_design.exporting.solids.step import export_step, file_label, write_part_step, write_step
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("cadquery") is None, reason="cadquery is not installed"

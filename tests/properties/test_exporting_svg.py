@@ -11,8 +11,8 @@ import pytest
 
 from cqdd_design.design import load_design
 from cqdd_design.exporting import export
-from cqdd_design.exporting.flat_parts import flat_parts
-from cqdd_design.exporting.svg import front_view, part_view, path_data
+from cqdd_design.exporting.edm.flat_parts import flat_parts
+from cqdd_design.exporting.sheets.svg import front_view, part_view, path_data
 from cqdd_design.geometry import ArcContour, Circle
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 
 from cqdd_design import __version__
 from cqdd_design.actuator.parameters import ActuatorParameters
-from cqdd_design.exporting.urdf import DRAKE, urdf_text
+from cqdd_design.exporting.simulators.urdf import DRAKE, urdf_text
 
 
 def expected(p: ActuatorParameters) -> dict[str, float]:

@@ -18,10 +18,10 @@ from hypothesis import strategies as st
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, GeometryError, ReadBackError
 from cqdd_design.exporting import export
-from cqdd_design.exporting.dxf import write_flat_part
-from cqdd_design.exporting.flat_parts import flat_parts
-from cqdd_design.exporting.readback import read_back
-from cqdd_design.exporting.wire_path import (
+from cqdd_design.exporting.edm.dxf import write_flat_part
+from cqdd_design.exporting.edm.flat_parts import flat_parts
+from cqdd_design.exporting.edm.readback import read_back
+from cqdd_design.exporting.edm.wire_path import (
     offset_contour,
     segmented,
     split_for_tab,

@@ -21,13 +21,13 @@ from cqdd_design.errors import CqddError, GeometryError, InfeasibleError, UsageE
 from cqdd_design.gearbox import (
     CHECK_GUIDE,
     GearboxAnalysis,
-    allowables,
     analyse_gearbox,
     check_guide,
     with_chosen_bearing,
 )
 from cqdd_design.gearbox.balance import paper_disc_count, stack_balance
-from cqdd_design.gearbox.bearings import basic_rating_life_hours, load_for_life
+from cqdd_design.gearbox.bearing_life import basic_rating_life_hours, load_for_life
+from cqdd_design.gearbox.checks import allowables
 from cqdd_design.geometry import CycloidDisc
 from cqdd_design.results import Check, MassProperties, worst_status
 

@@ -11,10 +11,10 @@ from geometry_designs import discs
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cqdd_design.gearbox import hertz, kinematics, output_pins, rigid
+from cqdd_design.gearbox import hertz, output_pins, rigid
 from cqdd_design.gearbox.loads import rigid_maxima, rigid_series
 from cqdd_design.gearbox.stages import Stages
-from cqdd_design.geometry import CycloidDisc
+from cqdd_design.geometry import CycloidDisc, kinematics
 from cqdd_design.geometry.meshing import tooth_gaps
 
 ANGLES = st.floats(0.0, 2.0 * math.pi)

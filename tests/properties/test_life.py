@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design, load_design
-from cqdd_design.gearbox import allowables, output_pins
+from cqdd_design.gearbox import output_pins
+from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import ContactSweep, contact_sweep
 from cqdd_design.gearbox.contact.tables import pin_table, ring_table

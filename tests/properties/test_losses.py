@@ -20,7 +20,7 @@ from solids_designs import machines
 
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import UsageError
-from cqdd_design.gearbox import kinematics, rigid
+from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.contact.laws import CamSpring
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import ContactSweep, contact_sweep, perfect_angles
@@ -33,7 +33,7 @@ from cqdd_design.gearbox.losses.rolling import drag_torque
 from cqdd_design.gearbox.losses.shaft import equivalent_load, support_reactions
 from cqdd_design.gearbox.losses.sliding import friction_work, pin_sliding, ring_sliding
 from cqdd_design.gearbox.stages import Stages
-from cqdd_design.geometry import CycloidDisc
+from cqdd_design.geometry import CycloidDisc, kinematics
 
 PAPER = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
 SPEED = 1286.0 * math.pi / 30.0

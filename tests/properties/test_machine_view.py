@@ -35,11 +35,11 @@ from cqdd_design.report.machine_view.hidden_lines import chained, visible_lines
 from cqdd_design.report.machine_view.pictures import exploded_figure
 from cqdd_design.report.machine_view.pieces import stations
 from cqdd_design.report.machine_view.section import cut_angles, cut_faces, section_figure
-from cqdd_design.solids.kernel import MM
+from cqdd_design.solids.cad import MM
+from cqdd_design.solids.layers import Annulus, turned
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.poses import Body, BodyKind, body_pose
-from cqdd_design.solids.shapes import Annulus, turned
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("cadquery") is None, reason="cadquery is not installed"
@@ -165,7 +165,7 @@ def test_section_cuts_what_the_plane_meets() -> None:
 
 def test_hidden_lines_of_a_tube() -> None:
     """Along the axis only circles are left; from the side a rectangle, the bore hidden."""
-    from cqdd_design.solids.kernel import build_solid
+    from cqdd_design.solids.cad import build_solid
 
     tube = build_solid("tube", turned([Annulus(0.0, 0.010, 0.004, 0.006)]))
     side = Camera(np.eye(3)[0], np.eye(3)[2], -np.eye(3)[1])

@@ -25,15 +25,15 @@ from hypothesis import strategies as st
 
 from cqdd_design.design import Design
 from cqdd_design.errors import ContactError, CqddError
-from cqdd_design.gearbox import kinematics
-from cqdd_design.gearbox.contact.errors import ErrorBatch, GearboxErrors
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import ErrorBatch, GearboxErrors
 from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles
 from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.gearbox.precision.orders import order_spectrum
 from cqdd_design.gearbox.precision.precision import precision
 from cqdd_design.gearbox.tolerance.draws import draw_errors
 from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS, ensemble_tables, evaluate_gearboxes
+from cqdd_design.geometry import kinematics
 
 SEEDS = st.integers(0, 2**32 - 1)
 SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much]

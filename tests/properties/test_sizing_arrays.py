@@ -22,7 +22,7 @@ from cqdd_design.geometry import (
     undercut_radius_limit,
 )
 from cqdd_design.geometry.relief import solid_relief
-from cqdd_design.sizing import shapes
+from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.finish import design_of, is_load, torque_reserve
 from cqdd_design.sizing.frame import search_frame
 from cqdd_design.sizing.masses import SHAFT_DENSITY

@@ -12,7 +12,7 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox import analyse_gearbox
 from cqdd_design.sizing.frame import search_frame
 from cqdd_design.sizing.screen import screen
-from cqdd_design.sizing.shapes import largest_pin_circle, valley_offset
+from cqdd_design.sizing.shape_limits import largest_pin_circle, valley_offset
 from cqdd_design.sizing.space import SearchSpace, largest_pitch_radius, search_space
 from cqdd_design.sizing.stage_tables import stage_tables
 

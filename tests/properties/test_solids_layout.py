@@ -17,12 +17,12 @@ from cqdd_design.errors import CatalogError, GeometryError
 from cqdd_design.geometry.contours import Circle
 from cqdd_design.geometry.disc import disc_contour
 from cqdd_design.solids.clocking import disc_groups
+from cqdd_design.solids.layers import Annulus, Drilling, notched_circle, on_circle, turned
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.parts import build_parts, total_mass
 from cqdd_design.solids.poses import HOUSING, body_pose
 from cqdd_design.solids.proportions import lay_out
 from cqdd_design.solids.selection import output_pin
-from cqdd_design.solids.shapes import Annulus, Drilling, notched_circle, on_circle, turned
 
 TOUCH = 1e-9
 

@@ -16,11 +16,11 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.contours import Circle
 from cqdd_design.solids.counterweights import crank_moments
 from cqdd_design.solids.interference import collisions
+from cqdd_design.solids.layers import Annulus, circle, reshaped, scalloped_circle, turned
 from cqdd_design.solids.mesh import DISPLAY
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.proportions import lay_out
-from cqdd_design.solids.shapes import Annulus, circle, reshaped, scalloped_circle, turned
 
 BEARING = find_bearing("6902")
 MOTOR = ("motor stator", "motor rotor", "rotor bell", "motor cover", "encoder magnet")

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import UsageError
-from cqdd_design.gearbox.contact.errors import ErrorBatch
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import ErrorBatch
 from cqdd_design.gearbox.precision.precision import precision
 from cqdd_design.gearbox.tolerance.draws import GROUPS, draw_errors, profile_amplitudes
 from cqdd_design.gearbox.tolerance.ensemble import (

@@ -15,11 +15,11 @@ from torque_networks import DT, PV, PVA, TAPS, features, joint, network
 from torque_samples import actuator
 
 from cqdd_design.errors import UsageError
-from cqdd_design.exporting.c_header import c_name, header_text, write_c_header
-from cqdd_design.torque.episodes import Episode
-from cqdd_design.torque.features import feature_matrix
-from cqdd_design.torque.physics import actuator_to_dict, driven_torque
-from cqdd_design.torque.predict import predict
+from cqdd_design.exporting.estimators.c_header import c_name, header_text, write_c_header
+from cqdd_design.torque.data.episodes import Episode
+from cqdd_design.torque.features.matrix import feature_matrix
+from cqdd_design.torque.features.physics import actuator_to_dict, driven_torque
+from cqdd_design.torque.networks.predict import predict
 
 COMPILERS = [name for name in ("cc", "gcc", "clang") if shutil.which(name)]
 compiled = pytest.mark.skipif(not COMPILERS, reason="no C compiler (cc, gcc, clang) on this system")

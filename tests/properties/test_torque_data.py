@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.design import load_design
 from cqdd_design.errors import DesignError, UsageError
-from cqdd_design.torque import pendulum
-from cqdd_design.torque.generate import Request, describe, generate
-from cqdd_design.torque.pendulum import Configuration
-from cqdd_design.torque.sensing import Filter, SensorChain, Truth, encoded, measured
+from cqdd_design.torque.data import pendulum
+from cqdd_design.torque.data.generate import Request, describe, generate
+from cqdd_design.torque.data.pendulum import Configuration
+from cqdd_design.torque.data.sensing import Filter, SensorChain, Truth, encoded, measured
 
 DESIGN = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
 SMALL = Request(episodes=5, seconds=1.5, unit_gearboxes=0, held_mass=1.71)
@@ -275,7 +275,7 @@ def test_the_ripple_is_never_adjusted(small):
 
 def test_the_gearbox_s_ripple_is_told_from_all_else_in_its_band(small):
     """It is none for perfect parts, and follows the size of the errors."""
-    from cqdd_design.torque.generate import _gearbox_ripple
+    from cqdd_design.torque.data.generate import _gearbox_ripple
 
     data, _ = small
     drawn = actuator_parameters(DESIGN, seed=1)
@@ -311,7 +311,7 @@ def test_the_manifest_says_what_made_the_data(small):
 
 def test_a_set_on_disk_is_the_set(small, tmp_path):
     pytest.importorskip("pyarrow")
-    from cqdd_design.torque.episodes import read_data, write_data
+    from cqdd_design.torque.data.episodes import read_data, write_data
 
     data, _ = small
     write_data(data, tmp_path)

@@ -11,16 +11,16 @@ import pytest
 
 from cqdd_design.actuator.scenario import Wall
 from cqdd_design.errors import UsageError
-from cqdd_design.report.torque_view import torque_page
-from cqdd_design.torque import bootstrap, metrics
-from cqdd_design.torque.artefact import Artefact, Validity
-from cqdd_design.torque.episodes import DataSet, Episode
-from cqdd_design.torque.estimators import Estimator, network_estimator, without_phase
-from cqdd_design.torque.evaluation import PAPER, evaluate
-from cqdd_design.torque.lineup import split_of, trained_on
-from cqdd_design.torque.ripple import BAND, order_spectrum, ripple, spectra, strokes
-from cqdd_design.torque.rollout import Pendulum, drift, pendulum_of, rollout
-from cqdd_design.torque.table import markdown, shown
+from cqdd_design.report.torque.torque_view import torque_page
+from cqdd_design.torque.data.episodes import DataSet, Episode
+from cqdd_design.torque.evaluation import bootstrap, metrics
+from cqdd_design.torque.evaluation.estimators import Estimator, network_estimator, without_phase
+from cqdd_design.torque.evaluation.evaluate import PAPER, evaluate
+from cqdd_design.torque.evaluation.lineup import split_of, trained_on
+from cqdd_design.torque.evaluation.ripple import BAND, order_spectrum, ripple, spectra, strokes
+from cqdd_design.torque.evaluation.rollout import Pendulum, drift, pendulum_of, rollout
+from cqdd_design.torque.evaluation.table import markdown, shown
+from cqdd_design.torque.networks.artefact import Artefact, Validity
 
 DT = 0.005
 FACTS = {

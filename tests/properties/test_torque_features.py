@@ -10,7 +10,7 @@ import pytest
 from torque_samples import DT, actuator, data_set, episode
 
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.features import (
+from cqdd_design.torque.features.matrix import (
     PHYSICAL,
     acceleration,
     differentiator_error,
@@ -20,7 +20,7 @@ from cqdd_design.torque.features import (
     strongest_orders,
     windows,
 )
-from cqdd_design.torque.packing import pack_data, unpack_data
+from cqdd_design.torque.training.packing import pack_data, unpack_data
 
 ALL = ("position_error", "velocity", "acceleration", "sin_10", "cos_11", *PHYSICAL)
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.log_checks import velocity_factor
-from cqdd_design.torque.log_files import LogMap, read_columns, read_map
-from cqdd_design.torque.logs import import_logs
-from cqdd_design.torque.splits import audit, split
+from cqdd_design.torque.data.log_checks import velocity_factor
+from cqdd_design.torque.data.log_files import LogMap, read_columns, read_map
+from cqdd_design.torque.data.logs import import_logs
+from cqdd_design.torque.data.splits import audit, split
 
 NAMES = {"time": "t", "position": "q", "target": "q_des", "velocity": "dq", "torque": "tau"}
 SI = LogMap(NAMES)

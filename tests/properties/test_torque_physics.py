@@ -21,10 +21,10 @@ from torque_samples import (
 from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Start
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.baselines import TERMS, current_estimate, fit_friction, pd_law
-from cqdd_design.torque.episodes import Episode
-from cqdd_design.torque.features import acceleration, savitzky_golay
-from cqdd_design.torque.physics import (
+from cqdd_design.torque.data.episodes import Episode
+from cqdd_design.torque.evaluation.baselines import TERMS, current_estimate, fit_friction, pd_law
+from cqdd_design.torque.features.matrix import acceleration, savitzky_golay
+from cqdd_design.torque.features.physics import (
     actuator_from_dict,
     actuator_to_dict,
     friction_sign,

@@ -9,8 +9,8 @@ import pytest
 from torque_networks import PV, PVA, motion, network
 
 from cqdd_design.errors import UsageError
-from cqdd_design.torque import gru_kernel
-from cqdd_design.torque.predict import Streaming, predict, predict_windows
+from cqdd_design.torque.networks import gru_kernel
+from cqdd_design.torque.networks.predict import Streaming, predict, predict_windows
 
 CASES = {
     "pva-gru, streaming": network(),

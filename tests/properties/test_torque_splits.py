@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.episodes import DataSet, Episode
-from cqdd_design.torque.splits import (
+from cqdd_design.torque.data.episodes import DataSet, Episode
+from cqdd_design.torque.data.splits import (
     PROTOCOLS,
     Split,
     audit,

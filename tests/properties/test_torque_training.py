@@ -16,15 +16,15 @@ from torque_samples import DT, actuator, data_set
 torch = pytest.importorskip("torch")
 
 from cqdd_design.errors import UsageError  # noqa: E402
-from cqdd_design.torque.artefact import read_artefact, write_artefact  # noqa: E402
-from cqdd_design.torque.features import feature_matrix  # noqa: E402
-from cqdd_design.torque.networks import MODELS, Network, find_model, network_of  # noqa: E402
-from cqdd_design.torque.packing import pack_data  # noqa: E402
-from cqdd_design.torque.recipe import Choice, Recipe  # noqa: E402
-from cqdd_design.torque.schedule import OneCycle, peak_rate  # noqa: E402
-from cqdd_design.torque.splits import Split  # noqa: E402
-from cqdd_design.torque.training import train  # noqa: E402
-from cqdd_design.torque.wavefront import last_state  # noqa: E402
+from cqdd_design.torque.data.splits import Split  # noqa: E402
+from cqdd_design.torque.features.matrix import feature_matrix  # noqa: E402
+from cqdd_design.torque.networks.artefact import read_artefact, write_artefact  # noqa: E402
+from cqdd_design.torque.networks.modules import MODELS, Network, find_model, network_of  # noqa: E402
+from cqdd_design.torque.networks.wavefront import last_state  # noqa: E402
+from cqdd_design.torque.training.packing import pack_data  # noqa: E402
+from cqdd_design.torque.training.recipe import Choice, Recipe  # noqa: E402
+from cqdd_design.torque.training.schedule import OneCycle, peak_rate  # noqa: E402
+from cqdd_design.torque.training.train import train  # noqa: E402
 
 DATA = data_set()
 SPLIT = Split(("e0", "e1", "e2", "e3", "e4"), ("e5", "e6"), ("e7",), "trajectory", 0)
@@ -239,7 +239,7 @@ def test_a_residual_learns_what_physics_leaves_and_phases_come_from_the_gearbox(
 def test_patience_stops_and_the_searched_mlp_records_its_trials(monkeypatch):
     recipe = dataclasses.replace(QUICK, epochs=40, patience=1, reading="initial")
     assert quick(recipe=recipe).facts["epochs"] <= 40
-    from cqdd_design.torque import search
+    from cqdd_design.torque.training import search
 
     monkeypatch.setattr(search, "RATES", (1e-3, 6e-3))
     monkeypatch.setattr(search, "DECAYS", (0.0,))
@@ -313,10 +313,10 @@ class Missing(MetaPathFinder):
 
 sys.meta_path.insert(0, Missing())
 from pathlib import Path
-from cqdd_design.torque.packing import unpack_data
-from cqdd_design.torque.recipe import Recipe
-from cqdd_design.torque.splits import split
-from cqdd_design.torque.training import train
+from cqdd_design.torque.training.packing import unpack_data
+from cqdd_design.torque.training.recipe import Recipe
+from cqdd_design.torque.data.splits import split
+from cqdd_design.torque.training.train import train
 data, actuator = unpack_data(Path(sys.argv[1]))
 parts, recipe = split(data, "trajectory"), Recipe(epochs=2, stride=16, batch=16)
 print(train(data, parts, "physics-gru", 0, recipe=recipe, actuator=actuator).name)

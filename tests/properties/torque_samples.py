@@ -14,7 +14,7 @@ from cqdd_design.actuator.parameters import (
     MotorParameters,
     ThermalParameters,
 )
-from cqdd_design.torque.episodes import DataSet, Episode
+from cqdd_design.torque.data.episodes import DataSet, Episode
 
 DT = 0.005
 POSITION_GAIN, VELOCITY_GAIN = 60.0, 2.0

@@ -29,12 +29,13 @@ from backlash_oracle import carrier_range
 from contact_designs import ARCMIN, paper_design, peer_design, rigid_of
 
 from cqdd_design.design import Design
-from cqdd_design.gearbox import hertz, kinematics
+from cqdd_design.gearbox import hertz
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import CamSpring, LineLaw
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import ContactSweep, contact_sweep
 from cqdd_design.gearbox.precision.backlash import backlash
+from cqdd_design.geometry import kinematics
 
 TABLE = Path(__file__).parent / "data" / "published_examples.csv"
 ROWS = [

@@ -20,8 +20,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cqdd_design.gearbox import hertz, kinematics, output_pins, rigid
-from cqdd_design.geometry import trochoid
+from cqdd_design.gearbox import hertz, output_pins, rigid
+from cqdd_design.geometry import kinematics, trochoid
 
 KSI = 6.894757e6
 TABLE = Path(__file__).parent / "data" / "published_examples.csv"

@@ -17,7 +17,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from cqdd_design.gearbox.bearings import basic_rating_life_hours
+from cqdd_design.gearbox.bearing_life import basic_rating_life_hours
 from cqdd_design.gearbox.life.cam import equivalent_load, set_life
 from cqdd_design.gearbox.life.fatigue import (
     contact_cycle_factor,

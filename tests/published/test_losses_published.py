@@ -21,8 +21,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cqdd_design.gearbox import kinematics, rigid
+from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.losses import sliding
+from cqdd_design.geometry import kinematics
 
 TABLE = Path(__file__).parent / "data" / "published_examples.csv"
 ROWS = [

@@ -1,5 +1,5 @@
 """Contact equilibrium: what every tooth, pin and bearing carries, with clearance and error.
 
 Import the modules directly: :mod:`.model` (what is solved), :mod:`.sweep` (solve it over crank
-angle), :mod:`.errors` (part errors). The compiled kernel is loaded only by the modules that solve.
+angle), :mod:`.part_errors`. The compiled kernel is loaded only by the modules that solve.
 """

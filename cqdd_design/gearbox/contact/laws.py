@@ -2,7 +2,7 @@
 
 A line contact is written as approach over force, ``delta(F)``, because a pin adds its own linear
 compliance in series; the equilibrium needs the inverse, force over approach, which the compiled
-kernel (:mod:`.kernel`) and its plain twin here find by Newton's method.
+kernel (:mod:`.equilibrium_kernel`) and its plain twin here find by Newton's method.
 """
 
 from __future__ import annotations

@@ -15,9 +15,9 @@ from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import CamSpring, LineLaw, LineModel
 from cqdd_design.gearbox.contact.pin_compliance import pin_compliance
 from cqdd_design.gearbox.hertz import conformal_equivalent_radius
-from cqdd_design.gearbox.kinematics import crank_phases
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.kinematics import crank_phases
 
 FloatArray = NDArray[np.float64]
 

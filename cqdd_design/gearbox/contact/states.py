@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.gearbox.contact.errors import GearboxErrors
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.tables import PinTable, RingTable, pin_table, ring_table
 
 FloatArray = NDArray[np.float64]
@@ -115,7 +115,7 @@ class ErrorStates:
 def error_states(
     model: ContactModel, states: NominalStates, errors: GearboxErrors | None
 ) -> ErrorStates:
-    """Gap changes by part errors: plain twin of :func:`.fill.fill_errors`.
+    """Gap changes by part errors: plain twin of :func:`.gaps_kernel.fill_errors`.
 
     A tooth that moves toward the disc or grows, and material on the disc, close the gap; a hole
     that moves along the pin's force or grows opens it, a pin that does closes it.

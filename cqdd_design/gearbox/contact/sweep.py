@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError, UsageError
-from cqdd_design.gearbox import kinematics
 from cqdd_design.gearbox.contact import laws
-from cqdd_design.gearbox.contact.errors import GearboxErrors
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.states import (
     ErrorStates,
     NominalStates,
@@ -21,6 +20,7 @@ from cqdd_design.gearbox.contact.states import (
     nominal_states,
 )
 from cqdd_design.gearbox.hertz import line_contact_pressure
+from cqdd_design.geometry import kinematics
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -230,7 +230,7 @@ def contact_sweep(
         When a state has no equilibrium within reach of the nominal pose, naming its angle; when
         the load leaves the force law.
     """
-    from cqdd_design.gearbox.contact.kernel_sweep import solve_sweep
+    from cqdd_design.gearbox.contact.sweep_kernel import solve_sweep
 
     if not math.isfinite(torque):
         raise ContactError(f"a torque of {torque} N*m has no equilibrium; give a finite one.")

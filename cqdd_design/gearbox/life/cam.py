@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.catalog.bearings import Bearing
-from cqdd_design.gearbox.bearings import RollingElement, basic_rating_life_hours, life_exponent
+from cqdd_design.gearbox.bearing_life import RollingElement, basic_rating_life_hours, life_exponent
 from cqdd_design.gearbox.cam_bearing import rolling_element
 
 FloatArray = NDArray[np.float64]

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
-from cqdd_design.gearbox import allowables, kinematics
 from cqdd_design.gearbox.cam_bearing import cam_bearing, with_chosen_bearing
+from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.contact.sweep import ContactSweep, contact_sweep
@@ -24,6 +24,7 @@ from cqdd_design.gearbox.life.contacts import Pressures
 from cqdd_design.gearbox.life.result import CaseLoads, DutyCase, LifeResult, PartLife
 from cqdd_design.gearbox.loads import rigid_maxima
 from cqdd_design.gearbox.stages import Stages
+from cqdd_design.geometry import kinematics
 
 FloatArray = NDArray[np.float64]
 

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.contact.errors import GearboxErrors
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.states import (
     ErrorStates,
     NominalStates,
@@ -101,7 +101,7 @@ def backlash(
     ContactError
         Where the parts are so loose that the teeth pass each other.
     """
-    from cqdd_design.gearbox.precision.kernel import OVERLAP
+    from cqdd_design.gearbox.precision.backlash_kernel import OVERLAP
 
     if states is None:
         if crank_angle is None:
@@ -157,7 +157,7 @@ def _push(
     sense: float,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Extreme carrier angle (A,), overlap (A,) and poses (A, 3 + 3 D) of one sense."""
-    from cqdd_design.gearbox.precision.kernel import backlash_sweep
+    from cqdd_design.gearbox.precision.backlash_kernel import backlash_sweep
 
     count, discs = gaps.shape[:2]
     end, overlap, poses = np.empty(count), np.empty(count), np.empty((count, 3 + 3 * discs))

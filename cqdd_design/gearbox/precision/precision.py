@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError, UsageError
-from cqdd_design.gearbox import kinematics
-from cqdd_design.gearbox.contact.errors import GearboxErrors
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.contact.sweep import (
     ContactSweep,
@@ -21,6 +20,7 @@ from cqdd_design.gearbox.contact.sweep import (
 )
 from cqdd_design.gearbox.precision.backlash import Backlash, backlash
 from cqdd_design.gearbox.precision.orders import Order, order_spectrum
+from cqdd_design.geometry import kinematics
 
 FloatArray = NDArray[np.float64]
 

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.design.actuator import Tolerances
-from cqdd_design.gearbox.contact.errors import ErrorBatch
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import ErrorBatch
 
 FloatArray = NDArray[np.float64]
 

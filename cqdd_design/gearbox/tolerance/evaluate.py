@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.contact.errors import ErrorBatch
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import ErrorBatch
 from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
 from cqdd_design.gearbox.contact.sweep import (
     contact_sweep,
@@ -149,8 +149,8 @@ def evaluate_gearboxes(
     """
     import numba
 
-    from cqdd_design.gearbox.contact.fill import harmonic_basis, table_size
-    from cqdd_design.gearbox.tolerance.kernel import solve_gearboxes
+    from cqdd_design.gearbox.contact.gaps_kernel import harmonic_basis, table_size
+    from cqdd_design.gearbox.tolerance.ensemble_kernel import solve_gearboxes
 
     model, states = tables.model, tables.states
     harmonics = batch.disc_profile.shape[-1]

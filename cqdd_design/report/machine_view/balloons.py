@@ -8,8 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.report.ink.svg import element, text
 from cqdd_design.report.machine_view.drawing import INK, Sheet
-from cqdd_design.report.svg import element, text
 from cqdd_design.solids.part import Part
 
 _RADIUS = 11.0

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.report.ink.svg import element, fixed
 from cqdd_design.report.machine_view.camera import Camera
 from cqdd_design.report.machine_view.hidden_lines import VisibleLines
 from cqdd_design.report.machine_view.panels import Panel, Posed
-from cqdd_design.report.svg import element, fixed
-from cqdd_design.solids.kernel import MM
+from cqdd_design.solids.cad import MM
 from cqdd_design.solids.mesh import DISPLAY, closed_mesh
 
 if TYPE_CHECKING:

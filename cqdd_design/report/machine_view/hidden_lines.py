@@ -14,7 +14,7 @@ import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.report.machine_view.camera import Camera
-from cqdd_design.solids.kernel import import_cadquery
+from cqdd_design.solids.cad import import_cadquery
 
 if TYPE_CHECKING:
     from cadquery import Shape

@@ -16,7 +16,7 @@ import numpy as np
 
 from cqdd_design.geometry.contours import Contour, FloatArray
 from cqdd_design.report.machine_view.camera import Camera, tinted
-from cqdd_design.solids.kernel import MM
+from cqdd_design.solids.cad import MM
 from cqdd_design.solids.part import Colour, Part
 
 _SAG = 4e-5

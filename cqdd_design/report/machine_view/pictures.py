@@ -10,6 +10,7 @@ import numpy as np
 
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.report.ink.svg import Figure, element
 from cqdd_design.report.machine_view.balloons import ballooned, legend
 from cqdd_design.report.machine_view.camera import Camera
 from cqdd_design.report.machine_view.drawing import (
@@ -26,8 +27,7 @@ from cqdd_design.report.machine_view.explode import take_apart
 from cqdd_design.report.machine_view.hidden_lines import VisibleLines, visible_lines
 from cqdd_design.report.machine_view.panels import Panel, Posed, panels
 from cqdd_design.report.machine_view.pieces import Station, posed, stations
-from cqdd_design.report.svg import Figure, element
-from cqdd_design.solids.kernel import MM, location
+from cqdd_design.solids.cad import MM, location
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.poses import transform
 

@@ -18,6 +18,7 @@ import numpy as np
 
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.report.ink.svg import Figure, element, fixed, text
 from cqdd_design.report.machine_view.balloons import spread
 from cqdd_design.report.machine_view.camera import Camera, tinted
 from cqdd_design.report.machine_view.drawing import (
@@ -30,8 +31,7 @@ from cqdd_design.report.machine_view.drawing import (
 )
 from cqdd_design.report.machine_view.hidden_lines import VisibleLines, visible_lines
 from cqdd_design.report.machine_view.pieces import Station, posed
-from cqdd_design.report.svg import Figure, element, fixed, text
-from cqdd_design.solids.kernel import MM, import_cadquery, location
+from cqdd_design.solids.cad import MM, import_cadquery, location
 from cqdd_design.solids.mesh import DISPLAY, closed_mesh
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.poses import transform

@@ -1,0 +1,171 @@
+"""Compiled gear mesh: dead zone, stiffness and kinematic error; :mod:`..twin.gear` in numpy."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from cqdd_design.actuator.kernels.laws import look_up, part, spring
+
+TINY_TURN, TINY_CLOSING = 1e-10, 1e-9
+"""Steps of angle, rad, below which a difference quotient gives way to the derivative."""
+
+
+class Gear(NamedTuple):
+    """The transmission; `per_turn` and `intervals` lead from motor angle into its table."""
+
+    ratio: float
+    error_torque: float
+    stiffness: float
+    stiffening: float
+    damping: float
+    half_backlash: float
+    per_turn: float
+    intervals: float
+
+
+class Mesh(NamedTuple):
+    """State of the mesh at an instant; slopes count per interval of the table."""
+
+    error: float
+    error_slope: float
+    share: float
+    share_slope: float
+    closing: float
+    deflection: float
+    elastic: float
+    energy: float
+    tangent: float
+
+
+@part
+def gear_of(p: Any, table: Any) -> Any:
+    """Gear from a row of parameters and the table that goes with it."""
+    per_turn = 1.0 / (2.0 * math.pi * abs(p[0]))
+    return Gear(p[0], p[43], p[44], p[45], p[46], p[47], per_turn, table.shape[0] * per_turn)
+
+
+@part
+def mesh_at(gear: Any, table: Any, angle: float, out_angle: float) -> Any:
+    """Mesh at angles of motor and output."""
+    error, error_slope, share, share_slope = look_up(table, angle * gear.per_turn)
+    closing = angle / gear.ratio + error - out_angle
+    deflection, elastic, energy, tangent = spring(
+        closing, gear.half_backlash, gear.error_torque, gear.stiffness, gear.stiffening
+    )
+    return Mesh(
+        error, error_slope, share, share_slope, closing, deflection, elastic, energy, tangent
+    )
+
+
+@part
+def meshed(
+    gear: Any, table: Any, begin: Any, angle: float, turn: float, out_turn: float, h: float
+) -> Any:
+    """Torque of the mesh over a step from `begin` at motor angle `angle`.
+
+    Returns the mean torque on the output, its slope over the closing, the lever by which it acts
+    on the motor, the torque of the varying stiffness on the motor, whether contact that would pull
+    was cut, the change of closing, and the mesh at the end.
+    """
+    new_error, new_slope, new_share, new_bend = look_up(table, (angle + turn) * gear.per_turn)
+    change = turn / gear.ratio + (new_error - begin.error) - out_turn
+    new_closing = begin.closing + change
+    new_deflection, new_elastic, new_energy, new_tangent = spring(
+        new_closing, gear.half_backlash, gear.error_torque, gear.stiffness, gear.stiffening
+    )
+    if abs(change) > TINY_CLOSING:
+        mean = (new_energy - begin.energy) / change
+        mean_slope = (new_elastic - mean) / change
+    else:
+        mean = 0.5 * (begin.elastic + new_elastic)
+        mean_slope = 0.5 * new_tangent
+    if abs(turn) > TINY_TURN:
+        arm = 1.0 / gear.ratio + (new_error - begin.error) / turn
+        bend = (new_share - begin.share) / turn
+    else:
+        arm = 1.0 / gear.ratio + begin.error_slope * gear.intervals
+        bend = begin.share_slope * gear.intervals
+    mid_share = 0.5 * (begin.share + new_share)
+    torque = mid_share * mean + gear.damping * (new_deflection - begin.deflection) / h
+    torque_slope = mid_share * mean_slope
+    if new_deflection != 0.0:
+        torque_slope += gear.damping / h
+    # Without a gap both flanks touch, and the damper may pull.
+    clipped = gear.half_backlash > 0.0 and torque * mean <= 0.0
+    if clipped:
+        torque = torque_slope = 0.0
+    varying = 0.5 * (begin.energy + new_energy) * bend
+    end = Mesh(
+        new_error,
+        new_slope,
+        new_share,
+        new_bend,
+        new_closing,
+        new_deflection,
+        new_elastic,
+        new_energy,
+        new_tangent,
+    )
+    return torque, torque_slope, arm, varying, clipped, change, end
+
+
+@part
+def mesh_ended(
+    gear: Any,
+    table: Any,
+    begin: Any,
+    end: Any,
+    new_angle: float,
+    turn: float,
+    turned: float,
+    change: float,
+    out_turn: float,
+    settled: bool,
+) -> Any:
+    """Mesh at the end of the step, and its whole change of closing.
+
+    `end` and `change` are those of the last evaluation, `turned` the motor's turn since: where the
+    iteration settled, first and second order do.
+    """
+    error, error_slope, share, share_slope = (
+        end.error,
+        end.error_slope,
+        end.share,
+        end.share_slope,
+    )
+    deflection, elastic, energy, tangent = end.deflection, end.elastic, end.energy, end.tangent
+    if settled:
+        error += error_slope * gear.intervals * turned
+        share += share_slope * gear.intervals * turned
+    else:
+        error, error_slope, share, share_slope = look_up(table, new_angle * gear.per_turn)
+    # The error's difference is kept apart from the whole angle, whose rounding is larger.
+    whole = turn / gear.ratio + (error - begin.error) - out_turn
+    closed = whole - change
+    closing = begin.closing + whole
+    if settled and deflection * (deflection + closed) > 0.0:
+        deflection += closed
+        energy += (elastic + 0.5 * tangent * closed) * closed
+        elastic += tangent * closed
+    else:
+        deflection, elastic, energy, tangent = spring(
+            closing, gear.half_backlash, gear.error_torque, gear.stiffness, gear.stiffening
+        )
+    found = Mesh(
+        error, error_slope, share, share_slope, closing, deflection, elastic, energy, tangent
+    )
+    return found, whole
+
+
+@part
+def damped_in_mesh(
+    gear: Any, begin: Any, end: Any, change: float, clipped: bool, h: float, damped: float
+) -> Any:
+    """Energy lost in the mesh, with that of a step: its damper's, or all that a cut contact held.
+
+    Added here and not by the caller, as the product and the sum are rounded once.
+    """
+    if clipped:
+        return damped - 0.5 * (begin.share + end.share) * (end.energy - begin.energy)
+    return damped + gear.damping * (end.deflection - begin.deflection) * change / h

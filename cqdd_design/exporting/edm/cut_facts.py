@@ -1,0 +1,216 @@
+"""What a shop must know of a flat part, once for its sheet and for the README: one value.
+
+Zones follow from the standard deviations of the design's [tolerances]: a normal error is held to
+two of them, an even one to the whole of its zone.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from cqdd_design.catalog import find_bearing, find_material
+from cqdd_design.errors import DesignError
+from cqdd_design.exporting.edm.dxf import contour_fit
+from cqdd_design.exporting.edm.flat_parts import with_named_bearing
+from cqdd_design.exporting.edm.loops import LoopFit
+from cqdd_design.exporting.edm.seats import Seat, seats_of
+from cqdd_design.exporting.edm.wire_path import WirePath, wire_paths
+
+if TYPE_CHECKING:
+    from cqdd_design.design import Design
+    from cqdd_design.exporting.edm.flat_parts import FlatPart
+
+GROUND_FLATNESS = 5e-6
+"""Faces of a plate from an everyday surface grinder, m."""
+GROUND_PARALLELISM = 10e-6
+"""Both faces of a plate from an everyday surface grinder, m."""
+THICKNESS_TOLERANCE = 20e-6
+"""Below nominal, m: discs and ring must not grow into the gaps beside them."""
+WALL_SQUARENESS = 5e-6
+"""Of the cut walls to the lower face, m: what is left of taper after skim cuts."""
+CUT_FINISH, FACE_FINISH = "Ra 0.4", "Ra 0.8"
+"""After skim cuts, and ground, um."""
+
+_MM = 1e3
+_HEAT = (
+    (r"Q&T (\d+)C", "quenched and tempered at {} \u00b0C before cutting"),
+    (r"QT (\S+ HRC) prehard", "prehardened to {}, before cutting"),
+    (r"normalized (\d+)C", "normalized at {} \u00b0C"),
+    (r"annealed", "annealed"),
+    (r"case hardened", "case hardened and ground before cutting"),
+    (r"hardened", "through hardened before cutting"),
+    (r"(H\d{3,4})$", "precipitation hardened, condition {}, before cutting"),
+    (r"-(T\d+)$", "temper {}"),
+    (r" CD$", "cold drawn"),
+)
+
+
+@dataclass(frozen=True)
+class Zones:
+    """Geometric tolerances of a part, m.
+
+    Attributes
+    ----------
+    profile : float
+        Width of the zone about the exact curve, half to either side.
+    hole_position : float
+        Diameter of the zone about the place of each output hole.
+    hole_diameter : float
+        To either side of nominal.
+    """
+
+    profile: float
+    hole_position: float
+    hole_diameter: float
+
+
+@dataclass(frozen=True, eq=False)
+class CutFacts:
+    """A flat part and everything that is said about it.
+
+    Attributes
+    ----------
+    flat : FlatPart
+    design : Design
+    fit : LoopFit
+        Of its fitted contour, measured.
+    paths : tuple of WirePath
+        One a contour, the outer one first.
+    zones : Zones
+    seats : tuple of Seat
+        Contours with an ISO 286 zone.
+    later : tuple of str
+        What is done to the part after it is cut.
+    """
+
+    flat: FlatPart
+    design: Design
+    fit: LoopFit
+    paths: tuple[WirePath, ...]
+    zones: Zones
+    seats: tuple[Seat, ...]
+    later: tuple[str, ...]
+
+    @property
+    def mass(self) -> float:
+        """Of one piece as cut, kg: the area of its contours times thickness and density."""
+        area = self.flat.shape.area()
+        return area * self.flat.thickness * find_material(self.flat.material).density
+
+    @property
+    def hardness(self) -> str:
+        """As the catalogue gives it."""
+        return find_material(self.flat.material).hardness or "not specified"
+
+    @property
+    def heat_treatment(self) -> str:
+        """In words, from the name of the material."""
+        return heat_treatment(self.flat.material)
+
+    @property
+    def seat_by_contour(self) -> dict[int, Seat]:
+        """Seats by the number of their contour."""
+        return {seat.contour: seat for seat in self.seats}
+
+    @property
+    def quantity_text(self) -> str:
+        """Such as ``2, 1 turned over``."""
+        over = self.flat.turned_over
+        return f"{self.flat.quantity}" + (f", {over} turned over" if over else "")
+
+    @property
+    def fit_text(self) -> tuple[str, ...]:
+        """What was measured of the contour as written."""
+        fit = self.fit
+        return (
+            f"{fit.segments} arcs; largest deviation from the exact curve "
+            f"{1e6 * fit.largest_deviation:.3f} \u00b5m, rms {1e6 * fit.rms_deviation:.3f} \u00b5m",
+            f"perimeter {_MM * fit.perimeter:.4f} mm, area {_MM**2 * fit.area:.4f} mm\u00b2, "
+            f"least concave radius {_MM * fit.least_concave_radius:.4f} mm",
+        )
+
+
+def facts_of(flat: FlatPart, design: Design) -> CutFacts:
+    """Gather everything about a part.
+
+    Raises
+    ------
+    GeometryError
+        When a contour is too small for a start hole.
+    ReadBackError
+        When the wire is too thick for a contour.
+    """
+    return CutFacts(
+        flat=flat,
+        design=design,
+        fit=contour_fit(flat),
+        paths=wire_paths(flat, design.edm),
+        zones=zones_of(flat, design),
+        seats=seats_of(flat),
+        later=_after_cutting(flat, design),
+    )
+
+
+def _after_cutting(flat: FlatPart, design: Design) -> tuple[str, ...]:
+    """Holes of the ring that are made with its housing, not by wire."""
+    from cqdd_design.solids.proportions import lay_out
+
+    if flat.label != "ring":
+        return ()
+    resolved = with_named_bearing(design)
+    try:
+        dowels = lay_out(resolved, find_bearing(resolved.reducer.cam_bearing.designation)).dowels
+    except DesignError:
+        # No machine fits around this ring; it can still be cut and quoted.
+        return ()
+    if dowels.radius <= 0.0:
+        return ()
+    return (
+        f"Not by wire, not in this file: {len(dowels.angles)} holes \u00d8"
+        f"{2.0 * _MM * dowels.radius:g} H7 across the seam of ring and housing are drilled and "
+        "reamed with the housing at assembly.",
+    )
+
+
+def zones_of(flat: FlatPart, design: Design) -> Zones:
+    """Zones of a part from the design's standard deviations."""
+    tolerances = design.tolerances
+    half = 2.0 if tolerances.distribution == "normal" else math.sqrt(3.0)
+    if flat.label == "ring":
+        profile = math.hypot(tolerances.tooth_position, tolerances.tooth_radius)
+    else:
+        profile = tolerances.disc_profile
+    return Zones(
+        profile=2.0 * half * profile,
+        hole_position=2.0 * half * tolerances.hole_position,
+        hole_diameter=half * tolerances.hole_diameter,
+    )
+
+
+def heat_treatment(material: str) -> str:
+    """Heat treatment in words.
+
+    Examples
+    --------
+    >>> heat_treatment("7075-T6")
+    'temper T6'
+    """
+    for pattern, words in _HEAT:
+        match = re.search(pattern, material)
+        if match:
+            return words.format(*match.groups())
+    return "as delivered"
+
+
+def zone_text(value: float) -> str:
+    """A width of a zone in mm, to 0.1 um.
+
+    Examples
+    --------
+    >>> zone_text(4e-6)
+    '0.004'
+    """
+    return f"{_MM * value:.4f}".rstrip("0").rstrip(".") or "0"

@@ -1,0 +1,163 @@
+"""The flat parts a wire-EDM shop cuts from a design, and how many of each.
+
+Discs that are one part, perhaps some of them turned over, need one program (`solids.clocking`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cqdd_design.catalog import find_bearing
+from cqdd_design.exporting.edm.exact_curves import disc_curve, ring_curve
+from cqdd_design.exporting.edm.loops import ExactCurve
+from cqdd_design.geometry.contours import Contour, PlanarPart
+from cqdd_design.geometry.disc import disc_contour
+from cqdd_design.geometry.ring import ring_contour
+from cqdd_design.geometry.validate import validate_geometry
+from cqdd_design.solids.clocking import DiscGroup, disc_groups
+from cqdd_design.solids.selection import output_pin
+
+if TYPE_CHECKING:
+    from cqdd_design.design import Design
+
+
+@dataclass(frozen=True, eq=False)
+class FlatPart:
+    """One program: a flat part as it is cut, with the exact curve of its one fitted contour.
+
+    Attributes
+    ----------
+    label : str
+        Ends the file name: ``disc``, ``disc-2``, ``ring``.
+    shape : PlanarPart
+        Contours as they are written, m. One of them is an `ArcContour`, the rest are circles.
+    exact : ExactCurve
+        What the `ArcContour` stands for.
+    thickness : float
+        m.
+    material : str
+        Catalogue name.
+    quantity : int
+        How many to cut.
+    reference_radius : float
+        Circle drawn for reference, m: through the output holes, or through the teeth.
+    remarks : tuple of str
+        What the shop must know of this part.
+    turned_over : int
+        How many of them are put in turned over.
+    """
+
+    label: str
+    shape: PlanarPart
+    exact: ExactCurve
+    thickness: float
+    material: str
+    quantity: int
+    reference_radius: float
+    remarks: tuple[str, ...]
+    turned_over: int = 0
+
+
+def flat_parts(design: Design) -> tuple[FlatPart, ...]:
+    """Every flat part of a design that is cut by wire, discs first.
+
+    Raises
+    ------
+    GeometryError
+        When a part cannot have its shape.
+    """
+    resolved = with_named_bearing(design)
+    bearing = find_bearing(resolved.reducer.cam_bearing.designation)
+    validate_geometry(
+        resolved,
+        bore_diameter=bearing.outer_diameter,
+        pin_mean_diameter=pin_diameter(resolved),
+    )
+    groups = disc_groups(resolved)
+    discs = tuple(_disc(resolved, group, alone=len(groups) == 1) for group in groups)
+    return (*discs, _ring(resolved))
+
+
+def with_named_bearing(design: Design) -> Design:
+    """Return the design with a cam bearing of "auto" replaced by the catalogue's answer."""
+    if design.reducer.cam_bearing.designation != "auto":
+        return design
+    # Only a choice needs the loads, and the rooms that find them take long to import.
+    from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
+
+    return with_chosen_bearing(design)
+
+
+def pin_diameter(design: Design) -> float:
+    """Mean diameter of the output pins as made, m."""
+    return output_pin(design.reducer.output_pins.diameter).mean_diameter
+
+
+def reach_of(contour: Contour) -> float:
+    """Farthest the contour comes from the origin, m, to 10 um."""
+    return float(np.hypot(*contour.sample(1e-5).T).max())
+
+
+def disc_shape(design: Design, disc_index: int) -> PlanarPart:
+    """Return a disc in its own lobes' frame; the design must name its cam bearing."""
+    bearing = find_bearing(design.reducer.cam_bearing.designation)
+    return disc_contour(
+        design,
+        disc_index,
+        bore_diameter=bearing.outer_diameter,
+        pin_mean_diameter=pin_diameter(design),
+    )
+
+
+def _disc(design: Design, group: DiscGroup, *, alone: bool) -> FlatPart:
+    reducer = design.reducer
+    drawn = group.placements[0].disc
+    return FlatPart(
+        label="disc" if alone else f"disc-{drawn + 1}",
+        shape=disc_shape(design, drawn),
+        exact=disc_curve(design),
+        thickness=reducer.disc_thickness,
+        material=reducer.disc_material,
+        quantity=len(group.placements),
+        reference_radius=reducer.output_pins.circle_radius,
+        remarks=_disc_remarks(group, reducer.disc_count),
+        turned_over=sum(placed.turned_over for placed in group.placements),
+    )
+
+
+def _disc_remarks(group: DiscGroup, discs: int) -> tuple[str, ...]:
+    def named(turned_over: bool) -> str:
+        numbers = [str(p.disc + 1) for p in group.placements if p.turned_over == turned_over]
+        return ("DISC " if len(numbers) == 1 else "DISCS ") + ", ".join(numbers)
+
+    flipped = sum(placed.turned_over for placed in group.placements)
+    if flipped == 0:
+        return (f"{named(False)} OF {discs}, AS DRAWN",)
+    return (
+        f"CUT {len(group.placements)}, FLIP {flipped}: {named(False)} AS DRAWN, {named(True)} "
+        "TURNED OVER ABOUT THE X AXIS",
+        "MARK THE UPPER FACE OF EACH DISC",
+    )
+
+
+def _ring(design: Design) -> FlatPart:
+    reducer = design.reducer
+    kinds = {
+        "solid": "TEETH ARE PART OF THE RING",
+        "conjugate": "TEETH ARE PART OF THE RING",
+        "pinwheel": f"POCKETS FOR {reducer.ring_tooth_count} PINS OF DIA "
+        f"{1e3 * reducer.ring_pin_diameter:g}",
+    }
+    return FlatPart(
+        label="ring",
+        shape=ring_contour(design),
+        exact=ring_curve(design),
+        thickness=reducer.pack_length,
+        material=reducer.ring_material,
+        quantity=1,
+        reference_radius=reducer.ring_pitch_radius,
+        remarks=(f"{reducer.ring_tooth_count} TEETH; {kinds[reducer.ring_type]}",),
+    )

@@ -1,0 +1,109 @@
+"""Where the wire is threaded: one start hole for every contour, clear of its wall.
+
+::
+
+        wall          distance from the contour's first joint, along its normal
+       |  1 mm  __
+    P0 +-------(  )   P0 first joint of the contour; the cut runs from here
+       |        --
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from cqdd_design.errors import GeometryError
+from cqdd_design.exporting.edm.flat_parts import FlatPart, reach_of
+from cqdd_design.geometry.contours import (
+    ArcContour,
+    Circle,
+    Contour,
+    FloatArray,
+    as_complex,
+    as_points,
+)
+
+DIAMETER = 1.5e-3
+"""Of a start hole where there is room, m: an everyday electrode of EDM drilling machines."""
+WALL = 1.0e-3
+"""From start hole to contour where there is room, m: a drilled hole wanders and burns."""
+THREADING = 0.1e-3
+"""A start hole is at least this much wider than the wire, m."""
+
+THINNEST_WIRE = 0.02e-3
+"""The least edm.wire_diameter of a design, m."""
+
+_PLACES = 96
+
+
+def start_holes(flat: FlatPart, wire_diameter: float) -> tuple[Circle, ...]:
+    """Start holes of a part: outside its outer contour, then inside each inner one, in order.
+
+    Raises
+    ------
+    GeometryError
+        When a contour is too small for a hole that takes the wire.
+    """
+    holes = [_beside(flat.shape.outer, -1.0, DIAMETER / 2.0, WALL)]
+    for number, contour in enumerate(flat.shape.holes, start=1):
+        room = _room_at_centre(contour)
+        scale = min(1.0, room / (DIAMETER / 2.0 + WALL))
+        radius = scale * DIAMETER / 2.0
+        if 2.0 * radius < wire_diameter + THREADING:
+            need = (wire_diameter + THREADING) * (1.0 + 2.0 * WALL / DIAMETER)
+            most = 2.0 * radius - THREADING
+            thinner = (
+                f"choose a wire of at most {math.floor(most * 1e6) * 1e-3:.3f} mm"
+                if most >= THINNEST_WIRE
+                else f"no wire of {THINNEST_WIRE * 1e3:g} mm or more fits it"
+            )
+            raise GeometryError(
+                f"{flat.label}: inner contour {number} is {2e3 * room:.3g} mm across, too small "
+                f"for a start hole that takes edm.wire_diameter {wire_diameter * 1e3:g} mm and is "
+                f"clear of the wall; make it {need * 1e3:.3g} mm, or {thinner}."
+            )
+        holes.append(_beside(contour, 1.0, radius, scale * WALL))
+    return tuple(holes)
+
+
+def _room_at_centre(contour: Contour) -> float:
+    """Radius of the circle about the contour's centre of area that just touches it, m."""
+    if isinstance(contour, Circle):
+        return contour.radius
+    return float(contour.distances(contour.moments().centroid[None, :])[0])
+
+
+def _first_joint(contour: Contour) -> tuple[complex, complex]:
+    """Where the cut of a contour starts, and the unit normal to its left."""
+    if isinstance(contour, Circle):
+        return complex(*contour.centre) + contour.radius, complex(-1.0, 0.0)
+    return complex(*contour.points[0]), _left_normal(contour)
+
+
+def _left_normal(contour: ArcContour) -> complex:
+    _, slopes = contour.evaluate(np.zeros(1))
+    slope = complex(*slopes[0, 0])
+    return 1j * slope / abs(slope)
+
+
+def _beside(contour: Contour, side: float, radius: float, wall: float) -> Circle:
+    """Find the nearest place to the first joint, straight off the contour, that is clear of it."""
+    joint, normal = _first_joint(contour)
+    need = radius + wall
+    inward = abs(complex(*_centre(contour)) - joint)
+    # Inward to the centre, where there is room for it; outward until nothing is farther out.
+    reach = inward if side > 0.0 else need + reach_of(contour) - inward
+    offsets = np.linspace(min(need, reach), max(need, reach), _PLACES)
+    places = joint + side * normal * offsets
+    if isinstance(contour, Circle):
+        distances = np.abs(np.abs(places - as_complex(contour.centre)) - contour.radius)
+    else:
+        distances = contour.distances(as_points(places))
+    clear = distances >= need * (1.0 - 1e-9)
+    return Circle(as_points(places[clear.argmax() if clear.any() else -1]), radius)
+
+
+def _centre(contour: Contour) -> FloatArray:
+    return contour.centre if isinstance(contour, Circle) else contour.moments().centroid

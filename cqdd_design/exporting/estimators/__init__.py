@@ -1,0 +1,1 @@
+"""Torque estimators for simulators, onnxruntime and C."""

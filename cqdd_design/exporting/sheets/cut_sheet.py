@@ -1,0 +1,293 @@
+"""The cut sheet: one A3 page a part, from which a shop can quote and cut.
+
+::
+
+    +----------------------------------------------+
+    |   front view            section A-A   notes  |
+    |   with callouts         with sizes           |
+    |   cuts and start holes                       |
+    |                          +-- title block ----|
+    +--------------------------+-------------------+
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cqdd_design.exporting.edm.cut_facts import (
+    FACE_FINISH,
+    GROUND_FLATNESS,
+    GROUND_PARALLELISM,
+    THICKNESS_TOLERANCE,
+    WALL_SQUARENESS,
+    CutFacts,
+    zone_text,
+)
+from cqdd_design.exporting.edm.flat_parts import reach_of
+from cqdd_design.exporting.edm.wire_path import segmented
+from cqdd_design.exporting.sheets.canvas import Canvas, render
+from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SMALL, TEXT, SheetDrawing, new_sheet
+from cqdd_design.exporting.sheets.frame import HEIGHT, WIDTH, draw_frame
+from cqdd_design.exporting.sheets.lettering import text_width
+from cqdd_design.geometry.contours import ArcContour, Circle, ComplexArray, FloatArray, as_complex
+
+if TYPE_CHECKING:
+    from cqdd_design.exporting.edm.seats import Seat
+
+FRONT = complex(122.0, 174.0)
+"""Centre of the front view, mm of paper."""
+SECTION = complex(246.0, 174.0)
+"""Centre of the section."""
+MOST_REACH, MOST_THICKNESS = 72.5, 34.0
+SCALES = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02)
+"""ISO 5455."""
+
+_MM = 1e3
+
+
+def draw_sheet(facts: CutFacts) -> Canvas:
+    """Draw the sheet of a part and render it."""
+    sheet = new_sheet(sheet_scale(facts))
+    _front_view(sheet, facts)
+    _section(sheet, facts)
+    draw_frame(sheet, facts)
+    return render(sheet.drawing, WIDTH, HEIGHT)
+
+
+def sheet_scale(facts: CutFacts) -> float:
+    """Largest standard scale at which the views have room."""
+    reach = _MM * reach_of(facts.flat.shape.outer)
+    thickness = _MM * facts.flat.thickness
+    for scale in SCALES:
+        if scale * reach <= MOST_REACH and scale * thickness <= MOST_THICKNESS:
+            return scale
+    return SCALES[-1]
+
+
+def _front_view(sheet: SheetDrawing, facts: CutFacts) -> None:
+    flat, factor = facts.flat, _MM * sheet.scale
+    reach = factor * reach_of(flat.shape.outer)
+    for contour in (flat.shape.outer, *flat.shape.holes):
+        sheet.contour(contour, FRONT)
+    arm = reach + 5.0
+    sheet.line(FRONT - arm, FRONT + arm, AXIS)
+    sheet.line(FRONT - 1j * arm, FRONT + 1j * arm, AXIS)
+    sheet.circle(FRONT, factor * flat.reference_radius, AXIS)
+    # The line of sight of the section, below the view.
+    for side in (-1.0, 1.0):
+        end = FRONT + side * (arm + 9.5)
+        sheet.line(end, end + side * 5.0, OUTLINE)
+        sheet.text(end + side * 2.5 - 1.2 - 5.0j, "A", 3.5)
+    rounds = _output_holes(facts)
+    if rounds:
+        _holes(sheet, facts, rounds, reach)
+        if flat.turned_over:
+            _mark(sheet, facts, np.angle(as_complex([hole.centre for hole in rounds])))
+    else:
+        sheet.diameter(FRONT, factor * flat.reference_radius, 152.0, 0.35)
+        _spoke(sheet, 360.0 / facts.design.reducer.ring_tooth_count, reach)
+    _profile_callout(sheet, facts)
+    _concave_radius(sheet, facts, reach)
+
+
+def _output_holes(facts: CutFacts) -> list[Circle]:
+    """Round holes away from the axis."""
+    holes = [hole for hole in facts.flat.shape.holes if isinstance(hole, Circle)]
+    return [hole for hole in holes if abs(complex(*hole.centre)) > hole.radius]
+
+
+def _holes(sheet: SheetDrawing, facts: CutFacts, holes: list[Circle], reach: float) -> None:
+    """Centre marks, size and position of the holes, their circle and their clocking."""
+    factor, zones = _MM * sheet.scale, facts.zones
+    for hole in holes:
+        centre, arm = FRONT + factor * complex(*hole.centre), factor * hole.radius + 1.5
+        along = cmath.exp(1j * cmath.phase(complex(*hole.centre)))
+        sheet.line(centre - arm * along, centre + arm * along, AXIS)
+    angles = np.angle(as_complex([hole.centre for hole in holes]))
+    upper_left = int(np.abs(np.angle(np.exp(1j * (angles - math.radians(125.0))))).argmin())
+    hole = holes[upper_left]
+    centre = FRONT + factor * complex(*hole.centre)
+    elbow = complex(FRONT.real - 60.0, FRONT.imag + MOST_REACH + 20.0)
+    target = centre + factor * hole.radius * (elbow - centre) / abs(elbow - centre)
+    words = f"{2.0 * _MM * hole.radius:.4g} \u00b1{zone_text(zones.hole_diameter)}"
+    words = f"{len(holes)} \u00d7 \u00d8{words}"
+    width = text_width(words, TEXT) + 3.0
+    sheet.callout(target, elbow, words, -width)
+    sheet.tolerance(
+        elbow - width - 7.0j, "position", f"\u00d8{zone_text(zones.hole_position)}", ["A"]
+    )
+    sheet.diameter(FRONT, factor * facts.flat.reference_radius, _free_angle(angles), 0.3)
+    first = float(np.degrees(angles[0]))
+    if abs(math.remainder(first, 360.0)) > 1e-9:
+        _spoke(sheet, first, reach)
+
+
+def _free_angle(angles: FloatArray) -> float:
+    """Direction (deg) from 100 to 170 across the part that keeps clear of holes and axes."""
+    tried = np.arange(100.0, 171.0)
+    holes = np.degrees(angles)[:, None]
+    # Across means both ways: holes opposite count as well.
+    to_holes = np.abs(np.mod(tried - holes + 90.0, 180.0) - 90.0).min(axis=0)
+    to_axes = np.minimum(tried - 90.0, 180.0 - tried)
+    return float(tried[np.minimum(to_holes, to_axes).argmax()])
+
+
+def _spoke(sheet: SheetDrawing, angle: float, reach: float) -> None:
+    """Dimension the direction of a first feature (deg) from the x axis, outside the view."""
+    sheet.line(FRONT, FRONT + cmath.rect(reach + 9.0, math.radians(angle)), AXIS)
+    sheet.angle(FRONT, reach + 4.5, min(0.0, angle), max(0.0, angle), 6.0)
+
+
+def _mark(sheet: SheetDrawing, facts: CutFacts, angles: FloatArray) -> None:
+    """Say where the upper face is marked: between two holes, in the lower left."""
+    gap = math.pi / len(angles)
+    between = angles + gap
+    off = np.abs(np.angle(np.exp(1j * (between + math.radians(135.0)))))
+    spot = FRONT + cmath.rect(
+        _MM * sheet.scale * facts.flat.reference_radius, float(between[off.argmin()])
+    )
+    sheet.circle(spot, 1.0, OUTLINE)
+    elbow = complex(FRONT.real - 58.0, FRONT.imag - MOST_REACH - 8.0)
+    target = spot + (elbow - spot) / abs(elbow - spot)
+    sheet.callout(target, elbow, "mark upper face", -28.0)
+
+
+def _profile_callout(sheet: SheetDrawing, facts: CutFacts) -> None:
+    """Tolerance of the fitted contour, all round, and the squareness of its walls."""
+    points = as_complex(_fitted(facts).sample(1e-4)) * _MM * sheet.scale
+    spot = points[np.abs(np.angle(points * np.exp(-1j * math.radians(52.0)))).argmin()]
+    elbow = complex(FRONT.real + 46.0, FRONT.imag + MOST_REACH + 20.0)
+    words, zones = "exact curve, all round", facts.zones
+    sheet.callout(FRONT + complex(spot), elbow, words, text_width(words, TEXT) + 3.0)
+    sheet.circle(elbow, 1.2)
+    frame = elbow - 7.0j
+    wide = sheet.tolerance(frame, "profile of a line", zone_text(zones.profile), ["A"])
+    sheet.tolerance(frame + wide + 2.0, "perpendicularity", zone_text(WALL_SQUARENESS), ["B"])
+
+
+def _fitted(facts: CutFacts) -> ArcContour:
+    contours = (facts.flat.shape.outer, *facts.flat.shape.holes)
+    return next(c for c in contours if not isinstance(c, Circle))
+
+
+def _concave_radius(sheet: SheetDrawing, facts: CutFacts, reach: float) -> None:
+    """Dimension the tightest arc that the wire must follow, in the lower right of the view."""
+    flat, factor = facts.flat, _MM * sheet.scale
+    outer = not isinstance(flat.shape.outer, Circle)
+    contour = segmented(_fitted(facts))
+    arcs = contour.arcs()
+    concave = (contour.bulges < 0.0) == outer
+    concave &= contour.bulges != 0.0
+    if not concave.any():
+        return
+    middle = as_complex(contour.evaluate(np.array([0.5]))[0][:, 0])
+    along = (middle - as_complex(arcs.centres)) / arcs.radii
+    # Read from beyond the wall: within the disc, outside the ring.
+    out = 8.5 if outer else reach + 9.0 - factor * np.abs(middle)
+    places = factor * middle + out * along
+    least = arcs.radii[concave].min() * (1.0 + 1e-6)
+    off = np.degrees(np.abs(np.angle(middle * np.exp(1j * math.radians(50.0)))))
+    crowding = _crowding(facts, places, factor) + off / 10.0
+    chosen = int(np.where(concave & (arcs.radii <= least), crowding, np.inf).argmin())
+    wall, ray = factor * complex(middle[chosen]), complex(along[chosen])
+    place = complex(places[chosen])
+    sheet.line(FRONT + wall, FRONT + place - 6.0 * ray)
+    sheet.radius(
+        FRONT + factor * complex(*arcs.centres[chosen]),
+        factor * float(arcs.radii[chosen]),
+        math.degrees(cmath.phase(ray)),
+        FRONT + place,
+    )
+
+
+def _crowding(facts: CutFacts, places: ComplexArray, factor: float) -> FloatArray:
+    """How far each of `places` (mm of paper) is short of 8 mm from every output hole."""
+    short = np.zeros(len(places))
+    for hole in _output_holes(facts):
+        clear = np.abs(places - factor * complex(*hole.centre)) - factor * hole.radius
+        short = np.maximum(short, 8.0 - clear)
+    return short
+
+
+def _section(sheet: SheetDrawing, facts: CutFacts) -> None:
+    """Cut through the horizontal axis, turned upright: thickness, bores and outside."""
+    flat, factor = facts.flat, _MM * sheet.scale
+    wide = factor * flat.thickness
+    left = SECTION - 0.5 * wide
+    walls = _crossings(facts)
+    high = factor * walls[-1]
+    for one, two in zip(walls[::2], walls[1::2], strict=True):
+        corner, height = left + 1j * factor * one, factor * (two - one)
+        sheet.hatch(corner, wide, height)
+        sheet.box(corner, wide, height, OUTLINE)
+    for one, two in zip(walls[1:-1:2], walls[2:-1:2], strict=True):
+        for x in (0.0, wide):
+            sheet.line(left + x + 1j * factor * one, left + x + 1j * factor * two, OUTLINE)
+    sheet.line(left - 6.0, left + wide + 6.0, AXIS)
+    title = "A-A"
+    sheet.text(SECTION - 0.5 * text_width(title, 3.5) + 1j * (MOST_REACH + 24.0), title, 3.5)
+    words = f"<> +0/-{zone_text(THICKNESS_TOLERANCE)}"
+    sheet.linear(left + 1j * (high + 8.0), left + 1j * high, left + wide + 1j * high, 0.0, words)
+    _diameters(sheet, facts, left, wide)
+    _faces(sheet, left, left + 0.5j * factor * (walls[-1] + walls[-2]))
+
+
+def _crossings(facts: CutFacts) -> list[float]:
+    """Ascending places where the walls of the part cross the horizontal axis, m."""
+    found: list[float] = []
+    for contour in (facts.flat.shape.outer, *facts.flat.shape.holes):
+        if isinstance(contour, Circle):
+            x, y = contour.centre
+            if abs(y) < contour.radius:
+                half = math.sqrt(contour.radius**2 - y * y)
+                found += [float(x - half), float(x + half)]
+            continue
+        points = as_complex(contour.sample(1e-7))
+        ahead = np.roll(points, -1)
+        crossing = (points.imag >= 0.0) != (ahead.imag >= 0.0)
+        one, two = points[crossing], ahead[crossing]
+        found += (one.real - one.imag * (two - one).real / (two - one).imag).tolist()
+    return sorted(found)
+
+
+def _diameters(sheet: SheetDrawing, facts: CutFacts, left: complex, wide: float) -> None:
+    """Diameters beside the section, the smallest nearest."""
+    factor, seats = _MM * sheet.scale, facts.seat_by_contour
+    rows: list[tuple[float, str]] = []
+    for number, contour in enumerate((facts.flat.shape.outer, *facts.flat.shape.holes)):
+        if isinstance(contour, Circle):
+            if abs(complex(*contour.centre)) < contour.radius:
+                rows.append((2.0 * contour.radius, _seat_words(seats.get(number))))
+            continue
+        radii = np.abs(as_complex(contour.sample(1e-7)))
+        rows += [(2.0 * float(radii.min()), "(%%c<>)"), (2.0 * float(radii.max()), "(%%c<>)")]
+    right = left + wide
+    for place, (diameter, words) in enumerate(sorted(rows)):
+        half = 0.5 * factor * diameter
+        base = right + 9.0 + 8.0 * place
+        sheet.linear(base, right - 1j * half, right + 1j * half, 90.0, words)
+        if (place == 0 and "N7" in words) or (
+            facts.flat.label == "ring" and diameter == max(rows)[0]
+        ):
+            sheet.datum(base - 1j * half - 2.0j, -1j, "A")
+
+
+def _seat_words(seat: Seat | None) -> str:
+    if seat is None:
+        return "%%c<>"
+    limits = seat.limits
+    return f"%%c<> {limits.zone} ({_MM * limits.upper:+.3f}/{_MM * limits.lower:+.3f})"
+
+
+def _faces(sheet: SheetDrawing, left: complex, face: complex) -> None:
+    """Datum B on the lower face; flatness, parallelism and finish of the faces."""
+    sheet.datum(face, -1.0 + 0j, "B")
+    corner = complex(left.real - 14.0, SECTION.imag - MOST_REACH - 18.0)
+    sheet.text(corner + 7.4j, "both faces ground", SMALL)
+    across = sheet.tolerance(corner, "flatness", zone_text(GROUND_FLATNESS), [])
+    sheet.tolerance(corner + across + 2.0, "parallelism", zone_text(GROUND_PARALLELISM), ["B"])
+    sheet.finish(corner + 46.0 + 0.5j, FACE_FINISH)

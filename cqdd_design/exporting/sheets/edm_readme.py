@@ -1,0 +1,195 @@
+"""README.txt of the EDM package, in the words of a shop; plain ASCII, lines of at most 78."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from cqdd_design import __version__
+from cqdd_design.exporting.edm.cut_facts import (
+    CUT_FINISH,
+    FACE_FINISH,
+    GROUND_FLATNESS,
+    GROUND_PARALLELISM,
+    THICKNESS_TOLERANCE,
+    WALL_SQUARENESS,
+    zone_text,
+)
+from cqdd_design.exporting.edm.wire_path import contour_name, wire_offset
+from cqdd_design.geometry.contours import Circle
+
+if TYPE_CHECKING:
+    from cqdd_design.exporting.edm.cut_facts import CutFacts
+    from cqdd_design.exporting.options import ExportOptions
+
+_MM = 1e3
+_WIDTH = 78
+
+
+def readme_text(parts: Sequence[CutFacts], options: ExportOptions) -> str:
+    """Return the README of a package.
+
+    Parameters
+    ----------
+    parts : sequence of CutFacts
+        Of one design.
+    options : ExportOptions
+        How its files are written.
+    """
+    design = parts[0].design
+    edm = design.edm
+    lines = [
+        f"{design.name}: parts for wire EDM",
+        "=" * (len(design.name) + 20),
+        "",
+        *_paragraph(
+            "All files are in millimetres, the origin on the axis of the part, seen from above "
+            "with the lower face on the table. Cut the parts below; each has one DXF, one cut "
+            "sheet (PDF, and the same as SVG) and, where it was asked for, one ISO program (.nc)."
+        ),
+        "",
+        *_part_lines(parts),
+        *_section(
+            "Layers of the DXF",
+            [
+                f"Dialect {options.dxf_version}, contours as "
+                + (
+                    "one closed polyline of arcs each."
+                    if options.dxf_style == "polyline"
+                    else "lines and arcs end to end."
+                ),
+                "CUT_OUTER, CUT_INNER: nominal finished contours, no kerf offset; use these with "
+                "the offset of your control.",
+                f"WIRE_PATH: centre of the wire on the finishing cut, {_MM * wire_offset(edm):g} "
+                "mm from the contour, in the waste; use it without an offset, or for a check. "
+                "LEAD_IN: from each start hole square onto that path.",
+                "START_HOLE: where the wire is threaded; REF: centre lines; NOTES: text.",
+            ],
+        ),
+        *_section(
+            "Wire and gap",
+            [
+                f"Wire of diameter {_MM * edm.wire_diameter:g} mm, spark gap "
+                f"{_MM * edm.spark_gap:g} mm on the finishing cut. A thinner wire is welcome; a "
+                "thicker one only where its radius and gap stay below the least concave radius "
+                "given with each part.",
+            ],
+        ),
+        *_section("Order of cuts", _order(parts)),
+        *_section("Tolerances", _tolerances(parts)),
+        *_section("Discs", _discs(parts)),
+        *_section(
+            "In the programs (.nc)",
+            [
+                "G90 G21, arcs as G02 and G03 with I and J from the start of each arc. G41 and "
+                "G42 take the wire offset from D01; contours with a seat from D02, whose value "
+                "is in the program. Each contour stops at M01 before its last "
+                f"{_MM * options.tab_length:g} mm at most, the tab: hold the slug, then go on.",
+                "Threading and cutting of the wire differ between controls: M60 and M50 are "
+                "comments beside an M00.",
+            ],
+        ),
+        *_paragraph(f"Design {design.sha256[:16]}, cqdd-design {__version__}."),
+    ]
+    return "\n".join(lines).encode("ascii", "replace").decode("ascii") + "\n"
+
+
+def _paragraph(words: str, indent: str = "") -> list[str]:
+    plain = words.replace("\u00b5", "u").replace("\u00b0C", "deg C").replace("\u00d8", "dia ")
+    plain = plain.replace("\u00b2", "2")
+    return textwrap.wrap(plain, _WIDTH, initial_indent=indent, subsequent_indent=" " * len(indent))
+
+
+def _section(title: str, items: Sequence[str]) -> list[str]:
+    if not items:
+        return []
+    lines = [title, "-" * len(title)]
+    for item in items:
+        lines += _paragraph(item, "- ")
+    return [*lines, ""]
+
+
+def _part_lines(parts: Sequence[CutFacts]) -> list[str]:
+    lines: list[str] = []
+    for facts in parts:
+        flat = facts.flat
+        lines += _section(
+            f"{facts.design.name}-{flat.label}.dxf",
+            [
+                f"Quantity {flat.quantity}, plate {_MM * flat.thickness:g} mm thick "
+                f"(+0/-{zone_text(THICKNESS_TOLERANCE)}), {1e3 * facts.mass:.1f} g each.",
+                f"Material {flat.material}: {facts.heat_treatment}; hardness {facts.hardness}.",
+                *(
+                    remark.capitalize().replace(" x axis", " X axis") + "."
+                    for remark in flat.remarks
+                ),
+                f"Contour as written, read back and measured: {facts.fit_text[0]}; "
+                f"{facts.fit_text[1]}.",
+                *facts.later,
+            ],
+        )
+    return lines
+
+
+def _order(parts: Sequence[CutFacts]) -> list[str]:
+    said = ["One clamping a part: holes first, the outer contour last, the tab of each at its end."]
+    for facts in parts:
+        contours = (facts.flat.shape.outer, *facts.flat.shape.holes)
+        names = []
+        for number in (*range(1, len(contours)), 0):
+            contour = contours[number]
+            size = (
+                f"dia {2.0 * _MM * contour.radius:.4f}"
+                if isinstance(contour, Circle)
+                else "profile"
+            )
+            names.append(f"{contour_name(number)} ({size})")
+        if len(names) > 12:
+            names = [*names[:3], "...", *names[-2:]]
+        said.append(f"{facts.flat.label}: {', '.join(names)}.")
+    return said
+
+
+def _tolerances(parts: Sequence[CutFacts]) -> list[str]:
+    said = []
+    for facts in parts:
+        zones, label = facts.zones, facts.flat.label
+        said.append(
+            f"{label}: profile of the fitted contour within a zone {zone_text(zones.profile)} mm "
+            "wide, half to either side"
+            + (
+                f"; output holes +-{zone_text(zones.hole_diameter)} mm, each within a zone of dia "
+                f"{zone_text(zones.hole_position)} mm about its place, to the axis of the bore."
+                if label != "ring"
+                else ", to the axis of the outside."
+            )
+        )
+        said += [
+            f"{label}, {contour_name(seat.contour)}: dia {seat}; the file is nominal, cut to dia "
+            f"{_MM * seat.middle:.4f}, wire shifted {_MM * seat.shift:+.4f} mm into the waste."
+            for seat in facts.seats
+        ]
+    return [
+        *said,
+        f"Walls square to the lower face within {zone_text(WALL_SQUARENESS)}; faces flat within "
+        f"{zone_text(GROUND_FLATNESS)} and parallel within {zone_text(GROUND_PARALLELISM)}.",
+        f"Walls {CUT_FINISH}, faces {FACE_FINISH}; no recast layer after the last skim cut.",
+    ]
+
+
+def _discs(parts: Sequence[CutFacts]) -> list[str]:
+    said = []
+    for facts in parts:
+        if facts.flat.turned_over:
+            said.append(
+                f"{facts.flat.quantity} discs are one program, cut {facts.flat.quantity} times "
+                f"without change; {facts.flat.turned_over} of them goes in turned over about the X "
+                "axis, which brings lobes onto lobes and every hole to where that disc needs it."
+            )
+            said.append(
+                "Mark the upper face of every disc, the one seen in the drawing, with a dot "
+                "between two output holes before it leaves the machine: by engraver or ink, "
+                "without a burr. Assembly tells by it which way a disc goes in."
+            )
+    return said

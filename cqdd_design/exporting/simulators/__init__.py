@@ -1,0 +1,1 @@
+"""The actuator for simulators: MJCF, URDF, BAM, and the card that speaks to all."""

@@ -1,0 +1,1 @@
+"""The machine as solids and meshes, and its bill of materials."""

@@ -1,0 +1,1 @@
+"""Checks of a gearbox: their limits, their words, and one module a chapter."""

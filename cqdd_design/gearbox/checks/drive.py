@@ -1,0 +1,158 @@
+"""Checks of balance, disc count and motor."""
+
+from __future__ import annotations
+
+import math
+
+from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.gearbox.balance import paper_disc_count
+from cqdd_design.gearbox.checks import allowables
+from cqdd_design.gearbox.checks.state import GearboxState, build_check
+from cqdd_design.geometry.limits import rounded_down, rounded_up
+from cqdd_design.results import Check
+
+_RPM = 30.0 / math.pi
+
+
+def drive_checks(state: GearboxState) -> tuple[tuple[Check, ...], tuple[str, ...]]:
+    """All checks of this chapter, and sentences about those that could not be made."""
+    motor_checks, warnings = _motor(state)
+    return (*_balance(state), _disc_count(state), *motor_checks), warnings
+
+
+def _balance(state: GearboxState) -> tuple[Check, ...]:
+    reducer, speed = state.design.reducer, state.design.requirements.input_speed
+    balance, mass = state.balance, state.orbiting_mass
+    total = reducer.disc_count * mass
+    permitted = total * allowables.BALANCE_GRADE / speed
+    # With counterweights asked for, they are sized to cancel what the discs leave.
+    cancelled = reducer.balance.counterweights
+    static = 0.0 if cancelled else balance.static_unbalance
+    couple = 0.0 if cancelled else balance.shaking_moment
+    reaction = couple / (reducer.disc_count * reducer.disc_thickness)
+    most = allowables.SHAKING_SHARE * state.cam.continuous_load
+    moment = mass * reducer.eccentricity
+    return (
+        build_check(
+            "BALANCE-STATIC",
+            static * 1e6,
+            permitted * 1e6,
+            f"{reducer.disc_count} x {mass * 1e3:.1f} g at {reducer.eccentricity * 1e3:g} mm leave "
+            f"{static * 1e6:.3g} g*mm; {total * 1e3:.1f} g x 6.3 mm/s/{speed:.1f} rad/s",
+            "use two discs, or set balance.counterweights = true, which needs a counterweight of "
+            f"{moment * 1e6:.3g} g*mm",
+        ),
+        build_check(
+            "BALANCE-COUPLE",
+            reaction,
+            most,
+            f"{couple:.4g} N*m/({reducer.disc_count} x {reducer.disc_thickness * 1e3:g} mm) = "
+            f"{reaction:.3g} N",
+            "set balance.counterweights = true, or lower disc_thickness or the input speed to "
+            f"{rounded_down(speed * _RPM * math.sqrt(most / max(reaction, 1e-12))):g} rpm",
+        ),
+    )
+
+
+def _disc_count(state: GearboxState) -> Check:
+    ratio, count = state.design.reducer.ratio, state.design.reducer.disc_count
+    wanted = paper_disc_count(ratio)
+    parity = "even" if ratio % 2 == 0 else "odd"
+    return build_check(
+        "DISC-COUNT",
+        float(count),
+        float(allowables.LEAST_BALANCED_DISCS),
+        f"the design has {count}; ratio {ratio} is {parity}, so the paper's rule asks for {wanted}",
+        f"disc_count = {allowables.LEAST_BALANCED_DISCS} balances statically; "
+        f"disc_count = {wanted} follows the paper's rule",
+    )
+
+
+def _motor(state: GearboxState) -> tuple[tuple[Check, ...], tuple[str, ...]]:
+    design = state.design
+    name = design.motor.name
+    motor = find_motor(name)
+    if motor.torque_at != "motor":
+        return (), (
+            f"motor '{name}' is a geared actuator of the comparison table, so no motor check was "
+            "made; choose a bare motor.",
+        )
+    checks: list[Check] = []
+    warnings: list[str] = []
+    for make, present, what in (
+        (_peak, motor.peak_torque, "peak torque"),
+        (_continuous, motor.rated_torque, "rated torque"),
+        (_speed, motor.speed_constant, "speed constant"),
+        (_bore, motor.bore_diameter, "stator bore"),
+    ):
+        if present is None:
+            warnings.append(f"motor '{name}' has no {what} in the catalogue; not checked.")
+        else:
+            checks.append(make(state, motor, present))
+    return tuple(checks), tuple(warnings)
+
+
+def _named(state: GearboxState) -> bool:
+    """Whether the design names its motor, so that a shortfall is a failure."""
+    return "motor.name" not in state.design.assumed
+
+
+def _make(
+    state: GearboxState, check_id: str, value: float, limit: float, numbers: str, remedy: str
+) -> Check:
+    severity = "fail" if _named(state) else "warn"
+    if severity == "fail":
+        return build_check(check_id, value, limit, numbers, remedy, severity="fail")
+    return build_check(check_id, value, limit, numbers, remedy)
+
+
+def _torque_check(
+    state: GearboxState, check_id: str, key: str, torque: float, available: float
+) -> Check:
+    n, eta = state.design.reducer.ratio, allowables.REDUCER_EFFICIENCY
+    needed = torque / (n * eta)
+    return _make(
+        state,
+        check_id,
+        needed,
+        available,
+        f"{torque:g} N*m/({n} x {eta:g}) = {needed:.3f} N*m",
+        f"lower requirements.{key} to {rounded_down(available * n * eta):g} N*m, or take a motor "
+        f"with {rounded_up(needed):g} N*m",
+    )
+
+
+def _peak(state: GearboxState, motor: Motor, available: float) -> Check:
+    torque = state.design.requirements.peak_torque
+    return _torque_check(state, "MOTOR-PEAK", "peak_torque", torque, available)
+
+
+def _continuous(state: GearboxState, motor: Motor, available: float) -> Check:
+    torque = state.design.requirements.continuous_torque
+    return _torque_check(state, "MOTOR-CONTINUOUS", "continuous_torque", torque, available)
+
+
+def _speed(state: GearboxState, motor: Motor, constant: float) -> Check:
+    voltage, wanted = state.design.motor.voltage, state.design.requirements.input_speed
+    reached = constant * voltage
+    return _make(
+        state,
+        "MOTOR-SPEED",
+        reached * _RPM,
+        wanted * _RPM,
+        f"{constant * _RPM:g} rpm/V x {voltage:g} V = {reached * _RPM:.0f} rpm",
+        f"raise motor.voltage to {rounded_up(wanted / constant):g} V",
+    )
+
+
+def _bore(state: GearboxState, motor: Motor, bore: float) -> Check:
+    outer = state.design.reducer.ring.outer_diameter
+    note = f" ({motor.bore_note})" if motor.bore_note else ""
+    return _make(
+        state,
+        "MOTOR-BORE",
+        outer * 1e3,
+        bore * 1e3,
+        f"ring {outer * 1e3:.4g} mm, stator bore {bore * 1e3:.4g} mm{note}",
+        f"lower ring.outer_diameter to {bore * 1e3:g} mm, or take a motor with a larger bore",
+    )

@@ -1,0 +1,92 @@
+"""Everything the checks read, in one frozen value, and how one check is put together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from cqdd_design.design import Design
+from cqdd_design.gearbox.balance import StackBalance
+from cqdd_design.gearbox.cam_bearing import BearingResult
+from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
+from cqdd_design.gearbox.geometry_summary import GeometrySummary
+from cqdd_design.gearbox.loads import RigidMaxima
+from cqdd_design.gearbox.pin_strength import PinStrength
+from cqdd_design.gearbox.stages import Stages
+from cqdd_design.results import Check
+
+
+@dataclass(frozen=True)
+class GearboxState:
+    """What the checks judge.
+
+    Attributes
+    ----------
+    design : Design
+    stages : Stages
+    geometry : GeometrySummary
+    peak, continuous : RigidMaxima
+        Raw maxima at the peak and at the continuous torque.
+    pins : PinStrength
+    cam : BearingResult
+    orbiting_mass : float
+        Mass of one disc with its cam bearing, kg.
+    balance : StackBalance
+    """
+
+    design: Design
+    stages: Stages
+    geometry: GeometrySummary
+    peak: RigidMaxima
+    continuous: RigidMaxima
+    pins: PinStrength
+    cam: BearingResult
+    orbiting_mass: float
+    balance: StackBalance
+
+
+def build_check(
+    check_id: str,
+    value: float,
+    limit: float,
+    substituted: str,
+    remedy: str,
+    *,
+    severity: Literal["fail", "warn"] | None = None,
+    basis: str = "",
+) -> Check:
+    """One check from its guide and this design's numbers.
+
+    Parameters
+    ----------
+    check_id : str
+        Key of the guide.
+    value, limit : float
+        In the guide's unit.
+    substituted : str
+        The rule with numbers.
+    remedy : str
+        What would make it pass; shown only where it does not.
+    severity : {"fail", "warn"}, optional
+        Overrides the guide's.
+    basis : str
+        Origin of a limit that depends on a material; joins the source.
+    """
+    guide = CHECK_GUIDE[check_id]
+    check = Check(
+        id=check_id,
+        title=guide.title,
+        value=value,
+        limit=limit,
+        unit=guide.unit,
+        sense=guide.sense,
+        formula=guide.formula,
+        substituted=substituted,
+        why=guide.why,
+        remedy=remedy,
+        source=f"{guide.source}; limit: {basis}" if basis else guide.source,
+        severity=severity or guide.severity,
+    )
+    if not check.satisfied:
+        return check
+    return Check(**{**check.__dict__, "remedy": "met; nothing to change"})

@@ -1,0 +1,1 @@
+"""A design made concrete: its bought parts, solids, masses and balance."""

@@ -1,0 +1,1 @@
+"""The actuator in the report: envelope, parameters, test bench."""

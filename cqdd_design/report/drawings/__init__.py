@@ -1,0 +1,1 @@
+"""Drawings of the gearbox: front view, section, turning mesh, wire EDM."""

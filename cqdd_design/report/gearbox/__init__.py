@@ -1,0 +1,1 @@
+"""The gearbox in the report: loads, contact, precision, losses, life, tolerances, masses."""

@@ -1,0 +1,1 @@
+"""What figures and tables are drawn with: SVG, axes, charts, formulas, numbers."""

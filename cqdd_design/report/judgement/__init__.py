@@ -1,0 +1,1 @@
+"""What the report judges and answers: verdict, checks, comparison, origins, end."""

@@ -1,0 +1,142 @@
+"""Where every value of a design comes from: its file's own comments, defaults, derivations."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from cqdd_design.design import Design
+from cqdd_design.report.ink.numbers import quantity_text
+from cqdd_design.report.judgement.check_rows import printed
+from cqdd_design.report.judgement.labels import GROUPS, Label, label_of
+
+#: First words of a comment that name an origin.
+_NAMED = re.compile(
+    r"^(paper|derived|assumed|given|sized|chosen|catalogue)\b\s*(?:\(Z_\w\))?[:,;]?\s*(.*)$", re.S
+)
+
+#: Keys whose defaults follow from other values of the same file, and how.
+_FOLLOWS = {
+    "requirements.ratio": "the reducer's",
+    "requirements.peak_torque": printed("min(9 N*m x ratio, 90 N*m)"),
+    "requirements.continuous_torque": "0.38 of the peak torque",
+    "reducer.output_pins.hole_clocking": "a quarter lobe pitch: two discs are one part",
+    "reducer.output_pins.circle_radius": "0.61 of the ring pitch radius",
+    "reducer.ring.outer_diameter": "root of the ring and a wall of 3 mm",
+}
+
+
+#: Values that read better in words.
+_WORDS: dict[tuple[str, object], str] = {
+    ("reducer.output_pins.support", "both"): "both ends",
+    ("reducer.output_pins.support", "cantilever"): "one end",
+}
+
+
+@dataclass(frozen=True)
+class Value:
+    """One row of the table of values.
+
+    Attributes
+    ----------
+    key : str
+        Dotted key of the design file.
+    label : Label
+        Words and symbol.
+    shown : str
+        Value and unit.
+    origin : str
+        ``paper``, ``derived``, ``assumed``, ``given``, ``default``, ...
+    note : str
+        Why this value, where anything is known.
+    """
+
+    key: str
+    label: Label
+    shown: str
+    origin: str
+    note: str
+
+
+def read_comments(path: Path) -> dict[str, str]:
+    """The comments at the ends of lines of a design file, by dotted key.
+
+    Parameters
+    ----------
+    path : Path
+        A TOML file that has already been read as a design.
+    """
+    import tomlkit
+
+    return dict(_comments(tomlkit.parse(path.read_text(encoding="utf-8")), ""))
+
+
+def _comments(table: Mapping[str, Any], prefix: str) -> Iterator[tuple[str, str]]:
+    for key, item in table.items():
+        if isinstance(item, Mapping):
+            yield from _comments(item, f"{prefix}{key}.")
+            continue
+        comment = getattr(getattr(item, "trivia", None), "comment", "")
+        if comment:
+            yield f"{prefix}{key}", comment.lstrip("# ").strip()
+
+
+def values_by_group(
+    design: Design, comments: Mapping[str, str]
+) -> tuple[tuple[str, tuple[Value, ...]], ...]:
+    """All values of a design with their origins, grouped under headings in file order.
+
+    Parameters
+    ----------
+    design : Design
+        As the user gave it, so that `assumed` is complete.
+    comments : mapping
+        Dotted key to comment, from :func:`read_comments`.
+    """
+    assumed = set(design.assumed)
+    groups: dict[str, list[Value]] = {}
+    for key, raw in _flat(design.to_mapping(), ""):
+        table = key.rpartition(".")[0]
+        if not table:
+            continue
+        origin, note = _origin(key, assumed, comments)
+        value = Value(key, label_of(key), _shown(key, raw), origin, note)
+        groups.setdefault(GROUPS.get(table, table), []).append(value)
+    return tuple((name, tuple(rows)) for name, rows in groups.items())
+
+
+def _origin(key: str, assumed: set[str], comments: Mapping[str, str]) -> tuple[str, str]:
+    if key in assumed:
+        return ("derived", _FOLLOWS[key]) if key in _FOLLOWS else ("default", "")
+    comment = comments.get(key, "")
+    named = _NAMED.match(comment)
+    if named:
+        return named.group(1), printed(named.group(2))
+    return "given", printed(comment)
+
+
+def _flat(table: Mapping[str, Any], prefix: str) -> Iterator[tuple[str, Any]]:
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            yield from _flat(value, f"{prefix}{key}.")
+        else:
+            yield f"{prefix}{key}", value
+
+
+def _shown(key: str, raw: object) -> str:
+    if isinstance(raw, str) and (key, raw) in _WORDS:
+        return _WORDS[key, raw]
+    if isinstance(raw, bool):
+        return "yes" if raw else "no"
+    if isinstance(raw, str):
+        return quantity_text(raw)
+    if isinstance(raw, list):
+        return "; ".join(
+            f"{quantity_text(step['torque'])} at {quantity_text(step['speed'])} for "
+            f"{100.0 * step['share']:g} %"
+            for step in raw
+        )
+    return f"{raw:g}" if isinstance(raw, float) else str(raw)

@@ -1,0 +1,1 @@
+"""The evaluation of torque estimators as a page of its own."""

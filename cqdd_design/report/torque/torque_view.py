@@ -1,0 +1,307 @@
+"""The evaluation of torque estimators as a page of its own, in the report's dress."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from cqdd_design.report.ink.axes import FloatArray
+from cqdd_design.report.ink.numbers import significant
+from cqdd_design.report.ink.svg import Figure
+from cqdd_design.report.torque.torque_charts import (
+    Named,
+    distributions,
+    interval_bars,
+    long_trace,
+    over,
+    zoomed,
+)
+from cqdd_design.report.torque.torque_tables import (
+    Table,
+    flank_table,
+    latency_table,
+    loop_table,
+    models_table,
+    ordered,
+    pairs_table,
+    paper_table,
+    phase_table,
+    regimes_table,
+    seeds_table,
+    sets_table,
+)
+from cqdd_design.torque.evaluation.evaluate import EvaluationResult
+from cqdd_design.torque.evaluation.metrics import REGIMES
+from cqdd_design.torque.evaluation.ripple import BAND
+
+if TYPE_CHECKING:
+    from cqdd_design.torque.evaluation.bootstrap import Interval
+    from cqdd_design.torque.evaluation.scoring import SetResult
+    from cqdd_design.torque.evaluation.seeds import ModelScore
+
+_CURVES = 4
+"""Models that share one panel; more cannot be told apart."""
+_PANELS = 9
+_COLOURS = 8
+
+
+@dataclass(frozen=True)
+class TorqueView:
+    """What the section shows.
+
+    Attributes
+    ----------
+    lead : str
+    models : Table
+        Ours, on the headline set.
+    paper : Table
+        The paper's hardware, apart.
+    wide, figures, regimes : tuples of Figure
+    tables : tuple of Table
+    warnings : tuple of str
+    """
+
+    lead: str
+    models: Table
+    paper: Table
+    wide: tuple[Figure, ...]
+    figures: tuple[Figure, ...]
+    regimes: tuple[Figure, ...]
+    tables: tuple[Table, ...]
+    warnings: tuple[str, ...]
+
+
+def torque_page(results: EvaluationResult, *, date: str = "") -> str:
+    """One self-contained HTML page about an evaluation; it needs no network and no other file.
+
+    Parameters
+    ----------
+    results : EvaluationResult
+    date : str
+        As printed in the head; left out where empty.
+    """
+    from cqdd_design import __version__
+    from cqdd_design.report.build import _environment
+
+    page = _environment().get_template("torque_page.html")
+    return page.render(
+        torque=torque_view(results),
+        facts=_facts(results),
+        title=str(results.data_facts.get("design", "Torque data")),
+        version=__version__,
+        date=date,
+        data_sha256=results.data_sha256,
+    )
+
+
+def torque_view(results: EvaluationResult) -> TorqueView:
+    """Values of the section."""
+    headline = results.sets[0]
+    tables = [regimes_table(headline), pairs_table(headline)]
+    if any(one.seeds > 1 for one in headline.seeds):
+        tables.append(seeds_table(headline))
+    if len(results.sets) > 1:
+        tables.append(sets_table(results))
+    tables += [
+        flank_table(headline),
+        phase_table(headline),
+        loop_table(results),
+        latency_table(results),
+    ]
+    return TorqueView(
+        lead=_lead(results, headline),
+        models=models_table(results, headline),
+        paper=paper_table(),
+        wide=tuple(_wide(results, headline)),
+        figures=tuple(_figures(results, headline)),
+        regimes=tuple(_regime_bars(results, headline, tuple(REGIMES)[1:])),
+        tables=tuple(one for one in tables if one.rows),
+        warnings=results.warnings,
+    )
+
+
+def _facts(results: EvaluationResult) -> tuple[tuple[str, str, str], ...]:
+    headline = results.sets[0]
+    return (
+        ("Test episodes", str(len(headline.episodes)), f"set {headline.name}"),
+        ("Samples scored", f"{headline.samples:,}".replace(",", "\u202f"), _rate(results)),
+        (
+            "Gains",
+            f"{significant(results.position_gain)} / {significant(results.velocity_gain)}",
+            "N·m/rad and N·m·s/rad, of the controller",
+        ),
+        ("Models", str(len(results.models)), "networks and baselines"),
+    )
+
+
+def _rate(results: EvaluationResult) -> str:
+    return f"at {significant(1.0 / results.dt)} Hz"
+
+
+def _lead(results: EvaluationResult, headline: SetResult) -> str:
+    ordered = sorted(headline.models, key=lambda one: one.overall.rmse.value)
+    best, last = ordered[0], ordered[-1]
+    return (
+        f"Output torque told from the joint's motion, on {len(headline.episodes)} held-out "
+        f"episodes. The lowest r.m.s. error is that of "
+        f"{best.name}, {significant(best.overall.rmse.value, 3)} N·m; the highest that of "
+        f"{last.name}, {significant(last.overall.rmse.value, 3)} N·m. Intervals hold 95 % and come "
+        "from resampling whole episodes."
+    )
+
+
+def _classes(results: EvaluationResult) -> dict[str, str]:
+    """A colour of every model, the same in all figures."""
+    networks = [one.name for one in results.models if one.kind == "network"]
+    found = {name: f"t-{k % _COLOURS + 1}" for k, name in enumerate(networks)}
+    return found | {one.name: "t-base" for one in results.models if one.name not in found}
+
+
+def _drawn(results: EvaluationResult, found: SetResult, count: int) -> list[ModelScore]:
+    """What a figure can hold: one network of each model in the order given, then baselines."""
+    chosen: dict[str, ModelScore] = {}
+    for one in ordered(results, found):
+        chosen.setdefault(one.model, one)
+    order = {one.name: k for k, one in enumerate(results.models)}
+    kinds = {one.name: one.kind for one in results.models}
+    ranked = sorted(chosen.values(), key=lambda s: (kinds[s.name] != "network", order[s.name]))
+    return ranked[:count]
+
+
+def _wide(results: EvaluationResult, found: SetResult) -> list[Figure]:
+    classes = _classes(results)
+
+    def curves(estimates: Mapping[str, FloatArray], count: int) -> Named:
+        return [
+            (one.name, classes[one.name], estimates[one.name])
+            for one in _drawn(results, found, count)
+        ]
+
+    trace = found.trace
+    figures = [
+        long_trace(
+            "torque-trace",
+            "A whole episode",
+            f"Torque of the label and of some models over episode {trace.episode}, errors below.",
+            time=trace.time,
+            label=trace.label,
+            estimates=curves(trace.estimates, _CURVES),
+            caption=f"Episode {trace.episode}, that of the median r.m.s. torque.",
+        )
+    ]
+    if found.zoom is not None:
+        zoom = found.zoom
+        figures.append(
+            zoomed(
+                "torque-zoom",
+                "Ripple",
+                f"0.4 s of episode {zoom.episode}, one panel a model with the label in black.",
+                time=zoom.time,
+                label=zoom.label,
+                estimates=curves(zoom.estimates, _PANELS),
+                caption=f"Episode {zoom.episode}, where the label's ripple is strongest, on one "
+                "flank of the gear if it can be; the label in black. From all curves the same "
+                "cubic is taken off, that through the label, so that bias stays. Chosen by the "
+                "label alone.",
+            )
+        )
+    return figures
+
+
+def _figures(results: EvaluationResult, found: SetResult) -> list[Figure]:
+    classes = _classes(results)
+    scored = ordered(results, found)
+    figures = [
+        distributions(
+            "torque-errors",
+            "Errors",
+            "Distribution of the errors of every model, prediction less label.",
+            edges=found.error_edges,
+            counts=[(one.name, classes[one.name], one.error_counts) for one in scored],
+            marks=[(one.overall.bias.value, one.overall.variance.value**0.5) for one in scored],
+            caption="Prediction less label; heights by the root of the frequency, lines one "
+            "standard deviation to either side of the mean. What lies beyond stands in the last "
+            "bins.",
+        )
+    ]
+    drawn = _drawn(results, found, _CURVES)
+    if len(found.frequency):
+        figures.append(
+            over(
+                "torque-spectrum",
+                "Ripple band",
+                "Amplitude density of label and models over frequency.",
+                x=found.frequency,
+                label=found.label_spectrum,
+                estimates=[(one.name, classes[one.name], one.spectrum) for one in drawn],
+                x_label="frequency, Hz",
+                y_label="N·m/√Hz",
+                band=BAND,
+                caption="Segments of 0.64 s in free swing; the band from 10 to 25 Hz is shaded.",
+            )
+        )
+    orders = [(one, one.orders) for one in drawn if one.orders is not None]
+    if orders:
+        first = orders[0][1]
+        figures.append(
+            over(
+                "torque-orders",
+                "Ripple by order",
+                "Amplitude of label and models over order of the output angle.",
+                x=first.orders,
+                label=first.label,
+                estimates=[(one.name, classes[one.name], o.estimate) for one, o in orders],
+                x_label="order, periods in an output turn",
+                y_label="amplitude, N·m",
+                band=None,
+                caption=f"Over {first.strokes} strokes in one sense, resampled over the output's "
+                "angle; a stroke of 2 rad tells orders three apart.",
+            )
+        )
+    return [*figures, *_regime_bars(results, found, ("all",))]
+
+
+def _regime_bars(
+    results: EvaluationResult, found: SetResult, regimes: Sequence[str]
+) -> list[Figure]:
+    classes = _classes(results)
+    figures = []
+    for regime in regimes:
+        meaning = REGIMES[regime]
+        rows = [
+            (one.name, scores)
+            for one in ordered(results, found)
+            if (scores := one.regimes[regime]) is not None
+        ]
+        if not rows:
+            continue
+        values = [scores.rmse.value for _, scores in rows]
+        # Half of the models set the scale; one far off is cut, and says so.
+        middle = sorted(values)[len(values) // 2]
+        reach = max(
+            scores.rmse.high or scores.rmse.value
+            for _, scores in rows
+            if scores.rmse.value <= 2.5 * middle
+        )
+        share = rows[0][1].scores.samples / found.samples
+        figures.append(
+            interval_bars(
+                f"torque-rmse-{regime}",
+                f"RMSE, {regime}" if regime != "all" else "RMSE",
+                f"RMSE of every model: {meaning}.",
+                names=[name for name, _ in rows],
+                values=values,
+                ends=[_bounds(scores.rmse) for _, scores in rows],
+                classes=[classes[name] for name, _ in rows],
+                most=1.02 * reach if reach > 0.0 else 1.0,
+                caption=f"{meaning[0].upper()}{meaning[1:]}: "
+                f"{significant(100.0 * share, 3)}\u202f% of the samples, {rows[0][1].episodes} "
+                "episodes.",
+            )
+        )
+    return figures
+
+
+def _bounds(value: Interval) -> tuple[float, float] | None:
+    return None if value.low is None or value.high is None else (value.low, value.high)

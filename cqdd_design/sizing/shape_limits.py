@@ -1,0 +1,312 @@
+"""Shape limits and area integrals of many discs and rings at once, all as arrays.
+
+The curve is that of :mod:`cqdd_design.geometry.trochoid`; the functions here broadcast over
+designs where those of the geometry room take one design.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cqdd_design.gearbox.checks import allowables
+from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.conjugate import SecondEnvelope
+from cqdd_design.geometry.trochoid import (
+    GeneratedFlank,
+    locus_valley_radius,
+    shortening_coefficient,
+    undercut_radius_limit,
+)
+from cqdd_design.sizing.frame import Frame
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+BoolArray = NDArray[np.bool_]
+
+_PROFILE_POINTS = 24
+_ENVELOPE_POINTS = 41
+_AREA_POINTS = 24
+_FILLET_TRIALS = 6
+SAMPLING_GUARD = 3e-6
+"""Added to ligaments measured to sampled profiles, m: more than the sampling can miss."""
+
+
+def valley_offset(frame: Frame, pin_count: int) -> float:
+    """Angle between a valley of the lobes and the output hole nearest to any, rad."""
+    n = frame.lobe_count
+    firsts = kinematics.hole_clocking_in_disc(
+        n, frame.clocking, kinematics.crank_phases(frame.disc_count)
+    )
+    holes = firsts[:, None] + 2.0 * np.pi * np.arange(pin_count) / pin_count
+    pitch = 2.0 * np.pi / n
+    inside = np.mod(holes, pitch)
+    return float(np.minimum(inside, pitch - inside).min())
+
+
+def _flank(
+    frame: Frame, pitch_radius: FloatArray, throw: FloatArray, tooth: FloatArray, spare: int = 1
+) -> Any:
+    """Generated flank of many discs, designs on the first axis and `spare` more to come."""
+    own = (slice(None),) + (None,) * spare
+    columns: tuple[Any, ...] = (
+        (pitch_radius - frame.radial)[own],
+        throw[own],
+        (tooth + frame.equidistant)[own],
+    )
+    return GeneratedFlank(frame.lobe_count, *columns)
+
+
+def _even_parameter(
+    flank: Any, place: FloatArray, crowding: float
+) -> tuple[FloatArray, FloatArray]:
+    """Disc parameters (G, P) and their rates for places along one lobe, -pi to pi, valley at 0.
+
+    Even steps of t leap through sharp valleys; even steps of place do not:
+    tan(n t/2) = ((1 - K1)/(1 + K1))^crowding tan(place/2). One follows the bend of the valley,
+    a half suits integrals over the whole lobe.
+    """
+    sharpness = ((1.0 - flank.shortening) / (1.0 + flank.shortening)) ** crowding
+    cosine, sine = np.cos(0.5 * place), np.sin(0.5 * place)
+    parameter = 2.0 / flank.lobe_count * np.arctan2(sharpness * sine, cosine)
+    rate = sharpness / (cosine**2 + (sharpness * sine) ** 2) / flank.lobe_count
+    return parameter, rate
+
+
+def largest_pin_circle(
+    frame: Frame,
+    pitch_radius: FloatArray,
+    eccentricity: FloatArray,
+    tooth_radius: FloatArray,
+    hole_radius: FloatArray,
+    offset: FloatArray,
+) -> FloatArray:
+    """Largest pin circle whose holes keep the least ligament to the lobed profile.
+
+    A profile point at (rho, theta) stays q away from a hole centre at angle delta as long as
+    R_w <= rho cos(theta - delta) - sqrt(q^2 - rho^2 sin^2(theta - delta)); the profile beside the
+    valley nearest to any hole decides.
+
+    Parameters
+    ----------
+    frame : Frame
+    pitch_radius, eccentricity, tooth_radius : array (G,)
+        m.
+    hole_radius, offset : array (G, ...)
+        m, and angles from `valley_offset` in rad; they broadcast with each other.
+
+    Returns
+    -------
+    array (G, ...)
+        m; negative where no hole fits at all.
+    """
+    ring = (pitch_radius, eccentricity, tooth_radius)
+    clear = hole_radius + allowables.LIGAMENT + SAMPLING_GUARD
+    spare = len(np.broadcast_shapes(clear.shape, offset.shape)) - 1
+    own = (slice(None),) + (None,) * spare
+
+    def limits(point: ComplexArray) -> FloatArray:
+        """Largest pin circles for one profile point of each candidate."""
+        rho, turn = np.abs(point), np.angle(point) - offset
+        reach = clear * clear - (rho * np.sin(turn)) ** 2
+        here = rho * np.cos(turn) - np.sqrt(np.maximum(reach, 0.0))
+        return np.where(reach > 0.0, here, np.inf)
+
+    places, step = np.linspace(-0.3 * np.pi, 0.9 * np.pi, _PROFILE_POINTS, retstep=True)
+    coarse = _flank(frame, *ring)
+    profile = coarse.point(_even_parameter(coarse, places, 1.0)[0])
+    sampled = np.stack([limits(point[own]) for point in profile.T])
+    at = np.clip(sampled.argmin(axis=0), 1, _PROFILE_POINTS - 2)
+    shift, _ = _parabola(*(np.take_along_axis(sampled, (at + k)[None], 0)[0] for k in (-1, 0, 1)))
+    nearest = places[at] + step * shift
+    flank = _flank(frame, *ring, spare)
+    refined = [
+        limits(flank.point(_even_parameter(flank, nearest + k * step, 1.0)[0]))
+        for k in (-0.25, 0.0, 0.25)
+    ]
+    least = np.minimum(_parabola(*refined)[1], sampled.min(axis=0))
+    # Without a profile point in reach of the hole the valley circle decides.
+    valley = valley_distance(frame, *ring)[own]
+    return np.where(np.isinf(least), valley - clear, least)
+
+
+def _parabola(
+    before: FloatArray, middle: FloatArray, after: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Place (in steps from the middle) and value of the least of a parabola through three values.
+
+    Where they hold no minimum between them: the middle, and the least of the three.
+    """
+    inside = np.isfinite(before) & np.isfinite(after) & (middle <= before) & (middle <= after)
+    left, right = np.where(inside, before, 1.0), np.where(inside, after, 1.0)
+    bend = left + right - 2.0 * np.where(inside, middle, 0.0)
+    slope = 0.5 * (right - left)
+    shift = np.where(inside & (bend > 0.0), -slope / np.where(bend > 0.0, bend, 1.0), 0.0)
+    least = np.minimum(np.minimum(before, after), middle)
+    return shift, np.where(inside, middle + 0.5 * slope * shift, least)
+
+
+def ring_wall(
+    frame: Frame, pitch_radius: ArrayLike, eccentricity: ArrayLike, tooth_radius: ArrayLike
+) -> FloatArray:
+    """Wall of a solid ring outside its relief, D/2 - (R + 2 e - r + clearance), m."""
+    R, e, r = (np.asarray(v, dtype=float) for v in (pitch_radius, eccentricity, tooth_radius))
+    return np.asarray(frame.outer_radius - (R + 2.0 * e - r + frame.relief_clearance))
+
+
+def largest_pitch_for_wall(
+    frame: Frame, eccentricity: FloatArray, tooth_radius: FloatArray
+) -> FloatArray:
+    """Ring pitch radius that leaves exactly the least wall outside a solid ring's relief, m."""
+    room = frame.outer_radius - allowables.RING_WALL - frame.relief_clearance
+    return np.asarray(room - 2.0 * eccentricity + tooth_radius)
+
+
+def valley_distance(
+    frame: Frame, pitch_radius: FloatArray, eccentricity: FloatArray, tooth_radius: FloatArray
+) -> FloatArray:
+    """Distance of the finished disc's valleys from its centre, m."""
+    R, e, r = pitch_radius - frame.radial, eccentricity, tooth_radius + frame.equidistant
+    return np.asarray(R - e - r)
+
+
+def least_bore(eccentricity: FloatArray) -> FloatArray:
+    """Smallest bearing bore whose eccentrics share the least shaft core, m.
+
+    The array form of :func:`cqdd_design.gearbox.cam_bearing.least_bore`.
+    """
+    return np.asarray(eccentricity / (0.5 - allowables.SHAFT_CORE_SHARE))
+
+
+def profile_checks(
+    frame: Frame, pitch_radius: FloatArray, eccentricity: FloatArray, tooth_radius: FloatArray
+) -> dict[str, BoolArray]:
+    """Whether each ring stage (G,) meets the shape checks that depend on it alone, by check."""
+    R, e, r = pitch_radius, eccentricity, tooth_radius
+    n = frame.lobe_count
+    k1 = shortening_coefficient(n, R, e)
+    slack = 1.0 + 1e-9
+    concave = locus_valley_radius(n, R - frame.radial, e) + r + frame.equidistant
+    return {
+        "GEO-K1-LEAST": k1 * slack >= allowables.SHORTENING_LEAST,
+        "GEO-K1-MOST": k1 <= allowables.SHORTENING_MOST * slack,
+        "GEO-UNDERCUT": (r <= allowables.UNDERCUT_SHARE * undercut_radius_limit(n, R, e))
+        & (r + frame.equidistant < undercut_radius_limit(n, R - frame.radial, e)),
+        "GEO-TOOTH-OVERLAP": r
+        <= allowables.TOOTH_OVERLAP_SHARE * R * math.sin(math.pi / (n + 1)) * slack,
+        "GEO-RING-WALL": ring_wall(frame, R, e, r) * slack >= allowables.RING_WALL,
+        "EDM-DISC": concave >= frame.wire_radius,
+    }
+
+
+def relief_passes_wire(
+    frame: Frame, pitch_radius: FloatArray, eccentricity: FloatArray, tooth_radius: FloatArray
+) -> BoolArray:
+    """Whether a solid ring (G,) has a relief whose fillets the wire can follow.
+
+    A fillet between tooth and root circle must clear everything the disc sweeps and leave the
+    tooth a neck. Fillets up from the wire's own radius are tried; finer ones would not help.
+    """
+    R, e, r = pitch_radius, eccentricity, tooth_radius
+    n, half = frame.lobe_count, math.pi / (frame.lobe_count + 1)
+    root = R + 2.0 * e - r + frame.relief_clearance
+    across = R * math.cos(half)
+    groove = (root * root + R * R - 2.0 * root * across - r * r) / (2.0 * (root + r - across))
+    least = np.maximum(frame.wire_radius, 0.5 * (root - R - r))
+    passes = np.zeros(R.shape, dtype=bool)
+    open_ = np.flatnonzero(groove >= least)
+    columns: tuple[Any, ...] = tuple(v[open_, None] for v in (R, e, r))
+    envelope = SecondEnvelope(GeneratedFlank(n, *columns))
+    start = np.arccos(shortening_coefficient(n, R[open_], e[open_])) / n
+    share = np.linspace(0.0, 1.0, _ENVELOPE_POINTS)
+    points = envelope.point(start[:, None] + (envelope.end - start)[:, None] * share)
+    for trial in np.linspace(0.0, 1.0, _FILLET_TRIALS):
+        fillet = least[open_] * (groove[open_] / least[open_]) ** trial
+        clear, slim = _fillet_fits(R[open_], r[open_], root[open_], fillet, points)
+        passes[open_[(clear >= frame.relief_clearance) & ~slim]] = True
+        undecided = (clear >= frame.relief_clearance) & slim
+        if not undecided.any():
+            break
+        open_, points = open_[undecided], points[undecided]
+    return passes
+
+
+def _fillet_fits(
+    R: FloatArray,
+    r: FloatArray,
+    root: FloatArray,
+    fillet: FloatArray,
+    swept: ComplexArray,
+) -> tuple[FloatArray, BoolArray]:
+    """Clearance of a fillet from the swept disc, and whether it leaves the tooth no neck."""
+    reach = root - fillet
+    cosine = (reach * reach + R * R - (r + fillet) ** 2) / (2.0 * R * reach)
+    to_root = np.arccos(np.clip(cosine, -1.0, 1.0))
+    centre = reach * np.exp(1j * to_root)
+    to_tooth = np.pi - np.angle(centre - R)
+    away = swept - centre[:, None]
+    angle = np.angle(away)
+    beside = (angle >= -to_tooth[:, None]) & (angle <= to_root[:, None])
+    ends = np.stack(
+        [centre + fillet * np.exp(-1j * to_tooth), centre + fillet * np.exp(1j * to_root)], axis=1
+    )
+    to_ends = np.abs(swept[:, :, None] - ends[:, None, :]).min(axis=-1)
+    clear = np.where(beside, fillet[:, None] - np.abs(away), to_ends).min(axis=1)
+    slim = (to_tooth > 0.5 * np.pi) & (centre.imag <= fillet)
+    return clear, slim
+
+
+@dataclass(frozen=True)
+class ProfileIntegrals:
+    """Lobed outlines without holes.
+
+    Attributes
+    ----------
+    area : array (G,)
+        m^2.
+    polar : array (G,)
+        Polar second moment about the disc's centre, m^4.
+    """
+
+    area: FloatArray
+    polar: FloatArray
+
+
+def profile_integrals(
+    frame: Frame, pitch_radius: FloatArray, eccentricity: FloatArray, tooth_radius: FloatArray
+) -> ProfileIntegrals:
+    """Areas and polar moments by Green's theorem; the trapezoidal rule is spectral here."""
+    flank = _flank(frame, pitch_radius, eccentricity, tooth_radius)
+    step = 2.0 * np.pi / _AREA_POINTS
+    place = np.asarray(step * (np.arange(_AREA_POINTS) + 0.5) - np.pi, dtype=np.float64)
+    t, rate = _even_parameter(flank, place, 0.5)
+    normal = flank.normal(t)
+    point = flank.locus(t) - flank.tooth_radius * normal
+    speed = flank.locus_speed(t) * (1.0 - flank.tooth_radius * flank.locus_bend(t))
+    swept = (point * np.conj(normal)).real * speed * rate * (frame.lobe_count * step)
+    squared = point.real**2 + point.imag**2
+    return ProfileIntegrals(
+        area=0.5 * swept.sum(axis=-1), polar=0.25 * (squared * swept).sum(axis=-1)
+    )
+
+
+def ring_opening_area(
+    frame: Frame, pitch_radius: FloatArray, eccentricity: FloatArray, tooth_radius: FloatArray
+) -> FloatArray:
+    """Area inside a solid ring: root circle less n+1 teeth, each a lens of two circles, m^2.
+
+    The fillets beside the teeth are left out.
+    """
+    R, r = pitch_radius, tooth_radius
+    root = R + 2.0 * eccentricity - r + frame.relief_clearance
+    toward_tooth = np.clip((R * R + r * r - root * root) / (2.0 * R * r), -1.0, 1.0)
+    toward_centre = np.clip((R * R + root * root - r * r) / (2.0 * R * root), -1.0, 1.0)
+    half_tooth, half_root = np.arccos(toward_tooth), np.arccos(toward_centre)
+    lens = r * r * (half_tooth - 0.5 * np.sin(2.0 * half_tooth)) + root * root * (
+        half_root - 0.5 * np.sin(2.0 * half_root)
+    )
+    return np.asarray(np.pi * root * root - (frame.lobe_count + 1) * lens)

@@ -1,0 +1,153 @@
+"""The door to CadQuery: from stacks in metres to solids in millimetres.
+
+CadQuery is imported only here, in `assembly` and in the exporters, inside functions, so that
+commands without CAD neither pay for it nor need its system libraries.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from cqdd_design.environment import missing_dependency
+from cqdd_design.errors import GeometryError
+from cqdd_design.geometry.contours import ArcContour, Circle, Contour, FloatArray, PlanarPart
+from cqdd_design.solids.layers import Layer, Stack
+
+if TYPE_CHECKING:
+    from cadquery import Face, Location, Solid, Wire
+
+MM = 1e3
+"""Millimetres in a metre: the solids' unit."""
+_VOLUME_TOLERANCE = 1e-6
+_DECIMALS = 10
+"""Of coordinates in mm: a tenth of a picometre."""
+_DIGITS = 15
+"""Of direction cosines."""
+
+
+def import_cadquery() -> Any:
+    """The cadquery module, or a sentence on what to install.
+
+    Raises
+    ------
+    DependencyError
+        When the package or one of its system libraries is missing.
+    """
+    try:
+        import cadquery
+    except ImportError as error:
+        missing = missing_dependency(error)
+        if missing is None:
+            raise
+        raise missing from error
+    return cadquery
+
+
+def build_solid(name: str, shape: Stack) -> Solid:
+    """The solid of a stack of layers, in mm.
+
+    Every layer is a prism over a face whose edges are the very lines and arcs of its contours;
+    layers are fused and faces that continue each other are merged where the kernel can.
+
+    Raises
+    ------
+    DependencyError
+        When CadQuery is not usable.
+    GeometryError
+        When the kernel's answer is not one valid solid with the closed-form volume.
+    """
+    cadquery = import_cadquery()
+    prisms = [_prism(layer) for layer in shape.layers]
+    fused = prisms[0].fuse(*prisms[1:]) if len(prisms) > 1 else prisms[0]
+    exact = shape.volume * MM**3
+    # Merging faces now and then loses some; the solid with its seams is sound then.
+    for found in (fused.clean(), fused):
+        solids = found.Solids()
+        sound = len(solids) == 1 and solids[0].isValid()
+        if sound and math.isclose(solids[0].Volume(), exact, rel_tol=_VOLUME_TOLERANCE):
+            break
+    else:
+        raise GeometryError(
+            f"the CAD kernel could not build {name}: {len(solids)} solids of "
+            f"{sum(s.Volume() for s in solids):.6g} mm3 instead of one valid solid of "
+            f"{exact:.6g} mm3; change a diameter or thickness of it slightly."
+        )
+    solid: Solid = cadquery.Solid(solids[0].wrapped)
+    return solid
+
+
+def _prism(layer: Layer) -> Solid:
+    cadquery = import_cadquery()
+    face = planar_face(layer.shape, layer.bottom)
+    solid: Solid = cadquery.Solid.extrudeLinear(face, cadquery.Vector(0.0, 0.0, layer.height * MM))
+    return solid
+
+
+def planar_face(shape: PlanarPart, height: float = 0.0) -> Face:
+    """A flat part as a CadQuery face in mm at a height (m)."""
+    cadquery = import_cadquery()
+    face: Face = cadquery.Face.makeFromWires(
+        contour_wire(shape.outer, height), [contour_wire(hole, height) for hole in shape.holes]
+    )
+    return face
+
+
+def contour_wire(contour: Contour, height: float = 0.0) -> Wire:
+    """A contour as a closed CadQuery wire of lines and circular arcs, in mm at a height (m)."""
+    cadquery = import_cadquery()
+    z = height * MM
+    if isinstance(contour, Circle):
+        x, y = (float(v) for v in _rounded(contour.centre))
+        wire: Wire = cadquery.Wire.makeCircle(
+            contour.radius * MM, cadquery.Vector(x, y, z), cadquery.Vector(0.0, 0.0, 1.0)
+        )
+        return wire
+    return _arc_wire(contour, z)
+
+
+def _arc_wire(contour: ArcContour, z: float) -> Wire:
+    """Edges between shared vertices: the kernel would merge separate ones by chance of memory."""
+    cadquery = import_cadquery()
+    from OCP.BRepBuilderAPI import (
+        BRepBuilderAPI_MakeEdge,
+        BRepBuilderAPI_MakeVertex,
+        BRepBuilderAPI_MakeWire,
+    )
+    from OCP.GC import GC_MakeArcOfCircle, GC_MakeSegment
+    from OCP.gp import gp_Pnt
+
+    joints = [gp_Pnt(x, y, z) for x, y in _rounded(contour.points).tolist()]
+    middles = [gp_Pnt(x, y, z) for x, y in _rounded(contour.evaluate([0.5])[0][:, 0]).tolist()]
+    vertices = [BRepBuilderAPI_MakeVertex(joint).Vertex() for joint in joints]
+    maker = BRepBuilderAPI_MakeWire()
+    for i, bulge in enumerate(contour.bulges):
+        j = (i + 1) % len(joints)
+        if bulge == 0.0:
+            curve = GC_MakeSegment(joints[i], joints[j]).Value()
+        else:
+            curve = GC_MakeArcOfCircle(joints[i], middles[i], joints[j]).Value()
+        maker.Add(BRepBuilderAPI_MakeEdge(curve, vertices[i], vertices[j]).Edge())
+    wire: Wire = cadquery.Wire(maker.Wire())
+    return wire
+
+
+def _rounded(points: FloatArray) -> FloatArray:
+    """Points in mm without the last digits, which differ from one process to the next."""
+    # Adding zero turns -0.0 into 0.0.
+    return np.round(points * MM, _DECIMALS) + 0.0
+
+
+def location(pose: FloatArray) -> Location:
+    """A transform (4, 4) in metres as a CadQuery location in mm."""
+    cadquery = import_cadquery()
+    from OCP.gp import gp_Trsf
+
+    trsf = gp_Trsf()
+    rows = np.round(pose[:3], _DIGITS)
+    rows[:, 3] = _rounded(pose[:3, 3])
+    trsf.SetValues(*(float(v) for v in rows.ravel()))
+    result: Location = cadquery.Location(trsf)
+    return result

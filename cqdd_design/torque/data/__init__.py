@@ -1,0 +1,1 @@
+"""Data of a joint's motion and torque: simulated, imported, split."""

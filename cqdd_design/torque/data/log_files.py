@@ -1,0 +1,263 @@
+"""Log files as columns of numbers: CSV, TSV and Parquet, and the map that names the columns."""
+
+from __future__ import annotations
+
+import csv
+import math
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from cqdd_design.actuator.recording import require_pyarrow
+from cqdd_design.errors import DesignError, UsageError, did_you_mean
+from cqdd_design.torque.data.episodes import FloatArray
+from cqdd_design.units import ANGLE, CURRENT, LOAD_SPEED, TIME, TORQUE, Dimension, parse_quantity
+
+QUANTITIES: Mapping[str, Dimension | None] = {
+    "time": TIME,
+    "position": ANGLE,
+    "target": ANGLE,
+    "velocity": LOAD_SPEED,
+    "torque": TORQUE,
+    "current": CURRENT,
+    "wall": None,
+    "saturated": None,
+}
+"""What a log's columns may hold; flags have no unit."""
+NEEDED = ("position", "target", "velocity")
+_DELIMITERS = ",;\t"
+_PARTS = ("columns", "units", "constants", "group", "groups", "facts")
+
+
+@dataclass(frozen=True)
+class LogMap:
+    """How to read logs.
+
+    Attributes
+    ----------
+    columns : mapping of str to str
+        Quantity (`QUANTITIES`) to the log's column.
+    units : mapping of str to str
+        Quantity to unit; SI (s, rad, rad/s, N*m, A) where left out.
+    current_to_torque : float or None
+        Joint torque over current, N m/A, signed, where there is no torque column.
+    group : mapping
+        Of every episode, such as mass and wall.
+    groups : mapping of str to mapping
+        Name of a log without its ending to what else belongs to its group.
+    facts : mapping
+        For the manifest; ``held_mass_kg`` and ``training_gearbox`` are what splits hold back.
+    """
+
+    columns: Mapping[str, str]
+    units: Mapping[str, str] = field(default_factory=dict)
+    current_to_torque: float | None = None
+    group: Mapping[str, float | str] = field(default_factory=dict)
+    groups: Mapping[str, Mapping[str, float | str]] = field(default_factory=dict)
+    facts: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Refuse a map that cannot be followed."""
+        for table in (self.columns, self.units):
+            for name in table:
+                if name not in QUANTITIES:
+                    raise UsageError(
+                        f"'{name}' is no quantity of a log{did_you_mean(name, QUANTITIES) or '.'} "
+                        f"There are {', '.join(QUANTITIES)}."
+                    )
+        missing = [name for name in NEEDED if name not in self.columns]
+        if "torque" not in self.columns and "current" not in self.columns:
+            missing.append("torque (or current)")
+        if missing:
+            raise UsageError(
+                f"the map names no column for {', '.join(missing)}; give --columns "
+                '"position=q,target=q_des,velocity=dq,torque=tau" with the log\'s own names.'
+            )
+        if "torque" not in self.columns and self.current_to_torque is None:
+            raise UsageError(
+                "a log with current and without torque needs --current-to-torque, the joint's "
+                "torque over the current in N m/A (ratio times torque constant, signed)."
+            )
+        constant = self.current_to_torque
+        if constant is not None and not (math.isfinite(constant) and constant != 0.0):
+            raise UsageError(f"a torque over current of {constant:g} N m/A must not be 0.")
+        for name in self.units:
+            if QUANTITIES[name] is None:
+                raise UsageError(f"'{name}' is a flag, 0 or 1, without a unit.")
+            if name not in self.columns:
+                raise UsageError(f"a unit is given for '{name}', but no column; name its column.")
+
+    def factor(self, quantity: str) -> float:
+        """SI value of one unit of a quantity."""
+        dimension = QUANTITIES[quantity]
+        if dimension is None or quantity not in self.units:
+            return 1.0
+        try:
+            return parse_quantity(f"1 {self.units[quantity]}", dimension)
+        except DesignError as error:
+            raise UsageError(f"the unit of {quantity}: {error.message.rstrip('.')}.") from None
+
+
+def read_map(path: Path, over: Mapping[str, Mapping[str, Any]] | None = None) -> LogMap:
+    """Read a map file: TOML with tables columns, units, constants, group, groups, facts.
+
+    Parameters
+    ----------
+    path : Path
+    over : mapping of tables, optional
+        Entries that go before those of the file.
+
+    Raises
+    ------
+    UsageError
+        When it cannot be read, or holds anything else.
+    """
+    try:
+        content = tomllib.loads(path.read_text("utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is not text in UTF-8"
+        raise UsageError(f"cannot read {path}: {reason}.") from error
+    except tomllib.TOMLDecodeError as error:
+        raise UsageError(f"{path} is not TOML: {error}.") from error
+    for name, table in content.items():
+        if name not in _PARTS:
+            raise UsageError(f"{path}: '{name}' is no table{did_you_mean(name, _PARTS) or '.'}")
+        if not isinstance(table, dict):
+            raise UsageError(f"{path}: {name} must be a table, [{name}].")
+    for name, table in (over or {}).items():
+        content[name] = {**content.get(name, {}), **table}
+    constants = dict(content.get("constants", {}))
+    constant = constants.pop("current_to_torque", None)
+    if constants:
+        raise UsageError(
+            f"{path}: there is one constant, current_to_torque, no {', '.join(constants)}."
+        )
+    if constant is not None and (
+        isinstance(constant, bool) or not isinstance(constant, int | float)
+    ):
+        raise UsageError(f"{path}: current_to_torque must be a number in N m/A.")
+    for table in ("columns", "units"):
+        for name, value in content.get(table, {}).items():
+            if not isinstance(value, str):
+                raise UsageError(f'{path}: {table}.{name} must be text, such as "q".')
+    groups = content.get("groups", {})
+    for name, entry in [("group", content.get("group", {})), *groups.items()]:
+        if not isinstance(entry, dict):
+            raise UsageError(f'{path}: groups.{name} must be a table, [groups."{name}"].')
+        for key, value in entry.items():
+            if isinstance(value, bool) or not isinstance(value, int | float | str):
+                raise UsageError(f"{path}: {name}.{key} must be a number or text.")
+    return LogMap(
+        columns=content.get("columns", {}),
+        units=content.get("units", {}),
+        current_to_torque=None if constant is None else float(constant),
+        group=content.get("group", {}),
+        groups=groups,
+        facts=content.get("facts", {}),
+    )
+
+
+def read_columns(path: Path, wanted: Sequence[str]) -> dict[str, FloatArray]:
+    """Columns of a log as they stand, each finite.
+
+    Parameters
+    ----------
+    path : Path
+        ``.csv``, ``.tsv``, ``.txt`` (the header tells the separator) or ``.parquet``.
+    wanted : sequence of str
+        The log's names.
+
+    Raises
+    ------
+    UsageError
+        When the file or a column is missing, a value is no number, naming its line, or it is of
+        a kind that is not read; pickles never are.
+    """
+    kind = path.suffix.lower()
+    if kind in (".pkl", ".pickle", ".pt", ".npy"):
+        raise UsageError(
+            f"{path} may hold code, which reading it would run, so it is not read; save the log as "
+            "CSV or Parquet."
+        )
+    if kind not in (".csv", ".tsv", ".txt", ".parquet"):
+        raise UsageError(f"{path} is no log that can be read; there are .csv, .tsv and .parquet.")
+    found = _parquet(path, wanted) if kind == ".parquet" else _text(path, wanted)
+    lengths = {len(values) for values in found.values()}
+    if lengths == {0}:
+        raise UsageError(f"{path} has no samples.")
+    for name, values in found.items():
+        bad = np.flatnonzero(~np.isfinite(values))
+        if len(bad):
+            place = int(bad[0])
+            where = f"row {place}" if kind == ".parquet" else f"line {place + 2}"
+            raise UsageError(
+                f"{path}, {where}: {name} is {values[place]:g}; remove the lines that are not "
+                "finite, the gap splits the record there."
+            )
+    return found
+
+
+def _missing(path: Path, wanted: Sequence[str], there: Sequence[str]) -> None:
+    for name in wanted:
+        if name not in there:
+            raise UsageError(
+                f"{path} has no column '{name}'{did_you_mean(name, there) or '.'} "
+                f"It has {', '.join(there)}."
+            )
+        if list(there).count(name) > 1:
+            raise UsageError(f"{path} has two columns '{name}'; rename one.")
+
+
+def _parquet(path: Path, wanted: Sequence[str]) -> dict[str, FloatArray]:
+    _, parquet = require_pyarrow()
+    try:
+        table = parquet.read_table(path)
+    except Exception as error:
+        raise UsageError(f"cannot read {path}: {error}".split("\n")[0]) from error
+    _missing(path, wanted, table.column_names)
+    found = {}
+    for name in wanted:
+        try:
+            column = table.column(name).to_numpy(zero_copy_only=False)
+            found[name] = np.asarray(column, np.float64)
+        except (TypeError, ValueError) as error:
+            raise UsageError(f"{path}: column '{name}' does not hold numbers.") from error
+    return found
+
+
+def _text(path: Path, wanted: Sequence[str]) -> dict[str, FloatArray]:
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as stream:
+            first = stream.readline()
+            delimiter = max(_DELIMITERS, key=first.count)
+            stream.seek(0)
+            rows = list(csv.reader(stream, delimiter=delimiter))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        reason = getattr(error, "strerror", None) or "it is not text in UTF-8 with columns"
+        raise UsageError(f"cannot read {path}: {reason}.") from error
+    if not rows:
+        raise UsageError(f"{path} is empty.")
+    head = [name.strip() for name in rows[0]]
+    _missing(path, wanted, head)
+    places = [head.index(name) for name in wanted]
+    values = np.empty((len(rows) - 1, len(wanted)))
+    last = len(rows)
+    for line, row in enumerate(rows[1:], start=2):
+        if not row and all(not later for later in rows[line:]):
+            last = line - 1  # blank lines at the end
+            break
+        for column, place in enumerate(places):
+            text = row[place].strip() if place < len(row) else ""
+            try:
+                values[line - 2, column] = float(text)
+            except ValueError:
+                told = f"'{text}' is no number" if text else "is missing"
+                raise UsageError(
+                    f"{path}, line {line}: {head[place]} {told}; complete the line, or remove it."
+                ) from None
+    values = values[: last - 1]
+    return {name: np.ascontiguousarray(values[:, i]) for i, name in enumerate(wanted)}

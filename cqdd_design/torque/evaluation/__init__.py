@@ -1,0 +1,1 @@
+"""Estimators scored on episodes they never saw, with intervals."""

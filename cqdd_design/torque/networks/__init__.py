@@ -1,0 +1,1 @@
+"""Estimators: their file, their torch modules, and the compiled runtime without torch."""

@@ -1,0 +1,1 @@
+"""Training of estimators, from data and split to a file."""
