@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from cqdd_design.catalog import find_bearing, find_material, find_motor
-from cqdd_design.errors import CatalogError, shown
+from cqdd_design.errors import CatalogError, is_unprintable, shown
 
 if TYPE_CHECKING:
     from pydantic import GetCoreSchemaHandler
     from pydantic_core import CoreSchema
+
+_LONGEST_TEXT = 200
 
 
 class FrozenModel(BaseModel):
@@ -102,6 +104,16 @@ def _known(find: Callable[[str], Any], *also: str) -> Callable[[str], str]:
     return check
 
 
+def _plain(text: str) -> str:
+    if len(text) > _LONGEST_TEXT or any(map(is_unprintable, text)):
+        raise ValueError(
+            f"at most {_LONGEST_TEXT} characters, none of them a control or direction character"
+        )
+    return text
+
+
+#: Text that goes to terminals, reports and programs.
+FreeText = Annotated[str, AfterValidator(_plain)]
 MaterialName = Annotated[str, AfterValidator(_known(find_material))]
 MotorName = Annotated[str, AfterValidator(_known(find_motor))]
 BearingName = Annotated[str, AfterValidator(_known(find_bearing, "auto"))]

@@ -64,8 +64,7 @@ def _sentence(item: Any, model: type[BaseModel]) -> str:
     if kind == "extra_forbidden":
         known = _known_keys(model, location[:-1])
         hint = did_you_mean(str(location[-1]), known)
-        table = _short(".".join(str(part) for part in location[:-1]))
-        where = f"table [{table}]" if table else "the top level"
+        where = _short(_table(location[:-1])) or "the top level"
         return f"{key} is not a key of {where}{hint or '; its keys are ' + ', '.join(known)}"
     if kind == "missing":
         return f"{key} is missing; it has no default"
@@ -86,6 +85,15 @@ def _sentence(item: Any, model: type[BaseModel]) -> str:
     return f"{key} = {shown(item['input'])}: {expected}"
 
 
+def _table(location: tuple[Any, ...]) -> str:
+    """A table as the file writes it; of a list of tables, which of them."""
+    key = ".".join(str(part) for part in location if isinstance(part, str))
+    places = [part for part in location if isinstance(part, int)]
+    if places:
+        return f"table {places[-1] + 1} of [[{key}]]"
+    return f"table [{key}]" if key else ""
+
+
 def _short(key: str) -> str:
     return key if len(key) <= _LONGEST_KEY else f"{key[:_LONGEST_KEY]}..."
 
@@ -93,6 +101,8 @@ def _short(key: str) -> str:
 def _known_keys(model: type[BaseModel], tables: tuple[Any, ...]) -> list[str]:
     current: Any = model
     for table in tables:
+        if isinstance(table, int):  # a place in a list of tables
+            continue
         field = current.model_fields.get(table) if hasattr(current, "model_fields") else None
         if field is None:
             return []
