@@ -221,6 +221,30 @@ def test_eccentricity_past_the_cusp(complaint):
     assert "eccentricity" in complaint(with_line('"1.6 mm"', '"3.2 mm"'))
 
 
+@pytest.mark.parametrize(
+    ("command", "options"),
+    [
+        ("check", ""),
+        ("analyse", ""),
+        ("tolerance", ""),
+        ("simulate", ""),
+        ("bench", ""),
+        ("compare", ""),
+        ("inertia", ""),
+        ("report", ""),
+        ("export", "--to dxf"),
+        ("export", "--to urdf,mjcf"),
+        ("torque generate", "--out data"),
+    ],
+)
+def test_no_bearing_is_chosen_for_a_disc_that_cannot_be(cqdd, tmp_path, command, options):
+    (tmp_path / "cusp.toml").write_text(with_line('"1.6 mm"', '"3.2 mm"'))
+    done = cqdd(*command.split(), "cusp.toml", *options.split(), timeout=60.0)
+    assert done.code == 3
+    assert "where the disc undercuts" in done.err
+    assert [path.name for path in tmp_path.iterdir()] == ["cusp.toml"]
+
+
 def test_holes_that_break_out(complaint):
     text = complaint(MINIMAL + '[reducer.output_pins]\ncircle_radius = "27 mm"\n')
     assert "hole" in text
