@@ -1,5 +1,6 @@
 """Files: read within bounds, written whole or not at all."""
 
+from cqdd_design.files.arrays import read_arrays
 from cqdd_design.files.parsing import parse_json, parse_toml, refuse_extremes
 from cqdd_design.files.reading import open_regular_file, read_regular_file, read_text_file
 from cqdd_design.files.writing import (
@@ -20,6 +21,7 @@ __all__ = [
     "open_regular_file",
     "parse_json",
     "parse_toml",
+    "read_arrays",
     "read_regular_file",
     "read_text_file",
     "refuse_extremes",

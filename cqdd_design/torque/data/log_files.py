@@ -13,10 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from cqdd_design.actuator.recording import require_pyarrow
 from cqdd_design.errors import DesignError, UsageError, did_you_mean
-from cqdd_design.files import open_regular_file, parse_toml, read_regular_file, read_text_file
-from cqdd_design.torque.data.episodes import FloatArray
+from cqdd_design.files import parse_toml, read_regular_file, read_text_file
+from cqdd_design.torque.data.episodes import FloatArray, read_parquet
 from cqdd_design.units import ANGLE, CURRENT, LOAD_SPEED, TIME, TORQUE, Dimension, parse_quantity
 
 QUANTITIES: Mapping[str, Dimension | None] = {
@@ -210,23 +209,11 @@ def _missing(path: Path, wanted: Sequence[str], there: Sequence[str]) -> None:
 
 
 def _parquet(path: Path, wanted: Sequence[str]) -> dict[str, FloatArray]:
-    _, parquet = require_pyarrow()
-    try:
-        with open_regular_file(path) as stream:
-            table = parquet.read_table(stream)
-    except UsageError:
-        raise
-    except Exception as error:
-        raise UsageError(f"cannot read {path}: {error}".split("\n")[0]) from error
-    _missing(path, wanted, table.column_names)
-    found = {}
-    for name in wanted:
-        try:
-            column = table.column(name).to_numpy(zero_copy_only=False)
-            found[name] = np.asarray(column, np.float64)
-        except (TypeError, ValueError) as error:
-            raise UsageError(f"{path}: column '{name}' does not hold numbers.") from error
-    return found
+    def choose(names: Sequence[str]) -> Sequence[str]:
+        _missing(path, wanted, names)
+        return wanted
+
+    return read_parquet(path, choose)
 
 
 def _text(path: Path, wanted: Sequence[str]) -> dict[str, FloatArray]:
