@@ -11,8 +11,9 @@ from typing import Any
 from cqdd_design.actuator.bench.calibrate import Calibration
 from cqdd_design.actuator.bench.unknowns import UNKNOWNS
 from cqdd_design.errors import UsageError, did_you_mean
-from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.files import WrittenFile, parse_json, read_text_file, write_atomically
 
+_MOST_BYTES = 1_000_000
 FORMAT = "cqdd-design calibration 1"
 
 
@@ -59,13 +60,5 @@ def read_calibration(path: Path, design_sha256: str) -> tuple[Mapping[str, float
 
 
 def _content(path: Path) -> dict[str, Any]:
-    try:
-        found = json.loads(path.read_text("utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is not text in UTF-8"
-        raise UsageError(f"cannot read {path}: {reason}.") from error
-    except json.JSONDecodeError as error:
-        raise UsageError(
-            f"{path} is not JSON (line {error.lineno}); `cqdd-design calibrate` writes one."
-        ) from error
+    found = parse_json(read_text_file(path, _MOST_BYTES), path)
     return found if isinstance(found, dict) else {}

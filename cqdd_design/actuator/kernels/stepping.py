@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 
 from cqdd_design.actuator.kernels.drive import (
@@ -44,6 +43,7 @@ from cqdd_design.actuator.kernels.loads import (
     wall_at,
     wall_push,
 )
+from cqdd_design.files.kernel_cache import numba
 
 SETTLED, MOTOR_SETTLED = 1e-8, 1e-7
 """Newton steps, rad at the output and at the motor, after which the next would change nothing."""

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cqdd_design.errors import DependencyError, ReadBackError, UsageError
-from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.files import WrittenFile, parse_json, read_text_file, write_atomically
 from cqdd_design.torque.features.matrix import PHYSICAL
 
 if TYPE_CHECKING:
@@ -107,7 +107,7 @@ def require_settings(path: Path, dt: float, position_gain: float, velocity_gain:
     UsageError
     """
     try:
-        content = json.loads(path.read_text("utf-8"))
+        content = parse_json(read_text_file(path, 1_000_000), path)
         known = {
             name: float(content[key])
             for name, key in (
@@ -116,7 +116,7 @@ def require_settings(path: Path, dt: float, position_gain: float, velocity_gain:
                 ("velocity gain", "velocity_gain_Nms_per_rad"),
             )
         }
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError) as error:
         raise UsageError(f"{path} holds no settings of an exported torque network.") from error
     given = {"sample time": dt, "position gain": position_gain, "velocity gain": velocity_gain}
     for name, trained in known.items():
