@@ -47,8 +47,8 @@ if TYPE_CHECKING:
     from ezdxf.layouts.layout import Modelspace
 
     from cqdd_design.design import Design
-    from cqdd_design.exporting import ExportJob
     from cqdd_design.exporting.edm.wire_path import WirePath
+    from cqdd_design.exporting.job import ExportJob
 
 REF = "REF"
 LAYERS = {CUT_OUTER: 1, CUT_INNER: 5, START_HOLE: 3, REF: 8, NOTES: 7}

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from cqdd_design.design import Design
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
 
 FOLDER = "edm"
 """Programs lie beside the EDM package."""
