@@ -9,7 +9,7 @@ import importlib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from cqdd_design.errors import UsageError, did_you_mean
 
@@ -47,12 +47,15 @@ class ExportKind:
 
     def load(self) -> Writer:
         """Import the function that writes it."""
-        module, _, function = self.writer.partition(":")
-        found: Writer = getattr(importlib.import_module(f"{_ROOM}.{module}"), function)
-        return found
+        return load_writer(self.writer)
 
 
-_ROOM = "cqdd_design.exporting"
+def load_writer(place: str) -> Any:
+    """Import a function by ``chapter.module:function`` of this room."""
+    module, _, function = place.partition(":")
+    return getattr(importlib.import_module(f"cqdd_design.exporting.{module}"), function)
+
+
 _SOLID, _PLAIN = True, False
 _ROWS = (
     ExportKind("dxf", "edm.dxf:export_dxf", _PLAIN, "makers", "contours of the flat parts"),
@@ -87,7 +90,7 @@ def stages(kinds: Iterable[str]) -> int:
     return len(wanted) + any(kind.needs_solids for kind in wanted)
 
 
-def read_kinds(text: str | Iterable[str]) -> tuple[str, ...]:
+def read_kinds(text: str | Iterable[str], table: Mapping[str, object] = KINDS) -> tuple[str, ...]:
     """Kinds of a list such as ``"dxf,step"``, each once, in the order given.
 
     Raises
@@ -102,12 +105,12 @@ def read_kinds(text: str | Iterable[str]) -> tuple[str, ...]:
     """
     names = text.split(",") if isinstance(text, str) else list(text)
     wanted = list(dict.fromkeys(name.strip().lower() for name in names if name.strip()))
-    known = ", ".join(KINDS)
+    known = ", ".join(table)
     if not wanted:
         raise UsageError(f"no kind of file is named; the kinds are {known}.")
     for name in wanted:
-        if name not in KINDS:
-            hint = did_you_mean(name, KINDS) or "."
+        if name not in table:
+            hint = did_you_mean(name, table) or "."
             raise UsageError(
                 f"'{name}' is not a kind of file to export{hint} The kinds are {known}."
             )
