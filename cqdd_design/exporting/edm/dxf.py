@@ -160,6 +160,10 @@ def draw(
     drawing.header["$EXTMIN"] = (-reach, bottom, 0.0)
     drawing.header["$EXTMAX"] = (reach, reach, 0.0)
     drawing.set_modelspace_vport(1.1 * (reach - bottom), (0.0, 0.5 * (reach + bottom)))
+    if options.dxf_version == "R2010":
+        # Left to itself the library adds classes in the order of a set, another in every process.
+        for kind in sorted(drawing.entitydb.dxf_types_in_use()):
+            drawing.classes.add_class(kind)
     audit = drawing.audit()
     if audit.errors or audit.fixes:
         message = (audit.errors + audit.fixes)[0].message
