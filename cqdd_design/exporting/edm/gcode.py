@@ -34,7 +34,6 @@ from cqdd_design.exporting.edm.wire_path import (
     contour_name,
     segmented,
     split_for_tab,
-    wire_offset,
     wire_paths,
 )
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
@@ -128,7 +127,7 @@ def _heading(
         f"MATERIAL {flat.material}, THICKNESS {_MM * flat.thickness:g} MM",
         "UNITS MM, ABSOLUTE, ORIGIN ON THE PART AXIS, ARC CENTRES I J FROM EACH ARC START",
         f"WIRE DIA {_MM * edm.wire_diameter:g}, SPARK GAP {_MM * edm.spark_gap:g}",
-        f"D01 IS WIRE OFFSET, {_MM * wire_offset(edm):.4f} ON THE FINISHING CUT: SET IT AND THE",
+        f"D01 IS WIRE OFFSET, {_MM * edm.wire_offset:.4f} ON THE FINISHING CUT: SET IT AND THE",
         "OFFSETS OF ROUGH AND SKIM CUTS BY YOUR TECHNOLOGY",
         *(
             f"D{place:02d} FOR {contour_name(seat.contour)}, SEAT DIA {seat}: D01 AND "

@@ -83,11 +83,6 @@ class OpenChain:
     bulges: FloatArray
 
 
-def wire_offset(edm: Edm) -> float:
-    """From contour to the wire's centre on the finishing cut, m."""
-    return edm.wire_diameter / 2.0 + edm.spark_gap
-
-
 def contour_name(number: int) -> str:
     """Name of a contour of a part: 0 is the outer one."""
     return "outer contour" if number == 0 else f"inner contour {number}"
@@ -113,7 +108,7 @@ def wire_paths(flat: FlatPart, edm: Edm) -> tuple[WirePath, ...]:
             ),
             complex(*start.centre),
             2.0 * start.radius,
-            wire_offset(edm),
+            edm.wire_offset,
             number == 0,
         )
         for number, (contour, start) in enumerate(zip(contours, starts, strict=True))
@@ -136,7 +131,7 @@ def offset_contour(contour: Contour, edm: Edm, *, outer: bool, feature: str) -> 
     ReadBackError
         When an arc is tighter than the offset, naming `feature` and the thickest wire that fits.
     """
-    distance = wire_offset(edm)
+    distance = edm.wire_offset
     # Left of the path lies the inside.
     side = -distance if outer else distance
     nominal = segmented(contour)

@@ -16,7 +16,7 @@ from cqdd_design.exporting.edm.cut_facts import (
     WALL_SQUARENESS,
     zone_text,
 )
-from cqdd_design.exporting.edm.wire_path import contour_name, wire_offset
+from cqdd_design.exporting.edm.wire_path import contour_name
 from cqdd_design.geometry.contours import Circle
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def readme_text(parts: Sequence[CutFacts], options: ExportOptions) -> str:
                 ),
                 "CUT_OUTER, CUT_INNER: nominal finished contours, no kerf offset; use these with "
                 "the offset of your control.",
-                f"WIRE_PATH: centre of the wire on the finishing cut, {_MM * wire_offset(edm):g} "
+                f"WIRE_PATH: centre of the wire on the finishing cut, {_MM * edm.wire_offset:g} "
                 "mm from the contour, in the waste; use it without an offset, or for a check. "
                 "LEAD_IN: from each start hole square onto that path.",
                 "START_HOLE: where the wire is threaded; REF: centre lines; NOTES: text.",

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design import __version__
 from cqdd_design.exporting.edm.cut_facts import CUT_FINISH, zone_text
-from cqdd_design.exporting.edm.wire_path import contour_name, wire_offset
+from cqdd_design.exporting.edm.wire_path import contour_name
 from cqdd_design.exporting.sheets.canvas import sheet_date
 from cqdd_design.exporting.sheets.drawing import OUTLINE, SMALL, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import text_width
@@ -121,7 +121,7 @@ def _notes(sheet: SheetDrawing, facts: CutFacts) -> None:
 def notes(facts: CutFacts) -> list[str]:
     """Notes of a sheet, each a sentence or two."""
     flat, edm = facts.flat, facts.design.edm
-    offset = _MM * wire_offset(edm)
+    offset = _MM * edm.wire_offset
     said = [_sentence(remark) for remark in flat.remarks]
     said += [
         _curve(facts),

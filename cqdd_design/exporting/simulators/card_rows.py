@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cqdd_design.actuator.joint_friction import delivered_peak_torque
 from cqdd_design.actuator.joint_side import (
     JointSide,
     motor_breakaway,
@@ -377,8 +378,6 @@ def _worked_out(parameters: ActuatorParameters, side: JointSide) -> dict[str, fl
     """Values of rows that are no attribute of anything."""
     gear = parameters.gear
     ripple = sum(one.amplitude**2 for one in ripple_harmonics(parameters))
-    carried = side.peak_torque - side.reduction * motor_coulomb(parameters)
-    carried /= 1.0 + parameters.friction.load_forward
     return {
         "motor_coulomb": motor_coulomb(parameters),
         "motor_breakaway": motor_breakaway(parameters),
@@ -388,6 +387,6 @@ def _worked_out(parameters: ActuatorParameters, side: JointSide) -> dict[str, fl
             0.5 * float(np.sum(gear.error_cosine**2 + gear.error_sine**2))
         ),
         "ripple": math.sqrt(0.5 * ripple),
-        "delivered_peak_torque": max(carried - parameters.friction.output_coulomb, 0.0),
+        "delivered_peak_torque": delivered_peak_torque(parameters, side),
         "encoder_step": 2.0 * math.pi / 2.0**parameters.drive.encoder_bits,
     }

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from cqdd_design.actuator.joint_friction import held_back_torque
 from cqdd_design.actuator.joint_side import (
     JointSide,
     RippleHarmonic,
@@ -305,6 +306,7 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
     parameters, side = model.parameters, model.side
     gear, friction = parameters.gear, parameters.friction
     sense = "against" if side.crank_sense < 0 else "with"
+    held_back = held_back_torque(parameters, side)
     lines = [
         f"Written by {provenance(model.design_sha256)}. SI units, angles in rad.",
         "",
@@ -318,8 +320,8 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
         f"{number(side.peak_torque)} N m with the current limit, both before friction, no-load "
         f"speed {number(side.no_load_speed)} rad/s; reflected inertia "
         f"{number(side.reflected_inertia)} kg m^2, all at the joint. On a locked output the "
-        f"gearbox's friction under load holds back up to {number(_held_back(model))} N m of the "
-        "torque with the limit, which this file does not.",
+        f"gearbox's friction under load holds back up to {number(held_back)} N m of the torque "
+        "with the limit, which this file does not.",
         "",
         _ripple_remark(model),
         "",
@@ -341,13 +343,6 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
     if model.harmonics and parameters.gear.backlash > 0.0:
         lines.append("- ripple stays while the play is open, when no torque is carried.")
     return lines
-
-
-def _held_back(model: MjcfActuator) -> float:
-    """Friction on a locked output at the current limit that grows with load, N m at the joint."""
-    friction = model.parameters.friction
-    load = friction.load_forward * (1.0 + friction.stribeck_extra)
-    return model.side.peak_torque * load / (1.0 + load)
 
 
 def _ripple_remark(model: MjcfActuator) -> str:
