@@ -111,11 +111,9 @@ def write_flat_part(
 
 def contour_fit(flat: FlatPart) -> LoopFit:
     """Measure the contour of a part against its exact curve."""
-    outer = flat.shape.outer
-    contours = [c for c in (outer, *flat.shape.holes) if isinstance(c, ArcContour)]
-    joints = as_complex(contours[0].points)
-    loop = Loop(joints, np.roll(joints, -1), contours[0].bulges)
-    return fit_of(loop, flat.exact, outer=contours[0] is outer)
+    joints = as_complex(flat.fitted.points)
+    loop = Loop(joints, np.roll(joints, -1), flat.fitted.bulges)
+    return fit_of(loop, flat.exact, outer=flat.fitted is flat.shape.outer)
 
 
 def draw(
@@ -140,9 +138,8 @@ def draw(
     for name, colour in (LAYERS | (WIRE_LAYERS if wire else {})).items():
         drawing.layers.add(name, color=colour)
     space = drawing.modelspace()
-    _add_contour(space, flat.shape.outer, CUT_OUTER, options)
-    for hole in flat.shape.holes:
-        _add_contour(space, hole, CUT_INNER, options)
+    for number, contour in enumerate(flat.contours):
+        _add_contour(space, contour, CUT_INNER if number else CUT_OUTER, options)
     starts = start_holes(flat, design.edm.wire_diameter)
     for start in starts:
         _add_contour(space, start, START_HOLE, options)

@@ -27,6 +27,7 @@ from cqdd_design.errors import ReadBackError
 from cqdd_design.exporting.edm.start_holes import start_holes
 from cqdd_design.geometry.contours import (
     ArcContour,
+    Circle,
     ComplexArray,
     Contour,
     FloatArray,
@@ -88,6 +89,11 @@ def contour_name(number: int) -> str:
     return "outer contour" if number == 0 else f"inner contour {number}"
 
 
+def contour_size(contour: Contour, sign: str = "dia ") -> str:
+    """Diameter of a round contour, mm, behind `sign`; any other is a profile."""
+    return f"{sign}{2e3 * contour.radius:.4f}" if isinstance(contour, Circle) else "profile"
+
+
 def wire_paths(flat: FlatPart, edm: Edm) -> tuple[WirePath, ...]:
     """Paths of every contour of a part, the outer one first.
 
@@ -99,7 +105,6 @@ def wire_paths(flat: FlatPart, edm: Edm) -> tuple[WirePath, ...]:
         When the wire is too thick for a contour: the part exists, but the files would not cut it.
     """
     starts = start_holes(flat, edm.wire_diameter)
-    contours = (flat.shape.outer, *flat.shape.holes)
     return tuple(
         WirePath(
             contour_name(number),
@@ -111,7 +116,7 @@ def wire_paths(flat: FlatPart, edm: Edm) -> tuple[WirePath, ...]:
             edm.wire_offset,
             number == 0,
         )
-        for number, (contour, start) in enumerate(zip(contours, starts, strict=True))
+        for number, (contour, start) in enumerate(zip(flat.contours, starts, strict=True))
     )
 
 
