@@ -175,7 +175,7 @@ def search_frame(requirements: Requirements) -> Frame:
         equidistant=reducer.modification.equidistant,
         radial=reducer.modification.radial,
         relief_clearance=reducer.ring.relief_clearance,
-        wire_radius=0.5 * template.edm.wire_diameter + template.edm.spark_gap,
+        wire_radius=template.edm.wire_offset,
         default_clearance=pins.hole_clearance,
         clocking=pins.hole_clocking,
         most_thickness=most,

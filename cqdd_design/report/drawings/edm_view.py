@@ -33,12 +33,11 @@ def edm_view(design: Design) -> EdmView:
     """Measure the contours of a design as their files hold them."""
     edm = design.edm
     flats = flat_parts(design)
-    wire = 0.5 * edm.wire_diameter + edm.spark_gap
     return EdmView(
         lead=(
             f"Arcs follow the exact curve within {with_unit(edm.profile_tolerance * 1e6, 'um')}; "
-            f"the wire's centre runs {with_unit(wire * 1e3, 'mm')} beside it. Every file is read "
-            "back from disk and measured so before it gets its name."
+            f"the wire's centre runs {with_unit(edm.wire_offset * 1e3, 'mm')} beside it. Every "
+            "file is read back from disk and measured so before it gets its name."
         ),
         rows=tuple(_row(flat) for flat in flats),
         remarks=tuple(
