@@ -23,7 +23,7 @@ from cqdd_design.actuator.parameters import FloatArray, IntArray
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.states import nominal_states
+from cqdd_design.gearbox.contact.states import error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import (
     ContactSweep,
     contact_sweep,
@@ -118,8 +118,10 @@ def transmission(
         angle, per_turn = output_turn_angles(model), 1
     states = nominal_states(model, angle)
 
+    changed = error_states(model, states, errors)
+
     def loaded(load: float) -> ContactSweep:
-        return contact_sweep(model, load, errors=errors, states=states)
+        return contact_sweep(model, load, errors=errors, states=states, changed=changed)
 
     free = float(backlash(model, errors=errors, states=states).free.mean())
     ahead, behind = loaded(torque), loaded(-torque)
