@@ -195,6 +195,7 @@ def contact_sweep(
     *,
     errors: GearboxErrors | None = None,
     states: NominalStates | None = None,
+    changed: ErrorStates | None = None,
 ) -> ContactSweep:
     """Solve the contact equilibrium over crank angle.
 
@@ -211,6 +212,8 @@ def contact_sweep(
     states : NominalStates, optional
         From :func:`.states.nominal_states` for the same model and angles, where many sweeps share
         them.
+    changed : ErrorStates, optional
+        From :func:`.states.error_states` for the same states and errors, likewise.
 
     Returns
     -------
@@ -237,7 +240,8 @@ def contact_sweep(
             raise UsageError("a contact sweep needs a list of finite crank angles, one or more.")
         states = nominal_states(model, angle)
     _refuse_misshapen(model, errors)
-    changed = error_states(model, states, errors)
+    if changed is None:
+        changed = error_states(model, states, errors)
     count, discs, contacts = states.gaps.shape
     size = 3 + 3 * discs
     state, force = np.empty((count, size)), np.empty((count, discs, contacts))
