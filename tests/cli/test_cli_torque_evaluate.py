@@ -267,3 +267,18 @@ def test_what_was_trained_on_is_not_scored(place, data, tmp_path):
     assert any("mlp was trained on" in sentence for sentence in document["warnings"])
     assert "rmse_Nm" not in document["results"]["models"]["mlp"]
     assert "rmse_Nm" in document["results"]["models"]["pd-law"]
+
+
+def test_a_network_of_other_data_is_scored_though_names_agree(place, data, inside):
+    """Two data sets name their episodes alike; only the hash tells whether they are the same."""
+    everything = [one.name for one in data.episodes]
+    told = {"protocol": "trajectory", "seed": 0, "train": everything, "validation": []}
+    other, seen = "trained on other data than these", "was trained on 4 of the 4 episodes"
+    for sha256, right, wrong in (("0" * 64, other, seen), (data.sha256, seen, other)):
+        facts = {"split": told, "data_sha256": sha256}
+        write_artefact(network("mlp", 2, facts=facts), Path("net.npz"))
+        files = ("--data", place / "data", "--model", "net.npz")
+        code, err = inside(*files, "--draws", "100", "--rollouts", "0")
+        assert code == 0, err
+        assert right in err
+        assert wrong not in err

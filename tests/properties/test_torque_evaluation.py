@@ -674,8 +674,12 @@ def test_tables_keep_the_paper_apart(data):
 def test_files_tell_their_split():
     split = {"protocol": "wall", "seed": 3, "train": ["a"], "validation": ["b"], "test": ["c"]}
     own, other = gru(facts={"split": split}), gru(facts={"split": split | {"seed": 4}})
-    assert trained_on(own) == {"a", "b"}
-    assert trained_on(gru()) == frozenset()
+    assert trained_on(own, "0" * 64) == {"a", "b"}
+    assert trained_on(gru(), "0" * 64) == frozenset()
+    # A name says which episode only within the data set that the file names.
+    named = gru(facts={"split": split, "data_sha256": "1" * 64})
+    assert trained_on(named, "1" * 64) == {"a", "b"}
+    assert trained_on(named, "0" * 64) == frozenset()
     assert split_of([own], None) == ("wall", 3)
     assert split_of([gru()], None) == ("trajectory", 0)
     assert split_of([own, other], 5) == ("wall", 5)

@@ -81,13 +81,22 @@ def is_leaky(artefact: Artefact) -> bool:
     return isinstance(split, Mapping) and split.get("protocol") == "random-window"
 
 
-def trained_on(artefact: Artefact) -> frozenset[str]:
-    """Episodes that a network's file says it was trained and validated on."""
+def trained_on(artefact: Artefact, data_sha256: str) -> frozenset[str]:
+    """Episodes of a data set that a network's file says it was trained and validated on.
+
+    A name is an episode's within its own data set only: of a network whose file names other data,
+    none are known to be among these. A file that names no data is taken to mean these.
+    """
     split = artefact.facts.get("split")
-    if not isinstance(split, Mapping):
+    if not isinstance(split, Mapping) or of_other_data(artefact, data_sha256):
         return frozenset()
     names = [*split.get("train", ()), *split.get("validation", ())]
     return frozenset(str(name) for name in names)
+
+
+def of_other_data(artefact: Artefact, data_sha256: str) -> bool:
+    """Whether a network's file says that it was trained on another data set."""
+    return artefact.facts.get("data_sha256", data_sha256) != data_sha256
 
 
 def actuator_of(artefacts: Sequence[Artefact]) -> ActuatorParameters | None:
@@ -167,20 +176,20 @@ def line_up(
         network_estimator(artefact, name=name, actuator=known)
         for name, artefact in networks.items()
     ]
-    seen = {name: trained_on(artefact) for name, artefact in networks.items()}
-    if any(not names for names in seen.values()):
-        without = ", ".join(name for name, names in seen.items() if not names)
+    identity = data.sha256
+    seen = {name: trained_on(artefact, identity) for name, artefact in networks.items()}
+    strange = [name for name, one in networks.items() if of_other_data(one, identity)]
+    without = ", ".join(name for name, own in seen.items() if not own and name not in strange)
+    if without:
         warnings.append(
             f"{without}: the file does not say which episodes it was trained on, so a test on them "
             "cannot be ruled out."
         )
-    for name, artefact in networks.items():
-        told = artefact.facts.get("data_sha256")
-        if told is not None and told != data.sha256:
-            warnings.append(
-                f"{name} was trained on other data than these; that no test episode was among "
-                "them cannot be told by names."
-            )
+    warnings += [
+        f"{name} was trained on other data than these; that no test episode was among them cannot "
+        "be told by names."
+        for name in strange
+    ]
     first = splits[chosen[0]]
     fitted = tuple(name for name in first.train if all(name not in s.test for s in splits.values()))
     estimators += baselines(data, fitted, known)
