@@ -19,7 +19,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.actuator.packing import largest_step
 from cqdd_design.actuator.parameters import ActuatorParameters
@@ -30,8 +29,6 @@ from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.errors import UsageError
 from cqdd_design.torque.data.episodes import Episode
 from cqdd_design.torque.data.sensing import SensorChain, Truth, measured
-
-FloatArray = NDArray[np.float64]
 
 FREQUENCIES, AMPLITUDES, STARTS = (0.3, 1.5), (0.5, 1.5), (0.0, 1.0)
 """Hz, rad, rad; paper."""
