@@ -126,6 +126,7 @@ def behaviour(
     if effort.drift_steps and one.artefact is not None and one.features is not None:
         rows = one.features(_periodic(episodes[0]))[-_PERIOD:]
         wandering = drift(_for_ever(one.artefact).step, rows, steps=effort.drift_steps)
+    leaked = None if one.artefact is None else one.artefact.facts.get("leaked_rmse_Nm")
     return Behaviour(
         name=one.name,
         model=one.model or one.name,
@@ -137,7 +138,7 @@ def behaviour(
         position_rms=mean,
         drift=wandering,
         modes=compare_modes(one, episodes[0]),
-        leaked_rmse=None,
+        leaked_rmse=None if leaked is None else float(leaked),
         missing=missing,
     )
 
