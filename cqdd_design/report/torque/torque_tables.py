@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cqdd_design.report.ink.numbers import MINUS, significant
-from cqdd_design.torque.evaluation.evaluate import PAPER, EvaluationResult
+from cqdd_design.torque.evaluation.evaluate import EvaluationResult
+from cqdd_design.torque.evaluation.markdown import NONE, ends_shown
 from cqdd_design.torque.evaluation.metrics import REGIMES
+from cqdd_design.torque.evaluation.paper import PAPER
 from cqdd_design.torque.evaluation.ripple import BAND
-from cqdd_design.torque.evaluation.table import NONE, ends_shown
 
 if TYPE_CHECKING:
     from cqdd_design.torque.evaluation.bootstrap import Interval
@@ -85,16 +86,7 @@ def models_table(results: EvaluationResult, found: SetResult) -> Table:
 
 def paper_table() -> Table:
     """The paper's hardware."""
-    rows = tuple(
-        (
-            row.title,
-            f"{row.rmse:.2f}",
-            NONE if row.bias is None else f"{row.bias:.2f}",
-            f"{row.variance:.2f}",
-            f"{row.cycle_time:.2f}",
-        )
-        for row in PAPER
-    )
+    rows = tuple(tuple(row.cells(NONE)) for row in PAPER)
     head = ("Model", "RMSE, N·m", "Size of bias, N·m", "Variance, N²·m²", "Cycle time, µs")
     return Table(
         "Paper (hardware)",

@@ -88,10 +88,10 @@ def torque_page(results: EvaluationResult, *, date: str = "") -> str:
     return page.render(
         torque=torque_view(results),
         facts=_facts(results),
-        title=str(results.data_facts.get("design", "Torque data")),
+        title=str(results.data.facts.get("design", "Torque data")),
         version=__version__,
         date=date,
-        data_sha256=results.data_sha256,
+        data_sha256=results.data.sha256,
     )
 
 
@@ -122,13 +122,13 @@ def torque_view(results: EvaluationResult) -> TorqueView:
 
 
 def _facts(results: EvaluationResult) -> tuple[tuple[str, str, str], ...]:
-    headline = results.sets[0]
+    headline, data = results.sets[0], results.data
     return (
         ("Test episodes", str(len(headline.episodes)), f"set {headline.name}"),
         ("Samples scored", f"{headline.samples:,}".replace(",", "\u202f"), _rate(results)),
         (
             "Gains",
-            f"{significant(results.position_gain)} / {significant(results.velocity_gain)}",
+            f"{significant(data.position_gain)} / {significant(data.velocity_gain)}",
             "N·m/rad and N·m·s/rad, of the controller",
         ),
         ("Models", str(len(results.models)), "networks and baselines"),
@@ -136,7 +136,7 @@ def _facts(results: EvaluationResult) -> tuple[tuple[str, str, str], ...]:
 
 
 def _rate(results: EvaluationResult) -> str:
-    return f"at {significant(1.0 / results.dt)} Hz"
+    return f"at {significant(1.0 / results.data.dt)} Hz"
 
 
 def _lead(results: EvaluationResult, headline: SetResult) -> str:
