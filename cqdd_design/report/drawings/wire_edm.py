@@ -8,21 +8,13 @@ from dataclasses import dataclass
 from cqdd_design.design import Design
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts
+from cqdd_design.exporting.edm.wire_path import wire_offset
 from cqdd_design.report.ink.numbers import decimals, significant, with_unit
 
 
 @dataclass(frozen=True)
 class EdmView:
-    """What the section shows.
-
-    Attributes
-    ----------
-    lead : str
-    rows : tuple of (program, pieces, plate, arcs, largest, rms, perimeter, area, tangent break,
-        least radius)
-    remarks : tuple of str
-        What the shop must know of each part.
-    """
+    """What the section shows: a row a program, and what the shop must know of each part."""
 
     lead: str
     rows: tuple[tuple[str, ...], ...]
@@ -33,12 +25,11 @@ def edm_view(design: Design) -> EdmView:
     """Measure the contours of a design as their files hold them."""
     edm = design.edm
     flats = flat_parts(design)
-    wire = 0.5 * edm.wire_diameter + edm.spark_gap
     return EdmView(
         lead=(
             f"Arcs follow the exact curve within {with_unit(edm.profile_tolerance * 1e6, 'um')}; "
-            f"the wire's centre runs {with_unit(wire * 1e3, 'mm')} beside it. Every file is read "
-            "back from disk and measured so before it gets its name."
+            f"the wire's centre runs {with_unit(wire_offset(edm) * 1e3, 'mm')} beside it. Every "
+            "file is read back from disk and measured so before it gets its name."
         ),
         rows=tuple(_row(flat) for flat in flats),
         remarks=tuple(
