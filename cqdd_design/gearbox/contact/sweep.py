@@ -153,6 +153,12 @@ class ContactSweep:
         return np.asarray(np.sum(self.pin_force * moment, axis=-1))
 
     @property
+    def uneven_sharing(self) -> float:
+        """Torque of the most loaded disc over the mean of the discs, greatest over the angles."""
+        share = np.abs(self.disc_torque)
+        return float((share.max(axis=1) / share.mean(axis=1)).max())
+
+    @property
     def teeth_in_contact(self) -> IntArray:
         """Loaded ring teeth, (A, D)."""
         return np.asarray(np.sum(self.ring_force > 0.0, axis=-1), dtype=np.int64)

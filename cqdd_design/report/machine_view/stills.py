@@ -10,10 +10,11 @@ import numpy as np
 
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
-from cqdd_design.report.ink.svg import Figure, element
+from cqdd_design.report.ink.svg import Figure, Words, element
 from cqdd_design.report.machine_view.balloons import ballooned, legend
 from cqdd_design.report.machine_view.camera import Camera
-from cqdd_design.report.machine_view.drawing import (
+from cqdd_design.report.machine_view.explode import take_apart
+from cqdd_design.report.machine_view.paint import (
     Sheet,
     bounds,
     drawn,
@@ -23,13 +24,12 @@ from cqdd_design.report.machine_view.drawing import (
     titled,
     visible_parts,
 )
-from cqdd_design.report.machine_view.explode import take_apart
-from cqdd_design.report.machine_view.hidden_lines import VisibleLines, visible_lines
-from cqdd_design.report.machine_view.panels import Panel, Posed, panels
-from cqdd_design.report.machine_view.pieces import Station, posed, stations
-from cqdd_design.solids.cad import MM, location
+from cqdd_design.report.machine_view.surfaces import Patch, patches
+from cqdd_design.solids.cad import MM
+from cqdd_design.solids.hidden_lines import VisibleLines
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.poses import transform
+from cqdd_design.solids.stations import Station, posed, stations
 
 WIDTH = 964.0
 """Of a figure that fills the page, px."""
@@ -70,7 +70,7 @@ def hidden_line_views(design: Design, parts: Sequence[Part]) -> MachineViews:
     DependencyError
         When CadQuery is not usable.
     """
-    from cqdd_design.report.machine_view.section import section_figure
+    from cqdd_design.report.machine_view.aligned_section import section_figure
 
     found = stations(parts)
     return MachineViews(
@@ -83,12 +83,10 @@ def hidden_line_views(design: Design, parts: Sequence[Part]) -> MachineViews:
 def assembled_figure(design: Design, found: Sequence[Station]) -> Figure:
     """The whole machine from its output side."""
     camera = Camera.oblique(math.radians(52.0), math.radians(20.0))
-    pieces = [
-        Posed(station.part, pose) for station in found for pose in posed(station, design, 0.0)
-    ]
-    faces = panels(pieces, camera)
+    pieces = [piece for station in found for piece in posed(station, design, 0.0)]
+    faces = patches(pieces, camera)
     seen = [pieces[index] for index in sorted({face.piece for face in faces})]
-    lines = visible_lines([piece.part.solid.moved(location(piece.pose)) for piece in seen], camera)
+    lines = camera.lines([piece.solid for piece in seen])
     outline = silhouette(seen, camera)
     low, high = bounds(outline)
     scale = min(560.0 / (high[1] - low[1]), 640.0 / (high[0] - low[0]))
@@ -96,15 +94,13 @@ def assembled_figure(design: Design, found: Sequence[Station]) -> Figure:
     width, height = (scale * (high - low) + 2.0 * _MARGIN).tolist()
     body = painted(faces, sheet) + drawn(lines, sheet) + stroked(outline, sheet, 1.9, closed=True)
     names = ", ".join(dict.fromkeys(piece.part.name for piece in seen))
-    return Figure(
-        id="machine-assembled",
-        title="The assembled machine",
-        description=f"Outside view from the output side. Visible: {names}.",
-        width=width,
-        height=height,
-        body=body,
-        caption="Output side to the front, hidden lines removed.",
+    words = Words(
+        "machine-assembled",
+        "The assembled machine",
+        f"Outside view from the output side. Visible: {names}.",
+        "Output side to the front, hidden lines removed.",
     )
+    return words.figure(width, height, [body])
 
 
 def exploded_figure(design: Design, parts: Sequence[Part], found: Sequence[Station]) -> Figure:
@@ -123,48 +119,38 @@ def exploded_figure(design: Design, parts: Sequence[Part], found: Sequence[Stati
     for station, group in zip(in_order, looks, strict=True):
         title = station.name if len(group) == 1 else f"{station.name}, {len(group)} pieces"
         inside = (
-            painted(look.panels, sheet)
+            painted(look.patches, sheet)
             + drawn(look.lines, sheet)
             + stroked(look.outline, sheet, 1.5, closed=True)
             for look in group
         )
         groups.append(titled(title, *inside))
     axis = _axis(found, apart.shifts, camera, sheet)
-    marks = ballooned(
-        [
-            (station.number, loops)
-            for station, loops in zip(in_order, visible_parts(outlines), strict=True)
-        ],
-        outlines,
-        sheet,
-        WIDTH,
-        height,
-    )
+    numbers = [station.number for station in in_order]
+    seen = list(zip(numbers, visible_parts(outlines), strict=True))
+    marks = ballooned(seen, outlines, sheet, WIDTH, height)
     table, table_height = legend(parts, WIDTH, height)
-    return Figure(
-        id="machine-exploded",
-        title="The machine taken apart",
-        description="Exploded view along the axis, in the order of assembly: "
-        + ", ".join(station.name for station in in_order)
-        + ".",
-        width=WIDTH,
-        height=height + table_height,
-        body=axis + "".join(groups) + marks + table,
-        caption="Every piece in the order in which it goes together, output side to the right.",
+    names = ", ".join(station.name for station in in_order)
+    words = Words(
+        "machine-exploded",
+        "The machine taken apart",
+        f"Exploded view along the axis, in the order of assembly: {names}.",
+        "Every piece in the order in which it goes together, output side to the right.",
     )
+    return words.figure(WIDTH, height + table_height, [axis, *groups, marks, table])
 
 
 @dataclass(frozen=True, eq=False)
 class _Look:
     """One piece as it is drawn in the exploded view."""
 
-    panels: tuple[Panel, ...]
+    patches: tuple[Patch, ...]
     lines: VisibleLines
     outline: tuple[FloatArray, ...]
 
     def moved(self, shift: FloatArray) -> _Look:
         return _Look(
-            tuple(panel.moved(shift) for panel in self.panels),
+            tuple(patch.moved(shift) for patch in self.patches),
             self.lines.moved(shift),
             tuple(loop + shift for loop in self.outline),
         )
@@ -172,23 +158,20 @@ class _Look:
 
 def _looks(station: Station, lift: float, design: Design, camera: Camera) -> list[_Look]:
     """The pieces of a lifted station, the far ones first."""
-    poses = [transform(z=lift) @ pose for pose in posed(station, design, 0.0)]
-    poses.sort(key=lambda pose: round(float(camera.towards @ pose[:3, 3]), 9))
+    pieces = [piece.moved(transform(z=lift)) for piece in posed(station, design, 0.0)]
+    pieces.sort(key=lambda piece: round(float(camera.towards @ piece.pose[:3, 3]), 9))
     drawn_once: list[tuple[FloatArray, _Look]] = []
     found = []
-    for pose in poses:
+    for piece in pieces:
+        pose = piece.pose
         # Pieces that are only moved look alike.
         for other, look in drawn_once:
             if np.abs(other[:3, :3] - pose[:3, :3]).max() < 1e-9:
                 found.append(look.moved(camera.page(pose[:3, 3] - other[:3, 3]) * MM))
                 break
         else:
-            piece = [Posed(station.part, pose)]
-            look = _Look(
-                tuple(panels(piece, camera)),
-                visible_lines([station.part.solid.moved(location(pose))], camera),
-                silhouette(piece, camera),
-            )
+            lines = camera.lines([piece.solid])
+            look = _Look(tuple(patches([piece], camera)), lines, silhouette([piece], camera))
             drawn_once.append((pose, look))
             found.append(look)
     return found

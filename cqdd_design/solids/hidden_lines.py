@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray
-from cqdd_design.report.machine_view.camera import Camera
 from cqdd_design.solids.cad import import_cadquery
 
 if TYPE_CHECKING:
@@ -50,14 +49,15 @@ class VisibleLines:
         )
 
 
-def visible_lines(shapes: Sequence[Shape], camera: Camera) -> VisibleLines:
+def visible_lines(shapes: Sequence[Shape], right: FloatArray, towards: FloatArray) -> VisibleLines:
     """Lines of posed shapes that nothing hides.
 
     Parameters
     ----------
     shapes : sequence of cadquery.Shape
         In mm, in the machine's frame.
-    camera : Camera
+    right, towards : array (3,)
+        Unit vectors in the machine's frame: to the right on the page, and to the viewer.
 
     Raises
     ------
@@ -69,11 +69,12 @@ def visible_lines(shapes: Sequence[Shape], camera: Camera) -> VisibleLines:
     from OCP.HLRAlgo import HLRAlgo_Projector
     from OCP.HLRBRep import HLRBRep_Algo, HLRBRep_HLRToShape, HLRBRep_TypeOfResultingEdge
 
-    right, towards = (tuple(map(float, v)) for v in (camera.right, camera.towards))
     algorithm = HLRBRep_Algo()
     for shape in shapes:
         algorithm.Add(shape.wrapped)
-    algorithm.Projector(HLRAlgo_Projector(gp_Ax2(gp_Pnt(), gp_Dir(*towards), gp_Dir(*right))))
+    algorithm.Projector(
+        HLRAlgo_Projector(gp_Ax2(gp_Pnt(), gp_Dir(*towards.tolist()), gp_Dir(*right.tolist())))
+    )
     algorithm.Update()
     algorithm.Hide()
     found = HLRBRep_HLRToShape(algorithm)

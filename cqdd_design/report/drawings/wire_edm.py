@@ -13,16 +13,7 @@ from cqdd_design.report.ink.numbers import decimals, significant, with_unit
 
 @dataclass(frozen=True)
 class EdmView:
-    """What the section shows.
-
-    Attributes
-    ----------
-    lead : str
-    rows : tuple of (program, pieces, plate, arcs, largest, rms, perimeter, area, tangent break,
-        least radius)
-    remarks : tuple of str
-        What the shop must know of each part.
-    """
+    """What the section shows: a row a program, and what the shop must know of each part."""
 
     lead: str
     rows: tuple[tuple[str, ...], ...]

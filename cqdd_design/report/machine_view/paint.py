@@ -12,13 +12,12 @@ import numpy as np
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.report.ink.svg import element, fixed
 from cqdd_design.report.machine_view.camera import Camera
-from cqdd_design.report.machine_view.hidden_lines import VisibleLines
-from cqdd_design.report.machine_view.panels import Panel, Posed
-from cqdd_design.solids.cad import MM
-from cqdd_design.solids.mesh import DISPLAY, closed_mesh
+from cqdd_design.report.machine_view.surfaces import Patch
+from cqdd_design.solids.hidden_lines import VisibleLines
+from cqdd_design.solids.stations import Posed
 
 if TYPE_CHECKING:
-    from manifold3d import CrossSection
+    from manifold3d import Manifold
 
 _DECIMALS = 1
 """Of px: a twentieth of a px is finer than any screen shows."""
@@ -97,14 +96,14 @@ def _tenths(pair: np.ndarray) -> str:
     return " ".join(fixed(int(value) / 10**_DECIMALS, _DECIMALS) for value in pair)
 
 
-def painted(panels: Sequence[Panel], sheet: Sheet) -> str:
-    """Panels as filled paths; walls have a hair of their own colour round them against seams."""
+def painted(patches: Sequence[Patch], sheet: Sheet) -> str:
+    """Patches as filled paths; walls have a hair of their own colour round them against seams."""
     found = []
-    for panel in panels:
-        data = path_data(panel.loops, sheet, closed=True)
+    for patch in patches:
+        data = path_data(patch.loops, sheet, closed=True)
         if data:
             found.append(
-                element("path", d=data, color=panel.fill, stroke="none" if panel.flat else None)
+                element("path", d=data, color=patch.fill, stroke="none" if patch.flat else None)
             )
     if not found:
         return ""
@@ -143,20 +142,21 @@ def stroked(
 
 def silhouette(pieces: Sequence[Posed], camera: Camera) -> tuple[FloatArray, ...]:
     """Closed outlines (k, 2) of what some pieces cover together on the page, mm."""
-    from manifold3d import CrossSection, OpType
+    from manifold3d import CrossSection, FillRule, OpType
 
-    shadows = [_shadow(piece, camera) for piece in pieces]
+    shadows = []
+    for piece in pieces:
+        solid = solid_of(piece.vertices @ camera.matrix.T, piece.triangles)
+        shadows.append(CrossSection(solid.project().to_polygons(), FillRule.Positive))
     joined = CrossSection.batch_boolean(shadows, OpType.Add).simplify(_SMALL)
     return tuple(np.asarray(loop) for loop in joined.to_polygons())
 
 
-def _shadow(piece: Posed, camera: Camera) -> CrossSection:
-    from manifold3d import CrossSection, FillRule, Manifold, Mesh
+def solid_of(vertices: FloatArray, triangles: np.ndarray) -> Manifold:
+    """A closed mesh (v, 3), (t, 3) for cuts and shadows."""
+    from manifold3d import Manifold, Mesh
 
-    found = closed_mesh(piece.part, DISPLAY)
-    vertices = (found.vertices @ piece.pose[:3, :3].T + piece.pose[:3, 3] * MM) @ camera.matrix.T
-    solid = Manifold(Mesh(vertices.astype(np.float32), found.triangles.astype(np.uint32)))
-    return CrossSection(solid.project().to_polygons(), FillRule.Positive)
+    return Manifold(Mesh(vertices.astype(np.float32), triangles.astype(np.uint32)))
 
 
 def bounds(loops: Iterable[FloatArray]) -> tuple[FloatArray, FloatArray]:

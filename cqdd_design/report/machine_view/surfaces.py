@@ -17,19 +17,20 @@ import numpy as np
 from cqdd_design.geometry.contours import Contour, FloatArray
 from cqdd_design.report.machine_view.camera import Camera, tinted
 from cqdd_design.solids.cad import MM
-from cqdd_design.solids.part import Colour, Part
+from cqdd_design.solids.part import Colour
+from cqdd_design.solids.stations import Posed
 
 _SAG = 4e-5
 """Most distance of a drawn wall from the surface, m."""
 _TONES = 12
 """Steps of brightness on a curved wall."""
 _HIDDEN = 0.15
-"""A panel of which less than this is visible is left out, mm^2."""
+"""A patch of which less than this is visible is left out, mm^2."""
 _TOP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True, eq=False)
-class Panel:
+class Patch:
     """A flat patch of the picture in one colour.
 
     Attributes
@@ -49,27 +50,12 @@ class Panel:
     piece: int
     flat: bool = False
 
-    def moved(self, shift: FloatArray) -> Panel:
+    def moved(self, shift: FloatArray) -> Patch:
         """The same patch elsewhere on the page; `shift` (2,) in mm."""
-        return Panel(tuple(loop + shift for loop in self.loops), self.fill, self.piece, self.flat)
+        return Patch(tuple(loop + shift for loop in self.loops), self.fill, self.piece, self.flat)
 
 
-@dataclass(frozen=True, eq=False)
-class Posed:
-    """A piece where it stands.
-
-    Attributes
-    ----------
-    part : Part
-    pose : array (4, 4)
-        From the part's frame to the machine's; m.
-    """
-
-    part: Part
-    pose: FloatArray
-
-
-def panels(pieces: Sequence[Posed], camera: Camera) -> list[Panel]:
+def patches(pieces: Sequence[Posed], camera: Camera) -> list[Patch]:
     """Patches of some pieces, to be painted in order.
 
     Parameters
@@ -81,7 +67,7 @@ def panels(pieces: Sequence[Posed], camera: Camera) -> list[Panel]:
     """
     levels = np.array(sorted({h for piece in pieces for h in _heights(piece)}))
     slabs: list[list[_Loop]] = [[] for _ in levels]
-    tops: list[list[Panel]] = [[] for _ in levels]
+    tops: list[list[Patch]] = [[] for _ in levels]
     for index, piece in enumerate(pieces):
         known: dict[tuple[object, ...], _Loop] = {}
         for layer in piece.part.shape.layers:
@@ -98,9 +84,9 @@ def panels(pieces: Sequence[Posed], camera: Camera) -> list[Panel]:
                 slabs[slab] += loops
             face = tuple(_lifted(loop.points, high, camera) for loop in loops)
             fill = tinted(piece.part.colour, float(camera.brightness(_TOP)))
-            tops[last - 1].append(Panel(face, fill, index, flat=True))
+            tops[last - 1].append(Patch(face, fill, index, flat=True))
     orders = [_back_to_front(loops, camera) for loops in slabs]
-    painted: list[Panel] = []
+    painted: list[Patch] = []
     for slab, order in enumerate(orders):
         for loop, alone in order:
             start, stop = slab, slab + 1
@@ -201,15 +187,15 @@ def _back_to_front(loops: Sequence[_Loop], camera: Camera) -> list[tuple[_Loop, 
     return [(loop, loop is alone) for loop in sequence(-1)]
 
 
-def _uncovered(painted: Sequence[Panel]) -> list[Panel]:
-    """The panels of which something stays visible when all are painted in turn."""
+def _uncovered(painted: Sequence[Patch]) -> list[Patch]:
+    """The patches of which something stays visible when all are painted in turn."""
     from manifold3d import CrossSection, FillRule, JoinType, OpType
 
     cover = CrossSection()
     fresh: list[CrossSection] = []
     kept = []
-    for panel in reversed(painted):
-        shape = CrossSection([*panel.loops], FillRule.EvenOdd)
+    for patch in reversed(painted):
+        shape = CrossSection([*patch.loops], FillRule.EvenOdd)
         if len(fresh) > 15:
             cover = CrossSection.batch_boolean([cover, *fresh], OpType.Add)
             # Loose ends between neighbours, far below a pixel, would make the cover ever finer.
@@ -217,7 +203,7 @@ def _uncovered(painted: Sequence[Panel]) -> list[Panel]:
             fresh = []
         if not (shape - cover).area() > _HIDDEN:
             continue
-        kept.append(panel)
+        kept.append(patch)
         fresh.append(shape)
     return kept[::-1]
 
@@ -244,11 +230,11 @@ def _lifted(points: FloatArray, height: float, camera: Camera) -> FloatArray:
     return camera.page(flat) * MM
 
 
-def _walls(loop: _Loop, low: float, high: float, camera: Camera) -> list[Panel]:
+def _walls(loop: _Loop, low: float, high: float, camera: Camera) -> list[Patch]:
     """Patches of one wall that face the viewer, the far ones first."""
     rise = camera.page(_TOP) * MM
     return [
-        Panel(
+        Patch(
             (np.concatenate([strip.chain + high * rise, (strip.chain + low * rise)[::-1]]),),
             strip.fill,
             loop.piece,

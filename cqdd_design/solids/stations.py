@@ -1,4 +1,4 @@
-"""Pieces of the machine in the form that pictures want: posed, sized, grouped into stations.
+"""Pieces of the machine where they stand, sized, and grouped into stations.
 
 A *station* is what moves as one when the machine is taken apart: all pieces of one part that sit
 at one height on one body, such as eight screws, or one of two discs.
@@ -9,13 +9,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray, PlanarPart
+from cqdd_design.solids.cad import MM, location
+from cqdd_design.solids.mesh import DISPLAY, closed_mesh
 from cqdd_design.solids.part import Instance, Part
 from cqdd_design.solids.poses import Body
+
+if TYPE_CHECKING:
+    from cadquery import Shape
 
 _SAME_HEIGHT = 1e-6
 """Of pieces in one station, m."""
@@ -104,11 +110,6 @@ class Station:
         """Farthest reach from the axis, m."""
         return max(span.outer for span in self.spans)
 
-    @property
-    def inner(self) -> float:
-        """Narrowest bore about the axis, m."""
-        return min(span.inner for span in self.spans)
-
     @cached_property
     def widest(self) -> Span:
         """Where it reaches farthest: a screw's head, a shaft's collar."""
@@ -120,11 +121,6 @@ class Station:
     def middle(self) -> float:
         """Height of the middle of its widest place, m."""
         return 0.5 * (self.widest.bottom + self.widest.top)
-
-    @property
-    def reach(self) -> float:
-        """Farthest reach of one piece from its own axis, m."""
-        return self.part.shape.outside_radius
 
 
 def _radii(shape: PlanarPart) -> tuple[float, float]:
@@ -157,6 +153,41 @@ def stations(parts: Sequence[Part]) -> tuple[Station, ...]:
     return tuple(found)
 
 
-def posed(station: Station, design: Design, crank_angle: float) -> tuple[FloatArray, ...]:
-    """Poses (4, 4) of a station's pieces at a crank angle (rad)."""
-    return tuple(piece.pose(design, crank_angle) for piece in station.pieces)
+@dataclass(frozen=True, eq=False)
+class Posed:
+    """A piece where it stands.
+
+    Attributes
+    ----------
+    part : Part
+    pose : array (4, 4)
+        From the part's frame to the machine's; m.
+    """
+
+    part: Part
+    pose: FloatArray
+
+    def moved(self, transform: FloatArray) -> Posed:
+        """The piece after a further transform (4, 4)."""
+        return Posed(self.part, transform @ self.pose)
+
+    @property
+    def solid(self) -> Shape:
+        """The CAD kernel's shape, mm."""
+        return self.part.solid.moved(location(self.pose))
+
+    @property
+    def vertices(self) -> FloatArray:
+        """Of the part's closed mesh (v, 3), mm."""
+        found = closed_mesh(self.part, DISPLAY).vertices
+        return np.asarray(found @ self.pose[:3, :3].T + self.pose[:3, 3] * MM)
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """Corners (t, 3) of the mesh's triangles."""
+        return closed_mesh(self.part, DISPLAY).triangles
+
+
+def posed(station: Station, design: Design, crank_angle: float) -> tuple[Posed, ...]:
+    """A station's pieces at a crank angle (rad)."""
+    return tuple(Posed(station.part, p.pose(design, crank_angle)) for p in station.pieces)

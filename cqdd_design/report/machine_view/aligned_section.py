@@ -18,23 +18,24 @@ import numpy as np
 
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
-from cqdd_design.report.ink.svg import Figure, element, fixed, text
+from cqdd_design.geometry.kinematics import crank_meets_carrier
+from cqdd_design.report.ink.svg import Figure, Words, element, fixed, text
 from cqdd_design.report.machine_view.balloons import spread
 from cqdd_design.report.machine_view.camera import Camera, tinted
-from cqdd_design.report.machine_view.drawing import (
+from cqdd_design.report.machine_view.paint import (
     INK,
     Sheet,
     bounds,
     path_data,
+    solid_of,
     stroked,
     titled,
 )
-from cqdd_design.report.machine_view.hidden_lines import VisibleLines, visible_lines
-from cqdd_design.report.machine_view.pieces import Station, posed
-from cqdd_design.solids.cad import MM, import_cadquery, location
-from cqdd_design.solids.mesh import DISPLAY, closed_mesh
+from cqdd_design.solids.cad import MM, import_cadquery
+from cqdd_design.solids.hidden_lines import VisibleLines
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.poses import transform
+from cqdd_design.solids.stations import Station, posed
 
 if TYPE_CHECKING:
     from manifold3d import CrossSection
@@ -71,8 +72,7 @@ def cut_angles(design: Design, found: Sequence[Station]) -> tuple[float, float]:
     """Directions of the right and the left half plane, rad; the first is the crank angle too."""
     pins = [s for s in found if s.body.kind == "carrier" and s.off_axis]
     first = _direction(pins[0].pieces[0].placement) if pins else 0.0
-    # The carrier has turned by -1/n of the crank angle when its first pin meets the crank.
-    right = first / (1.0 + 1.0 / design.reducer.ratio)
+    right = crank_meets_carrier(design.reducer.ratio, first)
     fixed_rows = [s for s in found if s.body.kind == "housing" and s.off_axis and s.spans]
     opposite = right + math.pi
     if not fixed_rows:
@@ -92,20 +92,18 @@ def cut_faces(
     design: Design, found: Sequence[Station], crank_angle: float, direction: float
 ) -> tuple[CutFace, ...]:
     """Faces in which the half plane of a direction (rad) cuts the pieces, the axis on the left."""
-    from manifold3d import CrossSection, FillRule, Manifold, Mesh
+    from manifold3d import CrossSection, FillRule
 
     faces = []
     half = CrossSection.square((1e4, 2e4)).translate((0.0, -1e4))
     for station in found:
-        mesh = closed_mesh(station.part, DISPLAY)
-        for pose in posed(station, design, crank_angle):
-            turned = transform(-direction) @ pose
-            vertices = mesh.vertices @ turned[:3, :3].T + turned[:3, 3] * MM
-            if vertices[:, 1].min() > 0.0 or vertices[:, 1].max() < 0.0:
+        for piece in posed(station, design, crank_angle):
+            turned = piece.moved(transform(-direction))
+            x, depth, height = turned.vertices.T
+            if depth.min() > 0.0 or depth.max() < 0.0:
                 continue
             # The cutter slices at a height: x stays, the axis becomes y, the depth the height.
-            upright = np.column_stack([vertices[:, 0], vertices[:, 2], -vertices[:, 1]])
-            solid = Manifold(Mesh(upright.astype(np.float32), mesh.triangles.astype(np.uint32)))
+            solid = solid_of(np.column_stack([x, height, -depth]), turned.triangles)
             cut = CrossSection(solid.slice(0.0).to_polygons(), FillRule.Positive) ^ half
             if cut.area() > _SPECK:
                 loops = tuple(np.asarray(loop) for loop in cut.simplify(1e-3).to_polygons())
@@ -122,19 +120,17 @@ def lines_behind(
     quarter = cadquery.Solid.makeBox(reach, reach, 2.0 * reach, cadquery.Vector(0.0, 0.0, -reach))
     shapes = []
     for station in found:
-        for pose in posed(station, design, crank_angle):
-            turned = transform(-direction) @ pose
-            box = closed_mesh(station.part, DISPLAY).vertices @ turned[:3, :3].T
-            box = box + turned[:3, 3] * MM
-            if box[:, 1].max() < 0.0 or box[:, 0].max() < 0.0:
+        for piece in posed(station, design, crank_angle):
+            turned = piece.moved(transform(-direction))
+            box = turned.vertices[:, :2]
+            if (box.max(axis=0) < 0.0).any():
                 continue
-            whole = station.part.solid.moved(location(turned))
-            cut = box[:, 1].min() < 0.0 or box[:, 0].min() < 0.0
-            shapes += (whole.intersect(quarter) if cut else whole).Solids()
-    found_lines = visible_lines(shapes, _FRONT)
+            cut = (box.min(axis=0) < 0.0).any()
+            shapes += (turned.solid.intersect(quarter) if cut else turned.solid).Solids()
+    lines = _FRONT.lines(shapes)
     return VisibleLines(
-        tuple(line for line in found_lines.edges if not _on_axis(line)),
-        found_lines.outlines,
+        tuple(line for line in lines.edges if not _on_axis(line)),
+        lines.outlines,
     )
 
 
@@ -171,21 +167,15 @@ def section_figure(design: Design, parts: Sequence[Part], found: Sequence[Statio
         "line", x1=ends[0, 0], y1=ends[0, 1], x2=ends[1, 0], y2=ends[1, 1], class_="centre-line"
     )
     cut_through = ", ".join(dict.fromkeys(face.station.part.name for face in order))
-    return Figure(
-        id="machine-section",
-        title="Section through the axis",
-        description=f"Aligned section, output side up. Cut: {cut_through}.",
-        width=_WIDTH,
-        height=height,
-        body=_patterns(parts, order)
-        + element("g", _ground(lines, faces, sheet), cuts, stroked(lines, sheet, 0.6))
-        + axis
-        + names,
-        caption=(
-            "Right half through the crank and an output pin, left half through a screw of the "
-            "housing. Bearings, shafts, pins and screws are not hatched."
-        ),
+    words = Words(
+        "machine-section",
+        "Section through the axis",
+        f"Aligned section, output side up. Cut: {cut_through}.",
+        "Right half through the crank and an output pin, left half through a screw of the "
+        "housing. Bearings, shafts, pins and screws are not hatched.",
     )
+    drawing = element("g", _ground(lines, faces, sheet), cuts, stroked(lines, sheet, 0.6))
+    return words.figure(_WIDTH, height, [_patterns(parts, order), drawing, axis, names])
 
 
 def _ground(lines: Sequence[FloatArray], faces: Sequence[CutFace], sheet: Sheet) -> str:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cqdd_design.design import Design
+from cqdd_design.design.reducer import Reducer
 from cqdd_design.gearbox import CHECK_GUIDE
-from cqdd_design.report.ink.numbers import TIMES, significant, with_unit
+from cqdd_design.report.ink.numbers import TIMES, grouped, millimetres, significant, with_unit
 
 if TYPE_CHECKING:
     from cqdd_design.sizing.result import Objective, SizingResult
@@ -49,37 +51,35 @@ def sizing_view(sizing: SizingResult) -> SizingView:
 
 
 def _rows(designs: list[tuple[Design, Objective]]) -> tuple[tuple[str, tuple[str, ...]], ...]:
-    def each(name: str, shown: list[str]) -> tuple[str, tuple[str, ...]]:
-        return name, tuple(shown)
-
-    def mm(length: float) -> str:
-        return with_unit(1e3 * length, "mm", 5)
-
-    reducers = [design.reducer for design, _ in designs]
-    goals = [objective for _, objective in designs]
-    return (
-        each("mass of discs, ring, pins, bearings, cams", [_grams(g.mass) for g in goals]),
-        each(
-            "their inertia at the input, 10⁻⁶ kg·m²",
-            [significant(1e6 * g.gearbox_inertia, 3) for g in goals],
-        ),
-        each("torque reserve", [significant(g.torque_reserve, 3) for g in goals]),
-        each("binds first", [_title(g.binding) for g in goals]),
-        each("ring pitch radius", [mm(r.ring_pitch_radius) for r in reducers]),
-        each("eccentricity", [mm(r.eccentricity) for r in reducers]),
-        each("diameter of ring teeth", [mm(r.ring_pin_diameter) for r in reducers]),
-        each("disc thickness", [mm(r.disc_thickness) for r in reducers]),
-        each(
-            "output pins",
-            [f"{r.output_pins.count} {TIMES} {mm(r.output_pins.diameter)}" for r in reducers],
-        ),
-        each("radius of the pin circle", [mm(r.output_pins.circle_radius) for r in reducers]),
-        each("cam bearing", [r.cam_bearing.designation for r in reducers]),
+    """Quantity, and its value in every design."""
+    return tuple(
+        (quantity, tuple(cell(design.reducer, objective) for design, objective in designs))
+        for quantity, cell in _QUANTITIES
     )
 
 
-def _grams(mass: float) -> str:
-    return with_unit(1e3 * mass, "g", 4)
+_QUANTITIES: tuple[tuple[str, Callable[[Reducer, Objective], str]], ...] = (
+    (
+        "mass of discs, ring, pins, bearings, cams",
+        lambda _, goal: with_unit(1e3 * goal.mass, "g", 4),
+    ),
+    (
+        "their inertia at the input, 10⁻⁶ kg·m²",
+        lambda _, goal: significant(1e6 * goal.gearbox_inertia, 3),
+    ),
+    ("torque reserve", lambda _, goal: significant(goal.torque_reserve, 3)),
+    ("binds first", lambda _, goal: _title(goal.binding)),
+    ("ring pitch radius", lambda r, _: millimetres(r.ring_pitch_radius)),
+    ("eccentricity", lambda r, _: millimetres(r.eccentricity)),
+    ("diameter of ring teeth", lambda r, _: millimetres(r.ring_pin_diameter)),
+    ("disc thickness", lambda r, _: millimetres(r.disc_thickness)),
+    (
+        "output pins",
+        lambda r, _: f"{r.output_pins.count} {TIMES} {millimetres(r.output_pins.diameter)}",
+    ),
+    ("radius of the pin circle", lambda r, _: millimetres(r.output_pins.circle_radius)),
+    ("cam bearing", lambda r, _: r.cam_bearing.designation),
+)
 
 
 def _title(check_id: str) -> str:
@@ -101,14 +101,3 @@ def _tally(rejected: dict[str, int]) -> tuple[tuple[str, str, float], ...]:
         for name, count in rejected.items()
         if count > 0
     )
-
-
-def grouped(number: int) -> str:
-    """A whole number with thin spaces between thousands.
-
-    Examples
-    --------
-    >>> grouped(1234567)
-    '1\u202f234\u202f567'
-    """
-    return f"{number:,}".replace(",", "\u202f")

@@ -6,10 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from cqdd_design.report.ink.axes import FloatArray
-from cqdd_design.report.ink.numbers import significant
-from cqdd_design.report.ink.svg import Figure
-from cqdd_design.report.torque.torque_charts import (
+from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.report.ink.numbers import grouped, per_cent, significant
+from cqdd_design.report.ink.page import environment
+from cqdd_design.report.ink.svg import Figure, Words
+from cqdd_design.report.torque.charts import (
+    Errors,
+    IntervalBar,
     Named,
     distributions,
     interval_bars,
@@ -17,23 +20,17 @@ from cqdd_design.report.torque.torque_charts import (
     over,
     zoomed,
 )
-from cqdd_design.report.torque.torque_tables import (
+from cqdd_design.report.torque.tables import (
     Table,
-    flank_table,
-    latency_table,
-    loop_table,
+    further_tables,
     models_table,
     ordered,
-    pairs_table,
     paper_table,
-    phase_table,
-    regimes_table,
-    seeds_table,
-    sets_table,
 )
 from cqdd_design.torque.evaluation.evaluate import EvaluationResult
 from cqdd_design.torque.evaluation.metrics import REGIMES
-from cqdd_design.torque.evaluation.ripple import BAND
+from cqdd_design.torque.evaluation.ripple import BAND, SEGMENT
+from cqdd_design.torque.evaluation.stretches import ZOOM
 
 if TYPE_CHECKING:
     from cqdd_design.torque.evaluation.bootstrap import Interval
@@ -82,9 +79,8 @@ def torque_page(results: EvaluationResult, *, date: str = "") -> str:
         As printed in the head; left out where empty.
     """
     from cqdd_design import __version__
-    from cqdd_design.report.build import _environment
 
-    page = _environment().get_template("torque_page.html")
+    page = environment().get_template("torque_page.html")
     return page.render(
         torque=torque_view(results),
         facts=_facts(results),
@@ -98,48 +94,31 @@ def torque_page(results: EvaluationResult, *, date: str = "") -> str:
 def torque_view(results: EvaluationResult) -> TorqueView:
     """Values of the section."""
     headline = results.sets[0]
-    tables = [regimes_table(headline), pairs_table(headline)]
-    if any(one.seeds > 1 for one in headline.seeds):
-        tables.append(seeds_table(headline))
-    if len(results.sets) > 1:
-        tables.append(sets_table(results))
-    tables += [
-        flank_table(headline),
-        phase_table(headline),
-        loop_table(results),
-        latency_table(results),
-    ]
     return TorqueView(
-        lead=_lead(results, headline),
+        lead=_lead(headline),
         models=models_table(results, headline),
         paper=paper_table(),
         wide=tuple(_wide(results, headline)),
         figures=tuple(_figures(results, headline)),
         regimes=tuple(_regime_bars(results, headline, tuple(REGIMES)[1:])),
-        tables=tuple(one for one in tables if one.rows),
+        tables=further_tables(results, headline),
         warnings=results.warnings,
     )
 
 
 def _facts(results: EvaluationResult) -> tuple[tuple[str, str, str], ...]:
-    headline, data = results.sets[0], results.data
+    headline = results.sets[0]
+    gains = f"{significant(results.data.position_gain)} / {significant(results.data.velocity_gain)}"
+    rate = f"at {significant(1.0 / results.data.dt)} Hz"
     return (
         ("Test episodes", str(len(headline.episodes)), f"set {headline.name}"),
-        ("Samples scored", f"{headline.samples:,}".replace(",", "\u202f"), _rate(results)),
-        (
-            "Gains",
-            f"{significant(data.position_gain)} / {significant(data.velocity_gain)}",
-            "N·m/rad and N·m·s/rad, of the controller",
-        ),
+        ("Samples scored", grouped(headline.samples), rate),
+        ("Gains", gains, "N·m/rad and N·m·s/rad, of the controller"),
         ("Models", str(len(results.models)), "networks and baselines"),
     )
 
 
-def _rate(results: EvaluationResult) -> str:
-    return f"at {significant(1.0 / results.data.dt)} Hz"
-
-
-def _lead(results: EvaluationResult, headline: SetResult) -> str:
+def _lead(headline: SetResult) -> str:
     ordered = sorted(headline.models, key=lambda one: one.overall.rmse.value)
     best, last = ordered[0], ordered[-1]
     return (
@@ -178,87 +157,72 @@ def _wide(results: EvaluationResult, found: SetResult) -> list[Figure]:
             for one in _drawn(results, found, count)
         ]
 
-    trace = found.trace
-    figures = [
-        long_trace(
-            "torque-trace",
-            "A whole episode",
-            f"Torque of the label and of some models over episode {trace.episode}, errors below.",
-            time=trace.time,
-            label=trace.label,
-            estimates=curves(trace.estimates, _CURVES),
-            caption=f"Episode {trace.episode}, that of the median r.m.s. torque.",
+    trace, zoom = found.trace, found.zoom
+    words = Words(
+        "torque-trace",
+        "A whole episode",
+        f"Torque of the label and of some models over episode {trace.episode}, errors below.",
+        f"Episode {trace.episode}, that of the median r.m.s. torque.",
+    )
+    figures = [long_trace(words, trace.time, trace.label, curves(trace.estimates, _CURVES))]
+    if zoom is not None:
+        words = Words(
+            "torque-zoom",
+            "Ripple",
+            f"{ZOOM:g} s of episode {zoom.episode}, one panel a model with the label in black.",
+            f"Episode {zoom.episode}, where the label's ripple is strongest, on one flank of the "
+            "gear if it can be; the label in black. From all curves the same cubic is taken off, "
+            "that through the label, so that bias stays. Chosen by the label alone.",
         )
-    ]
-    if found.zoom is not None:
-        zoom = found.zoom
-        figures.append(
-            zoomed(
-                "torque-zoom",
-                "Ripple",
-                f"0.4 s of episode {zoom.episode}, one panel a model with the label in black.",
-                time=zoom.time,
-                label=zoom.label,
-                estimates=curves(zoom.estimates, _PANELS),
-                caption=f"Episode {zoom.episode}, where the label's ripple is strongest, on one "
-                "flank of the gear if it can be; the label in black. From all curves the same "
-                "cubic is taken off, that through the label, so that bias stays. Chosen by the "
-                "label alone.",
-            )
-        )
+        figures.append(zoomed(words, zoom.time, zoom.label, curves(zoom.estimates, _PANELS)))
     return figures
 
 
 def _figures(results: EvaluationResult, found: SetResult) -> list[Figure]:
     classes = _classes(results)
-    scored = ordered(results, found)
-    figures = [
-        distributions(
-            "torque-errors",
-            "Errors",
-            "Distribution of the errors of every model, prediction less label.",
-            edges=found.error_edges,
-            counts=[(one.name, classes[one.name], one.error_counts) for one in scored],
-            marks=[(one.overall.bias.value, one.overall.variance.value**0.5) for one in scored],
-            caption="Prediction less label; heights by the root of the frequency, lines one "
-            "standard deviation to either side of the mean. What lies beyond stands in the last "
-            "bins.",
+    errors = [
+        Errors(
+            one.name,
+            classes[one.name],
+            one.error_counts,
+            one.overall.bias.value,
+            one.overall.variance.value**0.5,
         )
+        for one in ordered(results, found)
     ]
+    words = Words(
+        "torque-errors",
+        "Errors",
+        "Distribution of the errors of every model, prediction less label.",
+        "Prediction less label; heights by the root of the frequency, lines one standard "
+        "deviation to either side of the mean. What lies beyond stands in the last bins.",
+    )
+    figures = [distributions(words, found.error_edges, errors)]
     drawn = _drawn(results, found, _CURVES)
     if len(found.frequency):
-        figures.append(
-            over(
-                "torque-spectrum",
-                "Ripple band",
-                "Amplitude density of label and models over frequency.",
-                x=found.frequency,
-                label=found.label_spectrum,
-                estimates=[(one.name, classes[one.name], one.spectrum) for one in drawn],
-                x_label="frequency, Hz",
-                y_label="N·m/√Hz",
-                band=BAND,
-                caption="Segments of 0.64 s in free swing; the band from 10 to 25 Hz is shaded.",
-            )
+        words = Words(
+            "torque-spectrum",
+            "Ripple band",
+            "Amplitude density of label and models over frequency.",
+            f"Segments of {SEGMENT:g} s in free swing; the band from {BAND[0]:g} to {BAND[1]:g} Hz "
+            "is shaded.",
         )
-    orders = [(one, one.orders) for one in drawn if one.orders is not None]
+        spectra = [(one.name, classes[one.name], one.spectrum) for one in drawn]
+        x = ("frequency, Hz", found.frequency)
+        figures.append(over(words, x, "N·m/√Hz", found.label_spectrum, spectra, BAND))
+    orders = [(one.name, one.orders) for one in drawn if one.orders is not None]
     if orders:
         first = orders[0][1]
-        figures.append(
-            over(
-                "torque-orders",
-                "Ripple by order",
-                "Amplitude of label and models over order of the output angle.",
-                x=first.orders,
-                label=first.label,
-                estimates=[(one.name, classes[one.name], o.estimate) for one, o in orders],
-                x_label="order, periods in an output turn",
-                y_label="amplitude, N·m",
-                band=None,
-                caption=f"Over {first.strokes} strokes in one sense, resampled over the output's "
-                "angle; a stroke of 2 rad tells orders three apart.",
-            )
+        words = Words(
+            "torque-orders",
+            "Ripple by order",
+            "Amplitude of label and models over order of the output angle.",
+            f"Over {first.strokes} strokes in one sense, resampled over the output's angle; a "
+            "stroke of 2 rad tells orders three apart.",
         )
+        amplitudes = [(name, classes[name], found.estimate) for name, found in orders]
+        x = ("order, periods in an output turn", first.orders)
+        figures.append(over(words, x, "amplitude, N·m", first.label, amplitudes))
     return [*figures, *_regime_bars(results, found, ("all",))]
 
 
@@ -276,30 +240,26 @@ def _regime_bars(
         ]
         if not rows:
             continue
-        values = [scores.rmse.value for _, scores in rows]
         # Half of the models set the scale; one far off is cut, and says so.
-        middle = sorted(values)[len(values) // 2]
+        middle = sorted(scores.rmse.value for _, scores in rows)[len(rows) // 2]
         reach = max(
             scores.rmse.high or scores.rmse.value
             for _, scores in rows
             if scores.rmse.value <= 2.5 * middle
         )
         share = rows[0][1].scores.samples / found.samples
-        figures.append(
-            interval_bars(
-                f"torque-rmse-{regime}",
-                f"RMSE, {regime}" if regime != "all" else "RMSE",
-                f"RMSE of every model: {meaning}.",
-                names=[name for name, _ in rows],
-                values=values,
-                ends=[_bounds(scores.rmse) for _, scores in rows],
-                classes=[classes[name] for name, _ in rows],
-                most=1.02 * reach if reach > 0.0 else 1.0,
-                caption=f"{meaning[0].upper()}{meaning[1:]}: "
-                f"{significant(100.0 * share, 3)}\u202f% of the samples, {rows[0][1].episodes} "
-                "episodes.",
-            )
+        words = Words(
+            f"torque-rmse-{regime}",
+            f"RMSE, {regime}" if regime != "all" else "RMSE",
+            f"RMSE of every model: {meaning}.",
+            f"{meaning[0].upper()}{meaning[1:]}: {per_cent(share, 3)} of the samples, "
+            f"{rows[0][1].episodes} episodes.",
         )
+        bars = [
+            IntervalBar(name, scores.rmse.value, _bounds(scores.rmse), classes[name])
+            for name, scores in rows
+        ]
+        figures.append(interval_bars(words, bars, 1.02 * reach if reach > 0.0 else 1.0))
     return figures
 
 

@@ -4,22 +4,28 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from cqdd_design.actuator.bench import BenchResult
-from cqdd_design.actuator.bench.metric import PAPER, Metric
+from cqdd_design.actuator.bench.metric import NEAR, NEAR_EFFICIENCY, PAPER, Metric, is_near
 from cqdd_design.actuator.comparison import ComparedActuator, compare_actuators, present_actuator
 from cqdd_design.actuator.operating import holds_itself
 from cqdd_design.actuator.parameters import ActuatorParameters
-from cqdd_design.report.actuator.actuator_rows import prose
-from cqdd_design.report.actuator.bench_figures import BACKDRIVEN, NONE, bench_figures, finite, shown
-from cqdd_design.report.ink.numbers import MINUS, decimals, pretty_unit, significant, with_unit
+from cqdd_design.report.actuator.bench_figures import BACKDRIVEN, bench_figures, finite
+from cqdd_design.report.actuator.parameter_rows import prose
+from cqdd_design.report.ink.numbers import (
+    MINUS,
+    NONE,
+    decimals,
+    maybe,
+    per_cent,
+    pretty_unit,
+    significant,
+    with_unit,
+)
 from cqdd_design.report.ink.svg import Figure
 
-NEAR = 20.0
-"""Predictions within so many per cent count as near."""
-NEAR_POINTS = 5.0
-"""The same for efficiencies, in points of per cent."""
 _NO_SPREAD = 1e-3
 """Of the value: a smaller spread is not told in digits."""
 
@@ -47,12 +53,7 @@ _SHOWN_UNITS: dict[str, tuple[str, float]] = {"": ("%", 100.0), "kg*m^2": ("kg·
 
 @dataclass(frozen=True)
 class BenchRow:
-    """One measurement as printed.
-
-    Attributes
-    ----------
-    name, words, value, spread, unit, paper, off, relation, protocol : str
-    """
+    """One measurement as printed; `off` is how far it lies from the paper's."""
 
     name: str
     words: str
@@ -78,18 +79,7 @@ class Comparison:
 
 @dataclass(frozen=True)
 class BenchView:
-    """What the section shows.
-
-    Attributes
-    ----------
-    lead, summary : str
-        `summary` is empty where no measured values stand beside.
-    rows : tuple of BenchRow
-    beside_paper : bool
-    relations : tuple of (str, str)
-    figures : tuple of Figure
-    comparison : Comparison
-    """
+    """What the section shows; `summary` is empty where no measured values stand beside."""
 
     lead: str
     summary: str
@@ -100,12 +90,7 @@ class BenchView:
     comparison: Comparison
 
 
-def bench_view(
-    parameters: ActuatorParameters,
-    bench: BenchResult,
-    *,
-    pin_count: int,
-) -> BenchView:
+def bench_view(parameters: ActuatorParameters, bench: BenchResult, *, pin_count: int) -> BenchView:
     """Values of the section.
 
     Parameters
@@ -150,7 +135,7 @@ def bench_row(metric: Metric, bench: BenchResult, *, holds: bool = False) -> Ben
     return BenchRow(
         name=metric.name,
         words=words_of(metric.name),
-        value=shown(factor * metric.value),
+        value=maybe(factor * metric.value),
         spread=_spread(metric, factor),
         unit=unit,
         paper=NONE if paper is None else _paper(metric.name, paper, factor),
@@ -165,7 +150,7 @@ def _spread(metric: Metric, factor: float) -> str:
     if metric.spread is None or not math.isfinite(metric.spread):
         return NONE
     if metric.spread < _NO_SPREAD * abs(metric.value):
-        return f"<{significant(100.0 * _NO_SPREAD)}\u202f%"
+        return f"<{per_cent(_NO_SPREAD)}"
     return f"±{significant(factor * metric.spread, 2)}"
 
 
@@ -190,13 +175,6 @@ def _signed(value: float, places: int) -> str:
     return shown if shown.startswith(MINUS) or float(f"{value:.{places}f}") == 0.0 else f"+{shown}"
 
 
-def is_near(metric: Metric, paper: float) -> bool:
-    """Whether a value is within `NEAR` per cent, an efficiency within `NEAR_POINTS` points."""
-    if metric.unit == "":
-        return 100.0 * abs(metric.value - paper) <= NEAR_POINTS
-    return abs(metric.value / paper - 1.0) <= NEAR / 100.0
-
-
 def _summary(bench: BenchResult) -> str:
     """How many predictions are near the measured values, which are not, and why."""
     beside = [(m, p) for m in bench.metrics if (p := bench.paper(m.name)) is not None]
@@ -205,11 +183,11 @@ def _summary(bench: BenchResult) -> str:
         return ""
     near = [words_of(m.name) for m, p in told if is_near(m, p)]
     far = [words_of(m.name) for m, p in told if not is_near(m, p)]
+    listed = f": {'; '.join(near)}." if near else "."
     parts = [
-        f"Of {len(told)} predicted rows {len(near)} lie within {NEAR:.0f}\u202f% of the paper's "
-        f"(efficiency within {NEAR_POINTS:.0f} points)"
+        f"Of {len(told)} predicted rows {len(near)} lie within {per_cent(NEAR)} of the paper's "
+        f"(efficiency within {100.0 * NEAR_EFFICIENCY:.0f} points){listed}"
     ]
-    parts[0] += f": {'; '.join(near)}." if near else "."
     if far:
         parts.append(f"Not so: {'; '.join(far)}.")
     calibrated = [words_of(m.name) for m, _ in beside if m.relation == "calibrated"]
@@ -235,37 +213,31 @@ def comparison(parameters: ActuatorParameters, bench: BenchResult) -> Comparison
         own = present_actuator(bench.name, ratio, peak, parameters.mass, efficiency)
     table = compare_actuators(own)
 
-    def row(name: str, cell: str) -> tuple[str, tuple[str, ...]]:
-        return name, tuple(_cell(actuator, cell) for actuator in table)
-
     names = [actuator.name for actuator in table]
     return Comparison(
         headings=tuple(names),
-        rows=(
-            row("gearing", "gearing"),
-            row("ratio", "ratio"),
-            row("peak torque, N·m", "peak"),
-            row("mass, kg", "mass"),
-            row("torque density, N·m/kg", "density"),
-            row("as printed, N·m/kg", "printed"),
-            row("greatest efficiency, %", "efficiency"),
-        ),
+        rows=tuple((name, tuple(cell(actuator) for actuator in table)) for name, cell in _CELLS),
         own=-1 if own is None else names.index(own.name),
         remarks=tuple(prose(actuator.remark) for actuator in table if actuator.remark),
         sources=tuple(dict.fromkeys(actuator.source for actuator in table)),
     )
 
 
-def _cell(actuator: ComparedActuator, cell: str) -> str:
-    if cell == "gearing":
-        return actuator.gearing
-    numbers = {
-        "ratio": (actuator.ratio, 3),
-        "peak": (actuator.peak_torque, 4 if actuator.torque_density_printed is None else 5),
-        "mass": (actuator.mass, 3),
-        "density": (actuator.torque_density, 4),
-        "printed": (actuator.torque_density_printed, 4),
-        "efficiency": (None if actuator.efficiency is None else 100.0 * actuator.efficiency, 3),
-    }
-    value, digits = numbers[cell]
-    return NONE if value is None else significant(value, digits)
+def _peak(actuator: ComparedActuator) -> str:
+    """With one digit more beside a printed torque density, which follows from it."""
+    return significant(actuator.peak_torque, 4 if actuator.torque_density_printed is None else 5)
+
+
+_CELLS: tuple[tuple[str, Callable[[ComparedActuator], str]], ...] = (
+    ("gearing", lambda one: one.gearing),
+    ("ratio", lambda one: maybe(one.ratio, 3)),
+    ("peak torque, N·m", _peak),
+    ("mass, kg", lambda one: significant(one.mass, 3)),
+    ("torque density, N·m/kg", lambda one: significant(one.torque_density)),
+    ("as printed, N·m/kg", lambda one: maybe(one.torque_density_printed)),
+    (
+        "greatest efficiency, %",
+        lambda one: NONE if one.efficiency is None else significant(100.0 * one.efficiency, 3),
+    ),
+)
+"""Rows of the table: quantity and what stands there."""

@@ -22,11 +22,11 @@ from cqdd_design.design import Design
 from cqdd_design.exporting.solids import gltf
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.report.machine_view.explode import take_apart
-from cqdd_design.report.machine_view.pictures import EXPLODED_TILT
-from cqdd_design.report.machine_view.pieces import stations
+from cqdd_design.report.machine_view.stills import EXPLODED_TILT
 from cqdd_design.solids.cad import MM
 from cqdd_design.solids.mesh import Quality, facets
 from cqdd_design.solids.part import Part
+from cqdd_design.solids.stations import stations
 
 _VENDOR = Path(__file__).parents[1] / "vendor"
 _CHORD = 0.05
