@@ -8,9 +8,9 @@ A recording maps ``design/command/output`` to a SHA-256: exit code (as it is), s
 JSON document or the text for a terminal), standard error and every file written. A change that
 should move nothing is shown to move nothing so, and one that should moves only what it names.
 
-Designs and commands stand in ``outputs_jobs.py``; so does the short table of what is blanked before
-hashing because it is different every time. Commands run as real processes with relative paths, each
-job in a fresh folder, of which therefore nothing is in an output.
+Designs and commands stand in ``outputs_jobs.py``. Commands run as real processes with relative
+paths, each job in a fresh folder, of which therefore nothing is in an output; what else differs
+every time is blanked before hashing by the short table of ``outputs_blanks.py``.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import argparse
 import hashlib
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -27,9 +28,11 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-from outputs_jobs import BLANKS, INPUTS, SIZED, WARMING, Job, design_names, job_list, written_design
+from outputs_blanks import blanked
+from outputs_jobs import INPUTS, SIZED, WARMING, Job, design_names, job_list, written_design
 
 REPOSITORY = Path(__file__).resolve().parents[1]
+NETWORKS = REPOSITORY / "designs" / "cqdd-10-torque"
 LONGEST = 1800.0
 """Of one command, s; after that it hangs."""
 NO_DESIGN = "none"
@@ -67,14 +70,6 @@ def run_command(
     return str(done.returncode), {"stdout": done.stdout, "stderr": done.stderr}
 
 
-def blanked(step: str, output: str, content: bytes) -> bytes:
-    """`content` without what the table says is different every time."""
-    for blank in BLANKS:
-        if blank.concerns(step, output):
-            content = blank.pattern.sub(blank.replacement, content)
-    return content
-
-
 def files_below(folder: Path) -> dict[str, bytes]:
     """Every file by its relative path."""
     return {
@@ -94,6 +89,9 @@ def run_job(job: Job, package: Path, designs: Mapping[str, str]) -> dict[str, by
             (folder / "designs" / f"{name}.toml").write_text(text, "utf-8")
         for name, text in INPUTS.items():
             (folder / name).write_text(text, "utf-8")
+        for name in job.networks:
+            (folder / "networks" / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(NETWORKS / f"{name}.npz", folder / "networks" / f"{name}.npz")
         before = files_below(folder)
         for step in job.steps:
             prefix = f"{job.design or NO_DESIGN}/{step.name}"
