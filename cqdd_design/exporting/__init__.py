@@ -14,23 +14,32 @@ import os
 import shutil
 import uuid
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
+from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.errors import UsageError, did_you_mean
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 from cqdd_design.files import WrittenFile, ensure_folder, refuse_overwrite
 
 if TYPE_CHECKING:
-    from cqdd_design.actuator.motor_file import MotorFile
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.design import Design
+    from cqdd_design.machine import Machine
     from cqdd_design.solids.parts import Part
 
-__all__ = ["EXPORTERS", "ExportJob", "ExportOptions", "default_folder", "export", "read_kinds"]
+__all__ = [
+    "EXPORTERS",
+    "ExportJob",
+    "ExportOptions",
+    "default_folder",
+    "export",
+    "read_kinds",
+    "stages",
+]
 
 EXPORTERS: Mapping[str, str] = MappingProxyType(
     {
@@ -60,28 +69,28 @@ class ExportJob:
 
     Attributes
     ----------
-    design : Design
+    machine : Machine
+        Of the specimen's motor.
     folder : Path
         Exists; files go here under names that begin with the design's.
     progress : callable
         Told in a few words what is being done.
     options : ExportOptions
         How files are written.
-    seed : int, optional
-        Of the gearbox that simulators get; default perfect parts.
-    calibration : mapping of str to float
-        Factors of what the actuator's unknowns were computed as.
-    motor : MotorFile, optional
-        What a file says of the motor instead of the catalogue.
+    specimen : Specimen
+        Which actuator simulators get.
     """
 
-    design: Design
+    machine: Machine
     folder: Path
     progress: Progress
     options: ExportOptions = DEFAULTS
-    seed: int | None = None
-    calibration: Mapping[str, float] = field(default_factory=dict)
-    motor: MotorFile | None = None
+    specimen: Specimen = AS_DRAWN
+
+    @property
+    def design(self) -> Design:
+        """The design as it was given."""
+        return self.machine.given
 
     def path(self, ending: str, within: str = "") -> Path:
         """File of this design: ``path("-disc.dxf")`` is ``<folder>/<name>-disc.dxf``.
@@ -93,22 +102,15 @@ class ExportJob:
     @cached_property
     def actuator(self) -> ActuatorParameters:
         """The actuator in time, for the first writer that asks; later ones get the same."""
-        from cqdd_design.actuator.bench.unknowns import apply_factors
         from cqdd_design.actuator.build import actuator_parameters
 
-        found = actuator_parameters(self.design, seed=self.seed, own_motor=self.motor)
-        return apply_factors(found, self.calibration)
+        return actuator_parameters(self.machine, self.specimen)
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:
         """The solids, for the first writer that asks; later ones get the same."""
-        from cqdd_design.catalog import find_bearing
-        from cqdd_design.exporting.edm.flat_parts import with_named_bearing
-        from cqdd_design.solids.parts import build_parts
-
         self.progress("laying out parts")
-        resolved = with_named_bearing(self.design)
-        return build_parts(resolved, find_bearing(resolved.reducer.cam_bearing.designation))
+        return self.machine.parts
 
 
 def read_kinds(text: str | Iterable[str]) -> tuple[str, ...]:
@@ -138,28 +140,35 @@ def read_kinds(text: str | Iterable[str]) -> tuple[str, ...]:
     return tuple(wanted)
 
 
+_WITHOUT_SOLIDS = {"dxf", "svg", "edm", "gcode", "mjcf", "urdf", "card", "bam"}
+
+
+def stages(kinds: Iterable[str]) -> int:
+    """How often `export` tells its progress: every kind, and the parts where one needs them."""
+    return len(list(kinds)) + bool(set(kinds) - _WITHOUT_SOLIDS)
+
+
 def default_folder(design: Design) -> Path:
     """Where `export` writes when no folder is named: ``exports/<design name>``."""
     return Path("exports") / design.name
 
 
 def export(
-    design: Design,
+    machine: Machine,
     kinds: str | Iterable[str],
     folder: Path | None = None,
     *,
     force: bool = False,
     progress: Progress | None = None,
     options: ExportOptions = DEFAULTS,
-    seed: int | None = None,
-    calibration: Mapping[str, float] | None = None,
-    motor: MotorFile | None = None,
+    specimen: Specimen = AS_DRAWN,
 ) -> tuple[WrittenFile, ...]:
-    """Write the files of a design.
+    """Write the files of a machine.
 
     Parameters
     ----------
-    design : Design
+    machine : Machine
+        Of the specimen's motor.
     kinds : str or iterable of str
         Keys of `EXPORTERS`, such as ``"dxf,step"``.
     folder : Path, optional
@@ -171,12 +180,8 @@ def export(
         Called with a few words before each kind of file.
     options : ExportOptions, optional
         How files are written.
-    seed : int, optional
-        Simulators get a gearbox drawn from the tolerances; default perfect parts.
-    calibration : mapping of str to float, optional
-        Factors of the actuator's unknowns, for simulators.
-    motor : MotorFile, optional
-        What a file says of the motor, for simulators.
+    specimen : Specimen
+        Which actuator simulators get.
 
     Returns
     -------
@@ -194,7 +199,7 @@ def export(
     DependencyError
         A library that a kind needs is missing.
     """
-    wanted = read_kinds(kinds)
+    wanted, design = read_kinds(kinds), machine.given
     target = default_folder(design) if folder is None else folder
     tell = progress if progress is not None else _silent
     made = _missing(target)
@@ -202,7 +207,7 @@ def export(
     placed: list[WrittenFile] = []
     try:
         ensure_folder(staging)
-        job = ExportJob(design, staging, tell, options, seed, calibration or {}, motor)
+        job = ExportJob(machine, staging, tell, options, specimen)
         for kind in wanted:
             tell(f"writing {kind}")
             placed += [

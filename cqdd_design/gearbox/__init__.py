@@ -6,7 +6,6 @@ hundreds of thousands.
 """
 
 from cqdd_design.gearbox.analysis import GearboxAnalysis, analyse_gearbox
-from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE, CheckGuide, check_guide
 
 __all__ = [
@@ -15,5 +14,4 @@ __all__ = [
     "GearboxAnalysis",
     "analyse_gearbox",
     "check_guide",
-    "with_chosen_bearing",
 ]

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -103,15 +103,15 @@ class CycloidDisc:
     @classmethod
     def from_design(cls, design: Design) -> CycloidDisc:
         """Read the disc outline of a design."""
-        reducer = design.reducer
-        return cls(
-            lobe_count=reducer.ratio,
-            ring_pitch_radius=reducer.ring_pitch_radius,
-            eccentricity=reducer.eccentricity,
-            tooth_radius=reducer.ring_pin_diameter / 2.0,
-            equidistant=reducer.modification.equidistant,
-            radial=reducer.modification.radial,
-            rotation=reducer.modification.rotation,
+        reducer, changed = design.reducer, design.reducer.modification
+        return _disc(
+            reducer.ratio,
+            reducer.ring_pitch_radius,
+            reducer.eccentricity,
+            reducer.ring_pin_diameter / 2.0,
+            changed.equidistant,
+            changed.radial,
+            changed.rotation,
         )
 
     @property
@@ -140,12 +140,10 @@ class CycloidDisc:
             self.tooth_radius + self.equidistant,
         )
 
-    @cached_property
+    @property
     def unmodified(self) -> CycloidDisc:
         """The disc conjugate to the nominal ring."""
-        return CycloidDisc(
-            self.lobe_count, self.ring_pitch_radius, self.eccentricity, self.tooth_radius
-        )
+        return _disc(self.lobe_count, self.ring_pitch_radius, self.eccentricity, self.tooth_radius)
 
     @property
     def is_turned(self) -> bool:
@@ -292,3 +290,10 @@ class CycloidDisc:
             np.where(s < delta, self.valley_distance, on_flank),
             np.where(s < delta, 1.0 / self.valley_distance, bend),
         )
+
+
+@lru_cache(maxsize=16)
+def _disc(*sizes: float) -> CycloidDisc:
+    """The disc of these sizes; many rooms ask for the same, and share what it has worked out."""
+    lobe_count, *lengths = sizes
+    return CycloidDisc(int(lobe_count), *lengths)

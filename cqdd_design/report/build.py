@@ -138,9 +138,9 @@ def _context(results: ReportInput) -> dict[str, Any]:
         "counterweights": results.design.reducer.balance.counterweights,
         "input_speed": with_unit(requirements.input_speed * 30.0 / math.pi, "rpm"),
         "planetary": planetary_view(results.planetary),
-        "edm": edm_view(design),
-        "machine_views": None if results.machine is None else results.machine[0],
-        "machine_viewer": None if results.machine is None else results.machine[1],
+        "edm": edm_view(results.machine),
+        "machine_views": None if results.pictures is None else results.pictures[0],
+        "machine_viewer": None if results.pictures is None else results.pictures[1],
         "symbols": paper_symbols(design),
         "errata": ERRATA,
         "assumptions": model_assumptions(design),
@@ -221,7 +221,7 @@ def _contents(results: ReportInput) -> tuple[tuple[str, str], ...]:
     absent = set()
     if results.bodies is None:
         absent |= {"inertia", "bom"}
-    if results.machine is None:
+    if results.pictures is None:
         absent.add("machine")
     if results.sizing is None:
         absent.add("sizing")

@@ -34,7 +34,7 @@ def finish(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> 
     """
     try:
         design = design_of(evaluator, points, row, suffix)
-        checks = analyse_gearbox(design).checks
+        checks = analyse_gearbox(design, evaluator.frame.motor).checks
     except DesignError:
         return None
     if any(c.status == "fail" and not c.id.startswith("MOTOR-") for c in checks):

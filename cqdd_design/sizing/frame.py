@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.catalog.materials import Material, find_material
-from cqdd_design.catalog.motors import find_motor
+from cqdd_design.catalog.motors import Motor, find_motor
 from cqdd_design.design import Design, Requirements
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox import hertz
@@ -81,8 +81,7 @@ class Frame:
         E* of tooth on disc and of pin on disc.
     disc_density, ring_density, pin_density : float
         kg/m^3.
-    rotor_inertia : float
-        Of the motor, kg m^2; zero where the catalogue has none.
+    motor : Motor
     pin_sizes : tuple of PinSize
         Ascending.
     bearings : tuple of Bearing
@@ -107,9 +106,14 @@ class Frame:
     disc_density: float
     ring_density: float
     pin_density: float
-    rotor_inertia: float
+    motor: Motor
     pin_sizes: tuple[PinSize, ...]
     bearings: tuple[Bearing, ...]
+
+    @property
+    def rotor_inertia(self) -> float:
+        """Of the motor, kg m^2; zero where it is not known."""
+        return self.motor.rotor_inertia or 0.0
 
     @property
     def disc_torque(self) -> float:
@@ -141,12 +145,14 @@ class Frame:
         return bearing_table(self.bearings, self.cam_speed, self.continuous_share)
 
 
-def search_frame(requirements: Requirements) -> Frame:
+def search_frame(requirements: Requirements, motor: Motor | None = None) -> Frame:
     """Read the requirements, the design defaults and the catalogues.
 
     Parameters
     ----------
     requirements : Requirements
+    motor : Motor, optional
+        Default the catalogue's row of the motor that the requirements name.
 
     Returns
     -------
@@ -188,7 +194,7 @@ def search_frame(requirements: Requirements) -> Frame:
         disc_density=disc.density,
         ring_density=ring.density,
         pin_density=pin.density,
-        rotor_inertia=find_motor(requirements.motor).rotor_inertia or 0.0,
+        motor=motor or find_motor(requirements.motor),
         pin_sizes=sizes,
         bearings=cam_bearings(requirements, most, spacing, sizes[0].mean_diameter),
     )

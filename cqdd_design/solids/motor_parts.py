@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.solids import motor_shapes
 from cqdd_design.solids.carrier import cap_screw_shape
@@ -40,8 +40,7 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
     motor = layout.motor
     if motor is None:
         return []
-    row = find_motor(design.motor.name)
-    metal, unit = design.housing.material, layout.unit
+    row, metal, unit = layout.motor_row, design.housing.material, layout.unit
     stub = 0.5 * layout.shaft.support.bearing.bore_diameter
     rotor_mass = _rotor_mass(row, motor)
     stator_mass = None if row.mass is None else row.mass - rotor_mass

@@ -9,7 +9,6 @@ import dataclasses
 import math
 from collections.abc import Sequence
 
-from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_contour, disc_moments
@@ -31,7 +30,6 @@ from cqdd_design.solids.motor_shapes import (
 )
 from cqdd_design.solids.part import Colour, Instance, Part
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
-from cqdd_design.solids.proportions import lay_out
 from cqdd_design.solids.selection import ChosenBearing
 
 __all__ = ["Colour", "Instance", "Part", "build_parts", "total_mass"]
@@ -52,14 +50,14 @@ _BEARING: Colour = (0.86, 0.87, 0.88)
 _SCREW: Colour = (0.16, 0.17, 0.19)
 
 
-def build_parts(design: Design, cam_bearing: Bearing) -> tuple[Part, ...]:
+def build_parts(design: Design, layout: Layout) -> tuple[Part, ...]:
     """Every part of a gearbox.
 
     Parameters
     ----------
     design : Design
-    cam_bearing : Bearing
-        The catalogue row of the cam bearing, "auto" resolved.
+    layout : Layout
+        Of the same design, from `lay_out`.
 
     Returns
     -------
@@ -71,7 +69,6 @@ def build_parts(design: Design, cam_bearing: Bearing) -> tuple[Part, ...]:
     GeometryError
         When the parts cannot exist or cannot be put together.
     """
-    layout = lay_out(design, cam_bearing)
     parts = [
         *_disc_parts(design, layout),
         *_ring_parts(design, layout),

@@ -12,9 +12,9 @@ import pytest
 
 from cqdd_design.catalog import find_bearing
 from cqdd_design.design import Design, load_design
-from cqdd_design.gearbox import analyse_gearbox
-from cqdd_design.gearbox.contact_analysis import ContactAnalysis, analyse_contact
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
+from cqdd_design.machine import resolve
+from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
 from cqdd_design.report.drawings.outlines import Machine
 from cqdd_design.report.gearbox.contact_view import contact_view, force_picture
 from cqdd_design.report.gearbox.life_view import life_view
@@ -35,7 +35,7 @@ def design() -> Design:
 
 @pytest.fixture(scope="module")
 def found(design: Design) -> ContactAnalysis:
-    return analyse_contact(design, angles=120)
+    return analyse_contact(resolve(design), angles=120)
 
 
 @pytest.fixture(scope="module")
@@ -158,7 +158,7 @@ def test_the_labelled_map_writes_its_values_in_per_cent() -> None:
 def test_the_darkest_cell_is_the_most_loaded_tooth(
     found: ContactAnalysis, machine: Machine, design: Design
 ) -> None:
-    view = contact_view(found, machine, analyse_gearbox(design).rigid)
+    view = contact_view(found, machine, resolve(design).analysis.rigid)
     assert len(view.heat_maps) == 2
     turn = found.crank_turn
     for disc, figure in enumerate(view.heat_maps):

@@ -10,14 +10,14 @@ import io
 from dataclasses import asdict, dataclass, fields
 from typing import TYPE_CHECKING
 
-from cqdd_design.catalog import bearings, find_material, find_motor, motors
+from cqdd_design.catalog import bearings, find_material, motors
 from cqdd_design.files import WrittenFile, write_atomically
 from cqdd_design.solids.inertia import ROTOR
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from cqdd_design.design import Design
+    from cqdd_design.catalog import Motor
     from cqdd_design.exporting import ExportJob
     from cqdd_design.solids.parts import Part
 
@@ -59,23 +59,23 @@ class BomRow:
 
 def export_bom(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-bom.csv``."""
-    text = bom_csv(bill_of_materials(job.design, job.parts))
+    text = bom_csv(bill_of_materials(job.machine.motor, job.parts))
     return (write_atomically(job.path("-bom.csv"), text, "bom"),)
 
 
-def bill_of_materials(design: Design, parts: Sequence[Part]) -> tuple[BomRow, ...]:
+def bill_of_materials(motor: Motor, parts: Sequence[Part]) -> tuple[BomRow, ...]:
     """Return the bill of a machine; a motor that is not among its parts is its last line.
 
     Parameters
     ----------
-    design : Design
+    motor : Motor
     parts : sequence of Part
         From `solids.build_parts`.
     """
     rows = tuple(_part_row(item, part) for item, part in enumerate(parts, start=1))
     if any(part.name == ROTOR for part in parts):
         return rows
-    return (*rows, _motor_row(len(rows) + 1, design))
+    return (*rows, _motor_row(len(rows) + 1, motor))
 
 
 def bom_csv(rows: Sequence[BomRow]) -> str:
@@ -112,8 +112,7 @@ def _mass_note(part: Part) -> str:
     return f"mass: {form} x {density:g} kg/m3 ({find_material(part.material).source})"
 
 
-def _motor_row(item: int, design: Design) -> BomRow:
-    motor = find_motor(design.motor.name)
+def _motor_row(item: int, motor: Motor) -> BomRow:
     return BomRow(
         item=item,
         part="motor",

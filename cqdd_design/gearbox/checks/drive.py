@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.gearbox.balance import paper_disc_count
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
@@ -69,9 +69,7 @@ def _disc_count(state: GearboxState) -> Check:
 
 
 def _motor(state: GearboxState) -> tuple[tuple[Check, ...], tuple[str, ...]]:
-    design = state.design
-    name = design.motor.name
-    motor = find_motor(name)
+    motor, name = state.motor, state.motor.name
     if motor.torque_at != "motor":
         return (), (
             f"motor '{name}' is a geared actuator of the comparison table, so no motor check was "

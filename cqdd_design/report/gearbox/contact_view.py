@@ -27,7 +27,7 @@ from cqdd_design.report.ink.svg import (
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.sweep import ContactSweep
-    from cqdd_design.gearbox.contact_analysis import ContactAnalysis
+    from cqdd_design.machine.contact_analysis import ContactAnalysis
 
 FloatArray = NDArray[np.float64]
 

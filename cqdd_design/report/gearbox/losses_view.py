@@ -12,7 +12,7 @@ from cqdd_design.report.ink.numbers import significant, with_unit
 from cqdd_design.report.ink.svg import Figure
 
 if TYPE_CHECKING:
-    from cqdd_design.gearbox.contact_analysis import ContactAnalysis
+    from cqdd_design.machine.contact_analysis import ContactAnalysis
 
 _RPM = 30.0 / math.pi
 

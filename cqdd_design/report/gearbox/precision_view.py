@@ -14,9 +14,9 @@ from cqdd_design.report.ink.numbers import significant, with_unit
 from cqdd_design.report.ink.svg import Figure
 
 if TYPE_CHECKING:
-    from cqdd_design.gearbox.contact_analysis import ContactAnalysis
     from cqdd_design.gearbox.precision.orders import Order
     from cqdd_design.gearbox.precision.precision import Precision
+    from cqdd_design.machine.contact_analysis import ContactAnalysis
 
 _ARCMIN = math.degrees(1.0) * 60.0
 _ORDERS = 8
