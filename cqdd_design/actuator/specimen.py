@@ -29,6 +29,24 @@ class Specimen:
     seed: int | None = None
     factors: Mapping[str, float] = field(default_factory=dict)
 
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Sentences on what is not as the design and the catalogue alone would have it."""
+        found = []
+        if self.motor is not None:
+            found.append(
+                f"the motor is {self.motor.name} from {self.motor.place}; what the file leaves "
+                "out is the catalogue's."
+            )
+        if self.seed is not None:
+            found.append(
+                f"the simulated gearbox is drawn from the tolerances with seed {self.seed}."
+            )
+        if self.factors:
+            names = ", ".join(f"{name} times {f:.4g}" for name, f in self.factors.items())
+            found.append(f"the simulated actuator is calibrated: {names}.")
+        return tuple(found)
+
     def machine(self, design: Design) -> Machine:
         """The design made concrete with this motor; see `machine.resolve` for what it raises."""
         if self.motor is None:

@@ -19,7 +19,7 @@ def data_actuator(
     path: Path,
     gearbox: int | None,
     calibration: Path | None,
-    motor_file: Path | None = None,
+    motor_file: Path | None,
 ) -> ActuatorParameters:
     """The actuator of a design, drawn and calibrated as the data's own where they say so."""
     from cqdd_design.actuator.build import actuator_parameters

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.design import Design
     from cqdd_design.machine import Machine
-    from cqdd_design.solids.parts import Part
+    from cqdd_design.solids.part import Part
 
 __all__ = [
     "EXPORTERS",

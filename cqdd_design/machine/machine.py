@@ -11,7 +11,8 @@ from cqdd_design.catalog.bearings import Bearing, find_bearing
 from cqdd_design.catalog.motors import Motor, find_motor
 from cqdd_design.design import Design
 from cqdd_design.solids.layout import Layout
-from cqdd_design.solids.parts import Part, build_parts
+from cqdd_design.solids.part import Part
+from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.proportions import lay_out, seat_bearings
 from cqdd_design.solids.selection import ChosenBearing
 

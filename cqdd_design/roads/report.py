@@ -89,7 +89,7 @@ def write_report(
         provenance=provenance(design),
         comments={} if source is None else read_comments(source),
         bodies=bodies,
-        notes=(*notes, *unsolved),
+        notes=(*specimen.remarks, *notes, *unsolved),
         sizing=sizing,
         files=files,
         contact=contact,

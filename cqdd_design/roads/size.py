@@ -19,7 +19,7 @@ from cqdd_design.sizing import SizingResult, size
 #: How often sizing tells its progress.
 SIZING_STAGES = 2
 
-_STAMP = "# as written by `size`; edited since where this is not the sha256 of the lines above: "
+_STAMP = "# `size` replaces this file only while the lines above have this sha256: "
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from cqdd_design.machine import resolve
 from cqdd_design.report.build import _environment
 from cqdd_design.report.ink.svg import Figure
 from cqdd_design.report.machine_view import MachineViews, hidden_line_views, viewer_data
-from cqdd_design.solids.parts import Part
+from cqdd_design.solids.part import Part
 from cqdd_design.solids.poses import body_pose
 
 pytestmark = [

@@ -195,7 +195,9 @@ def test_text_of_the_design_cannot_become_markup(paper_input: ReportInput) -> No
     mapping["reducer"]["friction"]["lubricant"] = "<script>alert('grease')</script>"
     design = Design.from_mapping(mapping)
     comments = {"reducer.eccentricity": "assumed: <img src=x onerror=alert(1)> & more"}
-    page = build_report(dataclasses.replace(paper_input, design=design, comments=comments))
+    page = build_report(
+        dataclasses.replace(paper_input, machine=resolve(design), comments=comments)
+    )
     assert "<script>alert(" not in page
     assert "&lt;script&gt;alert(" in page
     assert "<img" not in page

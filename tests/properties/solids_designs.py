@@ -13,7 +13,7 @@ from cqdd_design.catalog.bearings import Bearing, bearings
 from cqdd_design.design import Design, load_design
 from cqdd_design.geometry.cycloid import undercut_radius_limit
 from cqdd_design.machine import resolve
-from cqdd_design.solids.parts import Part
+from cqdd_design.solids.part import Part
 
 PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 

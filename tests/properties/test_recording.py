@@ -38,6 +38,7 @@ from cqdd_design.actuator.scenario import (
     Start,
     Wall,
 )
+from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import load_design
 from cqdd_design.errors import DependencyError, DesignError, UsageError
 from cqdd_design.machine import resolve
@@ -56,8 +57,10 @@ def perfect() -> ActuatorParameters:
     return actuator_parameters(resolve(DESIGN))
 
 
-def recorded(scenario: Scenario, duration: float = 0.5, **more: object) -> Recording:
-    return road.simulate(DESIGN, scenario, duration=duration, **more)
+def recorded(
+    scenario: Scenario, duration: float = 0.5, *, seed: int | None = None, **more: object
+) -> Recording:
+    return road.simulate(DESIGN, scenario, Specimen(seed=seed), duration=duration, **more)
 
 
 @pytest.fixture(scope="module")

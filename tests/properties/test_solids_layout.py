@@ -21,7 +21,7 @@ from cqdd_design.machine import resolve
 from cqdd_design.solids.clocking import disc_groups
 from cqdd_design.solids.layers import Annulus, Drilling, notched_circle, on_circle, turned
 from cqdd_design.solids.part import Part
-from cqdd_design.solids.parts import build_parts, total_mass
+from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.poses import HOUSING, body_pose
 from cqdd_design.solids.proportions import lay_out
 from cqdd_design.solids.selection import output_pin
@@ -259,4 +259,6 @@ def test_density_of_the_housing_shows_in_the_mass() -> None:
 def test_fixed_parts_stay_where_they_are() -> None:
     design = known_design("paper")
     assert np.array_equal(body_pose(design, HOUSING, 1.234), np.eye(4))
-    assert total_mass(known_parts("paper")) == pytest.approx(1.7718, abs=1e-4)
+    assert sum(part.mass * part.count for part in known_parts("paper")) == pytest.approx(
+        1.7718, abs=1e-4
+    )

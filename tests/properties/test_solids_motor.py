@@ -15,8 +15,8 @@ from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.contours import Circle
 from cqdd_design.machine import resolve
+from cqdd_design.solids.clearances import assembly_motion
 from cqdd_design.solids.counterweights import crank_moments
-from cqdd_design.solids.interference import collisions
 from cqdd_design.solids.layers import Annulus, circle, reshaped, scalloped_circle, turned
 from cqdd_design.solids.mesh import DISPLAY
 from cqdd_design.solids.part import Part
@@ -167,7 +167,7 @@ def test_weights_run_clear() -> None:
         for part in parts
         if part.name.startswith("balance") or part.name in (*MOTOR, "housing")
     )
-    assert collisions(design, near, [0.7], DISPLAY) == ()
+    assert assembly_motion(design, near, np.array([0.7]), DISPLAY).collisions == ()
 
 
 def test_weights_without_a_motor_are_refused() -> None:

@@ -17,7 +17,7 @@ from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
 from cqdd_design.geometry import kinematics
 from cqdd_design.report.ink.numbers import MINUS, with_unit
 from cqdd_design.results import Check
-from cqdd_design.solids.parts import Part
+from cqdd_design.solids.part import Part
 
 #: Where the paper's own arithmetic or units do not hold: place, printed, correct, reason.
 ERRATA = (
