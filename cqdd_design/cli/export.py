@@ -9,6 +9,7 @@ import typer
 
 from cqdd_design.cli.options import Calibrated, Force, OwnMotor, parse_positive
 from cqdd_design.cli.session import Output, read_specimen
+from cqdd_design.exporting.kinds import kinds_for, read_kinds, stages
 
 
 def export(
@@ -22,8 +23,7 @@ def export(
         typer.Option(
             "--to",
             metavar="LIST",
-            help="Kinds: dxf, edm, gcode, step, stl, 3mf, glb, svg, bom; "
-            "mjcf, urdf, card, bam for simulators.",
+            help=f"Kinds: {kinds_for('makers')}; {kinds_for('simulators')} for simulators.",
         ),
     ] = "dxf,step",
     folder: Annotated[
@@ -66,7 +66,7 @@ def export(
 ) -> int:
     """Files for makers (DXF, EDM, STEP, ...) and simulators."""
     from cqdd_design.design import load_design
-    from cqdd_design.exporting import ExportOptions, read_kinds, stages
+    from cqdd_design.exporting import ExportOptions
     from cqdd_design.roads.export import export as write
     from cqdd_design.units import LENGTH
 

@@ -102,16 +102,16 @@ class CycloidDisc:
 
     @classmethod
     def from_design(cls, design: Design) -> CycloidDisc:
-        """Read the disc outline of a design."""
-        reducer, changed = design.reducer, design.reducer.modification
-        return _disc(
+        """Read the disc outline of a design; equal outlines are made, and searched, once."""
+        reducer, change = design.reducer, design.reducer.modification
+        return _disc_of(
             reducer.ratio,
             reducer.ring_pitch_radius,
             reducer.eccentricity,
             reducer.ring_pin_diameter / 2.0,
-            changed.equidistant,
-            changed.radial,
-            changed.rotation,
+            change.equidistant,
+            change.radial,
+            change.rotation,
         )
 
     @property
@@ -143,7 +143,9 @@ class CycloidDisc:
     @property
     def unmodified(self) -> CycloidDisc:
         """The disc conjugate to the nominal ring."""
-        return _disc(self.lobe_count, self.ring_pitch_radius, self.eccentricity, self.tooth_radius)
+        return _disc_of(
+            self.lobe_count, self.ring_pitch_radius, self.eccentricity, self.tooth_radius
+        )
 
     @property
     def is_turned(self) -> bool:
@@ -293,7 +295,6 @@ class CycloidDisc:
 
 
 @lru_cache(maxsize=16)
-def _disc(*sizes: float) -> CycloidDisc:
-    """The disc of these sizes; many rooms ask for the same, and share what it has worked out."""
-    lobe_count, *lengths = sizes
+def _disc_of(*numbers: float) -> CycloidDisc:
+    lobe_count, *lengths = numbers
     return CycloidDisc(int(lobe_count), *lengths)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
 from cqdd_design import __version__
+from cqdd_design.environment import source_date
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
@@ -28,8 +28,7 @@ def provenance(design: Design | None) -> Provenance:
     """
     from cqdd_design.results import Provenance
 
-    epoch = os.environ.get("SOURCE_DATE_EPOCH", "")
-    moment = datetime.fromtimestamp(int(epoch), UTC) if epoch.isdecimal() else datetime.now(UTC)
+    moment = source_date() or datetime.now(UTC)
     return Provenance(
         version=__version__,
         time=moment.strftime("%Y-%m-%dT%H:%M:%SZ"),

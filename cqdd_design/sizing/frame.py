@@ -111,9 +111,9 @@ class Frame:
     bearings: tuple[Bearing, ...]
 
     @property
-    def rotor_inertia(self) -> float:
-        """Of the motor, kg m^2; zero where it is not known."""
-        return self.motor.rotor_inertia or 0.0
+    def rotor_inertia(self) -> float | None:
+        """Of the motor, kg m^2; None where it is not known."""
+        return self.motor.rotor_inertia
 
     @property
     def disc_torque(self) -> float:
@@ -162,7 +162,7 @@ def search_frame(requirements: Requirements, motor: Motor | None = None) -> Fram
     ------
     InfeasibleError
         When the requirements leave no room for any catalogue part, or name a material without a
-        strength; the message names the key.
+        strength or a geared actuator as the motor; the message names the key.
     """
     template = _template(requirements)
     reducer, pins = template.reducer, template.reducer.output_pins
@@ -181,7 +181,7 @@ def search_frame(requirements: Requirements, motor: Motor | None = None) -> Fram
         equidistant=reducer.modification.equidistant,
         radial=reducer.modification.radial,
         relief_clearance=reducer.ring.relief_clearance,
-        wire_radius=0.5 * template.edm.wire_diameter + template.edm.spark_gap,
+        wire_radius=template.edm.wire_offset,
         default_clearance=pins.hole_clearance,
         clocking=pins.hole_clocking,
         most_thickness=most,
@@ -194,10 +194,19 @@ def search_frame(requirements: Requirements, motor: Motor | None = None) -> Fram
         disc_density=disc.density,
         ring_density=ring.density,
         pin_density=pin.density,
-        motor=motor or find_motor(requirements.motor),
+        motor=_bare_motor(motor or find_motor(requirements.motor)),
         pin_sizes=sizes,
         bearings=cam_bearings(requirements, most, spacing, sizes[0].mean_diameter),
     )
+
+
+def _bare_motor(motor: Motor) -> Motor:
+    if motor.torque_at != "motor":
+        raise InfeasibleError(
+            f"requirements.motor '{motor.name}' is a geared actuator, whose torque and inertia "
+            "count at its output; name a bare motor, such as 'CubeMars RO100 KV55'."
+        )
+    return motor
 
 
 def _template(requirements: Requirements) -> Design:

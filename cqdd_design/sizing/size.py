@@ -68,6 +68,7 @@ def size(
     return SizingResult(
         design=design.design,
         checks=design.checks,
+        warnings=design.warnings,
         objective=design.objective,
         alternatives=alternatives,
         candidates_screened=found.screened,

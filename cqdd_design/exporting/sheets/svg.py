@@ -27,7 +27,7 @@ from cqdd_design.geometry.ring import ring_contour, ring_pins
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
     from cqdd_design.machine import Machine
 
 STYLE = """\

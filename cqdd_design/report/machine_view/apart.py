@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from cqdd_design.machine import Machine
-    from cqdd_design.report.machine_view.pictures import MachineViews
-    from cqdd_design.report.machine_view.viewer_data import ViewerData
+    from cqdd_design.report.machine_view.model import ViewerData
+    from cqdd_design.report.machine_view.stills import MachineViews
 
 
 @dataclass(frozen=True)
