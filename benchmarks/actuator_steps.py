@@ -40,7 +40,9 @@ from cqdd_design.actuator.packing import (
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Sine, Wall
 from cqdd_design.actuator.simulate import run_compiled, simulate
+from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import load_design
+from cqdd_design.machine import resolve
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 DESIGN = REPOSITORY / "designs" / "cqdd-10.toml"
@@ -268,7 +270,7 @@ def over_sets(one: ActuatorParameters) -> list[tuple[str, str, str]]:
 
 def measure() -> list[tuple[str, str, str]]:
     """Rows of (what, measured, goal)."""
-    one = actuator_parameters(load_design(DESIGN), seed=1)
+    one = actuator_parameters(resolve(load_design(DESIGN)), Specimen(seed=1))
     rows = []
     for name, scene in SCENES.items():
         kernel_rate(one, scene, 1000, 1)

@@ -37,13 +37,15 @@ def compare(
 ) -> None:
     """The same loads on a compound planetary, rated by ISO 6336."""
     from cqdd_design.design import load_design
+    from cqdd_design.machine import resolve
     from cqdd_design.planetary.kinematics import PlanetaryTeeth
     from cqdd_design.sizing.comparison import compare_with_planetary
     from cqdd_design.units import LENGTH
 
     counts = parse_whole_list("--teeth", teeth, 4, "12,36,22,70")
+    loaded = load_design(design)
     found = compare_with_planetary(
-        loaded := load_design(design),
+        resolve(loaded),
         teeth=PlanetaryTeeth(*counts),
         module=parse_positive("--module", module, LENGTH),
         face_width=parse_positive("--face-width", face_width, LENGTH),

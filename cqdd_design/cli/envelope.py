@@ -81,7 +81,7 @@ def json_ready(value: Any, where: str, warnings: list[str]) -> Any:
 
 
 def _body(command: str | None, design: Design | None) -> dict[str, Any]:
-    from cqdd_design.pipeline import provenance
+    from cqdd_design.roads.telling import provenance
 
     return {
         "schema_version": ENVELOPE_VERSION,

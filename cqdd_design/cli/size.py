@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cqdd_design.cli.options import Force, parse_option, parse_ratio
+from cqdd_design.cli.options import Force, OwnMotor, parse_option, parse_ratio, read_own_motor
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import checks_table, number, table, verdict
 from cqdd_design.errors import DesignError, UsageError
@@ -40,6 +40,7 @@ def size(
     motor: Annotated[
         str | None, typer.Option(metavar="NAME", help="Default CubeMars RO100 KV55.")
     ] = None,
+    motor_file: OwnMotor = None,
     discs: Annotated[
         int | None, typer.Option(metavar="N", help="Discs on the crank, 1 to 3; default 2.")
     ] = None,
@@ -63,8 +64,8 @@ def size(
     force: Force = False,
 ) -> None:
     """Requirements to a checked design file."""
-    from cqdd_design import pipeline
     from cqdd_design.exporting import read_kinds
+    from cqdd_design.roads.size import road_stages, size_and_write
     from cqdd_design.units import LENGTH, SPEED, TORQUE
 
     quantities = (
@@ -84,9 +85,14 @@ def size(
     wanted = _requirements(asked, requirements)
     if report:
         out.note_compilation()
-    stages = out.stages(pipeline.road_stages(kinds, report=report))
-    road = pipeline.size_and_write(
-        wanted, target, kinds=kinds, report=report, force=force, progress=stages
+    road = size_and_write(
+        wanted,
+        target,
+        motor=read_own_motor(motor_file),
+        kinds=kinds,
+        report=report,
+        force=force,
+        progress=out.stages(road_stages(kinds, report=report)),
     )
     out.say(*_lines(road.design, road.sizing))
     for check in road.sizing.checks:

@@ -46,11 +46,12 @@ def tolerance(
     """Toleranced gearboxes over a whole output turn: distributions and ranking."""
     from cqdd_design.design import load_design
     from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble, work_here
+    from cqdd_design.machine import resolve
     from cqdd_design.units import TORQUE
 
     asked_torque = parse_positive("--torque", torque, TORQUE)
     loaded = load_design(design)
-    ensemble = make_ensemble(loaded, torque=asked_torque, angles=angles, seed=seed)
+    ensemble = make_ensemble(resolve(loaded).design, torque=asked_torque, angles=angles, seed=seed)
     progress = out.counting("gearboxes")
     if scheduler is None:
         out.note_compilation()

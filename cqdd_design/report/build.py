@@ -116,7 +116,7 @@ def _drawings(source: _Source) -> Values:
 
 
 def _machine(source: _Source) -> Values:
-    found = source.results.machine
+    found = source.results.pictures
     return None if found is None else {"machine_views": found[0], "machine_viewer": found[1]}
 
 
@@ -235,7 +235,7 @@ CHAPTERS = (
         lambda source: {"planetary": planetary_view(source.results.planetary)},
     ),
     Chapter(
-        "edm.html", (("edm", "Wire EDM"),), lambda source: {"edm": edm_view(source.results.design)}
+        "edm.html", (("edm", "Wire EDM"),), lambda source: {"edm": edm_view(source.results.machine)}
     ),
     Chapter("bodies.html", (("inertia", "Inertia"), ("bom", "Bill of materials")), _bodies),
     Chapter("sizing.html", (("sizing", "Sizing"),), _sizing),

@@ -41,14 +41,14 @@ def millimetre_unit(ring_outer_diameter: float) -> float:
     return 1e-3 * min(max(ring_outer_diameter / _REFERENCE_RING, least), most)
 
 
-def lay_out(design: Design, cam_bearing: Bearing) -> Layout:
+def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
     """Lay out the machine around the discs of a design.
 
     Parameters
     ----------
     design : Design
     cam_bearing : Bearing
-        The catalogue row of the cam bearing, "auto" resolved.
+    motor : Motor
 
     Raises
     ------
@@ -65,32 +65,71 @@ def lay_out(design: Design, cam_bearing: Bearing) -> Layout:
     )
     unit = millimetre_unit(design.reducer.ring.outer_diameter)
     pack = _pack(design, cam_bearing, unit)
+    _refuse_wide_cam(design, cam_bearing)
+    _refuse_no_shaft(pack)
     core = _core_radius(pack)
-    pins = design.reducer.output_pins
-    wall = _pin_wall(pins.diameter, unit)
-    support = support_bearing(
-        2.0 * core,
-        max(0.4e-3, 0.16 * core),
-        min(cam_bearing.outer_diameter, 2.0 * (pins.circle_radius - 0.5 * pins.diameter - unit)),
-        2.0 * (pins.circle_radius - _counterbore(pin, unit) - wall - 2.3 * unit),
-    )
-    carrier = _carrier(design, pin, pack, support, core, unit)
-    register, row, missing = register_radius(design, pack, unit)
+    support, output = _seats(design, pack, pin, core, unit)
+    carrier = _carrier(design, pin, pack, support, output, core, unit)
+    register, row, missing = register_radius(motor, pack, unit)
     housing, seat_top = _housing(design, pack, carrier, support, unit, register, row)
-    motor = None
+    drawn = None
     if row is not None:
         weights = design.reducer.balance.counterweights
-        motor = lay_out_motor(row, pack, housing, support, unit, weights=weights)
+        drawn = lay_out_motor(row, pack, housing, support, unit, weights=weights)
     return Layout(
         unit=unit,
         pack=pack,
-        shaft=_shaft(pack, support, core, housing, seat_top, unit, motor),
+        shaft=_shaft(pack, support, core, housing, seat_top, unit, drawn),
         carrier=carrier,
         housing=housing,
         dowels=ring_dowels(design, pack, housing, unit),
-        motor=motor,
+        motor=drawn,
+        motor_row=motor,
         motor_missing=missing,
     )
+
+
+def seat_bearings(design: Design, cam_bearing: Bearing) -> tuple[ChosenBearing, ChosenBearing]:
+    """The bearings at both ends of the shaft, and of the carrier, as `lay_out` chooses them.
+
+    They are also told where the rest of the machine cannot be laid out: such a gearbox can still
+    be analysed. A shaft without room for its core counts with the least one.
+
+    Parameters
+    ----------
+    design : Design
+    cam_bearing : Bearing
+
+    Raises
+    ------
+    GeometryError
+        When the disc cannot exist.
+    """
+    unit = millimetre_unit(design.reducer.ring.outer_diameter)
+    pack = _pack(design, cam_bearing, unit)
+    core = max(_core_radius(pack), _least_core(pack))
+    return _seats(design, pack, output_pin(design.reducer.output_pins.diameter), core, unit)
+
+
+def _seats(
+    design: Design, pack: PackLayout, pin: OutputPin, core: float, unit: float
+) -> tuple[ChosenBearing, ChosenBearing]:
+    pins = design.reducer.output_pins
+    circle, radius = pins.circle_radius, 0.5 * pins.diameter
+    support = support_bearing(
+        2.0 * core,
+        max(0.4e-3, 0.16 * core),
+        min(pack.cam.bearing.outer_diameter, 2.0 * (circle - radius - unit)),
+        2.0 * (circle - _counterbore(pin, unit) - _pin_wall(pins.diameter, unit) - 2.3 * unit),
+    )
+    most_shoulder, around = _most_shoulder_radius(pack, unit), circle + radius
+    output = output_bearing(
+        2.0 * (around + _within(0.2 * unit, most_shoulder - around - unit, 1.2 * unit)),
+        most_shoulder,
+        2.0 * pack.ring_radius + 8.0 * unit,
+        unit,
+    )
+    return support, output
 
 
 def _refuse_small_sleeve(design: Design) -> None:
@@ -105,19 +144,11 @@ def _refuse_small_sleeve(design: Design) -> None:
 
 def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:
     reducer = design.reducer
-    pitch = reducer.disc_thickness + reducer.disc_spacing
-    most = pitch if reducer.disc_count > 1 else pitch + reducer.disc_spacing
-    if cam_bearing.width > most + 1e-9:
-        raise GeometryError(
-            f"cam_bearing {cam_bearing.designation} is {cam_bearing.width * 1e3:g} mm wide, more "
-            f"than the {most * 1e3:g} mm that disc_thickness and disc_spacing leave it; raise "
-            f"disc_thickness to {cam_bearing.width * 1e3:g} mm or choose a narrower bearing."
-        )
     reach = CycloidDisc.from_design(design).tip_distance + reducer.eccentricity
     ring_radius = 0.5 * reducer.ring.outer_diameter
     return PackLayout(
         disc_thickness=reducer.disc_thickness,
-        pitch=pitch,
+        pitch=reducer.disc_thickness + reducer.disc_spacing,
         top=reducer.pack_length,
         gap=reducer.disc_spacing,
         disc_count=reducer.disc_count,
@@ -129,16 +160,38 @@ def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:
     )
 
 
+def _refuse_wide_cam(design: Design, cam_bearing: Bearing) -> None:
+    reducer = design.reducer
+    pitch = reducer.disc_thickness + reducer.disc_spacing
+    most = pitch if reducer.disc_count > 1 else pitch + reducer.disc_spacing
+    if cam_bearing.width > most + 1e-9:
+        raise GeometryError(
+            f"cam_bearing {cam_bearing.designation} is {cam_bearing.width * 1e3:g} mm wide, more "
+            f"than the {most * 1e3:g} mm that disc_thickness and disc_spacing leave it; raise "
+            f"disc_thickness to {cam_bearing.width * 1e3:g} mm or choose a narrower bearing."
+        )
+
+
 def _core_radius(pack: PackLayout) -> float:
     """Radius of the round core that a cam bearing can pass on its way to its lobe.
 
     A third disc needs a loose cam, pressed on this core, whose wall must remain.
     """
+    return 0.5 * pack.cam.bearing.bore_diameter - pack.eccentricity - _core_wall(pack)
+
+
+def _core_wall(pack: PackLayout) -> float:
     bore = 0.5 * pack.cam.bearing.bore_diameter
-    wall = max(0.6e-3, 0.1 * bore) if pack.disc_count > 2 else max(0.03e-3, 0.02 * bore)
-    core = bore - pack.eccentricity - wall
-    least = _LEAST_CORE_SHARE * bore
-    if core < least:
+    return max(0.6e-3, 0.1 * bore) if pack.disc_count > 2 else max(0.03e-3, 0.02 * bore)
+
+
+def _least_core(pack: PackLayout) -> float:
+    return _LEAST_CORE_SHARE * 0.5 * pack.cam.bearing.bore_diameter
+
+
+def _refuse_no_shaft(pack: PackLayout) -> None:
+    bore, wall, least = 0.5 * pack.cam.bearing.bore_diameter, _core_wall(pack), _least_core(pack)
+    if _core_radius(pack) < least:
         most = max(bore - wall - least, 0.0)
         enough = 2.0 * (pack.eccentricity + wall) / (1.0 - _LEAST_CORE_SHARE)
         raise GeometryError(
@@ -147,12 +200,16 @@ def _core_radius(pack: PackLayout) -> float:
             f"{math.floor(most * 1e5) / 1e2:g} mm, or choose a bearing with a bore of at least "
             f"{math.ceil(enough * 1e4) / 10:g} mm."
         )
-    return core
 
 
 def _most_clamp_radius(pack: PackLayout) -> float:
     """Largest bore of the ring clamp that still presses on three quarters of the ring's wall."""
     return pack.ring_radius - 0.25 * (pack.ring_radius - pack.ledge_radius)
+
+
+def _most_shoulder_radius(pack: PackLayout, unit: float) -> float:
+    """Room for the shoulder of the carrier plate inside the ring clamp, m."""
+    return _most_clamp_radius(pack) - 0.3 * unit
 
 
 def _within(least: float, value: float, most: float) -> float:
@@ -176,6 +233,7 @@ def _carrier(
     pin: OutputPin,
     pack: PackLayout,
     support: ChosenBearing,
+    output: ChosenBearing,
     core: float,
     unit: float,
 ) -> CarrierLayout:
@@ -203,15 +261,7 @@ def _carrier(
     lowest = min(cap_bottom, shoulder_bottom - pin.head_height)
 
     clamp = max(2.5 * unit, pack.gap + 1.5 * unit)
-    most_shoulder = _most_clamp_radius(pack) - 0.3 * unit
-    around_pins = circle + 0.5 * diameter
-    output = output_bearing(
-        2.0 * (around_pins + _within(0.2 * unit, most_shoulder - around_pins - unit, 1.2 * unit)),
-        most_shoulder,
-        2.0 * pack.ring_radius + 8.0 * unit,
-        unit,
-    )
-    shoulder = min(output.shoulder_radius, most_shoulder)
+    shoulder = min(output.shoulder_radius, _most_shoulder_radius(pack, unit))
     if shoulder < 0.5 * output.bearing.bore_diameter + 0.05 * unit:
         raise GeometryError(
             f"output_pins.circle_radius {circle * 1e3:.6g} mm leaves no room for the carrier plate "

@@ -9,12 +9,12 @@ from typing import Any
 import pytest
 from report_browser import clipped, overlapping, probe, run_browser
 
-from cqdd_design import pipeline
 from cqdd_design.actuator.bench import run_bench
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.design import Design, load_design
-from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.machine import resolve
 from cqdd_design.report import ReportInput, build_report
+from cqdd_design.roads.telling import provenance
 from cqdd_design.sizing.comparison import compare_with_planetary
 
 pytestmark = pytest.mark.deep
@@ -46,14 +46,14 @@ def page(paper_design_file: Path) -> str:
     mapping = load_design(paper_design_file).to_mapping()
     mapping["requirements"]["duty"] = DUTY
     design = Design.from_mapping(mapping)
-    actuator = actuator_parameters(design)
-    analysis = analyse_gearbox(design)
+    actuator = actuator_parameters(resolve(design))
+    machine = resolve(design)
     return build_report(
         ReportInput(
-            design=design,
-            gearbox=analysis,
-            planetary=compare_with_planetary(design, analysis=analysis),
-            provenance=pipeline.provenance(design),
+            machine=machine,
+            gearbox=machine.analysis,
+            planetary=compare_with_planetary(machine),
+            provenance=provenance(design),
             bench=(actuator, run_bench(actuator, rated_current=20.0, beside_paper=True)),
         )
     )

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from report_browser import clipped, overlapping, probe, run_browser
 
-from cqdd_design import pipeline
 from cqdd_design.design import Design, Requirements, load_design
-from cqdd_design.gearbox import analyse_gearbox
 from cqdd_design.gearbox.loads import rigid_series
 from cqdd_design.gearbox.stages import Stages
+from cqdd_design.machine import resolve
 from cqdd_design.report import ReportInput, build_report, read_comments, weigh_if_possible
+from cqdd_design.roads.telling import provenance
 from cqdd_design.sizing import SizingResult, size
 from cqdd_design.sizing.comparison import compare_with_planetary
 
@@ -81,14 +81,14 @@ OTHERS: dict[str, dict[str, Any]] = {
 
 
 def report_of(design: Design, file: Path | None = None, sizing: SizingResult | None = None) -> str:
-    analysis = analyse_gearbox(design)
-    bodies, notes = weigh_if_possible(analysis.design, analysis.cam_bearing.bearing)
+    machine = resolve(design)
+    bodies, notes = weigh_if_possible(machine)
     return build_report(
         ReportInput(
-            design=design,
-            gearbox=analysis,
-            planetary=compare_with_planetary(design, analysis=analysis),
-            provenance=pipeline.provenance(design),
+            machine=machine,
+            gearbox=machine.analysis,
+            planetary=compare_with_planetary(machine),
+            provenance=provenance(design),
             comments={} if file is None else read_comments(file),
             bodies=bodies,
             notes=notes,

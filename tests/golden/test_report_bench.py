@@ -11,7 +11,6 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from cqdd_design import actuator_pipeline, pipeline
 from cqdd_design.actuator.bench import BenchResult, Metric, run_bench
 from cqdd_design.actuator.bench.gear import ARCMIN, DIAL, DIAL_RADIUS, dead_zone
 from cqdd_design.actuator.bench.metric import PAPER, is_near
@@ -35,7 +34,7 @@ from cqdd_design.actuator.operating import (
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.thermal import continuous_current, response, steady_state
 from cqdd_design.design import Design, load_design
-from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.machine import resolve
 from cqdd_design.report import ReportInput, build_report
 from cqdd_design.report.actuator.bench_charts import Response, bode, spectrum
 from cqdd_design.report.actuator.bench_figures import efficiency_maps
@@ -49,6 +48,8 @@ from cqdd_design.report.actuator.envelope import actuator_view, duration, senten
 from cqdd_design.report.actuator.parameter_rows import parameter_rows
 from cqdd_design.report.ink.axes import Labels, linear_axis, log_axis, thinned
 from cqdd_design.report.ink.svg import Figure, Words
+from cqdd_design.roads.bench import measured_actuator
+from cqdd_design.roads.telling import provenance
 from cqdd_design.sizing.comparison import compare_with_planetary
 
 PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
@@ -62,7 +63,7 @@ def design() -> Design:
 
 @pytest.fixture(scope="module")
 def actuator(design: Design) -> ActuatorParameters:
-    return actuator_parameters(design)
+    return actuator_parameters(resolve(design))
 
 
 @pytest.fixture(scope="module")
@@ -81,13 +82,13 @@ def page_of(
     bench: tuple[ActuatorParameters, BenchResult] | None = None,
     missing: str = "",
 ) -> str:
-    analysis = analyse_gearbox(design)
+    machine = resolve(design)
     return build_report(
         ReportInput(
-            design=design,
-            gearbox=analysis,
-            planetary=compare_with_planetary(design, analysis=analysis),
-            provenance=pipeline.provenance(design),
+            machine=machine,
+            gearbox=machine.analysis,
+            planetary=compare_with_planetary(machine),
+            provenance=provenance(design),
             bench=bench,
             bench_missing=missing,
         )
@@ -602,7 +603,7 @@ def test_a_motor_that_cannot_be_simulated_leaves_a_sentence(design: Design) -> N
     mapping = design.to_mapping()
     mapping["motor"]["name"] = "CubeMars AK10-9 V2 KV60"
     geared = Design.from_mapping(mapping)
-    found, missing = actuator_pipeline.measured_actuator(geared)
+    found, missing = measured_actuator(resolve(geared))
     assert found is None
     assert "is a geared actuator" in missing
     page = page_of(geared, missing=missing)

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from cqdd_design import pipeline
 from cqdd_design.design import Design, Requirements, load_design
-from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.machine import resolve
 from cqdd_design.report import ReportInput, build_report, read_comments, weigh
+from cqdd_design.roads.telling import provenance
 from cqdd_design.sizing import size
 from cqdd_design.sizing.comparison import compare_with_planetary
 
@@ -21,14 +21,14 @@ VOID = {"meta", "link", "br", "hr", "img", "input", "col", "circle", "line", "pa
 
 
 def input_for(design: Design, file: Path | None = None) -> ReportInput:
-    analysis = analyse_gearbox(design)
+    machine = resolve(design)
     return ReportInput(
-        design=design,
-        gearbox=analysis,
-        planetary=compare_with_planetary(design, analysis=analysis),
-        provenance=pipeline.provenance(design),
+        machine=machine,
+        gearbox=machine.analysis,
+        planetary=compare_with_planetary(machine),
+        provenance=provenance(design),
         comments={} if file is None else read_comments(file),
-        bodies=weigh(analysis.design, analysis.cam_bearing.bearing),
+        bodies=weigh(machine),
     )
 
 
@@ -195,7 +195,9 @@ def test_text_of_the_design_cannot_become_markup(paper_input: ReportInput) -> No
     mapping["reducer"]["friction"]["lubricant"] = "<script>alert('grease')</script>"
     design = Design.from_mapping(mapping)
     comments = {"reducer.eccentricity": "assumed: <img src=x onerror=alert(1)> & more"}
-    page = build_report(dataclasses.replace(paper_input, design=design, comments=comments))
+    page = build_report(
+        dataclasses.replace(paper_input, machine=resolve(design), comments=comments)
+    )
     assert "<script>alert(" not in page
     assert "&lt;script&gt;alert(" in page
     assert "<img" not in page

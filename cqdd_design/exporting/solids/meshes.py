@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from cqdd_design.design import Design
     from cqdd_design.exporting.job import ExportJob
     from cqdd_design.geometry.contours import FloatArray
-    from cqdd_design.solids.parts import Colour, Part
+    from cqdd_design.solids.part import Colour, Part
 
 _GENERATOR = f"cqdd-design {__version__}"
 _ZIP_TIME = (1980, 1, 1, 0, 0, 0)

@@ -7,7 +7,6 @@ from collections.abc import Container
 from dataclasses import dataclass
 
 from cqdd_design.actuator.bench.metric import PAPER
-from cqdd_design.catalog.motors import find_motor
 from cqdd_design.design import Design
 from cqdd_design.errors import CatalogError
 from cqdd_design.exporting.solids.bom import BomRow, bill_of_materials
@@ -75,7 +74,7 @@ def bodies_view(design: Design, bodies: Bodies) -> BodiesView:
     return BodiesView(
         rows=tuple(
             _part_row(row, by_name.get(row.part), inertia)
-            for row in bill_of_materials(design, bodies.parts)
+            for row in bill_of_materials(bodies.inertia.motor, bodies.parts)
         ),
         total_mass=with_unit(inertia.total.mass, "kg", 4),
         total_of="gearbox without motor" if inertia.motor_missing else "actuator",
@@ -189,7 +188,7 @@ def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
     def shown(value: float | None) -> str:
         return "not known" if value is None else significant(1e4 * value, 4)
 
-    estimated = "rotor inertia estimated" in find_motor(inertia.motor).note
+    estimated = "rotor inertia estimated" in inertia.motor.note
     printed_there = shown(PAPER["actuator_inertia"][0])
     return (
         (
@@ -200,7 +199,7 @@ def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
         (
             "rotor of the motor",
             shown(inertia.rotor_inertia),
-            f"{inertia.motor}{', an estimate' if estimated else ''}",
+            f"{inertia.motor.name}{', an estimate' if estimated else ''}",
         ),
         (
             "together, at the input",

@@ -17,9 +17,9 @@ from cqdd_design.report.ink.numbers import ARCMIN, significant, with_unit
 from cqdd_design.report.ink.svg import Figure, Words
 
 if TYPE_CHECKING:
-    from cqdd_design.gearbox.contact_analysis import ContactAnalysis
     from cqdd_design.gearbox.precision.orders import Order
     from cqdd_design.gearbox.precision.precision import Precision
+    from cqdd_design.machine.contact_analysis import ContactAnalysis
 
 _ORDERS = 8
 
