@@ -11,7 +11,6 @@ import contextlib
 import dataclasses
 import os
 import shutil
-import uuid
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -20,7 +19,8 @@ from cqdd_design.errors import UsageError
 from cqdd_design.exporting.job import ExportJob, Progress
 from cqdd_design.exporting.kinds import KINDS, read_kinds, stages
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
-from cqdd_design.files import WrittenFile, ensure_folder, refuse_overwrite
+from cqdd_design.exporting.staging import staging_folder
+from cqdd_design.files import WrittenFile, atomic_path, ensure_folder, refuse_overwrite
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.motor_file import MotorFile
@@ -97,31 +97,29 @@ def export(
     target = default_folder(design) if folder is None else folder
     tell = progress if progress is not None else _silent
     made = _missing(target)
-    staging = target / f".{design.name}-{uuid.uuid4().hex[:8]}"
     placed: list[WrittenFile] = []
     try:
-        ensure_folder(staging)
-        job = ExportJob(design, staging, tell, options, seed, calibration or {}, motor)
-        for kind in wanted:
-            tell(f"writing {kind}")
-            placed += [
-                dataclasses.replace(one, path=target / one.path.relative_to(staging))
-                for one in KINDS[kind].load()(job)
+        with staging_folder(target, design.name) as staging:
+            job = ExportJob(design, staging, tell, options, seed, calibration or {}, motor)
+            for kind in wanted:
+                tell(f"writing {kind}")
+                placed += [
+                    dataclasses.replace(one, path=target / one.path.relative_to(staging))
+                    for one in KINDS[kind].load()(job)
+                ]
+            for one in placed:
+                refuse_overwrite(one.path, force=force or folder is None)
+            below = {one.path.parent for one in placed} - {target}
+            made = [
+                *dict.fromkeys(lost for path in sorted(below) for lost in _missing(path)),
+                *made,
             ]
-        for one in placed:
-            refuse_overwrite(one.path, force=force or folder is None)
-        below = {one.path.parent for one in placed} - {target}
-        made = [*dict.fromkeys(lost for path in sorted(below) for lost in _missing(path)), *made]
-        for path in sorted(below):
-            ensure_folder(path)
-        for one in placed:
-            _move(staging / one.path.relative_to(target), one.path)
-        made = []
-    except UsageError as error:
-        # Writers know only the staging folder, readers of the message only the target.
-        raise type(error)(str(error).replace(str(staging), str(target))) from error
+            for path in sorted(below):
+                ensure_folder(path)
+            for one in placed:
+                _move(staging / one.path.relative_to(target), one.path)
+            made = []
     finally:
-        shutil.rmtree(staging, ignore_errors=True)
         for empty in made:
             with contextlib.suppress(OSError):
                 empty.rmdir()
@@ -139,7 +137,11 @@ def _missing(folder: Path) -> list[Path]:
 
 def _move(source: Path, target: Path) -> None:
     try:
-        os.replace(source, target)
+        if target.is_symlink():
+            with atomic_path(target) as place:
+                shutil.copyfile(source, place)
+        else:
+            os.replace(source, target)
     except OSError as error:
         raise UsageError(
             f"cannot write {target}: {error.strerror or error}; choose another place with --out."

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cqdd_design.errors import CqddError, DependencyError, ReadBackError, UsageError
-from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.files import WrittenFile, parse_json, read_text_file, write_atomically
 from cqdd_design.torque.features.matrix import PHYSICAL
 
 if TYPE_CHECKING:
@@ -119,9 +119,9 @@ def require_settings(path: Path, dt: float, position_gain: float, velocity_gain:
         ("velocity gain", "velocity_gain_Nms_per_rad", velocity_gain),
     )
     try:
-        content = json.loads(path.read_text("utf-8"))
+        content = parse_json(read_text_file(path, 1_000_000), path)
         trained = [float(content[key]) for _, key, _ in given]
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError) as error:
         raise UsageError(f"{path} holds no settings of an exported torque network.") from error
     for (name, _, value), known in zip(given, trained, strict=True):
         if not math.isclose(value, known, rel_tol=1e-6, abs_tol=1e-12):
