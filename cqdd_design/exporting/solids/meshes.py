@@ -13,7 +13,7 @@ import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from xml.sax.saxutils import quoteattr
+from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
@@ -139,7 +139,7 @@ def _model_xml(design: Design, parts: Sequence[Part]) -> str:
         '<?xml version="1.0" encoding="UTF-8"?>\n'
         '<model unit="millimeter" xml:lang="en-US" '
         'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">\n'
-        f'<metadata name="Title">{_escape(design.name)}</metadata>\n'
+        f'<metadata name="Title">{escape(design.name)}</metadata>\n'
         f'<metadata name="Application">{_GENERATOR}</metadata>\n'
         f'<metadata name="Description">design sha256 {design.sha256}</metadata>\n'
         f'<resources>\n<basematerials id="1">{materials}</basematerials>\n'
@@ -297,7 +297,3 @@ def _hex(colour: Colour) -> str:
 
 def _number(value: float) -> str:
     return f"{round(float(value), 9) + 0.0:.9g}"
-
-
-def _escape(text: str) -> str:
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
