@@ -18,6 +18,7 @@ from pydantic import ValidationInfo, model_validator
 
 from cqdd_design.design.fields import (
     BearingName,
+    FreeText,
     FrozenModel,
     MaterialName,
     Share,
@@ -116,7 +117,7 @@ class ReducerFriction(FrozenModel):
 
     tooth: Annotated[float, Share(0.0, 1.0, "a coefficient of friction")] = 0.08
     pin: Annotated[float, Share(0.0, 1.0, "a coefficient of friction")] = 0.08
-    lubricant: str = "NLGI 2 grease"
+    lubricant: FreeText = "NLGI 2 grease"
 
 
 class Balance(FrozenModel):

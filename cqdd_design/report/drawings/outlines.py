@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from cqdd_design.catalog.bearings import Bearing
@@ -85,10 +84,13 @@ class Outlines:
 
     def pin_angles(self, crank_angle: float) -> list[float]:
         """Angles of the output pins in the fixed frame, rad."""
-        count = self.stages.pin_count
-        turn = float(kinematics.carrier_angle(self.stages.lobe_count, crank_angle))
-        first = turn + self.stages.hole_clocking
-        return [first + 2.0 * math.pi * j / count for j in range(count)]
+        angles = kinematics.output_pin_angles(
+            self.stages.lobe_count,
+            self.stages.pin_count,
+            self.stages.hole_clocking,
+            [crank_angle],
+        )
+        return [float(angle) for angle in angles[0]]
 
     def ring_shapes(self, view: View) -> list[str]:
         """The ring and its separate pins."""

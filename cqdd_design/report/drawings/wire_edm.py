@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from cqdd_design.design import Design
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts
-from cqdd_design.exporting.edm.wire_path import wire_offset
 from cqdd_design.report.ink.numbers import decimals, significant, with_unit
 
 
@@ -28,7 +27,7 @@ def edm_view(design: Design) -> EdmView:
     return EdmView(
         lead=(
             f"Arcs follow the exact curve within {with_unit(edm.profile_tolerance * 1e6, 'um')}; "
-            f"the wire's centre runs {with_unit(wire_offset(edm) * 1e3, 'mm')} beside it. Every "
+            f"the wire's centre runs {with_unit(edm.wire_offset * 1e3, 'mm')} beside it. Every "
             "file is read back from disk and measured so before it gets its name."
         ),
         rows=tuple(_row(flat) for flat in flats),

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from cqdd_design.design import Design
+from cqdd_design.design import LARGEST_FILE, Design
 from cqdd_design.design.reducer import PIN_CIRCLE_SHARE, RING_WALL
 from cqdd_design.design.requirements import (
     DEFAULT_CONTINUOUS_SHARE,
     DEFAULT_PEAK_MOST,
     DEFAULT_PEAK_PER_RATIO,
 )
+from cqdd_design.files import read_text_file
 from cqdd_design.report.ink.numbers import quantity_text
 from cqdd_design.report.judgement.check_rows import printed
 from cqdd_design.report.judgement.labels import GROUPS, Label, label_of
@@ -78,7 +79,7 @@ def read_comments(path: Path) -> dict[str, str]:
     """
     import tomlkit
 
-    return dict(_comments(tomlkit.parse(path.read_text(encoding="utf-8")), ""))
+    return dict(_comments(tomlkit.parse(read_text_file(path, LARGEST_FILE)), ""))
 
 
 def _comments(table: Mapping[str, Any], prefix: str) -> Iterator[tuple[str, str]]:

@@ -84,10 +84,10 @@ def torque_page(results: EvaluationResult, *, date: str = "") -> str:
     return page.render(
         torque=torque_view(results),
         facts=_facts(results),
-        title=str(results.data_facts.get("design", "Torque data")),
+        title=str(results.data.facts.get("design", "Torque data")),
         version=__version__,
         date=date,
-        data_sha256=results.data_sha256,
+        data_sha256=results.data.sha256,
     )
 
 
@@ -108,8 +108,8 @@ def torque_view(results: EvaluationResult) -> TorqueView:
 
 def _facts(results: EvaluationResult) -> tuple[tuple[str, str, str], ...]:
     headline = results.sets[0]
-    gains = f"{significant(results.position_gain)} / {significant(results.velocity_gain)}"
-    rate = f"at {significant(1.0 / results.dt)} Hz"
+    gains = f"{significant(results.data.position_gain)} / {significant(results.data.velocity_gain)}"
+    rate = f"at {significant(1.0 / results.data.dt)} Hz"
     return (
         ("Test episodes", str(len(headline.episodes)), f"set {headline.name}"),
         ("Samples scored", grouped(headline.samples), rate),

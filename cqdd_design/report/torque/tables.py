@@ -7,12 +7,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
 from cqdd_design.report.ink.numbers import MINUS, NONE, grouped, maybe, per_cent, significant
+from cqdd_design.torque.evaluation.behaviour import Behaviour
 from cqdd_design.torque.evaluation.estimators import BATCH
-from cqdd_design.torque.evaluation.evaluate import PAPER, Behaviour, EvaluationResult
+from cqdd_design.torque.evaluation.evaluate import EvaluationResult
+from cqdd_design.torque.evaluation.markdown import ends_shown
 from cqdd_design.torque.evaluation.metrics import REGIMES
+from cqdd_design.torque.evaluation.paper import PAPER
 from cqdd_design.torque.evaluation.ripple import BAND, FLANK_SEGMENT
 from cqdd_design.torque.evaluation.rollout import HOLD
-from cqdd_design.torque.evaluation.table import ends_shown
 
 if TYPE_CHECKING:
     from cqdd_design.torque.evaluation.bootstrap import Interval

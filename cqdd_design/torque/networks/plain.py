@@ -7,11 +7,9 @@ state's product with its bias.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cqdd_design.torque.data.episodes import FloatArray
 from cqdd_design.torque.networks.artefact import Artefact
-
-FloatArray = NDArray[np.float64]
 
 
 def scaled(artefact: Artefact, features: FloatArray) -> FloatArray:

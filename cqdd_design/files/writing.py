@@ -6,12 +6,14 @@ import contextlib
 import errno
 import hashlib
 import os
+import stat
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from cqdd_design.errors import UsageError
+from cqdd_design.files.reading import irregular
 
 
 @dataclass(frozen=True)
@@ -58,11 +60,37 @@ def ensure_folder(folder: Path) -> Path:
 
 
 def refuse_overwrite(path: Path, *, force: bool) -> None:
-    """Raise a `UsageError` when `path` exists and `force` is not set."""
+    """Raise a `UsageError` when `path` exists and `force` is not set.
+
+    What is no file (a folder, a device, a pipe) is not replaced with `force` either, nor a link
+    to one or to nothing; through a link to a file, that file is replaced.
+    """
+    _replaceable(path)
     if path.exists() and not force:
         raise UsageError(
             f"{path} exists already; add --force to replace it or choose another --out."
         )
+
+
+def _replaceable(path: Path) -> Path:
+    """The regular file, standing or to be, that is meant by `path`: the end of a link."""
+    try:
+        mode = os.stat(path).st_mode
+    except OSError as error:
+        if path.is_symlink():
+            raise UsageError(
+                f"cannot write {path}: it is a link to {os.readlink(path)}, which does not exist; "
+                "remove it or choose another name with --out."
+            ) from None
+        if isinstance(error, FileNotFoundError):
+            return path
+        raise _refusal(path, error) from error
+    if not stat.S_ISREG(mode):
+        raise UsageError(
+            f"cannot write {path}: it is {irregular(mode)}, which is never replaced; "
+            "choose another name with --out."
+        )
+    return path.resolve() if path.is_symlink() else path
 
 
 @contextlib.contextmanager
@@ -71,7 +99,9 @@ def atomic_path(path: Path) -> Iterator[Path]:
 
     For writers that insist on opening the file themselves. The temporary name keeps the suffix,
     because several CAD writers choose their format by it. On any error nothing is left behind.
+    A link is followed, and what is no file is refused.
     """
+    path = _replaceable(path)
     ensure_folder(path.parent)
     try:
         handle, name = tempfile.mkstemp(

@@ -15,12 +15,13 @@ from typing import Any
 import numpy as np
 
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.networks.artefact import Differentiator, WeightArray
+from cqdd_design.torque.features.acceleration import Differentiator
+from cqdd_design.torque.networks.artefact import WeightArray
 from cqdd_design.torque.networks.modules import Model, Network, require_torch
 from cqdd_design.torque.training.checkpoint import Checkpoint
-from cqdd_design.torque.training.prepared import Prepared, Scaling
 from cqdd_design.torque.training.recipe import Choice, EpochResult, Recipe
 from cqdd_design.torque.training.schedule import OneCycle
+from cqdd_design.torque.training.tensors import Prepared, Scaling
 
 CHUNK = 50
 """Samples after which the gradient is cut when streaming."""
@@ -241,19 +242,13 @@ class Trainer:
 
     def checkpoint(self, identity: Mapping[str, Any], facts: Mapping[str, Any]) -> Checkpoint:
         """Where this training stands."""
-        moments: dict[str, dict[str, WeightArray]] = {"exp_avg": {}, "exp_avg_sq": {}}
-        for name, tensor in self.tensors.items():
-            for key, kept in moments.items():
-                own = self.optimiser.state.get(tensor)
-                value = np.zeros(tuple(tensor.shape)) if not own else own[key].cpu().numpy()
-                kept[name] = np.array(value, np.float32)
         return Checkpoint(
             identity=identity,
             epoch=self.state.epoch,
             step=self.state.step,
             weights=self.network.weights(),
-            first_moment=moments["exp_avg"],
-            second_moment=moments["exp_avg_sq"],
+            first_moment=self._moment("exp_avg"),
+            second_moment=self._moment("exp_avg_sq"),
             best=dict(self.state.best),
             best_rmse=self.state.best_rmse,
             log=tuple(self.state.log),
@@ -261,11 +256,18 @@ class Trainer:
             facts={**facts, "updates": self._updates()},
         )
 
+    def _moment(self, key: str) -> dict[str, WeightArray]:
+        """A moment of every weight by the optimiser's name of it; zero before the first step."""
+        state, found = self.optimiser.state, {}
+        for name, tensor in self.tensors.items():
+            value = state[tensor][key].cpu().numpy() if state.get(tensor) else 0.0
+            found[name] = np.array(np.broadcast_to(value, tuple(tensor.shape)), np.float32)
+        return found
+
     def _updates(self) -> int:
-        for tensor in self.tensors.values():
-            own = self.optimiser.state.get(tensor)
-            return int(own["step"]) if own else 0
-        return 0
+        """Steps that the optimiser has made, the same of every weight."""
+        own = self.optimiser.state.get(next(iter(self.tensors.values())))
+        return int(own["step"]) if own else 0
 
     def resume(self, checkpoint: Checkpoint) -> None:
         """Go on where a checkpoint stands."""

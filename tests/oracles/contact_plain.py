@@ -1,4 +1,4 @@
-"""Plain numpy twin of the compiled equilibrium, for tests and for reading.
+"""Plain numpy twin of the compiled contact equilibrium and of its force laws.
 
 It solves the same equations with dense matrices, whole arrays of contacts at once, and a plain
 halving line search on the energy; slow, and meant to be.
@@ -9,13 +9,73 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.contact import laws
+from cqdd_design.gearbox.contact.laws import LineLaw
 from cqdd_design.gearbox.contact.model import ContactModel
 
 FloatArray = NDArray[np.float64]
+
+
+def law_force(
+    law: LineLaw, coefficient: ArrayLike, series: ArrayLike, closed: ArrayLike
+) -> tuple[FloatArray, FloatArray]:
+    """Force and stiffness of contacts pressed together by `closed`: plain twin of
+    the compiled one.
+
+    Parameters
+    ----------
+    law, coefficient, series
+        As in :func:`laws.approach`; they broadcast with `closed`.
+    closed : array_like
+        Approach, m; at or below zero the contact is open and carries nothing.
+
+    Returns
+    -------
+    force, stiffness : array
+        N and N/m.
+    """
+    delta, c, s = np.broadcast_arrays(
+        np.asarray(closed, dtype=float),
+        np.asarray(coefficient, dtype=float),
+        np.asarray(series, dtype=float),
+    )
+    touching = delta > 0.0
+    safe = np.where(touching, delta, 1.0)
+    if law.model == "linear":
+        load, slope = safe / (c + s), c + s
+    elif law.model == "palmgren":
+        # In u = F^0.1 the law is a polynomial, c u^9 + s u^10: convex, so Newton's method from
+        # the upper bound never overshoots.
+        with np.errstate(divide="ignore", over="ignore"):
+            u = np.minimum((safe / c) ** (1.0 / 9.0), np.where(s > 0.0, safe / s, np.inf) ** 0.1)
+        for _ in range(60):
+            residual = u**9 * (c + s * u) - safe
+            step = residual / (u**8 * (9.0 * c + 10.0 * s * u))
+            u = u - step
+            if np.all(np.abs(step) <= 1e-16 * u):
+                break
+        load = u**10
+        slope = 0.9 * c / u + s
+    else:
+        limit = laws.force_limit(law, c)
+        edge = limit * (c + s - law.logarithm * np.log(limit))
+        steepest = c + s - law.logarithm * (np.log(limit) + 1.0)
+        load = np.minimum(safe / (c + s), limit)
+        for _ in range(100):
+            slope = c + s - law.logarithm * (np.log(load) + 1.0)
+            off = load * (c + s - law.logarithm * np.log(load)) - np.minimum(safe, edge)
+            new = np.clip(load - off / slope, 0.1 * load, limit)
+            done = np.all(np.abs(new - load) <= 1e-16 * load)
+            load = new
+            if done:
+                break
+        beyond = safe > edge
+        slope = np.where(beyond, steepest, c + s - law.logarithm * (np.log(load) + 1.0))
+        load = np.where(beyond, limit + (safe - edge) / steepest, load)
+    return np.where(touching, load, 0.0), np.where(touching, 1.0 / slope, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +109,7 @@ def solve_plain(
     half_play: FloatArray,
     torque: float,
 ) -> PlainState:
-    """Find the equilibrium of one state; arguments as in :func:`.equilibrium_kernel.solve_state`.
+    """Find the equilibrium of one state; arguments as in `equilibrium_kernel.solve_state`.
 
     Raises
     ------
@@ -79,7 +139,7 @@ def solve_plain(
         energy = -pull * q[2] + 0.5 * bed * float(q[:2] @ q[:2])
         for law, part, series in parts:
             c = coefficient[:, part]
-            force[:, part], stiff[:, part] = laws.force(law, c, series, delta[:, part])
+            force[:, part], stiff[:, part] = law_force(law, c, series, delta[:, part])
             energy += float(laws.stored_energy(law, c, series, force[:, part]).sum())
         gradient = np.einsum("dk,dks->s", force, closing)
         gradient[:2] += bed * q[:2]

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import floor, log10
 
 from cqdd_design.torque.evaluation.bootstrap import Interval
-from cqdd_design.torque.evaluation.evaluate import PAPER, EvaluationResult
+from cqdd_design.torque.evaluation.evaluate import EvaluationResult
+from cqdd_design.torque.evaluation.paper import PAPER
 from cqdd_design.torque.evaluation.scoring import SetResult
 
 OURS = "ours (simulated twin)"
@@ -36,12 +38,7 @@ def markdown(result: EvaluationResult) -> str:
 
 def paper_table() -> str:
     """The paper's Table II with the bias that its numbers imply."""
-    rows = []
-    for row in PAPER:
-        bias = NONE if row.bias is None else f"{row.bias:.2f}"
-        rows.append(
-            [row.title, f"{row.rmse:.2f}", bias, f"{row.variance:.2f}", f"{row.cycle_time:.2f}"]
-        )
+    rows = [row.cells(NONE) for row in PAPER]
     head = ["model", "RMSE, N·m", "size of bias, N·m ¹", "variance, N²·m² ²", "cycle time, µs"]
     notes = (
         "¹ Recomputed: RMSE² less variance. ² Printed there in N·m. Measured on hardware that "
@@ -75,8 +72,6 @@ def ends_shown(value: Interval | None, factor: float = 1.0) -> tuple[str, str]:
 
 def _places(width: float) -> int:
     """Decimals that give the width of an interval two figures."""
-    from math import floor, log10
-
     return min(max(1 - floor(log10(width)), 0), 6) if width > 0.0 else 3
 
 

@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.data.episodes import Episode
+from cqdd_design.torque.data.episodes import Episode, FloatArray
+from cqdd_design.torque.features.acceleration import Differentiator
 from cqdd_design.torque.features.matrix import feature_matrix
-from cqdd_design.torque.networks.artefact import Differentiator
 from cqdd_design.torque.networks.modules import require_torch
 
-FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 
