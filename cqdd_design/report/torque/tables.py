@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
 from cqdd_design.report.ink.numbers import MINUS, NONE, grouped, maybe, per_cent, significant
-from cqdd_design.torque.evaluation.behaviour import Behaviour
-from cqdd_design.torque.evaluation.estimators import BATCH
+from cqdd_design.torque.evaluation.behaviour import BATCH, Behaviour
 from cqdd_design.torque.evaluation.evaluate import EvaluationResult
 from cqdd_design.torque.evaluation.markdown import ends_shown
 from cqdd_design.torque.evaluation.metrics import REGIMES
