@@ -7,7 +7,6 @@ without numpy, and size a gearbox without a CAD kernel.
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -48,10 +47,10 @@ def provenance(design: Design | None) -> Provenance:
     The time is that of the environment variable ``SOURCE_DATE_EPOCH`` where it is set, so that
     the same input gives the same bytes. No design, no hash.
     """
+    from cqdd_design.environment import source_date
     from cqdd_design.results import Provenance
 
-    epoch = os.environ.get("SOURCE_DATE_EPOCH", "")
-    moment = datetime.fromtimestamp(int(epoch), UTC) if epoch.isdecimal() else datetime.now(UTC)
+    moment = source_date() or datetime.now(UTC)
     return Provenance(
         version=__version__,
         time=moment.strftime("%Y-%m-%dT%H:%M:%SZ"),
@@ -130,8 +129,9 @@ def size_and_write(
 
 def road_stages(kinds: tuple[str, ...], *, report: bool) -> int:
     """How often `size_and_write` tells its progress."""
-    solids = bool(set(kinds) - {"dxf", "svg"})
-    return SIZING_STAGES + len(kinds) + solids + (REPORT_STAGES if report else 0)
+    from cqdd_design.exporting import stages
+
+    return SIZING_STAGES + stages(kinds) + (REPORT_STAGES if report else 0)
 
 
 def _write_fresh(path: Path, design: Design) -> WrittenFile:

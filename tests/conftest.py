@@ -5,9 +5,13 @@ from __future__ import annotations
 import json
 import math
 import os
+import signal
+import socket
 import subprocess
 import sys
-from collections.abc import Callable, Mapping
+import tempfile
+import time
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +21,21 @@ import pytest
 import cqdd_design
 
 REPOSITORY = Path(__file__).resolve().parents[1]
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Compile the kernels once, on two cores, before workers start that would each compile them."""
+    workers = getattr(session.config.option, "numprocesses", None)
+    if not workers or session.config.option.collectonly:
+        return
+    script = Path(__file__).with_name("compile_kernels.py")
+    halves = [
+        subprocess.Popen([sys.executable, str(script), half], env=process_environment())
+        for half in ("gearbox", "actuator")
+    ]
+    for half in halves:
+        half.wait()  # what does not compile here is told by the tests that need it
 
 
 @dataclass(frozen=True)
@@ -37,11 +56,84 @@ class Finished:
 CommandLine = Callable[..., Finished]
 
 
+class WarmProcesses:
+    """Client of `warm_process.py`, which is started when the first process is asked for."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._server: subprocess.Popen[bytes] | None = None
+
+    def run(
+        self, arguments: list[str], folder: Path, environment: Mapping[str, str], timeout: float
+    ) -> Finished:
+        """Run the command line in a process forked from the server."""
+        if self._server is None:
+            self._start()
+        out, err = self._folder / "out", self._folder / "err"
+        request = {
+            "arguments": arguments,
+            "folder": str(folder),
+            "environment": dict(environment),
+            "out": str(out),
+            "err": str(err),
+        }
+        self._socket.sendall(json.dumps(request).encode() + b"\n")
+        process = int(self._answers.readline())
+        self._socket.settimeout(timeout)
+        try:
+            code = int(self._answers.readline())
+        except TimeoutError:
+            os.killpg(process, signal.SIGKILL)
+            self.stop()
+            raise subprocess.TimeoutExpired(arguments, timeout) from None
+        self._socket.settimeout(None)
+        return Finished(code, out.read_text(encoding="utf-8"), err.read_text(encoding="utf-8"))
+
+    def _start(self) -> None:
+        door = self._folder / "door"
+        door.unlink(missing_ok=True)
+        self._server = subprocess.Popen(
+            [sys.executable, str(Path(__file__).with_name("warm_process.py")), str(door)],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            env=process_environment(),
+        )
+        self._socket = socket.socket(socket.AF_UNIX)
+        while True:
+            try:
+                self._socket.connect(str(door))
+                break
+            except (FileNotFoundError, ConnectionRefusedError):
+                assert self._server.poll() is None, "the server of warm processes has ended"
+                time.sleep(0.02)
+        self._answers = self._socket.makefile("r")
+
+    def stop(self) -> None:
+        """End the server; a later run starts another."""
+        if self._server is not None:
+            self._answers.close()
+            self._socket.close()
+            self._server.kill()
+            self._server.wait()
+            self._server = None
+
+
+@pytest.fixture(scope="session")
+def warm_processes() -> Iterator[WarmProcesses]:
+    """One server for all tests of a worker."""
+    with tempfile.TemporaryDirectory() as folder:  # short: a socket's path has 107 bytes
+        server = WarmProcesses(Path(folder))
+        yield server
+        server.stop()
+
+
 @pytest.fixture
-def cqdd(tmp_path: Path) -> CommandLine:
+def cqdd(tmp_path: Path, request: pytest.FixtureRequest) -> CommandLine:
     """Run ``cqdd-design`` with the given arguments as a process, in an empty folder.
 
-    Every run is held to a promise: no traceback reaches the terminal without ``--debug``.
+    The process is forked from one that has its imports done, unless it gets an environment that
+    imports depend on. Every run is held to a promise: no traceback reaches the terminal without
+    ``--debug``.
     """
 
     def run(
@@ -50,18 +142,25 @@ def cqdd(tmp_path: Path) -> CommandLine:
         environment: Mapping[str, str] | None = None,
         timeout: float = 400.0,
     ) -> Finished:
-        done = subprocess.run(
-            [sys.executable, "-m", "cqdd_design", *map(str, arguments)],
-            cwd=folder,
-            env={**process_environment(), **(environment or {})},
-            capture_output=True,
-            encoding="utf-8",
-            timeout=timeout,
-            check=False,
-        )
+        words, given = [str(one) for one in arguments], environment or {}
+        surroundings = {**process_environment(), **given}
+        if hasattr(os, "fork") and not any(name.startswith(("PYTHON", "NUMBA")) for name in given):
+            warm: WarmProcesses = request.getfixturevalue("warm_processes")
+            done = warm.run(words, folder, surroundings, timeout)
+        else:
+            fresh = subprocess.run(
+                [sys.executable, "-m", "cqdd_design", *words],
+                cwd=folder,
+                env=surroundings,
+                capture_output=True,
+                encoding="utf-8",
+                timeout=timeout,
+                check=False,
+            )
+            done = Finished(fresh.returncode, fresh.stdout, fresh.stderr)
         if "--debug" not in arguments:
-            assert "Traceback" not in done.stderr, done.stderr
-        return Finished(done.returncode, done.stdout, done.stderr)
+            assert "Traceback" not in done.err, done.err
+        return done
 
     return run
 

@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Annotated, Any, TextIO
 
 import typer
 
-from cqdd_design.errors import UsageError
+from cqdd_design.environment import source_date
+from cqdd_design.errors import UsageError, printable
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -60,6 +61,7 @@ def command(function: Callable[..., int | None], name: str = "") -> Callable[...
     def run(*, as_json: bool, quiet: bool, debug: bool, **given: Any) -> int | None:
         # `debug` is read by `main` from the raw arguments: an error may come before parsing.
         out = Output(called, as_json=as_json, quiet=quiet)
+        source_date()  # a wrong one is told before the work, not after it
         try:
             return function(out, **given)
         finally:
@@ -138,7 +140,7 @@ class Output:
         """Narrate on stderr."""
         if not self.quiet:
             self.end_progress()
-            print(sentence, file=sys.stderr, flush=True)
+            print(printable(sentence), file=sys.stderr, flush=True)
 
     def note_compilation(self, *, simulation: bool = False) -> None:
         """Tell that the first run after installation compiles, where it does."""

@@ -96,7 +96,7 @@ def evaluate(
     files = []
     if report is not None:
         from cqdd_design.pipeline import provenance
-        from cqdd_design.report.torque.torque_view import torque_page
+        from cqdd_design.report.torque.page import torque_page
 
         date = provenance(None).time.partition("T")[0]
         files.append(write_atomically(report, torque_page(result, date=date), "report"))

@@ -236,11 +236,18 @@ def with_chosen_bearing(design: Design) -> Design:
     """Replace cam_bearing.designation "auto" by the catalogue's answer.
 
     A design that names its bearing is returned as it is.
+
+    Raises
+    ------
+    GeometryError
+        When the disc cannot exist.
+    InfeasibleError
+        When no bearing fits.
     """
     if design.reducer.cam_bearing.designation != AUTO:
         return design
+    disc = CycloidDisc.from_design(design)  # refuses what has no loads to choose by
     stages = Stages.from_design(design)
     peak = rigid_maxima(stages, design.requirements.peak_torque).cam_bearing_load
-    valley = CycloidDisc.from_design(design).valley_distance
-    chosen = cam_bearing(design, stages, peak, valley)
+    chosen = cam_bearing(design, stages, peak, disc.valley_distance)
     return design.replacing({"reducer.cam_bearing.designation": chosen.bearing.designation})

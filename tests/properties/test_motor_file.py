@@ -83,7 +83,7 @@ def test_cogging_of_the_file_must_be_overcome(motor):
         ('measured_between = "wire"', "none of line, phase"),
         ("pole_pairs = 0", "whole number from 1"),
         ("pole_pairs = 2.5", "whole number from 1"),
-        ("name = ", "is not TOML"),
+        ("name = ", "is not valid TOML"),
     ],
 )
 def test_impossible_motors_are_refused(motor, text, says):

@@ -11,7 +11,7 @@ import pytest
 
 from cqdd_design.actuator.scenario import Wall
 from cqdd_design.errors import UsageError
-from cqdd_design.report.torque.torque_view import torque_page
+from cqdd_design.report.torque.page import torque_page
 from cqdd_design.torque.data.episodes import DataSet, Episode
 from cqdd_design.torque.evaluation import bootstrap, metrics
 from cqdd_design.torque.evaluation.behaviour import Effort

@@ -409,7 +409,7 @@ def test_a_unit_of_another_kind_is_refused():
         ("[constants]\ncurrent_to_torque = 'x'", "must be a number"),
         ("[groups]\na = 3", "must be a table"),
         ("[group]\nmass = true", "group.mass must be"),
-        ("[columns", "is not TOML"),
+        ("[columns", "is not valid TOML"),
     ],
 )
 def test_broken_map_files_are_refused(tmp_path, text, told):

@@ -9,9 +9,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from cqdd_design.files.kernel_cache import numba
 
 FloatArray = NDArray[np.float64]
 

@@ -32,7 +32,7 @@ from cqdd_design.actuator.parameters import (
     MotorParameters,
     ThermalParameters,
 )
-from cqdd_design.errors import UsageError
+from cqdd_design.errors import DesignError, UsageError
 from cqdd_design.torque.data.episodes import DataSet, Episode, FloatArray, asked_torque
 from cqdd_design.torque.features.acceleration import Differentiator, acceleration
 
@@ -220,8 +220,11 @@ def actuator_from_dict(content: Mapping[str, Any]) -> ActuatorParameters:
     """
     try:
         parts = {part: _part(kind, content[part]) for part, kind in _PARTS.items()}
-        return ActuatorParameters(name=content["name"], mass=content["mass"], **parts)
-    except (KeyError, TypeError, ValueError) as error:
+        name, mass = content["name"], content["mass"]
+        if not isinstance(name, str) or not isinstance(mass, float | int | None):
+            raise TypeError("name is no text, or mass no number")
+        return ActuatorParameters(name=name, mass=mass, **parts)
+    except (KeyError, TypeError, ValueError, AttributeError, DesignError) as error:
         raise UsageError(
             f"these are no actuator's parameters of this program ({error}); write them anew."
         ) from error
@@ -229,6 +232,8 @@ def actuator_from_dict(content: Mapping[str, Any]) -> ActuatorParameters:
 
 def _part(kind: type[Any], content: Mapping[str, Any]) -> Any:
     def value(key: str, given: Any) -> Any:
+        if isinstance(given, bool) or not isinstance(given, int | float | list | None):
+            raise TypeError(f"{key} is no number")
         if isinstance(given, list):
             return np.asarray(given, np.int64 if key == "error_orders" else np.float64)
         return np.nan if given is None else given

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
+
+from cqdd_design.files.kernel_cache import numba
 
 FAST = {"contract", "arcp", "nsz"}
 LANES = 64
