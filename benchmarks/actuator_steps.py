@@ -166,8 +166,9 @@ def mujoco_rate(one: ActuatorParameters, step: float | None = None, runs: int = 
     import mujoco
 
     from cqdd_design.exporting.simulators.mjcf import model_text
+    from cqdd_design.exporting.simulators.mjcf_classes import MjcfActuator
 
-    model = mujoco.MjModel.from_xml_string(model_text(one, "actuator"))
+    model = mujoco.MjModel.from_xml_string(model_text(MjcfActuator(one, "actuator")))
     if step is not None:
         model.opt.timestep = step
     data = mujoco.MjData(model)

@@ -129,8 +129,9 @@ def size_and_write(
 
 def road_stages(kinds: tuple[str, ...], *, report: bool) -> int:
     """How often `size_and_write` tells its progress."""
-    solids = bool(set(kinds) - {"dxf", "svg"})
-    return SIZING_STAGES + len(kinds) + solids + (REPORT_STAGES if report else 0)
+    from cqdd_design.exporting import stages
+
+    return SIZING_STAGES + stages(kinds) + (REPORT_STAGES if report else 0)
 
 
 def _write_fresh(path: Path, design: Design) -> WrittenFile:

@@ -6,7 +6,7 @@ import functools
 from dataclasses import dataclass
 from typing import Literal
 
-from cqdd_design.catalog.reader import find, number, optional_number, read_rows
+from cqdd_design.catalog.reader import column, find, read_records
 
 BearingKind = Literal["ball", "crossed roller", "needle", "needle cage"]
 
@@ -32,42 +32,21 @@ class Bearing:
         Where the row comes from; computed ratings say so.
     """
 
-    designation: str
-    kind: BearingKind
-    bore_diameter: float
-    outer_diameter: float
-    width: float
-    dynamic_rating: float | None
-    static_rating: float | None
-    mass: float | None
-    source: str
-
-
-def _kind(designation: str) -> BearingKind:
-    if designation.startswith("THK R"):
-        return "crossed roller"
-    if designation.startswith("needle cage"):
-        return "needle cage"
-    return "needle" if designation.startswith("needle") else "ball"
+    designation: str = column("designation")
+    kind: BearingKind = column("kind")  # noqa: RUF009 (a field, as the others)
+    bore_diameter: float = column("d_mm", 1e-3)
+    outer_diameter: float = column("D_mm", 1e-3)
+    width: float = column("B_mm", 1e-3)
+    dynamic_rating: float | None = column("C_kN", 1e3)
+    static_rating: float | None = column("C0_kN", 1e3)
+    mass: float | None = column("mass_kg")
+    source: str = column("source")
 
 
 @functools.lru_cache(maxsize=1)
 def bearings() -> dict[str, Bearing]:
     """All bearings by designation, in file order."""
-    table = {}
-    for row in read_rows("bearings.csv"):
-        table[row["designation"]] = Bearing(
-            designation=row["designation"],
-            kind=_kind(row["designation"]),
-            bore_diameter=number(row, "d_mm", 1e-3),
-            outer_diameter=number(row, "D_mm", 1e-3),
-            width=number(row, "B_mm", 1e-3),
-            dynamic_rating=optional_number(row, "C_kN", 1e3),
-            static_rating=optional_number(row, "C0_kN", 1e3),
-            mass=optional_number(row, "mass_kg"),
-            source=row["source"],
-        )
-    return table
+    return {one.designation: one for one in read_records("bearings.csv", Bearing)}
 
 
 def find_bearing(designation: str) -> Bearing:

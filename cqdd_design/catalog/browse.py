@@ -21,9 +21,9 @@ _UNITS = {
     "yield_strength": ("MPa", 1e-6),
     "ultimate_strength": ("MPa", 1e-6),
     "fatigue_strength": ("MPa", 1e-6),
+    "pulsating_strength": ("MPa", 1e-6),
     "contact_allowable": ("MPa", 1e-6),
     "density": ("kg_m3", 1.0),
-    "thermal_conductivity": ("W_mK", 1.0),
     "speed_constant": ("rpm_V", 30.0 / 3.141592653589793),
     "no_load_speed": ("rpm", 30.0 / 3.141592653589793),
     "torque_constant_printed": ("Nm_A", 1.0),
@@ -35,7 +35,6 @@ _UNITS = {
     "peak_torque": ("Nm", 1.0),
     "rated_current": ("A", 1.0),
     "peak_current": ("A", 1.0),
-    "rated_voltage": ("V", 1.0),
     "dynamic_rating": ("N", 1.0),
     "static_rating": ("N", 1.0),
     "lower": ("um", 1e6),
@@ -44,7 +43,7 @@ _UNITS = {
     "up_to": ("mm", 1e3),
 }
 _LENGTH_ENDINGS = ("diameter", "diameter_max", "diameter_min", "length", "width", "height", "depth")
-_LENGTHS = {"thread_pitch", "socket_size"}
+_LENGTHS = {"socket_size"}
 
 #: The columns of a listing, after the name; showing a row gives all of its columns.
 COLUMNS = {

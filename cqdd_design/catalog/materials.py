@@ -5,8 +5,9 @@ from __future__ import annotations
 import functools
 import re
 from dataclasses import dataclass
+from typing import Literal
 
-from cqdd_design.catalog.reader import find, number, optional_number, read_rows
+from cqdd_design.catalog.reader import column, find, read_records
 
 
 @dataclass(frozen=True)
@@ -25,25 +26,35 @@ class Material:
         As the source prints it ("335 HB @538C", "58-64 HRC"); empty where unknown.
     fatigue_strength : float or None
         Endurance limit in rotating bending, Pa.
+    treatment : str
+        Heat or cold treatment ("annealed", "case-hardened"); empty where there is none to speak of.
+    form : {"stock", "fastener"}
+        Whether parts are made of it, or it is bought as screws and pins.
+    pulsating_strength : float or None
+        Bending stress that may come and go for ever, Pa, where it is tabled for the part itself:
+        shoulder screws, about S_u/4 for ground shoulder and fillet.
+    pulsating_basis : str
+        What it is tabled for, in words.
     contact_allowable : float or None
         Static contact pressure quoted by the source, Pa; for information.
-    thermal_conductivity : float or None
-        W/(m K).
     source : str
         Where the row comes from.
     """
 
-    name: str
-    youngs_modulus: float
-    poisson_ratio: float
-    density: float
-    yield_strength: float | None
-    ultimate_strength: float | None
-    hardness: str
-    fatigue_strength: float | None
-    contact_allowable: float | None
-    thermal_conductivity: float | None
-    source: str
+    name: str = column("name")
+    youngs_modulus: float = column("E_GPa", 1e9)
+    poisson_ratio: float = column("nu")
+    density: float = column("density_kg_m3")
+    yield_strength: float | None = column("yield_MPa", 1e6)
+    ultimate_strength: float | None = column("ultimate_MPa", 1e6)
+    hardness: str = column("hardness")
+    fatigue_strength: float | None = column("fatigue_MPa", 1e6)
+    treatment: str = column("treatment")
+    form: Literal["stock", "fastener"] = column("form")
+    pulsating_strength: float | None = column("pulsating_MPa", 1e6)
+    pulsating_basis: str = column("pulsating_basis")
+    contact_allowable: float | None = column("contact_allow_MPa", 1e6)
+    source: str = column("source")
 
     @property
     def brinell_hardness(self) -> float | None:
@@ -64,22 +75,7 @@ def _least_hardness(text: str, scale: str) -> float | None:
 @functools.lru_cache(maxsize=1)
 def materials() -> dict[str, Material]:
     """All materials by name, in file order."""
-    table = {}
-    for row in read_rows("materials.csv"):
-        table[row["name"]] = Material(
-            name=row["name"],
-            youngs_modulus=number(row, "E_GPa", 1e9),
-            poisson_ratio=number(row, "nu"),
-            density=number(row, "density_kg_m3"),
-            yield_strength=optional_number(row, "yield_MPa", 1e6),
-            ultimate_strength=optional_number(row, "ultimate_MPa", 1e6),
-            hardness=row["hardness"],
-            fatigue_strength=optional_number(row, "fatigue_MPa", 1e6),
-            contact_allowable=optional_number(row, "contact_allow_MPa", 1e6),
-            thermal_conductivity=optional_number(row, "k_W_mK"),
-            source=row["source"],
-        )
-    return table
+    return {one.name: one for one in read_records("materials.csv", Material)}
 
 
 def find_material(name: str) -> Material:

@@ -6,7 +6,9 @@ import functools
 import math
 from dataclasses import dataclass
 
-from cqdd_design.catalog.reader import find, optional_number, read_rows
+from cqdd_design.catalog.reader import column, find, read_records
+
+_RPM = 2.0 * math.pi / 60.0
 
 
 @dataclass(frozen=True)
@@ -27,8 +29,8 @@ class Motor:
         Number of pole pairs.
     rotor_inertia, mass : float or None
         kg m^2 and kg.
-    rated_torque, peak_torque, rated_current, peak_current, rated_voltage : float or None
-        N*m, A, V.
+    rated_torque, peak_torque, rated_current, peak_current : float or None
+        N*m, A.
     gear_ratio : float or None
         Of a geared actuator.
     outer_diameter, length, bore_diameter : float or None
@@ -42,33 +44,32 @@ class Motor:
         How sure the bore is; remarks; where the row comes from.
     """
 
-    name: str
-    kind: str
-    torque_at: str
-    speed_constant: float | None
-    torque_constant_printed: float | None
-    line_resistance: float | None
-    line_inductance: float | None
-    pole_pairs: int | None
-    rotor_inertia: float | None
-    mass: float | None
-    rated_torque: float | None
-    peak_torque: float | None
-    rated_current: float | None
-    peak_current: float | None
-    rated_voltage: float | None
-    gear_ratio: float | None
-    outer_diameter: float | None
-    length: float | None
-    bore_diameter: float | None
-    gap_diameter: float | None
-    stack_length: float | None
-    rotor_length: float | None
-    slot_depth: float | None
-    no_load_speed: float | None
-    bore_note: str
-    note: str
-    source: str
+    name: str = column("name")
+    kind: str = column("kind")
+    torque_at: str = column("torque_at")
+    speed_constant: float | None = column("kv_rpm_V", _RPM)
+    torque_constant_printed: float | None = column("kt_Nm_A")
+    line_resistance: float | None = column("r_ll_ohm")
+    line_inductance: float | None = column("l_ll_uH", 1e-6)
+    pole_pairs: int | None = column("pole_pairs")
+    rotor_inertia: float | None = column("rotor_J_kgm2")
+    mass: float | None = column("mass_kg")
+    rated_torque: float | None = column("t_rated_Nm")
+    peak_torque: float | None = column("t_peak_Nm")
+    rated_current: float | None = column("i_rated_A")
+    peak_current: float | None = column("i_peak_A")
+    gear_ratio: float | None = column("ratio")
+    outer_diameter: float | None = column("od_mm", 1e-3)
+    length: float | None = column("len_mm", 1e-3)
+    bore_diameter: float | None = column("bore_mm", 1e-3)
+    gap_diameter: float | None = column("gap_mm", 1e-3)
+    stack_length: float | None = column("stack_mm", 1e-3)
+    rotor_length: float | None = column("rotor_mm", 1e-3)
+    slot_depth: float | None = column("slot_mm", 1e-3)
+    no_load_speed: float | None = column("noload_rpm", _RPM)
+    bore_note: str = column("bore_note")
+    note: str = column("note")
+    source: str = column("source")
 
     @property
     def torque_constant(self) -> float | None:
@@ -81,40 +82,7 @@ class Motor:
 @functools.lru_cache(maxsize=1)
 def motors() -> dict[str, Motor]:
     """All motors by name, in file order."""
-    rpm = 2.0 * math.pi / 60.0
-    table = {}
-    for row in read_rows("motors.csv"):
-        pairs = optional_number(row, "pole_pairs")
-        table[row["name"]] = Motor(
-            name=row["name"],
-            kind=row["kind"],
-            torque_at=row["torque_at"],
-            speed_constant=optional_number(row, "kv_rpm_V", rpm),
-            torque_constant_printed=optional_number(row, "kt_Nm_A"),
-            line_resistance=optional_number(row, "r_ll_ohm"),
-            line_inductance=optional_number(row, "l_ll_uH", 1e-6),
-            pole_pairs=None if pairs is None else round(pairs),
-            rotor_inertia=optional_number(row, "rotor_J_kgm2"),
-            mass=optional_number(row, "mass_kg"),
-            rated_torque=optional_number(row, "t_rated_Nm"),
-            peak_torque=optional_number(row, "t_peak_Nm"),
-            rated_current=optional_number(row, "i_rated_A"),
-            peak_current=optional_number(row, "i_peak_A"),
-            rated_voltage=optional_number(row, "volt_V"),
-            gear_ratio=optional_number(row, "ratio"),
-            outer_diameter=optional_number(row, "od_mm", 1e-3),
-            length=optional_number(row, "len_mm", 1e-3),
-            bore_diameter=optional_number(row, "bore_mm", 1e-3),
-            gap_diameter=optional_number(row, "gap_mm", 1e-3),
-            stack_length=optional_number(row, "stack_mm", 1e-3),
-            rotor_length=optional_number(row, "rotor_mm", 1e-3),
-            slot_depth=optional_number(row, "slot_mm", 1e-3),
-            no_load_speed=optional_number(row, "noload_rpm", rpm),
-            bore_note=row["bore_note"],
-            note=row["note"],
-            source=row["source"],
-        )
-    return table
+    return {one.name: one for one in read_records("motors.csv", Motor)}
 
 
 def find_motor(name: str) -> Motor:

@@ -1,11 +1,12 @@
-"""Shoulder screws (ISO 7379 and the commercial small sizes), used as output pins."""
+"""Shoulder screws (ISO 7379 and the commercial small sizes), and the fit of output pins."""
 
 from __future__ import annotations
 
 import functools
 from dataclasses import dataclass
 
-from cqdd_design.catalog.reader import find, number, optional_number, read_rows
+from cqdd_design.catalog.fits import fit_limits
+from cqdd_design.catalog.reader import number, optional_number, read_rows
 from cqdd_design.errors import CatalogError
 
 
@@ -23,7 +24,7 @@ class ShoulderScrew:
         Nominal, m.
     shoulder_diameter_max, shoulder_diameter_min : float
         Limits of the ground shoulder, m (f9 for metric screws; nominal where the source has none).
-    thread_pitch, head_diameter, head_height, thread_length, socket_size : float or None
+    head_diameter, head_height, thread_length, socket_size : float or None
         m; None where the source gives none.
     standard_lengths : str
         Range of shoulder lengths, as printed, mm.
@@ -36,7 +37,6 @@ class ShoulderScrew:
     shoulder_diameter: float
     shoulder_diameter_max: float
     shoulder_diameter_min: float
-    thread_pitch: float | None
     head_diameter: float | None
     head_height: float | None
     thread_length: float | None
@@ -47,7 +47,7 @@ class ShoulderScrew:
     @property
     def mean_diameter(self) -> float:
         """Mean of the shoulder's limits, m: what a fit is measured to."""
-        return 0.5 * (self.shoulder_diameter_max + self.shoulder_diameter_min)
+        return 0.5 * (self.shoulder_diameter_min + self.shoulder_diameter_max)
 
 
 @functools.lru_cache(maxsize=1)
@@ -63,7 +63,6 @@ def shoulder_screws() -> dict[str, ShoulderScrew]:
             shoulder_diameter=nominal,
             shoulder_diameter_max=optional_number(row, "d_max_mm", 1e-3) or nominal,
             shoulder_diameter_min=optional_number(row, "d_min_mm", 1e-3) or nominal,
-            thread_pitch=optional_number(row, "pitch_mm", 1e-3),
             head_diameter=optional_number(row, "head_d_mm", 1e-3),
             head_height=optional_number(row, "head_h_mm", 1e-3),
             thread_length=optional_number(row, "thread_len_mm", 1e-3),
@@ -98,6 +97,25 @@ def find_shoulder_screw(diameter: float) -> ShoulderScrew:
     )
 
 
-def find_screw_by_name(name: str) -> ShoulderScrew:
-    """The shoulder screw called `name` (for the catalogue command)."""
-    return find(name, shoulder_screws(), "shoulder screw")
+def pin_diameter_limits(diameter: float) -> tuple[float, float]:
+    """Least and greatest real diameter of an output pin of a nominal size, m.
+
+    From the catalogue's shoulder screw of that size, else the f9 limits that such screws have.
+
+    Examples
+    --------
+    >>> [round(1e3 * d, 3) for d in pin_diameter_limits(4e-3)]
+    [3.96, 3.99]
+    """
+    try:
+        screw = find_shoulder_screw(diameter)
+    except CatalogError:
+        zone = fit_limits("f9", diameter)
+        return diameter + zone.lower, diameter + zone.upper
+    return screw.shoulder_diameter_min, screw.shoulder_diameter_max
+
+
+def mean_pin_diameter(diameter: float) -> float:
+    """Mean of the limits of an output pin of a nominal size, to which hole clearances count, m."""
+    least, greatest = pin_diameter_limits(diameter)
+    return 0.5 * (least + greatest)

@@ -9,9 +9,7 @@ import typer
 
 from cqdd_design.cli.options import Calibrated, Force, OwnMotor, parse_positive, read_own_motor
 from cqdd_design.cli.session import Output, read_factors
-
-WITHOUT_SOLIDS = {"dxf", "svg", "edm", "gcode", "mjcf", "urdf", "card", "bam"}
-"""Kinds that need no parts of the machine."""
+from cqdd_design.exporting.kinds import kinds_for, read_kinds, stages
 
 
 def export(
@@ -25,8 +23,7 @@ def export(
         typer.Option(
             "--to",
             metavar="LIST",
-            help="Kinds: dxf, edm, gcode, step, stl, 3mf, glb, svg, bom; "
-            "mjcf, urdf, card, bam for simulators.",
+            help=f"Kinds: {kinds_for('makers')}; {kinds_for('simulators')} for simulators.",
         ),
     ] = "dxf,step",
     folder: Annotated[
@@ -69,7 +66,7 @@ def export(
 ) -> int:
     """Files for makers (DXF, EDM, STEP, ...) and simulators."""
     from cqdd_design.design import load_design
-    from cqdd_design.exporting import ExportOptions, read_kinds
+    from cqdd_design.exporting import ExportOptions
     from cqdd_design.exporting import export as write
     from cqdd_design.units import LENGTH
 
@@ -89,13 +86,12 @@ def export(
         return _several(out, design, kinds, folder, more, workers=workers, force=force)
     loaded = load_design(design[0])
     factors = read_factors(out, calibration, loaded)
-    stages = out.stages(len(kinds) + bool(set(kinds) - WITHOUT_SOLIDS))
     files = write(
         loaded,
         kinds,
         folder,
         force=force,
-        progress=stages,
+        progress=out.stages(stages(kinds)),
         options=options,
         seed=seed,
         calibration=factors,

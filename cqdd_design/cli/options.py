@@ -43,8 +43,6 @@ BenchSeed = Annotated[
     int | None, typer.Option(min=0, help="Of one drawn gearbox; default perfect parts.")
 ]
 
-LEAST_RATIO, MOST_RATIO = 4, 119
-
 
 def parse_ratio(text: str) -> int:
     """The whole ratio of ``--ratio``.
@@ -54,6 +52,8 @@ def parse_ratio(text: str) -> int:
     UsageError
         With the range and the nearest ratio, for anything else.
     """
+    from cqdd_design.design.requirements import LEAST_RATIO, MOST_RATIO
+
     allowed = (
         f"a reduction is the number of lobes on the disc, "
         f"a whole number from {LEAST_RATIO} to {MOST_RATIO}"

@@ -92,6 +92,8 @@ def size(
     for check in road.sizing.checks:
         if check.status == "warn":
             out.warn(f"{check.id}: {check.remedy}.")
+    for sentence in road.sizing.warnings:
+        out.warn(sentence)
     out.wrote(road.files)
     out.document(
         road.sizing.to_dict(),
@@ -164,7 +166,9 @@ def _choices(sizing: SizingResult) -> list[list[str]]:
             [
                 design.name,
                 number(1e3 * objective.mass),
-                number(1e6 * objective.reflected_inertia),
+                "-"
+                if objective.reflected_inertia is None
+                else number(1e6 * objective.reflected_inertia),
                 f"{objective.torque_reserve:.2f}",
                 number(1e3 * reducer.ring_pitch_radius),
                 number(1e3 * reducer.eccentricity),

@@ -14,8 +14,6 @@ from cqdd_design.cli.torque_actuator import data_actuator
 from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from cqdd_design.torque.evaluation.bootstrap import Interval
     from cqdd_design.torque.evaluation.evaluate import EvaluationResult
     from cqdd_design.torque.evaluation.scoring import SetResult
@@ -69,6 +67,8 @@ def evaluate(
     """Score networks and baselines on held-out episodes, with intervals, beside the paper."""
     from cqdd_design.files import refuse_overwrite, write_atomically
     from cqdd_design.torque.data.episodes import read_data
+    from cqdd_design.torque.evaluation.behaviour import Effort
+    from cqdd_design.torque.evaluation.documents import result_dict
     from cqdd_design.torque.evaluation.evaluate import evaluate as measure
     from cqdd_design.torque.evaluation.lineup import line_up, read_networks
 
@@ -80,13 +80,8 @@ def evaluate(
     known = read_data(data)
     networks = read_networks(model or [], known)
     actuator = None if design is None else data_actuator(out, known, design, None, calibration)
-    lineup = line_up(
-        known,
-        networks,
-        parse_names(sets),
-        split_seed=split_seed,
-        actuator=actuator,
-    )
+    names = parse_names(sets)
+    lineup = line_up(known, networks, names, split_seed=split_seed, actuator=actuator)
     for sentence in lineup.warnings:
         out.warn(sentence)
     work = len(lineup.estimators) * (len(lineup.sets) + 1)
@@ -95,21 +90,18 @@ def evaluate(
         lineup.sets,
         lineup.estimators,
         seen=lineup.seen,
-        leaked=lineup.leaked,
-        draws=draws,
-        seed=seed,
-        rollouts=rollouts,
+        effort=Effort(draws=draws, seed=seed, rollouts=rollouts),
         progress=out.stages(work),
     )
     files = []
     if report is not None:
         from cqdd_design.pipeline import provenance
-        from cqdd_design.report.torque.torque_view import torque_page
+        from cqdd_design.report.torque.page import torque_page
 
         date = provenance(None).time.partition("T")[0]
         files.append(write_atomically(report, torque_page(result, date=date), "report"))
     if markdown is not None:
-        from cqdd_design.torque.evaluation.table import markdown as tables
+        from cqdd_design.torque.evaluation.markdown import markdown as tables
 
         files.append(write_atomically(markdown, tables(result), "markdown"))
     for one in result.sets:
@@ -118,12 +110,8 @@ def evaluate(
     out.wrote(files)
     for sentence in result.warnings:
         out.warn(sentence)
-    document = result.to_dict()
-    out.document(document | {"files_of_models": _names(networks, model or [])}, files=files)
-
-
-def _names(networks: Mapping[str, object], paths: list[Path]) -> dict[str, str]:
-    return {name: str(path) for name, path in zip(networks, paths, strict=True)}
+    of_models = {name: str(path) for name, path in zip(networks, model or [], strict=True)}
+    out.document(result_dict(result) | {"files_of_models": of_models}, files=files)
 
 
 def _lines(result: EvaluationResult, found: SetResult) -> list[str]:
@@ -179,17 +167,8 @@ def _ends(value: Interval) -> str:
 
 
 def _paper() -> list[str]:
-    from cqdd_design.torque.evaluation.evaluate import PAPER
+    from cqdd_design.torque.evaluation.paper import PAPER
 
-    rows = [
-        [
-            row.title,
-            f"{row.rmse:.2f}",
-            "" if row.bias is None else f"{row.bias:.2f}",
-            f"{row.variance:.2f}",
-            f"{row.cycle_time:.2f}",
-        ]
-        for row in PAPER
-    ]
+    rows = [row.cells("") for row in PAPER]
     head = ["paper (hardware)", "RMSE N*m", "size of bias", "variance N^2*m^2", "cycle us"]
     return [table(rows, head=head, right=(1, 2, 3, 4)), "not to be read against ours"]

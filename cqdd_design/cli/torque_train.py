@@ -119,7 +119,7 @@ def train(
     from cqdd_design.torque.data.splits import audit, split
     from cqdd_design.torque.networks.artefact import read_artefact, write_artefact
     from cqdd_design.torque.networks.modules import find_model, require_torch
-    from cqdd_design.torque.training.recipe import Choice, Recipe
+    from cqdd_design.torque.training.recipe import Choice, Order, Recipe
     from cqdd_design.torque.training.train import leaked_rmse
     from cqdd_design.torque.training.train import train as trained
     from cqdd_design.units import TIME
@@ -160,17 +160,13 @@ def train(
         actuator = data_actuator(out, data, design, gearbox, calibration)
     if chosen.searched and choice is None and not resume:
         out.note("searching activation, learning rate and weight decay on validation episodes")
+    order = Order(chosen.name, seed, recipe, actuator, choice, device)
     tell = out.stages(epochs)
     try:
         artefact = trained(
             data,
             parts,
-            chosen.name,
-            seed,
-            recipe=recipe,
-            actuator=actuator,
-            choice=choice,
-            device=device,
+            order,
             dt=dt,
             checkpoint=kept,
             resume=resume,
@@ -183,15 +179,8 @@ def train(
         raise
     if leaked:
         out.note("training on random windows, for the inflated score beside the honest one")
-        flattered = leaked_rmse(
-            data,
-            chosen.name,
-            seed,
-            recipe=recipe,
-            actuator=actuator,
-            choice=Choice(**artefact.facts["choice"]),
-            device=device,
-        )
+        again = replace(order, choice=Choice(**artefact.facts["choice"]))
+        flattered = leaked_rmse(data, again)
         artefact = replace(artefact, facts={**artefact.facts, "leaked_rmse_Nm": flattered})
     file = write_artefact(artefact, place)
     kept.unlink(missing_ok=True)

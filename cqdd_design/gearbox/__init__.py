@@ -7,7 +7,8 @@ hundreds of thousands.
 
 from cqdd_design.gearbox.analysis import GearboxAnalysis, analyse_gearbox
 from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
-from cqdd_design.gearbox.checks.guide import CHECK_GUIDE, CheckGuide, check_guide
+from cqdd_design.gearbox.checks.guide import CHECK_GUIDE, check_guide
+from cqdd_design.gearbox.checks.guide_row import CheckGuide
 
 __all__ = [
     "CHECK_GUIDE",

@@ -162,18 +162,6 @@ def ring_radial_force(
     return np.asarray(np.sum(force * radial, axis=-1))
 
 
-def output_pin_angles(
-    lobe_count: int, pin_count: int, hole_clocking: ArrayLike, crank_angle: ArrayLike
-) -> FloatArray:
-    """Angles of the output pins in the ring's frame, shape (..., A, N_w), rad.
-
-    -phi/n + clocking + 2 pi j/N_w, `hole_clocking` (...) in rad.
-    """
-    (clocking,) = _columns(hole_clocking, extra=2)
-    carrier = kinematics.carrier_angle(lobe_count, crank_angle)[:, None]
-    return np.asarray(carrier + clocking + 2.0 * np.pi * np.arange(pin_count) / pin_count)
-
-
 def output_pin_forces(
     lobe_count: int,
     pin_count: int,
@@ -199,7 +187,7 @@ def output_pin_forces(
         Forces in N, all along -u. The peak over a period is 4 T/(N_w R_w) for even N_w.
     """
     radius, torque = _columns(pin_circle_radius, disc_torque, extra=2)
-    pins = output_pin_angles(lobe_count, pin_count, hole_clocking, crank_angle)
+    pins = kinematics.output_pin_angles(lobe_count, pin_count, hole_clocking, crank_angle)
     angle = np.asarray(crank_angle, dtype=float)[:, None]
     return _shared(torque, radius * np.sin(angle - pins))
 
@@ -276,8 +264,6 @@ class RingStage:
         N, not negative.
     normal, point : array (..., A, n+1, 2)
         Unit direction of the force on the disc, and where it acts (m, ring's frame).
-    lever_arm : array (..., A, n+1)
-        About the disc centre, m, signed.
     flank_parameter : array (A, n+1)
         Parameter t of the disc flank that touches each tooth, rad.
     """
@@ -285,7 +271,6 @@ class RingStage:
     force: FloatArray
     normal: FloatArray
     point: FloatArray
-    lever_arm: FloatArray
     flank_parameter: FloatArray
 
 
@@ -321,7 +306,6 @@ def ring_stage(
         force=ring_forces(lobe_count, ring_pitch_radius, eccentricity, disc_torque, angle),
         normal=normal,
         point=radius * unit + tooth * normal,
-        lever_arm=ring_lever_arms(lobe_count, ring_pitch_radius, eccentricity, angle),
         flank_parameter=ring_flank_parameters(lobe_count, angle),
     )
 
@@ -338,14 +322,11 @@ class OutputStage:
         -u, the direction of every pin force on the disc.
     point : array (..., A, N_w, 2)
         Where it acts, m, ring's frame.
-    lever_arm : array (..., A, N_w)
-        R_w sin(phi - beta), m, signed; positive arms carry a positive torque.
     """
 
     force: FloatArray
     normal: FloatArray
     point: FloatArray
-    lever_arm: FloatArray
 
 
 def output_stage(
@@ -369,16 +350,14 @@ def output_stage(
         Crank angle of this disc, rad.
     """
     angle = np.asarray(crank_angle, dtype=float)
-    pins = output_pin_angles(lobe_count, pin_count, hole_clocking, angle)
+    pins = kinematics.output_pin_angles(lobe_count, pin_count, hole_clocking, angle)
     towards = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     radius, contact = _columns(pin_circle_radius, contact_radius, extra=3)
     place = radius * np.stack([np.cos(pins), np.sin(pins)], axis=-1)
-    (arm_radius,) = _columns(pin_circle_radius, extra=2)
     return OutputStage(
         force=output_pin_forces(
             lobe_count, pin_count, pin_circle_radius, disc_torque, angle, hole_clocking
         ),
         normal=-towards,
         point=place - contact * towards[:, None, :],
-        lever_arm=np.asarray(arm_radius * np.sin(angle[:, None] - pins)),
     )

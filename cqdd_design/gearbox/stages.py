@@ -7,11 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.catalog.materials import Material, find_material
-from cqdd_design.catalog.screws import find_shoulder_screw
+from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
-from cqdd_design.errors import CatalogError, GeometryError
+from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox import hertz, rigid
 from cqdd_design.gearbox.checks.allowables import SLEEVE_WALL
 from cqdd_design.geometry import kinematics
@@ -20,28 +19,9 @@ from cqdd_design.geometry.disc import hole_diameter
 FloatArray = NDArray[np.float64]
 
 
-def pin_diameter_limits(diameter: float) -> tuple[float, float]:
-    """Least and greatest real diameter of an output pin of a nominal size, m.
-
-    From the catalogue's shoulder screw of that size, else the f9 limits that such screws have.
-
-    Examples
-    --------
-    >>> [round(1e3 * d, 3) for d in pin_diameter_limits(4e-3)]
-    [3.96, 3.99]
-    """
-    try:
-        screw = find_shoulder_screw(diameter)
-    except CatalogError:
-        zone = fit_limits("f9", diameter)
-        return diameter + zone.lower, diameter + zone.upper
-    return screw.shoulder_diameter_min, screw.shoulder_diameter_max
-
-
 def pin_mean_diameter(design: Design) -> float:
     """Mean real diameter of the output pins of a design, to which the hole clearance counts, m."""
-    least, greatest = pin_diameter_limits(design.reducer.output_pins.diameter)
-    return 0.5 * (least + greatest)
+    return mean_pin_diameter(design.reducer.output_pins.diameter)
 
 
 @dataclass(frozen=True)

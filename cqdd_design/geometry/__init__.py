@@ -25,11 +25,11 @@ from cqdd_design.geometry.disc import (
     profile_moments,
     profile_perimeter,
 )
+from cqdd_design.geometry.kinematics import disc_pose
 from cqdd_design.geometry.limits import largest_eccentricity, smallest_pitch_radius
 from cqdd_design.geometry.meshing import (
     Projection,
     ToothGaps,
-    disc_pose,
     project,
     tooth_centres,
     tooth_gaps,

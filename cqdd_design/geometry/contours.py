@@ -263,13 +263,6 @@ class ArcContour:
             )
         return Arcs(as_points(centre), radius, np.angle(start - centre), self.sweeps)
 
-    def joint_angles(self) -> FloatArray:
-        """Change of direction (k,) at every joint, rad; zero where the contour is smooth."""
-        _, chord = self._starts_and_chords()
-        leaving = np.exp(-0.5j * self.sweeps) * chord
-        arriving = np.roll(np.exp(0.5j * self.sweeps) * chord, 1)
-        return np.asarray(np.angle(leaving * np.conj(arriving)))
-
     def sample(self, tolerance: float) -> FloatArray:
         """Points (m, 2) of a polygon that leaves the contour by at most `tolerance` (m).
 
@@ -421,15 +414,6 @@ class PlanarPart:
     def centroid(self) -> FloatArray:
         """Centre of area (2,), m."""
         return self.moments().centroid
-
-    def second_moments(self) -> FloatArray:
-        """Second moments [[xx, xy], [xy, yy]] of area about the centroid, m^4."""
-        own = self.moments().about_centroid()
-        return np.array([[own.xx, own.xy], [own.xy, own.yy]])
-
-    def polar_moment(self) -> float:
-        """Polar second moment of area about the centroid, m^4."""
-        return self.moments().about_centroid().polar
 
     def transformed(
         self, rotation: float = 0.0, shift: ArrayLike = (0.0, 0.0), mirror: bool = False

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -102,16 +102,16 @@ class CycloidDisc:
 
     @classmethod
     def from_design(cls, design: Design) -> CycloidDisc:
-        """Read the disc outline of a design."""
-        reducer = design.reducer
-        return cls(
-            lobe_count=reducer.ratio,
-            ring_pitch_radius=reducer.ring_pitch_radius,
-            eccentricity=reducer.eccentricity,
-            tooth_radius=reducer.ring_pin_diameter / 2.0,
-            equidistant=reducer.modification.equidistant,
-            radial=reducer.modification.radial,
-            rotation=reducer.modification.rotation,
+        """Read the disc outline of a design; equal outlines are made, and searched, once."""
+        reducer, change = design.reducer, design.reducer.modification
+        return _disc_of(
+            reducer.ratio,
+            reducer.ring_pitch_radius,
+            reducer.eccentricity,
+            reducer.ring_pin_diameter / 2.0,
+            change.equidistant,
+            change.radial,
+            change.rotation,
         )
 
     @property
@@ -292,3 +292,9 @@ class CycloidDisc:
             np.where(s < delta, self.valley_distance, on_flank),
             np.where(s < delta, 1.0 / self.valley_distance, bend),
         )
+
+
+@lru_cache(maxsize=16)
+def _disc_of(*numbers: float) -> CycloidDisc:
+    lobe_count, *lengths = numbers
+    return CycloidDisc(int(lobe_count), *lengths)

@@ -32,6 +32,7 @@ from cqdd_design.geometry.contours import (
     gauss_rule,
 )
 from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.kinematics import crank_phases, hole_clocking_in_disc
 from cqdd_design.geometry.meshing import project
 
 if TYPE_CHECKING:
@@ -81,13 +82,19 @@ def crank_phase(design: Design, disc_index: int) -> float:
     count = design.reducer.disc_count
     if not 0 <= disc_index < count:
         raise UsageError(f"disc {disc_index} does not exist; the design has 0 to {count - 1}.")
-    return 2.0 * math.pi * disc_index / count
+    return float(crank_phases(count)[disc_index])
+
+
+def first_hole_angle(design: Design, disc_index: int) -> float:
+    """Angle of the first output hole of a disc from a valley of its own lobes, rad."""
+    phase, clocking = crank_phase(design, disc_index), design.reducer.output_pins.hole_clocking
+    return float(hole_clocking_in_disc(design.reducer.ratio, clocking, phase))
 
 
 def hole_centres(design: Design, disc_index: int = 0) -> FloatArray:
     """Centres (N, 2) of the output holes in the frame of the disc's own lobes, m."""
     pins = design.reducer.output_pins
-    first = pins.hole_clocking + crank_phase(design, disc_index) / design.reducer.ratio
+    first = first_hole_angle(design, disc_index)
     turns = first + 2.0 * math.pi * np.arange(pins.count) / pins.count
     return as_points(pins.circle_radius * np.exp(1j * turns))
 

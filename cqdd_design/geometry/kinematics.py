@@ -1,18 +1,26 @@
-"""Kinematics of the cycloid stage: ratios, poses, periods and relative speeds.
+"""Kinematics of the cycloid stage: ratios, phases, poses, periods and relative speeds.
 
 Frame of the fixed ring: ring tooth i stands at angle 2 pi i/(n+1); the crank angle phi runs
 counter-clockwise from +x; at phi = 0 disc 0 has a lobe valley on +x. ``n`` is the number of lobes
 on the disc, ``n + 1`` the number of ring teeth. Every function takes arrays and broadcasts.
+
+Where disc, carrier and crank stand is written here once; drawings, solids and mechanics read it.
+The compiled kernels write the same two lines with ``math`` and say so.
 """
 
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+if TYPE_CHECKING:
+    from cqdd_design.geometry.cycloid import CycloidDisc
+
 FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 
 
 def ratio_ring_fixed(lobe_count: int) -> int:
@@ -50,6 +58,67 @@ def carrier_angle(lobe_count: int, crank_angle: ArrayLike) -> FloatArray:
     return -np.asarray(crank_angle, dtype=float) / lobe_count
 
 
+def output_pin_angles(
+    lobe_count: int, pin_count: int, hole_clocking: ArrayLike, crank_angle: ArrayLike
+) -> FloatArray:
+    """Angles -phi/n + clocking + 2 pi j/N_w of the output pins in the ring's frame, rad.
+
+    Parameters
+    ----------
+    lobe_count, pin_count : int
+        n and N_w.
+    hole_clocking : array_like (...)
+        rad.
+    crank_angle : array_like (A,)
+        phi, rad.
+
+    Returns
+    -------
+    array (..., A, N_w)
+    """
+    clocking = np.asarray(hole_clocking, dtype=float)[..., None, None]
+    carrier = carrier_angle(lobe_count, crank_angle)[:, None]
+    return np.asarray(carrier + clocking + 2.0 * np.pi * np.arange(pin_count) / pin_count)
+
+
+def turned_with_carrier(lobe_count: int, crank_angle: ArrayLike, vectors: FloatArray) -> FloatArray:
+    """Vectors of the carrier's (or a disc's) frame in the ring's frame, by the carrier's angle.
+
+    Parameters
+    ----------
+    lobe_count : int
+        n.
+    crank_angle : array_like (A,)
+        phi, rad.
+    vectors : array (..., 2)
+        In the frame that turns by -phi/n.
+
+    Returns
+    -------
+    array (A, ..., 2)
+    """
+    extra = (None,) * (vectors.ndim - 1)
+    back = carrier_angle(lobe_count, crank_angle)
+    cosine, sine = np.cos(back)[:, *extra], np.sin(back)[:, *extra]
+    x, y = vectors[..., 0], vectors[..., 1]
+    return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
+
+
+def crank_direction(crank_angle: ArrayLike, crank_phase: ArrayLike = 0.0) -> FloatArray:
+    """Unit vector u = (cos, sin)(phi + p) from the ring's centre to a disc's, (..., 2)."""
+    turned = np.asarray(crank_angle, dtype=float) + np.asarray(crank_phase, dtype=float)
+    return np.stack([np.cos(turned), np.sin(turned)], axis=-1)
+
+
+def crank_meets_carrier(lobe_count: int, place: float) -> float:
+    """Crank angle at which the crank points to a place on the carrier, rad.
+
+    `place` is the angle of the place at crank angle 0; the carrier turns back while the crank
+    comes: phi = place - phi/n.
+    """
+    return place / (1.0 + 1.0 / lobe_count)
+
+
 def disc_centre(
     eccentricity: ArrayLike, crank_angle: ArrayLike, crank_phase: ArrayLike = 0.0
 ) -> FloatArray:
@@ -67,9 +136,8 @@ def disc_centre(
     array (..., 2)
         e (cos(phi + p), sin(phi + p)) in m.
     """
-    turned = np.asarray(crank_angle, dtype=float) + np.asarray(crank_phase, dtype=float)
-    e, turned = np.broadcast_arrays(np.asarray(eccentricity, dtype=float), turned)
-    return np.stack([e * np.cos(turned), e * np.sin(turned)], axis=-1)
+    e = np.asarray(eccentricity, dtype=float)[..., None]
+    return np.asarray(e * crank_direction(crank_angle, crank_phase))
 
 
 def lobe_pattern_rotation(
@@ -82,6 +150,22 @@ def lobe_pattern_rotation(
     """
     turned = np.asarray(crank_angle, dtype=float) + np.asarray(crank_phase, dtype=float)
     return np.asarray(-turned / lobe_count, dtype=float)
+
+
+def disc_pose(disc: CycloidDisc, crank_angle: ArrayLike) -> tuple[ComplexArray, ComplexArray]:
+    """Pose of the disc in the ring's frame as complex numbers (turn, shift).
+
+    A point d of the disc stands at ``turn * d + shift`` with turn = exp(-i phi/n) and
+    shift = e exp(i phi). For the disc at crank phase p, pass phi + p.
+
+    Parameters
+    ----------
+    crank_angle : array_like (...)
+        phi, rad.
+    """
+    phi = np.asarray(crank_angle, dtype=float)
+    turn = np.asarray(np.exp(-1j * phi / disc.lobe_count))
+    return turn, np.asarray(disc.eccentricity * np.exp(1j * phi))
 
 
 def hole_clocking_in_disc(
@@ -155,13 +239,3 @@ def cam_bearing_speed_ring_fixed(lobe_count: int, input_speed: ArrayLike) -> Flo
     the input.
     """
     return np.asarray(input_speed, dtype=float) * (1.0 + 1.0 / lobe_count)
-
-
-def cam_bearing_speed_carrier_fixed(input_speed: ArrayLike) -> FloatArray:
-    """Speed of the crank relative to the disc with the carrier fixed: the input speed."""
-    return np.asarray(input_speed, dtype=float) * 1.0
-
-
-def output_speed_ring_fixed(lobe_count: int, input_speed: ArrayLike) -> FloatArray:
-    """Speed of the carrier, -1/n of the input, same unit as the input."""
-    return np.asarray(input_speed, dtype=float) / ratio_ring_fixed(lobe_count)

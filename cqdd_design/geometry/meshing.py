@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from cqdd_design.geometry.contours import ComplexArray, FloatArray, as_complex, as_points
 from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.kinematics import disc_pose
 
 # Coarse search before the Newton iteration: the distance to a half lobe has at most a few valleys.
 _GRID = 48
@@ -136,22 +137,6 @@ def tooth_centres(disc: CycloidDisc) -> FloatArray:
     """Nominal tooth centres (n+1, 2) in the ring's frame, the first on +x, m."""
     count = disc.ring_tooth_count
     return as_points(disc.ring_pitch_radius * np.exp(2j * np.pi * np.arange(count) / count))
-
-
-def disc_pose(disc: CycloidDisc, crank_angle: ArrayLike) -> tuple[ComplexArray, ComplexArray]:
-    """Pose of the disc in the ring's frame as complex numbers (turn, shift).
-
-    A point d of the disc stands at ``turn * d + shift`` with turn = exp(-i phi/n) and
-    shift = e exp(i phi). For the disc at crank phase p, pass phi + p.
-
-    Parameters
-    ----------
-    crank_angle : array_like (...)
-        phi, rad.
-    """
-    phi = np.asarray(crank_angle, dtype=float)
-    turn = np.asarray(np.exp(-1j * phi / disc.lobe_count))
-    return turn, np.asarray(disc.eccentricity * np.exp(1j * phi))
 
 
 def tooth_gaps(disc: CycloidDisc, crank_angle: ArrayLike) -> ToothGaps:

@@ -204,10 +204,10 @@ def gear_material(
     quality : {"ML", "MQ", "ME"}
         MQ is what an experienced maker reaches at ordinary cost.
     material_class : str, optional
-        One of :data:`MATERIAL_CLASSES`. Without it: "case" in the name or hardness column means
-        case-hardened; otherwise 485 HV and more is rated as induction-hardened (the only class of
-        the table for hard steel without a case), 200 HV and more as through-hardened alloy steel,
-        less as through-hardened carbon steel.
+        One of :data:`MATERIAL_CLASSES`. Without it: what the catalogue calls case-hardened is;
+        otherwise 485 HV and more is rated as induction-hardened (the only class of the table for
+        hard steel without a case), 200 HV and more as through-hardened alloy steel, less as
+        through-hardened carbon steel.
 
     Raises
     ------
@@ -276,7 +276,7 @@ def _vickers(material: Material) -> float | None:
 
 
 def _class_of(material: Material, vickers: float) -> MaterialClass:
-    if "case" in f"{material.name} {material.hardness}".lower():
+    if material.treatment == "case-hardened":
         return _CASE
     if vickers >= 485.0:
         return _INDUCTION

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.gearbox.contact_analysis import ContactAnalysis
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
-    from cqdd_design.report.machine_view.pictures import MachineViews
-    from cqdd_design.report.machine_view.viewer_data import ViewerData
+    from cqdd_design.report.machine_view.model import ViewerData
+    from cqdd_design.report.machine_view.stills import MachineViews
     from cqdd_design.sizing.result import SizingResult
 
 

@@ -34,23 +34,31 @@ def finish(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> 
     """
     try:
         design = design_of(evaluator, points, row, suffix)
-        checks = analyse_gearbox(design).checks
+        analysis = analyse_gearbox(design)
     except DesignError:
         return None
+    checks, warnings = analysis.checks, analysis.warnings
     if any(c.status == "fail" and not c.id.startswith("MOTOR-") for c in checks):
         return None
     least = min((torque_reserve(check, design), check.id) for check in checks if is_load(check))
     margin = next(check.margin for check in checks if check.id == least[1])
+    rotor_known = evaluator.frame.rotor_inertia is not None
+    if not rotor_known:
+        motor = evaluator.frame.requirements.motor
+        warnings += (
+            f"motor '{motor}' has no rotor inertia in the catalogue, so the inertia that the "
+            "search weighs is that of the gearbox alone.",
+        )
     objective = Objective(
         score=float(points.objective[row]),
         mass=float(points.mass[row]),
         gearbox_inertia=float(points.gearbox_inertia[row]),
-        reflected_inertia=float(points.reflected_inertia[row]),
+        reflected_inertia=float(points.reflected_inertia[row]) if rotor_known else None,
         torque_reserve=least[0],
         binding=least[1],
         least_margin=margin,
     )
-    return SizedDesign(design, checks, objective)
+    return SizedDesign(design, checks, warnings, objective)
 
 
 def is_load(check: Check) -> bool:

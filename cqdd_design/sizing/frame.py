@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.catalog.materials import Material, find_material
-from cqdd_design.catalog.motors import find_motor
+from cqdd_design.catalog.motors import Motor, find_motor
 from cqdd_design.design import Design, Requirements
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox import hertz
@@ -81,8 +81,8 @@ class Frame:
         E* of tooth on disc and of pin on disc.
     disc_density, ring_density, pin_density : float
         kg/m^3.
-    rotor_inertia : float
-        Of the motor, kg m^2; zero where the catalogue has none.
+    rotor_inertia : float or None
+        Of the motor, kg m^2; None where the catalogue has none.
     pin_sizes : tuple of PinSize
         Ascending.
     bearings : tuple of Bearing
@@ -107,7 +107,7 @@ class Frame:
     disc_density: float
     ring_density: float
     pin_density: float
-    rotor_inertia: float
+    rotor_inertia: float | None
     pin_sizes: tuple[PinSize, ...]
     bearings: tuple[Bearing, ...]
 
@@ -156,7 +156,7 @@ def search_frame(requirements: Requirements) -> Frame:
     ------
     InfeasibleError
         When the requirements leave no room for any catalogue part, or name a material without a
-        strength; the message names the key.
+        strength or a geared actuator as the motor; the message names the key.
     """
     template = _template(requirements)
     reducer, pins = template.reducer, template.reducer.output_pins
@@ -175,7 +175,7 @@ def search_frame(requirements: Requirements) -> Frame:
         equidistant=reducer.modification.equidistant,
         radial=reducer.modification.radial,
         relief_clearance=reducer.ring.relief_clearance,
-        wire_radius=0.5 * template.edm.wire_diameter + template.edm.spark_gap,
+        wire_radius=template.edm.wire_offset,
         default_clearance=pins.hole_clearance,
         clocking=pins.hole_clocking,
         most_thickness=most,
@@ -188,10 +188,20 @@ def search_frame(requirements: Requirements) -> Frame:
         disc_density=disc.density,
         ring_density=ring.density,
         pin_density=pin.density,
-        rotor_inertia=find_motor(requirements.motor).rotor_inertia or 0.0,
+        rotor_inertia=_bare_motor(requirements.motor).rotor_inertia,
         pin_sizes=sizes,
         bearings=cam_bearings(requirements, most, spacing, sizes[0].mean_diameter),
     )
+
+
+def _bare_motor(name: str) -> Motor:
+    motor = find_motor(name)
+    if motor.torque_at != "motor":
+        raise InfeasibleError(
+            f"requirements.motor '{name}' is a geared actuator, whose torque and inertia count at "
+            "its output; name a bare motor, such as 'CubeMars RO100 KV55'."
+        )
+    return motor
 
 
 def _template(requirements: Requirements) -> Design:

@@ -36,7 +36,7 @@ class Weights:
     gearbox_inertia : array
         At the crank, without the rotor, kg m^2.
     reflected_inertia : array
-        At the crank, with the rotor, kg m^2.
+        At the crank, with the rotor where its inertia is known, kg m^2.
     """
 
     mass: FloatArray
@@ -102,4 +102,6 @@ def weigh(
     orbiting = (disc + half_bearing) * e * e
     spinning = (disc_spin + half_bearing * seat * seat) / n2
     inertia = discs * (turning + orbiting + spinning) + pins * circle * circle / n2
-    return Weights(np.asarray(mass), np.asarray(inertia), np.asarray(inertia + frame.rotor_inertia))
+    # An unknown rotor is left out here and the result says so (`SizingResult.warnings`).
+    turned = inertia if frame.rotor_inertia is None else inertia + frame.rotor_inertia
+    return Weights(np.asarray(mass), np.asarray(inertia), np.asarray(turned))

@@ -19,8 +19,11 @@ class Objective:
         mass^0.7 x inertia^0.3 (kg, kg m^2), which the search makes small.
     mass : float
         Of discs, ring, output pins, cam bearings and eccentrics, kg.
-    gearbox_inertia, reflected_inertia : float
-        Of the same parts at the crank, without and with the motor's rotor, kg m^2.
+    gearbox_inertia : float
+        Of the same parts at the crank, kg m^2.
+    reflected_inertia : float or None
+        With the motor's rotor; None where the catalogue has no inertia of it, and the score then
+        weighs the gearbox's own.
     torque_reserve : float
         Factor by which both required torques could grow until a check is on its limit.
     binding : str
@@ -32,7 +35,7 @@ class Objective:
     score: float
     mass: float
     gearbox_inertia: float
-    reflected_inertia: float
+    reflected_inertia: float | None
     torque_reserve: float
     binding: str
     least_margin: float
@@ -60,11 +63,14 @@ class SizedDesign:
     design : Design
     checks : tuple of Check
         Of the finished design; none fails.
+    warnings : tuple of str
+        What could not be checked, or is not known, and why.
     objective : Objective
     """
 
     design: Design
     checks: tuple[Check, ...]
+    warnings: tuple[str, ...]
     objective: Objective
 
     def to_dict(self) -> dict[str, object]:
@@ -96,6 +102,8 @@ class SizingResult:
         reported rules of thumb may warn.
     checks : tuple of Check
         Of the design.
+    warnings : tuple of str
+        What of the design could not be checked, or is not known, and why.
     objective : Objective
         Of the design.
     alternatives : tuple of SizedDesign
@@ -112,6 +120,7 @@ class SizingResult:
 
     design: Design
     checks: tuple[Check, ...]
+    warnings: tuple[str, ...]
     objective: Objective
     alternatives: tuple[SizedDesign, ...]
     candidates_screened: int

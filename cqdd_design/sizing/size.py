@@ -60,6 +60,7 @@ def size(requirements: Requirements, progress: Callable[[str], None] | None = No
     return SizingResult(
         design=design.design,
         checks=design.checks,
+        warnings=design.warnings,
         objective=design.objective,
         alternatives=alternatives,
         candidates_screened=found.screened,

@@ -13,7 +13,7 @@ import math
 from dataclasses import dataclass
 
 from cqdd_design.design import Design
-from cqdd_design.geometry.disc import crank_phase
+from cqdd_design.geometry.disc import first_hole_angle
 
 _SAME_HOLE = 1e-9
 """Holes within this of each other on the pin circle are the same hole, m."""
@@ -43,12 +43,6 @@ class DiscGroup:
     """Discs that are one part, drawn as the first of them."""
 
     placements: tuple[PlacedDisc, ...]
-
-
-def first_hole_angle(design: Design, disc: int) -> float:
-    """Angle of the first hole of a disc from a valley of its own lobes, rad."""
-    clocking = design.reducer.output_pins.hole_clocking
-    return clocking + crank_phase(design, disc) / design.reducer.ratio
 
 
 def disc_groups(design: Design) -> tuple[DiscGroup, ...]:

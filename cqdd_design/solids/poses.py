@@ -13,7 +13,9 @@ from typing import Literal
 import numpy as np
 
 from cqdd_design.design import Design
+from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.geometry.disc import crank_phase
 
 BodyKind = Literal["housing", "shaft", "carrier", "disc"]
 
@@ -60,24 +62,19 @@ def transform(
     )
 
 
-def crank_phase(design: Design, disc: int) -> float:
-    """Crank phase 2 pi d/D of disc d, rad."""
-    return 2.0 * math.pi * disc / design.reducer.disc_count
-
-
 def body_pose(design: Design, body: Body, crank_angle: float) -> FloatArray:
     """Transform (4, 4) from a body's frame to the ring's at a crank angle (rad).
 
-    Perfect parts without load: the carrier stands at -phi/n; disc d, of crank phase p, has its
-    centre at e (cos(phi + p), sin(phi + p)) and its lobes turned by -(phi + p)/n.
+    Perfect parts without load, by :mod:`cqdd_design.geometry.kinematics`.
     """
     ratio = design.reducer.ratio
     if body.kind == "shaft":
         return transform(crank_angle)
     if body.kind == "carrier":
-        return transform(-crank_angle / ratio)
+        return transform(float(kinematics.carrier_angle(ratio, crank_angle)))
     if body.kind == "disc":
-        turned = crank_angle + crank_phase(design, body.disc)
-        e = design.reducer.eccentricity
-        return transform(-turned / ratio, e * math.cos(turned), e * math.sin(turned))
+        phase = crank_phase(design, body.disc)
+        x, y = kinematics.disc_centre(design.reducer.eccentricity, crank_angle, phase)
+        turned = kinematics.lobe_pattern_rotation(ratio, crank_angle, phase)
+        return transform(float(turned), float(x), float(y))
     return transform()

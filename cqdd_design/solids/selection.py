@@ -11,8 +11,7 @@ import math
 from dataclasses import dataclass
 
 from cqdd_design.catalog.bearings import Bearing, bearings
-from cqdd_design.catalog.fits import fit_limits
-from cqdd_design.catalog.screws import ShoulderScrew, find_shoulder_screw
+from cqdd_design.catalog.screws import ShoulderScrew, find_shoulder_screw, mean_pin_diameter
 from cqdd_design.errors import CatalogError
 
 RING_SHARE = 0.3
@@ -271,8 +270,7 @@ def output_pin(diameter: float) -> OutputPin:
     try:
         screw = find_shoulder_screw(diameter)
     except CatalogError:
-        zone = fit_limits("f9", diameter)
-        return OutputPin(diameter, diameter + 0.5 * (zone.lower + zone.upper), None)
+        return OutputPin(diameter, mean_pin_diameter(diameter), None)
     return OutputPin(
         nominal_diameter=diameter,
         mean_diameter=screw.mean_diameter,

@@ -71,6 +71,7 @@ def test_calibration_goes_from_one_command_into_the_others(cqdd, tmp_path):
     )
     value = again.document["results"]["metrics"]["backdrive_static"]["value"]
     assert value == pytest.approx(1.5, rel=1e-3)
+    assert again.document["results"]["metrics"]["backdrive_static"]["relation"] == "calibrated"
     out = tmp_path / "card"
     cqdd("export", DESIGN, "--to", "card", "--calibration", str(path), "--out", str(out))
     assert "calibrated: friction_level" in (out / "cqdd-10-card.md").read_text()

@@ -13,9 +13,11 @@ import pytest
 
 from cqdd_design import actuator_pipeline, pipeline
 from cqdd_design.actuator.bench import BenchResult, Metric, run_bench
-from cqdd_design.actuator.bench.gear import DIAL, DIAL_RADIUS
-from cqdd_design.actuator.bench.metric import PAPER
+from cqdd_design.actuator.bench.gear import ARCMIN, DIAL, DIAL_RADIUS, dead_zone
+from cqdd_design.actuator.bench.metric import PAPER, is_near
 from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.demands import demands
+from cqdd_design.actuator.envelope import limit_curves
 from cqdd_design.actuator.motor import envelope
 from cqdd_design.actuator.operating import (
     DRIVER,
@@ -35,28 +37,22 @@ from cqdd_design.actuator.thermal import continuous_current, response, steady_st
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox import analyse_gearbox
 from cqdd_design.report import ReportInput, build_report
-from cqdd_design.report.actuator.actuator_rows import parameter_rows
-from cqdd_design.report.actuator.actuator_view import (
-    actuator_view,
-    asked_points,
-    duration,
-    envelope_curves,
-)
-from cqdd_design.report.actuator.bench_charts import bode, spectrum
-from cqdd_design.report.actuator.bench_figures import ARCMIN, dead_zone, efficiency_maps
-from cqdd_design.report.actuator.bench_view import (
+from cqdd_design.report.actuator.bench_charts import Response, bode, spectrum
+from cqdd_design.report.actuator.bench_figures import efficiency_maps
+from cqdd_design.report.actuator.bench_table import (
     RELATIONS,
     bench_view,
     comparison,
-    is_near,
     off_by,
 )
+from cqdd_design.report.actuator.envelope import actuator_view, duration, sentence
+from cqdd_design.report.actuator.parameter_rows import parameter_rows
 from cqdd_design.report.ink.axes import Labels, linear_axis, log_axis, thinned
-from cqdd_design.report.ink.svg import Figure
+from cqdd_design.report.ink.svg import Figure, Words
 from cqdd_design.sizing.comparison import compare_with_planetary
 
 PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
-RPM = 30.0 / math.pi
+WORDS = Words("id", "title", "description", "caption")
 
 
 @pytest.fixture(scope="module")
@@ -222,41 +218,44 @@ def test_shorter_overloads_allow_more_and_friction_takes_from_speed(
 
 
 def test_curves_stay_within_voltage_driver_and_each_other(actuator: ActuatorParameters) -> None:
-    curves = {curve.class_: curve for curve in envelope_curves(actuator, 31.0)}
-    assert set(curves) == {"series-1", "series-2", "held", "held-60", "held-10"}
-    for curve in curves.values():
+    found = limit_curves(actuator, 31.0)
+    assert [curve.temperature for curve in found[:2]] == [25.0, actuator.thermal.most]
+    curves = {curve.seconds: curve for curve in found[2:]}
+    assert set(curves) == {math.inf, 60.0, 10.0}
+    for curve in found:
         assert np.all(curve.torque >= 0.0)
         assert curve.torque[-1] == pytest.approx(0.0, abs=1e-9)
     bound = np.maximum(
-        envelope_torque(actuator, curves["held"].speed, 25.0),
-        envelope_torque(actuator, curves["held"].speed, actuator.thermal.most),
+        envelope_torque(actuator, curves[math.inf].speed, 25.0),
+        envelope_torque(actuator, curves[math.inf].speed, actuator.thermal.most),
     )
-    for name in ("held", "held-60", "held-10"):
-        assert np.all(curves[name].torque[:-1] <= bound[: len(curves[name].torque) - 1] + 1e-9)
+    for curve in curves.values():
+        assert np.all(curve.torque[:-1] <= bound[: len(curve.torque) - 1] + 1e-9)
 
 
 def test_a_heat_line_that_never_binds_is_left_out(actuator: ActuatorParameters) -> None:
     cool = dataclasses.replace(actuator.thermal, winding_to_housing=1e-3, housing_to_ambient=1e-3)
-    curves = envelope_curves(dataclasses.replace(actuator, thermal=cool), 31.0)
-    assert {curve.class_ for curve in curves} == {"series-1", "series-2"}
+    curves = limit_curves(dataclasses.replace(actuator, thermal=cool), 31.0)
+    assert all(math.isnan(curve.seconds) for curve in curves)
+    assert len(curves) == 2
 
 
 def test_points_of_the_requirements_are_judged_and_told(
     actuator: ActuatorParameters, design: Design
 ) -> None:
-    points = {point.name: point for point in asked_points(actuator, design.requirements)}
+    points = {point.name: point for point in demands(actuator, design.requirements)}
     assert set(points) == {"peak torque", "continuous torque"}
     peak, ever = points["peak torque"], points["continuous torque"]
     assert peak.found.binding == (DRIVER, PEAK)
-    assert "the driver's current and the motor's peak torque bind" in peak.sentence
+    assert "the driver's current and the motor's peak torque bind" in sentence(actuator, peak)
     assert peak.speed == 0.0
     assert ever.found.binding == (HEAT,)
-    assert "heat binds" in ever.sentence
-    assert duration(ever.found.lasts) in ever.sentence
+    assert "heat binds" in sentence(actuator, ever)
+    assert duration(ever.found.lasts) in sentence(actuator, ever)
     assert ever.speed * abs(actuator.gear.ratio) == pytest.approx(design.requirements.input_speed)
     easy = design.requirements.model_copy(update={"peak_torque": 30.0, "continuous_torque": 5.0})
-    assert all(point.found.inside for point in asked_points(actuator, easy))
-    assert all("inside" in point.sentence for point in asked_points(actuator, easy))
+    assert all(point.found.inside for point in demands(actuator, easy))
+    assert all("inside" in sentence(actuator, point) for point in demands(actuator, easy))
 
 
 def test_every_step_of_the_duty_is_a_point_and_its_heat_is_told(
@@ -269,9 +268,10 @@ def test_every_step_of_the_duty_is_a_point_and_its_heat_is_told(
     ]
     asked = Design.from_mapping(mapping).requirements
     view = actuator_view(actuator, measured, asked)
-    assert [point.name for point in view.points[2:]] == ["duty 1", "duty 2"]
-    assert [point.generating for point in view.points[2:]] == [False, True]
-    currents = [point.found.need.current for point in view.points[2:]]
+    steps = [point for point, _ in view.points[2:]]
+    assert [point.name for point in steps] == ["duty 1", "duty 2"]
+    assert [point.generating for point in steps] == [False, True]
+    currents = [point.found.need.current for point in steps]
     assert currents[0] > abs(currents[1]), "friction helps where the output drives"
     mean = math.sqrt(0.5 * currents[0] ** 2 + 0.5 * currents[1] ** 2)
     assert f"{mean:.3g}" in view.duty
@@ -288,7 +288,7 @@ def test_dots_stand_at_their_points(
     ticks = [e for e in classed(view.envelope, "text", "tick") if e.get("text-anchor") == "end"]
     level = {float(t.text or "nan"): number(g, "y1") for g, t in zip(grid, ticks, strict=True)}
     scale = (level[40.0] - level[0.0]) / 40.0
-    for dot, point in zip(dots, view.points, strict=True):
+    for dot, (point, _) in zip(dots, view.points, strict=True):
         assert number(dot, "cy") == pytest.approx(level[0.0] + scale * point.torque, abs=0.1)
         assert ("inside" in dot.get("class", "")) == point.found.inside
 
@@ -330,10 +330,7 @@ def test_crossings_of_a_bode_plot_lie_on_its_curves() -> None:
     """First order with 8 Hz: -3 dB there, -45 degrees, -90 nowhere."""
     f = np.geomspace(0.5, 200.0, 300)
     h = 1.0 / (1.0 + 1j * f / 8.0)
-    figure = bode(
-        "b", "t", "d", frequency=f, gain=np.abs(h), phase=np.angle(h), edge=8.0, quarter=None,
-        caption="c",
-    )  # fmt: skip
+    figure = bode(WORDS, Response(f, np.abs(h), np.angle(h), edge=8.0, quarter=None))
     (dot,) = classed(figure, "circle", "dot")
     curve = path_of(classed(figure, "path", "curve series-1")[0])
     y = np.interp(number(dot, "cx"), curve[:, 0], curve[:, 1])
@@ -342,10 +339,8 @@ def test_crossings_of_a_bode_plot_lie_on_its_curves() -> None:
 
 def test_faint_begins_where_coherence_falls() -> None:
     f = np.geomspace(1.0, 100.0, 50)
-    figure = bode(
-        "b", "t", "d", frequency=f, gain=np.ones(50), phase=np.zeros(50),
-        coherence=np.where(f < 20.0, 0.95, 0.3), edge=None, quarter=None, caption="c",
-    )  # fmt: skip
+    coherence = np.where(f < 20.0, 0.95, 0.3)
+    figure = bode(WORDS, Response(f, np.ones(50), np.zeros(50), None, None, coherence))
     sure = path_of(classed(figure, "path", "curve series-1")[0])
     weak = path_of(classed(figure, "path", "curve weak")[0])
     assert len(sure) == np.sum(f < 20.0)
@@ -356,9 +351,7 @@ def test_bars_of_a_spectrum_are_in_proportion() -> None:
     order = np.arange(1.0, 61.0)
     amplitude = np.zeros(60)
     amplitude[[9, 21, 43]] = 2.0, 4.0, 1.0
-    figure = spectrum(
-        "s", "t", "d", order=order, amplitude=amplitude, named=[22, 10], y_label="y", caption="c"
-    )
+    figure = spectrum(WORDS, order, amplitude, [22, 10], "y")
     bars = classed(figure, "line", "order-bar")
     tall = [number(e, "y1") - number(e, "y2") for e in bars]
     assert tall == pytest.approx([tall[1] / 2.0, tall[1], tall[1] / 4.0], abs=0.02)

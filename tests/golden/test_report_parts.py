@@ -17,14 +17,15 @@ from cqdd_design.design import Design
 from cqdd_design.gearbox import CHECK_GUIDE
 from cqdd_design.geometry.contours import ArcContour, Circle
 from cqdd_design.report.drawings.front_view import front_view
-from cqdd_design.report.drawings.outlines import Machine
-from cqdd_design.report.drawings.section_view import reach_along_x, section_view
+from cqdd_design.report.drawings.half_section import half_section, reach_along_x
+from cqdd_design.report.drawings.outlines import Outlines
 from cqdd_design.report.drawings.turning_mesh import mesh_figure
-from cqdd_design.report.ink.charts import Curve, Level, line_chart, margin_bar, nice_step
+from cqdd_design.report.ink.axes import nice_step
+from cqdd_design.report.ink.charts import Curve, Level, line_chart, margin_bar
 from cqdd_design.report.ink.dimensions import Leader, leader_column
 from cqdd_design.report.ink.mathml import mathml
 from cqdd_design.report.ink.numbers import decimals, quantity_text, significant, with_unit
-from cqdd_design.report.ink.svg import View, contour_path, element, text
+from cqdd_design.report.ink.svg import View, Words, contour_path, element, text
 from cqdd_design.report.judgement.check_rows import check_row, margin_text, printed, sentence
 from cqdd_design.results import Check
 
@@ -161,14 +162,12 @@ def test_ticks_are_round_and_few(span: float, most: int) -> None:
 def test_a_chart_puts_its_numbers_where_they_belong() -> None:
     x = np.linspace(0.0, 360.0, 5)
     figure = line_chart(
-        "a-chart",
-        "Title",
-        "Description",
-        x=x,
+        Words("a-chart", "Title", "Description"),
+        x,
+        [Curve("line", np.array([0.0, 50.0, 100.0, 50.0, 0.0]), "series-1")],
+        [Level("limit", 50.0)],
         x_label="angle",
         y_label="force",
-        curves=[Curve("line", np.array([0.0, 50.0, 100.0, 50.0, 0.0]), "series-1")],
-        levels=[Level("limit", 50.0)],
         x_ticks=(0.0, 180.0, 360.0),
     )
     svg = figure.render()
@@ -233,8 +232,12 @@ def test_drawings_of_every_ratio_are_well_formed(ratio: int, discs: int) -> None
             }
         }
     )
-    machine = Machine.from_design(design, find_bearing("6902"))
-    for figure in (front_view(machine), section_view(machine), mesh_figure(machine, 90.0, 4000.0)):
+    outlines = Outlines.from_design(design, find_bearing("6902"))
+    for figure in (
+        front_view(outlines),
+        half_section(outlines),
+        mesh_figure(outlines, 90.0, 4000.0),
+    ):
         svg = figure.render()
         minidom.parseString(svg)
         assert "nan" not in svg
@@ -256,9 +259,9 @@ def test_a_section_reaches_where_the_parts_do() -> None:
             }
         }
     )
-    machine = Machine.from_design(design, find_bearing("6902"))
+    outlines = Outlines.from_design(design, find_bearing("6902"))
     apex = design.reducer.ring_pitch_radius - 0.5 * design.reducer.ring_pin_diameter
     gap = design.reducer.modification.equidistant
-    assert reach_along_x(machine.posed_disc(0, 0.0).outer) == pytest.approx(apex - gap, abs=1e-8)
-    assert reach_along_x(machine.posed_disc(1, 0.0).outer) == pytest.approx(apex - gap, abs=3e-6)
-    assert reach_along_x(machine.ring.holes[0]) == pytest.approx(apex, abs=1e-8)
+    assert reach_along_x(outlines.posed_disc(0, 0.0).outer) == pytest.approx(apex - gap, abs=1e-8)
+    assert reach_along_x(outlines.posed_disc(1, 0.0).outer) == pytest.approx(apex - gap, abs=3e-6)
+    assert reach_along_x(outlines.ring.holes[0]) == pytest.approx(apex, abs=1e-8)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from cqdd_design.design import Design
-from cqdd_design.geometry import CycloidDisc, undercut_radius_limit
+from cqdd_design.geometry import ArcContour, CycloidDisc, undercut_radius_limit
 
 PAPER = CycloidDisc(10, 0.032, 0.0016, 0.0035)
 CYCLOIDGEN = ((50e-3, 4e-3, 1.5e-3, 11), (45e-3, 4.5e-3, 2e-3, 10), (60e-3, 3.5e-3, 1.1e-3, 29))
@@ -49,3 +51,12 @@ def design_of(disc: CycloidDisc, **reducer: object) -> Design:
     }
     tables.update(reducer)
     return Design.from_mapping({"reducer": tables}, si=True)
+
+
+def joint_angles(contour: ArcContour) -> NDArray[np.float64]:
+    """Change of direction at every joint, rad; zero where the contour is smooth."""
+    points = contour.points @ [1.0, 1j]
+    chord = np.roll(points, -1) - points
+    leaving = np.exp(-0.5j * contour.sweeps) * chord
+    arriving = np.roll(np.exp(0.5j * contour.sweeps) * chord, 1)
+    return np.asarray(np.angle(leaving * np.conj(arriving)))

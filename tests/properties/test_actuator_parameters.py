@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from hypothesis import strategies as st
 
 from cqdd_design.actuator import motor as motors
 from cqdd_design.actuator import thermal as thermals
+from cqdd_design.actuator import transmission as transmissions
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.packing import gear_table, kinematic_error, stiffness_share
 from cqdd_design.actuator.parameters import ActuatorParameters, MotorParameters, ThermalParameters
@@ -21,7 +23,7 @@ from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Sta
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.design import Design, load_design
-from cqdd_design.errors import DesignError
+from cqdd_design.errors import ContactError, DesignError
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles
 from cqdd_design.gearbox.losses import LossModel, loss_model
@@ -201,6 +203,30 @@ def test_a_seed_draws_one_gearbox_and_always_the_same() -> None:
     assert len(first.gear.error_orders) <= 64
     assert {10, 11} <= set(first.gear.error_orders)
     assert set(built().gear.error_orders) <= set(range(55, 6000, 55))
+
+
+def test_a_drawn_gearbox_that_cannot_carry_its_load_is_soon_refused(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    solved = []
+    real = transmissions.contact_sweep
+
+    def counted(model: ContactModel, load: float, angle: Any = None, **more: Any) -> Any:
+        solved.append(len(more["states"].crank_angle) if angle is None else len(angle))
+        return real(model, load, angle, **more)
+
+    monkeypatch.setattr(transmissions, "contact_sweep", counted)
+    model = ContactModel.from_design(PAPER)
+    with pytest.raises(ContactError, match="beyond this gearbox"):
+        transmissions.transmission(model, PAPER, 2000.0, seed=1)
+    assert sum(solved) < 0.1 * len(output_turn_angles(model))
+
+
+def test_a_drawn_gearbox_beyond_memory_is_refused_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    model = replace(ContactModel.from_design(PAPER), lobe_count=119)
+    monkeypatch.setattr(transmissions, "nominal_states", None)
+    with pytest.raises(DesignError, match="use perfect parts"):
+        transmissions.transmission(model, PAPER, 40.0, seed=1)
 
 
 def test_table_follows_the_series() -> None:

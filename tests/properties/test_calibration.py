@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ from cqdd_design.actuator.bench import METRICS, run_bench
 from cqdd_design.actuator.bench.calibrate import calibrate
 from cqdd_design.actuator.bench.calibration_file import read_calibration, write_calibration
 from cqdd_design.actuator.bench.measured import read_measured
-from cqdd_design.actuator.bench.unknowns import TELLS, UNKNOWNS, apply_factors
+from cqdd_design.actuator.bench.unknowns import TELLS, UNKNOWNS, Fit, apply_factors
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.design import load_design
@@ -124,6 +125,19 @@ def test_calibration_refuses_what_tells_nothing(
         calibrate(actuator, measured, **options)  # type: ignore[arg-type]
 
 
+def test_what_was_fitted_predicts_nothing(actuator: ActuatorParameters) -> None:
+    rows = ["backdrive_static", "backdrive_dynamic", "output_resolution"]
+
+    def relations(factors: Mapping[str, float]) -> list[str]:
+        found = run_bench(apply_factors(actuator, factors), only=rows)
+        return [metric.relation for metric in found.metrics]
+
+    assert relations({}) == ["given", "predicted", "predicted"]
+    assert relations({"friction_level": 3.0}) == ["given", "calibrated", "predicted"]
+    fit = Fit({"friction_level": 3.0}, ("backdrive_dynamic",))
+    assert relations(fit) == ["given", "predicted", "calibrated"]
+
+
 # ------------------------------------------------------------------ files
 
 
@@ -132,7 +146,9 @@ def test_file_brings_the_factors_back(actuator: ActuatorParameters, tmp_path: Pa
     found = calibrate(actuator, wanted)
     path = tmp_path / "c.json"
     write_calibration(found, "abc", path)
-    assert read_calibration(path, "abc") == (pytest.approx(dict(found.factors)), "")
+    read, warning = read_calibration(path, "abc")
+    assert dict(read) == pytest.approx(dict(found.factors))
+    assert (read.rows, warning) == (("backdrive_static",), "")
     assert "another design" in read_calibration(path, "def")[1]
 
 
@@ -149,6 +165,14 @@ def test_file_brings_the_factors_back(actuator: ActuatorParameters, tmp_path: Pa
         (
             HEAD + '"unknowns": {"friction_level": {"factor": 0}}}',
             "a number above 0",
+        ),
+        (
+            HEAD + '"unknowns": {"friction_level": {"factor": 1' + 400 * "0" + "}}}",
+            "a number above 0",
+        ),
+        (
+            HEAD + '"unknowns": {"friction_level": {"factor": 2}}, "rows": []}',
+            "no table of measurements",
         ),
         (
             HEAD + '"unknowns": {"friction_level": 2}}',

@@ -16,9 +16,9 @@ from backlash_oracle import carrier_range
 from contact_checks import imbalance
 from contact_designs import ARCMIN, machine_of, paper_design, peer_design, random_errors, rigid_of
 from contact_oracle import solve
+from contact_plain import solve_plain
 
 from cqdd_design.gearbox import rigid
-from cqdd_design.gearbox.contact.equilibrium_plain import solve_plain
 from cqdd_design.gearbox.contact.laws import CamSpring, LineLaw
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import error_states, nominal_states

@@ -200,3 +200,13 @@ def test_the_fit_follows_the_tolerance_that_is_set(paper, tmp_path, tolerance):
     fit = read_back(path, disc, design.edm, DIALECTS[0]).fit
     assert 0.5 * design.edm.profile_tolerance < fit.largest_deviation
     assert fit.largest_deviation <= design.edm.profile_tolerance
+
+
+def test_classes_of_the_newest_dialect_stand_in_an_order_of_their_own(paper, tmp_path):
+    options = ExportOptions(dxf_version="R2010")
+    for file in export(paper, "dxf", tmp_path, options=options):
+        drawing = ezdxf.readfile(file.path)
+        used = drawing.entitydb.dxf_types_in_use()
+        names = [one.dxf.name for one in drawing.classes if one.dxf.name in used]
+        assert names == sorted(names)
+        assert len(names) > 1

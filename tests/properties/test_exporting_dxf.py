@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 from cqdd_design.catalog import find_bearing
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, GeometryError, ReadBackError, UsageError
-from cqdd_design.exporting import EXPORTERS, export, read_kinds
+from cqdd_design.exporting import KINDS, export, read_kinds
 from cqdd_design.exporting.edm import dxf, flat_parts
 from cqdd_design.exporting.edm.start_holes import start_holes
 from cqdd_design.gearbox import with_chosen_bearing
@@ -323,7 +323,7 @@ def test_unknown_kinds_name_the_nearest(text, said):
 
 
 def test_kinds_are_those_of_this_release():
-    assert {"dxf", "edm", "gcode", "step", "stl", "3mf", "glb", "svg", "bom"} <= set(EXPORTERS)
+    assert {"dxf", "edm", "gcode", "step", "stl", "3mf", "glb", "svg", "bom"} <= set(KINDS)
 
 
 def test_tighter_tolerance_gives_more_arcs(paper):

@@ -25,7 +25,6 @@ from cqdd_design.exporting.edm.wire_path import (
     offset_contour,
     segmented,
     split_for_tab,
-    wire_offset,
     wire_paths,
 )
 from cqdd_design.geometry import ArcContour, CycloidDisc
@@ -92,7 +91,7 @@ def test_an_arc_moved_sideways_keeps_centre_and_sweep(paper, disc):
     nominal, moved = disc.shape.outer.arcs(), path.contour.arcs()
     assert np.abs(nominal.centres - moved.centres).max() < 1e-12
     assert np.array_equal(nominal.sweeps, moved.sweeps)
-    wider = np.where(nominal.sweeps > 0.0, 1.0, -1.0) * wire_offset(paper.edm)
+    wider = np.where(nominal.sweeps > 0.0, 1.0, -1.0) * paper.edm.wire_offset
     assert np.abs(moved.radii - nominal.radii - wider).max() < 1e-12
 
 
@@ -100,7 +99,7 @@ def test_a_corner_of_the_material_is_rounded_by_the_wire(paper):
     edm = paper.edm
     square = ArcContour(np.array([[0, 0], [0.01, 0], [0.01, 0.01], [0, 0.01]]), np.zeros(4))
     path = offset_contour(square, edm, outer=True, feature="square")
-    offset = wire_offset(edm)
+    offset = edm.wire_offset
     assert len(path) == 8
     assert math.isclose(path.length(), 0.04 + 2.0 * math.pi * offset, rel_tol=1e-12)
     with pytest.raises(ReadBackError, match=r"square: .*sharp inner corner .*round it to 0\.1370"):

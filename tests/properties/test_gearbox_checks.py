@@ -284,6 +284,41 @@ def test_thicker_pins_named_by_the_remedy_pass_in_bending() -> None:
     assert thick["PIN-BENDING-PEAK"].status == "pass"
 
 
+@pytest.mark.parametrize("sleeve", ["0 mm", "6 mm"])
+def test_the_numbers_of_a_pin_stress_give_its_value(sleeve: str) -> None:
+    """F, diameter, thickness and arm as printed, by the formula of the guide."""
+    checks = changed(
+        {"reducer.output_pins.sleeve_diameter": sleeve, "reducer.output_pins.count": 8}
+    )
+
+    def printed(check_id: str) -> list[float]:
+        inside = re.search(r"\(F (.*)\) at", checks[check_id].substituted)
+        assert inside
+        return [float(word) for word in re.findall(r"[\d.]+", inside.group(1))]
+
+    force, d = printed("PIN-SHEAR-PEAK")
+    assert checks["PIN-SHEAR-PEAK"].value == pytest.approx(force / (math.pi / 4.0 * d**2), rel=1e-3)
+    force, d, arm = printed("PIN-BENDING-PEAK")
+    assert checks["PIN-BENDING-PEAK"].value == pytest.approx(
+        32.0 * force * arm / (math.pi * d**3), rel=1e-3
+    )
+    force, d, b = printed("PIN-BEARING-PEAK")
+    assert d == (6.0 if sleeve == "6 mm" else 4.0)
+    assert checks["PIN-BEARING-PEAK"].value == pytest.approx(force / (d * b), rel=1e-3)
+
+
+def test_a_larger_sleeve_named_by_the_remedy_passes() -> None:
+    soft = PAPER.replacing(
+        {"reducer.output_pins.sleeve_diameter": "5 mm", "requirements.peak_torque": "300 N*m"}
+    )
+    check = by_id(analyse_gearbox(soft))["PIN-BEARING-PEAK"]
+    assert check.status == "fail"
+    named = re.search(r"sleeve_diameter to ([\d.]+) mm", check.remedy)
+    assert named, check.remedy
+    wider = soft.replacing({"reducer.output_pins.sleeve_diameter": f"{named.group(1)} mm"})
+    assert by_id(analyse_gearbox(wider))["PIN-BEARING-PEAK"].status == "pass"
+
+
 def test_motor_shortfall_is_a_warning_unless_the_motor_is_named() -> None:
     more = {"requirements.peak_torque": "119 N*m"}
     assert changed(more)["MOTOR-PEAK"].status == "warn"
@@ -295,8 +330,13 @@ def test_a_motor_without_data_is_said_not_guessed() -> None:
     analysis = analyse_gearbox(SOUND.replacing({"motor.name": "T-Motor U8 KV150"}))
     assert any("no peak torque" in words for words in analysis.warnings)
     assert "MOTOR-PEAK" not in by_id(analysis)
+    lacking = by_id(analysis)["MOTOR-DATA"]
+    assert (lacking.value, lacking.limit, lacking.status) == (1.0, 4.0, "warn")
+    assert "no peak torque, no rated torque, no stator bore" in lacking.substituted
+    assert worst_status(analysis.checks) == "warn"
     geared = analyse_gearbox(SOUND.replacing({"motor.name": "CubeMars AK80-9 V3"}))
     assert any("geared actuator" in words for words in geared.warnings)
+    assert (by_id(geared)["MOTOR-DATA"].value, worst_status(geared.checks)) == (0.0, "warn")
 
 
 def test_disc_count_rule_and_balance() -> None:
@@ -412,8 +452,9 @@ def test_guide_and_checks_speak_of_the_same_things() -> None:
             assert check.formula == guide.formula
             assert all((check.substituted, check.why, check.remedy, check.source))
             seen.add(check.id)
-    # Needle cages alone have raceways; solids are turned only when asked to.
-    assert seen == set(CHECK_GUIDE) - {"BEARING-RACEWAY", "ASSEMBLY-CLEAR"}
+    # Needle cages alone have raceways, motors without data a line that says so; solids are
+    # turned only when asked to.
+    assert seen == set(CHECK_GUIDE) - {"BEARING-RACEWAY", "ASSEMBLY-CLEAR", "MOTOR-DATA"}
     with pytest.raises(UsageError, match="BEARING-LIFE"):
         check_guide("BEARING-LIVE")
 
@@ -491,3 +532,111 @@ def test_a_disc_without_concave_valleys_says_so() -> None:
     assert "EDM-DISC" not in by_id(analysis)
     assert any("no concave valley" in words for words in analysis.warnings)
     assert by_id(analysis)["GEO-K1-LEAST"].status == "fail"
+
+
+def test_every_limit_is_the_one_the_sources_give() -> None:
+    """The constants of `allowables`, once more, in the units that their sources print."""
+    shares = {
+        "SHORTENING_LEAST": 0.3,
+        "SHORTENING_MOST": 0.85,
+        "UNDERCUT_SHARE": 0.9,
+        "TOOTH_OVERLAP_SHARE": 0.85,
+        "SHAFT_CORE_SHARE": 0.25,
+        "FIRST_YIELD_FACTOR": 1.67,
+        "PIN_SAFETY_AT_PEAK": 1.2,
+        "SHEAR_YIELD_SHARE": 0.58,
+        "PAPER_SHEAR_SHARE": 0.5,
+        "PIN_FATIGUE_SHARE": 0.25,
+        "SHAKING_SHARE": 0.1,
+        "REDUCER_EFFICIENCY": 0.88,
+        "HARDENED_HRC": 58.0,
+    }
+    assert {name: getattr(allowables, name) for name in shares} == shares
+    millimetres = {"RING_WALL": 2.5, "LIGAMENT": 1.5, "SLEEVE_WALL": 0.5, "BALANCE_GRADE": 6.3}
+    assert {name: 1e3 * getattr(allowables, name) for name in millimetres} == millimetres
+
+
+def test_limits_of_the_profile_follow_from_the_geometry() -> None:
+    checks, reducer = by_id(analyse_gearbox(SOUND)), SOUND.reducer
+    disc = CycloidDisc.from_design(SOUND)
+    undercut = 1e3 * disc.unmodified.undercut_radius_limit
+    assert checks["GEO-UNDERCUT"].limit == pytest.approx(0.9 * undercut)
+    touching = 1e3 * reducer.ring_pitch_radius * math.sin(math.pi / 11)
+    assert checks["GEO-TOOTH-OVERLAP"].limit == pytest.approx(0.85 * touching)
+
+
+@pytest.mark.parametrize("discs", [2, 3])
+def test_the_shaking_couple_is_carried_over_all_discs(discs: int) -> None:
+    """|sum m r z| omega^2 over the width of all discs, against a tenth of the cam's load."""
+    design = SOUND.replacing({"reducer.disc_count": discs, "reducer.disc_thickness": "6 mm"})
+    analysis = analyse_gearbox(design)
+    check = by_id(analysis)["BALANCE-COUPLE"]
+    assert check.value == pytest.approx(analysis.balance.shaking_moment / (discs * 6e-3))
+    assert check.limit == pytest.approx(0.1 * analysis.cam_bearing.continuous_load)
+
+
+def test_ranges_of_the_strength_rules() -> None:
+    """Pitting strength ends at 400 HB; what is not as stiff as steel is no steel."""
+    hard = allowables.contact_limit_fatigue(find_material("AISI 4340 Q&T 425C"))
+    assert hard.value == pytest.approx(2.22e6 * 400.0 + 200e6)
+    assert "held at 400 HB" in hard.basis
+    steels = [name for name, one in materials().items() if allowables.is_steel(one)]
+    assert len(steels) >= 20
+    assert not {"7075-T6", "Brass CuZn39Pb3", "Bronze CuSn12"} & set(steels)
+
+
+def test_a_case_is_no_through_hardening() -> None:
+    case = find_material("SCM415/16MnCr5 case hardened")
+    assert case.yield_strength is not None
+    static = allowables.contact_limit_static(case)
+    assert static.value == pytest.approx(1.67 * case.yield_strength)
+    assert allowables.contact_limit_fatigue(case).value == pytest.approx(1500e6)
+
+
+def test_a_sleeve_is_ground_to_size() -> None:
+    """What a sleeve leaves of the hole clearance is all of it; a pin has a band."""
+    sleeved = {"reducer.output_pins.sleeve_diameter": "6 mm", "reducer.output_pins.count": 8}
+    assert changed(sleeved)["FIT-PIN-HOLE"].value == pytest.approx(16.0)
+    assert changed({})["FIT-PIN-HOLE"].value == pytest.approx(16.0 - 15.0)
+
+
+def test_more_pins_named_by_the_remedy_carry_the_load() -> None:
+    few = SOUND.replacing(
+        {
+            "reducer.output_pins.count": 6,
+            "reducer.output_pins.diameter": "3 mm",
+            "requirements.peak_torque": "100 N*m",
+        }
+    )
+    check = by_id(analyse_gearbox(few))["PIN-BENDING-PEAK"]
+    assert check.status == "fail"
+    named = re.search(r"or (\d+) of them", check.remedy)
+    assert named, check.remedy
+    count = int(named.group(1))
+    more = by_id(analyse_gearbox(few.replacing({"reducer.output_pins.count": count})))
+    assert more["PIN-BENDING-PEAK"].status == "pass"
+    fewer = by_id(analyse_gearbox(few.replacing({"reducer.output_pins.count": count - 2})))
+    assert fewer["PIN-BENDING-PEAK"].status == "fail"
+
+
+def test_the_wire_named_by_the_remedy_passes() -> None:
+    """Valleys finer than the wire: the remedy's wire just goes through them."""
+    fine = SOUND.replacing(
+        {
+            "reducer.ring_pin_diameter": "0.3 mm",
+            "reducer.eccentricity": "2.9 mm",
+            "reducer.ring.outer_diameter": "90 mm",
+            "reducer.ring.relief_clearance": "0.01 mm",
+            "edm.wire_diameter": "0.25 mm",
+            "edm.spark_gap": "100 um",
+        }
+    )
+    check = by_id(analyse_gearbox(fine))["EDM-DISC"]
+    assert check.status == "fail"
+    named = re.search(r"wire of at most ([\d.]+) mm", check.remedy)
+    assert named, check.remedy
+    wire = float(named.group(1))
+    thinner = {"edm.wire_diameter": f"{wire} mm"}
+    assert by_id(analyse_gearbox(fine.replacing(thinner)))["EDM-DISC"].status == "pass"
+    thicker = {"edm.wire_diameter": f"{1.02 * wire:.4f} mm"}
+    assert by_id(analyse_gearbox(fine.replacing(thicker)))["EDM-DISC"].status == "fail"

@@ -7,7 +7,7 @@ import re
 from typing import Any
 
 import pytest
-from geometry_designs import PAPER, design_of, discs
+from geometry_designs import PAPER, design_of, discs, joint_angles
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -222,6 +222,6 @@ def test_anything_the_design_file_allows_works_or_is_refused_as_geometry(
     part = disc_contour(design, 0, bore_diameter=bore, pin_mean_diameter=0.002, tolerance=1e-6)
     assert part.area() > 0.0
     assert ring_contour(design).area() > 0.0
-    assert abs(lobed_outline(disc, 1e-6).joint_angles()).max() < 1e-6
+    assert abs(joint_angles(lobed_outline(disc, 1e-6))).max() < 1e-6
     if equidistant >= 0.0 and radial >= 0.0:
         assert tooth_gaps(disc, 0.3).gap.min() > -1e-9

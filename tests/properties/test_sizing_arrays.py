@@ -1,6 +1,7 @@
 """The array forms that sizing searches with, against the functions of one design."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.catalog import find_bearing
+from cqdd_design.catalog.screws import pin_diameter_limits
 from cqdd_design.design import Requirements
 from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox import analyse_gearbox
@@ -23,9 +25,10 @@ from cqdd_design.geometry import (
 )
 from cqdd_design.geometry.relief import solid_relief
 from cqdd_design.sizing import shape_limits as shapes
+from cqdd_design.sizing.bought_parts import bearing_table
 from cqdd_design.sizing.finish import design_of, is_load, torque_reserve
 from cqdd_design.sizing.frame import search_frame
-from cqdd_design.sizing.masses import SHAFT_DENSITY
+from cqdd_design.sizing.masses import SHAFT_DENSITY, Weights
 from cqdd_design.sizing.points import Evaluator, Pins
 from cqdd_design.sizing.stage_tables import stage_tables
 
@@ -193,3 +196,86 @@ def test_the_mass_is_that_of_the_parts():
     assert points.mass[0] < expected
     assert points.mass[0] == pytest.approx(expected, rel=2e-2)
     assert points.reflected_inertia[0] - points.gearbox_inertia[0] == pytest.approx(5.6e-4)
+
+
+def test_the_inertia_is_that_of_the_parts():
+    """Every part as a body about the crank's axis: those of disc and carrier turn at 1/n."""
+    evaluator, points = points_near(10, (160, 80, 3, 90), 12, 0)
+    design = design_of(evaluator, points, 0)
+    reducer, n = design.reducer, 10
+    bearing = find_bearing(reducer.cam_bearing.designation)
+    steel, b, e = 7850.0, reducer.disc_thickness, reducer.eccentricity
+    moments = disc_moments(
+        design,
+        0,
+        bore_diameter=bearing.outer_diameter,
+        pin_mean_diameter=pin_mean_diameter(design),
+    )
+    disc, disc_spin = steel * b * moments.area, steel * b * (moments.xx + moments.yy)
+    bore, seat = 0.5 * bearing.bore_diameter, 0.5 * bearing.outer_diameter
+    shaft = SHAFT_DENSITY * math.pi * bore**2 * b
+    # Steiner: a body turns about its own centre and its centre about the axis.
+    with_crank = shaft * (0.5 * bore**2 + e**2) + 0.5 * bearing.mass * (bore**2 + e**2)
+    round_it = (disc + 0.5 * bearing.mass) * e**2
+    with_output = (disc_spin + 0.5 * bearing.mass * seat**2) / n**2
+    pin = steel * math.pi / 4.0 * 0.004**2 * (2 * b + 3 * 0.5e-3)
+    pins = 12 * pin * reducer.output_pins.circle_radius**2 / n**2
+    expected = 2.0 * (with_crank + round_it + with_output) + pins
+    assert points.gearbox_inertia[0] == pytest.approx(expected, rel=1e-3)
+
+
+def test_half_a_per_cent_of_mass_and_inertia_count_as_stated():
+    """mass^0.7 inertia^0.3: the product knows no reference."""
+    light = Weights(np.array([1.0]), np.array([1e-5]), np.array([1e-4]))
+    heavy = Weights(np.array([2.0]), np.array([1e-5]), np.array([1e-4]))
+    slow = Weights(np.array([1.0]), np.array([1e-5]), np.array([2e-4]))
+    assert heavy.objective / light.objective == pytest.approx(2.0**0.7)
+    assert slow.objective / light.objective == pytest.approx(2.0**0.3)
+
+
+def test_every_part_weighs_by_its_own_material():
+    """A part of another density changes the mass by its own volume times the difference."""
+    steps, count, size = (160, 80, 3, 90), 12, 0
+
+    def mass(**changed):
+        frame = replace(search_frame(Requirements(ratio=10)), **changed)
+        evaluator = Evaluator.of(frame, stage_tables(10), [count])
+        pins = Pins.of(frame, np.array([count]), np.array([size]))
+        points = evaluator.evaluate(
+            np.array([steps[:3]]), np.array([[steps[3]]]), pins, np.array([1.0])
+        )
+        return evaluator, points
+
+    evaluator, points = mass()
+    design = design_of(evaluator, points, 0)
+    reducer = design.reducer
+    bearing = find_bearing(reducer.cam_bearing.designation)
+    disc = disc_moments(
+        design, 0, bore_diameter=bearing.outer_diameter, pin_mean_diameter=pin_mean_diameter(design)
+    ).area
+    pin = math.pi / 4.0 * 0.004**2 * (2 * reducer.disc_thickness + 3 * reducer.disc_spacing)
+    for key, volume, close in (
+        ("disc_density", 2.0 * reducer.disc_thickness * disc, 1e-6),
+        ("ring_density", reducer.pack_length * ring_moments(design).area, 6e-2),
+        ("pin_density", 12 * pin, 1e-6),
+    ):
+        more = mass(**{key: 8850.0})[1].mass[0] - points.mass[0]
+        assert more == pytest.approx(1000.0 * volume, rel=close), key
+
+
+def test_a_bearing_without_a_mass_weighs_two_thirds_of_its_annulus():
+    bearing = replace(find_bearing("6902"), mass=None)
+    table = bearing_table((bearing,), 100.0, 0.4)
+    annulus = 7800.0 * math.pi / 4.0 * (0.028**2 - 0.015**2) * 0.007
+    assert table.mass[0] == pytest.approx(2.0 / 3.0 * annulus)
+    # The catalogue's own masses are within a quarter of that.
+    assert table.mass[0] == pytest.approx(find_bearing("6902").mass, rel=0.25)
+
+
+def test_the_frame_leaves_discs_their_spacing_and_pins_their_tolerance():
+    frame = search_frame(Requirements(ratio=10, length="20 mm", disc_count=2))
+    assert frame.most_thickness == pytest.approx(9.7e-3)
+    for size in frame.pin_sizes:
+        least, greatest = pin_diameter_limits(size.diameter)
+        play = size.hole_clearance - 0.5 * (greatest - least)
+        assert play >= 1e-6 - 1e-12 or size.hole_clearance == frame.default_clearance

@@ -13,6 +13,7 @@ from cqdd_design.catalog import find_material
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.results import worst_status
 from cqdd_design.sizing import SizingInfeasibleError, size
 
 MAY_WARN = {"BALANCE-STATIC", "BALANCE-COUPLE", "DISC-COUNT", "SPACE-DIAMETER", "SPACE-LENGTH"}
@@ -195,6 +196,24 @@ def test_a_motor_asked_for_must_be_enough():
     assert error.most_torque == pytest.approx(6 * 0.88 * 12.0, rel=0.01)
     within = {**peak, "peak_torque": f"{error.most_torque} N*m"}
     assert sized(**within, motor="CubeMars RO100 KV55").design.motor.name == "CubeMars RO100 KV55"
+
+
+def test_a_motor_without_data_is_named_and_its_inertia_is_not_zero():
+    """What the catalogue does not know is said in words and is no number."""
+    found = sized(ratio=10, motor="T-Motor U8 KV150")
+    assert any("no rotor inertia" in words for words in found.warnings)
+    assert any("no peak torque" in words for words in found.warnings)
+    assert found.objective.reflected_inertia is None
+    assert found.objective.to_dict()["reflected_inertia_kgm2"] is None
+    assert worst_status(found.checks) == "warn"
+    known = sized(ratio=10)
+    assert known.warnings == ()
+    assert known.objective.reflected_inertia > known.objective.gearbox_inertia
+
+
+def test_a_geared_actuator_is_no_motor():
+    with pytest.raises(InfeasibleError, match=r"requirements.motor .* is a geared actuator"):
+        sized(ratio=10, motor="CubeMars AK80-9 V3")
 
 
 def test_what_was_not_stated_stays_assumed():

@@ -93,3 +93,21 @@ def test_needle_formulas_bracket_a_catalogue_bearing():
     needles = needle_set(0.010, 0.014, 0.010, drawn_cup=True)
     assert bearing.dynamic_rating is not None
     assert 0.6 < dynamic_rating(needles) / bearing.dynamic_rating < 1.15
+
+
+@pytest.mark.parametrize(
+    ("size", "drawn_cup", "expected"),
+    [
+        # bore, outside, width -> needle diameter, length and pitch circle, mm; count: by hand
+        ((20, 26, 17), True, (2.0, 13.8, 22.0, 18)),
+        ((25, 32, 20), True, (2.5, 16.8, 27.5, 18)),
+        ((20, 26, 17), False, (3.0, 14.8, 23.0, 12)),
+    ],
+)
+def test_needles_fill_the_space_between_the_rings(size, drawn_cup, expected):
+    """Half the difference of the rings, less 1 mm of drawn cup; a needle every 1.9 diameters."""
+    bore, outer, width = (1e-3 * value for value in size)
+    found = needle_set(bore, outer, width, drawn_cup=drawn_cup)
+    lengths = (found.diameter, found.length, found.pitch_diameter)
+    assert [1e3 * value for value in lengths] == pytest.approx(expected[:3])
+    assert found.count == expected[3]

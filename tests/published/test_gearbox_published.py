@@ -21,6 +21,7 @@ import numpy as np
 import pytest
 
 from cqdd_design.gearbox import hertz, output_pins, rigid
+from cqdd_design.gearbox.contact import laws
 from cqdd_design.geometry import kinematics, trochoid
 
 KSI = 6.894757e6
@@ -120,11 +121,18 @@ def kubakos_sharing(row: dict[str, str]) -> float:
     return float(rigid.output_pin_forces(n, pins, 0.5e-3 * g["Dw"], disc_torque, angle).max())
 
 
+def palmgren_on_steel(force: float, length: float) -> float:
+    """Approach of two steel bodies, m."""
+    steel = float(hertz.effective_modulus(206e9, 0.3, 206e9, 0.3))
+    coefficient = laws.palmgren_coefficient(length, steel)
+    return float(laws.approach(laws.LineLaw("palmgren"), coefficient, 0.0, force))
+
+
 def hertz_row(row: dict[str, str]) -> float:
     g = numbers(row["inputs"])
     force, length = g["F"], g["L"] * 1e-3
     if row["case"] == "palmgren":
-        return float(hertz.line_contact_approach_palmgren(force, length)) * 1e3
+        return palmgren_on_steel(force, length) * 1e3
     modulus = hertz.effective_modulus(g["E"] * 1e9, g["nu"], g["E"] * 1e9, g["nu"])
     return float(hertz.line_contact_pressure(force, length, g["R"] * 1e-3, modulus)) / 1e6
 
@@ -160,15 +168,11 @@ def test_no_row_is_missing() -> None:
 def test_johnson_and_palmgren_agree_within_a_third() -> None:
     """The comparison that the Palmgren row quotes: R 5 and -15 mm, depth 50 mm, 1000 N on 10 mm."""
     steel = (210e9, 0.3)
-    johnson = hertz.line_contact_approach_johnson(
-        1000.0,
+    coefficient, logarithm = laws.johnson_coefficients(
         0.01,
         hertz.conformal_equivalent_radius(5e-3, 15e-3),
-        hertz.effective_modulus(*steel, *steel),
-        0.05,
-        0.05,
-        *steel,
-        *steel,
+        float(hertz.effective_modulus(*steel, *steel)),
+        ((0.05, *steel), (0.05, *steel)),
     )
-    palmgren = hertz.line_contact_approach_palmgren(1000.0, 0.01)
-    assert float(johnson / palmgren) == pytest.approx(1.0, abs=0.35)
+    johnson = float(laws.approach(laws.LineLaw("johnson", logarithm), coefficient, 0.0, 1000.0))
+    assert johnson / palmgren_on_steel(1000.0, 0.01) == pytest.approx(1.0, abs=0.35)

@@ -152,3 +152,21 @@ def test_hertz_pressure_needs_the_modulus_it_was_computed_with():
     steel = gear_material(find_material("AISI 4140 Q&T 540C"))
     sun, _ = rate_gear_set(gears, 6, LoadCase("continuous", 40.0, 134.7, None), steel)
     assert sun.hertz_pitch_point * 1e-6 == pytest.approx(465.0, abs=0.5)
+
+
+@pytest.mark.parametrize(
+    ("vickers", "factor"),
+    [
+        # Z_W = 1.2 - (HB - 130)/1700 with HV = 1.05 HB, between HB 130 and 470 (clause 13).
+        (100.0, 1.2),
+        (1.05 * 300.0, 1.1),
+        (1.05 * 470.0, 1.0),
+        (550.0, 1.0),
+    ],
+)
+def test_work_hardening_of_a_soft_gear_by_a_hard_mate(vickers, factor):
+    hard = gear_material(find_material("SCM415/16MnCr5 case hardened"))
+    soft = replace(gear_material(find_material("AISI 4140 Q&T 540C")), hardness_vickers=vickers)
+    assert pitting.work_hardening_factor(soft, hard) == pytest.approx(factor)
+    assert pitting.work_hardening_factor(soft, soft) == 1.0
+    assert pitting.work_hardening_factor(hard, soft) == 1.0

@@ -145,3 +145,16 @@ class BenchResult:
                 for metric in self.metrics
             },
         }
+
+
+NEAR = 0.2
+"""Predictions within this share of the measured value count as near."""
+NEAR_EFFICIENCY = 0.05
+"""The same for efficiencies, as a difference."""
+
+
+def is_near(metric: Metric, measured: float) -> bool:
+    """Whether a value is near the measured one."""
+    if metric.unit == "":
+        return abs(metric.value - measured) <= NEAR_EFFICIENCY
+    return abs(metric.value / measured - 1.0) <= NEAR

@@ -36,7 +36,6 @@ def run_bench(
     only: Collection[str] = (),
     beside_paper: bool = False,
     drawn: Collection[ActuatorParameters] = (),
-    calibrated: Collection[str] = (),
     progress: Progress | None = None,
 ) -> BenchResult:
     """Measure an actuator.
@@ -55,8 +54,6 @@ def run_bench(
     drawn : collection of ActuatorParameters
         The same actuator with gearboxes drawn from the tolerances, whose mean ripple is the
         ripple; default its own.
-    calibrated : collection of str
-        Rows that the actuator was fitted to.
     progress : callable, optional
         Told the name of each measurement before it begins.
 
@@ -103,7 +100,7 @@ def run_bench(
         if metric is None:
             warnings.append(f"{name}: {_ABSENT[name]}.")
         else:
-            fitted = metric.name in calibrated and metric.relation == "predicted"
+            fitted = metric.name in parameters.fitted
             found.append(dataclasses.replace(metric, relation="calibrated") if fitted else metric)
     return BenchResult(
         name=parameters.name,

@@ -58,15 +58,43 @@ def mesh_at(gear: Any, table: Any, angle: float, out_angle: float) -> Any:
     )
 
 
+class Contact(NamedTuple):
+    """What the mesh does over a step.
+
+    Attributes
+    ----------
+    torque, slope : float
+        Mean torque on the output, and its slope over the closing.
+    arm : float
+        Lever by which the torque acts on the motor.
+    varying : float
+        Torque of the varying stiffness on the motor.
+    cut : bool
+        Whether the flank that gives way would have pulled, and lets go instead.
+    push, push_slope : float
+        What that flank gives before the cut, positive where it pushes, and its slope.
+    change : float
+        Of the closing.
+    """
+
+    torque: float
+    slope: float
+    arm: float
+    varying: float
+    cut: bool
+    push: float
+    push_slope: float
+    change: float
+
+
 @part
 def meshed(
     gear: Any, table: Any, begin: Any, angle: float, turn: float, out_turn: float, h: float
 ) -> Any:
-    """Torque of the mesh over a step from `begin` at motor angle `angle`.
+    """Contact over a step from `begin` at motor angle `angle`, and the mesh at its end.
 
-    Returns the mean torque on the output, its slope over the closing, the lever by which it acts
-    on the motor, the torque of the varying stiffness on the motor, whether contact that would pull
-    was cut, the change of closing, and the mesh at the end.
+    With a gap every flank pushes or lets go, each for itself: a step that leaves one and meets the
+    other has the push of both, so that the torque stays continuous over the closing.
     """
     new_error, new_slope, new_share, new_bend = look_up(table, (angle + turn) * gear.per_turn)
     change = turn / gear.ratio + (new_error - begin.error) - out_turn
@@ -74,6 +102,7 @@ def meshed(
     new_deflection, new_elastic, new_energy, new_tangent = spring(
         new_closing, gear.half_backlash, gear.error_torque, gear.stiffness, gear.stiffening
     )
+    # The discrete gradient: mean torque times change is the energy gained.
     if abs(change) > TINY_CLOSING:
         mean = (new_energy - begin.energy) / change
         mean_slope = (new_elastic - mean) / change
@@ -88,13 +117,28 @@ def meshed(
         bend = begin.share_slope * gear.intervals
     mid_share = 0.5 * (begin.share + new_share)
     torque = mid_share * mean + gear.damping * (new_deflection - begin.deflection) / h
-    torque_slope = mid_share * mean_slope
+    slope = mid_share * mean_slope
     if new_deflection != 0.0:
-        torque_slope += gear.damping / h
+        slope += gear.damping / h
     # Without a gap both flanks touch, and the damper may pull.
-    clipped = gear.half_backlash > 0.0 and torque * mean <= 0.0
-    if clipped:
-        torque = torque_slope = 0.0
+    cut, push, push_slope = False, 1.0, 0.0
+    if gear.half_backlash > 0.0:
+        if begin.deflection * new_deflection < 0.0:
+            # Left is what pushed before, at E/|x|; met is the other flank.
+            push = mid_share * begin.energy / abs(change)
+            push_slope = -push / change
+            push -= gear.damping * abs(begin.deflection) / h
+            cut = push <= 0.0
+            if cut:
+                mean = new_energy / change
+                torque = mid_share * mean + gear.damping * new_deflection / h
+                slope = mid_share * (new_elastic - mean) / change + gear.damping / h
+        else:
+            way = 1.0 if mean > 0.0 else -1.0
+            push, push_slope = way * torque, way * slope
+            cut = torque * mean <= 0.0
+            if cut:
+                torque = slope = 0.0
     varying = 0.5 * (begin.energy + new_energy) * bend
     end = Mesh(
         new_error,
@@ -107,7 +151,17 @@ def meshed(
         new_energy,
         new_tangent,
     )
-    return torque, torque_slope, arm, varying, clipped, change, end
+    return Contact(torque, slope, arm, varying, cut, push, push_slope, change), end
+
+
+@part
+def passes_kink(gear: Any, contact: Any, end: Any, closed: float) -> Any:
+    """Whether a last correction of the closing leads contact to where its slopes do not hold."""
+    touches = abs(end.closing) > gear.half_backlash
+    will_touch = abs(end.closing + closed) > gear.half_backlash
+    return touches != will_touch or contact.cut != (
+        contact.push + contact.push_slope * closed <= 0.0
+    )
 
 
 @part
@@ -160,12 +214,15 @@ def mesh_ended(
 
 @part
 def damped_in_mesh(
-    gear: Any, begin: Any, end: Any, change: float, clipped: bool, h: float, damped: float
+    gear: Any, begin: Any, end: Any, change: float, cut: bool, h: float, damped: float
 ) -> Any:
-    """Energy lost in the mesh, with that of a step: its damper's, or all that a cut contact held.
+    """Energy lost in the mesh, with that of a step: its damper's, and all that a cut flank held.
 
     Added here and not by the caller, as the product and the sum are rounded once.
     """
-    if clipped:
+    if cut:
+        if begin.deflection * end.deflection < 0.0:
+            damped += gear.damping * end.deflection * change / h
+            return damped + 0.5 * (begin.share + end.share) * begin.energy
         return damped - 0.5 * (begin.share + end.share) * (end.energy - begin.energy)
     return damped + gear.damping * (end.deflection - begin.deflection) * change / h

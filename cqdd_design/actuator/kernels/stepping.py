@@ -33,7 +33,14 @@ from cqdd_design.actuator.kernels.friction import (
     friction_of,
     levels,
 )
-from cqdd_design.actuator.kernels.gear import damped_in_mesh, gear_of, mesh_at, mesh_ended, meshed
+from cqdd_design.actuator.kernels.gear import (
+    damped_in_mesh,
+    gear_of,
+    mesh_at,
+    mesh_ended,
+    meshed,
+    passes_kink,
+)
 from cqdd_design.actuator.kernels.laws import FAST, at
 from cqdd_design.actuator.kernels.loads import (
     cogging,
@@ -46,7 +53,10 @@ from cqdd_design.actuator.kernels.loads import (
 from cqdd_design.files.kernel_cache import numba
 
 SETTLED, MOTOR_SETTLED = 1e-8, 1e-7
-"""Newton steps, rad at the output and at the motor, after which the next would change nothing."""
+"""Newton steps, rad at the output and at the motor, after which the next would change nothing,
+as they converge by squares: not so where contact begins or lets go within the step."""
+SETTLED_AT_KINK = 1e-13
+"""The same there, rad at the output."""
 MOST_ITERATIONS, MOST_SWITCHES = 40, 6
 
 
@@ -149,7 +159,7 @@ def run_one(
         if driven:
             next_speed = at(driven_speed, k + 1)
             y = 0.5 * (out_speed + next_speed)
-        switches, settled, clipped, end = 0, False, False, mesh
+        switches, settled, cut, end = 0, False, False, mesh
         d_motor, d_output = 2.0 * load.motor_inertia / h, 2.0 * load.inertia / h
         friction, output_friction, torque, change, turn = 0.0, 0.0, 0.0, 0.0, 0.0
         wall_rub, pushed, pull = 0.0, 0.0, 0.0
@@ -159,9 +169,9 @@ def run_one(
             if rubs_output and mode_output == STICK:
                 y = 0.5 * out_speed
             turn = h * x
-            torque, torque_slope, arm, varying, clipped, change, end = meshed(
-                gear, table, mesh, angle, turn, h * y, h
-            )
+            contact, end = meshed(gear, table, mesh, angle, turn, h * y, h)
+            torque, torque_slope, arm = contact.torque, contact.slope, contact.arm
+            cut, change = contact.cut, contact.change
             cog = cogging(load, angle, turn)
             pull = gravity_pull(load, out_angle, h, y)
             push_mean, push_slope, wall_rub = wall_push(load, depth, push, wall_energy, h, y)
@@ -175,7 +185,7 @@ def run_one(
                 - add_motor
                 - cog
                 - arm * torque
-                - varying
+                - contact.varying
             )
             right = (
                 torque
@@ -223,7 +233,11 @@ def run_one(
             x += dx
             y += dy
             torque += torque_slope * h * (arm * dx - dy)
-            if h * abs(arm * dx - dy) < SETTLED and h * abs(dx) < MOTOR_SETTLED:
+            closed = h * (arm * dx - dy)
+            near = abs(closed) < SETTLED and h * abs(dx) < MOTOR_SETTLED
+            if near and (
+                abs(closed) < SETTLED_AT_KINK or not passes_kink(gear, contact, end, closed)
+            ):
                 # Do the frictions agree with the motion they allow? What a held body needs moves
                 # with the other one's last correction.
                 former_motor, former_output = mode_motor, mode_output
@@ -254,7 +268,7 @@ def run_one(
         end, change = mesh_ended(
             gear, table, mesh, end, new_angle, turn, turned, change, h * y, settled
         )
-        damped = damped_in_mesh(gear, mesh, end, change, clipped, h, damped)
+        damped = damped_in_mesh(gear, mesh, end, change, cut, h, damped)
         new_speed = 2.0 * x - speed
         if rubs_motor and mode_motor == STICK:
             new_speed = 0.0

@@ -56,30 +56,49 @@ def meshed(
     """Torques of the mesh over a step, the mesh at its end, and whether a pull was cut.
 
     The torques: `gear` on the output, its `slope` over the closing, its lever `arm` on the motor,
-    and `varying`, by which varying stiffness turns the motor.
+    and `varying`, by which varying stiffness turns the motor. What is cut is the flank that gives
+    way; one that the step meets beyond the gap pushes all the same.
     """
     end = look_up(p, table, state["angle"] + turn)
     change = turn / p["ratio"] + (end["error"] - state["error"]) - out_turn
     end |= spring(p, state["closing"] + change)
-    if abs(change) > 1e-9:
-        mean = (end["energy"] - state["energy"]) / change
-        slope = (end["elastic"] - mean) / change
-    else:
-        mean, slope = 0.5 * (state["elastic"] + end["elastic"]), 0.5 * end["tangent"]
     arm = 1.0 / p["ratio"] + state["error_slope"]
     bend = state["share_slope"]
     if abs(turn) > 1e-10:
         arm = 1.0 / p["ratio"] + (end["error"] - state["error"]) / turn
         bend = (end["share"] - state["share"]) / turn
     share = 0.5 * (state["share"] + end["share"])
-    gear = share * mean + p["gear_damping"] * (end["deflection"] - state["deflection"]) / h
-    gear_slope = share * slope + (p["gear_damping"] / h if end["deflection"] else 0.0)
-    clipped = p["half_backlash"] > 0.0 and gear * mean <= 0.0
-    if clipped:
-        gear = gear_slope = 0.0
+    gear, slope = _torque(p, share, state, end, change, h)
+    cut = False
+    if p["half_backlash"] > 0.0:
+        nothing = {"energy": 0.0, "elastic": 0.0, "deflection": 0.0, "tangent": 0.0}
+        passed = state["deflection"] * end["deflection"] < 0.0
+        left = _torque(p, share, state, nothing if passed else end, change, h)[0]
+        pressed = state["elastic"] or end["elastic"]
+        cut = left * pressed <= 0.0
+        if cut:
+            gear, slope = _torque(p, share, nothing, end, change, h) if passed else (0.0, 0.0)
     varying = 0.5 * (state["energy"] + end["energy"]) * bend
-    torques = {"gear": gear, "slope": gear_slope, "arm": arm, "varying": varying}
-    return torques, end, clipped
+    torques = {"gear": gear, "slope": slope, "arm": arm, "varying": varying}
+    return torques, end, cut
+
+
+def _torque(
+    p: dict[str, float],
+    share: float,
+    begin: dict[str, float],
+    end: dict[str, float],
+    change: float,
+    h: float,
+) -> tuple[float, float]:
+    """Mean torque of spring and damper between two states of the mesh, and its slope."""
+    if abs(change) > 1e-9:
+        mean = (end["energy"] - begin["energy"]) / change
+        slope = (end["elastic"] - mean) / change
+    else:
+        mean, slope = 0.5 * (begin["elastic"] + end["elastic"]), 0.5 * end["tangent"]
+    torque = share * mean + p["gear_damping"] * (end["deflection"] - begin["deflection"]) / h
+    return torque, share * slope + (p["gear_damping"] / h if end["deflection"] else 0.0)
 
 
 def damped_in_mesh(
@@ -87,11 +106,13 @@ def damped_in_mesh(
     state: dict[str, float],
     end: dict[str, float],
     change: float,
-    clipped: bool,
+    cut: bool,
     h: float,
 ) -> float:
-    """Energy that the mesh lost in a step, J: its damper's, or all that a cut contact gave back."""
-    if clipped:
-        mean_share = 0.5 * (state["share"] + end["share"])
-        return -mean_share * (end["energy"] - state["energy"])
-    return p["gear_damping"] * (end["deflection"] - state["deflection"]) * change / h
+    """Energy that the mesh lost in a step, J: its damper's, and all that a cut flank held."""
+    share = 0.5 * (state["share"] + end["share"])
+    if not cut:
+        return p["gear_damping"] * (end["deflection"] - state["deflection"]) * change / h
+    if state["deflection"] * end["deflection"] < 0.0:
+        return share * state["energy"] + p["gear_damping"] * end["deflection"] * change / h
+    return -share * (end["energy"] - state["energy"])

@@ -44,7 +44,7 @@ class _Step:
     gear: float
     gear_slope: float
     arm: float
-    clipped: bool
+    cut: bool
     wall_rub: float
     end: dict[str, float]
 
@@ -76,7 +76,7 @@ class _Machine:
     def evaluate(self, x: float, y: float, given: dict[str, float]) -> _Step:
         """Balances of motor and output without dry friction at mean speeds x and y."""
         p, s, h = self.p, self.s, self.h
-        mesh, end, clipped = meshed(p, s, self.table, h * x, h * y, h)
+        mesh, end, cut = meshed(p, s, self.table, h * x, h * y, h)
         end |= wall_at(p, s["out"] + h * y)
         arm, gear, gear_slope = mesh["arm"], mesh["gear"], mesh["slope"]
         push, push_slope, wall_rub = wall_push(p, s, end, h, y)
@@ -94,7 +94,7 @@ class _Machine:
         matrix[0, 0] += given["drive_slope"] + given["b_motor"]
         matrix[1, 1] += given["b_output"] + p["sensor_damping"] + push_slope
         matrix[1, 1] += 0.5 * h * p["sensor_stiffness"]
-        return _Step(left, right, matrix, gear, gear_slope, arm, clipped, wall_rub, end)
+        return _Step(left, right, matrix, gear, gear_slope, arm, cut, wall_rub, end)
 
     def settle(
         self, x: float, y: float, given: dict[str, float], held: list[bool], dry: list[float]
@@ -248,9 +248,9 @@ def _finish(
     """Move to the end of the step, book its energies, record it."""
     p, s, h = m.p, m.s, m.h
     lugre, driven = bool(p["lugre"]), bool(p["driven"])
-    end, clipped = found.end, found.clipped
+    end, cut = found.end, found.cut
     change = h * x / p["ratio"] + (end["error"] - s["error"]) - h * y
-    tally["gear_damping"] += damped_in_mesh(p, s, end, change, clipped, h)
+    tally["gear_damping"] += damped_in_mesh(p, s, end, change, cut, h)
     viscous = p["motor_viscous"] + p["iron_viscous"]
     if lugre:
         m.bristles = (m.bristles + h * np.array([x, y])) / (1.0 + np.array(relax))

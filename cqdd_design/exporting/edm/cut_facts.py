@@ -111,6 +111,12 @@ class CutFacts:
         return heat_treatment(self.flat.material)
 
     @property
+    def remarks(self) -> tuple[str, ...]:
+        """Remarks of the part, which are in capitals, as sentences."""
+        said = (remark.capitalize().replace(" x axis", " X axis") for remark in self.flat.remarks)
+        return tuple(one + "." for one in said)
+
+    @property
     def seat_by_contour(self) -> dict[int, Seat]:
         """Seats by the number of their contour."""
         return {seat.contour: seat for seat in self.seats}

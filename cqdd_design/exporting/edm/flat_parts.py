@@ -13,7 +13,7 @@ import numpy as np
 from cqdd_design.catalog import find_bearing
 from cqdd_design.exporting.edm.exact_curves import disc_curve, ring_curve
 from cqdd_design.exporting.edm.loops import ExactCurve
-from cqdd_design.geometry.contours import Contour, PlanarPart
+from cqdd_design.geometry.contours import ArcContour, Contour, PlanarPart
 from cqdd_design.geometry.disc import disc_contour
 from cqdd_design.geometry.ring import ring_contour
 from cqdd_design.geometry.validate import validate_geometry
@@ -59,6 +59,21 @@ class FlatPart:
     reference_radius: float
     remarks: tuple[str, ...]
     turned_over: int = 0
+
+    @property
+    def contours(self) -> tuple[Contour, ...]:
+        """By number: 0 is the outer one, then the inner ones."""
+        return (self.shape.outer, *self.shape.holes)
+
+    @property
+    def cut_order(self) -> tuple[int, ...]:
+        """Numbers of the contours: the outer one last, so that the part stays in the plate."""
+        return (*range(1, len(self.contours)), 0)
+
+    @property
+    def fitted(self) -> ArcContour:
+        """The one contour that is no circle."""
+        return next(one for one in self.contours if isinstance(one, ArcContour))
 
 
 def flat_parts(design: Design) -> tuple[FlatPart, ...]:

@@ -152,7 +152,7 @@ def check_program(text: str, flat: FlatPart, edm: Edm) -> list[Cut]:
         Naming the cut that is wrong.
     """
     cuts = read_program(text)
-    contours = [*flat.shape.holes, flat.shape.outer]
+    contours = [flat.contours[number] for number in flat.cut_order]
     if len(cuts) != len(contours):
         raise ReadBackError(f"{flat.label}: {len(cuts)} cuts for {len(contours)} contours.")
     for number, (cut, contour) in enumerate(zip(cuts, contours, strict=True), start=1):

@@ -137,7 +137,7 @@ def measure_paths(
     ReadBackError
         When paths, lead-ins, start holes and contours do not belong together one by one.
     """
-    offset = edm.wire_diameter / 2.0 + edm.spark_gap
+    offset = edm.wire_offset
     every = [(loop, True) for loop in contours[0]] + [(loop, False) for loop in contours[1]]
     if not len(paths) == len(leads) == len(starts) == len(every):
         raise ReadBackError(

@@ -14,7 +14,8 @@ import numpy as np
 
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting.estimators import c_kernels, c_physics
-from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.exporting.estimators.options import Export
+from cqdd_design.files import write_atomically
 from cqdd_design.torque.networks.folded import folded_gru, folded_mlp
 
 if TYPE_CHECKING:
@@ -35,9 +36,10 @@ _HOMED = (
 )
 
 
-def write_c_header(artefact: Artefact, path: Path) -> WrittenFile:
-    """Write the header; its names begin with the file's stem as a C identifier."""
-    return write_atomically(path, header_text(artefact, c_name(path.stem)), "c")
+def export_c(artefact: Artefact, path: Path) -> Export:
+    """Write ``NAME.h``; the names in it begin with NAME as a C identifier."""
+    text = header_text(artefact, c_name(path.name))
+    return Export((write_atomically(path.with_name(f"{path.name}.h"), text, "c"),))
 
 
 def c_name(text: str) -> str:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cqdd_design.errors import DependencyError, ReadBackError, UsageError
+from cqdd_design.errors import CqddError, DependencyError, ReadBackError, UsageError
 from cqdd_design.files import WrittenFile, parse_json, read_text_file, write_atomically
 from cqdd_design.torque.features.matrix import PHYSICAL
 
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 
     from cqdd_design.torque.networks.artefact import Artefact, Mode
 
-KINDS = ("onnx", "torchscript-isaaclab", "newton", "mjlab", "c")
-"""Values of ``torque export --to``."""
 TOLERANCE = 1e-5
 """Largest difference between a file read back and the estimator, N m at 15 N m of scale."""
 SIGNS = (
@@ -38,11 +36,20 @@ SIGNS = (
 
 
 @dataclass(frozen=True)
+class Refusal:
+    """A kind that could not be written, and why."""
+
+    kind: str
+    error: CqddError
+
+
+@dataclass(frozen=True)
 class Export:
-    """What one kind of export wrote, and what its user must know."""
+    """What was written, what its user must know, and which of several kinds could not be."""
 
     files: tuple[WrittenFile, ...]
     warnings: tuple[str, ...] = ()
+    refused: tuple[Refusal, ...] = ()
 
 
 def require(name: str) -> Any:

@@ -21,7 +21,7 @@ from cqdd_design.exporting.sheets.edm_readme import readme_text
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
 
 README = "README.txt"
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design import __version__
 from cqdd_design.exporting.edm.cut_facts import CUT_FINISH, zone_text
-from cqdd_design.exporting.edm.wire_path import contour_name, wire_offset
+from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
 from cqdd_design.exporting.sheets.canvas import sheet_date
 from cqdd_design.exporting.sheets.drawing import OUTLINE, SMALL, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import text_width
@@ -121,9 +121,9 @@ def _notes(sheet: SheetDrawing, facts: CutFacts) -> None:
 def notes(facts: CutFacts) -> list[str]:
     """Notes of a sheet, each a sentence or two."""
     flat, edm = facts.flat, facts.design.edm
-    offset = _MM * wire_offset(edm)
-    said = [_sentence(remark) for remark in flat.remarks]
-    said += [
+    offset = _MM * edm.wire_offset
+    said = [
+        *facts.remarks,
         _curve(facts),
         f"Cut from the file {facts.design.name}-{flat.label}.dxf, layers CUT_OUTER and CUT_INNER: "
         "nominal finished contour without kerf offset. WIRE_PATH is the centre of the wire on the "
@@ -134,12 +134,12 @@ def notes(facts: CutFacts) -> list[str]:
         f"Profile: zone {zone_text(facts.zones.profile)} mm wide, half to either side of the "
         "contour, after the last skim cut.",
     ]
-    for seat in facts.seats:
-        said.append(
-            f"Seat \u00d8{seat}, {contour_name(seat.contour)}: the file is nominal; cut to "
-            f"\u00d8{_MM * seat.middle:.4f}, the middle of its zone: shift the wire "
-            f"{_MM * seat.shift:+.4f} mm into the waste."
-        )
+    said += [
+        f"Seat \u00d8{seat}, {contour_name(seat.contour)}: the file is nominal; cut to "
+        f"\u00d8{_MM * seat.middle:.4f}, the middle of its zone: shift the wire "
+        f"{_MM * seat.shift:+.4f} mm into the waste."
+        for seat in facts.seats
+    ]
     said += [
         f"Datum A: axis of {'the outside' if flat.label == 'ring' else 'the bore'}. Datum B: lower "
         "face, on the table of the machine.",
@@ -166,11 +166,6 @@ def _curve(facts: CutFacts) -> str:
         f"{_MM * reducer.eccentricity:g} mm, {taken:g} mm taken off along the normal; the file "
         "rules."
     )
-
-
-def _sentence(remark: str) -> str:
-    """A remark in capitals as a sentence."""
-    return remark.capitalize().replace(" x axis", " X axis").rstrip(".") + "."
 
 
 def _wrapped(text: str, width: float) -> list[str]:
@@ -214,14 +209,11 @@ def _cuts(sheet: SheetDrawing, facts: CutFacts) -> None:
 def cut_rows(facts: CutFacts) -> list[tuple[str, ...]]:
     """Rows of the table of cuts; of very many holes the first and the last."""
     flat = facts.flat
-    contours = (flat.shape.outer, *flat.shape.holes)
-    order = [*range(1, len(contours)), 0]
     rows = []
-    for step, number in enumerate(order, start=1):
-        contour, path = contours[number], facts.paths[number]
-        size, centre = "profile", 0j
-        if isinstance(contour, Circle):
-            size, centre = f"\u00d8{2.0 * _MM * contour.radius:.4f}", complex(*contour.centre)
+    for step, number in enumerate(flat.cut_order, start=1):
+        contour, path = flat.contours[number], facts.paths[number]
+        size = contour_size(contour, "\u00d8")
+        centre = complex(*contour.centre) if isinstance(contour, Circle) else 0j
         places = [_place(v) for at in (centre, path.start) for v in (at.real, at.imag)]
         hole = f"{_MM * path.start_diameter:.2f}"
         rows.append((str(step), contour_name(number), size, *places, hole))

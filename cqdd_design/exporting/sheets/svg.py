@@ -29,7 +29,7 @@ from cqdd_design.geometry.ring import ring_contour, ring_pins
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
 
 STYLE = """\
 .part { fill-rule: evenodd; stroke: #22303c; stroke-width: 0.25; }

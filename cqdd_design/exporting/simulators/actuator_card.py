@@ -2,8 +2,8 @@
 
 As YAML for programs and as Markdown for people, from the same rows. Through a gear of n torque goes
 times n, speed and angle over n, inertia, damping and stiffness times n^2.
-`card_rows` holds the rows, `card_names` what clients call them, `card_clients` the settings of each
-simulator.
+`data/card.csv` holds the rows and what clients call them, `data/clients.toml` the clients and their
+settings.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.joint_side import JointSide, joint_side, provenance
 from cqdd_design.actuator.motor import MotorConstants, motor_constants
-from cqdd_design.exporting.simulators.card_clients import CLIENTS, client_settings
+from cqdd_design.exporting.simulators.card_clients import client_settings, clients
 from cqdd_design.exporting.simulators.card_rows import Quantity, quantities
 from cqdd_design.exporting.simulators.yaml_text import yaml_text
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
 
 FORMAT = 1
 """Of the YAML's keys."""
@@ -85,7 +85,7 @@ def actuator_card(
 def card_yaml(card: Card) -> str:
     """Return the card as YAML."""
     heading = f"# Actuator card of {card.name}. Written by {provenance(card.design_sha256)}.\n"
-    clients = {
+    told = {
         client.key: {
             "name": client.title,
             "version": client.version,
@@ -93,7 +93,7 @@ def card_yaml(card: Card) -> str:
             "settings": {key: dict(part) for key, part in card.settings[client.key].items()},
             "not_expressed": client.missing,
         }
-        for client in CLIENTS
+        for client in clients()
     }
     document = {
         "format": FORMAT,
@@ -108,7 +108,7 @@ def card_yaml(card: Card) -> str:
         "conventions": {key: text for key, text in _conventions(card)},
         "parameters": {row.key: _row_document(row) for row in card.rows},
         "harmonics": dict(card.harmonics),
-        "clients": clients,
+        "clients": told,
     }
     return heading + yaml_text(document)
 
@@ -143,13 +143,13 @@ def card_markdown(card: Card) -> str:
         )
         lines.append(f"| {' | '.join(map(_cell, cells))} |")
     lines += ["", "## What clients call it", ""]
-    titles = [client.title for client in CLIENTS]
+    titles = [client.title for client in clients()]
     lines += [f"| parameter | {' | '.join(titles)} |", "|---" * (len(titles) + 1) + "|"]
     for row in card.rows:
         if row.names:
-            told = [row.names.get(client.key, "") for client in CLIENTS]
+            told = [row.names.get(client.key, "") for client in clients()]
             lines.append(f"| {_cell(row.title)} | {' | '.join(map(_cell, told))} |")
-    for client in CLIENTS:
+    for client in clients():
         lines += ["", f"## {client.title}", "", f"Version {client.version}; {client.checked}.", ""]
         for key, part in card.settings[client.key].items():
             lines += [f"`{key}`", "", "| setting | value |", "|---|--:|"]

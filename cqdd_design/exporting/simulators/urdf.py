@@ -17,7 +17,7 @@ from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
 
 DRAKE = "http://drake.mit.edu"
 """Namespace of Drake's elements."""

@@ -24,7 +24,7 @@ from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
     from cqdd_design.geometry.contours import FloatArray
     from cqdd_design.solids.parts import Colour, Part
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from cadquery import Assembly
 
     from cqdd_design.design import Design
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
     from cqdd_design.solids.parts import Colour, Part
 
 _AUTHOR = "cqdd-design"

@@ -70,13 +70,9 @@ SHEAR_YIELD_SHARE = 0.58
 """Yield in shear over yield in tension (von Mises, 1/sqrt 3)."""
 PAPER_SHEAR_SHARE = 0.5
 """Allowable shear over ultimate strength in the paper's pin figure: 35 of 70 ksi."""
-PIN_FATIGUE_12_9 = 300e6
-"""Pulsating bending stress of a 12.9 shoulder screw, Pa (about S_u/4: ground shoulder, fillet)."""
-PIN_FATIGUE_18_8 = 120e6
-"""Pulsating bending stress of an annealed 18-8 shoulder screw, Pa (about S_u/4)."""
 PIN_FATIGUE_SHARE = 0.25
-"""Pulsating bending stress over ultimate strength for other materials: the share both values
-above have."""
+"""Pulsating bending stress over ultimate strength where the catalogue tables none: the share that
+the tabled shoulder screws have."""
 
 # Cam bearing ------------------------------------------------------------------------------------
 STATIC_SAFETY = 1.0
@@ -147,8 +143,8 @@ def brinell_estimate(material: Material) -> tuple[float, str] | None:
 
 def _through_hardened(material: Material) -> bool:
     hardness = material.rockwell_hardness
-    surface_only = "surface" in material.hardness or "case" in material.name
-    return hardness is not None and hardness >= HARDENED_HRC and not surface_only
+    through = material.treatment != "case-hardened"
+    return hardness is not None and hardness >= HARDENED_HRC and through
 
 
 def contact_limit_static(material: Material) -> Allowable:
@@ -167,7 +163,7 @@ def contact_limit_static(material: Material) -> Allowable:
     if _through_hardened(material):
         return Allowable(
             HARDENED_STATIC_PRESSURE,
-            f"{HARDENED_STATIC_PRESSURE / 1e6:.0f} MPa for steel hardened to 58 HRC "
+            f"{HARDENED_STATIC_PRESSURE / 1e6:.0f} MPa for steel hardened to {HARDENED_HRC:g} HRC "
             f"({material.name})",
         )
     if material.yield_strength is None:
@@ -199,7 +195,7 @@ def contact_limit_fatigue(material: Material) -> Allowable:
     if rockwell is not None and rockwell >= HARDENED_HRC:
         return Allowable(
             HARDENED_FATIGUE_PRESSURE,
-            f"{HARDENED_FATIGUE_PRESSURE / 1e6:.0f} MPa at 58 HRC ({material.name})",
+            f"{HARDENED_FATIGUE_PRESSURE / 1e6:.0f} MPa at {HARDENED_HRC:g} HRC ({material.name})",
         )
     estimate = brinell_estimate(material)
     if estimate is None:
@@ -213,7 +209,8 @@ def contact_limit_fatigue(material: Material) -> Allowable:
         remark = f", an estimate below the {AGMA_LEAST_HB:.0f} HB where the rule begins"
     return Allowable(
         AGMA_SLOPE * used + AGMA_BASE,
-        f"2.22 x {used:.0f} HB + 200 MPa ({material.name}, {words}{remark})",
+        f"{AGMA_SLOPE / 1e6:g} x {used:.0f} HB + {AGMA_BASE / 1e6:g} MPa "
+        f"({material.name}, {words}{remark})",
     )
 
 
@@ -259,12 +256,13 @@ def pin_bending_limit_continuous(material: Material, *, duty_reverses: bool) -> 
     ultimate = material.ultimate_strength
     if ultimate is None:
         return Allowable(0.0, f"no ultimate strength in the catalogue for {material.name}")
-    if material.name.startswith("Alloy steel 12.9"):
-        value, words = PIN_FATIGUE_12_9, "tabled for 12.9 screws"
-    elif material.name.startswith(("18-8", "304 / 18-8")):
-        value, words = PIN_FATIGUE_18_8, "tabled for annealed 18-8 screws"
+    if material.pulsating_strength is not None:
+        value, words = material.pulsating_strength, material.pulsating_basis
     else:
-        value, words = PIN_FATIGUE_SHARE * ultimate, f"S_u/4 of {material.name}"
+        value, words = (
+            PIN_FATIGUE_SHARE * ultimate,
+            f"S_u/{1.0 / PIN_FATIGUE_SHARE:g} of {material.name}",
+        )
         if material.fatigue_strength is not None and material.fatigue_strength < value:
             value, words = material.fatigue_strength, f"endurance limit of {material.name}"
     if not duty_reverses:

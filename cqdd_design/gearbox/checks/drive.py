@@ -38,7 +38,8 @@ def _balance(state: GearboxState) -> tuple[Check, ...]:
             static * 1e6,
             permitted * 1e6,
             f"{reducer.disc_count} x {mass * 1e3:.1f} g at {reducer.eccentricity * 1e3:g} mm leave "
-            f"{static * 1e6:.3g} g*mm; {total * 1e3:.1f} g x 6.3 mm/s/{speed:.1f} rad/s",
+            f"{static * 1e6:.3g} g*mm; {total * 1e3:.1f} g x "
+            f"{allowables.BALANCE_GRADE * 1e3:g} mm/s/{speed:.1f} rad/s",
             "use two discs, or set balance.counterweights = true, which needs a counterweight of "
             f"{moment * 1e6:.3g} g*mm",
         ),
@@ -69,27 +70,40 @@ def _disc_count(state: GearboxState) -> Check:
 
 
 def _motor(state: GearboxState) -> tuple[tuple[Check, ...], tuple[str, ...]]:
-    design = state.design
-    name = design.motor.name
+    name = state.design.motor.name
     motor = find_motor(name)
-    if motor.torque_at != "motor":
-        return (), (
-            f"motor '{name}' is a geared actuator of the comparison table, so no motor check was "
-            "made; choose a bare motor.",
-        )
-    checks: list[Check] = []
-    warnings: list[str] = []
-    for make, present, what in (
+    known = (
         (_peak, motor.peak_torque, "peak torque"),
         (_continuous, motor.rated_torque, "rated torque"),
         (_speed, motor.speed_constant, "speed constant"),
         (_bore, motor.bore_diameter, "stator bore"),
-    ):
-        if present is None:
-            warnings.append(f"motor '{name}' has no {what} in the catalogue; not checked.")
-        else:
-            checks.append(make(state, motor, present))
-    return tuple(checks), tuple(warnings)
+    )
+    if motor.torque_at != "motor":
+        sentence = (
+            f"motor '{name}' is a geared actuator of the comparison table, so no motor check was "
+            "made; choose a bare motor."
+        )
+        why = f"'{name}' is a geared actuator, whose data count at its output"
+        return (_known_data(0, len(known), why),), (sentence,)
+    checks = [make(state, motor, value) for make, value, _ in known if value is not None]
+    lacking = [what for _, value, what in known if value is None]
+    if lacking:
+        words = f"the catalogue has no {', no '.join(lacking)} of '{name}'"
+        checks.append(_known_data(len(checks), len(known), words))
+    return tuple(checks), tuple(
+        f"motor '{name}' has no {what} in the catalogue; not checked." for what in lacking
+    )
+
+
+def _known_data(known: int, wanted: int, words: str) -> Check:
+    """The line that stands where checks of the motor could not be made."""
+    return build_check(
+        "MOTOR-DATA",
+        float(known),
+        float(wanted),
+        words,
+        "name a motor whose row gives them, such as 'CubeMars RO100 KV55'",
+    )
 
 
 def _named(state: GearboxState) -> bool:

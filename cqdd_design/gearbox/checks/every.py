@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cqdd_design.gearbox.checks.allowables import HARDENED_HRC
 from cqdd_design.gearbox.checks.drive import drive_checks
 from cqdd_design.gearbox.checks.loads import load_checks
 from cqdd_design.gearbox.checks.shape import shape_checks
@@ -40,5 +41,5 @@ def _raceway_warning(state: GearboxState) -> tuple[str, ...]:
         return ()
     return (
         f"cam bearing '{bearing.designation}' runs on the eccentric itself: harden the shaft to "
-        "58 HRC and grind it, or the ratings do not hold.",
+        f"{HARDENED_HRC:g} HRC and grind it, or the ratings do not hold.",
     )

@@ -86,7 +86,7 @@ def _harder_parts(parts: dict[str, Material], rule: _MaterialRule, pressure: flo
         enough = [
             (rule(other).value, other.name)
             for other in materials().values()
-            if rule(other).value >= pressure and (part == "pins" or not _is_fastener(other))
+            if rule(other).value >= pressure and (part == "pins" or other.form != "fastener")
         ]
         if not enough:
             most = rounded_up(pressure / _MEGA)
@@ -94,10 +94,6 @@ def _harder_parts(parts: dict[str, Material], rule: _MaterialRule, pressure: flo
         value, name = min(enough)
         words.append(f"the {part} of '{name}' ({value / _MEGA:.0f} MPa)")
     return "make " + " and ".join(words)
-
-
-def _is_fastener(material: Material) -> bool:
-    return any(word in material.name for word in ("screw", "ISO 7379", "ISO 3506", "F593"))
 
 
 def _pins(state: GearboxState) -> tuple[Check, ...]:
@@ -109,6 +105,8 @@ def _pins(state: GearboxState) -> tuple[Check, ...]:
         allowables.pin_bearing_limit_peak(find_material(reducer.disc_material)),
     )
     d = pins.diameter * 1e3
+    # What bears on the hole is the sleeve where there is one; bent and sheared is the pin.
+    runner = max(pins.diameter, pins.sleeve_diameter)
     needed = peak.torque
 
     def capacity(check_id: str, torque: float, substituted: str) -> Check:
@@ -126,13 +124,17 @@ def _pins(state: GearboxState) -> tuple[Check, ...]:
     ) -> Check:
         value = UNEVEN_SHARING * raw
         force = UNEVEN_SHARING * load.output_pin_force
-        where = f", arm {strength.bending_arm * 1e3:.4f} mm ({pins.support})" if power == 3 else ""
+        where = {
+            1: f"{runner * 1e3:g} mm x {reducer.disc_thickness * 1e3:g} mm",
+            2: f"{d:g} mm",
+            3: f"{d:g} mm, arm {strength.bending_arm * 1e3:.4f} mm ({pins.support})",
+        }[power]
         return build_check(
             check_id,
             value / _MEGA,
             allowed.value / _MEGA,
             f"{UNEVEN_SHARING:g} x {raw / _MEGA:.1f} MPa = {value / _MEGA:.1f} MPa "
-            f"(F {force:.1f} N on {d:g} mm{where}) at {load.torque:g} N*m",
+            f"(F {force:.1f} N on {where}) at {load.torque:g} N*m",
             _stronger_pins(state, value, allowed, load.torque, power),
             basis=allowed.basis,
         )
@@ -195,6 +197,10 @@ def _stronger_pins(
         return f"choose a pin material the catalogue knows strengths of: {allowed.basis}"
     pins = state.design.reducer.output_pins
     ratio = value / allowed.value
+    lower = f"lower the torque to {_torque(torque / ratio)}"
+    if power == 1 and pins.sleeve_diameter > 0.0:
+        wider = rounded_up(pins.sleeve_diameter * 1e3 * ratio)
+        return f"raise output_pins.sleeve_diameter to {wider:g} mm, or {lower}"
     thicker = pins.diameter * 1e3 * ratio ** (1.0 / power)
     # An even count, whose peak factor is exactly four.
     count = 2 * math.ceil(0.5 * pins.count * ratio * 4.0 / state.pins.peak_force_factor)
@@ -203,10 +209,7 @@ def _stronger_pins(
     room = reach - state.geometry.hole_diameter >= allowables.LIGAMENT
     more = f", or {count} of them" if room else ""
     held = ", or hold the pins at both ends" if power == 3 and pins.support != "both" else ""
-    return (
-        f"use pins of {_pin_size(thicker)}{more}{held}, or lower the torque to "
-        f"{_torque(torque / ratio)}"
-    )
+    return f"use pins of {_pin_size(thicker)}{more}{held}, or {lower}"
 
 
 def _bearing(state: GearboxState) -> tuple[Check, ...]:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
+from cqdd_design.catalog.screws import pin_diameter_limits
 from cqdd_design.gearbox.cam_bearing import least_bore
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
-from cqdd_design.gearbox.stages import pin_diameter_limits
 from cqdd_design.geometry.limits import rounded_down, rounded_up
 from cqdd_design.results import Check
 
@@ -62,14 +62,16 @@ def _profile(state: GearboxState) -> tuple[Check, ...]:
             "GEO-UNDERCUT",
             _mm(r),
             _mm(most_undercut),
-            f"r = {_mm(r):.4g} mm, 0.9 x {_mm(undercut):.4f} mm = {_mm(most_undercut):.4f} mm",
+            f"r = {_mm(r):.4g} mm, {allowables.UNDERCUT_SHARE:g} x {_mm(undercut):.4f} mm = "
+            f"{_mm(most_undercut):.4f} mm",
             f"lower ring_pin_diameter to {rounded_down(2.0 * _mm(most_undercut)):g} mm",
         ),
         build_check(
             "GEO-TOOTH-OVERLAP",
             _mm(r),
             _mm(most_overlap),
-            f"0.85 x {_mm(radius):.4g} mm x sin(180/{n + 1} deg) = {_mm(most_overlap):.4f} mm",
+            f"{allowables.TOOTH_OVERLAP_SHARE:g} x {_mm(radius):.4g} mm x sin(180/{n + 1} deg) = "
+            f"{_mm(most_overlap):.4f} mm",
             f"lower ring_pin_diameter to {rounded_down(2.0 * _mm(most_overlap)):g} mm",
         ),
     )
@@ -168,7 +170,7 @@ def _fits(state: GearboxState) -> tuple[Check, ...]:
             "BEARING-CORE",
             _mm(bearing.bore_diameter),
             _mm(least_bore(reducer.eccentricity)),
-            f"bore {_mm(bearing.bore_diameter):g} mm, 4 e = "
+            f"bore {_mm(bearing.bore_diameter):g} mm, {least_bore(1.0):g} e = "
             f"{_mm(least_bore(reducer.eccentricity)):.3f} mm",
             "use a cam bearing with a bore of at least "
             f"{rounded_up(_mm(least_bore(reducer.eccentricity))):g} mm",
@@ -218,7 +220,7 @@ def _space(state: GearboxState) -> tuple[Check, ...]:
 
 def _edm(state: GearboxState) -> tuple[Check, ...]:
     edm, geometry = state.design.edm, state.geometry
-    needed = 0.5 * edm.wire_diameter + edm.spark_gap
+    needed = edm.wire_offset
 
     def one(check_id: str, radius: float, what: str) -> Check:
         finer = 2.0 * (radius - edm.spark_gap)

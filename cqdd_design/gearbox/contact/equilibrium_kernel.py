@@ -6,8 +6,8 @@ derivative, which is monotone, makes it safe from any start. The carrier couples
 one 3x3 block, so a state costs one small elimination per disc.
 
 State vector: carrier (X, Y, gamma), then each disc (x, y, theta); angles are multiplied by
-`length` (the pin circle), so that every entry is a length and every gradient a force. The plain
-numpy twin is :mod:`.equilibrium_plain`.
+`length` (the pin circle), so that every entry is a length and every gradient a force. A plain
+numpy twin stands in ``tests/oracles/contact_plain.py``.
 """
 
 from __future__ import annotations

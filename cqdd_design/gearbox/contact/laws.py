@@ -2,7 +2,7 @@
 
 A line contact is written as approach over force, ``delta(F)``, because a pin adds its own linear
 compliance in series; the equilibrium needs the inverse, force over approach, which the compiled
-kernel (:mod:`.equilibrium_kernel`) and its plain twin here find by Newton's method.
+kernel (:mod:`.laws_kernel`) finds by Newton's method.
 """
 
 from __future__ import annotations
@@ -176,64 +176,6 @@ def stored_energy(
         logarithm = np.log(np.where(load > 0.0, load, 1.0))
         local = 0.5 * load**2 * (c - law.logarithm * (logarithm + 0.5))
     return np.asarray(local + 0.5 * np.asarray(series, dtype=float) * load**2)
-
-
-def force(
-    law: LineLaw, coefficient: ArrayLike, series: ArrayLike, closed: ArrayLike
-) -> tuple[FloatArray, FloatArray]:
-    """Force and stiffness of contacts pressed together by `closed`: plain twin of the kernel.
-
-    Parameters
-    ----------
-    law, coefficient, series
-        As in :func:`approach`; they broadcast with `closed`.
-    closed : array_like
-        Approach, m; at or below zero the contact is open and carries nothing.
-
-    Returns
-    -------
-    force, stiffness : array
-        N and N/m.
-    """
-    delta, c, s = np.broadcast_arrays(
-        np.asarray(closed, dtype=float),
-        np.asarray(coefficient, dtype=float),
-        np.asarray(series, dtype=float),
-    )
-    touching = delta > 0.0
-    safe = np.where(touching, delta, 1.0)
-    if law.model == "linear":
-        load, slope = safe / (c + s), c + s
-    elif law.model == "palmgren":
-        # In u = F^0.1 the law is a polynomial, c u^9 + s u^10: convex, so Newton's method from
-        # the upper bound never overshoots.
-        with np.errstate(divide="ignore", over="ignore"):
-            u = np.minimum((safe / c) ** (1.0 / 9.0), np.where(s > 0.0, safe / s, np.inf) ** 0.1)
-        for _ in range(60):
-            residual = u**9 * (c + s * u) - safe
-            step = residual / (u**8 * (9.0 * c + 10.0 * s * u))
-            u = u - step
-            if np.all(np.abs(step) <= 1e-16 * u):
-                break
-        load = u**10
-        slope = 0.9 * c / u + s
-    else:
-        limit = force_limit(law, c)
-        edge = limit * (c + s - law.logarithm * np.log(limit))
-        steepest = c + s - law.logarithm * (np.log(limit) + 1.0)
-        load = np.minimum(safe / (c + s), limit)
-        for _ in range(100):
-            slope = c + s - law.logarithm * (np.log(load) + 1.0)
-            off = load * (c + s - law.logarithm * np.log(load)) - np.minimum(safe, edge)
-            new = np.clip(load - off / slope, 0.1 * load, limit)
-            done = np.all(np.abs(new - load) <= 1e-16 * load)
-            load = new
-            if done:
-                break
-        beyond = safe > edge
-        slope = np.where(beyond, steepest, c + s - law.logarithm * (np.log(load) + 1.0))
-        load = np.where(beyond, limit + (safe - edge) / steepest, load)
-    return np.where(touching, load, 0.0), np.where(touching, 1.0 / slope, 0.0)
 
 
 @dataclass(frozen=True)

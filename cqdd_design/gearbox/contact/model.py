@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -141,20 +141,6 @@ class ContactModel:
             ),
             cam=laws.cam_spring(bearing, reducer.cam_bearing.radial_clearance),
             carrier_stiffness=reducer.carrier_bearing.stiffness or None,
-        )
-
-    def with_laws(
-        self,
-        ring_law: LineLaw | None = None,
-        pin_law: LineLaw | None = None,
-        cam: CamSpring | None = None,
-    ) -> ContactModel:
-        """Return the same gearbox with other springs."""
-        return replace(
-            self,
-            ring_law=ring_law or self.ring_law,
-            pin_law=pin_law or self.pin_law,
-            cam=cam or self.cam,
         )
 
     @property

@@ -1,7 +1,7 @@
 """Compiled: forces, gradient and Hessian of one state, and the Newton step through its blocks.
 
 The carrier couples the discs through one 3x3 block, so a state costs one small elimination per
-disc. The plain twin is :mod:`.equilibrium_plain`.
+disc. A plain numpy twin stands in ``tests/oracles/contact_plain.py``.
 """
 
 from __future__ import annotations

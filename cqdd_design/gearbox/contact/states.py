@@ -10,8 +10,11 @@ from numpy.typing import NDArray
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.tables import PinTable, RingTable, pin_table, ring_table
+from cqdd_design.geometry import kinematics
 
 FloatArray = NDArray[np.float64]
+
+_ANGLES_AT_ONCE = 256
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,15 +144,7 @@ def error_states(
         - slope * states.ring.parameter_rate
     )
     apart = errors.hole_position - errors.pin_position
-    back = -states.crank_angle / model.lobe_count
-    cosine, sine = np.cos(back)[:, None, None], np.sin(back)[:, None, None]
-    seen = np.stack(
-        [
-            cosine * apart[..., 0] - sine * apart[..., 1],
-            sine * apart[..., 0] + cosine * apart[..., 1],
-        ],
-        axis=-1,
-    )
+    seen = kinematics.turned_with_carrier(model.lobe_count, states.crank_angle, apart)
     drift = np.stack([seen[..., 1], -seen[..., 0]], axis=-1) / model.lobe_count
     gaps[..., teeth:] = (
         np.sum(normal[:, :, teeth:] * seen, axis=-1) + errors.hole_radius - errors.pin_radius
@@ -157,8 +152,7 @@ def error_states(
     gap_rates[..., teeth:] = np.sum(
         turned[:, :, teeth:] * seen + normal[:, :, teeth:] * drift, axis=-1
     )
-    own = states.crank_angle[:, None] + model.phases
-    u = np.stack([np.cos(own), np.sin(own)], axis=-1)
+    u = kinematics.crank_direction(states.crank_angle[:, None], model.phases)
     v = np.stack([-u[..., 1], u[..., 0]], axis=-1)
     along, across = errors.cam_centre[:, :1], errors.cam_centre[:, 1:]
     return ErrorStates(
@@ -186,10 +180,13 @@ def profile_error(harmonics: FloatArray, parameter: FloatArray) -> tuple[FloatAr
         m and m/rad.
     """
     order = np.arange(1, harmonics.shape[-1] + 1)
-    angle = parameter[..., None] * order
-    cosine, sine = np.cos(angle), np.sin(angle)
     a, b = harmonics[:, 0, None, :], harmonics[:, 1, None, :]
-    return (
-        np.sum(a * cosine + b * sine, axis=-1),
-        np.sum(order * (b * cosine - a * sine), axis=-1),
-    )
+    material, slope = np.empty(parameter.shape), np.empty(parameter.shape)
+    # A few angles at a time: all harmonics of all teeth over a whole output turn take gigabytes.
+    for first in range(0, len(parameter), _ANGLES_AT_ONCE):
+        some = slice(first, first + _ANGLES_AT_ONCE)
+        angle = parameter[some, ..., None] * order
+        cosine, sine = np.cos(angle), np.sin(angle)
+        material[some] = np.sum(a * cosine + b * sine, axis=-1)
+        slope[some] = np.sum(order * (b * cosine - a * sine), axis=-1)
+    return material, slope

@@ -153,14 +153,15 @@ class ContactSweep:
         return np.asarray(np.sum(self.pin_force * moment, axis=-1))
 
     @property
+    def uneven_sharing(self) -> float:
+        """Torque of the most loaded disc over the mean of the discs, greatest over the angles."""
+        share = np.abs(self.disc_torque)
+        return float((share.max(axis=1) / share.mean(axis=1)).max())
+
+    @property
     def teeth_in_contact(self) -> IntArray:
         """Loaded ring teeth, (A, D)."""
         return np.asarray(np.sum(self.ring_force > 0.0, axis=-1), dtype=np.int64)
-
-    @property
-    def pins_in_contact(self) -> IntArray:
-        """Loaded output pins, (A, D)."""
-        return np.asarray(np.sum(self.pin_force > 0.0, axis=-1), dtype=np.int64)
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form (``contact``): the arrays, and their maxima over this sweep."""
@@ -200,6 +201,7 @@ def contact_sweep(
     *,
     errors: GearboxErrors | None = None,
     states: NominalStates | None = None,
+    changed: ErrorStates | None = None,
 ) -> ContactSweep:
     """Solve the contact equilibrium over crank angle.
 
@@ -216,6 +218,8 @@ def contact_sweep(
     states : NominalStates, optional
         From :func:`.states.nominal_states` for the same model and angles, where many sweeps share
         them.
+    changed : ErrorStates, optional
+        From :func:`.states.error_states` for the same states and errors, likewise.
 
     Returns
     -------
@@ -242,7 +246,8 @@ def contact_sweep(
             raise UsageError("a contact sweep needs a list of finite crank angles, one or more.")
         states = nominal_states(model, angle)
     _refuse_misshapen(model, errors)
-    changed = error_states(model, states, errors)
+    if changed is None:
+        changed = error_states(model, states, errors)
     count, discs, contacts = states.gaps.shape
     size = 3 + 3 * discs
     state, force = np.empty((count, size)), np.empty((count, discs, contacts))
@@ -356,8 +361,7 @@ def _assemble(
     carrier = state[:, :2]
     energy += 0.5 * (model.carrier_stiffness or 0.0) * np.sum(carrier**2, axis=-1)
     energy -= torque * state[:, 2] / length
-    own = states.crank_angle[:, None] + model.phases
-    centre = model.eccentricity * np.stack([np.cos(own), np.sin(own)], axis=-1)
+    centre = kinematics.disc_centre(model.eccentricity, states.crank_angle[:, None], model.phases)
     pin_normal = states.rows[:, :, teeth:, :2]
     pin_at = model.pin_circle_radius * np.stack(
         [np.cos(states.pins.pin_angle), np.sin(states.pins.pin_angle)], axis=-1

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.geometry.contours import as_complex, as_points
 from cqdd_design.geometry.cycloid import CycloidDisc
-from cqdd_design.geometry.meshing import disc_pose, project, tooth_centres
+from cqdd_design.geometry.kinematics import carrier_angle, disc_pose
+from cqdd_design.geometry.meshing import project, tooth_centres
 
 FloatArray = NDArray[np.float64]
 
@@ -163,8 +164,10 @@ def pin_table(model: ContactModel, crank_angle: FloatArray) -> PinTable:
     """
     n, count, radius = model.lobe_count, model.pin_count, model.pin_circle_radius
     own = crank_angle[:, None, None] + model.phases[:, None]
+    # `kinematics.output_pin_angles`, summed in the order that these tables have always had: a
+    # rounding of the angle shows in the last digit of every force.
     around = 2.0 * np.pi * np.arange(count) / count
-    pins = model.hole_clocking + around - crank_angle[:, None] / n
+    pins = model.hole_clocking + around + carrier_angle(n, crank_angle)[:, None]
     ahead = own - pins[:, None, :]
     cosine, sine = (np.broadcast_to(f(own), ahead.shape) for f in (np.cos, np.sin))
     arm_rate = -radius * np.cos(ahead) * (1.0 + 1.0 / n)

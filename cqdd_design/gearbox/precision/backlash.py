@@ -21,7 +21,8 @@ from cqdd_design.gearbox.contact.states import (
 from cqdd_design.gearbox.contact.sweep import output_turn_angles, perfect_angles
 from cqdd_design.gearbox.contact.tables import nearest_parameter
 from cqdd_design.geometry.contours import as_complex, as_points
-from cqdd_design.geometry.meshing import disc_pose, tooth_centres
+from cqdd_design.geometry.kinematics import disc_pose, turned_with_carrier
+from cqdd_design.geometry.meshing import tooth_centres
 
 FloatArray = NDArray[np.float64]
 
@@ -138,14 +139,10 @@ def backlash(
 
 def _apart(model: ContactModel, states: NominalStates, errors: GearboxErrors | None) -> FloatArray:
     """Hole off its pin by position errors, turned with the carrier, (A, D, P, 2)."""
-    shape = (len(states.crank_angle), model.disc_count, model.pin_count, 2)
     if errors is None:
-        return np.zeros(shape)
+        return np.zeros((len(states.crank_angle), model.disc_count, model.pin_count, 2))
     apart = errors.hole_position - errors.pin_position
-    back = -states.crank_angle / model.lobe_count
-    cosine, sine = np.cos(back)[:, None, None], np.sin(back)[:, None, None]
-    x, y = apart[..., 0], apart[..., 1]
-    return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
+    return turned_with_carrier(model.lobe_count, states.crank_angle, apart)
 
 
 def _push(

@@ -30,20 +30,7 @@ _MANY = 1000.0
 
 @dataclass(frozen=True)
 class CheckRow:
-    """One check, ready for the page.
-
-    Attributes
-    ----------
-    check : Check
-    value, limit, margin : str
-        As shown; `limit` with its sense.
-    formula, bar : str
-        Markup.
-    substituted, remedy, source : str
-        Text with print signs.
-    word : str
-        Status in words.
-    """
+    """One check as shown: `limit` with its sense, `formula` and `bar` as markup."""
 
     check: Check
     value: str

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from cqdd_design.catalog.bearings import Bearing
     from cqdd_design.design import Design
-    from cqdd_design.report.machine_view.pictures import MachineViews
-    from cqdd_design.report.machine_view.viewer_data import ViewerData
+    from cqdd_design.report.machine_view.model import ViewerData
+    from cqdd_design.report.machine_view.stills import MachineViews
 
 
 @dataclass(frozen=True)

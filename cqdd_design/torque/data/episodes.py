@@ -112,6 +112,16 @@ class Episode:
         return np.zeros(len(self), bool) if values is None else np.asarray(values) > 0.5
 
 
+def asked_torque(
+    columns: Mapping[str, FloatArray], position_gain: float, velocity_gain: float
+) -> FloatArray:
+    """What the joint's controller asks for (N,), N m: kp (target - position) - kd velocity."""
+    target, position, velocity = (
+        np.asarray(columns[name], np.float64) for name in ("target", "position", "velocity")
+    )
+    return np.asarray(position_gain * (target - position) - velocity_gain * velocity)
+
+
 @dataclass(frozen=True, eq=False)
 class DataSet:
     """Episodes of one joint under one controller.

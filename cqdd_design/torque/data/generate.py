@@ -101,7 +101,6 @@ def generate(
     design: Design,
     request: Request | None = None,
     *,
-    chain: SensorChain | None = None,
     calibration: Mapping[str, float] | None = None,
     tell: Tell | None = None,
     progress: pendulum.Progress | None = None,
@@ -112,7 +111,6 @@ def generate(
     ----------
     design : Design
     request : Request, optional
-    chain : SensorChain, optional
     calibration : mapping of str to float, optional
         Factors of unknowns. That of the tolerances is left out: the ripple is what the contact
         equilibrium of the drawn gearbox gives.
@@ -135,7 +133,7 @@ def generate(
         When the design makes no actuator, naming the seed where a drawn gearbox does not.
     """
     asked = request or Request()
-    sensors = chain or SensorChain()
+    sensors = SensorChain()
     say = tell or (lambda text: None)
     warnings = []
     factors = dict(calibration or {})
@@ -274,30 +272,25 @@ def _gearbox_ripple(
     The same experiments with and without them: most of the torque in the band is dry friction
     that changes its sign. None where every experiment has a wall, or saturates, or is too short.
     """
-    none = np.zeros(len(drawn.gear.error_orders))
-    flat = dataclasses.replace(
-        drawn.gear,
-        error_cosine=none,
-        error_sine=none,
-        stiffness_cosine=none,
-        stiffness_sine=none,
-    )
-    perfect = dataclasses.replace(drawn, gear=flat)
+    errors = ("error_cosine", "error_sine", "stiffness_cosine", "stiffness_sine")
+    none = dict.fromkeys(errors, np.zeros(len(drawn.gear.error_orders)))
+    perfect = dataclasses.replace(drawn, gear=dataclasses.replace(drawn.gear, **none))
     free = [dataclasses.replace(one, gearbox=0) for one in experiments if one.wall_angle is None]
     free = free[:RIPPLE_EPISODES]
     if not free or seconds * RIPPLE_BAND[0] <= 4.0:
         return None
-    runs = []
-    for one in (drawn, perfect):
-        quiet = dataclasses.replace(sensors, torque_noise=0.0)
-        names = [str(i) for i in range(len(free))]
-        runs.append(pendulum.record(free, names, {0: one}, seconds=seconds, chain=quiet, seed=0)[0])
+    quiet = dataclasses.replace(sensors, torque_noise=0.0)
+    names = [str(i) for i in range(len(free))]
+    runs = [
+        pendulum.record(free, names, {0: one}, seconds=seconds, chain=quiet, seed=0)[0]
+        for one in (drawn, perfect)
+    ]
     powers = []
     for first, second in zip(*runs, strict=True):
         if not (first.flag("saturated").any() or second.flag("saturated").any()):
             difference = first.columns["torque"] - second.columns["torque"]
             powers.append(_band_power(difference, first.dt))
-    return math.sqrt(2.0 * float(np.mean(powers))) if powers else None
+    return _amplitude(powers)
 
 
 def describe(data: DataSet) -> dict[str, Any]:
@@ -341,16 +334,18 @@ def describe(data: DataSet) -> dict[str, Any]:
 
 def _ripple(data: DataSet) -> float | None:
     """None where no episode is long enough, or every one has a wall or saturates."""
-    free = [
-        one
-        for one in data.episodes
-        if not (one.flag("wall").any() or one.flag("saturated").any() or one.group.get("wall"))
-    ]
-    powers = [
-        _band_power(one.columns["torque"], one.dt)
-        for one in free
-        if len(one) * data.dt * RIPPLE_BAND[0] > 4.0
-    ]
+    long = [one for one in data.episodes if len(one) * data.dt * RIPPLE_BAND[0] > 4.0]
+    return _amplitude(
+        [
+            _band_power(one.columns["torque"], one.dt)
+            for one in long
+            if not (one.flag("wall").any() or one.flag("saturated").any() or one.group.get("wall"))
+        ]
+    )
+
+
+def _amplitude(powers: list[float]) -> float | None:
+    """Of the sine that carries the mean of some powers; None without any."""
     return math.sqrt(2.0 * float(np.mean(powers))) if powers else None
 
 

@@ -16,8 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import UsageError
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.torque.data.episodes import FloatArray
 
 LEAST_OVERSAMPLING = 4
 """Acquisition over filter frequency, below which a digital filter is no longer the analogue one."""

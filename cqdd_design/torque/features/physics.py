@@ -22,7 +22,6 @@ from dataclasses import asdict, fields, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.actuator.packing import gear_table, table_points
 from cqdd_design.actuator.parameters import (
@@ -34,11 +33,8 @@ from cqdd_design.actuator.parameters import (
     ThermalParameters,
 )
 from cqdd_design.errors import DesignError, UsageError
-from cqdd_design.torque.data.episodes import DataSet, Episode
-from cqdd_design.torque.features.matrix import acceleration
-from cqdd_design.torque.networks.artefact import Differentiator
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.torque.data.episodes import DataSet, Episode, FloatArray, asked_torque
+from cqdd_design.torque.features.acceleration import Differentiator, acceleration
 
 SMOOTHING = 0.25
 """Speed over the Stribeck speed at which the smooth sign of friction has reached tanh(1)."""
@@ -48,10 +44,9 @@ def driven_torque(parameters: ActuatorParameters, episode: Episode) -> FloatArra
     """Torque of the motor times the ratio (N,), N m: impedance law, current and voltage limits."""
     motor, drive = parameters.motor, parameters.drive
     ratio = abs(parameters.gear.ratio)
-    error = np.asarray(episode.columns["target"], np.float64) - episode.columns["position"]
-    velocity = np.asarray(episode.columns["velocity"], np.float64)
-    asked = drive.position_gain * error - drive.velocity_gain * velocity
+    asked = asked_torque(episode.columns, drive.position_gain, drive.velocity_gain)
     current = asked / (ratio * motor.torque_constant)
+    velocity = np.asarray(episode.columns["velocity"], np.float64)
     back = motor.torque_constant * ratio * velocity
     current = np.clip(
         current,

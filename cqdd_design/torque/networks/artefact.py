@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from cqdd_design.errors import UsageError, shown
 from cqdd_design.files import WrittenFile, read_arrays, write_with
+from cqdd_design.torque.features.acceleration import Differentiator
 from cqdd_design.torque.stored import NETWORK, require
 
 FORMAT = "cqdd-design torque network 1"
@@ -28,24 +29,10 @@ _WHAT = (
 )
 Family = Literal["gru", "mlp"]
 Mode = Literal["window", "streaming"]
+ACTIVATIONS = ("relu", "tanh", "softsign", "elu")
+"""Of an MLP; the compiled kernel takes a place in this row."""
 
 WeightArray = NDArray[np.float32]
-
-
-@dataclass(frozen=True)
-class Differentiator:
-    """Causal acceleration: one-sided Savitzky-Golay derivative of the velocity.
-
-    Attributes
-    ----------
-    taps : tuple of float
-        Weights of the newest, the one before, ... velocity, 1/s.
-    delay : float
-        Group delay at zero frequency, s.
-    """
-
-    taps: tuple[float, ...]
-    delay: float
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,158 @@
+"""Rule, reason and source of the checks of :mod:`.loads`."""
+
+from __future__ import annotations
+
+from cqdd_design.gearbox.checks import allowables as limits
+from cqdd_design.gearbox.checks.guide_row import (
+    HOUSE,
+    JOHNSON,
+    PAPER,
+    PITTING,
+    SHIGLEY,
+    WANG,
+    CheckGuide,
+)
+
+_UNEVEN = f"{limits.UNEVEN_SHARING:g}"
+_YIELD = f"S_y/{limits.PIN_SAFETY_AT_PEAK:g}"
+_PAPER_SHEAR = f"S_u/{1.0 / limits.PAPER_SHEAR_SHARE:g}"
+_PRESSURE = f"p0 = sqrt({_UNEVEN} F E*/(pi b R_eq)) <= "
+_FIRST_YIELD = f"{limits.FIRST_YIELD_FACTOR:g} S_y"
+_PITTING_LIMIT = f"{limits.AGMA_SLOPE / 1e6:g} HB + {limits.AGMA_BASE / 1e6:g} MPa"
+
+_CONTACTS = tuple(
+    CheckGuide(
+        f"CONTACT-{place}-{load}",
+        f"Hertz pressure {where}, {load.lower()} torque",
+        "MPa",
+        "max",
+        _PRESSURE + limit,
+        f"Above it {what}.",
+        source,
+    )
+    for place, where, load, limit, what, source in (
+        (
+            "RING",
+            "at the ring",
+            "PEAK",
+            _FIRST_YIELD,
+            "the material yields below the surface and the flank dents",
+            JOHNSON,
+        ),
+        (
+            "RING",
+            "at the ring",
+            "CONTINUOUS",
+            _PITTING_LIMIT,
+            "the flank pits within some 1e7 load cycles",
+            PITTING,
+        ),
+        (
+            "PIN",
+            "of pins in holes",
+            "PEAK",
+            _FIRST_YIELD,
+            "pin or hole yields below the surface",
+            JOHNSON,
+        ),
+        (
+            "PIN",
+            "of pins in holes",
+            "CONTINUOUS",
+            _PITTING_LIMIT,
+            "pin or hole pits within some 1e7 load cycles",
+            PITTING,
+        ),
+    )
+)
+
+ROWS = (
+    *_CONTACTS,
+    CheckGuide(
+        "PIN-PAPER",
+        "Output pins by the paper's method",
+        "N*m",
+        "min",
+        f"N_w (pi/4) d^2 ({_PAPER_SHEAR}) R_w >= peak torque",
+        "The paper's own figure: every pin in single shear at full load and full radius at once. "
+        "It leaves out sharing, bending and fatigue, and is reported for comparison.",
+        f"{PAPER}, section III-A",
+    ),
+    CheckGuide(
+        "PIN-SHARED",
+        "Output pins in shear with load sharing",
+        "N*m",
+        "min",
+        f"D N_w R_w F/k >= peak torque, F = (pi/4) d^2 {_PAPER_SHEAR}, k = 4 (even N_w)",
+        "The paper's shear strength with the torque shared as rigid discs share it.",
+        f"{PAPER} (strength); rigid sharing: Kudryavtsev 1966; {WANG}",
+    ),
+    CheckGuide(
+        "PIN-SHEAR-PEAK",
+        "Shear stress of the output pins, peak torque",
+        "MPa",
+        "max",
+        f"tau = {_UNEVEN} F/((pi/4) d^2) <= {limits.SHEAR_YIELD_SHARE:g} {_YIELD}",
+        "A pin sheared past yield takes a set and the sharing is lost.",
+        SHIGLEY,
+    ),
+    CheckGuide(
+        "PIN-BENDING-PEAK",
+        "Bending stress of the output pins, peak torque",
+        "MPa",
+        "max",
+        f"sigma = 32 M/(pi d^3) <= {_YIELD}, M = {_UNEVEN} F (a(L-a)/L - b/8) or {_UNEVEN} F a "
+        "(cantilever)",
+        "Thin pins bend long before they shear; a bent pin jams in its holes.",
+        f"beam theory; {SHIGLEY}; {WANG} (pin stress)",
+    ),
+    CheckGuide(
+        "PIN-BENDING-CONTINUOUS",
+        "Bending stress of the output pins, continuous torque",
+        "MPa",
+        "max",
+        "sigma = 32 M/(pi d^3) <= pulsating fatigue strength",
+        "Every pin is loaded and unloaded once per disc and relative turn: a million cycles in a "
+        "day's running.",
+        f"about S_u/{1.0 / limits.PIN_FATIGUE_SHARE:g} for shoulder screws ({HOUSE}); "
+        "Goodman line where the duty reverses",
+    ),
+    CheckGuide(
+        "PIN-BEARING-PEAK",
+        "Mean pressure of pins in holes, peak torque",
+        "MPa",
+        "max",
+        f"{_UNEVEN} F/(d b) <= {_YIELD} of the weaker part",
+        "Above it the hole stretches.",
+        SHIGLEY,
+    ),
+    CheckGuide(
+        "BEARING-STATIC",
+        "Cam bearing, static safety at peak torque",
+        "",
+        "min",
+        f"C0/P >= {limits.STATIC_SAFETY:g}, "
+        "P = |sum of ring forces + sum of pin forces| of one disc",
+        "Beyond C0 the balls dent the raceway. The output-pin reaction counts: leaving it out "
+        "understates P by a fifth and overstates the life almost twofold.",
+        "ISO 76:2006",
+    ),
+    CheckGuide(
+        "BEARING-LIFE",
+        "Cam bearing, basic rating life at continuous torque",
+        "h",
+        "min",
+        f"L10h = 1e6 (C/P)^p/(60 rpm (1 + 1/n)) >= {limits.LIFE_HOURS:g} h",
+        "The crank turns faster against the disc than against the housing.",
+        "ISO 281:2007",
+    ),
+    CheckGuide(
+        "BEARING-RACEWAY",
+        "Disc hard enough to be a raceway",
+        "HRC",
+        "min",
+        f"disc hardness >= {limits.HARDENED_HRC:g} HRC where a needle cage has no outer ring",
+        "Needles running in softer steel wear and pit it within hours.",
+        f"ISO 76 and ISO 281 presume raceways of {limits.HARDENED_HRC:g} HRC and more",
+    ),
+)

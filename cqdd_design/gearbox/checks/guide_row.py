@@ -1,0 +1,33 @@
+"""One row of the guide to the checks, and the sources that several rows name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+HOUSE = "house rule, fixed in cqdd_design.gearbox.checks.allowables"
+PAPER = "Zhu, Tanaka, Rafeedi and Hong 2024, arXiv:2410.16591"
+JOHNSON = "Johnson 1985, Contact Mechanics, eq. 4.45 (pressure) and section 6.1 (first yield)"
+PITTING = "Johnson 1985, eq. 4.45; AGMA 2101-D04 grade 1, ISO 6336-5 MQ (strengths)"
+WANG = "Wang, Luo and Su 2016, Mech. Mach. Theory 102, 135-148"
+SHIGLEY = "Budynas and Nisbett, Shigley's Mechanical Engineering Design, pinned joints"
+
+
+@dataclass(frozen=True)
+class CheckGuide:
+    """What one check means.
+
+    Attributes
+    ----------
+    id, title, unit, sense, formula, why, source, severity
+        As in :class:`cqdd_design.results.Check`.
+    """
+
+    id: str
+    title: str
+    unit: str
+    sense: Literal["max", "min"]
+    formula: str
+    why: str
+    source: str
+    severity: Literal["fail", "warn"] = "fail"
