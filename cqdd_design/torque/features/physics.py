@@ -221,7 +221,7 @@ def actuator_from_dict(content: Mapping[str, Any]) -> ActuatorParameters:
     try:
         parts = {part: _part(kind, content[part]) for part, kind in _PARTS.items()}
         name, mass = content["name"], content["mass"]
-        if not isinstance(name, str) or not isinstance(mass, float | int | None):
+        if not isinstance(name, str) or not isinstance(mass, float | int):
             raise TypeError("name is no text, or mass no number")
         return ActuatorParameters(name=name, mass=mass, **parts)
     except (KeyError, TypeError, ValueError, AttributeError, DesignError) as error:
