@@ -47,7 +47,8 @@ class ExportKind:
 
     def load(self) -> Writer:
         """Import the function that writes it."""
-        return load_writer(self.writer)
+        found: Writer = load_writer(self.writer)
+        return found
 
 
 def load_writer(place: str) -> Any:

@@ -25,7 +25,7 @@ from cqdd_design.report.gearbox.tolerances import tolerance_view
 from cqdd_design.report.ink.numbers import RPM, significant, with_unit
 from cqdd_design.report.ink.page import environment
 from cqdd_design.report.input import ReportInput
-from cqdd_design.report.judgement.check_rows import chapters, printed
+from cqdd_design.report.judgement.check_rows import check_groups, printed
 from cqdd_design.report.judgement.closing import (
     ERRATA,
     model_assumptions,
@@ -215,7 +215,7 @@ CHAPTERS = (
     Chapter(
         "checks.html",
         (("checks", "Checks"),),
-        lambda source: {"check_groups": chapters(source.results.gearbox.checks)},
+        lambda source: {"check_groups": check_groups(source.results.gearbox.checks)},
     ),
     Chapter(
         "loads.html",

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 from report_browser import clipped, overlapping, probe, run_browser
+from shared_outputs import report_input
 
 from cqdd_design.actuator.bench import run_bench
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.design import Design, load_design
 from cqdd_design.machine import resolve
-from cqdd_design.report import ReportInput, build_report
-from cqdd_design.roads.telling import provenance
-from cqdd_design.sizing.comparison import compare_with_planetary
+from cqdd_design.report import build_report
 
 pytestmark = pytest.mark.deep
 
@@ -47,16 +47,8 @@ def page(paper_design_file: Path) -> str:
     mapping["requirements"]["duty"] = DUTY
     design = Design.from_mapping(mapping)
     actuator = actuator_parameters(resolve(design))
-    machine = resolve(design)
-    return build_report(
-        ReportInput(
-            machine=machine,
-            gearbox=machine.analysis,
-            planetary=compare_with_planetary(machine),
-            provenance=provenance(design),
-            bench=(actuator, run_bench(actuator, rated_current=20.0, beside_paper=True)),
-        )
-    )
+    measured = run_bench(actuator, rated_current=20.0, beside_paper=True)
+    return build_report(dataclasses.replace(report_input(design), bench=(actuator, measured)))
 
 
 @pytest.fixture(scope="module", params=["1280,1600", "500,1600"])

@@ -6,35 +6,21 @@ import dataclasses
 import re
 from collections import Counter
 from html.parser import HTMLParser
-from pathlib import Path
 
 import pytest
+from shared_outputs import paper_input as shared_input
+from shared_outputs import report_input, sized
 
-from cqdd_design.design import Design, Requirements, load_design
+from cqdd_design.design import Design
 from cqdd_design.machine import resolve
-from cqdd_design.report import ReportInput, build_report, read_comments, weigh
-from cqdd_design.roads.telling import provenance
-from cqdd_design.sizing import size
-from cqdd_design.sizing.comparison import compare_with_planetary
+from cqdd_design.report import ReportInput, build_report
 
 VOID = {"meta", "link", "br", "hr", "img", "input", "col", "circle", "line", "path", "rect"}
 
 
-def input_for(design: Design, file: Path | None = None) -> ReportInput:
-    machine = resolve(design)
-    return ReportInput(
-        machine=machine,
-        gearbox=machine.analysis,
-        planetary=compare_with_planetary(machine),
-        provenance=provenance(design),
-        comments={} if file is None else read_comments(file),
-        bodies=weigh(machine),
-    )
-
-
 @pytest.fixture(scope="module")
-def paper_input(paper_design_file: Path) -> ReportInput:
-    return input_for(load_design(paper_design_file), paper_design_file)
+def paper_input(tmp_path_factory: pytest.TempPathFactory) -> ReportInput:
+    return shared_input(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
@@ -152,7 +138,7 @@ def test_a_design_without_remarks_knows_given_default_and_derived() -> None:
             }
         }
     )
-    page = build_report(input_for(design))
+    page = build_report(report_input(design))
     rows = dict(re.findall(r'<td title="([\w.]+)">.*?<span class="chip (\w+)">', page, flags=re.S))
     assert rows["reducer.eccentricity"] == "given"
     assert rows["reducer.output_pins.circle_radius"] == "derived"
@@ -245,9 +231,9 @@ def test_without_bodies_and_sizing_their_sections_are_left_out(paper_input: Repo
         assert f'href="#{anchor}"' not in bare
 
 
-def test_a_sized_design_shows_how_it_was_found() -> None:
-    found = size(Requirements(ratio=12))
-    page = build_report(dataclasses.replace(input_for(found.design), sizing=found))
+def test_a_sized_design_shows_how_it_was_found(tmp_path_factory: pytest.TempPathFactory) -> None:
+    found = sized(tmp_path_factory, 12)
+    page = build_report(dataclasses.replace(report_input(found.design), sizing=found))
     words = text_of(page[page.index('id="sizing"') : page.index('id="symbols"')])
     assert f"{found.candidates_screened:,}".replace(",", " ") in words
     for alternative in found.alternatives:

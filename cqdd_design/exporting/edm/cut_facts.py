@@ -7,7 +7,6 @@ two of them, an even one to the whole of its zone.
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -35,17 +34,6 @@ CUT_FINISH, FACE_FINISH = "Ra 0.4", "Ra 0.8"
 """After skim cuts, and ground, um."""
 
 _MM = 1e3
-_HEAT = (
-    (r"Q&T (\d+)C", "quenched and tempered at {} \u00b0C before cutting"),
-    (r"QT (\S+ HRC) prehard", "prehardened to {}, before cutting"),
-    (r"normalized (\d+)C", "normalized at {} \u00b0C"),
-    (r"annealed", "annealed"),
-    (r"case hardened", "case hardened and ground before cutting"),
-    (r"hardened", "through hardened before cutting"),
-    (r"(H\d{3,4})$", "precipitation hardened, condition {}, before cutting"),
-    (r"-(T\d+)$", "temper {}"),
-    (r" CD$", "cold drawn"),
-)
 
 
 @dataclass(frozen=True)
@@ -107,8 +95,8 @@ class CutFacts:
 
     @property
     def heat_treatment(self) -> str:
-        """In words, from the name of the material."""
-        return heat_treatment(self.flat.material)
+        """As the catalogue has it for drawings."""
+        return find_material(self.flat.material).drawing_note or "as delivered"
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -192,21 +180,6 @@ def zones_of(flat: FlatPart, design: Design) -> Zones:
         hole_position=2.0 * half * tolerances.hole_position,
         hole_diameter=half * tolerances.hole_diameter,
     )
-
-
-def heat_treatment(material: str) -> str:
-    """Heat treatment in words.
-
-    Examples
-    --------
-    >>> heat_treatment("7075-T6")
-    'temper T6'
-    """
-    for pattern, words in _HEAT:
-        match = re.search(pattern, material)
-        if match:
-            return words.format(*match.groups())
-    return "as delivered"
 
 
 def zone_text(value: float) -> str:

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cqdd_design.errors import UsageError
-from cqdd_design.exporting.estimators import c_kernels, c_physics
+from cqdd_design.exporting.estimators import c_physics
+from cqdd_design.exporting.estimators.c_text import ACTIVATIONS, array, filled, template
 from cqdd_design.exporting.estimators.options import Export
 from cqdd_design.files import write_atomically
 from cqdd_design.torque.networks.folded import folded_gru, folded_mlp
@@ -90,7 +91,7 @@ def header_text(artefact: Artefact, name: str) -> str:
             "",
             _sizes(artefact),
             *arrays,
-            c_kernels.COMMON,
+            template("common"),
             body,
             *([c_physics.functions(artefact, actuator)] if actuator else []),
             _entry(artefact, actuator),
@@ -98,16 +99,9 @@ def header_text(artefact: Artefact, name: str) -> str:
             "",
         ]
     )
-    for token, value in {
-        "@OFFSET@": _number(offset),
-        "@NAME@": name.upper(),
-        "@name@": name,
-        "@CORRECTION@": (
-            f" + newest[{artefact.inputs.index('balance')}]" if artefact.residual else ""
-        ),
-    }.items():
-        text = text.replace(token, value)
-    return text
+    correction = f" + newest[{artefact.inputs.index('balance')}]" if artefact.residual else ""
+    words = {"OFFSET": _number(offset), "NAME": name.upper(), "name": name}
+    return filled(text, words | {"CORRECTION": correction})
 
 
 def _comment(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
@@ -220,11 +214,8 @@ def _gru_body(artefact: Artefact) -> str:
         source = "samples" if layer == 0 else "values"
         window.append(f"    @name@_sequence({weights}, {source}, {rows}, values);")
         lanes.append(f"        @name@_lane_layer({weights}, {rows}, values);")
-    return (
-        c_kernels.GRU.replace("@STEP@", "\n".join(step))
-        .replace("@WINDOW@", "\n".join(window))
-        .replace("@LANE_LAYERS@", "\n".join(lanes))
-    )
+    pieces = {"STEP": step, "WINDOW": window, "LANE_LAYERS": lanes}
+    return filled(template("gru"), {key: "\n".join(lines) for key, lines in pieces.items()})
 
 
 def _mlp_body(artefact: Artefact) -> str:
@@ -239,11 +230,8 @@ def _mlp_body(artefact: Artefact) -> str:
             f" {now});"
         )
     last = "even" if artefact.layers % 2 else "odd"
-    return (
-        c_kernels.MLP.replace("@ACTIVATION@", c_kernels.ACTIVATIONS[artefact.activation])
-        .replace("@DENSE@", "\n".join(lines))
-        .replace("@LAST@", last)
-    )
+    words = {"ACTIVATION": ACTIVATIONS[artefact.activation], "LAST": last}
+    return filled(template("mlp"), words | {"DENSE": "\n".join(lines)})
 
 
 def _entry(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
@@ -281,7 +269,7 @@ def _entry(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
                 "to onnx, where the caller makes the features."
             )
         lines.append(f"    features[{place}] = {value};")
-    lines.append(c_kernels.RUN_STREAMING if artefact.mode == "streaming" else c_kernels.RUN_WINDOW)
+    lines.append(template(f"run_{artefact.mode}").removesuffix("\n"))
     arguments = ", ".join(f"{what} {name}" for what, name, _ in _arguments(artefact))
     window = artefact.mode == "window"
     needs_index = window or artefact.differentiator
@@ -292,22 +280,17 @@ def _entry(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
     )
     keeps = "past" if window else "hidden"
     size = "@NAME@_HISTORY * @NAME@_FEATURES" if window else "@NAME@_LAYERS * @NAME@_HIDDEN"
-    return (
-        c_kernels.ENTRY.replace("@KEPT@", keeps)
-        .replace("@KEPT_SIZE@", size)
-        .replace("@NEEDED@", "@NAME@_HISTORY" if window else "1")
-        .replace("@ARGUMENTS@", arguments)
-        .replace("@DECLARED@", "\n".join(declared))
-        .replace("@BODY@", "\n".join(lines))
+    words = {"KEPT": keeps, "KEPT_SIZE": size, "ARGUMENTS": arguments}
+    words |= {"NEEDED": "@NAME@_HISTORY" if window else "1"}
+    return filled(
+        template("entry"), words | {"DECLARED": "\n".join(declared), "BODY": "\n".join(lines)}
     )
 
 
 def _array(name: str, values: NDArray[np.float32]) -> str:
-    numbers = [_number(value) for value in values.ravel()]
-    rows = [
-        "    " + ", ".join(numbers[i : i + _PER_LINE]) for i in range(0, len(numbers), _PER_LINE)
-    ]
-    return f"static const float {name}[{len(numbers)}] = {{\n" + ",\n".join(rows) + "\n};\n"
+    return array(
+        f"float {name}[{values.size}]", [_number(one) for one in values.ravel()], _PER_LINE
+    )
 
 
 def _number(value: float | np.float32) -> str:

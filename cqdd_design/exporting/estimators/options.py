@@ -113,23 +113,20 @@ def require_settings(path: Path, dt: float, position_gain: float, velocity_gain:
     ------
     UsageError
     """
+    given = (
+        ("sample time", "sample_dt_s", dt),
+        ("position gain", "position_gain_Nm_per_rad", position_gain),
+        ("velocity gain", "velocity_gain_Nms_per_rad", velocity_gain),
+    )
     try:
         content = parse_json(read_text_file(path, 1_000_000), path)
-        known = {
-            name: float(content[key])
-            for name, key in (
-                ("sample time", "sample_dt_s"),
-                ("position gain", "position_gain_Nm_per_rad"),
-                ("velocity gain", "velocity_gain_Nms_per_rad"),
-            )
-        }
+        trained = [float(content[key]) for _, key, _ in given]
     except (ValueError, KeyError, TypeError) as error:
         raise UsageError(f"{path} holds no settings of an exported torque network.") from error
-    given = {"sample time": dt, "position gain": position_gain, "velocity gain": velocity_gain}
-    for name, trained in known.items():
-        if not math.isclose(given[name], trained, rel_tol=1e-6, abs_tol=1e-12):
+    for (name, _, value), known in zip(given, trained, strict=True):
+        if not math.isclose(value, known, rel_tol=1e-6, abs_tol=1e-12):
             raise UsageError(
-                f"{path.name}: the network holds for a {name} of {trained:g}, not {given[name]:g} "
+                f"{path.name}: the network holds for a {name} of {known:g}, not {value:g} "
                 "(SI); use that, or train a network on data of the other."
             )
 

@@ -30,7 +30,13 @@ from ezdxf.fonts.font_measurements import FontMeasurements
 from ezdxf.path import Command
 
 from cqdd_design.environment import source_date
-from cqdd_design.exporting.sheets.lettering import CAP_HEIGHT, DESCENDER, printable, text_width
+from cqdd_design.exporting.sheets.lettering import (
+    CAP_HEIGHT,
+    DESCENDER,
+    printable,
+    short_number,
+    text_width,
+)
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -297,5 +303,5 @@ def _at(point: Any) -> str:
 
 
 def _number(value: float) -> str:
-    """Micrometres of paper are enough; never ``-0``."""
-    return f"{round(float(value), 3) + 0.0:.3f}".rstrip("0").rstrip(".")
+    """Micrometres of paper are enough."""
+    return short_number(value, 3)

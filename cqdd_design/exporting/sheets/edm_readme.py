@@ -170,16 +170,13 @@ def _tolerances(parts: Sequence[CutFacts]) -> list[str]:
 
 def _discs(parts: Sequence[CutFacts]) -> list[str]:
     said = []
-    for facts in parts:
-        if facts.flat.turned_over:
-            said.append(
-                f"{facts.flat.quantity} discs are one program, cut {facts.flat.quantity} times "
-                f"without change; {facts.flat.turned_over} of them goes in turned over about the X "
-                "axis, which brings lobes onto lobes and every hole to where that disc needs it."
-            )
-            said.append(
-                "Mark the upper face of every disc, the one seen in the drawing, with a dot "
-                "between two output holes before it leaves the machine: by engraver or ink, "
-                "without a burr. Assembly tells by it which way a disc goes in."
-            )
+    for flat in (facts.flat for facts in parts if facts.flat.turned_over):
+        said += [
+            f"{flat.quantity} discs are one program, cut {flat.quantity} times without change; "
+            f"{flat.turned_over} of them goes in turned over about the X axis, which brings lobes "
+            "onto lobes and every hole to where that disc needs it.",
+            "Mark the upper face of every disc, the one seen in the drawing, with a dot between "
+            "two output holes before it leaves the machine: by engraver or ink, without a burr. "
+            "Assembly tells by it which way a disc goes in.",
+        ]
     return said

@@ -27,6 +27,12 @@ _NOTES = complex(308.0, 280.0)
 _NOTE_WIDTH, _NOTE_PITCH, _INDENT = 99.0, 3.9, 5.0
 _TABLE = complex(LEFT + 4.0, 78.0)
 _MOST_ROWS = 12
+_CUT_COLUMNS = {
+    **{"cut": 0.0, "contour": 10.0, "size": 42.0, "centre X": 74.0, "centre Y": 96.0},
+    **{"start X": 118.0, "start Y": 140.0, "start \u00d8": 162.0},
+}
+"""Columns of the table of cuts, and where they begin, mm."""
+_CUTS_WIDTH = 182.0
 
 
 def draw_frame(sheet: SheetDrawing, facts: CutFacts) -> None:
@@ -182,27 +188,16 @@ def _wrapped(text: str, width: float) -> list[str]:
 
 def _cuts(sheet: SheetDrawing, facts: CutFacts) -> None:
     """Table of contours in the order they are cut."""
-    headings = (
-        "cut",
-        "contour",
-        "size",
-        "centre X",
-        "centre Y",
-        "start X",
-        "start Y",
-        "start \u00d8",
-    )
-    places = (0.0, 10.0, 42.0, 74.0, 96.0, 118.0, 140.0, 162.0, 182.0)
-    rows = [headings, *cut_rows(facts)]
+    rows = [tuple(_CUT_COLUMNS), *cut_rows(facts)]
     pitch = 4.6
     sheet.text(_TABLE + 2.0j, "CUTS IN ORDER, mm FROM THE AXIS OF THE PART", 3.0)
     for number, row in enumerate(rows):
         y = _TABLE - 1j * (number + 1) * pitch
-        for x, words in zip(places, row, strict=False):
+        for x, words in zip(_CUT_COLUMNS.values(), row, strict=True):
             sheet.text(y + x + 1.0 + 1.2j, words, SMALL)
-        sheet.line(y, y + places[-1])
-    sheet.line(_TABLE, _TABLE + places[-1])
-    for x in (places[0], places[-1]):
+        sheet.line(y, y + _CUTS_WIDTH)
+    sheet.line(_TABLE, _TABLE + _CUTS_WIDTH)
+    for x in (0.0, _CUTS_WIDTH):
         sheet.line(_TABLE + x, _TABLE + x - 1j * len(rows) * pitch)
 
 

@@ -70,3 +70,8 @@ def printable(text: str) -> str:
 def fitting_height(text: str, height: float, room: float) -> float:
     """Cap height at which `text` is no wider than `room`, at most `height`."""
     return min(height, height * room / max(text_width(text, height), 1e-9))
+
+
+def short_number(value: float, decimals: int) -> str:
+    """`value` to so many decimals, without the zeros at its end; never ``-0``."""
+    return f"{round(float(value), decimals) + 0.0:.{decimals}f}".rstrip("0").rstrip(".")

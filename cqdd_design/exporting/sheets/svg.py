@@ -20,6 +20,7 @@ from cqdd_design.exporting.edm.flat_parts import (
     pin_diameter,
     reach_of,
 )
+from cqdd_design.exporting.sheets.lettering import short_number
 from cqdd_design.files import WrittenFile, write_atomically
 from cqdd_design.geometry.contours import Circle, Contour, PlanarPart
 from cqdd_design.geometry.disc import crank_phase
@@ -131,8 +132,8 @@ def path_data(contour: Contour) -> str:
 
 
 def _number(value: float) -> str:
-    """Nanometres are enough for a picture; never ``-0``."""
-    return f"{round(float(value), 6) + 0.0:.6f}".rstrip("0").rstrip(".")
+    """Nanometres are enough for a picture."""
+    return short_number(value, 6)
 
 
 def _axes(centre: complex, reach: float) -> str:

@@ -106,7 +106,10 @@ def card_yaml(card: Card) -> str:
             "crank": "against the joint" if card.side.crank_sense < 0 else "with the joint",
         },
         "conventions": {key: text for key, text in _conventions(card)},
-        "parameters": {row.key: _row_document(row) for row in card.rows},
+        "parameters": {
+            row.key: {name: value for name, value in vars(row).items() if name != "key"}
+            for row in card.rows
+        },
         "harmonics": dict(card.harmonics),
         "clients": told,
     }
@@ -133,21 +136,15 @@ def card_markdown(card: Card) -> str:
         "|---|--:|--:|---|---|---|",
     ]
     for row in card.rows:
-        cells = (
-            row.title,
-            _shown(row.motor),
-            _shown(row.joint),
-            row.unit,
-            row.formula,
-            row.origin,
-        )
+        sides = (_shown(row.motor), _shown(row.joint))
+        cells = (row.title, *sides, row.unit, row.reflection, row.origin)
         lines.append(f"| {' | '.join(map(_cell, cells))} |")
     lines += ["", "## What clients call it", ""]
     titles = [client.title for client in clients()]
     lines += [f"| parameter | {' | '.join(titles)} |", "|---" * (len(titles) + 1) + "|"]
     for row in card.rows:
-        if row.names:
-            told = [row.names.get(client.key, "") for client in clients()]
+        if row.clients:
+            told = [row.clients.get(client.key, "") for client in clients()]
             lines.append(f"| {_cell(row.title)} | {' | '.join(map(_cell, told))} |")
     for client in clients():
         lines += ["", f"## {client.title}", "", f"Version {client.version}; {client.checked}.", ""]
@@ -198,25 +195,14 @@ def _conventions(card: Card) -> tuple[tuple[str, str], ...]:
 
 def _harmonics(parameters: ActuatorParameters) -> dict[str, object]:
     gear = parameters.gear
-    return {
-        "orders": [int(order) for order in gear.error_orders],
-        "kinematic_error_cosine_rad": [float(one) for one in gear.error_cosine],
-        "kinematic_error_sine_rad": [float(one) for one in gear.error_sine],
-        "stiffness_cosine": [float(one) for one in gear.stiffness_cosine],
-        "stiffness_sine": [float(one) for one in gear.stiffness_sine],
+    series = {
+        "kinematic_error_cosine_rad": gear.error_cosine,
+        "kinematic_error_sine_rad": gear.error_sine,
+        "stiffness_cosine": gear.stiffness_cosine,
+        "stiffness_sine": gear.stiffness_sine,
     }
-
-
-def _row_document(row: Quantity) -> dict[str, object]:
-    return {
-        "title": row.title,
-        "motor": row.motor,
-        "joint": row.joint,
-        "unit": row.unit,
-        "reflection": row.formula,
-        "origin": row.origin,
-        "clients": dict(row.names),
-    }
+    orders = [int(order) for order in gear.error_orders]
+    return {"orders": orders} | {key: [float(v) for v in one] for key, one in series.items()}
 
 
 def _shown(value: object) -> str:

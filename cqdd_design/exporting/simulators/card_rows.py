@@ -6,7 +6,7 @@ import dataclasses
 import functools
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -39,11 +39,11 @@ class Quantity:
         Its value on either side; None on the side where it has no meaning.
     unit : str
         Of both.
-    formula : str
+    reflection : str
         How one follows from the other, with numbers; empty where it does not.
     origin : str
         Where it comes from.
-    names : mapping of str to str
+    clients : mapping of str to str
         Client (see `card_clients.CLIENTS`) to what it calls it.
     """
 
@@ -52,9 +52,9 @@ class Quantity:
     motor: float | None
     joint: float | None
     unit: str
-    formula: str
+    reflection: str
     origin: str
-    names: Mapping[str, str] = field(default_factory=dict)
+    clients: Mapping[str, str]
 
 
 _POWER = {"n": 1, "1/n": -1, "n^2": 2}

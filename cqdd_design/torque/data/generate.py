@@ -275,7 +275,7 @@ def _gearbox_ripple(
     that changes its sign. None where every experiment has a wall, or saturates, or is too short.
     """
     errors = ("error_cosine", "error_sine", "stiffness_cosine", "stiffness_sine")
-    none = dict.fromkeys(errors, np.zeros(len(drawn.gear.error_orders)))
+    none: dict[str, Any] = dict.fromkeys(errors, np.zeros(len(drawn.gear.error_orders)))
     perfect = dataclasses.replace(drawn, gear=dataclasses.replace(drawn.gear, **none))
     free = [dataclasses.replace(one, gearbox=0) for one in experiments if one.wall_angle is None]
     free = free[:RIPPLE_EPISODES]
