@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, parse_positive
+from cqdd_design.cli.options import DesignFile, parse_positive, quantity_option
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 
@@ -27,14 +27,12 @@ def analyse(
     out: Output,
     design: DesignFile,
     torque: Annotated[
-        str | None, typer.Option(metavar="Q", help='Output torque of the loads, as in "40 N*m".')
+        str | None, quantity_option('Output torque of the loads, as in "40 N*m".')
     ] = None,
     angles: Annotated[
         int, typer.Option(metavar="N", min=8, max=100_000, help="Crank angles of the curves.")
     ] = 360,
-    speed: Annotated[
-        str | None, typer.Option(metavar="Q", help='Input speed, as in "1286 rpm".')
-    ] = None,
+    speed: Annotated[str | None, quantity_option('Input speed, as in "1286 rpm".')] = None,
     law: Annotated[
         ContactLaw,
         typer.Option("--contact-law", help="How line contacts yield to force."),

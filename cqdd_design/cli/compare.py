@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, parse_positive, parse_whole_list
+from cqdd_design.cli.options import DesignFile, parse_positive, parse_whole_list, quantity_option
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 
@@ -22,10 +22,8 @@ def compare(
         str,
         typer.Option(metavar="S,P1,P2,R", help="Teeth of sun, planet at sun and at ring, ring."),
     ] = "12,36,22,70",
-    module: Annotated[str, typer.Option(metavar="Q", help="Module of both meshes.")] = "1 mm",
-    face_width: Annotated[
-        str, typer.Option(metavar="Q", help="Face width of both meshes.")
-    ] = "12 mm",
+    module: Annotated[str, quantity_option("Module of both meshes.")] = "1 mm",
+    face_width: Annotated[str, quantity_option("Face width of both meshes.")] = "12 mm",
     material: Annotated[
         str | None,
         typer.Option(metavar="NAME", help="Material of the gears; default that of the discs."),

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from cqdd_design.cli.options import DesignFile, OwnMotor, parse_positive
+from cqdd_design.cli.options import DesignFile, OwnMotor, parse_positive, quantity_option
 from cqdd_design.cli.session import Output, read_specimen
 from cqdd_design.cli.tables import number, table
 
@@ -17,9 +15,7 @@ if TYPE_CHECKING:
 def inertia(
     out: Output,
     design: DesignFile,
-    speed: Annotated[
-        str | None, typer.Option(metavar="Q", help='Input speed, as in "1286 rpm".')
-    ] = None,
+    speed: Annotated[str | None, quantity_option('Input speed, as in "1286 rpm".')] = None,
     motor_file: OwnMotor = None,
 ) -> None:
     """Masses of the parts, balance, inertia at the motor."""

@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cqdd_design.cli.options import Force, OwnMotor, parse_option, parse_ratio, read_own_motor
+from cqdd_design.cli.options import (
+    Force,
+    OwnMotor,
+    parse_option,
+    parse_ratio,
+    quantity_option,
+    read_own_motor,
+)
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import checks_table, number, table, verdict
 from cqdd_design.errors import DesignError, UsageError
@@ -23,20 +30,14 @@ def size(
         str | None, typer.Option(metavar="N", help="Reduction, a whole number from 4 to 119.")
     ] = None,
     peak_torque: Annotated[
-        str | None, typer.Option(metavar="Q", help="At the output; default min(9*N, 90) N*m.")
+        str | None, quantity_option("At the output; default min(9*N, 90) N*m.")
     ] = None,
     continuous_torque: Annotated[
-        str | None, typer.Option(metavar="Q", help="At the output; default 0.38 of the peak.")
+        str | None, quantity_option("At the output; default 0.38 of the peak.")
     ] = None,
-    input_speed: Annotated[
-        str | None, typer.Option(metavar="Q", help='Default "1286 rpm".')
-    ] = None,
-    outer_diameter: Annotated[
-        str | None, typer.Option(metavar="Q", help='Of the ring; default "72 mm".')
-    ] = None,
-    length: Annotated[
-        str | None, typer.Option(metavar="Q", help='Of the disc pack; default "20 mm".')
-    ] = None,
+    input_speed: Annotated[str | None, quantity_option('Default "1286 rpm".')] = None,
+    outer_diameter: Annotated[str | None, quantity_option('Of the ring; default "72 mm".')] = None,
+    length: Annotated[str | None, quantity_option('Of the disc pack; default "20 mm".')] = None,
     motor: Annotated[
         str | None, typer.Option(metavar="NAME", help="Default CubeMars RO100 KV55.")
     ] = None,

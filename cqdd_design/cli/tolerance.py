@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, parse_positive
+from cqdd_design.cli.options import DesignFile, parse_positive, quantity_option
 from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, Output
 from cqdd_design.cli.tables import number, table
 
@@ -36,7 +36,7 @@ def tolerance(
     ] = 0,
     torque: Annotated[
         str | None,
-        typer.Option(metavar="Q", help='Output torque, as in "40 N*m"; default the continuous.'),
+        quantity_option('Output torque, as in "40 N*m"; default the continuous.'),
     ] = None,
     scheduler: Annotated[
         str | None,

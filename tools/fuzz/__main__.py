@@ -31,7 +31,7 @@ from tools.fuzz.groups import GROUPS
 _PRELOADED = (
     *("numpy", "scipy.optimize", "numba", "pint", "tomlkit", "pyarrow.parquet", "ezdxf"),
     *("cqdd_design.cli.main", "cqdd_design.design", "cqdd_design.exporting"),
-    *("cqdd_design.gearbox.contact_analysis", "cqdd_design.actuator.simulate"),
+    *("cqdd_design.machine.contact_analysis", "cqdd_design.actuator.simulate"),
 )
 
 
