@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cqdd_design import __version__
+from cqdd_design.catalog.paper import METRICS, is_papers_actuator
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.bench import BenchResult
@@ -25,8 +26,7 @@ if TYPE_CHECKING:
 
 Progress = Callable[[str], None]
 
-#: The paper's own actuator, and the rows that its unknowns are fitted to.
-PAPER_DESIGN = "cqdd-10"
+#: Rows that the unknowns of the paper's own actuator are fitted to.
 PAPER_ROWS = ("continuous_torque", "backdrive_static", "efficiency_peak")
 
 #: Toleranced gearboxes whose mean ripple is the bench's.
@@ -82,7 +82,7 @@ def bench(
         rated_current=_rated_current(design, motor),
         voltage=VOLTAGE if voltage is None else voltage,
         only=only,
-        beside_paper=design.name == PAPER_DESIGN,
+        beside_paper=is_papers_actuator(design),
         drawn=[apply_factors(one, factors) for one in _drawn(design, motor)] if rippling else (),
         progress=progress,
     )
@@ -124,18 +124,17 @@ def calibrate(
         Without measured rows for a design that is not the paper's, and as `calibrate` says.
     """
     from cqdd_design.actuator.bench.calibrate import calibrate as fit
-    from cqdd_design.actuator.bench.metric import PAPER
     from cqdd_design.actuator.bench.run import VOLTAGE
     from cqdd_design.actuator.build import actuator_parameters
     from cqdd_design.errors import UsageError
 
     if measured is None:
-        if design.name != PAPER_DESIGN:
+        if not is_papers_actuator(design):
             raise UsageError(
                 f"there are no measured values of {design.name}; give them with --measured FILE "
                 "(columns name,value,unit)."
             )
-        measured = {name: value for name, (value, _) in PAPER.items()}
+        measured = {name: figure.value for name, figure in METRICS.items()}
         to = to or PAPER_ROWS
     return fit(
         actuator_parameters(design, seed=seed, own_motor=motor),
@@ -222,7 +221,7 @@ def measured_actuator(design: Design) -> tuple[tuple[ActuatorParameters, BenchRe
         result = run_bench(
             parameters,
             rated_current=_rated_current(design),
-            beside_paper=design.name == PAPER_DESIGN,
+            beside_paper=is_papers_actuator(design),
             drawn=_drawn(design),
         )
     except CqddError as error:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from cqdd_design.catalog.paper import is_papers_actuator
 from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
 from cqdd_design.report.actuator.actuator_view import actuator_view
 from cqdd_design.report.actuator.bench_view import bench_view
@@ -160,7 +161,7 @@ def _engine(results: ReportInput, machine: Machine) -> dict[str, Any]:
     if found is not None:
         values = {
             "contact": contact_view(found, machine, results.gearbox.rigid),
-            "precision": precision_view(found, design.name),
+            "precision": precision_view(found, is_papers_actuator(design)),
             "losses": losses_view(found),
             "life": life_view(found.life),
         }

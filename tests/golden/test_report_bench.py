@@ -14,7 +14,6 @@ import pytest
 from cqdd_design import actuator_pipeline, pipeline
 from cqdd_design.actuator.bench import BenchResult, Metric, run_bench
 from cqdd_design.actuator.bench.gear import DIAL, DIAL_RADIUS
-from cqdd_design.actuator.bench.metric import PAPER
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.motor import envelope
 from cqdd_design.actuator.operating import (
@@ -32,6 +31,7 @@ from cqdd_design.actuator.operating import (
 )
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.thermal import continuous_current, response, steady_state
+from cqdd_design.catalog.paper import METRICS as PAPER
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox import analyse_gearbox
 from cqdd_design.report import ReportInput, build_report
@@ -481,7 +481,7 @@ def test_the_table_stands_beside_the_paper_s(
         assert row.protocol.endswith(".")
         assert (row.off == "\u2013") == (row.relation == "not comparable" or row.paper == "\u2013")
     predicted = [m for m in measured.metrics if m.relation == "predicted" and m.name in PAPER]
-    near = [m for m in predicted if is_near(m, PAPER[m.name][0])]
+    near = [m for m in predicted if is_near(m, PAPER[m.name].value)]
     assert f"Of {len(predicted)} predicted rows {len(near)} lie within" in view.summary
 
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from cqdd_design.catalog.paper import METRICS
 from cqdd_design.gearbox.losses.model import LossModel
 
-MEASURED_EFFICIENCY = 0.823
-"""Peak, electrical to mechanical (Zhu, Tanaka, Rafeedi and Hong 2024, arXiv:2410.16591)."""
-MEASURED_STATIC, MEASURED_DYNAMIC = 1.99, 1.36
-"""Backdrive torques at the output, N m (same paper)."""
+MEASURED_EFFICIENCY = METRICS["efficiency_peak"].value
+"""Peak, electrical to mechanical."""
+MEASURED_STATIC = METRICS["backdrive_static"].value
+MEASURED_DYNAMIC = METRICS["backdrive_dynamic"].value
+"""Backdrive torques at the output, N m."""
 
 
 def against_measured(

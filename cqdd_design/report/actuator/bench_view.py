@@ -7,10 +7,11 @@ import math
 from dataclasses import dataclass
 
 from cqdd_design.actuator.bench import BenchResult
-from cqdd_design.actuator.bench.metric import PAPER, Metric
+from cqdd_design.actuator.bench.metric import Metric
 from cqdd_design.actuator.comparison import ComparedActuator, compare_actuators, present_actuator
 from cqdd_design.actuator.operating import holds_itself
 from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.catalog.paper import METRICS
 from cqdd_design.report.actuator.actuator_rows import prose
 from cqdd_design.report.actuator.bench_figures import BACKDRIVEN, NONE, bench_figures, finite, shown
 from cqdd_design.report.ink.numbers import MINUS, decimals, pretty_unit, significant, with_unit
@@ -170,7 +171,7 @@ def _spread(metric: Metric, factor: float) -> str:
 
 
 def _paper(name: str, value: float, factor: float) -> str:
-    spread = PAPER[name][1]
+    spread = METRICS[name].spread
     shown = significant(factor * value)
     return shown if spread is None else f"{shown} ±{significant(factor * spread, 2)}"
 

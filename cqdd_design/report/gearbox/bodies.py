@@ -7,6 +7,7 @@ from collections.abc import Container
 from dataclasses import dataclass
 
 from cqdd_design.catalog.motors import find_motor
+from cqdd_design.catalog.paper import METRICS, is_papers_actuator
 from cqdd_design.design import Design
 from cqdd_design.errors import CatalogError
 from cqdd_design.exporting.solids.bom import BomRow, bill_of_materials
@@ -18,13 +19,9 @@ from cqdd_design.report.judgement.check_rows import printed
 from cqdd_design.solids.fits import Fit
 from cqdd_design.solids.inertia import ROTOR, GearboxInertia, PartInertia
 
-#: Inertia of the whole actuator that the paper prints (table II), at the motor, kg m^2.
-PAPER_INERTIA = 5.01e-4
-#: Mass of it, kg, and its torque density, N m/kg (table II).
-PAPER_MASS, PAPER_DENSITY = 1.40, 64.2
-PAPER_PEAK = 89.9
-#: Name of the design of the paper's own actuator.
-PAPER_DESIGN = "cqdd-10"
+#: Of the whole actuator as the paper prints it: at the motor, kg m^2; kg; N m/kg; N m.
+PAPER_INERTIA, PAPER_MASS = METRICS["actuator_inertia"].value, METRICS["mass"].value
+PAPER_DENSITY, PAPER_PEAK = METRICS["torque_density"].value, METRICS["peak_torque"].value
 
 
 @dataclass(frozen=True)
@@ -145,7 +142,7 @@ def _beside_the_paper(
     design: Design, inertia: GearboxInertia
 ) -> tuple[tuple[str, str, str, str], ...]:
     """Mass and inertia beside what the paper prints, with what makes the difference."""
-    if design.name != PAPER_DESIGN or inertia.motor_missing:
+    if not is_papers_actuator(design) or inertia.motor_missing:
         return ()
     groups, shares = inertia.group_masses, inertia.group_inertias
     mass, whole = inertia.total.mass, inertia.reflected_input
@@ -175,7 +172,7 @@ def _beside_the_paper(
             f"together {significant(1e4 * (PAPER_INERTIA - whole + rotor + bell), 3)} would agree.",
         ),
         (
-            "torque density, at the paper's 89.9\u202fN\u00b7m",
+            f"torque density, at the paper's {with_unit(PAPER_PEAK, 'N*m')}",
             f"{significant(PAPER_PEAK / mass, 3)}\u202fN\u00b7m/kg",
             f"{significant(PAPER_DENSITY, 3)}\u202fN\u00b7m/kg",
             "follows from the mass; "

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cqdd_design.catalog.paper import METRICS
 from cqdd_design.report.ink.bars import bar_chart
 from cqdd_design.report.ink.charts import Curve, line_chart
 from cqdd_design.report.ink.numbers import significant, with_unit
@@ -20,9 +21,6 @@ if TYPE_CHECKING:
 
 _ARCMIN = math.degrees(1.0) * 60.0
 _ORDERS = 8
-
-PAPER_DESIGN = "cqdd-10"
-"""Name of the paper's own actuator, beside which the measured values stand."""
 
 
 @dataclass(frozen=True)
@@ -42,8 +40,8 @@ class PrecisionView:
     measured: bool
 
 
-def precision_view(analysis: ContactAnalysis, design_name: str) -> PrecisionView:
-    """Values of the section."""
+def precision_view(analysis: ContactAnalysis, beside_paper: bool) -> PrecisionView:
+    """Values of the section, beside what was measured of the paper's actuator or alone."""
     found = analysis.precision
     torque = with_unit(found.torque, "N*m")
     period = float(np.degrees(found.free.crank_angle[-1] + found.free.crank_angle[1]))
@@ -65,8 +63,7 @@ def precision_view(analysis: ContactAnalysis, design_name: str) -> PrecisionView
         x_ticks=ticks,
         caption="Of perfect parts, above its least value, over one period of the mesh.",
     )
-    paper = design_name == PAPER_DESIGN
-    rows = _rows(found, paper)
+    rows = _rows(found, beside_paper)
     figures = [error]
     if found.orders:
         figures.append(_order_bars(found.orders, torque))
@@ -91,6 +88,7 @@ def _order_bars(orders: tuple[Order, ...], torque: str) -> Figure:
 def _rows(found: Precision, paper: bool) -> tuple[tuple[str, str, str, str], ...]:
     free = found.free.free * _ARCMIN
     torque = with_unit(found.torque, "N*m")
+    backlash, ripple = METRICS["backlash"], METRICS["torque_ripple"].value
     small = with_unit(0.03 * abs(found.torque), "N*m", 3)
     return (
         (
@@ -98,7 +96,7 @@ def _rows(found: Precision, paper: bool) -> tuple[tuple[str, str, str, str], ...
             f"{significant(float(free.mean()))} arcmin",
             f"{significant(float(free.min()))} to {significant(float(free.max()))} over a turn, "
             "rigid parts, from the clearances of the design",
-            "7.03 \u00b1 1.3 arcmin" if paper else "",
+            f"{backlash.value:g} \u00b1 {backlash.spread:g} arcmin" if paper else "",
         ),
         (
             "lost motion",
@@ -122,6 +120,6 @@ def _rows(found: Precision, paper: bool) -> tuple[tuple[str, str, str, str], ...
             "torque ripple, peak to peak",
             with_unit(found.ripple_pp, "N*m"),
             f"at {torque}, perfect parts; tolerances add far more",
-            "3 N\u00b7m (\u00b11.5)" if paper else "",
+            f"{2.0 * ripple:g} N\u00b7m (\u00b1{ripple:g})" if paper else "",
         ),
     )

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from cqdd_design.catalog.paper import PIN_TORQUE, PINS_TORQUE
 from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.report.ink.numbers import TIMES, decimals, significant, with_unit
 from cqdd_design.report.judgement.check_rows import CheckRow, closest, failing
 from cqdd_design.results import Check, Status, worst_status
 
-#: What the paper prints for its output pins, N m (section III-A).
-PAPER_PER_PIN, PAPER_TOTAL = 59.13, 295.65
 #: Checks shown for a design that fails none.
 _CLOSEST = 6
 
@@ -116,8 +115,8 @@ def pin_figure(analysis: GearboxAnalysis) -> PinFigure:
     peak = requirements.peak_torque
     shear = pins.paper_shear / 1e6
     printed = (
-        abs(pins.paper_torque_per_pin - PAPER_PER_PIN) < 0.006
-        and abs(pins.paper_torque_total - PAPER_TOTAL) < 0.05
+        abs(pins.paper_torque_per_pin - PIN_TORQUE) < 0.006
+        and abs(pins.paper_torque_total - PINS_TORQUE) < 0.05
     )
 
     def row(method: str, per_pin: str, capacity: float) -> tuple[str, str, str, str]:
