@@ -16,6 +16,7 @@ import argparse
 import itertools
 import math
 import os
+import sys
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -44,6 +45,9 @@ from cqdd_design.design import load_design
 from cqdd_design.machine import resolve
 
 REPOSITORY = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(REPOSITORY / "tests" / "oracles"))
+from actuator_twin import in_plain_numpy  # noqa: E402
+
 DESIGN = REPOSITORY / "designs" / "cqdd-10.toml"
 HEADING = "## The actuator in time"
 PACKAGES = ("numpy", "scipy", "numba", "mujoco")
@@ -93,7 +97,8 @@ def kernel_rate(one: ActuatorParameters, scene: Scenario, steps: int, runs: int 
 def plain_rate(one: ActuatorParameters, scene: Scenario, steps: int = 2000) -> float:
     """Steps a second of the numpy twin."""
     began = time.perf_counter()
-    simulate(one, scene, steps * STEP, STEP, engine="plain")
+    with in_plain_numpy():
+        simulate(one, scene, steps * STEP, STEP)
     return steps / (time.perf_counter() - began)
 
 

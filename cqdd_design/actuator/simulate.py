@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.scenario import Constant, Scenario, Signal
 from cqdd_design.errors import UsageError
 
-Engine = Literal["compiled", "plain"]
 Work = tuple[Any, ...]
 """Arguments of the kernel but for the range of sets."""
 
@@ -150,7 +149,6 @@ def simulate(
     *,
     every: int = 1,
     threads: int | None = None,
-    engine: Engine = "compiled",
 ) -> Simulation:
     """Simulate one actuator or many.
 
@@ -168,8 +166,6 @@ def simulate(
         Steps a record.
     threads : int, optional
         Default all; the numbers do not depend on it.
-    engine : {"compiled", "plain"}
-        The kernel, or its twin in numpy, some thousand times slower.
 
     Returns
     -------
@@ -181,8 +177,6 @@ def simulate(
         For a step too large for the stiffness, naming one that works; a duration, step, number of
         threads or number of scenarios that makes no sense; signals that are not finite.
     """
-    if engine not in ("compiled", "plain"):
-        raise UsageError(f"engine {engine!r} is neither compiled nor plain.")
     if threads is not None and threads < 1:
         raise UsageError(f"threads {threads} must be 1 or more; leave it out to use all.")
     sets, scenes = _paired(parameters, scenario)
@@ -207,12 +201,7 @@ def simulate(
     traces = Traces(*np.zeros((len(TRACES), len(sets), steps // every)))
     ledger = Ledger(*np.zeros((len(LEDGER), len(sets))))
     work: Work = (rows, tables, signals, Steps(step, steps, every), traces, ledger)
-    if engine == "plain":
-        from cqdd_design.actuator.twin.stepping import run_sets
-
-        run_sets(*work)
-    else:
-        run_compiled(work, threads)
+    run_compiled(work, threads)
     if not np.all(np.isfinite(ledger)):
         raise UsageError(
             f"the simulation left the finite numbers at a step of {step:g} s; look for forces far "

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from actuator_machines import COLD, NO_FRICTION, machine
+from actuator_twin import in_plain_numpy
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -72,7 +73,8 @@ def test_energy_is_kept_over_ten_seconds(name: str, friction: str) -> None:
 def test_kernel_and_plain_twin_agree(name: str, friction: str) -> None:
     scene = replace(SCENES[name], friction=friction)
     fast = simulate(machine(), scene, 0.008, 2e-5)
-    slow = simulate(machine(), scene, 0.008, 2e-5, engine="plain")
+    with in_plain_numpy():
+        slow = simulate(machine(), scene, 0.008, 2e-5)
     assert slow.ledger.residual_share[0] < 1e-12
     scale = {"output_torque": 1.0, "motor_friction": 1.0, "output_friction": 1.0}
     for trace in TRACES:
@@ -191,7 +193,9 @@ def test_kernel_and_plain_twin_agree_across_a_gap_of_one_step(
     one = machine(NO_FRICTION, backlash=1e-5, damping=damping, stiffening=1.25)
     start = Start(motor_angle=0.021, motor_speed=-26.0, output_speed=7.0)
     scene = Scenario(Command("open"), Load.free(), start, friction)
-    fast, slow = (simulate(one, scene, 0.01, 2e-5, engine=way) for way in ("compiled", "plain"))
+    fast = simulate(one, scene, 0.01, 2e-5)
+    with in_plain_numpy():
+        slow = simulate(one, scene, 0.01, 2e-5)
     passed = fast.deflection[0, 1:] * fast.deflection[0, :-1] < 0.0
     assert passed.any()
     assert not fast.warnings
@@ -370,8 +374,6 @@ def test_a_simulation_of_nothing_is_refused() -> None:
             simulate(sets, scenes, 0.01, 1e-5)
     with pytest.raises(UsageError, match="threads -1"):
         simulate(machine(), SCENES["free"], 0.01, 1e-5, threads=-1)
-    with pytest.raises(UsageError, match="engine"):
-        simulate(machine(), SCENES["free"], 0.01, 1e-5, engine="fortran")  # type: ignore[arg-type]
 
 
 def test_compilation_is_told_from_the_cache(tmp_path: Path) -> None:

@@ -1,1 +1,1 @@
-"""Compiled time stepping of actuators; the same in plain numpy stands in `twin/`."""
+"""Compiled time stepping of actuators; the same in plain numpy stands with the tests."""

@@ -1,4 +1,4 @@
-"""Compiled command, current and heat of the motor; :mod:`..twin.drive` is the same in numpy."""
+"""Compiled command, current and heat of the motor."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compiled dry friction: levels, bristles, stick and slip; :mod:`..twin.friction` in numpy."""
+"""Compiled dry friction: levels, bristles, stick and slip."""
 
 from __future__ import annotations
 

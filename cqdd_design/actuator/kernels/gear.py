@@ -1,4 +1,4 @@
-"""Compiled gear mesh: dead zone, stiffness and kinematic error; :mod:`..twin.gear` in numpy."""
+"""Compiled gear mesh: dead zone, stiffness and kinematic error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compiled loads: cogging, pendulum, sensor, wall, and what is stored; :mod:`..twin.loads` too."""
+"""Compiled loads: cogging, pendulum, sensor, wall, and what is stored."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@ energy over the step stands for (a discrete gradient), so that energy is kept to
 iteration leaves, whatever the step, through backlash, stops and varying stiffness. Coulomb friction
 acts as the torque that would stop the body within the step, as far as there is friction: it takes
 energy or none, never gives any. Equations in docs/actuator-model.md;
-:mod:`..twin.stepping` is the same in numpy. The parts: :mod:`.drive`, :mod:`.friction`,
+`tests/oracles/actuator_twin` is the same in numpy. The parts: :mod:`.drive`, :mod:`.friction`,
 :mod:`.gear`, :mod:`.loads`; what goes from one to the other by name: :mod:`..columns`.
 """
 

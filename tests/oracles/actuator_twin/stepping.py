@@ -12,24 +12,24 @@ from typing import Any
 
 import numpy as np
 
-from cqdd_design.actuator.columns import LEDGER, MODES, TRACES, Constants, Signals, Steps
-from cqdd_design.actuator.parameters import FloatArray
-from cqdd_design.actuator.twin.drive import (
+from actuator_twin.drive import (
     PositionLoop,
     asked_of_winding,
     driven_current,
     ended_current,
     warmed,
 )
-from cqdd_design.actuator.twin.friction import FREE, STICK, agreed, begun, bristled, levels
-from cqdd_design.actuator.twin.gear import damped_in_mesh, look_up, meshed, spring
-from cqdd_design.actuator.twin.loads import (
+from actuator_twin.friction import FREE, STICK, agreed, begun, bristled, levels
+from actuator_twin.gear import damped_in_mesh, look_up, meshed, spring
+from actuator_twin.loads import (
     cogging,
     gravity_pull,
     stored_energy,
     wall_at,
     wall_push,
 )
+from cqdd_design.actuator.columns import LEDGER, MODES, TRACES, Constants, Signals, Steps
+from cqdd_design.actuator.parameters import FloatArray
 
 _ITERATIONS, _SWITCHES = 60, 6
 

@@ -1,4 +1,4 @@
-"""Gear mesh in plain numpy: dead zone, stiffness and kinematic error; see :mod:`..kernels.gear`."""
+"""Gear mesh in plain numpy: dead zone, stiffness and kinematic error."""
 
 from __future__ import annotations
 

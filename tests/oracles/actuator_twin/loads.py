@@ -1,4 +1,4 @@
-"""Loads in plain numpy: cogging, pendulum, wall, and what is stored; see :mod:`..kernels.loads`."""
+"""Loads in plain numpy: cogging, pendulum, wall, and what is stored."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Dry friction in plain numpy: levels, bristles, stick and slip; see :mod:`..kernels.friction`."""
+"""Dry friction in plain numpy: levels, bristles, stick and slip."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Command, current and heat of the motor in plain numpy; see :mod:`..kernels.drive`."""
+"""Command, current and heat of the motor in plain numpy."""
 
 from __future__ import annotations
 

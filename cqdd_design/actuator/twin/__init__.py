@@ -1,1 +1,0 @@
-"""The compiled kernels in plain numpy: the same equations, written to be read."""
