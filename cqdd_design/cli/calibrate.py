@@ -30,7 +30,8 @@ def calibrate(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="CSV with the columns name,value,unit; default the paper's table, for cqdd-10.",
+            help="CSV with the columns name,value,unit; default the paper's table, for its own "
+            "actuator.",
         ),
     ] = None,
     to: Annotated[

@@ -6,22 +6,16 @@ Help, progress, and the page of the command line read this table.
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from cqdd_design.errors import UsageError, did_you_mean
 
-if TYPE_CHECKING:
-    from cqdd_design.exporting.job import ExportJob
-    from cqdd_design.files import WrittenFile
-
-    Writer = Callable[[ExportJob], tuple[WrittenFile, ...]]
-
 
 @dataclass(frozen=True)
-class ExportKind:
+class Kind:
     """A kind of file.
 
     Attributes
@@ -29,51 +23,54 @@ class ExportKind:
     name : str
         As on the command line.
     writer : str
-        ``chapter.module:function`` of this room, imported only when asked for; the function writes
-        all files of the kind from an `ExportJob`.
-    needs_solids : bool
-        Whether it is made of the machine's solids.
-    reader : {"makers", "simulators"}
-        Whom it is for.
+        ``chapter.module:function`` of this room; the function writes all files of the kind.
     title : str
         What is written, in a few words.
     """
 
     name: str
     writer: str
-    needs_solids: bool
-    reader: Literal["makers", "simulators"]
     title: str
 
-    def load(self) -> Writer:
-        """Import the function that writes it."""
-        found: Writer = load_writer(self.writer)
-        return found
+    def load(self) -> Any:
+        """Import the function that writes it, which nothing does before it is asked for."""
+        module, _, function = self.writer.partition(":")
+        return getattr(importlib.import_module(f"cqdd_design.exporting.{module}"), function)
 
 
-def load_writer(place: str) -> Any:
-    """Import a function by ``chapter.module:function`` of this room."""
-    module, _, function = place.partition(":")
-    return getattr(importlib.import_module(f"cqdd_design.exporting.{module}"), function)
+@dataclass(frozen=True)
+class ExportKind(Kind):
+    """A kind of file of a design, written from an `ExportJob`.
+
+    Attributes
+    ----------
+    needs_solids : bool
+        Whether it is made of the machine's solids.
+    reader : {"makers", "simulators"}
+        Whom it is for.
+    """
+
+    needs_solids: bool
+    reader: Literal["makers", "simulators"]
 
 
 _SOLID, _PLAIN = True, False
 _ROWS = (
-    ExportKind("dxf", "edm.dxf:export_dxf", _PLAIN, "makers", "contours of the flat parts"),
-    ExportKind("edm", "sheets.edm_package:export_edm", _PLAIN, "makers", "package for wire EDM"),
-    ExportKind("gcode", "edm.gcode:export_gcode", _PLAIN, "makers", "programs for wire EDM"),
-    ExportKind("step", "solids.step:export_step", _SOLID, "makers", "the machine, and every part"),
-    ExportKind("stl", "solids.meshes:export_stl", _SOLID, "makers", "a mesh of every part"),
-    ExportKind("3mf", "solids.meshes:export_3mf", _SOLID, "makers", "meshes of the machine"),
-    ExportKind("glb", "solids.meshes:export_glb", _SOLID, "makers", "the machine for viewers"),
-    ExportKind("svg", "sheets.svg:export_svg", _PLAIN, "makers", "front views, true to scale"),
-    ExportKind("bom", "solids.bom:export_bom", _SOLID, "makers", "bill of materials"),
-    ExportKind("mjcf", "simulators.mjcf:export_mjcf", _PLAIN, "simulators", "model for MuJoCo"),
-    ExportKind("urdf", "simulators.urdf:export_urdf", _PLAIN, "simulators", "robot of one joint"),
+    ExportKind("dxf", "edm.dxf:export_dxf", "contours of the flat parts", _PLAIN, "makers"),
+    ExportKind("edm", "sheets.edm_package:export_edm", "package for wire EDM", _PLAIN, "makers"),
+    ExportKind("gcode", "edm.gcode:export_gcode", "programs for wire EDM", _PLAIN, "makers"),
+    ExportKind("step", "solids.step:export_step", "the machine, and every part", _SOLID, "makers"),
+    ExportKind("stl", "solids.meshes:export_stl", "a mesh of every part", _SOLID, "makers"),
+    ExportKind("3mf", "solids.meshes:export_3mf", "meshes of the machine", _SOLID, "makers"),
+    ExportKind("glb", "solids.meshes:export_glb", "the machine for viewers", _SOLID, "makers"),
+    ExportKind("svg", "sheets.svg:export_svg", "front views, true to scale", _PLAIN, "makers"),
+    ExportKind("bom", "solids.bom:export_bom", "bill of materials", _SOLID, "makers"),
+    ExportKind("mjcf", "simulators.mjcf:export_mjcf", "model for MuJoCo", _PLAIN, "simulators"),
+    ExportKind("urdf", "simulators.urdf:export_urdf", "robot of one joint", _PLAIN, "simulators"),
     ExportKind(
-        "card", "simulators.actuator_card:export_card", _PLAIN, "simulators", "every parameter"
+        "card", "simulators.actuator_card:export_card", "every parameter", _PLAIN, "simulators"
     ),
-    ExportKind("bam", "simulators.bam:export_bam", _PLAIN, "simulators", "friction for BAM"),
+    ExportKind("bam", "simulators.bam:export_bam", "friction for BAM", _PLAIN, "simulators"),
 )
 KINDS: Mapping[str, ExportKind] = MappingProxyType({row.name: row for row in _ROWS})
 """Every kind by its name, in the order of help."""

@@ -12,14 +12,12 @@ from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.comparison import ComparedActuator, compare_actuators, present_actuator
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
+from cqdd_design.catalog.paper import is_papers_actuator
 from cqdd_design.design import Design
 from cqdd_design.errors import CqddError
 from cqdd_design.files import WrittenFile, ensure_folder, refuse_overwrite, write_with
 from cqdd_design.machine import Machine
 from cqdd_design.roads.telling import Progress, silent
-
-#: The paper's own actuator.
-PAPER_DESIGN = "cqdd-10"
 
 #: Toleranced gearboxes whose mean ripple is the bench's.
 RIPPLE_DRAWS = 6
@@ -69,7 +67,7 @@ def measure(
         rated_current=machine.motor.rated_current,
         voltage=VOLTAGE if voltage is None else voltage,
         only=only,
-        beside_paper=machine.design.name == PAPER_DESIGN,
+        beside_paper=is_papers_actuator(machine.given),
         drawn=drawn_actuators(machine, specimen) if rippling else (),
         progress=progress,
     )

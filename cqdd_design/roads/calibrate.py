@@ -6,13 +6,13 @@ from collections.abc import Mapping
 
 from cqdd_design.actuator.bench.calibrate import Calibration
 from cqdd_design.actuator.bench.calibrate import calibrate as fit
-from cqdd_design.actuator.bench.metric import PAPER
 from cqdd_design.actuator.bench.run import VOLTAGE
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
+from cqdd_design.catalog.paper import METRICS, is_papers_actuator
 from cqdd_design.design import Design
 from cqdd_design.errors import UsageError
-from cqdd_design.roads.bench import PAPER_DESIGN, drawn_actuators
+from cqdd_design.roads.bench import drawn_actuators
 from cqdd_design.roads.telling import Progress, silent
 
 #: The rows that the unknowns of the paper's actuator are fitted to.
@@ -52,12 +52,12 @@ def calibrate(
         Without measured rows for a design that is not the paper's, and as `calibrate` says.
     """
     if measured is None:
-        if design.name != PAPER_DESIGN:
+        if not is_papers_actuator(design):
             raise UsageError(
                 f"there are no measured values of {design.name}; give them with --measured FILE "
                 "(columns name,value,unit)."
             )
-        measured = {name: value for name, (value, _) in PAPER.items()}
+        measured = {name: figure.value for name, figure in METRICS.items()}
         to = to or PAPER_ROWS
     machine = specimen.machine(design)
     return fit(

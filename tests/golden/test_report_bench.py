@@ -14,7 +14,7 @@ from shared_outputs import paper_input as shared_input
 
 from cqdd_design.actuator.bench import BenchResult, Metric
 from cqdd_design.actuator.bench.gear import ARCMIN, DIAL, DIAL_RADIUS, dead_zone
-from cqdd_design.actuator.bench.metric import PAPER, is_near
+from cqdd_design.actuator.bench.metric import is_near
 from cqdd_design.actuator.demands import demands
 from cqdd_design.actuator.envelope import limit_curves
 from cqdd_design.actuator.motor import envelope
@@ -33,6 +33,7 @@ from cqdd_design.actuator.operating import (
 )
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.thermal import continuous_current, response, steady_state
+from cqdd_design.catalog.paper import METRICS as PAPER
 from cqdd_design.design import Design
 from cqdd_design.machine import resolve
 from cqdd_design.report import ReportInput, build_report
@@ -472,7 +473,7 @@ def test_the_table_stands_beside_the_paper_s(
         assert row.protocol.endswith(".")
         assert (row.off == "\u2013") == (row.relation == "not comparable" or row.paper == "\u2013")
     predicted = [m for m in measured.metrics if m.relation == "predicted" and m.name in PAPER]
-    near = [m for m in predicted if is_near(m, PAPER[m.name][0])]
+    near = [m for m in predicted if is_near(m, PAPER[m.name].value)]
     assert f"Of {len(predicted)} predicted rows {len(near)} lie within" in view.summary
 
 

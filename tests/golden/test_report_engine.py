@@ -191,7 +191,7 @@ def test_precision_stands_beside_the_paper_only_for_its_design(
     found: ContactAnalysis, design: Design
 ) -> None:
     paper = precision_view(found, design)
-    other = precision_view(found, design.model_copy(update={"name": "my-joint"}))
+    other = precision_view(found, design.replacing({"reducer.ring_pin_diameter": 6.9e-3}))
     assert paper.measured
     assert not other.measured
     assert [row[2] for row in paper.rows if row[2]] == [

@@ -82,10 +82,10 @@ def test_scale_of_the_tolerances_is_found_for_a_drawn_gearbox() -> None:
 
 def test_paper_on_three_rows(actuator: ActuatorParameters) -> None:
     """What the documents state of the paper's actuator: three rows fitted, these predicted."""
-    from cqdd_design.actuator.bench.metric import PAPER as TABLE
+    from cqdd_design.catalog.paper import METRICS as TABLE
     from cqdd_design.roads.calibrate import PAPER_ROWS
 
-    measured = {name: value for name, (value, _) in TABLE.items()}
+    measured = {name: figure.value for name, figure in TABLE.items()}
     found = calibrate(actuator, measured, to=PAPER_ROWS)
     assert found.largest_residual < 1e-3
     within = {row.name for row in found.within}

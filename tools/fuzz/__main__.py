@@ -1,6 +1,6 @@
 """Run the fuzz campaign, or one case of it again.
 
-    python -m tools.fuzz                                  # all groups, some 7,800 cases
+    python -m tools.fuzz                                  # all groups, some 7,900 cases
     python -m tools.fuzz --group designs --seed 7         # one group with another seed
     python -m tools.fuzz --group designs --seed 7 --case 41 --show    # one case, with its files
     python -m tools.fuzz --properties                     # the property tests, at random

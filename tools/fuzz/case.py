@@ -111,12 +111,12 @@ def _command(arguments: tuple[str, ...]) -> int:
 
 
 def _called(call: Callable[[], object]) -> int:
-    from cqdd_design.errors import CqddError
+    from cqdd_design.errors import CqddError, printable
 
     try:
         call()
     except CqddError as error:
-        print(error.message, file=sys.stderr)
+        print(printable(error.message), file=sys.stderr)
         return error.exit_code
     return 0
 

@@ -52,8 +52,6 @@ class ReadBack:
         The fitted contour against its exact curve.
     loops : int
         Closed loops on the cut layers.
-    start_holes : int
-        Circles on the layer of start holes.
     least_concave_radius : float
         Over all loops, m; infinite when nothing is concave.
     paths : tuple of PathFit
@@ -62,7 +60,6 @@ class ReadBack:
 
     fit: LoopFit
     loops: int
-    start_holes: int
     least_concave_radius: float
     paths: tuple[PathFit, ...] = ()
 
@@ -125,7 +122,7 @@ def read_back(
             (outer.all_loops, inner.all_loops),
             edm,
         )
-    return ReadBack(fit, count, len(starts), concave, paths)
+    return ReadBack(fit, count, concave, paths)
 
 
 def _refuse_other_units(label: str, contents: DxfContents) -> None:

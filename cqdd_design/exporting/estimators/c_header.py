@@ -74,10 +74,11 @@ def header_text(artefact: Artefact, name: str) -> str:
         head, offset, body = gru.head, gru.head_bias, _gru_body(artefact)
     else:
         mlp = folded_mlp(artefact)
-        arrays = []
-        for layer, (weight, bias) in enumerate(zip(mlp.weights, mlp.biases, strict=True)):
-            arrays += [_array(f"{name}_weight_{layer}", weight)]
-            arrays += [_array(f"{name}_bias_{layer}", bias)]
+        arrays = [
+            _array(f"{name}_{kind}_{layer}", values)
+            for layer, both in enumerate(zip(mlp.weights, mlp.biases, strict=True))
+            for kind, values in zip(("weight", "bias"), both, strict=True)
+        ]
         head, offset, body = mlp.head, mlp.head_bias, _mlp_body(artefact)
     arrays += [_array(f"{name}_head", head)]
     text = "\n".join(

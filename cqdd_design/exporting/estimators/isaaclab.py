@@ -36,12 +36,12 @@ if TYPE_CHECKING:
 
     from cqdd_design.torque.networks.artefact import Artefact, Mode
 
-_CLASSES = {
-    "history": "ActuatorNetMLPCfg",
-    "lstm": "ActuatorNetLSTMCfg",
-    "gru": "ActuatorNetGRUCfg",
+_FORMS = {
+    "history": ("mlp", "ActuatorNetMLPCfg"),
+    "lstm": ("lstm", "ActuatorNetLSTMCfg"),
+    "gru": ("gru", "ActuatorNetGRUCfg"),
 }
-_SUFFIXES = {"history": "mlp", "lstm": "lstm", "gru": "gru"}
+"""Ending of the file and class of the client, by shape."""
 OF_HISTORY = {"pos_scale": 1.0, "vel_scale": 1.0, "torque_scale": 1.0, "input_order": "pos_vel"}
 """Fields that every client with a history wants: scaling is inside, positions come first."""
 
@@ -61,7 +61,7 @@ def export_isaaclab(artefact: Artefact, path: Path) -> Export:
     files: list[WrittenFile] = []
     for shape in shapes:
         _require_room(artefact, shape)
-        name = f"{path.name}-isaaclab-{_SUFFIXES[shape]}"
+        name = f"{path.name}-isaaclab-{_FORMS[shape][0]}"
         place = path.with_name(f"{name}.pt")
         files += write_shape(artefact, place, shape, _settings(artefact, shape, place.name))
     warnings = streaming_warning(artefact, "Isaac Lab's LSTM or GRU class")
@@ -87,7 +87,7 @@ def _settings(artefact: Artefact, shape: Shape, file: str) -> dict[str, Any]:
     return {
         **metadata(artefact, "window" if shape == "history" else "streaming"),
         "client": "isaaclab 2.3.2" if shape != "gru" else "isaaclab, pull request 6083",
-        "class": _CLASSES[shape],
+        "class": _FORMS[shape][1],
         "configuration": configuration,
     }
 

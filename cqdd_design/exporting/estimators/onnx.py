@@ -126,9 +126,8 @@ def _update_first(values: NDArray[np.float64], width: int) -> NDArray[np.float64
 
 def _head(graph: Graph, artefact: Artefact, values: str, newest: str) -> None:
     """From (N, H) to the output ``torque`` (N,)."""
-    family = artefact.family == "gru"
-    weight, bias = ("head_weight", "head_bias")
-    if not family:
+    weight, bias = "head_weight", "head_bias"
+    if artefact.family != "gru":
         weight, bias = f"weight_{artefact.layers}", f"bias_{artefact.layers}"
     scaled = artefact.torque_std * artefact.weights[weight].astype(np.float64)
     offset = artefact.torque_std * artefact.weights[bias].astype(np.float64) + artefact.torque_mean

@@ -81,6 +81,11 @@ class SheetDrawing:
         points = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
         self._space.add_lwpolyline(points, close=True, dxfattribs={"layer": layer})
 
+    def polygon(self, corners: Sequence[complex]) -> None:
+        """Draw thin lines from corner to corner, and back to the first."""
+        for one, two in zip(corners, [*corners[1:], corners[0]], strict=True):
+            self.line(one, two)
+
     def circle(self, centre: complex, radius: float, layer: str = THIN) -> None:
         """Draw a circle."""
         self._space.add_circle(_xy(centre), radius, dxfattribs={"layer": layer})
@@ -218,8 +223,7 @@ def _profile_of_a_line(sheet: SheetDrawing, at: complex) -> None:
 
 def _flatness(sheet: SheetDrawing, at: complex) -> None:
     corners = [at - 2.0 - 0.9j, at + 1.0 - 0.9j, at + 2.0 + 0.9j, at - 1.0 + 0.9j]
-    for one, two in zip(corners, corners[1:] + corners[:1], strict=True):
-        sheet.line(one, two)
+    sheet.polygon(corners)
 
 
 def _parallelism(sheet: SheetDrawing, at: complex) -> None:

@@ -103,8 +103,7 @@ def _projection_sign(sheet: SheetDrawing, centre: complex) -> None:
     sheet.circle(centre + 5.0, 2.0)
     sheet.circle(centre + 5.0, 1.1)
     corners = [centre - 1.0 - 2.0j, centre - 1.0 + 2.0j, centre - 5.0 + 1.1j, centre - 5.0 - 1.1j]
-    for one, two in zip(corners, corners[1:] + corners[:1], strict=True):
-        sheet.line(one, two)
+    sheet.polygon(corners)
 
 
 def _notes(sheet: SheetDrawing, facts: CutFacts) -> None:

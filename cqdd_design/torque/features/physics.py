@@ -223,7 +223,7 @@ def actuator_from_dict(content: Mapping[str, Any]) -> ActuatorParameters:
         name, mass = content["name"], content["mass"]
         if not isinstance(name, str) or not isinstance(mass, float | int):
             raise TypeError("name is no text, or mass no number")
-        return ActuatorParameters(name=name, mass=mass, **parts)
+        return ActuatorParameters(name=name, mass=math.nan if mass is None else mass, **parts)
     except (KeyError, TypeError, ValueError, AttributeError, DesignError) as error:
         raise UsageError(
             f"these are no actuator's parameters of this program ({error}); write them anew."
