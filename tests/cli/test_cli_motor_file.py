@@ -79,5 +79,5 @@ def test_the_report_shows_the_motor_of_the_file(cqdd, tmp_path, paper_design_fil
     assert done.code == 0, done.err
     text = page.read_text()
     assert "rewound, ring of magnets" in text
-    assert "file: motor.toml" in text
+    assert "rewound: motor file motor.toml" in text
     assert "rewound from motor.toml" in text
