@@ -175,8 +175,8 @@ def _actuator_validated() -> str:
 
 def _calibrated() -> str:
     """Every row of the bench before and after calibration, beside the paper's."""
-    from cqdd_design.actuator_pipeline import calibrate
     from cqdd_design.design import load_design
+    from cqdd_design.roads.calibrate import calibrate
 
     found = calibrate(load_design(DOCS.parent / "designs" / "cqdd-10.toml"))
     head = [

@@ -101,7 +101,11 @@ class MotorFile:
         told = {_OF_ROW[key]: value for key, value in self.values.items() if key in _OF_ROW}
         if "pole_pairs" in told:
             told["pole_pairs"] = int(told["pole_pairs"])
-        given: dict[str, Any] = {**told, "name": self.name}
+        source = f"motor file {self.place}, over the catalogue's {catalogue.name}"
+        given: dict[str, Any] = {**told, "name": self.name, "source": source}
+        if "rotor_inertia" in told:
+            # The catalogue's remarks are on an estimate of it.
+            given["note"] = ""
         # A file with the electrical data is that of a bare motor.
         if {"speed_constant", "line_resistance"} <= set(told):
             given["torque_at"] = "motor"

@@ -17,12 +17,14 @@ from typing import TYPE_CHECKING, Annotated, Any, TextIO
 
 import typer
 
+from cqdd_design.cli.options import read_own_motor
 from cqdd_design.environment import source_date
 from cqdd_design.errors import UsageError, printable
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from cqdd_design.actuator.specimen import Specimen
     from cqdd_design.design import Design
     from cqdd_design.files import WrittenFile
     from cqdd_design.results import Check
@@ -228,6 +230,21 @@ class Output:
             files=files,
         )
         print_result(text)
+
+
+def read_specimen(
+    out: Output,
+    design: Design,
+    *,
+    motor_file: Path | None = None,
+    calibration: Path | None = None,
+    seed: int | None = None,
+) -> Specimen:
+    """The actuator of ``--motor-file``, ``--calibration`` and ``--seed``."""
+    from cqdd_design.actuator.specimen import Specimen
+
+    factors = read_factors(out, calibration, design) or {}
+    return Specimen(motor=read_own_motor(motor_file), seed=seed, factors=factors)
 
 
 def read_factors(out: Output, path: Path | None, design: Design) -> Mapping[str, float] | None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import Calibrated, Force, parse_names
+from cqdd_design.cli.options import Calibrated, Force, OwnMotor, parse_names
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 from cqdd_design.cli.torque_actuator import data_actuator
@@ -45,6 +45,7 @@ def evaluate(
         ),
     ] = None,
     calibration: Calibrated = None,
+    motor_file: OwnMotor = None,
     split_seed: Annotated[
         int | None,
         typer.Option(metavar="N", min=0, help="Of the split; default that of the networks."),
@@ -75,11 +76,14 @@ def evaluate(
     for target in (report, markdown):
         if target is not None:
             refuse_overwrite(target, force=force)
-    if design is None and calibration is not None:
-        raise UsageError("--calibration belongs to a design; give it with --design.")
+    for name, given in (("--calibration", calibration), ("--motor-file", motor_file)):
+        if design is None and given is not None:
+            raise UsageError(f"{name} belongs to a design; give it with --design.")
     known = read_data(data)
     networks = read_networks(model or [], known)
-    actuator = None if design is None else data_actuator(out, known, design, None, calibration)
+    actuator = None
+    if design is not None:
+        actuator = data_actuator(out, known, design, None, calibration, motor_file)
     names = parse_names(sets)
     lineup = line_up(known, networks, names, split_seed=split_seed, actuator=actuator)
     for sentence in lineup.warnings:
@@ -95,8 +99,8 @@ def evaluate(
     )
     files = []
     if report is not None:
-        from cqdd_design.pipeline import provenance
         from cqdd_design.report.torque.page import torque_page
+        from cqdd_design.roads.telling import provenance
 
         date = provenance(None).time.partition("T")[0]
         files.append(write_atomically(report, torque_page(result, date=date), "report"))

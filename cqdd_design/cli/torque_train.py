@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
-from cqdd_design.cli.options import Force, count_option, parse_positive
+from cqdd_design.cli.options import Force, OwnMotor, count_option, parse_positive
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 from cqdd_design.cli.torque_actuator import data_actuator
@@ -95,6 +95,7 @@ def train(
             metavar="FILE", help="Factors that `calibrate` wrote; default those in the data."
         ),
     ] = None,
+    motor_file: OwnMotor = None,
     like: Annotated[
         Path | None,
         typer.Option(
@@ -157,7 +158,7 @@ def train(
     audit(data, parts, chosen.history)
     actuator = None
     if design is not None:
-        actuator = data_actuator(out, data, design, gearbox, calibration)
+        actuator = data_actuator(out, data, design, gearbox, calibration, motor_file)
     if chosen.searched and choice is None and not resume:
         out.note("searching activation, learning rate and weight decay on validation episodes")
     order = Order(chosen.name, seed, recipe, actuator, choice, device)

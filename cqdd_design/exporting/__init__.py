@@ -11,24 +11,24 @@ import contextlib
 import dataclasses
 import os
 import shutil
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cqdd_design.errors import UsageError
-from cqdd_design.exporting.job import ExportJob, Progress
 from cqdd_design.exporting.kinds import KINDS, read_kinds, stages
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 from cqdd_design.exporting.staging import staging_folder
 from cqdd_design.files import WrittenFile, atomic_path, ensure_folder, refuse_overwrite
 
 if TYPE_CHECKING:
-    from cqdd_design.actuator.motor_file import MotorFile
+    from cqdd_design.actuator.specimen import Specimen
     from cqdd_design.design import Design
+    from cqdd_design.exporting.job import Progress
+    from cqdd_design.machine import Machine
 
 __all__ = [
     "KINDS",
-    "ExportJob",
     "ExportOptions",
     "default_folder",
     "export",
@@ -43,22 +43,21 @@ def default_folder(design: Design) -> Path:
 
 
 def export(
-    design: Design,
+    machine: Machine,
     kinds: str | Iterable[str],
     folder: Path | None = None,
     *,
     force: bool = False,
     progress: Progress | None = None,
     options: ExportOptions = DEFAULTS,
-    seed: int | None = None,
-    calibration: Mapping[str, float] | None = None,
-    motor: MotorFile | None = None,
+    specimen: Specimen | None = None,
 ) -> tuple[WrittenFile, ...]:
-    """Write the files of a design.
+    """Write the files of a machine.
 
     Parameters
     ----------
-    design : Design
+    machine : Machine
+        Of the specimen's motor.
     kinds : str or iterable of str
         Keys of `KINDS`, such as ``"dxf,step"``.
     folder : Path, optional
@@ -70,12 +69,8 @@ def export(
         Called with a few words before each kind of file.
     options : ExportOptions, optional
         How files are written.
-    seed : int, optional
-        Simulators get a gearbox drawn from the tolerances; default perfect parts.
-    calibration : mapping of str to float, optional
-        Factors of the actuator's unknowns, for simulators.
-    motor : MotorFile, optional
-        What a file says of the motor, for simulators.
+    specimen : Specimen, optional
+        Which actuator simulators get; default the one that is drawn.
 
     Returns
     -------
@@ -93,14 +88,18 @@ def export(
     DependencyError
         A library that a kind needs is missing.
     """
-    wanted = read_kinds(kinds)
+    # The table of kinds is read for help, which must not pay for a job's imports.
+    from cqdd_design.actuator.specimen import AS_DRAWN
+    from cqdd_design.exporting.job import ExportJob
+
+    wanted, design = read_kinds(kinds), machine.given
     target = default_folder(design) if folder is None else folder
     tell = progress if progress is not None else _silent
     made = _missing(target)
     placed: list[WrittenFile] = []
     try:
         with staging_folder(target, design.name) as staging:
-            job = ExportJob(design, staging, tell, options, seed, calibration or {}, motor)
+            job = ExportJob(machine, staging, tell, options, specimen or AS_DRAWN)
             for kind in wanted:
                 tell(f"writing {kind}")
                 placed += [

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 
 if TYPE_CHECKING:
-    from cqdd_design.actuator.motor_file import MotorFile
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.design import Design
-    from cqdd_design.solids.parts import Part
+    from cqdd_design.machine import Machine
+    from cqdd_design.solids.part import Part
 
 Progress = Callable[[str], None]
 
@@ -25,28 +26,28 @@ class ExportJob:
 
     Attributes
     ----------
-    design : Design
+    machine : Machine
+        Of the specimen's motor.
     folder : Path
         Exists; files go here under names that begin with the design's.
     progress : callable
         Told in a few words what is being done.
     options : ExportOptions
         How files are written.
-    seed : int, optional
-        Of the gearbox that simulators get; default perfect parts.
-    calibration : mapping of str to float
-        Factors of what the actuator's unknowns were computed as.
-    motor : MotorFile, optional
-        What a file says of the motor instead of the catalogue.
+    specimen : Specimen
+        Which actuator simulators get.
     """
 
-    design: Design
+    machine: Machine
     folder: Path
     progress: Progress
     options: ExportOptions = DEFAULTS
-    seed: int | None = None
-    calibration: Mapping[str, float] = field(default_factory=dict)
-    motor: MotorFile | None = None
+    specimen: Specimen = AS_DRAWN
+
+    @property
+    def design(self) -> Design:
+        """The design as it was given."""
+        return self.machine.given
 
     def path(self, ending: str, within: str = "") -> Path:
         """File of this design: ``path("-disc.dxf")`` is ``<folder>/<name>-disc.dxf``.
@@ -58,19 +59,12 @@ class ExportJob:
     @cached_property
     def actuator(self) -> ActuatorParameters:
         """The actuator in time, for the first writer that asks; later ones get the same."""
-        from cqdd_design.actuator.bench.unknowns import apply_factors
         from cqdd_design.actuator.build import actuator_parameters
 
-        found = actuator_parameters(self.design, seed=self.seed, own_motor=self.motor)
-        return apply_factors(found, self.calibration)
+        return actuator_parameters(self.machine, self.specimen)
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:
         """The solids, for the first writer that asks; later ones get the same."""
-        from cqdd_design.catalog import find_bearing
-        from cqdd_design.exporting.edm.flat_parts import with_named_bearing
-        from cqdd_design.solids.parts import build_parts
-
         self.progress("laying out parts")
-        resolved = with_named_bearing(self.design)
-        return build_parts(resolved, find_bearing(resolved.reducer.cam_bearing.designation))
+        return self.machine.parts

@@ -20,7 +20,7 @@ _log = logging.getLogger("cqdd_design")
 
 def _guard() -> None:
     """Let this package's kernels survive what cannot be loaded; other packages' are left alone."""
-    load = FunctionCache.load_overload
+    load: Any = FunctionCache.load_overload
 
     @functools.wraps(load)
     def guarded(cache: Any, signature: Any, context: Any) -> Any:
@@ -39,7 +39,7 @@ def _guard() -> None:
             cache.flush()
             return None
 
-    FunctionCache.load_overload = guarded
+    FunctionCache.load_overload = guarded  # type: ignore[method-assign]
 
 
 _guard()

@@ -25,7 +25,7 @@ from cqdd_design.report.gearbox.tolerances import tolerance_view
 from cqdd_design.report.ink.numbers import RPM, significant, with_unit
 from cqdd_design.report.ink.page import environment
 from cqdd_design.report.input import ReportInput
-from cqdd_design.report.judgement.check_rows import chapters, printed
+from cqdd_design.report.judgement.check_rows import check_groups, printed
 from cqdd_design.report.judgement.closing import (
     ERRATA,
     model_assumptions,
@@ -116,7 +116,7 @@ def _drawings(source: _Source) -> Values:
 
 
 def _machine(source: _Source) -> Values:
-    found = source.results.machine
+    found = source.results.pictures
     return None if found is None else {"machine_views": found[0], "machine_viewer": found[1]}
 
 
@@ -215,7 +215,7 @@ CHAPTERS = (
     Chapter(
         "checks.html",
         (("checks", "Checks"),),
-        lambda source: {"check_groups": chapters(source.results.gearbox.checks)},
+        lambda source: {"check_groups": check_groups(source.results.gearbox.checks)},
     ),
     Chapter(
         "loads.html",
@@ -235,7 +235,7 @@ CHAPTERS = (
         lambda source: {"planetary": planetary_view(source.results.planetary)},
     ),
     Chapter(
-        "edm.html", (("edm", "Wire EDM"),), lambda source: {"edm": edm_view(source.results.design)}
+        "edm.html", (("edm", "Wire EDM"),), lambda source: {"edm": edm_view(source.results.machine)}
     ),
     Chapter("bodies.html", (("inertia", "Inertia"), ("bom", "Bill of materials")), _bodies),
     Chapter("sizing.html", (("sizing", "Sizing"),), _sizing),

@@ -165,6 +165,7 @@ FACTS = table(
         "actuator": maybe(table_of(anything)),
         "validation_rmse_Nm": maybe(not_negative),
         "training_rmse_Nm": maybe(not_negative),
+        "leaked_rmse_Nm": maybe(not_negative),
         "updates": whole(),
     },
 )

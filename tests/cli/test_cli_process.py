@@ -219,7 +219,7 @@ print("LOADED", *loaded, file=sys.stderr)
 @pytest.mark.parametrize(
     "module",
     [
-        "cqdd_design.pipeline",
+        "cqdd_design.roads.size",
         "cqdd_design.gearbox",
         "cqdd_design.sizing",
         "cqdd_design.solids",

@@ -25,9 +25,11 @@ from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.scenario import Command, Constant, Load, Sampled, Scenario, Start
 from cqdd_design.actuator.simulate import simulate
+from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design.toml import load_design
 from cqdd_design.exporting.simulators.mjcf import model_text
 from cqdd_design.exporting.simulators.mjcf_classes import MjcfActuator, MjcfOptions, play_damping
+from cqdd_design.machine import resolve
 
 mujoco = pytest.importorskip("mujoco", minversion="4.0.0", reason="MuJoCo 4 is not installed")
 
@@ -62,8 +64,8 @@ def varying(p: ActuatorParameters) -> ActuatorParameters:
 def actuators() -> dict[str, ActuatorParameters]:
     design = load_design(DESIGN)
     found = {
-        "perfect": actuator_parameters(design),
-        "drawn": actuator_parameters(design, seed=3),
+        "perfect": actuator_parameters(resolve(design)),
+        "drawn": actuator_parameters(resolve(design), Specimen(seed=3)),
         "by hand": varying(paper_actuator(voltage=96.0)),
     }
     return {kind: bench_friction(p) for kind, p in found.items()}

@@ -5,17 +5,16 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from shared_outputs import paper_bench, report_input
+from shared_outputs import paper_input as shared_input
 
-from cqdd_design import actuator_pipeline, pipeline
-from cqdd_design.actuator.bench import BenchResult, Metric, run_bench
+from cqdd_design.actuator.bench import BenchResult, Metric
 from cqdd_design.actuator.bench.gear import ARCMIN, DIAL, DIAL_RADIUS, dead_zone
-from cqdd_design.actuator.bench.metric import PAPER, is_near
-from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.bench.metric import is_near
 from cqdd_design.actuator.demands import demands
 from cqdd_design.actuator.envelope import limit_curves
 from cqdd_design.actuator.motor import envelope
@@ -34,8 +33,9 @@ from cqdd_design.actuator.operating import (
 )
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.thermal import continuous_current, response, steady_state
-from cqdd_design.design import Design, load_design
-from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.catalog.paper import METRICS as PAPER
+from cqdd_design.design import Design
+from cqdd_design.machine import resolve
 from cqdd_design.report import ReportInput, build_report
 from cqdd_design.report.actuator.bench_charts import Response, bode, spectrum
 from cqdd_design.report.actuator.bench_figures import efficiency_maps
@@ -49,49 +49,48 @@ from cqdd_design.report.actuator.envelope import actuator_view, duration, senten
 from cqdd_design.report.actuator.parameter_rows import parameter_rows
 from cqdd_design.report.ink.axes import Labels, linear_axis, log_axis, thinned
 from cqdd_design.report.ink.svg import Figure, Words
-from cqdd_design.sizing.comparison import compare_with_planetary
+from cqdd_design.roads.bench import measured_actuator
 
-PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 WORDS = Words("id", "title", "description", "caption")
 
 
 @pytest.fixture(scope="module")
-def design() -> Design:
-    return load_design(PAPER_FILE)
+def paper_input(tmp_path_factory: pytest.TempPathFactory) -> ReportInput:
+    return shared_input(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
-def actuator(design: Design) -> ActuatorParameters:
-    return actuator_parameters(design)
+def design(paper_input: ReportInput) -> Design:
+    return paper_input.design
 
 
 @pytest.fixture(scope="module")
-def measured(actuator: ActuatorParameters) -> BenchResult:
-    return run_bench(actuator, rated_current=20.0, beside_paper=True)
+def found(tmp_path_factory: pytest.TempPathFactory) -> tuple[ActuatorParameters, BenchResult]:
+    return paper_bench(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
-def page(design: Design, actuator: ActuatorParameters, measured: BenchResult) -> str:
-    return page_of(design, bench=(actuator, measured))
+def actuator(found: tuple[ActuatorParameters, BenchResult]) -> ActuatorParameters:
+    return found[0]
+
+
+@pytest.fixture(scope="module")
+def measured(found: tuple[ActuatorParameters, BenchResult]) -> BenchResult:
+    return found[1]
+
+
+@pytest.fixture(scope="module")
+def page(paper_input: ReportInput, found: tuple[ActuatorParameters, BenchResult]) -> str:
+    return page_of(paper_input, bench=found)
 
 
 def page_of(
-    design: Design,
+    results: ReportInput,
     *,
     bench: tuple[ActuatorParameters, BenchResult] | None = None,
     missing: str = "",
 ) -> str:
-    analysis = analyse_gearbox(design)
-    return build_report(
-        ReportInput(
-            design=design,
-            gearbox=analysis,
-            planetary=compare_with_planetary(design, analysis=analysis),
-            provenance=pipeline.provenance(design),
-            bench=bench,
-            bench_missing=missing,
-        )
-    )
+    return build_report(dataclasses.replace(results, bench=bench, bench_missing=missing))
 
 
 def section(page: str, anchor: str) -> str:
@@ -474,7 +473,7 @@ def test_the_table_stands_beside_the_paper_s(
         assert row.protocol.endswith(".")
         assert (row.off == "\u2013") == (row.relation == "not comparable" or row.paper == "\u2013")
     predicted = [m for m in measured.metrics if m.relation == "predicted" and m.name in PAPER]
-    near = [m for m in predicted if is_near(m, PAPER[m.name][0])]
+    near = [m for m in predicted if is_near(m, PAPER[m.name].value)]
     assert f"Of {len(predicted)} predicted rows {len(near)} lie within" in view.summary
 
 
@@ -495,13 +494,13 @@ def test_how_far_off(name: str, value: float, paper: float, shown: str) -> None:
 
 
 def test_another_design_has_no_paper_beside_it(
-    actuator: ActuatorParameters, measured: BenchResult, design: Design
+    actuator: ActuatorParameters, measured: BenchResult, paper_input: ReportInput
 ) -> None:
     alone = dataclasses.replace(measured, beside_paper=False)
     view = bench_view(actuator, alone, pin_count=5)
     assert view.summary == ""
     assert all(row.paper == row.off == "\u2013" for row in view.rows)
-    bench = section(page_of(design, bench=(actuator, alone)), "bench")
+    bench = section(page_of(paper_input, bench=(actuator, alone)), "bench")
     assert ">Paper<" not in bench
     assert ">Off by<" not in bench
 
@@ -584,15 +583,15 @@ def test_every_measurement_has_its_row_and_protocol(page: str, measured: BenchRe
 
 
 def test_the_same_input_gives_the_same_bytes(
-    page: str, design: Design, actuator: ActuatorParameters, measured: BenchResult
+    page: str, paper_input: ReportInput, found: tuple[ActuatorParameters, BenchResult]
 ) -> None:
-    again = page_of(design, bench=(actuator, measured))
+    again = page_of(paper_input, bench=found)
     for anchor in ("actuator", "bench"):
         assert section(again, anchor) == section(page, anchor)
 
 
-def test_without_a_bench_there_are_no_sections(design: Design) -> None:
-    bare = page_of(design)
+def test_without_a_bench_there_are_no_sections(paper_input: ReportInput) -> None:
+    bare = page_of(paper_input)
     for anchor in ("actuator", "bench"):
         assert f'id="{anchor}"' not in bare
         assert f'href="#{anchor}"' not in bare
@@ -602,10 +601,10 @@ def test_a_motor_that_cannot_be_simulated_leaves_a_sentence(design: Design) -> N
     mapping = design.to_mapping()
     mapping["motor"]["name"] = "CubeMars AK10-9 V2 KV60"
     geared = Design.from_mapping(mapping)
-    found, missing = actuator_pipeline.measured_actuator(geared)
+    found, missing = measured_actuator(resolve(geared))
     assert found is None
     assert "is a geared actuator" in missing
-    page = page_of(geared, missing=missing)
+    page = page_of(report_input(geared), missing=missing)
     assert "is a geared actuator" in section(page, "actuator")
     assert 'href="#actuator"' in page
     assert 'href="#bench"' not in page

@@ -12,9 +12,9 @@ import pytest
 
 from cqdd_design.catalog import find_bearing
 from cqdd_design.design import Design, load_design
-from cqdd_design.gearbox import analyse_gearbox
-from cqdd_design.gearbox.contact_analysis import ContactAnalysis, analyse_contact
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
+from cqdd_design.machine import resolve
+from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
 from cqdd_design.report.drawings.outlines import Outlines
 from cqdd_design.report.gearbox.contact import contact_view, force_picture
 from cqdd_design.report.gearbox.life import life_view
@@ -37,7 +37,7 @@ def design() -> Design:
 
 @pytest.fixture(scope="module")
 def found(design: Design) -> ContactAnalysis:
-    return analyse_contact(design, angles=120)
+    return analyse_contact(resolve(design), angles=120)
 
 
 @pytest.fixture(scope="module")
@@ -148,7 +148,7 @@ def test_the_labelled_map_writes_its_values_in_per_cent() -> None:
 def test_the_darkest_cell_is_the_most_loaded_tooth(
     found: ContactAnalysis, outlines: Outlines, design: Design
 ) -> None:
-    view = contact_view(found, outlines, analyse_gearbox(design).rigid)
+    view = contact_view(found, outlines, resolve(design).analysis.rigid)
     assert len(view.heat_maps) == 2
     turn = found.crank_turn
     for disc, figure in enumerate(view.heat_maps):
@@ -191,7 +191,7 @@ def test_precision_stands_beside_the_paper_only_for_its_design(
     found: ContactAnalysis, design: Design
 ) -> None:
     paper = precision_view(found, design)
-    other = precision_view(found, design.model_copy(update={"name": "my-joint"}))
+    other = precision_view(found, design.replacing({"reducer.ring_pin_diameter": 6.9e-3}))
     assert paper.measured
     assert not other.measured
     assert [row[2] for row in paper.rows if row[2]] == [

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from cqdd_design.catalog import find_bearing
 from cqdd_design.design import Design
 from cqdd_design.gearbox import CHECK_GUIDE
+from cqdd_design.gearbox.disc_forces import disc_forces
 from cqdd_design.geometry.contours import ArcContour, Circle
 from cqdd_design.report.drawings.front_view import front_view
 from cqdd_design.report.drawings.half_section import half_section, reach_along_x
@@ -243,6 +244,36 @@ def test_drawings_of_every_ratio_are_well_formed(ratio: int, discs: int) -> None
         assert "nan" not in svg
         assert "inf" not in svg
         assert len(svg) < 250_000
+
+
+@pytest.mark.parametrize("degrees", [0.0, 30.0, 217.0])
+def test_drawn_pins_stand_where_the_law_has_them(degrees: float) -> None:
+    """In the order of the law, and each within its hole of every disc."""
+    design = Design.from_mapping(
+        {
+            "reducer": {
+                "ratio": 10,
+                "ring_pitch_radius": "32 mm",
+                "eccentricity": "1.6 mm",
+                "ring_pin_diameter": "7 mm",
+                "disc_count": 3,
+                "output_pins": {"count": 5, "circle_radius": "19.5 mm"},
+                "ring": {"outer_diameter": "72 mm"},
+            }
+        }
+    )
+    outlines, angle = Outlines.from_design(design, find_bearing("6902")), math.radians(degrees)
+    stages = outlines.stages
+    around = np.array(outlines.pin_angles(angle))
+    pins = stages.pin_circle_radius * np.column_stack([np.cos(around), np.sin(around)])
+    for disc in range(3):
+        forces = disc_forces(stages, 50.0, angle, disc)
+        touched = pins + stages.pin_contact_radius * forces.pin_direction
+        assert forces.pin_point == pytest.approx(touched, abs=1e-12)
+        holes = outlines.posed_disc(disc, angle).holes
+        middles = np.array([hole.centre for hole in holes if isinstance(hole, Circle)])
+        apart = np.linalg.norm(middles[:, None] - pins, axis=-1).min(axis=0)
+        assert apart == pytest.approx([design.reducer.eccentricity] * 5, abs=1e-9)
 
 
 def test_a_section_reaches_where_the_parts_do() -> None:

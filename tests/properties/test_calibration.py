@@ -17,8 +17,10 @@ from cqdd_design.actuator.bench.measured import read_measured
 from cqdd_design.actuator.bench.unknowns import TELLS, UNKNOWNS, Fit, apply_factors
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import load_design
 from cqdd_design.errors import UsageError
+from cqdd_design.machine import resolve
 
 HEAD = '{"format": "cqdd-design calibration 1", '
 PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
@@ -26,7 +28,7 @@ PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 
 @pytest.fixture(scope="module")
 def actuator() -> ActuatorParameters:
-    return actuator_parameters(load_design(PAPER))
+    return actuator_parameters(resolve(load_design(PAPER)))
 
 
 def rows_of(actuator: ActuatorParameters, names: list[str]) -> dict[str, float]:
@@ -72,7 +74,7 @@ def test_more_rows_than_unknowns_are_fitted_together(actuator: ActuatorParameter
 
 @pytest.mark.deep
 def test_scale_of_the_tolerances_is_found_for_a_drawn_gearbox() -> None:
-    drawn = actuator_parameters(load_design(PAPER), seed=1)
+    drawn = actuator_parameters(resolve(load_design(PAPER)), Specimen(seed=1))
     wanted = rows_of(apply_factors(drawn, {"tolerance_scale": 2.0}), ["torque_ripple"])
     found = calibrate(drawn, wanted)
     assert found.factors["tolerance_scale"] == pytest.approx(2.0, rel=0.03)
@@ -80,10 +82,10 @@ def test_scale_of_the_tolerances_is_found_for_a_drawn_gearbox() -> None:
 
 def test_paper_on_three_rows(actuator: ActuatorParameters) -> None:
     """What the documents state of the paper's actuator: three rows fitted, these predicted."""
-    from cqdd_design.actuator.bench.metric import PAPER as TABLE
-    from cqdd_design.actuator_pipeline import PAPER_ROWS
+    from cqdd_design.catalog.paper import METRICS as TABLE
+    from cqdd_design.roads.calibrate import PAPER_ROWS
 
-    measured = {name: value for name, (value, _) in TABLE.items()}
+    measured = {name: figure.value for name, figure in TABLE.items()}
     found = calibrate(actuator, measured, to=PAPER_ROWS)
     assert found.largest_residual < 1e-3
     within = {row.name for row in found.within}

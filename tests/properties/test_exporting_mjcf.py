@@ -15,8 +15,9 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from cqdd_design import __version__
-from cqdd_design.actuator.joint_side import joint_side, ripple_harmonics, single_node
+from cqdd_design.actuator.joint_side import joint_side, ripple_harmonics
 from cqdd_design.actuator.parameters import ActuatorParameters, GearParameters, ThermalParameters
+from cqdd_design.actuator.thermal import single_node
 from cqdd_design.errors import DesignError
 from cqdd_design.exporting.simulators.mjcf import fragment_text, model_text
 from cqdd_design.exporting.simulators.mjcf_classes import (

@@ -19,8 +19,8 @@ import pytest
 from lxml import etree
 from solids_designs import CHANGES, known_design, known_parts, part_named
 
-from cqdd_design.catalog import find_bearing
 from cqdd_design.design import Design
+from cqdd_design.machine import resolve
 from cqdd_design.report.ink.page import environment
 from cqdd_design.report.machine_view import (
     MachineViews,
@@ -38,7 +38,6 @@ from cqdd_design.solids.disassembly import disassembly_order
 from cqdd_design.solids.hidden_lines import chained
 from cqdd_design.solids.layers import Annulus, turned
 from cqdd_design.solids.part import Part
-from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.poses import Body, BodyKind, body_pose
 from cqdd_design.solids.stations import stations
 
@@ -62,7 +61,7 @@ def machine(name: str) -> tuple[Design, tuple[Part, ...]]:
         "reducer.ring.outer_diameter": 0.078,
     }
     design = known_design("paper").replacing(changes)
-    return design, build_parts(design, find_bearing(design.reducer.cam_bearing.designation))
+    return design, resolve(design).parts
 
 
 @lru_cache(maxsize=4)
@@ -118,7 +117,7 @@ def test_pictures_are_well_formed_light_and_name_every_part(name: str) -> None:
 def drawn_again_the_same() -> bool:
     """Whether freshly built parts of the paper's design give the same bytes."""
     design = known_design("paper")
-    again = build_parts(design, find_bearing(design.reducer.cam_bearing.designation))
+    again = resolve(design).parts
     first, found = views("paper"), stations(again)
     return (
         exploded_figure(design, again, found).render() == first.exploded.render()

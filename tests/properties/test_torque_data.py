@@ -14,9 +14,11 @@ from hypothesis import strategies as st
 
 from cqdd_design.actuator.bench.steady import no_load_speed
 from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.design import load_design
 from cqdd_design.errors import DesignError, UsageError
+from cqdd_design.machine import resolve
 from cqdd_design.torque.data import pendulum
 from cqdd_design.torque.data.generate import Request, describe, generate
 from cqdd_design.torque.data.pendulum import Configuration
@@ -29,12 +31,12 @@ SMALL = Request(episodes=3, seconds=1.5, unit_gearboxes=0, held_mass=1.71)
 
 @pytest.fixture(scope="module")
 def gearbox():
-    return actuator_parameters(DESIGN, seed=1)
+    return actuator_parameters(resolve(DESIGN), Specimen(seed=1))
 
 
 @pytest.fixture(scope="module")
 def small():
-    return generate(DESIGN, SMALL)
+    return generate(resolve(DESIGN), SMALL)
 
 
 def recorded(gearbox, configuration, seconds=3.0, chain=None):
@@ -108,7 +110,7 @@ def test_the_wall_pushes_back_and_is_flagged_where_it_is_touched(gearbox):
 
 
 def test_limits_that_bind_are_flagged_and_counted_not_dropped(small):
-    data, _ = generate(DESIGN, dataclasses.replace(SMALL, voltage=12.0))
+    data, _ = generate(resolve(DESIGN), dataclasses.replace(SMALL, voltage=12.0))
     assert len(data.episodes) == 3 + 4
     shares = data.facts["saturated_share"]
     assert set(shares) == {one.name for one in data.episodes}
@@ -346,7 +348,8 @@ def test_more_episodes_leave_the_first_ones_as_they_are():
 
 
 def test_held_mass_and_other_gearboxes_stand_apart_and_answer_differently():
-    data, _ = generate(DESIGN, dataclasses.replace(SMALL, episodes=1, unit_gearboxes=2))
+    few = dataclasses.replace(SMALL, episodes=1, unit_gearboxes=2, seconds=0.6)
+    data, _ = generate(resolve(DESIGN), few)
     pool = [one for one in data.episodes if one.name.startswith("swing")]
     held = [one for one in data.episodes if one.name.startswith("mass")]
     others = [one for one in data.episodes if one.name.startswith("gearbox")]
@@ -365,12 +368,14 @@ def test_held_mass_and_other_gearboxes_stand_apart_and_answer_differently():
 
 
 def test_the_same_seed_gives_the_same_data_and_the_ripple_is_never_adjusted(small):
-    data, warnings = generate(DESIGN, SMALL, calibration={"tolerance_scale": 7.0})
+    data, warnings = generate(
+        resolve(DESIGN), SMALL, specimen=Specimen(factors={"tolerance_scale": 7.0})
+    )
     assert data.sha256 == small[0].sha256
     assert not small[1]
     assert any("tolerance_scale" in sentence for sentence in warnings)
     few = dataclasses.replace(SMALL, episodes=1)
-    stiff, _ = generate(DESIGN, few, calibration={"friction_level": 20.0})
+    stiff, _ = generate(resolve(DESIGN), few, specimen=Specimen(factors={"friction_level": 20.0}))
     pair = (stiff.episodes[0].columns["torque"], data.episodes[0].columns["torque"])
     assert np.std(pair[0] - pair[1]) > 0.1
     assert stiff.facts["calibration"] == {"friction_level": 20.0}
@@ -381,7 +386,7 @@ def test_the_gearbox_s_ripple_is_told_from_all_else_in_its_band(small):
     from cqdd_design.torque.data.generate import _gearbox_ripple
 
     data, _ = small
-    drawn = actuator_parameters(DESIGN, seed=1)
+    drawn = actuator_parameters(resolve(DESIGN), Specimen(seed=1))
     free = [Configuration(0.5, 0.8, 0.2, 1.14, 0.3, None, 1)]
     found = []
     for scale in (0.0, 1.0, 3.0):
@@ -498,4 +503,4 @@ def test_a_design_without_a_position_gain_is_told_what_to_give():
         update={"drive": DESIGN.drive.model_copy(update={"position_gain": 0.0})}
     )
     with pytest.raises(DesignError, match="position_gain"):
-        generate(loose, SMALL)
+        generate(resolve(loose), SMALL)

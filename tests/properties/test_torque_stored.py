@@ -152,6 +152,7 @@ def written(path, arrays, content):
         (("facts", "choice"), {"peak": "x"}),
         (("facts", "choice"), {"activation": "", "peak": 0.1, "more": 1}),
         (("facts", "supply_voltage_V"), "48"),
+        (("facts", "leaked_rmse_Nm"), [1.0]),
         (("more",), 1),
     ],
     ids=str,

@@ -10,9 +10,10 @@ from types import MappingProxyType
 from cqdd_design.actuator.bench import bandwidth, gear, steady
 from cqdd_design.actuator.bench.metric import METRICS, BenchResult, Metric
 from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.catalog import paper
 from cqdd_design.errors import UsageError, did_you_mean
 
-VOLTAGE = 24.0
+VOLTAGE = paper.SUPPLY_VOLTAGE
 """Of the dynamic rows, V: what the paper measured at."""
 
 _HOLDS = "the output does not turn the motor at any torque; the gearbox holds itself"

@@ -2,26 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 from cqdd_design.actuator.kernels.laws import look_up, part, spring
 
 TINY_TURN, TINY_CLOSING = 1e-10, 1e-9
 """Steps of angle, rad, below which a difference quotient gives way to the derivative."""
-
-
-class Gear(NamedTuple):
-    """The transmission; `per_turn` and `intervals` lead from motor angle into its table."""
-
-    ratio: float
-    error_torque: float
-    stiffness: float
-    stiffening: float
-    damping: float
-    half_backlash: float
-    per_turn: float
-    intervals: float
 
 
 class Mesh(NamedTuple):
@@ -39,19 +25,12 @@ class Mesh(NamedTuple):
 
 
 @part
-def gear_of(p: Any, table: Any) -> Any:
-    """Gear from a row of parameters and the table that goes with it."""
-    per_turn = 1.0 / (2.0 * math.pi * abs(p[0]))
-    return Gear(p[0], p[43], p[44], p[45], p[46], p[47], per_turn, table.shape[0] * per_turn)
-
-
-@part
-def mesh_at(gear: Any, table: Any, angle: float, out_angle: float) -> Any:
+def mesh_at(p: Any, table: Any, angle: float, out_angle: float) -> Any:
     """Mesh at angles of motor and output."""
-    error, error_slope, share, share_slope = look_up(table, angle * gear.per_turn)
-    closing = angle / gear.ratio + error - out_angle
+    error, error_slope, share, share_slope = look_up(table, angle * p.per_turn)
+    closing = angle / p.ratio + error - out_angle
     deflection, elastic, energy, tangent = spring(
-        closing, gear.half_backlash, gear.error_torque, gear.stiffness, gear.stiffening
+        closing, p.half_backlash, p.error_torque, p.stiffness, p.stiffening
     )
     return Mesh(
         error, error_slope, share, share_slope, closing, deflection, elastic, energy, tangent
@@ -89,18 +68,18 @@ class Contact(NamedTuple):
 
 @part
 def meshed(
-    gear: Any, table: Any, begin: Any, angle: float, turn: float, out_turn: float, h: float
+    p: Any, table: Any, begin: Any, angle: float, turn: float, out_turn: float, h: float
 ) -> Any:
     """Contact over a step from `begin` at motor angle `angle`, and the mesh at its end.
 
     With a gap every flank pushes or lets go, each for itself: a step that leaves one and meets the
     other has the push of both, so that the torque stays continuous over the closing.
     """
-    new_error, new_slope, new_share, new_bend = look_up(table, (angle + turn) * gear.per_turn)
-    change = turn / gear.ratio + (new_error - begin.error) - out_turn
+    new_error, new_slope, new_share, new_bend = look_up(table, (angle + turn) * p.per_turn)
+    change = turn / p.ratio + (new_error - begin.error) - out_turn
     new_closing = begin.closing + change
     new_deflection, new_elastic, new_energy, new_tangent = spring(
-        new_closing, gear.half_backlash, gear.error_torque, gear.stiffness, gear.stiffening
+        new_closing, p.half_backlash, p.error_torque, p.stiffness, p.stiffening
     )
     # The discrete gradient: mean torque times change is the energy gained.
     if abs(change) > TINY_CLOSING:
@@ -110,29 +89,29 @@ def meshed(
         mean = 0.5 * (begin.elastic + new_elastic)
         mean_slope = 0.5 * new_tangent
     if abs(turn) > TINY_TURN:
-        arm = 1.0 / gear.ratio + (new_error - begin.error) / turn
+        arm = 1.0 / p.ratio + (new_error - begin.error) / turn
         bend = (new_share - begin.share) / turn
     else:
-        arm = 1.0 / gear.ratio + begin.error_slope * gear.intervals
-        bend = begin.share_slope * gear.intervals
+        arm = 1.0 / p.ratio + begin.error_slope * (table.shape[0] * p.per_turn)
+        bend = begin.share_slope * (table.shape[0] * p.per_turn)
     mid_share = 0.5 * (begin.share + new_share)
-    torque = mid_share * mean + gear.damping * (new_deflection - begin.deflection) / h
+    torque = mid_share * mean + p.gear_damping * (new_deflection - begin.deflection) / h
     slope = mid_share * mean_slope
     if new_deflection != 0.0:
-        slope += gear.damping / h
+        slope += p.gear_damping / h
     # Without a gap both flanks touch, and the damper may pull.
     cut, push, push_slope = False, 1.0, 0.0
-    if gear.half_backlash > 0.0:
+    if p.half_backlash > 0.0:
         if begin.deflection * new_deflection < 0.0:
             # Left is what pushed before, at E/|x|; met is the other flank.
             push = mid_share * begin.energy / abs(change)
             push_slope = -push / change
-            push -= gear.damping * abs(begin.deflection) / h
+            push -= p.gear_damping * abs(begin.deflection) / h
             cut = push <= 0.0
             if cut:
                 mean = new_energy / change
-                torque = mid_share * mean + gear.damping * new_deflection / h
-                slope = mid_share * (new_elastic - mean) / change + gear.damping / h
+                torque = mid_share * mean + p.gear_damping * new_deflection / h
+                slope = mid_share * (new_elastic - mean) / change + p.gear_damping / h
         else:
             way = 1.0 if mean > 0.0 else -1.0
             push, push_slope = way * torque, way * slope
@@ -155,33 +134,33 @@ def meshed(
 
 
 @part
-def passes_kink(gear: Any, contact: Any, end: Any, closed: float) -> Any:
+def passes_kink(p: Any, contact: Any, end: Any, closed: float) -> Any:
     """Whether a last correction of the closing leads contact to where its slopes do not hold."""
-    touches = abs(end.closing) > gear.half_backlash
-    will_touch = abs(end.closing + closed) > gear.half_backlash
+    touches = abs(end.closing) > p.half_backlash
+    will_touch = abs(end.closing + closed) > p.half_backlash
     return touches != will_touch or contact.cut != (
         contact.push + contact.push_slope * closed <= 0.0
     )
 
 
+class Last(NamedTuple):
+    """The last evaluation of a step: mesh at its end, change of closing, turn, whether settled."""
+
+    end: Any
+    change: float
+    turn: float
+    settled: bool
+
+
 @part
 def mesh_ended(
-    gear: Any,
-    table: Any,
-    begin: Any,
-    end: Any,
-    new_angle: float,
-    turn: float,
-    turned: float,
-    change: float,
-    out_turn: float,
-    settled: bool,
+    p: Any, table: Any, begin: Any, last: Any, new_angle: float, turn: float, out_turn: float
 ) -> Any:
     """Mesh at the end of the step, and its whole change of closing.
 
-    `end` and `change` are those of the last evaluation, `turned` the motor's turn since: where the
-    iteration settled, first and second order do.
+    From the last evaluation to the end first and second order do, where the iteration settled.
     """
+    end, turned = last.end, turn - last.turn
     error, error_slope, share, share_slope = (
         end.error,
         end.error_slope,
@@ -189,22 +168,22 @@ def mesh_ended(
         end.share_slope,
     )
     deflection, elastic, energy, tangent = end.deflection, end.elastic, end.energy, end.tangent
-    if settled:
-        error += error_slope * gear.intervals * turned
-        share += share_slope * gear.intervals * turned
+    if last.settled:
+        error += error_slope * (table.shape[0] * p.per_turn) * turned
+        share += share_slope * (table.shape[0] * p.per_turn) * turned
     else:
-        error, error_slope, share, share_slope = look_up(table, new_angle * gear.per_turn)
+        error, error_slope, share, share_slope = look_up(table, new_angle * p.per_turn)
     # The error's difference is kept apart from the whole angle, whose rounding is larger.
-    whole = turn / gear.ratio + (error - begin.error) - out_turn
-    closed = whole - change
+    whole = turn / p.ratio + (error - begin.error) - out_turn
+    closed = whole - last.change
     closing = begin.closing + whole
-    if settled and deflection * (deflection + closed) > 0.0:
+    if last.settled and deflection * (deflection + closed) > 0.0:
         deflection += closed
         energy += (elastic + 0.5 * tangent * closed) * closed
         elastic += tangent * closed
     else:
         deflection, elastic, energy, tangent = spring(
-            closing, gear.half_backlash, gear.error_torque, gear.stiffness, gear.stiffening
+            closing, p.half_backlash, p.error_torque, p.stiffness, p.stiffening
         )
     found = Mesh(
         error, error_slope, share, share_slope, closing, deflection, elastic, energy, tangent
@@ -214,7 +193,7 @@ def mesh_ended(
 
 @part
 def damped_in_mesh(
-    gear: Any, begin: Any, end: Any, change: float, cut: bool, h: float, damped: float
+    p: Any, begin: Any, end: Any, change: float, cut: bool, h: float, damped: float
 ) -> Any:
     """Energy lost in the mesh, with that of a step: its damper's, and all that a cut flank held.
 
@@ -222,7 +201,7 @@ def damped_in_mesh(
     """
     if cut:
         if begin.deflection * end.deflection < 0.0:
-            damped += gear.damping * end.deflection * change / h
+            damped += p.gear_damping * end.deflection * change / h
             return damped + 0.5 * (begin.share + end.share) * begin.energy
         return damped - 0.5 * (begin.share + end.share) * (end.energy - begin.energy)
-    return damped + gear.damping * (end.deflection - begin.deflection) * change / h
+    return damped + p.gear_damping * (end.deflection - begin.deflection) * change / h

@@ -6,12 +6,13 @@ import math
 
 import numpy as np
 
+from cqdd_design.actuator.columns import Constants
 from cqdd_design.actuator.parameters import FloatArray
 
 
-def look_up(p: dict[str, float], table: FloatArray, angle: float) -> dict[str, float]:
+def look_up(p: Constants, table: FloatArray, angle: float) -> dict[str, float]:
     """Kinematic error and stiffness share at a motor angle, with slopes per rad."""
-    n = abs(p["ratio"])
+    n = abs(p.ratio)
     count = len(table)
     place = (angle / (2.0 * math.pi * n)) % 1.0 * count
     low = int(place) % count
@@ -30,11 +31,11 @@ def look_up(p: dict[str, float], table: FloatArray, angle: float) -> dict[str, f
     }
 
 
-def spring(p: dict[str, float], closing: float) -> dict[str, float]:
+def spring(p: Constants, closing: float) -> dict[str, float]:
     """Deflection beyond the dead zone, torque, energy and tangent stiffness."""
-    gap, power = p["half_backlash"], p["stiffening"]
+    gap, power = p.half_backlash, p.stiffening
     beyond = math.copysign(max(abs(closing) - gap, 0.0), closing)
-    k, reference = p["stiffness"], p["error_torque"]
+    k, reference = p.stiffness, p.error_torque
     torque = math.copysign(reference * (k * abs(beyond) / reference) ** power, beyond)
     secant = torque / beyond if beyond else (k if power == 1.0 and abs(closing) > gap else 0.0)
     return {
@@ -46,7 +47,7 @@ def spring(p: dict[str, float], closing: float) -> dict[str, float]:
 
 
 def meshed(
-    p: dict[str, float],
+    p: Constants,
     state: dict[str, float],
     table: FloatArray,
     turn: float,
@@ -60,17 +61,17 @@ def meshed(
     way; one that the step meets beyond the gap pushes all the same.
     """
     end = look_up(p, table, state["angle"] + turn)
-    change = turn / p["ratio"] + (end["error"] - state["error"]) - out_turn
+    change = turn / p.ratio + (end["error"] - state["error"]) - out_turn
     end |= spring(p, state["closing"] + change)
-    arm = 1.0 / p["ratio"] + state["error_slope"]
+    arm = 1.0 / p.ratio + state["error_slope"]
     bend = state["share_slope"]
     if abs(turn) > 1e-10:
-        arm = 1.0 / p["ratio"] + (end["error"] - state["error"]) / turn
+        arm = 1.0 / p.ratio + (end["error"] - state["error"]) / turn
         bend = (end["share"] - state["share"]) / turn
     share = 0.5 * (state["share"] + end["share"])
     gear, slope = _torque(p, share, state, end, change, h)
     cut = False
-    if p["half_backlash"] > 0.0:
+    if p.half_backlash > 0.0:
         nothing = {"energy": 0.0, "elastic": 0.0, "deflection": 0.0, "tangent": 0.0}
         passed = state["deflection"] * end["deflection"] < 0.0
         left = _torque(p, share, state, nothing if passed else end, change, h)[0]
@@ -84,7 +85,7 @@ def meshed(
 
 
 def _torque(
-    p: dict[str, float],
+    p: Constants,
     share: float,
     begin: dict[str, float],
     end: dict[str, float],
@@ -97,12 +98,12 @@ def _torque(
         slope = (end["elastic"] - mean) / change
     else:
         mean, slope = 0.5 * (begin["elastic"] + end["elastic"]), 0.5 * end["tangent"]
-    torque = share * mean + p["gear_damping"] * (end["deflection"] - begin["deflection"]) / h
-    return torque, share * slope + (p["gear_damping"] / h if end["deflection"] else 0.0)
+    torque = share * mean + p.gear_damping * (end["deflection"] - begin["deflection"]) / h
+    return torque, share * slope + (p.gear_damping / h if end["deflection"] else 0.0)
 
 
 def damped_in_mesh(
-    p: dict[str, float],
+    p: Constants,
     state: dict[str, float],
     end: dict[str, float],
     change: float,
@@ -112,7 +113,7 @@ def damped_in_mesh(
     """Energy that the mesh lost in a step, J: its damper's, and all that a cut flank held."""
     share = 0.5 * (state["share"] + end["share"])
     if not cut:
-        return p["gear_damping"] * (end["deflection"] - state["deflection"]) * change / h
+        return p.gear_damping * (end["deflection"] - state["deflection"]) * change / h
     if state["deflection"] * end["deflection"] < 0.0:
-        return share * state["energy"] + p["gear_damping"] * end["deflection"] * change / h
+        return share * state["energy"] + p.gear_damping * end["deflection"] * change / h
     return -share * (end["energy"] - state["energy"])

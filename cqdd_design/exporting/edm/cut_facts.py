@@ -10,10 +10,9 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from cqdd_design.catalog import find_bearing, find_material
+from cqdd_design.catalog import find_material
 from cqdd_design.errors import DesignError
 from cqdd_design.exporting.edm.dxf import contour_fit
-from cqdd_design.exporting.edm.flat_parts import with_named_bearing
 from cqdd_design.exporting.edm.loops import LoopFit
 from cqdd_design.exporting.edm.seats import Seat, seats_of
 from cqdd_design.exporting.edm.wire_path import WirePath, wire_paths
@@ -21,6 +20,7 @@ from cqdd_design.exporting.edm.wire_path import WirePath, wire_paths
 if TYPE_CHECKING:
     from cqdd_design.design import Design
     from cqdd_design.exporting.edm.flat_parts import FlatPart
+    from cqdd_design.machine import Machine
 
 GROUND_FLATNESS = 5e-6
 """Faces of a plate from an everyday surface grinder, m."""
@@ -127,7 +127,7 @@ class CutFacts:
         )
 
 
-def facts_of(flat: FlatPart, design: Design) -> CutFacts:
+def facts_of(flat: FlatPart, machine: Machine) -> CutFacts:
     """Gather everything about a part.
 
     Raises
@@ -137,6 +137,7 @@ def facts_of(flat: FlatPart, design: Design) -> CutFacts:
     ReadBackError
         When the wire is too thick for a contour.
     """
+    design = machine.design
     return CutFacts(
         flat=flat,
         design=design,
@@ -144,19 +145,16 @@ def facts_of(flat: FlatPart, design: Design) -> CutFacts:
         paths=wire_paths(flat, design.edm),
         zones=zones_of(flat, design),
         seats=seats_of(flat),
-        later=_after_cutting(flat, design),
+        later=_after_cutting(flat, machine),
     )
 
 
-def _after_cutting(flat: FlatPart, design: Design) -> tuple[str, ...]:
+def _after_cutting(flat: FlatPart, machine: Machine) -> tuple[str, ...]:
     """Holes of the ring that are made with its housing, not by wire."""
-    from cqdd_design.solids.proportions import lay_out
-
     if flat.label != "ring":
         return ()
-    resolved = with_named_bearing(design)
     try:
-        dowels = lay_out(resolved, find_bearing(resolved.reducer.cam_bearing.designation)).dowels
+        dowels = machine.layout.dowels
     except DesignError:
         # No machine fits around this ring; it can still be cut and quoted.
         return ()

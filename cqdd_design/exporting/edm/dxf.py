@@ -63,7 +63,7 @@ def export_dxf(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write one DXF for every flat part of a design: ``<name>-disc.dxf``, ``<name>-ring.dxf``."""
     return tuple(
         write_flat_part(flat, job.design, job.path(f"-{flat.label}.dxf"), job.options)
-        for flat in flat_parts(job.design)
+        for flat in flat_parts(job.machine)
     )
 
 

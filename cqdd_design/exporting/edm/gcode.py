@@ -61,7 +61,7 @@ def export_gcode(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``edm/<name>-<part>.nc`` for every flat part of a design."""
     return tuple(
         write_program(flat, job.design, job.path(f"-{flat.label}.nc", FOLDER), job.options)
-        for flat in flat_parts(job.design)
+        for flat in flat_parts(job.machine)
     )
 
 

@@ -13,10 +13,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from cqdd_design.actuator.joint_side import JointSide, joint_side, provenance
+from cqdd_design.actuator.joint_side import JointSide, joint_side
 from cqdd_design.actuator.motor import MotorConstants, motor_constants
 from cqdd_design.exporting.simulators.card_clients import client_settings, clients
 from cqdd_design.exporting.simulators.card_rows import Quantity, quantities
+from cqdd_design.exporting.simulators.stated import provenance
 from cqdd_design.exporting.simulators.yaml_text import yaml_text
 from cqdd_design.files import WrittenFile, write_atomically
 

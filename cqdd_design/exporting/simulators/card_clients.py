@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from importlib import resources
 from typing import TYPE_CHECKING
 
-from cqdd_design.actuator.joint_side import JointSide, value_of
+from cqdd_design.actuator.joint_side import JointSide
+from cqdd_design.exporting.simulators.stated import value_of
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters

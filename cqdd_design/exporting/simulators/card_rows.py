@@ -17,11 +17,10 @@ from cqdd_design.actuator.joint_side import (
     motor_breakaway,
     motor_coulomb,
     motor_viscous,
-    origin_of,
     ripple_harmonics,
-    value_of,
 )
 from cqdd_design.catalog.reader import read_rows
+from cqdd_design.exporting.simulators.stated import origin_of, value_of
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters

@@ -20,7 +20,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from cqdd_design.actuator.joint_side import DEAD_MASS
 from cqdd_design.exporting.simulators.mjcf_classes import (
     HOST_STEP,
     MjcfActuator,
@@ -28,6 +27,7 @@ from cqdd_design.exporting.simulators.mjcf_classes import (
     remarks,
     time_step,
 )
+from cqdd_design.exporting.simulators.stated import DEAD_MASS
 from cqdd_design.exporting.simulators.xml_text import comment, element, identifier, number, numbers
 from cqdd_design.files import WrittenFile, write_atomically
 

@@ -16,11 +16,11 @@ from cqdd_design.actuator.joint_side import (
     motor_breakaway,
     motor_coulomb,
     motor_viscous,
-    provenance,
     ripple_harmonics,
-    single_node,
 )
 from cqdd_design.actuator.motor import COPPER_COEFFICIENT
+from cqdd_design.actuator.thermal import single_node
+from cqdd_design.exporting.simulators.stated import provenance
 from cqdd_design.exporting.simulators.xml_text import element, identifier, number, numbers
 
 if TYPE_CHECKING:

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from cqdd_design.actuator.joint_side import DEAD_MASS, JointSide, joint_side, provenance
+from cqdd_design.actuator.joint_side import JointSide, joint_side
+from cqdd_design.exporting.simulators.stated import DEAD_MASS, provenance
 from cqdd_design.exporting.simulators.xml_text import comment, element, identifier, number
 from cqdd_design.files import WrittenFile, write_atomically
 

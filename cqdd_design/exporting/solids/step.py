@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from cqdd_design.design import Design
     from cqdd_design.exporting.job import ExportJob
-    from cqdd_design.solids.parts import Colour, Part
+    from cqdd_design.solids.part import Colour, Part
 
 _AUTHOR = "cqdd-design"
 _SCHEMA_SETTING = "write.step.schema"

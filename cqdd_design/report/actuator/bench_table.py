@@ -8,10 +8,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from cqdd_design.actuator.bench import BenchResult
-from cqdd_design.actuator.bench.metric import NEAR, NEAR_EFFICIENCY, PAPER, Metric, is_near
+from cqdd_design.actuator.bench.metric import NEAR, NEAR_EFFICIENCY, Metric, is_near
 from cqdd_design.actuator.comparison import ComparedActuator, compare_actuators, present_actuator
 from cqdd_design.actuator.operating import holds_itself
 from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.catalog.paper import METRICS
 from cqdd_design.report.actuator.bench_figures import BACKDRIVEN, bench_figures, finite
 from cqdd_design.report.actuator.parameter_rows import prose
 from cqdd_design.report.ink.numbers import (
@@ -155,7 +156,7 @@ def _spread(metric: Metric, factor: float) -> str:
 
 
 def _paper(name: str, value: float, factor: float) -> str:
-    spread = PAPER[name][1]
+    spread = METRICS[name].spread
     shown = significant(factor * value)
     return shown if spread is None else f"{shown} ±{significant(factor * spread, 2)}"
 

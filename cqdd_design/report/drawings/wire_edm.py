@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from cqdd_design.design import Design
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts
+from cqdd_design.machine import Machine
 from cqdd_design.report.ink.numbers import decimals, significant, with_unit
 
 
@@ -20,10 +20,10 @@ class EdmView:
     remarks: tuple[str, ...]
 
 
-def edm_view(design: Design) -> EdmView:
-    """Measure the contours of a design as their files hold them."""
-    edm = design.edm
-    flats = flat_parts(design)
+def edm_view(machine: Machine) -> EdmView:
+    """Measure the contours of a machine as their files hold them."""
+    edm = machine.design.edm
+    flats = flat_parts(machine)
     return EdmView(
         lead=(
             f"Arcs follow the exact curve within {with_unit(edm.profile_tolerance * 1e6, 'um')}; "

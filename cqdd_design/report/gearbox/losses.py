@@ -11,7 +11,7 @@ from cqdd_design.report.ink.numbers import NONE, RPM, per_cent, significant, wit
 from cqdd_design.report.ink.svg import Figure, Words
 
 if TYPE_CHECKING:
-    from cqdd_design.gearbox.contact_analysis import ContactAnalysis
+    from cqdd_design.machine.contact_analysis import ContactAnalysis
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,7 @@ import math
 from collections.abc import Container
 from dataclasses import dataclass
 
-from cqdd_design.actuator.bench.metric import PAPER
-from cqdd_design.catalog.motors import find_motor
+from cqdd_design.catalog.paper import METRICS, is_papers_actuator
 from cqdd_design.design import Design
 from cqdd_design.errors import CatalogError
 from cqdd_design.exporting.solids.bom import BomRow, bill_of_materials
@@ -19,16 +18,10 @@ from cqdd_design.report.judgement.check_rows import printed
 from cqdd_design.solids.fits import Fit
 from cqdd_design.solids.inertia import ROTOR, GearboxInertia, PartInertia
 
-_PAPER_DESIGN = "cqdd-10"
 _BARE_MOTOR = 0.525
 """What other sources than the catalogue give for the mass of the paper's motor, bare, kg."""
 
 Row = tuple[str, ...]
-
-
-def is_paper(design: Design) -> bool:
-    """Whether a design is the paper's own actuator, beside which measured values stand."""
-    return design.name == _PAPER_DESIGN
 
 
 @dataclass(frozen=True)
@@ -71,11 +64,11 @@ def bodies_view(design: Design, bodies: Bodies) -> BodiesView:
     """Arrange parts, mass properties and balance of a design for the page."""
     inertia = bodies.inertia
     by_name = {part.name: part for part in inertia.parts}
-    beside = is_paper(design) and not inertia.motor_missing
+    beside = is_papers_actuator(design) and not inertia.motor_missing
     return BodiesView(
         rows=tuple(
             _part_row(row, by_name.get(row.part), inertia)
-            for row in bill_of_materials(design, bodies.parts)
+            for row in bill_of_materials(bodies.inertia.motor, bodies.parts)
         ),
         total_mass=with_unit(inertia.total.mass, "kg", 4),
         total_of="gearbox without motor" if inertia.motor_missing else "actuator",
@@ -136,7 +129,7 @@ def _groups(inertia: GearboxInertia) -> tuple[Row, ...]:
 
 def _beside_the_paper(design: Design, inertia: GearboxInertia) -> tuple[Row, ...]:
     """Mass and inertia beside what the paper prints, with what makes the difference."""
-    paper = {name: value for name, (value, _) in PAPER.items()}
+    paper = {name: figure.value for name, figure in METRICS.items()}
     groups, shares = inertia.group_masses, inertia.group_inertias
     mass, whole = inertia.total.mass, inertia.reflected_input
     rotor, bell = inertia.rotor_inertia or 0.0, shares["bell, cover and encoder"]
@@ -189,8 +182,8 @@ def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
     def shown(value: float | None) -> str:
         return "not known" if value is None else significant(1e4 * value, 4)
 
-    estimated = "rotor inertia estimated" in find_motor(inertia.motor).note
-    printed_there = shown(PAPER["actuator_inertia"][0])
+    estimated = "rotor inertia estimated" in inertia.motor.note
+    printed_there = shown(METRICS["actuator_inertia"].value)
     return (
         (
             "gearbox, at the input",
@@ -200,7 +193,7 @@ def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
         (
             "rotor of the motor",
             shown(inertia.rotor_inertia),
-            f"{inertia.motor}{', an estimate' if estimated else ''}",
+            f"{inertia.motor.name}{', an estimate' if estimated else ''}",
         ),
         (
             "together, at the input",

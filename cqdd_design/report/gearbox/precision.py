@@ -7,19 +7,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cqdd_design.actuator.bench.metric import PAPER
+from cqdd_design.catalog.paper import METRICS, is_papers_actuator
 from cqdd_design.design import Design
 from cqdd_design.gearbox.precision.precision import LOST_MOTION_SHARE
-from cqdd_design.report.gearbox.masses import is_paper
 from cqdd_design.report.ink.bars import bar_chart
 from cqdd_design.report.ink.charts import Curve, line_chart
 from cqdd_design.report.ink.numbers import ARCMIN, significant, with_unit
 from cqdd_design.report.ink.svg import Figure, Words
 
 if TYPE_CHECKING:
-    from cqdd_design.gearbox.contact_analysis import ContactAnalysis
     from cqdd_design.gearbox.precision.orders import Order
     from cqdd_design.gearbox.precision.precision import Precision
+    from cqdd_design.machine.contact_analysis import ContactAnalysis
 
 _ORDERS = 8
 
@@ -67,7 +66,7 @@ def precision_view(analysis: ContactAnalysis, design: Design) -> PrecisionView:
         y_label="angle error, arcmin",
         x_ticks=[*(round(period * k / 4.0, 2) for k in range(4)), period],
     )
-    paper = is_paper(design)
+    paper = is_papers_actuator(design)
     orders = [_order_bars(found.orders[:_ORDERS], torque)] if found.orders else []
     rows = _rows(found)
     if not paper:
@@ -92,12 +91,12 @@ def _rows(found: Precision) -> tuple[tuple[str, ...], ...]:
     free = found.free.free * ARCMIN
     torque = with_unit(found.torque, "N*m")
     small = with_unit(LOST_MOTION_SHARE * abs(found.torque), "N*m", 3)
-    backlash, ripple = PAPER["backlash"], PAPER["torque_ripple"][0]
+    backlash, ripple = METRICS["backlash"], METRICS["torque_ripple"].value
     return (
         (
             "backlash",
             f"{significant(float(free.mean()))} arcmin",
-            f"{backlash[0]:g} \u00b1 {backlash[1]:g} arcmin",
+            f"{backlash.value:g} \u00b1 {backlash.spread:g} arcmin",
             f"{significant(float(free.min()))} to {significant(float(free.max()))} over a turn, "
             "rigid parts, from the clearances of the design",
         ),

@@ -12,7 +12,7 @@ from cqdd_design.report.ink.numbers import MINUS, TIMES, significant, superscrip
 from cqdd_design.results import Check, Status, worst_status
 
 #: Headings by the first part of a check's identifier, in the order of the report.
-_CHAPTERS = {
+_HEADINGS = {
     "CONTACT": "Contact pressure",
     "PIN": "Output pins",
     "BEARING": "Cam bearing",
@@ -118,11 +118,11 @@ def sentence(text: str) -> str:
     return text if text.endswith((".", "!", "?")) else f"{text}."
 
 
-def chapters(checks: Iterable[Check]) -> tuple[tuple[str, Status, tuple[CheckRow, ...]], ...]:
+def check_groups(checks: Iterable[Check]) -> tuple[tuple[str, Status, tuple[CheckRow, ...]], ...]:
     """All checks under headings, with the worst status of each; within one, worst margin first."""
-    grouped: dict[str, list[Check]] = {name: [] for name in _CHAPTERS.values()}
+    grouped: dict[str, list[Check]] = {name: [] for name in _HEADINGS.values()}
     for check in checks:
-        name = _CHAPTERS.get(check.id.partition("-")[0], "Other checks")
+        name = _HEADINGS.get(check.id.partition("-")[0], "Other checks")
         grouped.setdefault(name, []).append(check)
     return tuple(
         (

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 from cqdd_design.catalog.bearings import bearings, find_bearing
 from cqdd_design.catalog.materials import find_material
-from cqdd_design.catalog.motors import find_motor
 from cqdd_design.catalog.screws import find_shoulder_screw
 from cqdd_design.design import Design
 from cqdd_design.errors import CatalogError
@@ -188,6 +187,6 @@ def _catalogue(analysis: GearboxAnalysis, parts: Sequence[Part]) -> tuple[Source
         rows.append(Source(f"{screw.name}: {screw.source}", "output pins, limits of size"))
     except CatalogError:
         rows.append(Source("ISO 286-2, zone f9", "output pins, limits of size"))
-    motor = find_motor(design.motor.name)
+    motor = analysis.motor
     rows.append(Source(f"{motor.name}: {motor.source}", "motor checks"))
     return tuple(rows)

@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from cqdd_design.catalog.paper import PIN_TORQUE, PINS_TORQUE
 from cqdd_design.design import Design
 from cqdd_design.gearbox import GearboxAnalysis
-from cqdd_design.planetary.claim_settings import PAPER_PIN_TORQUE
 from cqdd_design.report.ink.numbers import TIMES, decimals, significant, with_unit
 from cqdd_design.report.judgement.check_rows import CheckRow, closest, failing
 from cqdd_design.results import Check, Status, worst_status
 
-PAPER_PER_PIN = 59.13
-"""What the paper prints for one of its output pins, N m (section III-A)."""
 _CLOSEST = 6
 """Checks shown for a design that fails none."""
 
@@ -143,7 +141,7 @@ def pin_figure(analysis: GearboxAnalysis) -> PinFigure:
         )
     else:
         conclusion += "bending. Here bending, too, leaves room at the peak torque asked for."
-    paper = (f"{PAPER_PER_PIN:.2f}", f"{PAPER_PIN_TORQUE:.2f}")
+    paper = (f"{PIN_TORQUE:.2f}", f"{PINS_TORQUE:.2f}")
     return PinFigure(
         paper,
         (f"{pins.paper_torque_per_pin:.2f}", f"{pins.paper_torque_total:.2f}") == paper,

@@ -34,8 +34,6 @@ _CHORD = 0.05
 _SMOOTH = np.cos(np.radians(28.0))
 """Facets that turn by less than this at a vertex share a normal there."""
 _STEPS = 65535
-_USHORT, _BYTE, _UINT = 5123, 5120, 5125
-_VERTICES, _INDICES = 34962, 34963
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +90,7 @@ def viewer_data(design: Design, parts: Sequence[Part]) -> ViewerData:
         for station, shift in zip(found, apart.shifts, strict=True)
         for piece in station.pieces
     }
-    buffer = _Buffer()
+    buffer = gltf.Buffer()
     meshes, materials, boxes = [], [], []
     for index, part in enumerate(parts):
         primitive, box = _primitive(part, index, buffer)
@@ -138,21 +136,10 @@ def viewer_data(design: Design, parts: Sequence[Part]) -> ViewerData:
                     "extras": extras,
                 }
             )
-    nodes[0]["children"] = list(range(1, len(nodes)))
-    document = {
-        "asset": {"version": "2.0", "extras": {"design_sha256": design.sha256}},
-        "extensionsUsed": ["KHR_mesh_quantization"],
-        "extensionsRequired": ["KHR_mesh_quantization"],
-        "scene": 0,
-        "scenes": [{"name": design.name, "nodes": [0]}],
-        "nodes": nodes,
-        "meshes": meshes,
-        "materials": materials,
-        "accessors": buffer.accessors,
-        "bufferViews": buffer.views,
-        "buffers": [{"byteLength": len(buffer.content)}],
-    }
-    return ViewerData(gltf.container(document, bytes(buffer.content)), design.reducer.ratio)
+    content = gltf.scene(
+        design, nodes, meshes, materials, buffer, extensions=["KHR_mesh_quantization"]
+    )
+    return ViewerData(content, design.reducer.ratio)
 
 
 def _hatch(parts: Sequence[Part]) -> float:
@@ -167,56 +154,8 @@ def _finish(part: Part) -> tuple[float, float]:
     return 0.35, 0.45
 
 
-class _Buffer:
-    """The one binary buffer and the views into it; every view starts at a multiple of 4."""
-
-    def __init__(self) -> None:
-        self.content = bytearray()
-        self.views: list[dict[str, Any]] = []
-        self.accessors: list[dict[str, Any]] = []
-
-    def vectors(self, array: np.ndarray, kind: int, **more: object) -> int:
-        """Append vectors (v, 3), each padded to a multiple of 4 bytes."""
-        width = array.itemsize * 3
-        stride = width + -width % 4
-        padded = np.zeros((len(array), stride // array.itemsize), dtype=array.dtype)
-        padded[:, :3] = array
-        self._view(padded.tobytes(), _VERTICES, byteStride=stride)
-        return self._accessor(kind, len(array), "VEC3", **more)
-
-    def indices(self, array: np.ndarray) -> int:
-        """Append the corners (t, 3) of triangles, as narrow as their number allows."""
-        narrow = int(array.max()) < _STEPS
-        self._view(array.astype("<u2" if narrow else "<u4").tobytes(), _INDICES)
-        return self._accessor(_USHORT if narrow else _UINT, array.size, "SCALAR")
-
-    def _view(self, content: bytes, target: int, **more: object) -> None:
-        self.views.append(
-            {
-                "buffer": 0,
-                "byteOffset": len(self.content),
-                "byteLength": len(content),
-                "target": target,
-                **more,
-            }
-        )
-        self.content += content + b"\0" * (-len(content) % 4)
-
-    def _accessor(self, kind: int, count: int, shape: str, **more: object) -> int:
-        self.accessors.append(
-            {
-                "bufferView": len(self.views) - 1,
-                "componentType": kind,
-                "count": count,
-                "type": shape,
-                **more,
-            }
-        )
-        return len(self.accessors) - 1
-
-
 def _primitive(
-    part: Part, material: int, buffer: _Buffer
+    part: Part, material: int, buffer: gltf.Buffer
 ) -> tuple[dict[str, Any], tuple[FloatArray, float]]:
     """The mesh of a part; and the lowest corner (m) and the size of a step (m) of its box."""
     quality = Quality(min(2e-3, _CHORD / (part.shape.outside_radius * MM)), 0.35)
@@ -226,13 +165,14 @@ def _primitive(
     step = float((vertices.max(axis=0) - low).max()) / _STEPS
     steps = np.round((vertices - low) / step).astype("<u2")
     normals = np.round(127.0 * _normals(mesh.vertices, mesh.triangles)).astype("i1")
-    position = buffer.vectors(
-        steps, _USHORT, min=steps.min(axis=0).tolist(), max=steps.max(axis=0).tolist()
-    )
-    normal = buffer.vectors(normals, _BYTE, normalized=True)
+    triangles = mesh.triangles.ravel()
     primitive = {
-        "attributes": {"POSITION": position, "NORMAL": normal},
-        "indices": buffer.indices(mesh.triangles),
+        "attributes": {
+            "POSITION": buffer.add(steps, bounds=True),
+            "NORMAL": buffer.add(normals, normalized=True),
+        },
+        # As narrow as their number allows.
+        "indices": buffer.add(triangles.astype("<u2" if triangles.max() < _STEPS else "<u4")),
         "material": material,
     }
     return primitive, (np.round(low, 12) + 0.0, step)
@@ -240,12 +180,7 @@ def _primitive(
 
 def _normals(vertices: FloatArray, triangles: np.ndarray) -> FloatArray:
     """Unit normals (v, 3), the same on both sides of a smooth seam between faces."""
-    corners = vertices[triangles]
-    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    own = np.zeros_like(vertices)
-    for corner in range(3):
-        np.add.at(own, triangles[:, corner], across)
-    own = _unit(own)
+    own = gltf.vertex_normals(vertices, triangles)
     keys = np.round(vertices * 1e4).astype(np.int64)
     _, place = np.unique(keys, axis=0, return_inverse=True)
     order = np.argsort(place, kind="stable")
@@ -255,9 +190,4 @@ def _normals(vertices: FloatArray, triangles: np.ndarray) -> FloatArray:
         if len(rows) > 1:
             alike = own[rows] @ own[rows].T > _SMOOTH
             joined[rows] = alike @ own[rows]
-    return _unit(joined)
-
-
-def _unit(vectors: FloatArray) -> FloatArray:
-    length = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.asarray(np.where(length > 0.0, vectors / np.maximum(length, 1e-30), (0.0, 0.0, 1.0)))
+    return gltf.unit(joined)

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from cqdd_design import __version__
-from cqdd_design.actuator.bench.unknowns import apply_factors
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.parameters import ActuatorParameters
-from cqdd_design.design import Design
+from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.errors import DesignError, UsageError
+from cqdd_design.machine import Machine
 from cqdd_design.torque.data import pendulum
 from cqdd_design.torque.data.episodes import DataSet, FloatArray
 from cqdd_design.torque.data.sensing import SensorChain
@@ -98,22 +98,24 @@ class Request:
 
 
 def generate(
-    design: Design,
+    machine: Machine,
     request: Request | None = None,
     *,
-    calibration: Mapping[str, float] | None = None,
+    specimen: Specimen = AS_DRAWN,
     tell: Tell | None = None,
     progress: pendulum.Progress | None = None,
 ) -> tuple[DataSet, tuple[str, ...]]:
-    """Generate pendulum data of a design.
+    """Generate pendulum data of a machine.
 
     Parameters
     ----------
-    design : Design
+    machine : Machine
+        Of the specimen's motor.
     request : Request, optional
-    calibration : mapping of str to float, optional
-        Factors of unknowns. That of the tolerances is left out: the ripple is what the contact
-        equilibrium of the drawn gearbox gives.
+    specimen : Specimen
+        Its motor and its factors; gearboxes are those of the request. The factor of the
+        tolerances is left out: the ripple is what the contact equilibrium of the drawn gearbox
+        gives.
     tell : callable, optional
         Told what begins.
     progress : callable, optional
@@ -136,7 +138,7 @@ def generate(
     sensors = SensorChain()
     say = tell or (lambda text: None)
     warnings = []
-    factors = dict(calibration or {})
+    design, factors = machine.given, dict(specimen.factors)
     if factors.pop("tolerance_scale", None) is not None:
         warnings.append(
             "the calibration's tolerance_scale is left out: the ripple is that of the drawn "
@@ -146,7 +148,8 @@ def generate(
     gearboxes = {}
     for seed in seeds:
         say(f"contact equilibrium of gearbox {seed}")
-        gearboxes[seed] = _gearbox(design, seed, factors, asked)
+        drawn = dataclasses.replace(specimen, seed=seed, factors=factors)
+        gearboxes[seed] = _gearbox(machine, drawn, asked)
     plans = _experiments(asked)
     names = [f"{kind}-{number:04d}" for kind, number, _ in plans]
     experiments = [one for _, _, one in plans]
@@ -213,6 +216,8 @@ def generate(
             one.name: round(float(np.mean(one.flag("saturated"))), 6) for one in episodes
         },
     }
+    if specimen.motor is not None:
+        facts["motor"] = specimen.motor.name
     data = DataSet(
         episodes=episodes,
         position_gain=drive.position_gain,
@@ -223,15 +228,12 @@ def generate(
     return data, tuple(warnings)
 
 
-def _gearbox(
-    design: Design, seed: int, factors: Mapping[str, float], asked: Request
-) -> ActuatorParameters:
+def _gearbox(machine: Machine, specimen: Specimen, asked: Request) -> ActuatorParameters:
     try:
-        drawn = actuator_parameters(design, seed=seed, supply_voltage=asked.voltage)
+        drawn = actuator_parameters(machine, specimen, supply_voltage=asked.voltage)
     except DesignError as error:
-        raise type(error)(f"the gearbox of seed {seed}: {error.message}") from error
-    calibrated = apply_factors(drawn, factors)
-    drive = calibrated.drive
+        raise type(error)(f"the gearbox of seed {specimen.seed}: {error.message}") from error
+    drive = drawn.drive
     stiff = drive.position_gain if asked.position_gain is None else asked.position_gain
     damped = drive.velocity_gain if asked.velocity_gain is None else asked.velocity_gain
     if not stiff > 0.0:
@@ -240,7 +242,7 @@ def _gearbox(
             'use --position-gain "60 N*m/rad".'
         )
     drive = dataclasses.replace(drive, position_gain=stiff, velocity_gain=damped)
-    return dataclasses.replace(calibrated, drive=drive)
+    return dataclasses.replace(drawn, drive=drive)
 
 
 def _experiments(asked: Request) -> list[tuple[str, int, pendulum.Configuration]]:
@@ -273,7 +275,7 @@ def _gearbox_ripple(
     that changes its sign. None where every experiment has a wall, or saturates, or is too short.
     """
     errors = ("error_cosine", "error_sine", "stiffness_cosine", "stiffness_sine")
-    none = dict.fromkeys(errors, np.zeros(len(drawn.gear.error_orders)))
+    none: dict[str, Any] = dict.fromkeys(errors, np.zeros(len(drawn.gear.error_orders)))
     perfect = dataclasses.replace(drawn, gear=dataclasses.replace(drawn.gear, **none))
     free = [dataclasses.replace(one, gearbox=0) for one in experiments if one.wall_angle is None]
     free = free[:RIPPLE_EPISODES]

@@ -56,6 +56,15 @@ class Filter:
         """Group delay at low frequency, s."""
         return self.damping / (math.pi * self.frequency)
 
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON form, units in the names."""
+        return {
+            "filter": "second order, causal, the same for every signal",
+            "filter_frequency_Hz": self.frequency,
+            "filter_damping_ratio": self.damping,
+            "filter_delay_s": self.delay,
+        }
+
     def coefficients(self, rate: float) -> tuple[FloatArray, FloatArray]:
         """Numerator and denominator (3,) at a rate, Hz: bilinear, exact at its own frequency.
 
@@ -151,10 +160,7 @@ class SensorChain:
             "torque_lag_Hz": self.torque_lag,
             "torque_lag_at_17_Hz_deg": lag,
             "current": "of the motor, positive where it drives the joint forward",
-            "filter": "second order, causal, the same for every signal",
-            "filter_frequency_Hz": self.filter.frequency,
-            "filter_damping_ratio": self.filter.damping,
-            "filter_delay_s": self.filter.delay,
+            **self.filter.to_dict(),
             "filter_lag_at_17_Hz_deg": math.degrees(self.filter.phase_lag(17.0)),
             "flags": "wall and saturated: at any time since the sample before, not filtered",
         }

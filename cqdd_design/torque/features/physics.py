@@ -18,7 +18,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, fields, replace
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
@@ -221,9 +221,9 @@ def actuator_from_dict(content: Mapping[str, Any]) -> ActuatorParameters:
     try:
         parts = {part: _part(kind, content[part]) for part, kind in _PARTS.items()}
         name, mass = content["name"], content["mass"]
-        if not isinstance(name, str) or not isinstance(mass, float | int | None):
+        if not isinstance(name, str) or not isinstance(mass, float | int):
             raise TypeError("name is no text, or mass no number")
-        return ActuatorParameters(name=name, mass=mass, **parts)
+        return ActuatorParameters(name=name, mass=math.nan if mass is None else mass, **parts)
     except (KeyError, TypeError, ValueError, AttributeError, DesignError) as error:
         raise UsageError(
             f"these are no actuator's parameters of this program ({error}); write them anew."
@@ -231,11 +231,6 @@ def actuator_from_dict(content: Mapping[str, Any]) -> ActuatorParameters:
 
 
 def _part(kind: type[Any], content: Mapping[str, Any]) -> Any:
-    known = {item.name for item in fields(kind)}
-    unknown = sorted(set(content) - known)
-    if unknown:
-        raise KeyError(", ".join(unknown))
-
     def value(key: str, given: Any) -> Any:
         if isinstance(given, bool) or not isinstance(given, int | float | list | None):
             raise TypeError(f"{key} is no number")

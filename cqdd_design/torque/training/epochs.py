@@ -188,9 +188,8 @@ class Trainer:
                 at = chunk * CHUNK + np.arange(CHUNK)
                 place = skip[:, None] + at
                 counts = (at >= burn[:, None]) & (place < length[:, None])
-                place = task.train.first[lanes][:, None] + np.minimum(place, length[:, None] - 1)
-                index = torch.from_numpy(place).to(task.device)
-                output, hidden = self.network.every(task.train.features[index], hidden)
+                x, y = task.train.side_by_side(lanes, place)
+                output, hidden = self.network.every(x, hidden)
                 hidden = hidden.detach()
                 number = int(counts.sum())
                 if not number:
@@ -198,7 +197,7 @@ class Trainer:
                     state.step += 1
                     continue
                 mask = torch.from_numpy(counts).to(task.device)
-                square = torch.where(mask, (output - task.train.torque[index]) ** 2, 0.0)
+                square = torch.where(mask, (output - y) ** 2, 0.0)
                 self._step(square.sum() / number)
                 total += square.detach().sum()
                 samples += number
@@ -220,16 +219,13 @@ class Trainer:
                     total += float(((self.network.last(x) - y) ** 2).sum())
                 count = len(ends)
             else:
-                # Longest first and side by side, the shorter ones filled with their last sample.
-                place = data.first[:, None] + np.minimum(
-                    np.arange(data.length.max()), data.length[:, None] - 1
-                )
-                counts = np.arange(data.length.max()) < data.length[:, None]
+                place = np.arange(data.length.max())[None]
+                counts = place < data.length[:, None]
                 counts[:, : 2 * history] = False
-                index = torch.from_numpy(place).to(task.device)
-                output, _ = self.network.every(data.features[index], None)
+                x, y = data.side_by_side(np.arange(len(data.first)), place)
+                output, _ = self.network.every(x, None)
                 mask = torch.from_numpy(counts).to(task.device)
-                error = torch.where(mask, (output - data.torque[index]) ** 2, 0.0)
+                error = torch.where(mask, (output - y) ** 2, 0.0)
                 total, count = float(error.double().sum()), int(counts.sum())
         return task.scale.torque_std * math.sqrt(total / max(count, 1))
 

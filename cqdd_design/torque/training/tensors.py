@@ -132,6 +132,17 @@ class Prepared:
             found.append(first + history - 1 + offset + stride * np.arange(max(count, 0)))
         return np.concatenate(found)
 
+    def side_by_side(self, lanes: IntArray, place: IntArray) -> tuple[Any, Any]:
+        """Features (B, T, F) and torque (B, T) of episodes (B,) at their samples (B, T).
+
+        Samples past an episode's end are its last one.
+        """
+        torch = require_torch()
+        last = self.length[lanes][:, None] - 1
+        index = torch.from_numpy(self.first[lanes][:, None] + np.minimum(place, last))
+        index = index.to(self.device)
+        return self.features[index], self.torque[index]
+
     def windows(self, ends: Any, history: int) -> tuple[Any, Any]:
         """Windows (B, history, F), oldest sample first, and torque (B,) at their ends (B,)."""
         torch = require_torch()

@@ -1,6 +1,6 @@
-"""One call from a design to its contact equilibrium, precision, losses and life.
+"""One call from a machine to its contact equilibrium, precision, losses and life.
 
-The closed forms of :mod:`.analysis` need none of this; the compiled kernels load only here.
+The closed forms of `Machine.analysis` need none of this; the compiled kernels load only here.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.design import Design
 from cqdd_design.gearbox.contact.laws import LineModel
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import nominal_states
@@ -18,6 +17,7 @@ from cqdd_design.gearbox.contact.sweep import ANGLES, ContactSweep, contact_swee
 from cqdd_design.gearbox.life import LifeResult, life
 from cqdd_design.gearbox.losses import EfficiencyMap, Losses, LossModel, loss_model
 from cqdd_design.gearbox.precision.precision import Precision, precision
+from cqdd_design.machine.machine import Machine
 
 FloatArray = NDArray[np.float64]
 
@@ -101,17 +101,17 @@ def _preload(sweep: ContactSweep) -> dict[str, float]:
 
 
 def analyse_contact(
-    design: Design,
+    machine: Machine,
     *,
     torque: float | None = None,
     angles: int = ANGLES,
     line_model: LineModel = "palmgren",
 ) -> ContactAnalysis:
-    """Solve the contact equilibrium of a design over its period, and what follows from it.
+    """Solve the contact equilibrium of a machine over its period, and what follows from it.
 
     Parameters
     ----------
-    design : Design
+    machine : Machine
     torque : float, optional
         Output torque, N m. Where left out, the forces are at the peak torque of the requirements,
         precision and losses at the continuous one.
@@ -125,14 +125,15 @@ def analyse_contact(
     ContactError
         When the gearbox has no equilibrium at the torque, naming torque and angle.
     """
-    model = ContactModel.from_design(design, line_model)
+    design, usual = machine.design, line_model == "palmgren"
+    model = machine.contact if usual else ContactModel.from_design(design, line_model)
     states = nominal_states(model, perfect_angles(model, angles))
     asked = design.requirements
     peak = asked.peak_torque if torque is None else torque
     steady = asked.continuous_torque if torque is None else torque
     sweep = contact_sweep(model, peak, states=states)
     tight = bool(states.gaps.min() < 0.0)
-    friction = loss_model(model, design)
+    friction = machine.losses if usual else loss_model(model, machine.friction, asked.peak_torque)
     shares = np.arange(1, _MAP_STEPS + 1) / _MAP_STEPS
     return ContactAnalysis(
         model=model,
