@@ -15,21 +15,20 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.errors import UsageError
-from cqdd_design.exporting.job import ExportJob, Progress
 from cqdd_design.exporting.kinds import KINDS, read_kinds, stages
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 from cqdd_design.exporting.staging import staging_folder
 from cqdd_design.files import WrittenFile, atomic_path, ensure_folder, refuse_overwrite
 
 if TYPE_CHECKING:
+    from cqdd_design.actuator.specimen import Specimen
     from cqdd_design.design import Design
+    from cqdd_design.exporting.job import Progress
     from cqdd_design.machine import Machine
 
 __all__ = [
     "KINDS",
-    "ExportJob",
     "ExportOptions",
     "default_folder",
     "export",
@@ -51,7 +50,7 @@ def export(
     force: bool = False,
     progress: Progress | None = None,
     options: ExportOptions = DEFAULTS,
-    specimen: Specimen = AS_DRAWN,
+    specimen: Specimen | None = None,
 ) -> tuple[WrittenFile, ...]:
     """Write the files of a machine.
 
@@ -70,8 +69,8 @@ def export(
         Called with a few words before each kind of file.
     options : ExportOptions, optional
         How files are written.
-    specimen : Specimen
-        Which actuator simulators get.
+    specimen : Specimen, optional
+        Which actuator simulators get; default the one that is drawn.
 
     Returns
     -------
@@ -89,6 +88,10 @@ def export(
     DependencyError
         A library that a kind needs is missing.
     """
+    # The table of kinds is read for help, which must not pay for a job's imports.
+    from cqdd_design.actuator.specimen import AS_DRAWN
+    from cqdd_design.exporting.job import ExportJob
+
     wanted, design = read_kinds(kinds), machine.given
     target = default_folder(design) if folder is None else folder
     tell = progress if progress is not None else _silent
@@ -96,7 +99,7 @@ def export(
     placed: list[WrittenFile] = []
     try:
         with staging_folder(target, design.name) as staging:
-            job = ExportJob(machine, staging, tell, options, specimen)
+            job = ExportJob(machine, staging, tell, options, specimen or AS_DRAWN)
             for kind in wanted:
                 tell(f"writing {kind}")
                 placed += [

@@ -316,7 +316,12 @@ def test_the_default_folder_is_the_commands_own(paper, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(
     ("text", "said"),
-    [("dfx", "did you mean 'dxf'"), ("dxf,stepp", "'step'"), (" , ", "dxf, step"), ("x", "svg")],
+    [
+        ("dfx", "did you mean 'dxf'"),
+        ("dxf,stepp", "'step'"),
+        (" , ", "dxf, edm, gcode, step"),
+        ("x", "svg"),
+    ],
 )
 def test_unknown_kinds_name_the_nearest(text, said):
     with pytest.raises(UsageError, match=said):

@@ -16,7 +16,7 @@ from cqdd_design.catalog import find_material, materials
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, UsageError
 from cqdd_design.exporting import ExportOptions
-from cqdd_design.exporting.edm.cut_facts import facts_of, heat_treatment, zone_text
+from cqdd_design.exporting.edm.cut_facts import facts_of, zone_text
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.seats import seats_of
 from cqdd_design.exporting.sheets.canvas import pdf_bytes
@@ -284,8 +284,14 @@ def test_what_is_not_cut_by_wire_is_said(paper, package):
     assert said.replace("\u00d8", "dia ") in readme
 
 
-def test_every_material_has_a_heat_treatment_in_words():
-    found = {name: heat_treatment(name) for name in materials()}
+def test_a_drawing_says_the_treatment_as_the_catalogue_has_it(paper):
+    for name, said in (("17-4PH H900", "condition H900"), ("Brass CuZn39Pb3", "as delivered")):
+        machine = resolve(paper.replacing({"reducer.disc_material": name}))
+        assert said in facts_of(flat_parts(machine)[0], machine).heat_treatment
+
+
+def test_notes_of_treatment_can_be_printed_and_agree_with_the_name():
+    found = {name: row.drawing_note for name, row in materials().items()}
     assert found["AISI 4140 Q&T 205C"].startswith("quenched and tempered at 205")
     assert found["17-4PH H900"].startswith("precipitation hardened, condition H900")
     assert found["SCM415/16MnCr5 case hardened"].startswith("case hardened")

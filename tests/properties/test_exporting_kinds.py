@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from cqdd_design.design import load_design
-from cqdd_design.exporting import KINDS, ExportJob, stages
+from cqdd_design.exporting import KINDS, stages
+from cqdd_design.exporting.job import ExportJob
 from cqdd_design.roads.export import export
 
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from solids_designs import known_design, known_parts, part_named
 
-from cqdd_design.exporting import ExportJob
+from cqdd_design.exporting.job import ExportJob
 from cqdd_design.exporting.solids.meshes import (
     export_3mf,
     export_glb,

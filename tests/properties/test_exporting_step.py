@@ -12,7 +12,7 @@ import pytest
 from solids_designs import known_design, known_parts, part_named
 
 from cqdd_design.errors import ReadBackError
-from cqdd_design.exporting import ExportJob
+from cqdd_design.exporting.job import ExportJob
 from cqdd_design.exporting.solids import step
 from cqdd_design.exporting.solids.step import export_step, file_label, write_part_step, write_step
 from cqdd_design.machine import resolve
