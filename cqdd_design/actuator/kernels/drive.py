@@ -5,12 +5,20 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from cqdd_design.actuator.kernels.laws import at, part
+from cqdd_design.actuator.kernels.laws import part
 
 COPPER, MAGNET = 0.0039, 0.0011
 """Resistance gained and torque constant lost a kelvin, as in :mod:`cqdd_design.actuator.motor`."""
 OPEN, VOLTAGE, CURRENT, IMPEDANCE = 0, 1, 2, 4
 """Places in `columns.MODES`."""
+
+
+class Wanted(NamedTuple):
+    """The command's signal in a step, its rate, and the torque fed forward."""
+
+    value: float
+    rate: float
+    feedforward: float
 
 
 class Control(NamedTuple):
@@ -36,12 +44,9 @@ class Electric(NamedTuple):
 
 
 @part
-def commanded(
-    p: Any, control: Any, signals: Any, k: int, h: float, angle: float, speed: float
-) -> Any:
-    """Control with the command of step k; a position loop acts once a period of its own."""
+def commanded(p: Any, control: Any, wanted: Any, h: float, angle: float, speed: float) -> Any:
+    """Control with the command of a step; a position loop acts once a period of its own."""
     command, count, integral, elapsed = control
-    wanted = at(signals.reference, k)
     if p.mode >= IMPEDANCE:
         first = elapsed < 0.0
         elapsed += h / p.control_step
@@ -57,19 +62,19 @@ def commanded(
             rate = speed / p.ratio
             if encoder > 0.0:
                 rate = (count - count_before) / p.control_step
-            behind = wanted - count
+            behind = wanted.value - count
             if p.mode == IMPEDANCE:
-                behind_rate = at(signals.reference_rate, k) - rate
+                behind_rate = wanted.rate - rate
                 command = p.position_gain * behind + p.velocity_gain * behind_rate
             else:
                 integral += p.integral_gain * behind * p.control_step
                 most = p.current_limit * p.torque_constant * abs(p.ratio)
                 integral = min(max(integral, -most), most)
                 command = p.position_gain * behind - p.velocity_gain * rate + integral
-            command += at(signals.feedforward, k)
+            command += wanted.feedforward
             elapsed = 0.0 if first else elapsed - 1.0
     else:
-        command = wanted
+        command = wanted.value
     return Control(command, count, integral, elapsed)
 
 

@@ -19,6 +19,7 @@ from numba.np.unsafe.ndarray import to_fixed_tuple
 from cqdd_design.actuator.columns import Constants, Ledger, Signals
 from cqdd_design.actuator.kernels.drive import (
     Control,
+    Wanted,
     asked_of_winding,
     commanded,
     driven_current,
@@ -294,10 +295,12 @@ def run_one(
     """
     p = Constants(*_tuple_of(row, COUNT))
     h, i = steps.length, place
+    # Taken apart here: in the loop every reach into a tuple of arrays would count its references.
+    reference, reference_rate, feedforward, external_torque, driven_speed = signals
     motion = Motion(p.motor_angle, p.motor_speed, p.output_angle, p.output_speed)
     mode, output_mode = begun(STICK, motion.speed), begun(STICK, motion.out_speed)
     if p.driven != 0.0:
-        motion = Motion(motion.angle, motion.speed, motion.out_angle, signals.driven_speed[0])
+        motion = Motion(motion.angle, motion.speed, motion.out_angle, driven_speed[0])
     current, winding, housing = p.current, p.winding_temperature, p.housing_temperature
     delay = int(p.delay_steps)
     line, slot = np.zeros(delay + 1), 0
@@ -310,7 +313,8 @@ def run_one(
     sums = Ledger(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, before, 0.0, 0.0)
 
     for k in range(steps.number):
-        control = commanded(p, control, signals, k, h, motion.angle, motion.speed)
+        wanted = Wanted(at(reference, k), at(reference_rate, k), at(feedforward, k))
+        control = commanded(p, control, wanted, h, motion.angle, motion.speed)
         line[slot] = asked_of_winding(p, control.command)
         slot = slot + 1 if slot < delay else 0
         guess = motion.speed + 0.5 * h * (2.0 * rise - former)
@@ -320,8 +324,8 @@ def run_one(
         rub = rubbing(p, bristles, h, toward, transmitted, guess, out_guess)
         if p.lugre == 0.0:
             mode, output_mode = begun(mode, motion.speed), begun(output_mode, motion.out_speed)
-        next_speed = at(signals.driven_speed, k + 1) if p.driven != 0.0 else 0.0
-        external = at(signals.external, k)
+        next_speed = at(driven_speed, k + 1) if p.driven != 0.0 else 0.0
+        external = at(external_torque, k)
         begin = Begin(
             motion, mesh, wall, electric, rub, mode, output_mode, external, guess, out_guess,
             next_speed,
