@@ -22,13 +22,12 @@ from dataclasses import replace
 from functools import partial
 from importlib import metadata
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from processes import machine, write_section
 
 from cqdd_design.actuator.build import actuator_parameters
-from cqdd_design.actuator.columns import LEDGER, PARAMETERS, TRACES
+from cqdd_design.actuator.columns import LEDGER, TRACES, Ledger, Signals, Steps, Traces
 from cqdd_design.actuator.kernels import stepping as kernel
 from cqdd_design.actuator.packing import (
     gear_table,
@@ -39,8 +38,10 @@ from cqdd_design.actuator.packing import (
 )
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Sine, Wall
-from cqdd_design.actuator.simulate import run_compiled, simulate
+from cqdd_design.actuator.simulate import Work, run_compiled, simulate
+from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import load_design
+from cqdd_design.machine import resolve
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 DESIGN = REPOSITORY / "designs" / "cqdd-10.toml"
@@ -61,9 +62,6 @@ SCENES = {
 }
 
 
-Work = tuple[Any, ...]
-
-
 def work_of(sets: list[ActuatorParameters], scene: Scenario, steps: int) -> Work:
     """Arguments of the kernel for some sets, without their range."""
     rows = np.array([pack(one, scene, STEP) for one in sets])
@@ -73,9 +71,10 @@ def work_of(sets: list[ActuatorParameters], scene: Scenario, steps: int) -> Work
     reference = scene.command.reference.values(middle)[None]
     rate = scene.command.reference.rates(middle)[None]
     none = np.zeros((1, 1))
-    traces = np.zeros((len(sets), len(TRACES), steps // 50))
-    ledgers = np.zeros((len(sets), len(LEDGER)))
-    return rows, tables, reference, rate, none, none, none, STEP, steps, 50, traces, ledgers
+    signals = Signals(reference, rate, none, none, none)
+    traces = Traces(*np.zeros((len(TRACES), len(sets), steps // 50)))
+    ledger = Ledger(*np.zeros((len(LEDGER), len(sets))))
+    return rows, tables, signals, Steps(STEP, steps, 50), traces, ledger
 
 
 def seconds_of(call: Callable[[], None]) -> float:
@@ -150,7 +149,7 @@ def scipy_times(one: ActuatorParameters, seconds: float) -> dict[str, float]:
             (torque - held) / gear.output_inertia,
         )
 
-    first = pack(one, SCENES["locked"], STEP)[PARAMETERS.index("motor_angle")]
+    first = pack(one, SCENES["locked"], STEP).motor_angle
     found = {}
     for method in ("RK45", "LSODA", "Radau"):
         began = time.perf_counter()
@@ -166,8 +165,9 @@ def mujoco_rate(one: ActuatorParameters, step: float | None = None, runs: int = 
     import mujoco
 
     from cqdd_design.exporting.simulators.mjcf import model_text
+    from cqdd_design.exporting.simulators.mjcf_classes import MjcfActuator
 
-    model = mujoco.MjModel.from_xml_string(model_text(one, "actuator"))
+    model = mujoco.MjModel.from_xml_string(model_text(MjcfActuator(one, "actuator")))
     if step is not None:
         model.opt.timestep = step
     data = mujoco.MjData(model)
@@ -267,7 +267,7 @@ def over_sets(one: ActuatorParameters) -> list[tuple[str, str, str]]:
 
 def measure() -> list[tuple[str, str, str]]:
     """Rows of (what, measured, goal)."""
-    one = actuator_parameters(load_design(DESIGN), seed=1)
+    one = actuator_parameters(resolve(load_design(DESIGN)), Specimen(seed=1))
     rows = []
     for name, scene in SCENES.items():
         kernel_rate(one, scene, 1000, 1)

@@ -31,14 +31,9 @@ from processes import machine, write_section
 from cqdd_design.exporting.estimators.c_header import header_text
 from cqdd_design.exporting.estimators.newton import newton_model
 from cqdd_design.exporting.estimators.onnx import streaming_model, window_model
+from cqdd_design.torque.features.acceleration import Differentiator
 from cqdd_design.torque.networks import gru_kernel
-from cqdd_design.torque.networks.artefact import (
-    Artefact,
-    Differentiator,
-    Validity,
-    expected_shapes,
-    read_artefact,
-)
+from cqdd_design.torque.networks.artefact import Artefact, Validity, expected_shapes, read_artefact
 from cqdd_design.torque.networks.folded import folded_gru
 from cqdd_design.torque.networks.predict import Streaming
 

@@ -8,10 +8,11 @@ import shutil
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Literal
 
-from cqdd_design.errors import DependencyError
+from cqdd_design.errors import DependencyError, UsageError, shown
 
 DISTRIBUTION = "cqdd-design"
 
@@ -19,6 +20,8 @@ DISTRIBUTION = "cqdd-design"
 SYSTEM_LIBRARIES = {"libGL.so.1": "libgl1", "libX11.so.6": "libx11-6"}
 #: One line for a bare server; libgl1 depends on libx11-6.
 APT_LINE = "apt-get install -y libgl1"
+#: The end of the year 9999, past which dates have no usual form.
+_LAST_SECOND = 253402300799
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 
@@ -68,6 +71,28 @@ def examine(folder: Path) -> list[Finding]:
         _browser(),
         *(_writable(folder / name) for name in ("designs", "exports", "reports")),
     ]
+
+
+def source_date() -> datetime | None:
+    """The moment of the environment variable ``SOURCE_DATE_EPOCH``, or None where it is not set.
+
+    Files that hold a date take it from here, so that the same input gives the same bytes
+    (https://reproducible-builds.org/docs/source-date-epoch/).
+
+    Raises
+    ------
+    UsageError
+        When it is no whole number of seconds from 1970 to 9999.
+    """
+    told = os.environ.get("SOURCE_DATE_EPOCH", "")
+    if not told:
+        return None
+    if re.fullmatch(r"[0-9]{1,12}", told) is None or int(told) > _LAST_SECOND:
+        raise UsageError(
+            f"the environment variable SOURCE_DATE_EPOCH is {shown(told)}; it must be a whole "
+            f"number of seconds since 1970, from 0 to {_LAST_SECOND}, or not be set."
+        )
+    return datetime.fromtimestamp(int(told), UTC)
 
 
 def missing_dependency(error: ImportError) -> DependencyError | None:

@@ -8,7 +8,12 @@ The exit codes are part of the public interface (docs/cli.md):
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+import math
+import unicodedata
+from collections.abc import Iterable, Mapping
+
+#: Nothing has a longer name, and comparing long texts takes long.
+_LONGEST_NAME = 100
 
 
 class CqddError(Exception):
@@ -88,6 +93,8 @@ def nearest_names(name: str, known: Iterable[str], count: int = 3) -> list[str]:
     >>> nearest_names("eccentricty", ["eccentricity", "ratio"])
     ['eccentricity']
     """
+    if len(name) > _LONGEST_NAME:
+        return []
     by_lower = {candidate.lower(): candidate for candidate in known}
     wanted = name.lower()
     containing = [key for key in by_lower if len(wanted) > 2 and wanted in key]
@@ -102,3 +109,42 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     if not names:
         return ""
     return "; did you mean " + " or ".join(f"'{n}'" for n in names) + "?"
+
+
+def shown(value: object, longest: int = 60) -> str:
+    """A value from a file as it may stand in a sentence: short, and without control characters.
+
+    Examples
+    --------
+    >>> shown("7 mm"), shown(1.5), shown(10**400)
+    ("'7 mm'", '1.5', 'a whole number of 401 digits')
+    """
+    if isinstance(value, int) and value.bit_length() > 200:
+        return f"a whole number of {math.floor(value.bit_length() * math.log10(2.0)) + 1} digits"
+    if isinstance(value, (Mapping, list, tuple)):
+        return f"a {'table' if isinstance(value, Mapping) else 'list'} of {len(value)}"
+    text = repr(value) if isinstance(value, str) else printable(str(value))
+    return text if len(text) <= longest else text[: longest - 3] + "..."
+
+
+def printable(text: str) -> str:
+    r"""Text for a terminal: line breaks stay, other control and direction characters are named.
+
+    Examples
+    --------
+    >>> print(printable("a\x1b[2Jb"))
+    a\x1b[2Jb
+    """
+    return "".join(
+        c if c in "\n\t" or not is_unprintable(c) else c.encode("unicode_escape").decode()
+        for c in text
+    )
+
+
+def is_unprintable(character: str) -> bool:
+    """Whether a character shows nothing of itself, or turns what is beside it about.
+
+    These are controls (C0, C1), marks of direction and of joining, surrogates, and the
+    separators of lines and paragraphs.
+    """
+    return unicodedata.category(character) in {"Cc", "Cf", "Cs", "Zl", "Zp"}

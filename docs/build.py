@@ -63,6 +63,17 @@ def _help_texts() -> Iterator[str]:
             app([*words, "--help"], prog_name="cqdd-design", standalone_mode=False)
         text = "\n".join(line.rstrip() for line in caught.getvalue().strip().splitlines())
         yield f"### {name}\n\n```text\n{text}\n```\n\n"
+        yield _kinds(name)
+
+
+def _kinds(command: str) -> str:
+    """The kinds of files of an export command, as a table."""
+    from cqdd_design.exporting import KINDS
+    from cqdd_design.exporting.estimators.kinds import KINDS as ESTIMATORS
+
+    table = {"export": KINDS, "torque export": ESTIMATORS}.get(command, {})
+    rows = [f"| `{kind.name}` | {kind.title} |\n" for kind in table.values()]
+    return "".join(["| kind | what is written |\n|---|---|\n", *rows, "\n"]) if rows else ""
 
 
 class _Comparisons:
@@ -164,8 +175,8 @@ def _actuator_validated() -> str:
 
 def _calibrated() -> str:
     """Every row of the bench before and after calibration, beside the paper's."""
-    from cqdd_design.actuator_pipeline import calibrate
     from cqdd_design.design import load_design
+    from cqdd_design.roads.calibrate import calibrate
 
     found = calibrate(load_design(DOCS.parent / "designs" / "cqdd-10.toml"))
     head = [

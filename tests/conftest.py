@@ -17,10 +17,16 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import settings
 
 import cqdd_design
 
 REPOSITORY = Path(__file__).resolve().parents[1]
+
+# The same examples every time; `python -m tools.fuzz --properties` draws others.
+settings.register_profile("steady", derandomize=True)
+settings.register_profile("random", print_blob=True)
+settings.load_profile("steady")
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -27,7 +27,7 @@ PRELOADED = (
     *("numpy", "scipy.optimize", "scipy.special", "numba", "pint", "tomlkit", "pydantic"),
     *("jinja2", "ezdxf", "trimesh", "cadquery"),
     *("cqdd_design.cli.main", "cqdd_design.design", "cqdd_design.sizing", "cqdd_design.exporting"),
-    *("cqdd_design.gearbox.contact_analysis", "cqdd_design.actuator.simulate"),
+    *("cqdd_design.machine.contact_analysis", "cqdd_design.actuator.simulate"),
 )
 
 

@@ -5,11 +5,10 @@ What the design and the catalogue do not say is assumed by a stated rule and mar
 
 from __future__ import annotations
 
-import functools
 import math
 from dataclasses import dataclass
 
-from cqdd_design.actuator.motor_file import MotorFile
+from cqdd_design.actuator.bench.unknowns import apply_factors
 from cqdd_design.actuator.parameters import (
     ActuatorParameters,
     DriveParameters,
@@ -18,16 +17,14 @@ from cqdd_design.actuator.parameters import (
     MotorParameters,
     ThermalParameters,
 )
+from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.actuator.transmission import Transmission, transmission
-from cqdd_design.catalog.bearings import find_bearing
-from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
-from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
-from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.losses import LossModel, loss_model
-from cqdd_design.solids.inertia import ROTOR, GearboxInertia, closed_form, gearbox_inertia
-from cqdd_design.solids.parts import build_parts
+from cqdd_design.gearbox.losses import LossModel
+from cqdd_design.machine import Machine
+from cqdd_design.solids.inertia import ROTOR, GearboxInertia
 
 ELECTRICAL_TIME = 1e-3
 """L/R where the catalogue has no inductance, s: common for large flat motors."""
@@ -55,23 +52,18 @@ class _Split:
 
 
 def actuator_parameters(
-    design: Design,
-    *,
-    seed: int | None = None,
-    supply_voltage: float | None = None,
-    own_motor: MotorFile | None = None,
+    machine: Machine, specimen: Specimen = AS_DRAWN, *, supply_voltage: float | None = None
 ) -> ActuatorParameters:
-    """Parameters of the actuator that a design describes.
+    """Parameters of the actuator that a machine makes.
 
     Parameters
     ----------
-    design : Design
-    seed : int, optional
-        Draw one gearbox from the design's tolerances; default perfect parts.
+    machine : Machine
+        Of the specimen's motor.
+    specimen : Specimen
+        Its gearbox is drawn from the design's tolerances, its unknowns multiplied.
     supply_voltage : float, optional
         V; default that of the design.
-    own_motor : MotorFile, optional
-        What a file says of the motor instead of the catalogue.
 
     Returns
     -------
@@ -84,23 +76,18 @@ def actuator_parameters(
         When the motor's data do not make a machine, a limit can never bind, or the gearbox has no
         equilibrium or no solids.
     """
-    design = with_chosen_bearing(design)
+    design, motor_row, inertia = machine.design, machine.motor, machine.inertia
     origins: dict[str, str] = {}
-    motor_row = find_motor(design.motor.name)
-    if own_motor is not None:
-        motor_row = own_motor.row(motor_row)
-    inertia = _inertia(design)
     motor = _motor(motor_row, inertia, origins)
-    if own_motor is not None:
-        motor = own_motor.parameters(motor)
-        origins |= own_motor.origins()
+    if specimen.motor is not None:
+        motor = specimen.motor.parameters(motor)
+        origins |= specimen.motor.origins()
     drive = _drive(design, motor, supply_voltage, origins)
     torque = design.requirements.continuous_torque
-    model = _contact_model(design)
-    found = transmission(model, design, torque, seed=seed)
+    found = transmission(machine.contact, design, torque, seed=specimen.seed)
     split = _split(inertia)
-    gear = _gear(design, found, split, motor.rotor_inertia, seed, origins)
-    friction = friction_parameters(_losses(design), torque, design.requirements.input_speed)
+    gear = _gear(design, found, split, motor.rotor_inertia, specimen.seed, origins)
+    friction = friction_parameters(machine.losses, torque, design.requirements.input_speed)
     for name in ("motor_coulomb", "output_coulomb", "load_forward", "load_backward"):
         origins[f"friction.{name}"] = (
             f"computed: losses of the gearbox at {torque:g} N m, and its backdrive torque"
@@ -120,7 +107,7 @@ def actuator_parameters(
     if not drawn and motor_row.mass is not None:
         split = _Split(split.input, split.output, split.mass + motor_row.mass)
         origins["mass"] = "computed: solids in closed form, and the motor by its catalogue"
-    return ActuatorParameters(
+    computed = ActuatorParameters(
         name=design.name,
         motor=motor,
         drive=drive,
@@ -130,22 +117,7 @@ def actuator_parameters(
         mass=split.mass,
         origins=origins,
     )
-
-
-@functools.lru_cache(maxsize=4)
-def _contact_model(design: Design) -> ContactModel:
-    return ContactModel.from_design(design)
-
-
-@functools.lru_cache(maxsize=4)
-def _losses(design: Design) -> LossModel:
-    return loss_model(_contact_model(design), design)
-
-
-@functools.lru_cache(maxsize=4)
-def _inertia(design: Design) -> GearboxInertia:
-    parts = build_parts(design, find_bearing(design.reducer.cam_bearing.designation))
-    return gearbox_inertia(design, parts, closed_form)
+    return apply_factors(computed, specimen.factors)
 
 
 def _split(inertia: GearboxInertia) -> _Split:

@@ -1,78 +1,118 @@
-"""Order of the numbers that the compiled kernel and its plain twin take and give, one row a set."""
+"""Values that the compiled kernel and its plain twin take and give, by name."""
 
 from __future__ import annotations
 
-PARAMETERS: tuple[str, ...] = (
-    "ratio",
-    "torque_constant",
-    "resistance",
-    "inductance",
-    "motor_inertia",
-    "cogging_amplitude",
-    "cogging_order",
-    "iron_viscous",
-    "hysteresis",
-    "reference_temperature",
-    "supply_voltage",
-    "current_limit",
-    "current_decay",
-    "control_step",
-    "encoder_count",
-    "position_gain",
-    "velocity_gain",
-    "integral_gain",
-    "held_current",
-    "derating_begins",
-    "derating_span",
-    "motor_coulomb",
-    "output_coulomb",
-    "motor_viscous",
-    "output_viscous",
-    "stribeck_extra",
-    "stribeck_speed",
-    "load_forward",
-    "load_backward",
-    "motor_bristle",
-    "motor_bristle_damping",
-    "output_bristle",
-    "output_inertia",
-    "load_inertia",
-    "load_viscous",
-    "sensor_stiffness",
-    "sensor_damping",
-    "gravity_moment",
-    "wall_angle",
-    "wall_stiffness",
-    "wall_exponent",
-    "wall_damping",
-    "wall_side",
-    "error_torque",
-    "stiffness",
-    "stiffening",
-    "gear_damping",
-    "half_backlash",
-    "winding_kept",
-    "winding_from_housing",
-    "housing_from_winding",
-    "housing_kept",
-    "winding_heated",
-    "winding_by_housing_heat",
-    "housing_by_winding_heat",
-    "housing_heated",
-    "cooling",
-    "delay_steps",
-    "mode",
-    "lugre",
-    "driven",
-    "motor_angle",
-    "motor_speed",
-    "output_angle",
-    "output_speed",
-    "current",
-    "winding_temperature",
-    "housing_temperature",
-)
-"""One number each in a row of parameters; angles rad, temperatures deg C, all else SI."""
+from collections import namedtuple
+from typing import Any, NamedTuple
+
+_values: Any = namedtuple
+
+
+class Constants(NamedTuple):
+    """What stays the same over a run of one actuator; angles rad, temperatures deg C, else SI.
+
+    What is computed for the step stands here too: how much of the current's miss is left after a
+    step, and the matrices of the thermal network over it.
+    """
+
+    ratio: float
+    torque_constant: float
+    resistance: float
+    inductance: float
+    motor_inertia: float
+    cogging_amplitude: float
+    cogging_order: float
+    iron_viscous: float
+    hysteresis: float
+    reference_temperature: float
+    # Drive and control.
+    supply_voltage: float
+    current_limit: float
+    current_decay: float
+    control_step: float
+    encoder_count: float
+    position_gain: float
+    velocity_gain: float
+    integral_gain: float
+    held_current: float
+    derating_begins: float
+    derating_span: float
+    # Friction.
+    motor_coulomb: float
+    output_coulomb: float
+    motor_viscous: float
+    output_viscous: float
+    stribeck_extra: float
+    stribeck_speed: float
+    load_forward: float
+    load_backward: float
+    motor_bristle: float
+    motor_bristle_damping: float
+    output_bristle: float
+    # Load; the carried inertia is that of the output and of the load together.
+    output_inertia: float
+    carried_inertia: float
+    load_viscous: float
+    sensor_stiffness: float
+    sensor_damping: float
+    gravity_moment: float
+    wall_angle: float
+    wall_stiffness: float
+    wall_exponent: float
+    wall_damping: float
+    wall_side: float
+    # Gearbox; from a motor angle to output turns.
+    error_torque: float
+    stiffness: float
+    stiffening: float
+    gear_damping: float
+    half_backlash: float
+    per_turn: float
+    # Heat: what is kept of both temperatures, and what a watt adds.
+    winding_kept: float
+    winding_from_housing: float
+    housing_from_winding: float
+    housing_kept: float
+    winding_heated: float
+    winding_by_housing_heat: float
+    housing_by_winding_heat: float
+    housing_heated: float
+    cooling: float
+    # What is done: places in `MODES` and `FRICTIONS`, whether the output is driven.
+    delay_steps: float
+    mode: float
+    lugre: float
+    driven: float
+    # The state at the beginning.
+    motor_angle: float
+    motor_speed: float
+    output_angle: float
+    output_speed: float
+    current: float
+    winding_temperature: float
+    housing_temperature: float
+
+
+class Signals(NamedTuple):
+    """What changes over a run: arrays (S, N) with one row and one column where all are the same.
+
+    All but the driven speed count at the middle of each step, that at the ends (N + 1).
+    """
+
+    reference: Any
+    reference_rate: Any
+    feedforward: Any
+    external: Any
+    driven_speed: Any
+
+
+class Steps(NamedTuple):
+    """Length of a step, s; number of steps; steps a record."""
+
+    length: float
+    number: int
+    every: int
+
 
 TRACES: dict[str, str] = {
     "motor_angle": "rad",
@@ -93,6 +133,9 @@ TRACES: dict[str, str] = {
 """What is recorded, with its unit. States are those at the end of a step, torques and voltage its
 means. `output_torque` is what the flange gives the load."""
 
+Traces: Any = _values("Traces", list(TRACES))
+"""An array (S, N) of each."""
+
 LEDGER: tuple[str, ...] = (
     "electrical",
     "copper",
@@ -108,6 +151,9 @@ LEDGER: tuple[str, ...] = (
     "unsettled",
 )
 """Energies in J of one run, and last the number of steps whose equations did not settle."""
+
+Ledger: Any = _values("Ledger", LEDGER)
+"""An array (S,) of each, or the sums of one run."""
 
 MODES: tuple[str, ...] = ("open", "voltage", "current", "torque", "impedance", "position")
 """Kinds of command."""

@@ -1,18 +1,15 @@
 """The paper's table of actuators, recomputed, with further actuators and the present design beside.
 
-The numbers stand in ``data/comparison.csv`` with their source; torque density is computed from peak
-torque and mass and kept beside the printed one. Geared actuators of the motor catalogue that have
-both join by name.
+Torque density is computed from peak torque and mass and kept beside the printed one. Geared
+actuators of the motor catalogue that have both join by name.
 """
 
 from __future__ import annotations
 
-import csv
-import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib import resources
 
+from cqdd_design.catalog import paper
 from cqdd_design.catalog.motors import find_motor
 from cqdd_design.errors import CatalogError
 
@@ -80,28 +77,22 @@ class ComparedActuator:
         }
 
 
-@functools.lru_cache(maxsize=1)
 def published_actuators() -> tuple[ComparedActuator, ...]:
     """The columns of the paper's table, in its order."""
-    text = (resources.files("cqdd_design.actuator") / "data" / "comparison.csv").read_text("utf-8")
-    found = []
-    for row in csv.DictReader(text.splitlines()):
-        printed = row["torque_density_printed_Nm_per_kg"]
-        efficiency = row["efficiency_percent"]
-        found.append(
-            ComparedActuator(
-                name=row["name"],
-                gearing=row["gearing"],
-                source=row["source"],
-                ratio=float(row["ratio"]),
-                peak_torque=float(row["peak_torque_Nm"]),
-                mass=float(row["mass_kg"]),
-                torque_density_printed=float(printed),
-                printed_digits=len(printed.partition(".")[2]),
-                efficiency=float(efficiency) / 100.0 if efficiency else None,
-            )
+    return tuple(
+        ComparedActuator(
+            name=row.name,
+            gearing=row.gearing,
+            source="Zhu et al., arXiv:2410.16591, comparison table",
+            ratio=row.ratio,
+            peak_torque=row.peak_torque,
+            mass=row.mass,
+            torque_density_printed=float(row.torque_density),
+            printed_digits=len(row.torque_density.partition(".")[2]),
+            efficiency=row.efficiency,
         )
-    return tuple(found)
+        for row in paper.COMPARISON
+    )
 
 
 def catalogue_actuator(name: str) -> ComparedActuator:

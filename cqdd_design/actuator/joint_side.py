@@ -24,11 +24,8 @@ from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.errors import DesignError
 
 if TYPE_CHECKING:
-    from cqdd_design.actuator.parameters import ActuatorParameters, ThermalParameters
+    from cqdd_design.actuator.parameters import ActuatorParameters
 
-DEAD_MASS = 1e-3
-"""kg for the output body of a model, as clients refuse zero; its mass is in the housing's. Without
-effect, since its centre lies on the axis."""
 _NEGLIGIBLE = 1e-4
 """Harmonics of ripple below this share of the largest are not told."""
 _POINTS_PER_PERIOD, _NEWTON_STEPS = 16, 30
@@ -143,25 +140,6 @@ def motor_viscous(parameters: ActuatorParameters) -> float:
     return parameters.friction.motor_viscous + parameters.motor.iron_loss
 
 
-def single_node(thermal: ThermalParameters) -> tuple[float, float]:
-    """Resistance, K/W, and time constant, s, of one node for the two.
-
-    It has the same steady temperature of the winding and the slower of the two time constants;
-    what it lacks is the quick first rise of the winding over the housing.
-    """
-    within, outward = thermal.winding_to_housing, thermal.housing_to_ambient
-    winding, housing = thermal.winding_capacity, thermal.housing_capacity
-    rates = -np.linalg.eigvals(
-        np.array(
-            [
-                [-1.0 / (within * winding), 1.0 / (within * winding)],
-                [1.0 / (within * housing), -(1.0 / within + 1.0 / outward) / housing],
-            ]
-        )
-    ).real
-    return within + outward, float(1.0 / rates.min())
-
-
 @dataclass(frozen=True, eq=False)
 class RippleHarmonic:
     """One harmonic of the torque ripple at the joint: amplitude sin(order q + phase).
@@ -268,26 +246,3 @@ def _series(
     np.add.at(spectrum, orders, 0.5 * (cosine - 1j * math.copysign(1.0, gear.ratio) * sine))
     slope = 1j * np.arange(len(spectrum)) * spectrum
     return np.fft.irfft(spectrum, count) * count, np.fft.irfft(slope, count) * count
-
-
-def value_of(parameters: ActuatorParameters, name: str) -> float:
-    """Value of a dotted name such as ``motor.resistance``."""
-    found: object = parameters
-    for part in name.split("."):
-        found = getattr(found, part)
-    return float(found)  # type: ignore[arg-type]
-
-
-def origin_of(parameters: ActuatorParameters, *names: str) -> str:
-    """Where the named values come from, each with its name when there are several."""
-    told = [(name, parameters.origins.get(name, "not stated")) for name in names]
-    if len({origin for _, origin in told}) == 1:
-        return told[0][1]
-    return "; ".join(f"{name}: {origin}" for name, origin in told)
-
-
-def provenance(design_sha256: str) -> str:
-    """Which version of this package wrote a file, and for which design."""
-    from cqdd_design import __version__
-
-    return f"cqdd-design {__version__}, design sha256 {design_sha256}"

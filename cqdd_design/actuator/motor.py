@@ -149,6 +149,12 @@ def torque_constant_at(motor: MotorParameters, temperature: ArrayLike) -> FloatA
     return np.asarray(motor.torque_constant * (1.0 - MAGNET_COEFFICIENT * rise))
 
 
+def iron_drag(motor: MotorParameters, speed: ArrayLike) -> FloatArray:
+    """Drag torque of eddy currents and hysteresis at motor speeds (rad/s), with their sign, N m."""
+    w = np.asarray(speed, dtype=float)
+    return np.asarray(motor.iron_loss * w + motor.hysteresis * np.sign(w))
+
+
 def stall_torque(motor: MotorParameters, drive: DriveParameters, temperature: float) -> float:
     """Greatest torque at rest by the supply and by the driver, N m at the motor."""
     most = drive.supply_voltage / float(resistance_at(motor, temperature))
@@ -242,5 +248,5 @@ def envelope(
     lower = (-drive.supply_voltage - constant * w) / resistance
     high = np.where(lower > limit, lower, np.minimum(upper, limit))
     low = np.where(upper < -limit, upper, np.maximum(lower, -limit))
-    drag = motor.iron_loss * w + motor.hysteresis * np.sign(w)
+    drag = iron_drag(motor, w)
     return Envelope(w, constant * low - drag, constant * high - drag, low, high)

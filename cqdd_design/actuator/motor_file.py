@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -25,7 +24,8 @@ from typing import Any
 from cqdd_design.actuator.motor import CONVENTIONS, torque_constant_from
 from cqdd_design.actuator.parameters import MotorParameters
 from cqdd_design.catalog.motors import Motor
-from cqdd_design.errors import DesignError, UsageError, did_you_mean
+from cqdd_design.errors import DesignError, did_you_mean, is_unprintable, shown
+from cqdd_design.files import parse_toml, read_text_file
 from cqdd_design.units import (
     CURRENT,
     DAMPING_GAIN,
@@ -39,6 +39,9 @@ from cqdd_design.units import (
     Dimension,
     parse_quantity,
 )
+
+_MOST_BYTES = 1_000_000
+_MOST_WHOLE = 100_000
 
 #: Key to its dimension, and whether it may be 0.
 QUANTITIES: Mapping[str, tuple[Dimension, bool]] = MappingProxyType(
@@ -98,7 +101,11 @@ class MotorFile:
         told = {_OF_ROW[key]: value for key, value in self.values.items() if key in _OF_ROW}
         if "pole_pairs" in told:
             told["pole_pairs"] = int(told["pole_pairs"])
-        given: dict[str, Any] = {**told, "name": self.name}
+        source = f"motor file {self.place}, over the catalogue's {catalogue.name}"
+        given: dict[str, Any] = {**told, "name": self.name, "source": source}
+        if "rotor_inertia" in told:
+            # The catalogue's remarks are on an estimate of it.
+            given["note"] = ""
         # A file with the electrical data is that of a bare motor.
         if {"speed_constant", "line_resistance"} <= set(told):
             given["torque_at"] = "motor"
@@ -134,13 +141,7 @@ def read_motor(path: Path) -> MotorFile:
         When it is not TOML, has an unknown key, a value without or with another unit, one that no
         motor has, or a torque constant and a speed constant.
     """
-    try:
-        content = tomllib.loads(path.read_text("utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is not text in UTF-8"
-        raise UsageError(f"cannot read {path}: {reason}.") from error
-    except tomllib.TOMLDecodeError as error:
-        raise DesignError(f"{path} is not TOML: {error}.") from error
+    content = parse_toml(read_text_file(path, _MOST_BYTES), path, wrong=DesignError)
     known = ("name", *QUANTITIES, *WHOLE, *WORDS)
     for key in content:
         if key not in known:
@@ -164,18 +165,29 @@ def read_motor(path: Path) -> MotorFile:
         for key in ("resistance", "inductance"):
             if key in values:
                 values[key] *= 2.0
-    return MotorFile(str(content.get("name", path.stem)), values, path.name)
+    return MotorFile(_name(path, content.get("name", path.stem)), values, path.name)
+
+
+def _name(path: Path, value: object) -> str:
+    if not isinstance(value, str) or not 0 < len(value) <= 100 or any(map(is_unprintable, value)):
+        raise DesignError(
+            f"{path}: name {shown(value)} must be text of at most 100 characters, none of them a "
+            "control or direction character."
+        )
+    return value
 
 
 def _word(path: Path, key: str, value: object) -> str:
     if value not in WORDS[key]:
-        raise DesignError(f"{path}: {key} {value!r} is none of {', '.join(WORDS[key])}.")
+        raise DesignError(f"{path}: {key} {shown(value)} is none of {', '.join(WORDS[key])}.")
     return str(value)
 
 
 def _whole(path: Path, key: str, value: object) -> int:
-    if not isinstance(value, int) or isinstance(value, bool) or value < 1:
-        raise DesignError(f"{path}: {key} {value!r} must be a whole number from 1.")
+    if not isinstance(value, int) or isinstance(value, bool) or not 1 <= value <= _MOST_WHOLE:
+        raise DesignError(
+            f"{path}: {key} {shown(value)} must be a whole number from 1 to {_MOST_WHOLE}."
+        )
     return value
 
 
@@ -183,7 +195,7 @@ def _number(path: Path, key: str, value: object) -> float:
     dimension, zero = QUANTITIES[key]
     if not isinstance(value, str):
         raise DesignError(
-            f"{path}: {key} = {value!r} has no unit; write it like "
+            f"{path}: {key} = {shown(value)} has no unit; write it like "
             f"{key} = {dimension.example(0.1)}."
         )
     try:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cqdd_design.actuator.motor import envelope, resistance_at, torque_constant_at
+from cqdd_design.actuator.motor import envelope, iron_drag, resistance_at, torque_constant_at
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.thermal import response
 
@@ -141,7 +141,7 @@ def needed(parameters: ActuatorParameters, torque: float, speed: float, temperat
     motor, n = parameters.motor, abs(parameters.gear.ratio)
     constant = float(torque_constant_at(motor, temperature))
     turning = n * speed
-    iron = motor.iron_loss * turning + motor.hysteresis * float(np.sign(turning))
+    iron = float(iron_drag(motor, turning))
     shaft = float(motor_torque(parameters, torque, speed))
     current = (shaft + iron) / constant
     voltage = float(resistance_at(motor, temperature)) * current + constant * turning
@@ -155,8 +155,7 @@ def torque_from_current(
     motor, n = parameters.motor, abs(parameters.gear.ratio)
     turning = n * np.asarray(speed, dtype=float)
     air_gap = float(torque_constant_at(motor, temperature)) * np.asarray(current, dtype=float)
-    iron = motor.iron_loss * turning + motor.hysteresis * np.sign(turning)
-    torque = output_torque(parameters, air_gap - iron, speed)
+    torque = output_torque(parameters, air_gap - iron_drag(motor, turning), speed)
     return torque, np.asarray(air_gap * turning - torque * np.asarray(speed))
 
 

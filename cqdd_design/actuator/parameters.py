@@ -320,6 +320,8 @@ class ActuatorParameters:
     origins : mapping of str to str
         Dotted name of a value to where it comes from: "catalogue", "computed", "assumed",
         "calibrated", with a remark.
+    fitted : tuple of str
+        Measurements of the bench that values were fitted to, so that they predict nothing.
     """
 
     name: str
@@ -330,6 +332,7 @@ class ActuatorParameters:
     gear: GearParameters
     mass: float
     origins: dict[str, str] = field(default_factory=dict)
+    fitted: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse a motor side without inertia, or without mass."""

@@ -13,6 +13,7 @@ from cqdd_design.actuator.parameters import FloatArray
 from cqdd_design.actuator.recording import STEPS_PER_PERIOD, unit_of
 from cqdd_design.actuator.scenario import Sampled
 from cqdd_design.errors import DesignError, UsageError
+from cqdd_design.files import read_text_file
 from cqdd_design.units import TIME, Dimension, parse_quantity
 
 _MOST_BYTES = 64_000_000
@@ -65,14 +66,7 @@ def read_reference(path: Path, dimension: Dimension) -> Sampled:
 
 def _reference_lines(path: Path) -> list[tuple[int, list[str]]]:
     """Numbered lines that say something, as cells."""
-    try:
-        if path.stat().st_size > _MOST_BYTES:
-            raise UsageError(f"{path} is larger than {_MOST_BYTES // 1_000_000} MB; thin it out.")
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise UsageError(f"{path} cannot be read: {error.strerror}.") from error
-    except UnicodeDecodeError as error:
-        raise UsageError(f"{path} is not a text file in UTF-8; save it as CSV.") from error
+    text = read_text_file(path, _MOST_BYTES)
     try:
         table = list(csv.reader(text.splitlines()))
     except csv.Error as error:

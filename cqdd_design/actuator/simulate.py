@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from cqdd_design.actuator.columns import LEDGER, TRACES
+from cqdd_design.actuator.columns import LEDGER, TRACES, Ledger, Signals, Steps, Traces
 from cqdd_design.actuator.packing import (
     gear_table,
     largest_step,
@@ -22,6 +22,8 @@ from cqdd_design.actuator.scenario import Constant, Scenario, Signal
 from cqdd_design.errors import UsageError
 
 Engine = Literal["compiled", "plain"]
+Work = tuple[Any, ...]
+"""Arguments of the kernel but for the range of sets."""
 
 _SHARES = 16
 """Ranges of sets that each thread fetches one after the other."""
@@ -195,33 +197,33 @@ def simulate(
     ends: FloatArray = step * np.arange(steps + 1, dtype=np.float64)
     reference = [scene.command.reference for scene in scenes]
     rates = [s.command.reference if s.command.mode == "impedance" else Constant() for s in scenes]
-    signals = (
+    signals = Signals(
         _sampled(reference, middle),
         _sampled(rates, middle, rate=True),
         _sampled([scene.command.feedforward for scene in scenes], middle),
         _sampled([scene.load.torque for scene in scenes], middle),
         _sampled([scene.load.speed or Constant() for scene in scenes], ends),
     )
-    traces = np.zeros((len(sets), len(TRACES), steps // every))
-    ledgers = np.zeros((len(sets), len(LEDGER)))
-    work: tuple[Any, ...] = (rows, tables, *signals, step, steps, every, traces, ledgers)
+    traces = Traces(*np.zeros((len(TRACES), len(sets), steps // every)))
+    ledger = Ledger(*np.zeros((len(LEDGER), len(sets))))
+    work: Work = (rows, tables, signals, Steps(step, steps, every), traces, ledger)
     if engine == "plain":
         from cqdd_design.actuator.twin.stepping import run_sets
 
         run_sets(*work)
     else:
         run_compiled(work, threads)
-    if not np.all(np.isfinite(ledgers)):
+    if not np.all(np.isfinite(ledger)):
         raise UsageError(
             f"the simulation left the finite numbers at a step of {step:g} s; look for forces far "
             "beyond what the gearbox stands, or shorten the step."
         )
-    entries = {name: ledgers[:, i] for i, name in enumerate(LEDGER) if name != "unsettled"}
-    unsettled = int(ledgers[:, LEDGER.index("unsettled")].sum())
+    entries = ledger._asdict()
+    unsettled = int(entries.pop("unsettled").sum())
     return Simulation(
         names=tuple(one.name for one in sets),
         time=ends[every::every],
-        **{name: traces[:, i] for i, name in enumerate(TRACES)},
+        **traces._asdict(),
         step=step,
         ledger=EnergyLedger(**entries),
         warnings=()
@@ -230,11 +232,10 @@ def simulate(
     )
 
 
-def run_compiled(work: tuple[Any, ...], threads: int | None = None) -> None:
+def run_compiled(work: Work, threads: int | None = None) -> None:
     """Call the kernel for all sets, on threads that fetch a few sets whenever they are free.
 
-    A core that is busy elsewhere, or has got the slow sets, so takes fewer. `work` holds the
-    kernel's arguments but for the range of sets.
+    A core that is busy elsewhere, or has got the slow sets, so takes fewer.
     """
     from concurrent.futures import ThreadPoolExecutor
 

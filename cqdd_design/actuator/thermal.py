@@ -91,18 +91,34 @@ def system(
     motor: MotorParameters, thermal: ThermalParameters, current: float, housing_heat: float = 0.0
 ) -> tuple[FloatArray, FloatArray]:
     """Matrix (2, 2) and forcing (2,) of dT/dt = A T + b for winding and housing, K/s."""
-    to_housing, to_ambient = 1.0 / thermal.winding_to_housing, 1.0 / thermal.housing_to_ambient
+    to_ambient = 1.0 / thermal.housing_to_ambient
     slope = current**2 * motor.resistance * COPPER_COEFFICIENT
     base = current**2 * motor.resistance * (1.0 - COPPER_COEFFICIENT * motor.reference_temperature)
     winding, housing = thermal.winding_capacity, thermal.housing_capacity
-    matrix = np.array(
+    forcing = np.array([base / winding, (housing_heat + to_ambient * thermal.ambient) / housing])
+    return network(thermal, slope), forcing
+
+
+def network(thermal: ThermalParameters, slope: float = 0.0) -> FloatArray:
+    """Matrix (2, 2) of the nodes, 1/s; `slope` is the winding's heat over its temperature, W/K."""
+    to_housing, to_ambient = 1.0 / thermal.winding_to_housing, 1.0 / thermal.housing_to_ambient
+    winding, housing = thermal.winding_capacity, thermal.housing_capacity
+    return np.array(
         [
             [(slope - to_housing) / winding, to_housing / winding],
             [to_housing / housing, -(to_housing + to_ambient) / housing],
         ]
     )
-    forcing = np.array([base / winding, (housing_heat + to_ambient * thermal.ambient) / housing])
-    return matrix, forcing
+
+
+def single_node(thermal: ThermalParameters) -> tuple[float, float]:
+    """Resistance, K/W, and time constant, s, of one node for the two.
+
+    It has the same steady temperature of the winding and the slower of the two time constants;
+    what it lacks is the quick first rise of the winding over the housing.
+    """
+    rates = -np.linalg.eigvals(network(thermal)).real
+    return thermal.winding_to_housing + thermal.housing_to_ambient, float(1.0 / rates.min())
 
 
 def steady_state(

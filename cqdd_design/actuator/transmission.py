@@ -23,11 +23,12 @@ from cqdd_design.actuator.parameters import FloatArray, IntArray
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.states import nominal_states
+from cqdd_design.gearbox.contact.states import error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import (
     ContactSweep,
     contact_sweep,
     output_turn_angles,
+    output_turn_count,
     perfect_angles,
 )
 from cqdd_design.gearbox.precision.backlash import backlash
@@ -38,6 +39,10 @@ MOST_ORDERS = 64
 NOISE_FLOOR = 1e-3
 """Harmonics weaker than this share of the strongest are left out."""
 _PERFECT_ANGLES = 120
+_MOST_CONTACTS = 4_000_000
+"""Of a drawn gearbox over its output turn: what a gigabyte of memory holds."""
+_PROBES = 24
+"""Angles of that turn solved first: a gearbox that cannot carry its load is soon refused."""
 _LEAST_WINDUP = 0.25
 """Share of the mean that no spot falls below, where backlash varies much."""
 
@@ -96,7 +101,7 @@ def transmission(
     ContactError
         When the gearbox has no equilibrium at the torque.
     DesignError
-        When its springs do not wind up under load.
+        When its springs do not wind up under load, or a drawn gearbox has too many contacts.
     """
     n = model.lobe_count
     if seed is None:
@@ -106,12 +111,17 @@ def transmission(
             kinematics.imperfect_period(n) / kinematics.mesh_period(n, model.pin_count)
         )
     else:
+        _refuse_too_many(model)
         errors = draw_errors(model, design.tolerances, seed, 0, 1).one(0)
+        for load in (torque, -torque):
+            contact_sweep(model, load, output_turn_angles(model, _PROBES), errors=errors)
         angle, per_turn = output_turn_angles(model), 1
     states = nominal_states(model, angle)
 
+    changed = error_states(model, states, errors)
+
     def loaded(load: float) -> ContactSweep:
-        return contact_sweep(model, load, errors=errors, states=states)
+        return contact_sweep(model, load, errors=errors, states=states, changed=changed)
 
     free = float(backlash(model, errors=errors, states=states).free.mean())
     ahead, behind = loaded(torque), loaded(-torque)
@@ -139,6 +149,18 @@ def transmission(
         stiffening=power,
         backlash=free,
     )
+
+
+def _refuse_too_many(model: ContactModel) -> None:
+    """Raise where the states of a drawn gearbox over its output turn are beyond memory."""
+    each = model.disc_count * (model.tooth_count + model.pin_count)
+    contacts = output_turn_count(model.lobe_count) * each
+    if contacts > _MOST_CONTACTS:
+        raise DesignError(
+            f"a gearbox drawn from the tolerances has {contacts / 1e6:.3g} million contacts over "
+            f"an output turn at ratio {model.lobe_count}, more than {_MOST_CONTACTS / 1e6:g} "
+            "million; use perfect parts (without a seed or samples)."
+        )
 
 
 def _opening(ahead: ContactSweep, behind: ContactSweep) -> float:

@@ -28,6 +28,9 @@ class Material:
         Endurance limit in rotating bending, Pa.
     treatment : str
         Heat or cold treatment ("annealed", "case-hardened"); empty where there is none to speak of.
+    drawing_note : str
+        The treatment as a drawing of a part that is cut by wire says it; empty for stock as it is
+        delivered.
     form : {"stock", "fastener"}
         Whether parts are made of it, or it is bought as screws and pins.
     pulsating_strength : float or None
@@ -50,6 +53,7 @@ class Material:
     hardness: str = column("hardness")
     fatigue_strength: float | None = column("fatigue_MPa", 1e6)
     treatment: str = column("treatment")
+    drawing_note: str = column("drawing_note")
     form: Literal["stock", "fastener"] = column("form")
     pulsating_strength: float | None = column("pulsating_MPa", 1e6)
     pulsating_basis: str = column("pulsating_basis")

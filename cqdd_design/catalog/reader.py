@@ -13,9 +13,9 @@ from cqdd_design.errors import CatalogError, nearest_names
 Row = TypeVar("Row")
 
 
-def read_rows(file_name: str) -> list[dict[str, str]]:
-    """All rows of a data file as dictionaries of stripped strings."""
-    source = resources.files("cqdd_design.catalog") / "data" / file_name
+def read_rows(file_name: str, room: str = "cqdd_design.catalog") -> list[dict[str, str]]:
+    """All rows of a data file of a room as dictionaries of stripped strings."""
+    source = resources.files(room) / "data" / file_name
     lines = source.read_text(encoding="utf-8").splitlines()
     return [
         {key: (value or "").strip() for key, value in row.items() if key is not None}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, parse_positive
+from cqdd_design.cli.options import DesignFile, parse_positive, quantity_option
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 
@@ -27,14 +27,12 @@ def analyse(
     out: Output,
     design: DesignFile,
     torque: Annotated[
-        str | None, typer.Option(metavar="Q", help='Output torque of the loads, as in "40 N*m".')
+        str | None, quantity_option('Output torque of the loads, as in "40 N*m".')
     ] = None,
     angles: Annotated[
         int, typer.Option(metavar="N", min=8, max=100_000, help="Crank angles of the curves.")
     ] = 360,
-    speed: Annotated[
-        str | None, typer.Option(metavar="Q", help='Input speed, as in "1286 rpm".')
-    ] = None,
+    speed: Annotated[str | None, quantity_option('Input speed, as in "1286 rpm".')] = None,
     law: Annotated[
         ContactLaw,
         typer.Option("--contact-law", help="How line contacts yield to force."),
@@ -43,35 +41,22 @@ def analyse(
     """Loads, contact equilibrium, precision, losses and life."""
     from cqdd_design.cli.tables import verdict
     from cqdd_design.design import load_design
-    from cqdd_design.errors import ContactError
-    from cqdd_design.gearbox import analyse_gearbox
-    from cqdd_design.gearbox.contact_analysis import analyse_contact
+    from cqdd_design.roads.analyse import analyse as analysed
     from cqdd_design.units import SPEED, TORQUE
 
     asked_torque = parse_positive("--torque", torque, TORQUE)
     asked_speed = parse_positive("--speed", speed, SPEED)
     loaded = load_design(design)
-    if asked_speed is not None:
-        loaded = loaded.replacing({"requirements.input_speed": asked_speed})
-    analysis = analyse_gearbox(loaded, torque=asked_torque, angles=angles)
-    results, warnings = analysis.to_dict(), list(analysis.warnings)
     out.note_compilation()
-    try:
-        contact = analyse_contact(
-            analysis.design, torque=asked_torque, angles=angles, line_model=law.value
-        )
-    except ContactError as error:
-        # A gearbox that cannot carry the torque is described as far as closed forms go.
-        results |= dict.fromkeys(("contact", "precision", "losses", "life"))
-        warnings.append(f"no contact analysis: {error.message}")
-    else:
-        results |= contact.to_dict()
-        warnings += contact.warnings
-    lines = _lines(analysis, results)
-    out.say(*lines, "", f"checks: {verdict(analysis.checks)} (see `check`)")
-    for sentence in warnings:
+    found = analysed(
+        loaded, torque=asked_torque, speed=asked_speed, angles=angles, line_model=law.value
+    )
+    results, checks = found.to_dict(), found.gearbox.checks
+    lines = _lines(found.gearbox, results)
+    out.say(*lines, "", f"checks: {verdict(checks)} (see `check`)")
+    for sentence in found.warnings:
         out.warn(sentence)
-    out.document(results, design=loaded, checks=analysis.checks)
+    out.document(results, design=found.machine.given, checks=checks)
 
 
 def _lines(analysis: GearboxAnalysis, results: dict[str, object]) -> list[str]:

@@ -16,9 +16,8 @@ from cqdd_design.cli.options import (
     OwnMotor,
     parse_names,
     parse_positive,
-    read_own_motor,
 )
-from cqdd_design.cli.session import Output, read_factors
+from cqdd_design.cli.session import Output, read_specimen
 from cqdd_design.cli.tables import number, table
 
 if TYPE_CHECKING:
@@ -51,10 +50,11 @@ def bench(
     force: Force = False,
 ) -> None:
     """The actuator's data sheet, measured on a virtual bench."""
-    from cqdd_design import actuator_pipeline as pipeline
     from cqdd_design.actuator.bench import METRICS
     from cqdd_design.actuator.comparison import catalogue_actuator
     from cqdd_design.design import load_design
+    from cqdd_design.roads.bench import bench as measured
+    from cqdd_design.roads.bench import compared_actuators, write_traces
     from cqdd_design.units import VOLTAGE
 
     names = parse_names(only)
@@ -63,19 +63,17 @@ def bench(
     for name in others:
         catalogue_actuator(name)
     loaded = load_design(design)
-    factors = read_factors(out, calibration, loaded)
+    specimen = read_specimen(out, loaded, motor_file=motor_file, calibration=calibration, seed=seed)
     out.note_compilation(simulation=True)
-    result = pipeline.bench(
+    result = measured(
         loaded,
+        specimen,
         only=names,
         voltage=asked,
-        seed=seed,
-        calibration=factors,
-        motor=read_own_motor(motor_file),
         progress=out.stages(len(names or METRICS)),
     )
-    actuators = pipeline.compared_actuators(loaded, result, others)
-    files = () if folder is None else pipeline.write_traces(result, folder, force=force)
+    actuators = compared_actuators(loaded, result, others)
+    files = () if folder is None else write_traces(result, folder, force=force)
     out.say(*_lines(result))
     if others or not names:
         out.say("", *_comparison(actuators))

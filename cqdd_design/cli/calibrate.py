@@ -15,9 +15,8 @@ from cqdd_design.cli.options import (
     OwnMotor,
     parse_names,
     parse_positive,
-    read_own_motor,
 )
-from cqdd_design.cli.session import Output
+from cqdd_design.cli.session import Output, read_specimen
 from cqdd_design.cli.tables import number, table
 
 if TYPE_CHECKING:
@@ -31,7 +30,8 @@ def calibrate(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="CSV with the columns name,value,unit; default the paper's table, for cqdd-10.",
+            help="CSV with the columns name,value,unit; default the paper's table, for its own "
+            "actuator.",
         ),
     ] = None,
     to: Annotated[
@@ -60,11 +60,11 @@ def calibrate(
     force: Force = False,
 ) -> None:
     """Fit friction and cooling to measured rows; predict the rest."""
-    from cqdd_design import actuator_pipeline as pipeline
     from cqdd_design.actuator.bench.calibration_file import write_calibration
     from cqdd_design.actuator.bench.measured import read_measured
     from cqdd_design.design import load_design
     from cqdd_design.files import refuse_overwrite
+    from cqdd_design.roads.calibrate import calibrate as fitted
     from cqdd_design.units import VOLTAGE
 
     supply = parse_positive("--voltage", voltage, VOLTAGE)
@@ -73,14 +73,13 @@ def calibrate(
     if path is not None:
         refuse_overwrite(path, force=force)
     out.note_compilation(simulation=True)
-    found = pipeline.calibrate(
+    found = fitted(
         loaded,
         rows,
+        read_specimen(out, loaded, motor_file=motor_file, seed=seed),
         to=parse_names(to),
         unknowns=parse_names(unknowns),
         voltage=supply,
-        seed=seed,
-        motor=read_own_motor(motor_file),
         progress=out.stages(3),
     )
     target = path or Path("exports") / f"{loaded.name}-calibration.json"

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile
-from cqdd_design.cli.session import Output
+from cqdd_design.cli.options import DesignFile, OwnMotor
+from cqdd_design.cli.session import Output, read_specimen
 
 if TYPE_CHECKING:
     from cqdd_design.solids.clearances import AssemblyMotion
@@ -24,33 +24,33 @@ def check(
     angles: Annotated[
         int, typer.Option(metavar="N", min=1, max=100_000, help="Crank angles of --assembly.")
     ] = 72,
+    motor_file: OwnMotor = None,
 ) -> int:
     """Run every check of a design (exit code 4: one fails)."""
     from cqdd_design.cli.tables import checks_table, remedies, verdict
     from cqdd_design.design import load_design
-    from cqdd_design.gearbox import analyse_gearbox
     from cqdd_design.results import worst_status
+    from cqdd_design.roads.check import check as judged
 
     loaded = load_design(design)
-    analysis = analyse_gearbox(loaded)
-    checks = analysis.checks
-    results: dict[str, object] = {}
-    if assembly:
-        from cqdd_design import pipeline
-
-        motion = pipeline.assembly_motion(loaded, angles, out.counting("crank angles"))
-        results["assembly"] = motion.to_dict()
-        checks = (*checks, pipeline.assembly_check(motion))
+    found = judged(
+        loaded,
+        read_specimen(out, loaded, motor_file=motor_file),
+        assembly_angles=angles if assembly else None,
+        progress=out.counting("crank angles"),
+    )
+    checks, motion, worst = found.checks, found.motion, worst_status(found.checks)
     out.say(checks_table(checks), "")
-    if assembly:
+    if motion is not None:
         out.say(*_clearances(motion), "")
-    if worst_status(checks) != "pass":
+    if worst != "pass":
         out.say(remedies(checks), "")
     out.say(f"{loaded.name}: {verdict(checks)}")
-    for sentence in analysis.warnings:
+    for sentence in found.warnings:
         out.warn(sentence)
-    out.document({"verdict": worst_status(checks), **results}, design=loaded, checks=checks)
-    return 4 if worst_status(checks) == "fail" else 0
+    seen = {} if motion is None else {"assembly": motion.to_dict()}
+    out.document({"verdict": worst, **seen}, design=loaded, checks=checks)
+    return 4 if worst == "fail" else 0
 
 
 def _clearances(motion: AssemblyMotion) -> list[str]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, parse_positive, parse_whole_list
+from cqdd_design.cli.options import DesignFile, parse_positive, parse_whole_list, quantity_option
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 
@@ -22,10 +22,8 @@ def compare(
         str,
         typer.Option(metavar="S,P1,P2,R", help="Teeth of sun, planet at sun and at ring, ring."),
     ] = "12,36,22,70",
-    module: Annotated[str, typer.Option(metavar="Q", help="Module of both meshes.")] = "1 mm",
-    face_width: Annotated[
-        str, typer.Option(metavar="Q", help="Face width of both meshes.")
-    ] = "12 mm",
+    module: Annotated[str, quantity_option("Module of both meshes.")] = "1 mm",
+    face_width: Annotated[str, quantity_option("Face width of both meshes.")] = "12 mm",
     material: Annotated[
         str | None,
         typer.Option(metavar="NAME", help="Material of the gears; default that of the discs."),
@@ -37,13 +35,15 @@ def compare(
 ) -> None:
     """The same loads on a compound planetary, rated by ISO 6336."""
     from cqdd_design.design import load_design
+    from cqdd_design.machine import resolve
     from cqdd_design.planetary.kinematics import PlanetaryTeeth
     from cqdd_design.sizing.comparison import compare_with_planetary
     from cqdd_design.units import LENGTH
 
     counts = parse_whole_list("--teeth", teeth, 4, "12,36,22,70")
+    loaded = load_design(design)
     found = compare_with_planetary(
-        loaded := load_design(design),
+        resolve(loaded),
         teeth=PlanetaryTeeth(*counts),
         module=parse_positive("--module", module, LENGTH),
         face_width=parse_positive("--face-width", face_width, LENGTH),

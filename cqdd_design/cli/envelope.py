@@ -8,6 +8,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from cqdd_design.errors import UsageError
+
 if TYPE_CHECKING:
     from cqdd_design.design import Design
     from cqdd_design.files import WrittenFile
@@ -81,8 +83,12 @@ def json_ready(value: Any, where: str, warnings: list[str]) -> Any:
 
 
 def _body(command: str | None, design: Design | None) -> dict[str, Any]:
-    from cqdd_design.pipeline import provenance
+    from cqdd_design.roads.telling import provenance
 
+    try:
+        origin = provenance(design).to_dict()
+    except UsageError:  # a nonsense SOURCE_DATE_EPOCH, which is the error that is told here
+        origin = None
     return {
         "schema_version": ENVELOPE_VERSION,
         "command": command,
@@ -92,7 +98,7 @@ def _body(command: str | None, design: Design | None) -> dict[str, Any]:
         "checks": [],
         "warnings": [],
         "files": [],
-        "provenance": provenance(design).to_dict(),
+        "provenance": origin,
     }
 
 

@@ -7,11 +7,9 @@ from typing import Annotated
 
 import typer
 
-from cqdd_design.cli.options import Calibrated, Force, OwnMotor, parse_positive, read_own_motor
-from cqdd_design.cli.session import Output, read_factors
-
-WITHOUT_SOLIDS = {"dxf", "svg", "edm", "gcode", "mjcf", "urdf", "card", "bam"}
-"""Kinds that need no parts of the machine."""
+from cqdd_design.cli.options import Calibrated, Force, OwnMotor, parse_positive
+from cqdd_design.cli.session import Output, read_specimen
+from cqdd_design.exporting.kinds import kinds_for, read_kinds, stages
 
 
 def export(
@@ -25,8 +23,7 @@ def export(
         typer.Option(
             "--to",
             metavar="LIST",
-            help="Kinds: dxf, edm, gcode, step, stl, 3mf, glb, svg, bom; "
-            "mjcf, urdf, card, bam for simulators.",
+            help=f"Kinds: {kinds_for('makers')}; {kinds_for('simulators')} for simulators.",
         ),
     ] = "dxf,step",
     folder: Annotated[
@@ -69,8 +66,8 @@ def export(
 ) -> int:
     """Files for makers (DXF, EDM, STEP, ...) and simulators."""
     from cqdd_design.design import load_design
-    from cqdd_design.exporting import ExportOptions, read_kinds
-    from cqdd_design.exporting import export as write
+    from cqdd_design.exporting import ExportOptions
+    from cqdd_design.roads.export import export as write
     from cqdd_design.units import LENGTH
 
     kinds = read_kinds(to)
@@ -88,18 +85,16 @@ def export(
         more += [] if motor_file is None else ["--motor-file", str(motor_file)]
         return _several(out, design, kinds, folder, more, workers=workers, force=force)
     loaded = load_design(design[0])
-    factors = read_factors(out, calibration, loaded)
-    stages = out.stages(len(kinds) + bool(set(kinds) - WITHOUT_SOLIDS))
     files = write(
         loaded,
         kinds,
         folder,
+        specimen=read_specimen(
+            out, loaded, motor_file=motor_file, calibration=calibration, seed=seed
+        ),
         force=force,
-        progress=stages,
         options=options,
-        seed=seed,
-        calibration=factors,
-        motor=read_own_motor(motor_file),
+        progress=out.stages(stages(kinds)),
     )
     out.wrote(files)
     out.document({"kinds": list(kinds)}, design=loaded, files=files)

@@ -4,31 +4,30 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from cqdd_design.cli.options import DesignFile, parse_positive
-from cqdd_design.cli.session import Output
+from cqdd_design.cli.options import DesignFile, OwnMotor, parse_positive, quantity_option
+from cqdd_design.cli.session import Output, read_specimen
 from cqdd_design.cli.tables import number, table
 
 if TYPE_CHECKING:
-    from cqdd_design.pipeline import InertiaAndBalance
+    from cqdd_design.roads.inertia import InertiaAndBalance
 
 
 def inertia(
     out: Output,
     design: DesignFile,
-    speed: Annotated[
-        str | None, typer.Option(metavar="Q", help='Input speed, as in "1286 rpm".')
-    ] = None,
+    speed: Annotated[str | None, quantity_option('Input speed, as in "1286 rpm".')] = None,
+    motor_file: OwnMotor = None,
 ) -> None:
     """Masses of the parts, balance, inertia at the motor."""
-    from cqdd_design import pipeline
     from cqdd_design.design import load_design
+    from cqdd_design.roads.inertia import INERTIA_STAGES
+    from cqdd_design.roads.inertia import inertia as weighed
     from cqdd_design.units import SPEED
 
     asked = parse_positive("--speed", speed, SPEED)
     loaded = load_design(design)
-    found = pipeline.inertia(loaded, speed=asked, progress=out.stages(pipeline.INERTIA_STAGES))
+    specimen = read_specimen(out, loaded, motor_file=motor_file)
+    found = weighed(loaded, specimen, speed=asked, progress=out.stages(INERTIA_STAGES))
     out.say(*_lines(found))
     for sentence in found.warnings:
         out.warn(sentence)
@@ -76,7 +75,7 @@ def _lines(found: InertiaAndBalance) -> list[str]:
         f"total mass                 {number(total.total.mass)} kg "
         f"{'without' if total.motor_missing else 'with'} the motor",
         f"torque density             {number(found.torque_density)} N*m/kg at the peak torque",
-        f"rotor of {total.motor}: {rotor} kg*mm2",
+        f"rotor of {total.motor.name}: {rotor} kg*mm2",
         f"reflected to the input     {number(1e6 * total.reflected_input)} kg*mm2",
         f"reflected to the output    {number(total.reflected_output)} kg*m2",
         "",

@@ -37,7 +37,7 @@ from cqdd_design.cli import (
 )
 from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, command, print_result
 from cqdd_design.environment import missing_dependency
-from cqdd_design.errors import CqddError, UsageError
+from cqdd_design.errors import CqddError, UsageError, printable
 
 app = typer.Typer(
     name="cqdd-design",
@@ -169,7 +169,7 @@ def _end(
     if "--debug" in arguments and kind != "Interrupted":
         traceback.print_exc()
     message = message.replace("?.", "?")
-    print(f"cqdd-design: {message}", file=sys.stderr)
+    print(f"cqdd-design: {printable(message)}", file=sys.stderr)
     if "--json" in arguments:
         from cqdd_design.cli.envelope import error_document
 

@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, Force
-from cqdd_design.cli.session import Output
+from cqdd_design.cli.options import BenchSeed, Calibrated, DesignFile, Force, OwnMotor
+from cqdd_design.cli.session import Output, read_specimen
 
 
 def report(
@@ -18,17 +18,27 @@ def report(
         Path | None,
         typer.Option("--out", metavar="FILE", help="Where to; default reports/NAME.html."),
     ] = None,
+    seed: BenchSeed = None,
+    calibration: Calibrated = None,
+    motor_file: OwnMotor = None,
     force: Force = False,
 ) -> None:
     """One self-contained HTML file for the design review."""
-    from cqdd_design import pipeline
     from cqdd_design.cli.tables import verdict
     from cqdd_design.design import load_design
+    from cqdd_design.roads.report import REPORT_STAGES, write_report
 
     loaded = load_design(design)
     out.note_compilation(simulation=True)
-    file, analysis = pipeline.write_report(
-        loaded, target, source=design, force=force, progress=out.stages(pipeline.REPORT_STAGES)
+    file, analysis = write_report(
+        loaded,
+        target,
+        specimen=read_specimen(
+            out, loaded, motor_file=motor_file, calibration=calibration, seed=seed
+        ),
+        source=design,
+        force=force,
+        progress=out.stages(REPORT_STAGES),
     )
     out.wrote([file])
     out.say(f"{loaded.name}: {verdict(analysis.checks)}")

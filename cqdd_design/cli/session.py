@@ -17,11 +17,14 @@ from typing import TYPE_CHECKING, Annotated, Any, TextIO
 
 import typer
 
-from cqdd_design.errors import UsageError
+from cqdd_design.cli.options import read_own_motor
+from cqdd_design.environment import source_date
+from cqdd_design.errors import UsageError, printable
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from cqdd_design.actuator.specimen import Specimen
     from cqdd_design.design import Design
     from cqdd_design.files import WrittenFile
     from cqdd_design.results import Check
@@ -60,6 +63,7 @@ def command(function: Callable[..., int | None], name: str = "") -> Callable[...
     def run(*, as_json: bool, quiet: bool, debug: bool, **given: Any) -> int | None:
         # `debug` is read by `main` from the raw arguments: an error may come before parsing.
         out = Output(called, as_json=as_json, quiet=quiet)
+        source_date()  # a wrong one is told before the work, not after it
         try:
             return function(out, **given)
         finally:
@@ -138,7 +142,7 @@ class Output:
         """Narrate on stderr."""
         if not self.quiet:
             self.end_progress()
-            print(sentence, file=sys.stderr, flush=True)
+            print(printable(sentence), file=sys.stderr, flush=True)
 
     def note_compilation(self, *, simulation: bool = False) -> None:
         """Tell that the first run after installation compiles, where it does."""
@@ -226,6 +230,21 @@ class Output:
             files=files,
         )
         print_result(text)
+
+
+def read_specimen(
+    out: Output,
+    design: Design,
+    *,
+    motor_file: Path | None = None,
+    calibration: Path | None = None,
+    seed: int | None = None,
+) -> Specimen:
+    """The actuator of ``--motor-file``, ``--calibration`` and ``--seed``."""
+    from cqdd_design.actuator.specimen import Specimen
+
+    factors = read_factors(out, calibration, design) or {}
+    return Specimen(motor=read_own_motor(motor_file), seed=seed, factors=factors)
 
 
 def read_factors(out: Output, path: Path | None, design: Design) -> Mapping[str, float] | None:

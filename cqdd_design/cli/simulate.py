@@ -15,9 +15,8 @@ from cqdd_design.cli.options import (
     OwnMotor,
     Supply,
     quantity_option,
-    read_own_motor,
 )
-from cqdd_design.cli.session import Output, read_factors
+from cqdd_design.cli.session import Output, read_specimen
 from cqdd_design.cli.simulate_options import COMMANDS, FRICTION, LOADS, SIGNALS, Choices, known
 from cqdd_design.cli.tables import number, table
 
@@ -137,9 +136,10 @@ def simulate(
     force: Force = False,
 ) -> None:
     """Run the actuator in time; every trace as npz or Parquet."""
-    from cqdd_design import actuator_pipeline as pipeline
     from cqdd_design.actuator.scenario import Scenario, Start
     from cqdd_design.design import load_design
+    from cqdd_design.roads.simulate import simulate as simulated
+    from cqdd_design.roads.simulate import simulation_kind, write_simulation
 
     chosen = Choices(
         given={
@@ -167,29 +167,27 @@ def simulate(
     )
     known("--friction", friction, FRICTION)
     carried, start = chosen.load(load)
-    pipeline.simulation_kind(target, force=force)
+    simulation_kind(target, force=force)
     loaded = load_design(design)
     supply = chosen.quantity("--voltage", "VOLTAGE", None, example="24 V")
     told, seconds = chosen.command(command, signal, loaded, supply)
     for sentence in chosen.warnings:
         out.warn(sentence)
-    factors = read_factors(out, calibration, loaded)
+    specimen = read_specimen(out, loaded, motor_file=motor_file, calibration=calibration, seed=seed)
     out.note_compilation(simulation=True)
-    result = pipeline.simulate(
+    result = simulated(
         loaded,
         Scenario(told, carried, Start(output_angle=start), cast("FrictionModel", friction)),
+        specimen,
         duration=seconds,
         rate=chosen.quantity("--rate", "FREQUENCY", "1 kHz") or 0.0,
         step=chosen.quantity("--step", "TIME", None, example="20 us"),
         voltage=supply,
-        seed=seed,
         samples=samples,
-        calibration=factors,
-        motor=read_own_motor(motor_file),
         options={"--friction": friction, **chosen.resolved},
         progress=out.counting("gearboxes") if samples else None,
     )
-    file = pipeline.write_simulation(result, target, force=force)
+    file = write_simulation(result, target, force=force)
     out.say(*_lines(result))
     out.wrote([file])
     for sentence in result.warnings:

@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cqdd_design.cli.options import Force, parse_option, parse_ratio
+from cqdd_design.cli.options import (
+    Force,
+    OwnMotor,
+    parse_option,
+    parse_ratio,
+    quantity_option,
+    read_own_motor,
+)
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import checks_table, number, table, verdict
 from cqdd_design.errors import DesignError, UsageError
@@ -23,23 +30,18 @@ def size(
         str | None, typer.Option(metavar="N", help="Reduction, a whole number from 4 to 119.")
     ] = None,
     peak_torque: Annotated[
-        str | None, typer.Option(metavar="Q", help="At the output; default min(9*N, 90) N*m.")
+        str | None, quantity_option("At the output; default min(9*N, 90) N*m.")
     ] = None,
     continuous_torque: Annotated[
-        str | None, typer.Option(metavar="Q", help="At the output; default 0.38 of the peak.")
+        str | None, quantity_option("At the output; default 0.38 of the peak.")
     ] = None,
-    input_speed: Annotated[
-        str | None, typer.Option(metavar="Q", help='Default "1286 rpm".')
-    ] = None,
-    outer_diameter: Annotated[
-        str | None, typer.Option(metavar="Q", help='Of the ring; default "72 mm".')
-    ] = None,
-    length: Annotated[
-        str | None, typer.Option(metavar="Q", help='Of the disc pack; default "20 mm".')
-    ] = None,
+    input_speed: Annotated[str | None, quantity_option('Default "1286 rpm".')] = None,
+    outer_diameter: Annotated[str | None, quantity_option('Of the ring; default "72 mm".')] = None,
+    length: Annotated[str | None, quantity_option('Of the disc pack; default "20 mm".')] = None,
     motor: Annotated[
         str | None, typer.Option(metavar="NAME", help="Default CubeMars RO100 KV55.")
     ] = None,
+    motor_file: OwnMotor = None,
     discs: Annotated[
         int | None, typer.Option(metavar="N", help="Discs on the crank, 1 to 3; default 2.")
     ] = None,
@@ -63,8 +65,8 @@ def size(
     force: Force = False,
 ) -> None:
     """Requirements to a checked design file."""
-    from cqdd_design import pipeline
     from cqdd_design.exporting import read_kinds
+    from cqdd_design.roads.size import road_stages, size_and_write
     from cqdd_design.units import LENGTH, SPEED, TORQUE
 
     quantities = (
@@ -84,9 +86,14 @@ def size(
     wanted = _requirements(asked, requirements)
     if report:
         out.note_compilation()
-    stages = out.stages(pipeline.road_stages(kinds, report=report))
-    road = pipeline.size_and_write(
-        wanted, target, kinds=kinds, report=report, force=force, progress=stages
+    road = size_and_write(
+        wanted,
+        target,
+        motor=read_own_motor(motor_file),
+        kinds=kinds,
+        report=report,
+        force=force,
+        progress=out.stages(road_stages(kinds, report=report)),
     )
     out.say(*_lines(road.design, road.sizing))
     for check in road.sizing.checks:

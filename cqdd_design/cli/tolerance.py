@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, parse_positive
+from cqdd_design.cli.options import DesignFile, parse_positive, quantity_option
 from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, Output
 from cqdd_design.cli.tables import number, table
 
@@ -36,7 +36,7 @@ def tolerance(
     ] = 0,
     torque: Annotated[
         str | None,
-        typer.Option(metavar="Q", help='Output torque, as in "40 N*m"; default the continuous.'),
+        quantity_option('Output torque, as in "40 N*m"; default the continuous.'),
     ] = None,
     scheduler: Annotated[
         str | None,
@@ -46,11 +46,12 @@ def tolerance(
     """Toleranced gearboxes over a whole output turn: distributions and ranking."""
     from cqdd_design.design import load_design
     from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble, work_here
+    from cqdd_design.machine import resolve
     from cqdd_design.units import TORQUE
 
     asked_torque = parse_positive("--torque", torque, TORQUE)
     loaded = load_design(design)
-    ensemble = make_ensemble(loaded, torque=asked_torque, angles=angles, seed=seed)
+    ensemble = make_ensemble(resolve(loaded).design, torque=asked_torque, angles=angles, seed=seed)
     progress = out.counting("gearboxes")
     if scheduler is None:
         out.note_compilation()

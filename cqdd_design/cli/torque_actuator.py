@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cqdd_design.cli.options import read_own_motor
 from cqdd_design.cli.session import Output, read_factors
 
 if TYPE_CHECKING:
@@ -18,10 +19,11 @@ def data_actuator(
     path: Path,
     gearbox: int | None,
     calibration: Path | None,
+    motor_file: Path | None,
 ) -> ActuatorParameters:
     """The actuator of a design, drawn and calibrated as the data's own where they say so."""
-    from cqdd_design.actuator.bench.unknowns import apply_factors
     from cqdd_design.actuator.build import actuator_parameters
+    from cqdd_design.actuator.specimen import Specimen
     from cqdd_design.design import load_design
 
     loaded = load_design(path)
@@ -32,10 +34,11 @@ def data_actuator(
     out.note_compilation()
     if facts.get("design_sha256") not in (None, loaded.sha256):
         out.warn(f"the data are of another design or version of it than {path}.")
-    drawn = actuator_parameters(
-        loaded,
+    specimen = Specimen(
+        motor=read_own_motor(motor_file),
         seed=None if seed is None else int(seed),
-        supply_voltage=facts.get("supply_voltage_V"),
+        factors={name: value for name, value in factors.items() if name != "tolerance_scale"},
     )
-    used = {name: value for name, value in factors.items() if name != "tolerance_scale"}
-    return apply_factors(drawn, used)
+    return actuator_parameters(
+        specimen.machine(loaded), specimen, supply_voltage=facts.get("supply_voltage_V")
+    )

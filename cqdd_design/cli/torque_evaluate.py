@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import Calibrated, Force, parse_names
+from cqdd_design.cli.options import Calibrated, Force, OwnMotor, parse_names
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 from cqdd_design.cli.torque_actuator import data_actuator
 from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from cqdd_design.torque.evaluation.bootstrap import Interval
     from cqdd_design.torque.evaluation.evaluate import EvaluationResult
     from cqdd_design.torque.evaluation.scoring import SetResult
@@ -47,6 +45,7 @@ def evaluate(
         ),
     ] = None,
     calibration: Calibrated = None,
+    motor_file: OwnMotor = None,
     split_seed: Annotated[
         int | None,
         typer.Option(metavar="N", min=0, help="Of the split; default that of the networks."),
@@ -69,24 +68,24 @@ def evaluate(
     """Score networks and baselines on held-out episodes, with intervals, beside the paper."""
     from cqdd_design.files import refuse_overwrite, write_atomically
     from cqdd_design.torque.data.episodes import read_data
+    from cqdd_design.torque.evaluation.behaviour import Effort
+    from cqdd_design.torque.evaluation.documents import result_dict
     from cqdd_design.torque.evaluation.evaluate import evaluate as measure
     from cqdd_design.torque.evaluation.lineup import line_up, read_networks
 
     for target in (report, markdown):
         if target is not None:
             refuse_overwrite(target, force=force)
-    if design is None and calibration is not None:
-        raise UsageError("--calibration belongs to a design; give it with --design.")
+    for name, given in (("--calibration", calibration), ("--motor-file", motor_file)):
+        if design is None and given is not None:
+            raise UsageError(f"{name} belongs to a design; give it with --design.")
     known = read_data(data)
     networks = read_networks(model or [], known)
-    actuator = None if design is None else data_actuator(out, known, design, None, calibration)
-    lineup = line_up(
-        known,
-        networks,
-        parse_names(sets),
-        split_seed=split_seed,
-        actuator=actuator,
-    )
+    actuator = None
+    if design is not None:
+        actuator = data_actuator(out, known, design, None, calibration, motor_file)
+    names = parse_names(sets)
+    lineup = line_up(known, networks, names, split_seed=split_seed, actuator=actuator)
     for sentence in lineup.warnings:
         out.warn(sentence)
     work = len(lineup.estimators) * (len(lineup.sets) + 1)
@@ -95,21 +94,18 @@ def evaluate(
         lineup.sets,
         lineup.estimators,
         seen=lineup.seen,
-        leaked=lineup.leaked,
-        draws=draws,
-        seed=seed,
-        rollouts=rollouts,
+        effort=Effort(draws=draws, seed=seed, rollouts=rollouts),
         progress=out.stages(work),
     )
     files = []
     if report is not None:
-        from cqdd_design.pipeline import provenance
-        from cqdd_design.report.torque.torque_view import torque_page
+        from cqdd_design.report.torque.page import torque_page
+        from cqdd_design.roads.telling import provenance
 
         date = provenance(None).time.partition("T")[0]
         files.append(write_atomically(report, torque_page(result, date=date), "report"))
     if markdown is not None:
-        from cqdd_design.torque.evaluation.table import markdown as tables
+        from cqdd_design.torque.evaluation.markdown import markdown as tables
 
         files.append(write_atomically(markdown, tables(result), "markdown"))
     for one in result.sets:
@@ -118,12 +114,8 @@ def evaluate(
     out.wrote(files)
     for sentence in result.warnings:
         out.warn(sentence)
-    document = result.to_dict()
-    out.document(document | {"files_of_models": _names(networks, model or [])}, files=files)
-
-
-def _names(networks: Mapping[str, object], paths: list[Path]) -> dict[str, str]:
-    return {name: str(path) for name, path in zip(networks, paths, strict=True)}
+    of_models = {name: str(path) for name, path in zip(networks, model or [], strict=True)}
+    out.document(result_dict(result) | {"files_of_models": of_models}, files=files)
 
 
 def _lines(result: EvaluationResult, found: SetResult) -> list[str]:
@@ -179,17 +171,8 @@ def _ends(value: Interval) -> str:
 
 
 def _paper() -> list[str]:
-    from cqdd_design.torque.evaluation.evaluate import PAPER
+    from cqdd_design.torque.evaluation.paper import PAPER
 
-    rows = [
-        [
-            row.title,
-            f"{row.rmse:.2f}",
-            "" if row.bias is None else f"{row.bias:.2f}",
-            f"{row.variance:.2f}",
-            f"{row.cycle_time:.2f}",
-        ]
-        for row in PAPER
-    ]
+    rows = [row.cells("") for row in PAPER]
     head = ["paper (hardware)", "RMSE N*m", "size of bias", "variance N^2*m^2", "cycle us"]
     return [table(rows, head=head, right=(1, 2, 3, 4)), "not to be read against ours"]

@@ -7,9 +7,10 @@ from typing import Annotated
 
 import typer
 
-from cqdd_design.cli.options import Force, parse_names
+from cqdd_design.cli.options import Force
 from cqdd_design.cli.session import Output
-from cqdd_design.errors import UsageError, did_you_mean
+from cqdd_design.exporting.estimators.kinds import KINDS
+from cqdd_design.exporting.kinds import read_kinds
 
 
 def export_network(
@@ -22,26 +23,20 @@ def export_network(
         typer.Option(
             "--to",
             metavar="LIST",
-            help="Of onnx, torchscript-isaaclab, newton, mjlab, c; with commas.",
+            help=f"Of {', '.join(KINDS)}; with commas.",
         ),
     ] = "onnx,c",
     folder: Annotated[
         Path | None, typer.Option("--out", metavar="DIR", help="Default exports/NAME.")
     ] = None,
     force: Force = False,
-) -> None:
+) -> int:
     """Write a trained network for simulators, onnxruntime, or as a C header."""
     from cqdd_design.exporting.estimators.export import export_artefact
-    from cqdd_design.exporting.estimators.options import KINDS, metadata
+    from cqdd_design.exporting.estimators.options import metadata
     from cqdd_design.torque.networks.artefact import read_artefact
 
-    kinds = tuple(dict.fromkeys(parse_names(to)))
-    for kind in kinds:
-        if kind not in KINDS:
-            hint = did_you_mean(kind, KINDS)
-            raise UsageError(f"--to {kind} is none of {', '.join(KINDS)}{hint}.")
-    if not kinds:
-        raise UsageError(f"--to names nothing; choose of {', '.join(KINDS)}.")
+    kinds = read_kinds(to, KINDS)
     artefact = read_artefact(model)
     written = export_artefact(
         artefact,
@@ -52,5 +47,8 @@ def export_network(
     )
     for sentence in written.warnings:
         out.warn(sentence)
+    for refusal in written.refused:
+        out.warn(f"{refusal.kind} was not written: {refusal.error.message}")
     out.wrote(written.files)
     out.document(metadata(artefact, artefact.mode), files=written.files)
+    return written.refused[0].error.exit_code if written.refused else 0

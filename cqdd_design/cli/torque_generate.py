@@ -11,13 +11,14 @@ from cqdd_design.cli.options import (
     Calibrated,
     DesignFile,
     Force,
+    OwnMotor,
     Supply,
     count_option,
     parse_option,
     parse_positive,
     quantity_option,
 )
-from cqdd_design.cli.session import Output, read_factors
+from cqdd_design.cli.session import Output, read_specimen
 from cqdd_design.cli.tables import number, table
 
 if TYPE_CHECKING:
@@ -54,6 +55,7 @@ def generate(
         str | None, quantity_option("Of the joint's controller; default that of the design.")
     ] = None,
     calibration: Calibrated = None,
+    motor_file: OwnMotor = None,
     force: Force = False,
 ) -> None:
     """Generate pendulum data on the simulated actuator, as Parquet with a JSON manifest."""
@@ -81,12 +83,12 @@ def generate(
     loaded = load_design(design)
     if folder is not None:
         refuse_overwrite(folder / "manifest.json", force=force)
-    factors = read_factors(out, calibration, loaded)
+    specimen = read_specimen(out, loaded, motor_file=motor_file, calibration=calibration)
     out.note_compilation(simulation=True)
     data, warnings = generated(
-        loaded,
+        specimen.machine(loaded),
         request,
-        calibration=factors,
+        specimen=specimen,
         tell=out.note,
         progress=out.counting("episodes"),
     )

@@ -90,8 +90,8 @@ def import_log(
     found = import_logs(
         logs,
         _mapped(map_file, columns, units, group, current_to_torque),
-        position_gain=_gain("--position-gain", position_gain, STIFFNESS_GAIN),
-        velocity_gain=_gain("--velocity-gain", velocity_gain, DAMPING_GAIN),
+        position_gain=parse_option("--position-gain", position_gain, STIFFNESS_GAIN) or 0.0,
+        velocity_gain=parse_option("--velocity-gain", velocity_gain, DAMPING_GAIN) or 0.0,
         rate=parse_positive("--rate", rate, FREQUENCY) or 0.0,
         dt=parse_positive("--dt", dt, TIME),
         torque_limit=parse_positive("--torque-limit", torque_limit, TORQUE),
@@ -112,17 +112,6 @@ def import_log(
     out.say(*summary_lines(told))
     out.say(*folder_line(target, files))
     out.document({**told, **found.to_dict()}, files=[files[-1]])
-
-
-def _gain(option: str, text: str, dimension: Any) -> float:
-    value = parse_option(option, text, dimension)
-    assert value is not None
-    if value < 0.0:
-        raise UsageError(
-            f"{option} {text} is below zero; a positive position error asks for a positive torque: "
-            "give the gain without its sign, and turn the log's signs where they differ."
-        )
-    return value
 
 
 def _mapped(

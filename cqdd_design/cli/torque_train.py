@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
-from cqdd_design.cli.options import Force, count_option, parse_positive
+from cqdd_design.cli.options import Force, OwnMotor, count_option, parse_positive
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 from cqdd_design.cli.torque_actuator import data_actuator
@@ -95,6 +95,7 @@ def train(
             metavar="FILE", help="Factors that `calibrate` wrote; default those in the data."
         ),
     ] = None,
+    motor_file: OwnMotor = None,
     like: Annotated[
         Path | None,
         typer.Option(
@@ -119,7 +120,7 @@ def train(
     from cqdd_design.torque.data.splits import audit, split
     from cqdd_design.torque.networks.artefact import read_artefact, write_artefact
     from cqdd_design.torque.networks.modules import find_model, require_torch
-    from cqdd_design.torque.training.recipe import Choice, Recipe
+    from cqdd_design.torque.training.recipe import Choice, Order, Recipe
     from cqdd_design.torque.training.train import leaked_rmse
     from cqdd_design.torque.training.train import train as trained
     from cqdd_design.units import TIME
@@ -157,20 +158,16 @@ def train(
     audit(data, parts, chosen.history)
     actuator = None
     if design is not None:
-        actuator = data_actuator(out, data, design, gearbox, calibration)
+        actuator = data_actuator(out, data, design, gearbox, calibration, motor_file)
     if chosen.searched and choice is None and not resume:
         out.note("searching activation, learning rate and weight decay on validation episodes")
+    order = Order(chosen.name, seed, recipe, actuator, choice, device)
     tell = out.stages(epochs)
     try:
         artefact = trained(
             data,
             parts,
-            chosen.name,
-            seed,
-            recipe=recipe,
-            actuator=actuator,
-            choice=choice,
-            device=device,
+            order,
             dt=dt,
             checkpoint=kept,
             resume=resume,
@@ -183,15 +180,8 @@ def train(
         raise
     if leaked:
         out.note("training on random windows, for the inflated score beside the honest one")
-        flattered = leaked_rmse(
-            data,
-            chosen.name,
-            seed,
-            recipe=recipe,
-            actuator=actuator,
-            choice=Choice(**artefact.facts["choice"]),
-            device=device,
-        )
+        again = replace(order, choice=Choice(**artefact.facts["choice"]))
+        flattered = leaked_rmse(data, again)
         artefact = replace(artefact, facts={**artefact.facts, "leaked_rmse_Nm": flattered})
     file = write_artefact(artefact, place)
     kept.unlink(missing_ok=True)

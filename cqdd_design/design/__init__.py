@@ -4,6 +4,7 @@ from cqdd_design.design.model import SCHEMA_VERSION, Design
 from cqdd_design.design.reducer import Reducer, RingType
 from cqdd_design.design.requirements import DutyPoint, Requirements
 from cqdd_design.design.toml import (
+    LARGEST_FILE,
     load_design,
     load_requirements,
     requirements_from_mapping,
@@ -11,6 +12,7 @@ from cqdd_design.design.toml import (
 )
 
 __all__ = [
+    "LARGEST_FILE",
     "SCHEMA_VERSION",
     "Design",
     "DutyPoint",

@@ -112,3 +112,11 @@ class Edm(FrozenModel):
         float,
         QuantityIn(SMALL_LENGTH, "0.05 um", "50 um", "of the file against the exact curve"),
     ] = default("0.5 um")
+
+    @property
+    def wire_offset(self) -> float:
+        """From a contour to the wire's centre on the finishing cut, m: its radius and the gap.
+
+        No concave arc of less than this radius can be cut.
+        """
+        return 0.5 * self.wire_diameter + self.spark_gap

@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from cqdd_design.catalog import find_bearing, find_material, find_motor
-from cqdd_design.errors import CatalogError
+from cqdd_design.errors import CatalogError, is_unprintable, shown
 
 if TYPE_CHECKING:
     from pydantic import GetCoreSchemaHandler
     from pydantic_core import CoreSchema
+
+_LONGEST_TEXT = 200
 
 
 class FrozenModel(BaseModel):
@@ -42,7 +44,7 @@ class Whole:
     def _validate(self, value: object) -> int:
         wanted = f"a whole number from {self.low} to {self.high} ({self.reason})"
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise ValueError(f"{value!r} is not {wanted}")
+            raise ValueError(f"{shown(value)} is not {wanted}")
         if not math.isfinite(value) or value != math.floor(value):
             raise ValueError(f"{value} is not {wanted}")
         if not self.low <= value <= self.high:
@@ -72,7 +74,7 @@ class Share:
     def _validate(self, value: object) -> float:
         wanted = f"a number from {self.low:g} to {self.high:g} ({self.reason})"
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise ValueError(f"{value!r} is not {wanted}")
+            raise ValueError(f"{shown(value)} is not {wanted}")
         if not self.low <= value <= self.high:
             nearest = self.high if value > self.high else self.low
             raise ValueError(f"{value:g} is not {wanted}; the nearest allowed is {nearest:g}")
@@ -102,6 +104,16 @@ def _known(find: Callable[[str], Any], *also: str) -> Callable[[str], str]:
     return check
 
 
+def _plain(text: str) -> str:
+    if len(text) > _LONGEST_TEXT or any(map(is_unprintable, text)):
+        raise ValueError(
+            f"at most {_LONGEST_TEXT} characters, none of them a control or direction character"
+        )
+    return text
+
+
+#: Text that goes to terminals, reports and programs.
+FreeText = Annotated[str, AfterValidator(_plain)]
 MaterialName = Annotated[str, AfterValidator(_known(find_material))]
 MotorName = Annotated[str, AfterValidator(_known(find_motor))]
 BearingName = Annotated[str, AfterValidator(_known(find_bearing, "auto"))]

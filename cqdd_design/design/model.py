@@ -14,9 +14,13 @@ from cqdd_design.design.fields import FrozenModel
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.design.requirements import Requirements
+from cqdd_design.errors import DesignError, is_unprintable
+from cqdd_design.files import refuse_extremes
 from cqdd_design.units import Dimension, QuantityIn, format_quantity
 
 SCHEMA_VERSION: Literal[1] = 1
+#: Bytes of a name; file names add theirs, and 255 is the most that file systems take.
+_LONGEST_NAME = 200
 
 
 class Design(FrozenModel):
@@ -59,10 +63,14 @@ class Design(FrozenModel):
                 f"requirements.ratio {self.requirements.ratio} is not reducer.ratio "
                 f"{self.reducer.ratio}; make them equal or leave requirements.ratio out"
             )
-        if not self.name.strip(" .") or any(c in self.name for c in '/\\\0\n\r:*?"<>|'):
+        if (
+            not self.name.strip(" .")
+            or len(self.name.encode("utf-8", "replace")) > _LONGEST_NAME
+            or any(c in '/\\:*?"<>|' or is_unprintable(c) for c in self.name)
+        ):
             raise ValueError(
-                f"name {self.name!r} becomes part of file names; "
-                "use letters, digits, blanks, '-' and '_'"
+                f"name {self.name[:_LONGEST_NAME]!a} becomes part of file names; "
+                f"use letters, digits, blanks, '-' and '_', {_LONGEST_NAME} bytes at most"
             )
         return self
 
@@ -91,6 +99,7 @@ class Design(FrozenModel):
         DesignError
             One sentence a problem: key, value, range and nearest fix.
         """
+        refuse_extremes(data, source, wrong=DesignError)
         try:
             design = cls.model_validate(dict(data), context={"si": si})
         except ValidationError as error:

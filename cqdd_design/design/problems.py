@@ -6,9 +6,9 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from cqdd_design.errors import DesignError, did_you_mean
+from cqdd_design.errors import DesignError, did_you_mean, shown
 
-_MOST_SHOWN = 8
+_MOST_SHOWN, _LONGEST_KEY = 8, 80
 
 #: Keys with a default that follows from others; they are missing only when those are wrong.
 _DERIVED = {
@@ -59,13 +59,12 @@ def _without_consequences(found: list[Any]) -> list[Any]:
 
 def _sentence(item: Any, model: type[BaseModel]) -> str:
     location = tuple(item["loc"])
-    key = ".".join(str(part) for part in location)
+    key = _short(".".join(str(part) for part in location))
     kind = item["type"]
     if kind == "extra_forbidden":
         known = _known_keys(model, location[:-1])
         hint = did_you_mean(str(location[-1]), known)
-        table = ".".join(str(part) for part in location[:-1])
-        where = f"table [{table}]" if table else "the top level"
+        where = _short(_table(location[:-1])) or "the top level"
         return f"{key} is not a key of {where}{hint or '; its keys are ' + ', '.join(known)}"
     if kind == "missing":
         return f"{key} is missing; it has no default"
@@ -76,24 +75,34 @@ def _sentence(item: Any, model: type[BaseModel]) -> str:
         return (
             f"{key}: {text}"
             if isinstance(item["input"], dict)
-            else (f"{key} = {_shown(item['input'])}: {text}")
+            else (f"{key} = {shown(item['input'])}: {text}")
         )
     if kind == "literal_error":
-        return f"{key} = {_shown(item['input'])} must be {item['ctx']['expected']}"
+        return f"{key} = {shown(item['input'])} must be {item['ctx']['expected']}"
     if kind in {"model_type", "model_attributes_type", "dict_type"}:
-        return f"{key} must be a table, not {_shown(item['input'])}"
+        return f"{key} must be a table, not {shown(item['input'])}"
     expected = item["msg"][0].lower() + item["msg"][1:]
-    return f"{key} = {_shown(item['input'])}: {expected}"
+    return f"{key} = {shown(item['input'])}: {expected}"
 
 
-def _shown(value: object) -> str:
-    text = repr(value) if isinstance(value, str) else str(value)
-    return text if len(text) <= 60 else text[:57] + "..."
+def _table(location: tuple[Any, ...]) -> str:
+    """A table as the file writes it; of a list of tables, which of them."""
+    key = ".".join(str(part) for part in location if isinstance(part, str))
+    places = [part for part in location if isinstance(part, int)]
+    if places:
+        return f"table {places[-1] + 1} of [[{key}]]"
+    return f"table [{key}]" if key else ""
+
+
+def _short(key: str) -> str:
+    return key if len(key) <= _LONGEST_KEY else f"{key[:_LONGEST_KEY]}..."
 
 
 def _known_keys(model: type[BaseModel], tables: tuple[Any, ...]) -> list[str]:
     current: Any = model
     for table in tables:
+        if isinstance(table, int):  # a place in a list of tables
+            continue
         field = current.model_fields.get(table) if hasattr(current, "model_fields") else None
         if field is None:
             return []

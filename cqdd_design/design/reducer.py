@@ -18,6 +18,7 @@ from pydantic import ValidationInfo, model_validator
 
 from cqdd_design.design.fields import (
     BearingName,
+    FreeText,
     FrozenModel,
     MaterialName,
     Share,
@@ -36,6 +37,11 @@ from cqdd_design.units import (
 )
 
 RingType = Literal["solid", "conjugate", "pinwheel"]
+
+PIN_CIRCLE_SHARE = 0.61
+"""Default radius of the pin circle over the ring's pitch radius: the paper's 19.5 mm on 32 mm."""
+RING_WALL = 3e-3
+"""Default wall outside the ring's root, m."""
 
 
 class Modification(FrozenModel):
@@ -111,7 +117,7 @@ class ReducerFriction(FrozenModel):
 
     tooth: Annotated[float, Share(0.0, 1.0, "a coefficient of friction")] = 0.08
     pin: Annotated[float, Share(0.0, 1.0, "a coefficient of friction")] = 0.08
-    lubricant: str = "NLGI 2 grease"
+    lubricant: FreeText = "NLGI 2 grease"
 
 
 class Balance(FrozenModel):
@@ -188,8 +194,8 @@ class Reducer(FrozenModel):
                 # A quarter lobe pitch: two discs are then one part, one of them flipped over.
                 pins["hole_clocking"] = format_quantity(math.pi / (2.0 * ratio), ANGLE)
             if "circle_radius" not in pins and lengths is not None:
-                # The paper's 19.5 mm on 32 mm, to a tenth of a millimetre.
-                radius = round(0.61 * lengths[0], 4)
+                # To a tenth of a millimetre.
+                radius = round(PIN_CIRCLE_SHARE * lengths[0], 4)
                 pins["circle_radius"] = format_quantity(radius, LENGTH)
             filled["output_pins"] = pins
         if isinstance(ring, dict):
@@ -197,7 +203,7 @@ class Reducer(FrozenModel):
             if "outer_diameter" not in ring and lengths is not None:
                 pitch, throw, pin = lengths
                 root = pitch + max(2.0 * throw - 0.5 * pin, 0.5 * pin)
-                ring["outer_diameter"] = format_quantity(2.0 * (root + 3e-3), LENGTH)
+                ring["outer_diameter"] = format_quantity(2.0 * (root + RING_WALL), LENGTH)
             filled["ring"] = ring
         return filled
 

@@ -12,7 +12,13 @@ from cqdd_design.design.model import SCHEMA_VERSION, Design, dump
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.requirements import Requirements
 from cqdd_design.errors import DesignError, UsageError, nearest_names
-from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.files import (
+    WrittenFile,
+    parse_toml,
+    read_text_file,
+    refuse_extremes,
+    write_atomically,
+)
 
 #: A design file is a few kilobytes; anything past this is the wrong file.
 LARGEST_FILE = 1_000_000
@@ -55,6 +61,7 @@ def requirements_from_mapping(
     data: Mapping[str, Any], *, source: str = "requirements"
 ) -> Requirements:
     """Validate a mapping of requirement keys (unit strings); a `DesignError` says what is wrong."""
+    refuse_extremes(data, source, wrong=DesignError)
     try:
         return Requirements.model_validate(dict(data))
     except ValidationError as error:
@@ -83,7 +90,7 @@ def save_design(
 
     document: MutableMapping[str, Any]
     if path.exists():
-        document = tomlkit.parse(path.read_text(encoding="utf-8"))
+        document = tomlkit.parse(read_text_file(path, LARGEST_FILE, wrong=DesignError))
         old = Design.from_mapping(document.unwrap(), source=str(path))
         _update(document, design.to_mapping(), old.to_mapping(), set(design.assumed))
     else:
@@ -98,41 +105,17 @@ def dump_requirements(requirements: Requirements) -> dict[str, Any]:
 
 
 def _read(path: Path) -> dict[str, Any]:
-    import tomllib
-
     if not path.exists():
         folder = path.parent if path.parent.is_dir() else Path()
         near = nearest_names(path.name, [p.name for p in folder.glob("*.toml")])
         hint = f"; did you mean {folder / near[0]}?" if near else ""
         raise UsageError(f"there is no file {path}{hint}" + ("" if near else "."))
-    if path.is_dir():
-        raise UsageError(f"{path} is a folder; name a design file, *.toml.")
-    try:
-        size = path.stat().st_size
-        if size > LARGEST_FILE:
-            raise DesignError(
-                f"{path} is {size / 1e6:.1f} MB, and a design file is a few kilobytes; "
-                "this is another kind of file."
-            )
-        content = path.read_bytes()
-    except OSError as error:
-        raise UsageError(f"{path} cannot be read: {error.strerror}.") from error
-    try:
-        text = content.decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise DesignError(
-            f"{path} is not a text file (byte {error.start} is not UTF-8); "
-            "a design file is TOML text."
-        ) from None
+    text = read_text_file(path, LARGEST_FILE, wrong=DesignError)
     if not text.strip():
         raise DesignError(
             f"{path} is empty; `cqdd-design size --ratio 10 --out FILE` writes a complete one."
         )
-    try:
-        return tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        reason = str(error) or "tables nested too deeply"
-        raise DesignError(f"{path} is not valid TOML: {reason}.") from None
+    return parse_toml(text, path, wrong=DesignError)
 
 
 def _migrated(data: dict[str, Any], path: Path) -> dict[str, Any]:

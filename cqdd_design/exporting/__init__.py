@@ -9,133 +9,33 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-import importlib
 import os
 import shutil
-import uuid
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
-from functools import cached_property
+from collections.abc import Iterable
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from cqdd_design.errors import UsageError, did_you_mean
+from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
+from cqdd_design.errors import UsageError
+from cqdd_design.exporting.job import ExportJob, Progress
+from cqdd_design.exporting.kinds import KINDS, read_kinds, stages
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
-from cqdd_design.files import WrittenFile, ensure_folder, refuse_overwrite
+from cqdd_design.exporting.staging import staging_folder
+from cqdd_design.files import WrittenFile, atomic_path, ensure_folder, refuse_overwrite
 
 if TYPE_CHECKING:
-    from cqdd_design.actuator.motor_file import MotorFile
-    from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.design import Design
-    from cqdd_design.solids.parts import Part
+    from cqdd_design.machine import Machine
 
-__all__ = ["EXPORTERS", "ExportJob", "ExportOptions", "default_folder", "export", "read_kinds"]
-
-EXPORTERS: Mapping[str, str] = MappingProxyType(
-    {
-        "dxf": "cqdd_design.exporting.edm.dxf:export_dxf",
-        "step": "cqdd_design.exporting.solids.step:export_step",
-        "stl": "cqdd_design.exporting.solids.meshes:export_stl",
-        "3mf": "cqdd_design.exporting.solids.meshes:export_3mf",
-        "glb": "cqdd_design.exporting.solids.meshes:export_glb",
-        "svg": "cqdd_design.exporting.sheets.svg:export_svg",
-        "bom": "cqdd_design.exporting.solids.bom:export_bom",
-        "mjcf": "cqdd_design.exporting.simulators.mjcf:export_mjcf",
-        "urdf": "cqdd_design.exporting.simulators.urdf:export_urdf",
-        "card": "cqdd_design.exporting.simulators.actuator_card:export_card",
-        "bam": "cqdd_design.exporting.simulators.bam:export_bam",
-        "edm": "cqdd_design.exporting.sheets.edm_package:export_edm",
-        "gcode": "cqdd_design.exporting.edm.gcode:export_gcode",
-    }
-)
-"""Kind of file, and the function that writes all files of that kind from an `ExportJob`."""
-
-Progress = Callable[[str], None]
-
-
-@dataclass(frozen=True)
-class ExportJob:
-    """What a writer needs: the design, where its files go, and the parts, built once for all.
-
-    Attributes
-    ----------
-    design : Design
-    folder : Path
-        Exists; files go here under names that begin with the design's.
-    progress : callable
-        Told in a few words what is being done.
-    options : ExportOptions
-        How files are written.
-    seed : int, optional
-        Of the gearbox that simulators get; default perfect parts.
-    calibration : mapping of str to float
-        Factors of what the actuator's unknowns were computed as.
-    motor : MotorFile, optional
-        What a file says of the motor instead of the catalogue.
-    """
-
-    design: Design
-    folder: Path
-    progress: Progress
-    options: ExportOptions = DEFAULTS
-    seed: int | None = None
-    calibration: Mapping[str, float] = field(default_factory=dict)
-    motor: MotorFile | None = None
-
-    def path(self, ending: str, within: str = "") -> Path:
-        """File of this design: ``path("-disc.dxf")`` is ``<folder>/<name>-disc.dxf``.
-
-        `within` names a folder below it, which need not exist yet.
-        """
-        return self.folder / within / f"{self.design.name}{ending}"
-
-    @cached_property
-    def actuator(self) -> ActuatorParameters:
-        """The actuator in time, for the first writer that asks; later ones get the same."""
-        from cqdd_design.actuator.bench.unknowns import apply_factors
-        from cqdd_design.actuator.build import actuator_parameters
-
-        found = actuator_parameters(self.design, seed=self.seed, own_motor=self.motor)
-        return apply_factors(found, self.calibration)
-
-    @cached_property
-    def parts(self) -> tuple[Part, ...]:
-        """The solids, for the first writer that asks; later ones get the same."""
-        from cqdd_design.catalog import find_bearing
-        from cqdd_design.exporting.edm.flat_parts import with_named_bearing
-        from cqdd_design.solids.parts import build_parts
-
-        self.progress("laying out parts")
-        resolved = with_named_bearing(self.design)
-        return build_parts(resolved, find_bearing(resolved.reducer.cam_bearing.designation))
-
-
-def read_kinds(text: str | Iterable[str]) -> tuple[str, ...]:
-    """Kinds of a list such as ``"dxf,step"``, each once, in the order given.
-
-    Raises
-    ------
-    UsageError
-        For an empty list, or an unknown kind with the nearest.
-
-    Examples
-    --------
-    >>> read_kinds("DXF, step,dxf")
-    ('dxf', 'step')
-    """
-    names = text.split(",") if isinstance(text, str) else list(text)
-    wanted = list(dict.fromkeys(name.strip().lower() for name in names if name.strip()))
-    known = ", ".join(EXPORTERS)
-    if not wanted:
-        raise UsageError(f"no kind of file is named; the kinds are {known}.")
-    for name in wanted:
-        if name not in EXPORTERS:
-            hint = did_you_mean(name, EXPORTERS) or "."
-            raise UsageError(
-                f"'{name}' is not a kind of file to export{hint} The kinds are {known}."
-            )
-    return tuple(wanted)
+__all__ = [
+    "KINDS",
+    "ExportJob",
+    "ExportOptions",
+    "default_folder",
+    "export",
+    "read_kinds",
+    "stages",
+]
 
 
 def default_folder(design: Design) -> Path:
@@ -144,24 +44,23 @@ def default_folder(design: Design) -> Path:
 
 
 def export(
-    design: Design,
+    machine: Machine,
     kinds: str | Iterable[str],
     folder: Path | None = None,
     *,
     force: bool = False,
     progress: Progress | None = None,
     options: ExportOptions = DEFAULTS,
-    seed: int | None = None,
-    calibration: Mapping[str, float] | None = None,
-    motor: MotorFile | None = None,
+    specimen: Specimen = AS_DRAWN,
 ) -> tuple[WrittenFile, ...]:
-    """Write the files of a design.
+    """Write the files of a machine.
 
     Parameters
     ----------
-    design : Design
+    machine : Machine
+        Of the specimen's motor.
     kinds : str or iterable of str
-        Keys of `EXPORTERS`, such as ``"dxf,step"``.
+        Keys of `KINDS`, such as ``"dxf,step"``.
     folder : Path, optional
         Where to; made if missing. Left out, it is `default_folder`, whose files are this
         function's own and are replaced.
@@ -171,12 +70,8 @@ def export(
         Called with a few words before each kind of file.
     options : ExportOptions, optional
         How files are written.
-    seed : int, optional
-        Simulators get a gearbox drawn from the tolerances; default perfect parts.
-    calibration : mapping of str to float, optional
-        Factors of the actuator's unknowns, for simulators.
-    motor : MotorFile, optional
-        What a file says of the motor, for simulators.
+    specimen : Specimen
+        Which actuator simulators get.
 
     Returns
     -------
@@ -194,35 +89,33 @@ def export(
     DependencyError
         A library that a kind needs is missing.
     """
-    wanted = read_kinds(kinds)
+    wanted, design = read_kinds(kinds), machine.given
     target = default_folder(design) if folder is None else folder
     tell = progress if progress is not None else _silent
     made = _missing(target)
-    staging = target / f".{design.name}-{uuid.uuid4().hex[:8]}"
     placed: list[WrittenFile] = []
     try:
-        ensure_folder(staging)
-        job = ExportJob(design, staging, tell, options, seed, calibration or {}, motor)
-        for kind in wanted:
-            tell(f"writing {kind}")
-            placed += [
-                dataclasses.replace(one, path=target / one.path.relative_to(staging))
-                for one in _writer(kind)(job)
+        with staging_folder(target, design.name) as staging:
+            job = ExportJob(machine, staging, tell, options, specimen)
+            for kind in wanted:
+                tell(f"writing {kind}")
+                placed += [
+                    dataclasses.replace(one, path=target / one.path.relative_to(staging))
+                    for one in KINDS[kind].load()(job)
+                ]
+            for one in placed:
+                refuse_overwrite(one.path, force=force or folder is None)
+            below = {one.path.parent for one in placed} - {target}
+            made = [
+                *dict.fromkeys(lost for path in sorted(below) for lost in _missing(path)),
+                *made,
             ]
-        for one in placed:
-            refuse_overwrite(one.path, force=force or folder is None)
-        below = {one.path.parent for one in placed} - {target}
-        made = [*dict.fromkeys(lost for path in sorted(below) for lost in _missing(path)), *made]
-        for path in sorted(below):
-            ensure_folder(path)
-        for one in placed:
-            _move(staging / one.path.relative_to(target), one.path)
-        made = []
-    except UsageError as error:
-        # Writers know only the staging folder, readers of the message only the target.
-        raise type(error)(str(error).replace(str(staging), str(target))) from error
+            for path in sorted(below):
+                ensure_folder(path)
+            for one in placed:
+                _move(staging / one.path.relative_to(target), one.path)
+            made = []
     finally:
-        shutil.rmtree(staging, ignore_errors=True)
         for empty in made:
             with contextlib.suppress(OSError):
                 empty.rmdir()
@@ -233,14 +126,6 @@ def _silent(message: str) -> None:
     """Progress that nobody asked for."""
 
 
-def _writer(kind: str) -> Callable[[ExportJob], tuple[WrittenFile, ...]]:
-    module, _, function = EXPORTERS[kind].partition(":")
-    writer: Callable[[ExportJob], tuple[WrittenFile, ...]] = getattr(
-        importlib.import_module(module), function
-    )
-    return writer
-
-
 def _missing(folder: Path) -> list[Path]:
     """Those of a folder and its parents that do not exist or cannot be seen, deepest first."""
     return [path for path in (folder, *folder.parents) if not os.path.exists(path)]
@@ -248,7 +133,11 @@ def _missing(folder: Path) -> list[Path]:
 
 def _move(source: Path, target: Path) -> None:
     try:
-        os.replace(source, target)
+        if target.is_symlink():
+            with atomic_path(target) as place:
+                shutil.copyfile(source, place)
+        else:
+            os.replace(source, target)
     except OSError as error:
         raise UsageError(
             f"cannot write {target}: {error.strerror or error}; choose another place with --out."

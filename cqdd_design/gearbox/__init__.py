@@ -6,7 +6,6 @@ hundreds of thousands.
 """
 
 from cqdd_design.gearbox.analysis import GearboxAnalysis, analyse_gearbox
-from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE, check_guide
 from cqdd_design.gearbox.checks.guide_row import CheckGuide
 
@@ -16,5 +15,4 @@ __all__ = [
     "GearboxAnalysis",
     "analyse_gearbox",
     "check_guide",
-    "with_chosen_bearing",
 ]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.catalog.materials import find_material
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.gearbox.balance import StackBalance, stack_balance
 from cqdd_design.gearbox.cam_bearing import BearingResult, cam_bearing
@@ -34,7 +35,7 @@ class GearboxAnalysis:
     Attributes
     ----------
     design : Design
-        As given, but with the cam bearing named where the design said "auto".
+    motor : Motor
     geometry : GeometrySummary
     rigid, rigid_continuous : RigidMaxima
         Raw maxima at the peak (or the asked-for) and at the continuous torque.
@@ -52,6 +53,7 @@ class GearboxAnalysis:
     """
 
     design: Design
+    motor: Motor
     geometry: GeometrySummary
     rigid: RigidMaxima
     rigid_continuous: RigidMaxima
@@ -76,14 +78,16 @@ class GearboxAnalysis:
 
 
 def analyse_gearbox(
-    design: Design, *, torque: float | None = None, angles: int = DEFAULT_ANGLES
+    design: Design, motor: Motor, *, torque: float | None = None, angles: int = DEFAULT_ANGLES
 ) -> GearboxAnalysis:
     """Analyse a design by closed forms: no contact equilibrium, no meshes.
 
     Parameters
     ----------
     design : Design
-        Any design file; a cam bearing "auto" is chosen from the catalogue.
+        With a named cam bearing.
+    motor : Motor
+        Which the checks judge.
     torque : float, optional
         Output torque of `rigid` and `series`, N m; the required peak torque where left out.
         Pins, bearing and checks always use the torques of the requirements.
@@ -98,22 +102,19 @@ def analyse_gearbox(
     ------
     GeometryError
         When disc, ring or holes cannot exist.
-    InfeasibleError
-        When "auto" finds no bearing that fits.
     """
     requirements, reducer = design.requirements, design.reducer
-    disc = CycloidDisc.from_design(design)
+    CycloidDisc.from_design(design)
     stages = Stages.from_design(design)
     peak = rigid_maxima(stages, requirements.peak_torque)
     continuous = peak.at(requirements.continuous_torque)
-    cam = cam_bearing(design, stages, peak.cam_bearing_load, disc.valley_distance)
+    cam = cam_bearing(design, peak.cam_bearing_load)
     bearing = cam.bearing
     validate_geometry(
         design,
         bore_diameter=bearing.outer_diameter,
         pin_mean_diameter=pin_mean_diameter(design),
     )
-    resolved = _with_bearing(design, bearing.designation)
     geometry = summarise_geometry(design, bearing)
     density = find_material(reducer.disc_material).density
     # Both rings of the bearing stand on the eccentric, so all of it orbits with the disc.
@@ -129,6 +130,7 @@ def analyse_gearbox(
     pins = pin_strength(design, peak, continuous)
     state = GearboxState(
         design=design,
+        motor=motor,
         stages=stages,
         geometry=geometry,
         peak=peak,
@@ -142,7 +144,8 @@ def analyse_gearbox(
     shown = peak if torque is None else peak.at(torque)
     crank = 2.0 * np.pi * np.arange(max(angles, 8)) / max(angles, 8)
     return GearboxAnalysis(
-        design=resolved,
+        design=design,
+        motor=motor,
         geometry=geometry,
         rigid=shown,
         rigid_continuous=continuous,
@@ -154,9 +157,3 @@ def analyse_gearbox(
         checks=checks,
         warnings=warnings,
     )
-
-
-def _with_bearing(design: Design, designation: str) -> Design:
-    if design.reducer.cam_bearing.designation == designation:
-        return design
-    return design.replacing({"reducer.cam_bearing.designation": designation})

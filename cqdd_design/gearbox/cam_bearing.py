@@ -1,4 +1,4 @@
-"""The cam bearing of a design: the catalogue's answer to "auto", and its rating."""
+"""The cam bearing of a disc: which of the catalogue's fit, what they bear, which is chosen."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from cqdd_design.catalog.bearings import Bearing, bearings, find_bearing
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
-from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.bearing_life import (
     RollingElement,
     basic_rating_life_hours,
@@ -16,12 +15,7 @@ from cqdd_design.gearbox.bearing_life import (
     static_safety,
 )
 from cqdd_design.gearbox.checks import allowables
-from cqdd_design.gearbox.loads import rigid_maxima
-from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import kinematics
-from cqdd_design.geometry.cycloid import CycloidDisc
-
-AUTO = "auto"
 
 
 def rolling_element(bearing: Bearing) -> RollingElement:
@@ -193,54 +187,30 @@ def choose(
     return max(rated, key=_reserve, default=None)
 
 
-def cam_bearing(
-    design: Design, stages: Stages, peak_load: float, valley_distance: float
-) -> BearingResult:
-    """Rate the cam bearing the design names, or choose one for "auto".
+def relative_speed(design: Design) -> float:
+    """Speed of the crank against the discs at the required input speed, rad/s."""
+    return float(
+        kinematics.cam_bearing_speed_ring_fixed(
+            design.reducer.ratio, design.requirements.input_speed
+        )
+    )
+
+
+def continuous_load(design: Design, peak_load: float) -> float:
+    """Cam load at the continuous torque of the requirements, N, from that at the peak torque."""
+    requirements = design.requirements
+    return peak_load * requirements.continuous_torque / requirements.peak_torque
+
+
+def cam_bearing(design: Design, peak_load: float) -> BearingResult:
+    """Rate the cam bearing that a design names.
 
     Parameters
     ----------
     design : Design
-        With requirements and reducer.
-    stages : Stages
-        Of the same design.
+        With requirements and a named cam bearing.
     peak_load : float
         Greatest cam load at the peak torque, N.
-    valley_distance : float
-        From the disc's centre to its valleys, m.
-
-    Raises
-    ------
-    InfeasibleError
-        When "auto" finds no catalogue bearing that fits the disc at all.
     """
-    requirements, reducer = design.requirements, design.reducer
-    speed = float(kinematics.cam_bearing_speed_ring_fixed(reducer.ratio, requirements.input_speed))
-    continuous = peak_load * requirements.continuous_torque / requirements.peak_torque
-    designation = reducer.cam_bearing.designation
-    if designation != AUTO:
-        return rate(find_bearing(designation), peak_load, continuous, speed)
-    most = largest_outer_diameter(design, 2.0 * stages.hole_radius, valley_distance)
-    chosen = choose(fitting_bearings(design, most), peak_load, continuous, speed)
-    if chosen is None:
-        raise InfeasibleError(
-            f"no catalogue bearing fits the disc: at most {max(most, 0.0) * 1e3:.2f} mm outside, "
-            f"{reducer.disc_thickness * 1e3:g} mm wide and at least "
-            f"{least_bore(reducer.eccentricity) * 1e3:.2f} mm inside; raise "
-            "output_pins.circle_radius or disc_thickness, or lower eccentricity."
-        )
-    return chosen
-
-
-def with_chosen_bearing(design: Design) -> Design:
-    """Replace cam_bearing.designation "auto" by the catalogue's answer.
-
-    A design that names its bearing is returned as it is.
-    """
-    if design.reducer.cam_bearing.designation != AUTO:
-        return design
-    stages = Stages.from_design(design)
-    peak = rigid_maxima(stages, design.requirements.peak_torque).cam_bearing_load
-    valley = CycloidDisc.from_design(design).valley_distance
-    chosen = cam_bearing(design, stages, peak, valley)
-    return design.replacing({"reducer.cam_bearing.designation": chosen.bearing.designation})
+    bearing = find_bearing(design.reducer.cam_bearing.designation)
+    return rate(bearing, peak_load, continuous_load(design, peak_load), relative_speed(design))

@@ -140,10 +140,10 @@ class CycloidDisc:
             self.tooth_radius + self.equidistant,
         )
 
-    @cached_property
+    @property
     def unmodified(self) -> CycloidDisc:
         """The disc conjugate to the nominal ring."""
-        return CycloidDisc(
+        return _disc_of(
             self.lobe_count, self.ring_pitch_radius, self.eccentricity, self.tooth_radius
         )
 

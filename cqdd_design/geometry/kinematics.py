@@ -110,6 +110,15 @@ def crank_direction(crank_angle: ArrayLike, crank_phase: ArrayLike = 0.0) -> Flo
     return np.stack([np.cos(turned), np.sin(turned)], axis=-1)
 
 
+def crank_meets_carrier(lobe_count: int, place: float) -> float:
+    """Crank angle at which the crank points to a place on the carrier, rad.
+
+    `place` is the angle of the place at crank angle 0; the carrier turns back while the crank
+    comes: phi = place - phi/n.
+    """
+    return place / (1.0 + 1.0 / lobe_count)
+
+
 def disc_centre(
     eccentricity: ArrayLike, crank_angle: ArrayLike, crank_phase: ArrayLike = 0.0
 ) -> FloatArray:

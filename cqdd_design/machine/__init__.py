@@ -1,1 +1,5 @@
-"""A design made concrete: its bought parts, solids, masses and balance."""
+"""A design made concrete once: bearings, motor, layout, parts, masses; all above takes it."""
+
+from cqdd_design.machine.machine import Machine, resolve
+
+__all__ = ["Machine", "resolve"]

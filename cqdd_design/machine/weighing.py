@@ -1,4 +1,4 @@
-"""Parts, mass properties and balance of a machine, collected for the report.
+"""Bodies of a machine: parts, mass properties, and balance for one, two and three discs.
 
 By default everything is a closed form or the catalogue's, so no CAD kernel is needed; the same
 figures from meshes come with ``source=mass_properties``.
@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from cqdd_design.catalog.bearings import Bearing
-from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox.balance import StackBalance, stack_balance
+from cqdd_design.machine.machine import Machine
 from cqdd_design.solids.inertia import (
     GearboxInertia,
     MassSource,
@@ -20,7 +19,7 @@ from cqdd_design.solids.inertia import (
     crank_properties,
     gearbox_inertia,
 )
-from cqdd_design.solids.parts import Part, build_parts
+from cqdd_design.solids.part import Part
 
 DISC_COUNTS = (1, 2, 3)
 
@@ -45,14 +44,12 @@ class Bodies:
     balance: Mapping[int, StackBalance]
 
 
-def weigh(design: Design, cam_bearing: Bearing, source: MassSource = closed_form) -> Bodies:
-    """Weigh the parts of a design, and balance its crank for one, two and three discs.
+def weigh(machine: Machine, source: MassSource = closed_form) -> Bodies:
+    """Weigh the parts of a machine, and balance its crank for one, two and three discs.
 
     Parameters
     ----------
-    design : Design
-    cam_bearing : Bearing
-        The catalogue row of the cam bearing, "auto" resolved.
+    machine : Machine
     source : callable
         Mass properties of one piece; those of the other numbers of discs are closed forms.
 
@@ -62,20 +59,19 @@ def weigh(design: Design, cam_bearing: Bearing, source: MassSource = closed_form
         When the parts cannot exist or cannot be put together, which a design that fails its
         checks may well do.
     """
-    reducer = design.reducer
-    parts = build_parts(design, cam_bearing)
-    inertia = gearbox_inertia(design, parts, source)
-    speed = design.requirements.input_speed
+    design, reducer, parts = machine.design, machine.design.reducer, machine.parts
+    meshed = source is not closed_form
+    inertia = gearbox_inertia(design, machine.motor, parts, source) if meshed else machine.inertia
     balance = {}
     for count in DISC_COUNTS:
         if count == reducer.disc_count:
             crank = crank_properties(design, parts, source)
         else:
-            variant = design.replacing(
+            variant = machine.changed(
                 {"reducer.disc_count": count, "reducer.balance.counterweights": False}
             )
             try:
-                crank = crank_properties(variant, build_parts(variant, cam_bearing), closed_form)
+                crank = crank_properties(variant.design, variant.parts, closed_form)
             except GeometryError:
                 continue
         balance[count] = stack_balance(
@@ -84,17 +80,15 @@ def weigh(design: Design, cam_bearing: Bearing, source: MassSource = closed_form
             reducer.disc_thickness,
             reducer.disc_spacing,
             count,
-            speed,
+            design.requirements.input_speed,
             (crank,),
         )
     return Bodies(parts, inertia, balance)
 
 
-def weigh_if_possible(
-    design: Design, cam_bearing: Bearing
-) -> tuple[Bodies | None, tuple[str, ...]]:
+def weigh_if_possible(machine: Machine) -> tuple[Bodies | None, tuple[str, ...]]:
     """The bodies in closed form, or nothing and the sentence that says why not."""
     try:
-        return weigh(design, cam_bearing), ()
+        return weigh(machine), ()
     except GeometryError as error:
         return None, (f"No bill of materials, masses or inertia: {error.message}",)

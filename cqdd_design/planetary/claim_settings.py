@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from cqdd_design.catalog import find_material
+from cqdd_design.catalog import find_material, paper
 from cqdd_design.planetary.assembly import MOST_PLANETS, assembles, most_planets_that_fit
 from cqdd_design.planetary.gear_material import GearMaterial, gear_material
 from cqdd_design.planetary.gear_set import (
@@ -17,12 +17,12 @@ from cqdd_design.planetary.kinematics import PlanetaryTeeth
 from cqdd_design.planetary.settings import RatingSettings
 
 #: What the paper prints.
-PAPER_TEETH = PlanetaryTeeth(12, 36, 22, 70)
-PAPER_MODULE, PAPER_FACE_WIDTH = 1e-3, 12e-3
-PAPER_PEAK_TORQUE, PAPER_CONTINUOUS_TORQUE = 120.0, 40.0
-PAPER_RATIO, PAPER_PLANETS = 10, 6
+PAPER_TEETH = PlanetaryTeeth(*paper.PLANETARY_TEETH)
+PAPER_MODULE, PAPER_FACE_WIDTH = paper.PLANETARY_MODULE, paper.PLANETARY_FACE_WIDTH
+PAPER_PEAK_TORQUE, PAPER_CONTINUOUS_TORQUE = paper.PEAK_TORQUE, paper.CONTINUOUS_TORQUE
+PAPER_RATIO, PAPER_PLANETS = paper.RATIO, paper.PLANETARY_PLANETS
 #: Five 4 mm pins on 19.5 mm, each in single shear at 35 ksi, all fully loaded at once.
-PAPER_PIN_TORQUE = 295.65
+PAPER_PIN_TORQUE = paper.PINS_TORQUE
 
 #: Materials and qualities of the grid: 4140 from soft to hard, and the usual gear steel.
 SEARCHED_MATERIALS = (

@@ -60,6 +60,11 @@ class CycloidLimit:
         """Torque at which the limit is reached, N*m: margins of stress and pressure made equal."""
         return float(self.torque * self.margin ** (1.0 / self.torque_exponent))
 
+    @property
+    def holds(self) -> bool:
+        """Whether the limit is kept at the load's torque."""
+        return self.torque_capacity >= self.torque
+
     def to_dict(self) -> dict[str, object]:
         """The JSON form."""
         return {

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from cqdd_design.design import Design
 from cqdd_design.files import WrittenFile
 from cqdd_design.gearbox import GearboxAnalysis
+from cqdd_design.machine import Machine
 from cqdd_design.machine.weighing import Bodies
 from cqdd_design.planetary.compare import PlanetaryComparison
 from cqdd_design.results import Provenance
@@ -16,10 +17,10 @@ from cqdd_design.results import Provenance
 if TYPE_CHECKING:
     from cqdd_design.actuator.bench import BenchResult
     from cqdd_design.actuator.parameters import ActuatorParameters
-    from cqdd_design.gearbox.contact_analysis import ContactAnalysis
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
-    from cqdd_design.report.machine_view.pictures import MachineViews
-    from cqdd_design.report.machine_view.viewer_data import ViewerData
+    from cqdd_design.machine.contact_analysis import ContactAnalysis
+    from cqdd_design.report.machine_view.model import ViewerData
+    from cqdd_design.report.machine_view.stills import MachineViews
     from cqdd_design.sizing.result import SizingResult
 
 
@@ -29,8 +30,8 @@ class ReportInput:
 
     Attributes
     ----------
-    design : Design
-        As given, so that its assumed values are known as such.
+    machine : Machine
+        The design, as given and made concrete.
     gearbox : GearboxAnalysis
         At the torques of the requirements.
     planetary : PlanetaryComparison
@@ -50,7 +51,7 @@ class ReportInput:
         At the torques of the requirements: contact, precision, losses and life.
     tolerance : ToleranceResult or None
         An ensemble of toleranced gearboxes.
-    machine : (MachineViews, ViewerData) or None
+    pictures : (MachineViews, ViewerData) or None
         Pictures of the solids, and their model in three dimensions.
     bench : (ActuatorParameters, BenchResult) or None
         The simulated actuator, and what the virtual test bench measured on it.
@@ -58,7 +59,7 @@ class ReportInput:
         A sentence on why there is none; empty where nobody asked for it.
     """
 
-    design: Design
+    machine: Machine
     gearbox: GearboxAnalysis
     planetary: PlanetaryComparison
     provenance: Provenance
@@ -69,6 +70,11 @@ class ReportInput:
     files: tuple[WrittenFile, ...] = ()
     contact: ContactAnalysis | None = None
     tolerance: ToleranceResult | None = None
-    machine: tuple[MachineViews, ViewerData] | None = None
+    pictures: tuple[MachineViews, ViewerData] | None = None
     bench: tuple[ActuatorParameters, BenchResult] | None = None
     bench_missing: str = ""
+
+    @property
+    def design(self) -> Design:
+        """The design as given, so that its assumed values are known as such."""
+        return self.machine.given

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from cqdd_design.catalog import find_material, find_motor
-from cqdd_design.design import Design
+from cqdd_design.catalog import find_material
 from cqdd_design.errors import UsageError
-from cqdd_design.gearbox import GearboxAnalysis, analyse_gearbox
+from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.gearbox.bearing_life import load_for_life
 from cqdd_design.gearbox.checks.allowables import LIFE_HOURS, STATIC_SAFETY
+from cqdd_design.machine import Machine
 from cqdd_design.planetary.compare import PlanetaryComparison, compare_planetary
 from cqdd_design.planetary.cycloid import CycloidLimit
 from cqdd_design.planetary.gear_material import GearMaterial, gear_material
@@ -21,20 +21,19 @@ DEFAULT_STEEL = "AISI 4140 Q&T 540C"
 
 
 def compare_with_planetary(
-    design: Design,
+    machine: Machine,
     *,
     teeth: PlanetaryTeeth | None = None,
     module: float | None = None,
     face_width: float | None = None,
     material: str | None = None,
     planets: int | None = None,
-    analysis: GearboxAnalysis | None = None,
 ) -> PlanetaryComparison:
-    """A compound planetary for the loads of a design, beside the design's own limits.
+    """A compound planetary for the loads of a machine, beside its own limits.
 
     Parameters
     ----------
-    design : Design
+    machine : Machine
         For its torques, speed, motor and limits.
     teeth : PlanetaryTeeth, optional
         Default: the paper's 12, 36, 22 and 70.
@@ -45,11 +44,9 @@ def compare_with_planetary(
         `DEFAULT_STEEL` where they are of no steel that ISO 6336-5 rates.
     planets : int, optional
         The number looked at in detail; default the most that fit and assemble.
-    analysis : GearboxAnalysis, optional
-        Of the design, where it has been made already.
     """
-    requirements = design.requirements
-    steel, notes = _gear_steel(design.reducer.disc_material, material)
+    requirements = machine.design.requirements
+    steel, notes = _gear_steel(machine.design.reducer.disc_material, material)
     asked = {"teeth": teeth, "module": module, "face_width": face_width, "planets": planets}
     given: dict[str, Any] = {name: value for name, value in asked.items() if value is not None}
     found = compare_planetary(
@@ -57,8 +54,8 @@ def compare_with_planetary(
         peak_torque=requirements.peak_torque,
         continuous_torque=requirements.continuous_torque,
         input_speed=requirements.input_speed,
-        bore=find_motor(design.motor.name).bore_diameter,
-        cycloid=cycloid_limits(analysis or analyse_gearbox(design)),
+        bore=machine.motor.bore_diameter,
+        cycloid=cycloid_limits(machine.analysis),
         **given,
     )
     return replace(found, warnings=(*notes, *found.warnings))

@@ -34,7 +34,7 @@ def finish(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> 
     """
     try:
         design = design_of(evaluator, points, row, suffix)
-        analysis = analyse_gearbox(design)
+        analysis = analyse_gearbox(design, evaluator.frame.motor)
     except DesignError:
         return None
     checks, warnings = analysis.checks, analysis.warnings
@@ -44,7 +44,7 @@ def finish(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> 
     margin = next(check.margin for check in checks if check.id == least[1])
     rotor_known = evaluator.frame.rotor_inertia is not None
     if not rotor_known:
-        motor = evaluator.frame.requirements.motor
+        motor = evaluator.frame.motor.name
         warnings += (
             f"motor '{motor}' has no rotor inertia in the catalogue, so the inertia that the "
             "search weighs is that of the gearbox alone.",

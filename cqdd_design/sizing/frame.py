@@ -81,8 +81,7 @@ class Frame:
         E* of tooth on disc and of pin on disc.
     disc_density, ring_density, pin_density : float
         kg/m^3.
-    rotor_inertia : float or None
-        Of the motor, kg m^2; None where the catalogue has none.
+    motor : Motor
     pin_sizes : tuple of PinSize
         Ascending.
     bearings : tuple of Bearing
@@ -107,9 +106,14 @@ class Frame:
     disc_density: float
     ring_density: float
     pin_density: float
-    rotor_inertia: float | None
+    motor: Motor
     pin_sizes: tuple[PinSize, ...]
     bearings: tuple[Bearing, ...]
+
+    @property
+    def rotor_inertia(self) -> float | None:
+        """Of the motor, kg m^2; None where it is not known."""
+        return self.motor.rotor_inertia
 
     @property
     def disc_torque(self) -> float:
@@ -141,12 +145,14 @@ class Frame:
         return bearing_table(self.bearings, self.cam_speed, self.continuous_share)
 
 
-def search_frame(requirements: Requirements) -> Frame:
+def search_frame(requirements: Requirements, motor: Motor | None = None) -> Frame:
     """Read the requirements, the design defaults and the catalogues.
 
     Parameters
     ----------
     requirements : Requirements
+    motor : Motor, optional
+        Default the catalogue's row of the motor that the requirements name.
 
     Returns
     -------
@@ -175,7 +181,7 @@ def search_frame(requirements: Requirements) -> Frame:
         equidistant=reducer.modification.equidistant,
         radial=reducer.modification.radial,
         relief_clearance=reducer.ring.relief_clearance,
-        wire_radius=0.5 * template.edm.wire_diameter + template.edm.spark_gap,
+        wire_radius=template.edm.wire_offset,
         default_clearance=pins.hole_clearance,
         clocking=pins.hole_clocking,
         most_thickness=most,
@@ -188,18 +194,17 @@ def search_frame(requirements: Requirements) -> Frame:
         disc_density=disc.density,
         ring_density=ring.density,
         pin_density=pin.density,
-        rotor_inertia=_bare_motor(requirements.motor).rotor_inertia,
+        motor=_bare_motor(motor or find_motor(requirements.motor)),
         pin_sizes=sizes,
         bearings=cam_bearings(requirements, most, spacing, sizes[0].mean_diameter),
     )
 
 
-def _bare_motor(name: str) -> Motor:
-    motor = find_motor(name)
+def _bare_motor(motor: Motor) -> Motor:
     if motor.torque_at != "motor":
         raise InfeasibleError(
-            f"requirements.motor '{name}' is a geared actuator, whose torque and inertia count at "
-            "its output; name a bare motor, such as 'CubeMars RO100 KV55'."
+            f"requirements.motor '{motor.name}' is a geared actuator, whose torque and inertia "
+            "count at its output; name a bare motor, such as 'CubeMars RO100 KV55'."
         )
     return motor
 

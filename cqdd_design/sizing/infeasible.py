@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down
@@ -150,8 +151,8 @@ def _listed(words: list[str]) -> str:
     return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
-def refuse_motor(sized: SizedDesign) -> None:
-    """Raise when a motor that was asked for falls short; no size of the gearbox helps.
+def refuse_motor(sized: SizedDesign, motor: Motor) -> None:
+    """Raise when the motor that was asked for falls short; no size of the gearbox helps.
 
     Raises
     ------
@@ -172,7 +173,7 @@ def refuse_motor(sized: SizedDesign) -> None:
         for check in failed
     )
     raise SizingInfeasibleError(
-        f"motor '{requirements.motor}' does not meet the requirements: {reasons}.",
+        f"motor '{motor.name}' does not meet the requirements: {reasons}.",
         binding=tuple(check.id for check in failed),
         most_torque=most,
     )
@@ -266,7 +267,7 @@ def _at(search: Search, key: str, millimetres: int) -> Search | None:
     """The same search with another ring or length; None where no part of the catalogue fits."""
     changed = search.frame.requirements.model_copy(update={key: millimetres * 1e-3})
     try:
-        frame = search_frame(changed)
+        frame = search_frame(changed, search.frame.motor)
     except InfeasibleError:
         return None
     return Search.of(frame, search.evaluator.tables)

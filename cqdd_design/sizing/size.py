@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
 from cqdd_design.sizing.frame import search_frame
 from cqdd_design.sizing.infeasible import no_design, refuse_motor
@@ -12,7 +13,12 @@ from cqdd_design.sizing.result import SizingResult
 from cqdd_design.sizing.search import Search
 
 
-def size(requirements: Requirements, progress: Callable[[str], None] | None = None) -> SizingResult:
+def size(
+    requirements: Requirements,
+    progress: Callable[[str], None] | None = None,
+    *,
+    motor: Motor | None = None,
+) -> SizingResult:
     """Size a gearbox.
 
     A full product of several million candidates is screened against every closed-form check; the
@@ -25,6 +31,8 @@ def size(requirements: Requirements, progress: Callable[[str], None] | None = No
         Torques, speed and space, with their defaults.
     progress : callable, optional
         Called with a sentence at every stage.
+    motor : Motor, optional
+        Default the catalogue's row of the motor that the requirements name.
 
     Returns
     -------
@@ -44,7 +52,7 @@ def size(requirements: Requirements, progress: Callable[[str], None] | None = No
     """
     say = progress or (lambda _: None)
     started = time.perf_counter()
-    frame = search_frame(requirements)
+    frame = search_frame(requirements, motor)
     say("screening candidates against every limit")
     search = Search.of(frame)
     found = search.found
@@ -55,7 +63,7 @@ def size(requirements: Requirements, progress: Callable[[str], None] | None = No
         say("no candidate meets every limit; looking for the nearest requirements that fit")
         raise no_design(search)
     design, point = main
-    refuse_motor(design)
+    refuse_motor(design, frame.motor)
     alternatives = search.alternatives(design, point, most)
     return SizingResult(
         design=design.design,

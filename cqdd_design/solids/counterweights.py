@@ -19,8 +19,8 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.contours import ArcContour, FloatArray, PlanarPart, as_points
 from cqdd_design.solids.layers import prism
 from cqdd_design.solids.layout import Layout, MotorLayout
-from cqdd_design.solids.part import Colour, Instance, Part
-from cqdd_design.solids.poses import SHAFT, body_pose, transform
+from cqdd_design.solids.part import Colour, Part, on_axis
+from cqdd_design.solids.poses import SHAFT, body_pose
 
 MATERIAL = "AISI 4140 annealed"
 _HEIGHT = 1.5
@@ -114,7 +114,7 @@ def _weight(
         colour=colour,
         source="make",
         designation=f"cut from {height * 1e3:.3g} mm sheet, bonded on the bell",
-        instances=(Instance(name, SHAFT, transform()),),
+        instances=on_axis(name, SHAFT),
     )
 
 

@@ -20,7 +20,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from cqdd_design.catalog.motors import find_motor
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.results import MassProperties
@@ -128,10 +128,7 @@ class GearboxInertia:
         All pieces at crank angle 0 in the ring's frame, the motor too where it is drawn.
     ratio : int
         n.
-    rotor_inertia : float or None
-        Of the catalogue's motor, kg m^2; None where the catalogue has none.
-    motor : str
-        Its name.
+    motor : Motor
     motor_missing : str
         Why the motor is not among the parts; empty where it is.
     orbiting_mass : float
@@ -141,10 +138,14 @@ class GearboxInertia:
     parts: tuple[PartInertia, ...]
     total: MassProperties
     ratio: int
-    rotor_inertia: float | None
-    motor: str
+    motor: Motor
     motor_missing: str
     orbiting_mass: float
+
+    @property
+    def rotor_inertia(self) -> float | None:
+        """Of the motor, kg m^2; None where it is not known."""
+        return self.motor.rotor_inertia
 
     @property
     def gearbox_reflected(self) -> float:
@@ -186,8 +187,8 @@ class GearboxInertia:
             found.append(f"mass and solids are without the motor: {self.motor_missing}.")
         if self.rotor_inertia is None:
             found.append(
-                f"the catalogue has no rotor inertia for {self.motor}; the reflected inertia is "
-                "that of the gearbox alone."
+                f"the catalogue has no rotor inertia for {self.motor.name}; the reflected inertia "
+                "is that of the gearbox alone."
             )
         return tuple(found)
 
@@ -208,13 +209,14 @@ class GearboxInertia:
 
 
 def gearbox_inertia(
-    design: Design, parts: Sequence[Part], source: MassSource = mass_properties
+    design: Design, motor: Motor, parts: Sequence[Part], source: MassSource = mass_properties
 ) -> GearboxInertia:
     """Compose the mass properties of all pieces.
 
     Parameters
     ----------
     design : Design
+    motor : Motor
     parts : sequence of Part
         From `build_parts`.
     source : callable
@@ -244,22 +246,20 @@ def gearbox_inertia(
                 catalogue_mass=part.catalogue_mass is not None,
             )
         )
-    motor = find_motor(design.motor.name)
+    drawn = any(part.name == ROTOR for part in parts)
     return GearboxInertia(
         parts=tuple(rows),
         total=total,
         ratio=design.reducer.ratio,
-        rotor_inertia=motor.rotor_inertia,
-        motor=motor.name,
-        motor_missing="" if any(part.name == ROTOR for part in parts) else _why(design),
+        motor=motor,
+        motor_missing="" if drawn else _why(motor),
         orbiting_mass=orbiting / design.reducer.disc_count,
     )
 
 
-def _why(design: Design) -> str:
-    """Why a design's parts hold no motor."""
-    missing = drawn_motor(design)[1]
-    return missing or f"{design.motor.name} does not sit round a ring of this size"
+def _why(motor: Motor) -> str:
+    """Why the parts hold no motor."""
+    return drawn_motor(motor)[1] or f"{motor.name} does not sit round a ring of this size"
 
 
 def closed_form(part: Part) -> MassProperties:

@@ -1,4 +1,4 @@
-"""Whether solids run into each other anywhere in the motion.
+"""Whether two solids run into each other.
 
 Two parts that touch along a fit overlap a little as meshes, because facets stand off the true
 surface. A real collision is told from that by its thickness: every connected piece of an
@@ -9,19 +9,16 @@ can explain are reported.
 from __future__ import annotations
 
 import atexit
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.solids.cad import MM
-from cqdd_design.solids.mesh import FINE, Quality, closed_mesh, surface_slack
-from cqdd_design.solids.part import Instance, Part
+from cqdd_design.solids.mesh import Quality, closed_mesh
+from cqdd_design.solids.part import Part
 
 if TYPE_CHECKING:
     from manifold3d import Manifold
@@ -56,75 +53,6 @@ class Overlap:
     def collides(self) -> bool:
         """Whether the overlap is more than facets of touching surfaces."""
         return self.thickness > self.allowed
-
-
-def find_overlaps(
-    design: Design,
-    parts: Sequence[Part],
-    crank_angles: Iterable[float],
-    quality: Quality = FINE,
-) -> tuple[Overlap, ...]:
-    """Every overlap of two pieces at the given crank angles (rad), the thickest first.
-
-    Parameters
-    ----------
-    design : Design
-    parts : sequence of Part
-        Of that design. Pieces on the same body are compared once.
-    crank_angles : iterable of float
-        rad. One turn of the output is ``ratio`` turns of the crank.
-    quality : Quality
-        Of the meshes: `FINE` sees collisions of a few micrometres, `DISPLAY` of a few hundredths
-        of a millimetre, several times faster.
-
-    Returns
-    -------
-    tuple of Overlap
-        Facet overlaps of touching parts included; ask `Overlap.collides`, or use `collisions`.
-    """
-    pieces = [(part, piece) for part in parts for piece in part.instances]
-    found: list[Overlap] = []
-    still_done = False
-    for angle in crank_angles:
-        posed = [posed_manifold(part, piece.pose(design, angle), quality) for part, piece in pieces]
-        boxes = np.array([solid.bounding_box() for solid in posed])
-        for i, j in combinations(range(len(pieces)), 2):
-            (part, piece), (other_part, other) = pieces[i], pieces[j]
-            if still_done and piece.body == other.body:
-                continue
-            if not boxes_meet(boxes[i], boxes[j]):
-                continue
-            overlap = overlap_of(posed[i], posed[j])
-            if overlap is not None:
-                allowed = surface_slack(part, quality) + surface_slack(other_part, quality)
-                found.append(Overlap(piece.name, other.name, angle, *overlap, allowed))
-        still_done = True
-    return tuple(sorted(found, key=lambda one: -one.thickness / one.allowed))
-
-
-def collisions(
-    design: Design,
-    parts: Sequence[Part],
-    crank_angles: Iterable[float],
-    quality: Quality = FINE,
-) -> tuple[Overlap, ...]:
-    """The overlaps that are real: parts that run into each other, the worst first."""
-    found = find_overlaps(design, parts, crank_angles, quality)
-    return tuple(overlap for overlap in found if overlap.collides)
-
-
-def shared_volume(
-    design: Design,
-    first: tuple[Part, Instance],
-    second: tuple[Part, Instance],
-    crank_angle: float,
-) -> float:
-    """Volume (m^3) of the intersection of two pieces at a crank angle (rad)."""
-    solids = [
-        posed_manifold(part, piece.pose(design, crank_angle), FINE)
-        for part, piece in (first, second)
-    ]
-    return float((solids[0] ^ solids[1]).volume()) / MM**3
 
 
 @lru_cache(maxsize=512)

@@ -26,6 +26,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.solids.selection import CapScrew, ChosenBearing, OutputPin
 
 
@@ -296,7 +297,7 @@ class DowelLayout:
 class Layout:
     """All of the above for one design; `unit` is a millimetre at its scale, m.
 
-    `motor` is None where the motor cannot be drawn, and `motor_missing` says why.
+    `motor` is None where the motor, `motor_row`, cannot be drawn, and `motor_missing` says why.
     """
 
     unit: float
@@ -306,4 +307,5 @@ class Layout:
     housing: HousingLayout
     dowels: DowelLayout
     motor: MotorLayout | None
+    motor_row: Motor
     motor_missing: str

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 
-from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.solids import motor_shapes
 from cqdd_design.solids.carrier import cap_screw_shape
 from cqdd_design.solids.layers import Stack, on_circle
 from cqdd_design.solids.layout import Layout, MotorLayout
-from cqdd_design.solids.part import Colour, Instance, Part, Source
+from cqdd_design.solids.part import Colour, Instance, Part, Source, around, on_axis, placed
 from cqdd_design.solids.poses import HOUSING, SHAFT, transform
+from cqdd_design.solids.selection import CapScrew
 
 STATOR_MATERIAL = "Electrical steel M400-50A"
 MAGNET_MATERIAL = "NdFeB N42"
@@ -40,8 +41,7 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
     motor = layout.motor
     if motor is None:
         return []
-    row = find_motor(design.motor.name)
-    metal, unit = design.housing.material, layout.unit
+    row, metal, unit = layout.motor_row, design.housing.material, layout.unit
     stub = 0.5 * layout.shaft.support.bearing.bore_diameter
     rotor_mass = _rotor_mass(row, motor)
     stator_mass = None if row.mass is None else row.mass - rotor_mass
@@ -62,10 +62,9 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
         make: bool = False,
         mass: float | None = None,
     ) -> Part:
-        body = SHAFT if turns else HOUSING
-        placed = (Instance(name, body, transform(z=z)),)
+        pieces = on_axis(name, SHAFT if turns else HOUSING, z)
         source: Source = "make" if make else "buy"
-        return Part(name, shape, material, colour, source, designation, placed, mass)
+        return Part(name, shape, material, colour, source, designation, pieces, mass)
 
     return [
         one(
@@ -108,59 +107,37 @@ def _rotor_mass(row: Motor, motor: MotorLayout) -> float:
 
 def _screws(motor: MotorLayout, material: str) -> Part:
     places = on_circle(3, motor_shapes.board_screw_circle(motor), 0.0)
-    return Part(
-        name="encoder screw",
-        shape=cap_screw_shape(motor.board_screw),
-        material=material,
-        colour=_SCREW,
-        source="buy",
-        designation=motor.board_screw.designation,
-        instances=tuple(
-            Instance(f"encoder screw {i + 1}", HOUSING, transform(x=x, y=y, z=motor.board_top))
-            for i, (x, y) in enumerate(places)
-        ),
-    )
+    pieces = around("encoder screw", HOUSING, places, motor.board_top)
+    return _screw("encoder screw", motor.board_screw, material, pieces)
 
 
 def _cover_screws(motor: MotorLayout, material: str) -> Part:
-    first = float(motor.ear_angles[0])
-    places = on_circle(motor.ear_count, motor.ear_circle, first)
-    return Part(
-        name="motor cover screw",
-        shape=cap_screw_shape(motor.cover_screw),
-        material=material,
-        colour=_SCREW,
-        source="buy",
-        designation=motor.cover_screw.designation,
-        instances=tuple(
-            Instance(f"motor cover screw {i + 1}", HOUSING, transform(x=x, y=y, z=motor.flange_top))
-            for i, (x, y) in enumerate(places)
-        ),
-    )
+    places = on_circle(motor.ear_count, motor.ear_circle, float(motor.ear_angles[0]))
+    pieces = around("motor cover screw", HOUSING, places, motor.flange_top)
+    return _screw("motor cover screw", motor.cover_screw, material, pieces)
+
+
+def _screw(name: str, screw: CapScrew, material: str, pieces: tuple[Instance, ...]) -> Part:
+    shape = cap_screw_shape(screw)
+    return Part(name, shape, material, _SCREW, "buy", screw.designation, pieces)
 
 
 def dowel_part(layout: Layout) -> list[Part]:
     """The dowels between ring and housing; none where there is no room."""
-    dowels, pack = layout.dowels, layout.pack
+    dowels, radius = layout.dowels, layout.pack.ring_radius
     if dowels.radius <= 0.0:
         return []
     size = f"{2e3 * dowels.radius:g} m6 x {dowels.length * 1e3:g}"
+    places = (transform(angle, *_on(radius, angle), dowels.bottom) for angle in dowels.angles)
     return [
         Part(
-            name="ring dowel",
-            shape=motor_shapes.dowel(dowels),
-            material="AISI 52100 / 100Cr6 hardened",
-            colour=_STEEL,
-            source="buy",
-            designation=f"ISO 8734 {size}, drilled and reamed with the ring in its seat",
-            instances=tuple(
-                Instance(
-                    f"ring dowel {i + 1}",
-                    HOUSING,
-                    transform(angle, *_on(pack.ring_radius, angle), dowels.bottom),
-                )
-                for i, angle in enumerate(dowels.angles)
-            ),
+            "ring dowel",
+            motor_shapes.dowel(dowels),
+            "AISI 52100 / 100Cr6 hardened",
+            _STEEL,
+            "buy",
+            f"ISO 8734 {size}, drilled and reamed with the ring in its seat",
+            placed("ring dowel", HOUSING, *places),
         )
     ]
 

@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.solids.layout import DowelLayout, MotorLayout
 from cqdd_design.solids.selection import cap_screw, thread_size
 
@@ -41,9 +41,8 @@ _MOST_TUBE_WALL = 12.0
 """Thickest tube, in units, that is filled up to the bore of a stator."""
 
 
-def drawn_motor(design: Design) -> tuple[Motor | None, str]:
-    """Return the design's motor if its parts can be drawn, or None and why not."""
-    motor = find_motor(design.motor.name)
+def drawn_motor(motor: Motor) -> tuple[Motor | None, str]:
+    """Return a motor if its parts can be drawn, or None and why not."""
     sizes = (
         motor.bore_diameter,
         motor.outer_diameter,
@@ -58,13 +57,11 @@ def drawn_motor(design: Design) -> tuple[Motor | None, str]:
     return motor, ""
 
 
-def register_radius(
-    design: Design, pack: PackLayout, unit: float
-) -> tuple[float, Motor | None, str]:
+def register_radius(motor: Motor, pack: PackLayout, unit: float) -> tuple[float, Motor | None, str]:
     """Outside radius of the tube, the motor that sits on it, and why there is none."""
     own = pack.ring_radius + 2.0 * unit
-    motor, missing = drawn_motor(design)
-    bore = find_motor(design.motor.name).bore_diameter
+    drawn, missing = drawn_motor(motor)
+    bore = motor.bore_diameter
     if bore is None:
         return own, None, missing
     wall = 0.5 * bore - pack.ring_radius
@@ -74,7 +71,7 @@ def register_radius(
             None,
             (
                 f"a ring of {2e3 * pack.ring_radius:.4g} mm does not go into the "
-                f"{bore * 1e3:.4g} mm stator bore of {design.motor.name}; it may be "
+                f"{bore * 1e3:.4g} mm stator bore of {motor.name}; it may be "
                 f"{1e3 * (bore - 2.0 * unit):.4g} mm with a wall of {unit * 1e3:.3g} mm"
             ),
         )
@@ -83,11 +80,11 @@ def register_radius(
             own,
             None,
             (
-                f"the {bore * 1e3:.4g} mm stator bore of {design.motor.name} is far larger than a "
+                f"the {bore * 1e3:.4g} mm stator bore of {motor.name} is far larger than a "
                 f"ring of {2e3 * pack.ring_radius:.4g} mm"
             ),
         )
-    return 0.5 * bore, motor, missing
+    return 0.5 * bore, drawn, missing
 
 
 def lay_out_motor(

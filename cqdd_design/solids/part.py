@@ -5,6 +5,7 @@ A `Part` needs no CAD kernel until its `solid` is asked for.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
@@ -17,7 +18,7 @@ from cqdd_design.geometry.contours import FloatArray, Moments
 from cqdd_design.results import MassProperties
 from cqdd_design.solids.fits import Fit
 from cqdd_design.solids.layers import Stack, prism_properties
-from cqdd_design.solids.poses import Body, body_pose
+from cqdd_design.solids.poses import Body, body_pose, transform
 
 if TYPE_CHECKING:
     from cadquery import Solid
@@ -136,3 +137,20 @@ class Part:
         from cqdd_design.solids.cad import build_solid
 
         return build_solid(self.name, self.shape)
+
+
+def placed(name: str, body: Body, *placements: FloatArray) -> tuple[Instance, ...]:
+    """Pieces of a part on one body, numbered from 1."""
+    return tuple(Instance(f"{name} {i}", body, at) for i, at in enumerate(placements, start=1))
+
+
+def on_axis(name: str, body: Body, z: float = 0.0) -> tuple[Instance, ...]:
+    """The one piece of a part that stands on the axis of its body."""
+    return (Instance(name, body, transform(z=z)),)
+
+
+def around(
+    name: str, body: Body, centres: Iterable[FloatArray], z: float = 0.0
+) -> tuple[Instance, ...]:
+    """Pieces of a part that stand upright at centres (2,), m."""
+    return placed(name, body, *(transform(x=x, y=y, z=z) for x, y in centres))

@@ -6,10 +6,8 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Sequence
 
-from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_contour, disc_moments
@@ -29,12 +27,9 @@ from cqdd_design.solids.motor_shapes import (
     with_magnet_pocket,
     with_motor_flange,
 )
-from cqdd_design.solids.part import Colour, Instance, Part
+from cqdd_design.solids.part import Colour, Instance, Part, around, on_axis, placed
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
-from cqdd_design.solids.proportions import lay_out
 from cqdd_design.solids.selection import ChosenBearing
-
-__all__ = ["Colour", "Instance", "Part", "build_parts", "total_mass"]
 
 SHAFT_MATERIAL = "AISI 4140 Q&T 540C"
 RACEWAY_MATERIAL = "SCM415/16MnCr5 case hardened"
@@ -52,14 +47,14 @@ _BEARING: Colour = (0.86, 0.87, 0.88)
 _SCREW: Colour = (0.16, 0.17, 0.19)
 
 
-def build_parts(design: Design, cam_bearing: Bearing) -> tuple[Part, ...]:
+def build_parts(design: Design, layout: Layout) -> tuple[Part, ...]:
     """Every part of a gearbox.
 
     Parameters
     ----------
     design : Design
-    cam_bearing : Bearing
-        The catalogue row of the cam bearing, "auto" resolved.
+    layout : Layout
+        Of the same design, from `lay_out`.
 
     Returns
     -------
@@ -71,7 +66,6 @@ def build_parts(design: Design, cam_bearing: Bearing) -> tuple[Part, ...]:
     GeometryError
         When the parts cannot exist or cannot be put together.
     """
-    layout = lay_out(design, cam_bearing)
     parts = [
         *_disc_parts(design, layout),
         *_ring_parts(design, layout),
@@ -89,41 +83,29 @@ def build_parts(design: Design, cam_bearing: Bearing) -> tuple[Part, ...]:
     )
 
 
-def _once(name: str, body: Body) -> tuple[Instance, ...]:
-    return (Instance(name, body, transform()),)
-
-
 def _disc_parts(design: Design, layout: Layout) -> list[Part]:
     groups = disc_groups(design)
     return [_disc_part(design, layout, group, alone=len(groups) == 1) for group in groups]
 
 
 def _disc_part(design: Design, layout: Layout, group: DiscGroup, *, alone: bool) -> Part:
-    bore = layout.pack.cam.bearing.outer_diameter
-    pin_diameter = layout.carrier.pin.mean_diameter
-    thickness = layout.pack.disc_thickness
+    pack, thickness = layout.pack, layout.pack.disc_thickness
+    bore, pin_diameter = pack.cam.bearing.outer_diameter, layout.carrier.pin.mean_diameter
     drawn = group.placements[0].disc
     contour = disc_contour(design, drawn, bore_diameter=bore, pin_mean_diameter=pin_diameter)
-    instances = tuple(
-        Instance(
-            f"disc {placed.disc + 1}",
-            Body("disc", placed.disc),
-            transform(
-                placed.angle,
-                z=layout.pack.disc_bottom(placed.disc) + (thickness if placed.turned_over else 0.0),
-                turned_over=placed.turned_over,
-            ),
-        )
-        for placed in group.placements
-    )
+    instances = []
+    for one in group.placements:
+        z = pack.disc_bottom(one.disc) + (thickness if one.turned_over else 0.0)
+        at = transform(one.angle, z=z, turned_over=one.turned_over)
+        instances.append(Instance(f"disc {one.disc + 1}", Body("disc", one.disc), at))
     return Part(
-        name="disc" if alone else f"disc {drawn + 1}",
-        shape=prism(contour, 0.0, thickness),
-        material=design.reducer.disc_material,
-        colour=_DISCS[drawn % len(_DISCS)],
-        source="make",
-        designation=f"wire EDM, {thickness * 1e3:g} mm plate",
-        instances=instances,
+        "disc" if alone else f"disc {drawn + 1}",
+        prism(contour, 0.0, thickness),
+        design.reducer.disc_material,
+        _DISCS[drawn % len(_DISCS)],
+        "make",
+        f"wire EDM, {thickness * 1e3:g} mm plate",
+        tuple(instances),
         exact_section=disc_moments(
             design, drawn, bore_diameter=bore, pin_mean_diameter=pin_diameter
         ),
@@ -133,79 +115,58 @@ def _disc_part(design: Design, layout: Layout, group: DiscGroup, *, alone: bool)
 
 def _ring_parts(design: Design, layout: Layout) -> list[Part]:
     height, dowels = layout.pack.top, layout.dowels
-    contour = ring_contour(design)
+    contour, material = ring_contour(design), design.reducer.ring_material
     plain = prism(contour, 0.0, height)
-    shape = with_dowel_notches(plain, layout.pack, dowels) if dowels.radius else plain
     ring = Part(
-        name="ring",
-        shape=shape,
-        material=design.reducer.ring_material,
-        colour=_RING,
-        source="make",
-        designation=f"wire EDM, {height * 1e3:g} mm plate",
-        instances=_once("ring", HOUSING),
+        "ring",
+        with_dowel_notches(plain, layout.pack, dowels) if dowels.radius else plain,
+        material,
+        _RING,
+        "make",
+        f"wire EDM, {height * 1e3:g} mm plate",
+        on_axis("ring", HOUSING),
         exact_section=ring_moments(design),
         fitted_section=contour.moments(),
     )
-    pins = ring_pins(design)
-    if not pins:
-        return [ring, *dowel_part(layout)]
-    diameter = 2.0 * pins[0].radius
-    instances = tuple(
-        Instance(f"ring pin {i + 1}", HOUSING, transform(x=pin.centre[0], y=pin.centre[1]))
-        for i, pin in enumerate(pins)
-    )
-    loose = Part(
-        name="ring pin",
-        shape=rotating.plain_pin(diameter, 0.0, height),
-        material=design.reducer.ring_material,
-        colour=_BEARING,
-        source="make",
-        designation=f"ground pin {diameter * 1e3:g} x {height * 1e3:g} mm",
-        instances=instances,
-    )
-    return [ring, loose, *dowel_part(layout)]
+    parts, pins = [ring], ring_pins(design)
+    if pins:
+        diameter = 2.0 * pins[0].radius
+        shape = rotating.plain_pin(diameter, 0.0, height)
+        designation = f"ground pin {diameter * 1e3:g} x {height * 1e3:g} mm"
+        pieces = around("ring pin", HOUSING, (pin.centre for pin in pins))
+        parts.append(Part("ring pin", shape, material, _BEARING, "make", designation, pieces))
+    return [*parts, *dowel_part(layout)]
 
 
 def _shaft_parts(layout: Layout) -> list[Part]:
     pack, shaft, motor = layout.pack, layout.shaft, layout.motor
-    turned = rotating.eccentric_shaft(pack, shaft)
     material = RACEWAY_MATERIAL if pack.cam.bearing.kind == "needle cage" else SHAFT_MATERIAL
-    parts = [
-        Part(
-            name="eccentric shaft",
-            shape=turned if motor is None else with_magnet_pocket(turned, motor),
-            material=material,
-            colour=_SHAFT,
-            source="make",
-            designation="turned and ground",
-            instances=_once("eccentric shaft", SHAFT),
-        )
-    ]
+
+    def ground(name: str, shape: Stack, more: str = "") -> Part:
+        how = f"turned and ground{more}"
+        return Part(name, shape, material, _SHAFT, "make", how, on_axis(name, SHAFT))
+
+    turned = rotating.eccentric_shaft(pack, shaft)
+    if motor is not None:
+        turned = with_magnet_pocket(turned, motor)
+    parts = [ground("eccentric shaft", turned)]
     if pack.disc_count > 2:
-        parts.append(
-            Part(
-                name="eccentric cam",
-                shape=rotating.loose_cam(pack, shaft),
-                material=material,
-                colour=_SHAFT,
-                source="make",
-                designation="turned and ground, pressed on the shaft",
-                instances=_once("eccentric cam", SHAFT),
-            )
-        )
-    cams = tuple(
+        loose = rotating.loose_cam(pack, shaft)
+        parts.append(ground("eccentric cam", loose, ", pressed on the shaft"))
+    cams = [
         Instance(f"cam bearing {disc + 1}", Body("disc", disc), transform(z=pack.cam_bottom(disc)))
         for disc in range(pack.disc_count)
+    ]
+    lower = shaft.lower_seat_top - shaft.support.bearing.width
+    supports = (
+        *on_axis("shaft bearing, housing end", HOUSING, lower),
+        *on_axis("shaft bearing, output end", CARRIER, shaft.upper_seat_bottom),
     )
-    parts.append(_bearing_part("cam bearing", pack.cam, cams, SHAFT))
-    width = shaft.support.bearing.width
-    lower = Instance(
-        "shaft bearing, housing end", HOUSING, transform(z=shaft.lower_seat_top - width)
-    )
-    upper = Instance("shaft bearing, output end", CARRIER, transform(z=shaft.upper_seat_bottom))
-    parts.append(_bearing_part("shaft bearing", shaft.support, (lower, upper), SHAFT))
-    return parts
+    return [
+        *parts,
+        _bearing_part("cam bearing", pack.cam, cams, SHAFT),
+        _bearing_part("shaft bearing", shaft.support, supports, SHAFT),
+    ]
 
 
 def _bearing_part(
@@ -213,61 +174,41 @@ def _bearing_part(
 ) -> Part:
     row = chosen.bearing
     return Part(
-        name=name,
-        shape=rotating.bearing_envelope(chosen),
-        material=chosen.material,
-        colour=_BEARING,
-        source="make" if chosen.source == "bush" else "buy",
-        designation=row.designation,
-        instances=tuple(instances),
+        name,
+        rotating.bearing_envelope(chosen),
+        chosen.material,
+        _BEARING,
+        "make" if chosen.source == "bush" else "buy",
+        row.designation,
+        tuple(instances),
         catalogue_mass=row.mass,
         inner_body=inner,
     )
 
 
 def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
-    carrier, pack = layout.carrier, layout.pack
-    metal = design.housing.material
-    parts = [
-        Part(
-            name="carrier plate",
-            shape=carrier_shapes.carrier_plate(carrier, layout.shaft, layout.unit),
-            material=metal,
-            colour=_ALUMINIUM,
-            source="make",
-            designation="turned and drilled",
-            instances=_once("carrier plate", CARRIER),
-        )
-    ]
+    carrier, metal = layout.carrier, design.housing.material
+
+    def made(name: str, shape: Stack, how: str = "turned and drilled") -> Part:
+        return Part(name, shape, metal, _ALUMINIUM, "make", how, on_axis(name, CARRIER))
+
+    plate = carrier_shapes.carrier_plate(carrier, layout.shaft, layout.unit)
+    parts = [made("carrier plate", plate)]
     if carrier.cap:
-        parts.append(
-            Part(
-                name="carrier cap",
-                shape=carrier_shapes.carrier_cap(carrier, pack.gap),
-                material=metal,
-                colour=_ALUMINIUM,
-                source="make",
-                designation="turned and drilled",
-                instances=_once("carrier cap", CARRIER),
-            )
-        )
-    parts.append(
-        Part(
-            name="bearing nut",
-            shape=carrier_shapes.bearing_nut(carrier),
-            material=NUT_MATERIAL,
-            colour=_SCREW,
-            source="make",
-            designation=f"slotted nut, thread {2e3 * carrier.nut_radius:g} mm",
-            instances=_once("bearing nut", CARRIER),
-        )
+        parts.append(made("carrier cap", carrier_shapes.carrier_cap(carrier, layout.pack.gap)))
+    nut = made(
+        "bearing nut",
+        carrier_shapes.bearing_nut(carrier),
+        f"slotted nut, thread {2e3 * carrier.nut_radius:g} mm",
     )
-    parts.append(_pin_part(design, layout))
+    parts += [
+        dataclasses.replace(nut, material=NUT_MATERIAL, colour=_SCREW),
+        _pin_part(design, layout),
+    ]
     if design.reducer.output_pins.sleeve_diameter > 0.0:
         parts.append(_sleeve_part(design, layout))
-    seat = Instance("output bearing", HOUSING, transform(z=carrier.bearing_bottom))
-    parts.append(_bearing_part("output bearing", carrier.output, [seat], CARRIER))
-    return parts
+    seat = on_axis("output bearing", HOUSING, carrier.bearing_bottom)
+    return [*parts, _bearing_part("output bearing", carrier.output, seat, CARRIER)]
 
 
 def _pin_positions(layout: Layout) -> FloatArray:
@@ -286,70 +227,52 @@ def _pin_part(design: Design, layout: Layout) -> Part:
         designation = f"ISO 7379 {size} {pin.screw.thread}"
     else:
         designation = f"shoulder screw {size} mm {pin.screw.thread}"
-    instances = tuple(
-        Instance(f"{name} {i + 1}", CARRIER, transform(x=x, y=y))
-        for i, (x, y) in enumerate(_pin_positions(layout))
-    )
     return Part(
-        name=name,
-        shape=carrier_shapes.pin_shape(carrier),
-        material=design.reducer.output_pins.material,
-        colour=_SCREW,
-        source="make" if pin.screw is None else "buy",
-        designation=designation,
-        instances=instances,
+        name,
+        carrier_shapes.pin_shape(carrier),
+        design.reducer.output_pins.material,
+        _SCREW,
+        "make" if pin.screw is None else "buy",
+        designation,
+        around(name, CARRIER, _pin_positions(layout)),
     )
 
 
 def _sleeve_part(design: Design, layout: Layout) -> Part:
     pins, pack = design.reducer.output_pins, layout.pack
-    instances = tuple(
-        Instance(
-            f"pin sleeve {disc * pins.count + i + 1}",
-            CARRIER,
-            transform(x=x, y=y, z=pack.disc_bottom(disc)),
-        )
+    outer, inner, length = pins.sleeve_diameter, pins.diameter, pack.disc_thickness
+    places = [
+        transform(x=x, y=y, z=pack.disc_bottom(disc))
         for disc in range(pack.disc_count)
-        for i, (x, y) in enumerate(_pin_positions(layout))
-    )
-    outer, inner = pins.sleeve_diameter, pins.diameter
+        for x, y in _pin_positions(layout)
+    ]
     return Part(
-        name="pin sleeve",
-        shape=rotating.sleeve(inner, outer, pack.disc_thickness),
-        material=pins.material,
-        colour=_BEARING,
-        source="make",
-        designation=(
-            f"ground sleeve {inner * 1e3:g} x {outer * 1e3:g} x {pack.disc_thickness * 1e3:g} mm"
-        ),
-        instances=instances,
+        "pin sleeve",
+        rotating.sleeve(inner, outer, length),
+        pins.material,
+        _BEARING,
+        "make",
+        f"ground sleeve {inner * 1e3:g} x {outer * 1e3:g} x {length * 1e3:g} mm",
+        placed("pin sleeve", CARRIER, *places),
     )
 
 
 def _housing_parts(design: Design, layout: Layout) -> list[Part]:
-    housing = layout.housing
-    metal = design.housing.material
+    housing, metal = layout.housing, design.housing.material
 
     def made(name: str, shape: Stack, colour: Colour) -> Part:
-        return Part(name, shape, metal, colour, "make", "turned and drilled", _once(name, HOUSING))
+        how, pieces = "turned and drilled", on_axis(name, HOUSING)
+        return Part(name, shape, metal, colour, "make", how, pieces)
 
-    screws = tuple(
-        Instance(f"cover screw {i + 1}", HOUSING, transform(x=x, y=y, z=housing.cover_flange_top))
-        for i, (x, y) in enumerate(on_circle(housing.screw_count, housing.bolt_circle_radius, 0.0))
-    )
+    places = on_circle(housing.screw_count, housing.bolt_circle_radius, 0.0)
+    screws = around("cover screw", HOUSING, places, housing.cover_flange_top)
+    screw = carrier_shapes.cap_screw_shape(housing.screw)
+    how = housing.screw.designation
     return [
         made("housing", _housing_shape(layout), _HOUSING),
         made("ring clamp", housing_shapes.ring_clamp(layout), _COVER),
         made("output cover", housing_shapes.output_cover(layout), _HOUSING),
-        Part(
-            name="cover screw",
-            shape=carrier_shapes.cap_screw_shape(housing.screw),
-            material=FASTENER_MATERIAL,
-            colour=_SCREW,
-            source="buy",
-            designation=housing.screw.designation,
-            instances=screws,
-        ),
+        Part("cover screw", screw, FASTENER_MATERIAL, _SCREW, "buy", how, screws),
     ]
 
 
@@ -360,8 +283,3 @@ def _housing_shape(layout: Layout) -> Stack:
     if layout.dowels.radius:
         shape = with_dowel_grooves(shape, layout.pack, layout.dowels)
     return shape
-
-
-def total_mass(parts: Sequence[Part]) -> float:
-    """Closed-form mass of all pieces, kg."""
-    return math.fsum(part.mass * part.count for part in parts)

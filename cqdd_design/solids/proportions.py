@@ -10,6 +10,7 @@ from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.validate import validate_geometry
+from cqdd_design.solids.carrier_rules import counterbore_radius, lay_out_carrier, pin_wall
 from cqdd_design.solids.layout import (
     CarrierLayout,
     HousingLayout,
@@ -41,14 +42,14 @@ def millimetre_unit(ring_outer_diameter: float) -> float:
     return 1e-3 * min(max(ring_outer_diameter / _REFERENCE_RING, least), most)
 
 
-def lay_out(design: Design, cam_bearing: Bearing) -> Layout:
+def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
     """Lay out the machine around the discs of a design.
 
     Parameters
     ----------
     design : Design
     cam_bearing : Bearing
-        The catalogue row of the cam bearing, "auto" resolved.
+    motor : Motor
 
     Raises
     ------
@@ -65,32 +66,73 @@ def lay_out(design: Design, cam_bearing: Bearing) -> Layout:
     )
     unit = millimetre_unit(design.reducer.ring.outer_diameter)
     pack = _pack(design, cam_bearing, unit)
+    _refuse_wide_cam(design, cam_bearing)
+    _refuse_no_shaft(pack)
     core = _core_radius(pack)
-    pins = design.reducer.output_pins
-    wall = _pin_wall(pins.diameter, unit)
-    support = support_bearing(
-        2.0 * core,
-        max(0.4e-3, 0.16 * core),
-        min(cam_bearing.outer_diameter, 2.0 * (pins.circle_radius - 0.5 * pins.diameter - unit)),
-        2.0 * (pins.circle_radius - _counterbore(pin, unit) - wall - 2.3 * unit),
+    support, output = _seats(design, pack, pin, core, unit)
+    carrier = lay_out_carrier(
+        design, pin, pack, support, output, core, unit, _most_shoulder_radius(pack, unit)
     )
-    carrier = _carrier(design, pin, pack, support, core, unit)
-    register, row, missing = register_radius(design, pack, unit)
+    register, row, missing = register_radius(motor, pack, unit)
     housing, seat_top = _housing(design, pack, carrier, support, unit, register, row)
-    motor = None
+    drawn = None
     if row is not None:
         weights = design.reducer.balance.counterweights
-        motor = lay_out_motor(row, pack, housing, support, unit, weights=weights)
+        drawn = lay_out_motor(row, pack, housing, support, unit, weights=weights)
     return Layout(
         unit=unit,
         pack=pack,
-        shaft=_shaft(pack, support, core, housing, seat_top, unit, motor),
+        shaft=_shaft(pack, support, core, housing, seat_top, unit, drawn),
         carrier=carrier,
         housing=housing,
         dowels=ring_dowels(design, pack, housing, unit),
-        motor=motor,
+        motor=drawn,
+        motor_row=motor,
         motor_missing=missing,
     )
+
+
+def seat_bearings(design: Design, cam_bearing: Bearing) -> tuple[ChosenBearing, ChosenBearing]:
+    """The bearings at both ends of the shaft, and of the carrier, as `lay_out` chooses them.
+
+    They are also told where the rest of the machine cannot be laid out: such a gearbox can still
+    be analysed. A shaft without room for its core counts with the least one.
+
+    Parameters
+    ----------
+    design : Design
+    cam_bearing : Bearing
+
+    Raises
+    ------
+    GeometryError
+        When the disc cannot exist.
+    """
+    unit = millimetre_unit(design.reducer.ring.outer_diameter)
+    pack = _pack(design, cam_bearing, unit)
+    core = max(_core_radius(pack), _least_core(pack))
+    return _seats(design, pack, output_pin(design.reducer.output_pins.diameter), core, unit)
+
+
+def _seats(
+    design: Design, pack: PackLayout, pin: OutputPin, core: float, unit: float
+) -> tuple[ChosenBearing, ChosenBearing]:
+    pins = design.reducer.output_pins
+    circle, radius = pins.circle_radius, 0.5 * pins.diameter
+    support = support_bearing(
+        2.0 * core,
+        max(0.4e-3, 0.16 * core),
+        min(pack.cam.bearing.outer_diameter, 2.0 * (circle - radius - unit)),
+        2.0 * (circle - counterbore_radius(pin, unit) - pin_wall(pins.diameter, unit) - 2.3 * unit),
+    )
+    most_shoulder, around = _most_shoulder_radius(pack, unit), circle + radius
+    output = output_bearing(
+        2.0 * (around + _within(0.2 * unit, most_shoulder - around - unit, 1.2 * unit)),
+        most_shoulder,
+        2.0 * pack.ring_radius + 8.0 * unit,
+        unit,
+    )
+    return support, output
 
 
 def _refuse_small_sleeve(design: Design) -> None:
@@ -105,19 +147,11 @@ def _refuse_small_sleeve(design: Design) -> None:
 
 def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:
     reducer = design.reducer
-    pitch = reducer.disc_thickness + reducer.disc_spacing
-    most = pitch if reducer.disc_count > 1 else pitch + reducer.disc_spacing
-    if cam_bearing.width > most + 1e-9:
-        raise GeometryError(
-            f"cam_bearing {cam_bearing.designation} is {cam_bearing.width * 1e3:g} mm wide, more "
-            f"than the {most * 1e3:g} mm that disc_thickness and disc_spacing leave it; raise "
-            f"disc_thickness to {cam_bearing.width * 1e3:g} mm or choose a narrower bearing."
-        )
     reach = CycloidDisc.from_design(design).tip_distance + reducer.eccentricity
     ring_radius = 0.5 * reducer.ring.outer_diameter
     return PackLayout(
         disc_thickness=reducer.disc_thickness,
-        pitch=pitch,
+        pitch=reducer.disc_thickness + reducer.disc_spacing,
         top=reducer.pack_length,
         gap=reducer.disc_spacing,
         disc_count=reducer.disc_count,
@@ -129,16 +163,38 @@ def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:
     )
 
 
+def _refuse_wide_cam(design: Design, cam_bearing: Bearing) -> None:
+    reducer = design.reducer
+    pitch = reducer.disc_thickness + reducer.disc_spacing
+    most = pitch if reducer.disc_count > 1 else pitch + reducer.disc_spacing
+    if cam_bearing.width > most + 1e-9:
+        raise GeometryError(
+            f"cam_bearing {cam_bearing.designation} is {cam_bearing.width * 1e3:g} mm wide, more "
+            f"than the {most * 1e3:g} mm that disc_thickness and disc_spacing leave it; raise "
+            f"disc_thickness to {cam_bearing.width * 1e3:g} mm or choose a narrower bearing."
+        )
+
+
 def _core_radius(pack: PackLayout) -> float:
     """Radius of the round core that a cam bearing can pass on its way to its lobe.
 
     A third disc needs a loose cam, pressed on this core, whose wall must remain.
     """
+    return 0.5 * pack.cam.bearing.bore_diameter - pack.eccentricity - _core_wall(pack)
+
+
+def _core_wall(pack: PackLayout) -> float:
     bore = 0.5 * pack.cam.bearing.bore_diameter
-    wall = max(0.6e-3, 0.1 * bore) if pack.disc_count > 2 else max(0.03e-3, 0.02 * bore)
-    core = bore - pack.eccentricity - wall
-    least = _LEAST_CORE_SHARE * bore
-    if core < least:
+    return max(0.6e-3, 0.1 * bore) if pack.disc_count > 2 else max(0.03e-3, 0.02 * bore)
+
+
+def _least_core(pack: PackLayout) -> float:
+    return _LEAST_CORE_SHARE * 0.5 * pack.cam.bearing.bore_diameter
+
+
+def _refuse_no_shaft(pack: PackLayout) -> None:
+    bore, wall, least = 0.5 * pack.cam.bearing.bore_diameter, _core_wall(pack), _least_core(pack)
+    if _core_radius(pack) < least:
         most = max(bore - wall - least, 0.0)
         enough = 2.0 * (pack.eccentricity + wall) / (1.0 - _LEAST_CORE_SHARE)
         raise GeometryError(
@@ -147,7 +203,6 @@ def _core_radius(pack: PackLayout) -> float:
             f"{math.floor(most * 1e5) / 1e2:g} mm, or choose a bearing with a bore of at least "
             f"{math.ceil(enough * 1e4) / 10:g} mm."
         )
-    return core
 
 
 def _most_clamp_radius(pack: PackLayout) -> float:
@@ -155,125 +210,13 @@ def _most_clamp_radius(pack: PackLayout) -> float:
     return pack.ring_radius - 0.25 * (pack.ring_radius - pack.ledge_radius)
 
 
+def _most_shoulder_radius(pack: PackLayout, unit: float) -> float:
+    """Room for the shoulder of the carrier plate inside the ring clamp, m."""
+    return _most_clamp_radius(pack) - 0.3 * unit
+
+
 def _within(least: float, value: float, most: float) -> float:
     return min(max(value, least), most)
-
-
-def _pin_wall(diameter: float, unit: float) -> float:
-    """Material of the cap around a pin or its counterbore, m."""
-    return max(unit, 0.375 * diameter)
-
-
-def _counterbore(pin: OutputPin, unit: float) -> float:
-    """Radius of the counterbore for a pin's head, m; that of the pin for a dowel."""
-    if pin.screw is None:
-        return 0.5 * pin.nominal_diameter
-    return 0.5 * pin.head_diameter + 0.25 * unit
-
-
-def _carrier(
-    design: Design,
-    pin: OutputPin,
-    pack: PackLayout,
-    support: ChosenBearing,
-    core: float,
-    unit: float,
-) -> CarrierLayout:
-    pins = design.reducer.output_pins
-    circle, diameter = pins.circle_radius, pins.diameter
-    wall = _pin_wall(diameter, unit)
-    both = pins.support == "both"
-    counterbore = _counterbore(pin, unit)
-    most_outer = pack.ledge_radius - 0.4 * unit
-    # A catalogue head may be too large for a dense pin circle; ground dowels always fit.
-    crowded = 2.0 * circle * math.sin(math.pi / pins.count) < 2.0 * counterbore + 0.4 * unit
-    inward = circle - counterbore - core < unit
-    outward = circle + counterbore + 0.4 * unit > most_outer
-    if crowded or inward or outward:
-        pin = pin.as_dowel()
-    if pin.screw is None:
-        counterbore = 0.0
-    around = max(counterbore, 0.5 * diameter)
-
-    bottom = pack.top + pack.gap
-    span = bottom + pack.gap
-    register, web = _seat_depths(pin, span, both, unit)
-    shoulder_bottom = -pack.gap - web
-    cap_bottom = shoulder_bottom - pin.head_height if both else -pack.gap
-    lowest = min(cap_bottom, shoulder_bottom - pin.head_height)
-
-    clamp = max(2.5 * unit, pack.gap + 1.5 * unit)
-    most_shoulder = _most_clamp_radius(pack) - 0.3 * unit
-    around_pins = circle + 0.5 * diameter
-    output = output_bearing(
-        2.0 * (around_pins + _within(0.2 * unit, most_shoulder - around_pins - unit, 1.2 * unit)),
-        most_shoulder,
-        2.0 * pack.ring_radius + 8.0 * unit,
-        unit,
-    )
-    shoulder = min(output.shoulder_radius, most_shoulder)
-    if shoulder < 0.5 * output.bearing.bore_diameter + 0.05 * unit:
-        raise GeometryError(
-            f"output_pins.circle_radius {circle * 1e3:.6g} mm leaves no room for the carrier plate "
-            f"inside a ring of {2e3 * pack.ring_radius:.6g} mm; raise ring.outer_diameter to "
-            f"{2e3 * (pack.ring_radius + 3.0 * unit):.4g} mm, or lower circle_radius."
-        )
-    bearing_bottom = pack.top + clamp
-    bearing_top = bearing_bottom + output.bearing.width
-    nut_top = bearing_top + max(3.0 * unit, 0.05 * output.bearing.bore_diameter)
-    plate_top = max(
-        nut_top + unit,
-        bottom + register + pin.thread_length + 0.5 * unit,
-        bottom + support.bearing.width + 1.5 * unit,
-    )
-    room = circle - 0.5 * diameter - 0.5 * support.bearing.outer_diameter
-    bolt_circle = 0.5 * support.bearing.outer_diameter + 0.5 * room
-    # Six bolts stand their circle's radius apart.
-    bolt = thread_size(min(0.55 * room, bolt_circle / 2.0, 4.0 * unit))
-    return CarrierLayout(
-        pin=pin,
-        pin_count=pins.count,
-        pin_circle_radius=circle,
-        clocking=pins.hole_clocking,
-        shoulder_bottom=shoulder_bottom,
-        shoulder_top=bottom + register,
-        cap=both,
-        cap_bottom=cap_bottom,
-        # Between the shaft's core and the pins, whatever room there is.
-        cap_inner=max(circle - around - wall, 0.5 * (core + circle - around)),
-        cap_outer=min(circle + around + wall, most_outer),
-        counterbore_radius=counterbore,
-        lowest=lowest,
-        output=output,
-        shoulder_radius=shoulder,
-        plate_bottom=bottom,
-        bearing_bottom=bearing_bottom,
-        bearing_top=bearing_top,
-        nut_top=nut_top,
-        plate_top=plate_top,
-        nut_radius=0.5 * output.bearing.bore_diameter - 0.25 * unit,
-        bolt_thread=bolt if bolt <= min(0.7 * room, bolt_circle / 1.5) else 0.0,
-        bolt_circle_radius=bolt_circle,
-    )
-
-
-def _seat_depths(pin: OutputPin, span: float, both: bool, unit: float) -> tuple[float, float]:
-    """Depth of the pin's seat in the plate, and length of shoulder below the pack, m.
-
-    Screws come in steps of length; what a step is too long is shared between both seats.
-    """
-    diameter = pin.nominal_diameter
-    if pin.screw is None:
-        web = max(2.5 * unit, 0.75 * diameter) if both else 0.0
-        return pin.shoulder_length(span + web + 1.5 * diameter) - span - web, web
-    least_register = max(unit, 0.25 * diameter)
-    least_web = max(1.5 * unit, 0.5 * diameter) if both else 0.0
-    spare = pin.shoulder_length(span + least_register + least_web) - span
-    if both:
-        register = max(least_register, min(0.5 * spare, spare - least_web))
-    else:
-        register = min(spare, 1.5 * diameter)
-    return register, spare - register
 
 
 def _housing(

@@ -1,4 +1,4 @@
-"""What the tests here share: the browser, and a design whose wire does not fit.
+"""What the tests here share: the browser, costly outputs, and a design whose wire does not fit.
 
 Tests are collected by importlib, so that the folder is no place to import from by itself.
 """
@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))
+for folder in (Path(__file__).parent, Path(__file__).parents[1] / "oracles"):
+    sys.path.insert(0, str(folder))
 
 
 _SHARP = {

@@ -1,7 +1,8 @@
 """Open a page in a real Chromium and bring back what it drew.
 
 A probe script goes into a copy of the page: it collects errors, measures every figure, moves the
-slider, presses play, and leaves its findings in the document, which Chromium then prints.
+slider, presses play, and leaves its findings in the document, which Chromium then prints. It also
+draws the page's frames itself, at times of its own: nothing waits for a busy machine.
 """
 
 from __future__ import annotations
@@ -38,6 +39,8 @@ window.addEventListener("error", function (event) {
   var missing = event.target.src || event.target.href;
   window.probeErrors.push(event.message || "failed to load " + missing);
 }, true);
+window.probeFrames = [];
+window.requestAnimationFrame = function (draw) { return window.probeFrames.push(draw); };
 </script>"""
 
 _PROBE = r"""<script>
@@ -112,21 +115,20 @@ window.addEventListener("load", function () {
     document.querySelector("input[name='mesh-disc'][value='0']").click();
   }
   found.back = slide(PROBE_START);
-  document.getElementById("mesh-play").click();
-  // A busy machine draws few frames: wait for one that moved, within reason.
-  var waits = 0;
-  var look = function () {
-    found.playing = mesh();
-    waits += 1;
-    if (found.playing.crank === found.back.crank && waits < 100) {
-      setTimeout(look, 150);
-      return;
-    }
+  function frame(time) {
+    window.probeFrames.splice(0).forEach(function (draw) { draw(time); });
+    return mesh();
+  }
+  function press() {
     document.getElementById("mesh-play").click();
-    found.label = document.getElementById("mesh-play").textContent;
-    finish();
-  };
-  setTimeout(look, 700);
+    return document.getElementById("mesh-play").textContent;
+  }
+  found.labels = [press()];
+  frame(1000);
+  found.playing = frame(1050);
+  found.labels.push(press());
+  found.paused = frame(1100);
+  finish();
 });
 </script>"""
 

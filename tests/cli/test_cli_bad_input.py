@@ -65,14 +65,51 @@ def test_unreadable_file(cqdd, tmp_path):
     path.chmod(0)
     done = cqdd("check", path)
     assert done.code == 2
-    assert "cannot be read: Permission denied" in done.err
+    assert "Permission denied" in done.err
 
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/mem"), reason="needs Linux")
 def test_file_that_refuses_to_be_read(cqdd):
     done = cqdd("check", "/proc/self/mem")
     assert done.code == 2
-    assert "cannot be read" in done.err
+    assert "cannot read" in done.err
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/zero"), reason="needs a device without end")
+def test_device_without_end(cqdd):
+    done = cqdd("check", "/dev/zero", timeout=60.0)
+    assert done.code == 2
+    assert "it is a device" in done.err
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs pipes")
+def test_pipe_that_nobody_writes_to(cqdd, tmp_path):
+    os.mkfifo(tmp_path / "pipe.toml")
+    done = cqdd("check", "pipe.toml", timeout=60.0)
+    assert done.code == 2
+    assert "it is a pipe" in done.err
+
+
+def test_force_replaces_no_pipe(cqdd, tmp_path, paper_design_file):
+    os.mkfifo(tmp_path / "report.html")
+    done = cqdd("report", paper_design_file, "--out", "report.html", "--force", timeout=60.0)
+    assert done.code == 2
+    assert "it is a pipe, which is never replaced" in done.err
+
+
+def test_nothing_of_the_input_moves_the_terminal(cqdd, tmp_path):
+    (tmp_path / "a.toml").write_text(MINIMAL + '"a\\u001b[2J" = 1\n')
+    done = cqdd("check", "a.toml")
+    assert done.code == 3
+    assert "\x1b" not in done.err
+
+
+@pytest.mark.parametrize("told", ["abc", "-1", "9" * 30])
+def test_nonsense_date_in_the_environment(cqdd, paper_design_file, told):
+    done = cqdd("check", paper_design_file, environment={"SOURCE_DATE_EPOCH": told})
+    assert done.code == 2
+    assert "SOURCE_DATE_EPOCH" in done.err
+    assert done.out == ""
 
 
 def test_binary_file(complaint):
@@ -95,7 +132,7 @@ def test_half_written_file(complaint, share):
 
 
 def test_huge_file(complaint):
-    assert "a design file is a few kilobytes" in complaint("# padding\n" * 200_000)
+    assert "is larger than 1 MB" in complaint("# padding\n" * 200_000)
 
 
 def test_deeply_nested_file(complaint):
@@ -182,6 +219,30 @@ def test_eccentricity_that_undercuts(complaint):
 
 def test_eccentricity_past_the_cusp(complaint):
     assert "eccentricity" in complaint(with_line('"1.6 mm"', '"3.2 mm"'))
+
+
+@pytest.mark.parametrize(
+    ("command", "options"),
+    [
+        ("check", ""),
+        ("analyse", ""),
+        ("tolerance", ""),
+        ("simulate", ""),
+        ("bench", ""),
+        ("compare", ""),
+        ("inertia", ""),
+        ("report", ""),
+        ("export", "--to dxf"),
+        ("export", "--to urdf,mjcf"),
+        ("torque generate", "--out data"),
+    ],
+)
+def test_no_bearing_is_chosen_for_a_disc_that_cannot_be(cqdd, tmp_path, command, options):
+    (tmp_path / "cusp.toml").write_text(with_line('"1.6 mm"', '"3.2 mm"'))
+    done = cqdd(*command.split(), "cusp.toml", *options.split(), timeout=60.0)
+    assert done.code == 3
+    assert "where the disc undercuts" in done.err
+    assert [path.name for path in tmp_path.iterdir()] == ["cusp.toml"]
 
 
 def test_holes_that_break_out(complaint):

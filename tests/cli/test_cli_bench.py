@@ -71,6 +71,7 @@ def test_calibration_goes_from_one_command_into_the_others(cqdd, tmp_path):
     )
     value = again.document["results"]["metrics"]["backdrive_static"]["value"]
     assert value == pytest.approx(1.5, rel=1e-3)
+    assert again.document["results"]["metrics"]["backdrive_static"]["relation"] == "calibrated"
     out = tmp_path / "card"
     cqdd("export", DESIGN, "--to", "card", "--calibration", str(path), "--out", str(out))
     assert "calibrated: friction_level" in (out / "cqdd-10-card.md").read_text()
@@ -104,9 +105,25 @@ def test_wrong_usage(arguments, says, capfd):
     assert "Traceback" not in told
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "beside"),
+    [
+        ('name = "cqdd-10"', 'name = "a copy"', True),
+        ('eccentricity = "1.6 mm"', 'eccentricity = "1.5 mm"', False),
+    ],
+)
+def test_the_papers_actuator_is_known_by_what_it_is(cqdd, old, new, beside, tmp_path):
+    file = tmp_path / "design.toml"
+    file.write_text(Path(DESIGN).read_text("utf-8").replace(old, new, 1), "utf-8")
+    found = cqdd("bench", str(file), "--only", "mass", "--json")
+    paper = found.document["results"]["metrics"]["mass"]["paper"]
+    assert paper == (1.4 if beside else None)
+
+
 def test_designs_without_measurements_say_so(tmp_path, capfd):
     other = tmp_path / "other.toml"
     text = (REPOSITORY / "designs" / "cqdd-10.toml").read_text()
+    text = text.replace('eccentricity = "1.6 mm"', 'eccentricity = "1.5 mm"', 1)
     other.write_text(text.replace('name = "cqdd-10"', 'name = "mine"', 1))
     assert run(["calibrate", str(other)]) == 2
     assert "no measured values of mine" in " ".join(capfd.readouterr().err.split())

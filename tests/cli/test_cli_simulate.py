@@ -17,6 +17,7 @@ from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.cli import session
 from cqdd_design.cli.main import run
 from cqdd_design.design import load_design
+from cqdd_design.machine import resolve
 
 DESIGN = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 GRAVITY = 9.80665
@@ -80,7 +81,7 @@ def test_a_locked_output_gives_what_is_commanded_less_friction(cqdd, tmp_path, m
     assert told["load"]["sensor_stiffness_Nm_per_rad"] == 50000.0
     assert told["command"]["reference"]["slope"] == pytest.approx(20.0)
     assert told["seeds"] == []
-    machine = actuator_parameters(load_design(DESIGN))
+    machine = actuator_parameters(resolve(load_design(DESIGN)))
     friction, ratio = machine.friction, abs(machine.gear.ratio)
     rise = 1.0 + friction.stribeck_extra
     dry = rise * (friction.motor_coulomb * ratio + friction.output_coulomb)

@@ -97,12 +97,45 @@ def test_a_named_file_is_not_overwritten_without_force(cqdd, tmp_path):
     assert load_design(mine).reducer.ratio == 10
 
 
-def test_its_own_output_is_replaced_whole(cqdd, tmp_path):
+@pytest.mark.parametrize(
+    "edit",
+    [
+        lambda text: text.replace('name = "sized-10"', 'name = "sized-10" # ours'),
+        lambda text: text + "\n[drive]\nencoder_bits = 16\n",
+        lambda text: "\n".join(text.splitlines()[:-1]) + "\n",
+        lambda text: "not even TOML [",
+    ],
+    ids=["a remark", "a key after the stamp", "no stamp", "another file"],
+)
+def test_an_edited_design_is_not_replaced_without_force(cqdd, tmp_path, edit):
     own = tmp_path / "designs" / "sized-10.toml"
-    own.parent.mkdir()
-    own.write_text("not even TOML [")
     assert cqdd("size", "--ratio", "10").code == 0
-    assert load_design(own).reducer.ratio == 10
+    fresh = own.read_text()
+    own.write_text(edited := edit(fresh))
+    done = cqdd("size", "--ratio", "10", "--peak-torque", "60 N*m")
+    assert done.code == 2
+    assert "edited" in done.err
+    assert "--force" in done.err
+    assert own.read_text() == edited
+    assert cqdd("size", "--ratio", "10", "--force").code == 0
+    assert own.read_text() == fresh
+
+
+def test_its_own_output_is_replaced_by_other_requirements(cqdd, tmp_path):
+    own = tmp_path / "designs" / "sized-10.toml"
+    cqdd("size", "--ratio", "10")
+    assert cqdd("size", "--ratio", "10", "--peak-torque", "60 N*m").code == 0
+    assert load_design(own).requirements.peak_torque == 60.0
+    assert cqdd("check", own).code == 0
+
+
+def test_progress_counts_what_will_be_told(cqdd):
+    """G-code needs no solids: the last stage of four is the last of four, not of five."""
+    done = cqdd("size", "--ratio", "10", "--export", "gcode,svg")
+    told = [line for line in done.err.splitlines() if line.startswith("[")]
+    assert [line.partition("]")[0] for line in told] == [f"[{i}/4" for i in (1, 2, 3, 4)]
+    solids = cqdd("size", "--ratio", "10", "--export", "bom")
+    assert [line[:4] for line in solids.err.splitlines() if "laying" in line] == ["[4/4"]
 
 
 def test_requirements_from_a_file_with_options_over_it(cqdd, tmp_path):

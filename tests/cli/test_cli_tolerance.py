@@ -7,7 +7,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -22,16 +21,6 @@ OUTPUTS = (
 )
 
 
-def run(*arguments: str, timeout: float = 240.0) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "cqdd_design", *arguments],
-        capture_output=True,
-        text=True,
-        timeout=timeout,
-        check=False,
-    )
-
-
 def changed(tmp_path: Path, old: str, new: str) -> str:
     text = DESIGN.read_text(encoding="utf-8")
     assert old in text
@@ -40,17 +29,17 @@ def changed(tmp_path: Path, old: str, new: str) -> str:
     return str(path)
 
 
-def test_the_document_has_what_others_read() -> None:
-    done = run("tolerance", str(DESIGN), "--samples", "160", "--angles", "88", "--json")
-    assert done.returncode == 0, done.stderr
-    results = json.loads(done.stdout)["results"]
+def test_the_document_has_what_others_read(cqdd) -> None:
+    done = cqdd("tolerance", str(DESIGN), "--samples", "160", "--angles", "88", "--json")
+    assert done.code == 0, done.err
+    results = json.loads(done.out)["results"]
     for name in OUTPUTS:
         told = results[name]
         assert set(told) == {"mean", "std", "p5", "p50", "p95", "p99"}
         assert told["p5"] <= told["p50"] <= told["p95"] <= told["p99"]
         shares = results["sensitivity"][name]
         assert set(shares) == {
-            key for key in json.loads(done.stdout)["design"]["tolerances"] if key != "distribution"
+            key for key in json.loads(done.out)["design"]["tolerances"] if key != "distribution"
         }
         assert all(isinstance(value, float) for value in shares.values())
     assert results["samples"] == 160
@@ -58,25 +47,25 @@ def test_the_document_has_what_others_read() -> None:
     assert results["seconds"] > 0.0
 
 
-def test_the_same_seed_gives_the_same_and_another_another() -> None:
+def test_the_same_seed_gives_the_same_and_another_another(cqdd) -> None:
     def told(seed: str) -> object:
-        done = run(
+        done = cqdd(
             "tolerance", str(DESIGN), "--samples", "5", "--angles", "44", "--seed", seed, "--json"
         )
-        return json.loads(done.stdout)["results"]["backlash_arcmin"]
+        return json.loads(done.out)["results"]["backlash_arcmin"]
 
     assert told("3") == told("3")
     assert told("3") != told("4")
 
 
-def test_people_get_a_table_and_a_ranking() -> None:
-    done = run("tolerance", str(DESIGN), "--samples", "128", "--angles", "44")
-    assert done.returncode == 0
-    assert "backlash_arcmin" in done.stdout
-    assert "p95" in done.stdout
-    assert "which tolerance it comes from" in done.stdout
-    assert "of 128" not in done.stdout
-    assert len(done.stderr.splitlines()) <= 12
+def test_people_get_a_table_and_a_ranking(cqdd) -> None:
+    done = cqdd("tolerance", str(DESIGN), "--samples", "128", "--angles", "44")
+    assert done.code == 0
+    assert "backlash_arcmin" in done.out
+    assert "p95" in done.out
+    assert "which tolerance it comes from" in done.out
+    assert "of 128" not in done.out
+    assert len(done.err.splitlines()) <= 12
 
 
 @pytest.mark.parametrize(
@@ -93,20 +82,19 @@ def test_people_get_a_table_and_a_ranking() -> None:
         (("--torque", "1e9 N*m"), 3, "N*m"),
     ],
 )
-def test_bad_values_are_refused(arguments: tuple[str, ...], code: int, words: str) -> None:
-    done = run("tolerance", str(DESIGN), *arguments)
-    assert done.returncode == code, done.stderr
-    assert words in done.stderr
-    assert "Traceback" not in done.stderr
+def test_bad_values_are_refused(cqdd, arguments: tuple[str, ...], code: int, words: str) -> None:
+    done = cqdd("tolerance", str(DESIGN), *arguments)
+    assert done.code == code, done.err
+    assert words in done.err
+    assert "Traceback" not in done.err
 
 
-def test_a_wrong_scheduler_is_told_within_seconds() -> None:
+def test_a_wrong_scheduler_is_told_and_not_waited_for(cqdd) -> None:
     pytest.importorskip("distributed")
-    began = time.monotonic()
-    done = run("tolerance", str(DESIGN), "--scheduler", "tcp://127.0.0.1:1", "--samples", "5")
-    assert done.returncode == 2
-    assert "no Dask scheduler at tcp://127.0.0.1:1" in done.stderr
-    assert time.monotonic() - began < 40.0
+    wrong = ("--scheduler", "tcp://127.0.0.1:1", "--samples", "5")
+    done = cqdd("tolerance", str(DESIGN), *wrong, timeout=60.0)
+    assert done.code == 2
+    assert "no Dask scheduler at tcp://127.0.0.1:1" in done.err
 
 
 def test_without_dask_it_says_what_to_install(tmp_path: Path) -> None:
@@ -126,22 +114,23 @@ def test_without_dask_it_says_what_to_install(tmp_path: Path) -> None:
     assert 'pip install "cqdd-design[sweep]"' in done.stderr
 
 
-def test_ctrl_c_keeps_what_is_done() -> None:
-    run("tolerance", str(DESIGN), "--samples", "1", "--angles", "44")  # compiled from here on
+def test_ctrl_c_keeps_what_is_done(cqdd) -> None:
+    cqdd("tolerance", str(DESIGN), "--samples", "1", "--angles", "44")  # compiled from here on
     process = subprocess.Popen(
-        [sys.executable, "-m", "cqdd_design", "tolerance", str(DESIGN), "--samples", "200000",
+        [sys.executable, "-m", "cqdd_design", "tolerance", str(DESIGN), "--samples", "20000",
          "--angles", "44", "--json"],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
     )  # fmt: skip
-    time.sleep(6.0)
+    assert process.stderr is not None
+    assert any("of 20000 gearboxes" in line for line in process.stderr)
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=60)
+    out, err = process.communicate(timeout=120)
     assert process.returncode == 130, err
     results = json.loads(out)["results"]
     assert results["interrupted"] is True
-    assert 0 < results["samples"] < 200_000
+    assert 0 < results["samples"] < 20_000
     assert results["backlash_arcmin"]["std"] > 0.0
     assert "Traceback" not in err
 
@@ -149,10 +138,10 @@ def test_ctrl_c_keeps_what_is_done() -> None:
 # ------------------------------------------------------------------ analyse
 
 
-def test_analyse_gives_contact_precision_losses_and_life() -> None:
-    done = run("analyse", str(DESIGN), "--torque", "40 N*m", "--angles", "24", "--json")
-    assert done.returncode == 0, done.stderr
-    results = json.loads(done.stdout)["results"]
+def test_analyse_gives_contact_precision_losses_and_life(cqdd) -> None:
+    done = cqdd("analyse", str(DESIGN), "--torque", "40 N*m", "--angles", "24", "--json")
+    assert done.code == 0, done.err
+    results = json.loads(done.out)["results"]
     contact = results["contact"]
     assert len(contact["crank_angle_deg"]) == 24
     shape = (24, 2)
@@ -207,41 +196,41 @@ def _balances(contact: dict[str, list]) -> None:
             assert abs(moment) < 1e-9 * load * 32.0
 
 
-def test_interference_is_told_as_preload(tmp_path: Path) -> None:
+def test_interference_is_told_as_preload(cqdd, tmp_path: Path) -> None:
     design = changed(tmp_path, 'equidistant = "6 um"', 'equidistant = "-6 um"')
-    done = run("analyse", design, "--json")
-    assert done.returncode == 0, done.stderr
-    document = json.loads(done.stdout)
+    done = cqdd("analyse", design, "--json")
+    assert done.code == 0, done.err
+    document = json.loads(done.out)
     assert document["results"]["contact"]["preload"]["ring_force_max_N"] > 100.0
     assert document["results"]["precision"]["backlash_arcmin"] == 0.0
     assert any("preloaded" in sentence for sentence in document["warnings"])
 
 
 @pytest.mark.parametrize(("torque", "kept"), [("1e-6 N*m", True), ("1e9 N*m", False)])
-def test_any_torque_gives_an_answer_or_says_why(torque: str, kept: bool) -> None:
-    done = run("analyse", str(DESIGN), "--torque", torque, "--json")
-    assert done.returncode == 0, done.stderr
-    document = json.loads(done.stdout)
+def test_any_torque_gives_an_answer_or_says_why(cqdd, torque: str, kept: bool) -> None:
+    done = cqdd("analyse", str(DESIGN), "--torque", torque, "--json")
+    assert done.code == 0, done.err
+    document = json.loads(done.out)
     assert (document["results"]["contact"] is not None) is kept
     if not kept:
         assert any("no contact analysis" in sentence for sentence in document["warnings"])
 
 
-def test_teeth_that_do_not_reach_are_told(tmp_path: Path) -> None:
+def test_teeth_that_do_not_reach_are_told(cqdd, tmp_path: Path) -> None:
     design = changed(tmp_path, 'equidistant = "6 um"', 'equidistant = "450 um"')
-    done = run("analyse", design, "--json")
-    assert done.returncode in (0, 3)
-    assert "Traceback" not in done.stderr
-    if done.returncode == 0:
-        document = json.loads(done.stdout)
+    done = cqdd("analyse", design, "--json")
+    assert done.code in (0, 3)
+    assert "Traceback" not in done.err
+    if done.code == 0:
+        document = json.loads(done.out)
         assert document["results"]["contact"] is None
         assert any("do not reach" in sentence for sentence in document["warnings"])
 
 
-def test_a_thousand_lobes_are_refused(tmp_path: Path) -> None:
+def test_a_thousand_lobes_are_refused(cqdd, tmp_path: Path) -> None:
     design = changed(
         tmp_path, "ratio = 10                        # paper: 10 lobes", "ratio = 1000 #"
     )
-    done = run("analyse", design)
-    assert done.returncode == 3
-    assert "1000" in done.stderr
+    done = cqdd("analyse", design)
+    assert done.code == 3
+    assert "1000" in done.err

@@ -13,6 +13,7 @@ pytest.importorskip("torch")
 REPOSITORY = Path(__file__).resolve().parents[2]
 
 
+@pytest.mark.deep
 def test_every_command_shown_runs(cqdd, tmp_path):
     text = (REPOSITORY / "docs" / "torque-estimation.md").read_text(encoding="utf-8")
     shown = "".join(re.findall(r"^```console\n(.*?)^```$", text, flags=re.MULTILINE | re.DOTALL))

@@ -1,11 +1,9 @@
-"""``torque evaluate`` as a process: table, JSON, page, and every wrong input."""
+"""``torque evaluate`` as a command: table, JSON, page, and every wrong input."""
 
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -14,67 +12,41 @@ import typer
 
 from cqdd_design.cli import main, session, torque_evaluate
 from cqdd_design.torque.data.episodes import DataSet, Episode, write_data
-from cqdd_design.torque.data.splits import random_window_split, split
+from cqdd_design.torque.data.splits import split
 from cqdd_design.torque.networks.artefact import Artefact, Validity, write_artefact
 
 pytest.importorskip("pyarrow")
 
 DT = 0.005
-RUN = """
-import sys, typer
-from cqdd_design.cli import main
-from cqdd_design.cli.session import command
-from cqdd_design.cli.torque_evaluate import evaluate
-main.app = typer.Typer()
-main.app.command("evaluate")(command(evaluate))
-main.app.callback()(lambda: None)
-sys.exit(main.run(["evaluate", *sys.argv[1:]]))
-"""
 FEW = ("--draws", "200", "--rollouts", "1")
 
 
+@dataclass(frozen=True)
 class Done:
-    def __init__(self, done: subprocess.CompletedProcess[str]):
-        self.code, self.out, self.err = done.returncode, done.stdout, done.stderr
+    """A command that has ended, without a process of its own."""
 
-
-def evaluate(folder: Path, *arguments: str | Path) -> Done:
-    done = subprocess.run(
-        [sys.executable, "-c", RUN, *map(str, arguments)],
-        cwd=folder,
-        env=environment(),
-        capture_output=True,
-        encoding="utf-8",
-        timeout=120.0,
-        check=False,
-    )
-    assert "Traceback" not in done.stderr, done.stderr
-    return Done(done)
+    code: int
+    out: str
+    err: str
 
 
 @pytest.fixture
-def inside(monkeypatch, capsys, tmp_path):
-    """The command without a process of its own: exit code and what it told on stderr."""
+def evaluate(monkeypatch, capsys, tmp_path):
+    """The command in an empty folder: exit code, and what it told."""
     app = typer.Typer()
     app.command("evaluate")(session.command(torque_evaluate.evaluate))
     app.callback()(lambda: None)
+    printed: list[str] = []
     monkeypatch.setattr(main, "app", app)
+    monkeypatch.setattr(session, "print_result", printed.append)
     monkeypatch.chdir(tmp_path)
 
-    def run(*arguments: str | Path) -> tuple[int, str]:
+    def run(*arguments: str | Path) -> Done:
+        printed.clear()
         code = main.run(["evaluate", *map(str, arguments)])
-        return code, capsys.readouterr().err
+        return Done(code, "\n".join(printed), capsys.readouterr().err)
 
     return run
-
-
-def environment() -> dict[str, str]:
-    import os
-
-    import cqdd_design
-
-    package = str(Path(cqdd_design.__file__).resolve().parents[1])
-    return {**os.environ, "PYTHONPATH": package, "PYTHONIOENCODING": "utf-8"}
 
 
 def episode(k: int) -> Episode:
@@ -154,10 +126,10 @@ def network(name: str, seed: int, **changes) -> Artefact:
     return Artefact(**(fields | changes))
 
 
-def test_table_json_page_and_markdown(place, tmp_path):
+def test_table_json_page_and_markdown(evaluate, place, tmp_path):
     files = ("--model", place / "pva-gru.npz", "--model", place / "mlp.npz")
     written = ("--report", "page.html", "--markdown", "tables.md", "--set", "trajectory,mass")
-    done = evaluate(tmp_path, "--data", place / "data", *files, *written, *FEW, "--json")
+    done = evaluate("--data", place / "data", *files, *written, *FEW, "--json")
     assert done.code == 0, done.err
     document = json.loads(done.out)
     assert [file["kind"] for file in document["files"]] == ["report", "markdown"]
@@ -187,8 +159,8 @@ def test_table_json_page_and_markdown(place, tmp_path):
     assert "Paper (hardware)" in (tmp_path / "tables.md").read_text("utf-8")
 
 
-def test_the_terminal_shows_both_and_keeps_them_apart(place, tmp_path):
-    done = evaluate(tmp_path, "--data", place / "data", "--model", place / "mlp.npz", *FEW)
+def test_the_terminal_shows_both_and_keeps_them_apart(evaluate, place, tmp_path):
+    done = evaluate("--data", place / "data", "--model", place / "mlp.npz", *FEW)
     assert done.code == 0, done.err
     ours, paper = done.out.split("paper (hardware)")
     assert "set trajectory" in ours
@@ -197,26 +169,19 @@ def test_the_terminal_shows_both_and_keeps_them_apart(place, tmp_path):
     assert "not to be read against ours" in paper
 
 
-def test_baselines_alone_can_be_scored(place, inside):
-    assert inside("--data", place / "data", *FEW, "--rollouts", "0", "--quiet") == (0, "")
+def test_baselines_alone_can_be_scored(evaluate, place):
+    done = evaluate("--data", place / "data", *FEW, "--rollouts", "0", "--quiet")
+    assert done == Done(0, "", "")
 
 
-def test_random_windows_show_what_a_leak_is_worth(place, data, tmp_path):
-    drawn, windows = random_window_split(data, 0)
-    facts = {"split": windows.to_dict(), "data_sha256": drawn.sha256, "seed": 0}
-    write_artefact(network("mlp", 2, facts=facts), tmp_path / "leaky.npz")
-    both = ("--model", place / "mlp.npz", "--model", tmp_path / "leaky.npz")
-    done = evaluate(tmp_path, "--data", place / "data", *both, *FEW, "--json")
+def test_the_score_on_random_windows_that_train_stored_is_shown(evaluate, place, tmp_path):
+    """As `torque train --leaked` leaves it in the network's own file."""
+    write_artefact(network("mlp", 2, facts={"leaked_rmse_Nm": 0.321}), tmp_path / "told.npz")
+    files = ("--data", place / "data", "--model", tmp_path / "told.npz", "--report", "page.html")
+    done = evaluate(*files, *FEW, "--json")
     assert done.code == 0, done.err
-    models = json.loads(done.out)["results"]["models"]
-    assert models["mlp"]["leaked_rmse_Nm"] == pytest.approx(models["mlp"]["rmse_Nm"], rel=0.5)
-    assert "mlp (random windows)" not in models
-    other = network("mlp", 2, facts=facts | {"data_sha256": "0" * 64})
-    write_artefact(other, tmp_path / "other.npz")
-    both = ("--model", place / "mlp.npz", "--model", tmp_path / "other.npz")
-    done = evaluate(tmp_path, "--data", place / "data", *both, *FEW)
-    assert done.code == 2
-    assert "random windows of other data" in done.err
+    assert json.loads(done.out)["results"]["models"]["mlp"]["leaked_rmse_Nm"] == 0.321
+    assert "0.321" in (tmp_path / "page.html").read_text("utf-8")
 
 
 @pytest.mark.parametrize(
@@ -227,14 +192,14 @@ def test_random_windows_show_what_a_leak_is_worth(place, data, tmp_path):
         ({"validity": Validity(DT, 60.0, 1.0, (-9.0, 9.0))}, "velocity gain of 1"),
     ],
 )
-def test_networks_of_other_gains_or_times_are_refused(place, inside, changes, told):
+def test_networks_of_other_gains_or_times_are_refused(evaluate, place, changes, told):
     write_artefact(network("mlp", 2, **changes), Path("other.npz"))
-    code, err = inside("--data", place / "data", "--model", "other.npz", *FEW)
-    assert code == 2
-    assert told in err
+    done = evaluate("--data", place / "data", "--model", "other.npz", *FEW)
+    assert done.code == 2
+    assert told in done.err
 
 
-def test_bad_input_is_told(place, inside, tmp_path):
+def test_bad_input_is_told(evaluate, place, tmp_path):
     folder = place / "data"
     (tmp_path / "net.npz").write_bytes(b"\x80\x04\x95 a pickle")
     (tmp_path / "page.html").write_text("mine")
@@ -249,21 +214,34 @@ def test_bad_input_is_told(place, inside, tmp_path):
         (("--data", folder, "--report", "page.html"), "--force"),
         (("--data", folder, "--draws", "5"), "--draws"),
     ):
-        code, err = inside(*arguments)
-        assert code == 2, (arguments, err)
-        assert told in err
+        done = evaluate(*arguments)
+        assert done.code == 2, (arguments, done.err)
+        assert told in done.err
     assert (tmp_path / "page.html").read_text() == "mine"
 
 
-def test_what_was_trained_on_is_not_scored(place, data, tmp_path):
+def test_what_was_trained_on_is_not_scored(evaluate, place, data, tmp_path):
     everything = [one.name for one in data.episodes]
     told = {"protocol": "trajectory", "seed": 0, "train": everything, "validation": []}
     write_artefact(network("mlp", 2, facts={"split": told}), tmp_path / "greedy.npz")
-    done = evaluate(
-        tmp_path, "--data", place / "data", "--model", tmp_path / "greedy.npz", *FEW, "--json"
-    )
+    done = evaluate("--data", place / "data", "--model", tmp_path / "greedy.npz", *FEW, "--json")
     assert done.code == 0, done.err
     document = json.loads(done.out)
     assert any("mlp was trained on" in sentence for sentence in document["warnings"])
     assert "rmse_Nm" not in document["results"]["models"]["mlp"]
     assert "rmse_Nm" in document["results"]["models"]["pd-law"]
+
+
+def test_a_network_of_other_data_is_scored_though_names_agree(evaluate, place, data):
+    """Two data sets name their episodes alike; only the hash tells whether they are the same."""
+    everything = [one.name for one in data.episodes]
+    told = {"protocol": "trajectory", "seed": 0, "train": everything, "validation": []}
+    other, seen = "trained on other data than these", "was trained on 2 of the 2 episodes"
+    for sha256, right, wrong in (("0" * 64, other, seen), (data.sha256, seen, other)):
+        facts = {"split": told, "data_sha256": sha256}
+        write_artefact(network("mlp", 2, facts=facts), Path("net.npz"))
+        files = ("--data", place / "data", "--model", "net.npz")
+        done = evaluate(*files, "--draws", "100", "--rollouts", "0")
+        assert done.code == 0, done.err
+        assert right in done.err
+        assert wrong not in done.err

@@ -79,11 +79,32 @@ def test_default_place_is_a_folder_of_the_models_name(printed, model, tmp_path, 
 
 
 @pytest.mark.parametrize(
-    ("to", "words"), [("newtn", "did you mean 'newton'"), ("", "names nothing"), ("c,x", "none of")]
+    ("to", "words"),
+    [("newtn", "did you mean 'newton'"), ("", "no kind"), ("c,x", "'x' is not a kind")],
 )
 def test_a_wrong_list_is_told(printed, model, tmp_path, to, words):
     with pytest.raises(UsageError, match=words):
         export(model, to, tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("to", ["c,newton", "newton,c"])
+def test_a_refusal_of_one_kind_keeps_the_others(printed, tmp_path, to):
+    model, folder = tmp_path / "mlp.npz", tmp_path / "out"
+    write_artefact(network("mlp"), model)
+    assert export(model, to, folder) == UsageError.exit_code
+    document = json.loads(printed.getvalue())
+    assert [path.name for path in folder.iterdir()] == ["mlp.h"]
+    assert [one["path"] for one in document["files"]] == [str(folder / "mlp.h")]
+    (told,) = document["warnings"]
+    assert told.startswith("newton was not written: ")
+    assert "takes a GRU" in told
+
+
+def test_nothing_but_refusals_is_an_error(printed, tmp_path):
+    write_artefact(network("mlp"), tmp_path / "mlp.npz")
+    with pytest.raises(UsageError, match="takes a GRU"):
+        export(tmp_path / "mlp.npz", "newton", tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
 
@@ -105,6 +126,8 @@ def test_a_missing_package_says_what_to_install(printed, model, tmp_path, monkey
                 export(model, kind, tmp_path / "out")
             assert isinstance(caught.value, CqddError)
             assert caught.value.exit_code == 5
+            assert export(model, f"{kind},c", tmp_path / kind) == 5
+            assert [path.name for path in (tmp_path / kind).iterdir()] == ["pva-gru.h"]
 
 
 def test_it_is_a_command_with_the_common_options(printed, model, tmp_path):

@@ -13,12 +13,12 @@ from typing import Any
 import pytest
 from report_browser import clipped, overlapping, run_browser
 
-from cqdd_design.catalog import find_bearing
 from cqdd_design.design import Design, load_design
-from cqdd_design.report.build import _environment
+from cqdd_design.machine import resolve
+from cqdd_design.report.ink.page import environment
 from cqdd_design.report.ink.svg import Figure
 from cqdd_design.report.machine_view import MachineViews, hidden_line_views, viewer_data
-from cqdd_design.solids.parts import Part, build_parts
+from cqdd_design.solids.part import Part
 from cqdd_design.solids.poses import body_pose
 
 pytestmark = [
@@ -106,7 +106,7 @@ _PROBE = """<script>
 @pytest.fixture(scope="module")
 def machine(paper_design_file: Path) -> tuple[Design, tuple[Part, ...]]:
     design = load_design(paper_design_file)
-    return design, build_parts(design, find_bearing(design.reducer.cam_bearing.designation))
+    return design, resolve(design).parts
 
 
 @pytest.fixture
@@ -115,11 +115,12 @@ def page(machine: tuple[Design, tuple[Part, ...]]) -> str:
 
 
 def page_of(views: MachineViews, machine: tuple[Design, tuple[Part, ...]]) -> str:
-    environment = _environment()
-    fragment = environment.get_template("machine3d.html").render(
-        machine_views=views, machine_viewer=viewer_data(*machine)
+    fragment = (
+        environment()
+        .get_template("machine3d.html")
+        .render(machine_views=views, machine_viewer=viewer_data(*machine))
     )
-    style = environment.get_template("style.css").render()
+    style = environment().get_template("style.css").render()
     probe = _PROBE.replace("CRANK_DEG", f"{math.degrees(CRANK):.12f}")
     # The slider of a page steps by whole degrees; the probe asks for any angle.
     assert 'step="1" value="0"' in fragment

@@ -25,9 +25,11 @@ from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.scenario import Command, Constant, Load, Sampled, Scenario, Start
 from cqdd_design.actuator.simulate import simulate
+from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design.toml import load_design
-from cqdd_design.exporting.simulators.mjcf import MjcfOptions, model_text
-from cqdd_design.exporting.simulators.mjcf_classes import play_damping
+from cqdd_design.exporting.simulators.mjcf import model_text
+from cqdd_design.exporting.simulators.mjcf_classes import MjcfActuator, MjcfOptions, play_damping
+from cqdd_design.machine import resolve
 
 mujoco = pytest.importorskip("mujoco", minversion="4.0.0", reason="MuJoCo 4 is not installed")
 
@@ -62,8 +64,8 @@ def varying(p: ActuatorParameters) -> ActuatorParameters:
 def actuators() -> dict[str, ActuatorParameters]:
     design = load_design(DESIGN)
     found = {
-        "perfect": actuator_parameters(design),
-        "drawn": actuator_parameters(design, seed=3),
+        "perfect": actuator_parameters(resolve(design)),
+        "drawn": actuator_parameters(resolve(design), Specimen(seed=3)),
         "by hand": varying(paper_actuator(voltage=96.0)),
     }
     return {kind: bench_friction(p) for kind, p in found.items()}
@@ -76,7 +78,7 @@ def load(text: str) -> tuple[Any, Any]:
 
 def in_torque(p: ActuatorParameters, options: MjcfOptions) -> tuple[Any, Any]:
     """The test model, commanded in torque of the motor."""
-    text = model_text(p, "a", options=options)
+    text = model_text(MjcfActuator(p, "a", options=options))
     return load(text.replace('<dcmotor name="a" class="a" ', '<dcmotor name="a" class="a-torque" '))
 
 
@@ -170,7 +172,7 @@ def test_friction_under_load_lessens_the_ripple(
     assert np.abs(theirs[1:] / (1.0 + load) - ours[1:]).max() < 0.011 * largest
     most = int(np.argmax(np.abs(ours[1:]))) + 1
     assert abs(theirs[most]) / (1.0 + load) == pytest.approx(abs(ours[most]), rel=CLOSE)
-    assert "divides it by 1.3 where" in " ".join(model_text(p, "a").split())
+    assert "divides it by 1.3 where" in " ".join(model_text(MjcfActuator(p, "a")).split())
 
 
 def test_ripple_of_perfect_parts_is_that_of_the_stiffness(
@@ -196,7 +198,7 @@ def test_no_load_speed(
     """With Coulomb, Stribeck and viscous friction of both sides, and the ripple as written."""
     p = actuators[kind]
     volts = p.drive.supply_voltage
-    model, data = load(model_text(p, "a", options=MjcfOptions(backlash=backlash)))
+    model, data = load(model_text(MjcfActuator(p, "a", options=MjcfOptions(backlash=backlash))))
     data.ctrl[0] = volts
     speeds = []
     while data.time < 1.0:
@@ -278,7 +280,7 @@ def test_lost_motion(
     The friction of the output side keeps it on the flank and winds up the ends of the play.
     """
     p = actuators[kind]
-    model, data = load(model_text(p, "a", options=MjcfOptions(ripple=False)))
+    model, data = load(model_text(MjcfActuator(p, "a", options=MjcfOptions(ripple=False))))
     model.dof_armature[0] = HEAVY
     speed, lead = 0.05, []
     for sense in (1.0, -1.0):
@@ -301,7 +303,7 @@ def test_stiffness_and_damping_at_the_ends_of_the_play(
 ) -> None:
     """The output pressed on at two steady speeds; the damping is what the head of the file says."""
     p = actuators[kind]
-    text = model_text(p, "a", options=MjcfOptions(ripple=False))
+    text = model_text(MjcfActuator(p, "a", options=MjcfOptions(ripple=False)))
     model, data = load(text)
     model.dof_armature[:] = STILL
     depth = 2e-3

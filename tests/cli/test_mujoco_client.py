@@ -21,13 +21,15 @@ from actuator_samples import frictionless, paper_actuator, random_actuators
 
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.exporting.simulators.mjcf import (
-    MjcfOptions,
     actuator_lines,
     fragment_text,
     joint_lines,
     model_text,
     tendon_lines,
 )
+from cqdd_design.exporting.simulators.mjcf_classes import MjcfActuator, MjcfOptions
+
+RIGID = MjcfOptions(backlash=False)
 
 mujoco = pytest.importorskip("mujoco", minversion="4.0.0", reason="MuJoCo 4 is not installed")
 
@@ -70,8 +72,8 @@ def kinematic_error(p: ActuatorParameters, output: np.ndarray) -> np.ndarray:
 def test_loads_from_files(tmp_path: Path) -> None:
     p = paper_actuator()
     alone, included = tmp_path / "paper-test.xml", tmp_path / "paper.xml"
-    alone.write_text(model_text(p, "paper"))
-    included.write_text(fragment_text(p, "paper"))
+    alone.write_text(model_text(MjcfActuator(p, "paper")))
+    included.write_text(fragment_text(MjcfActuator(p, "paper")))
     model = mujoco.MjModel.from_xml_path(str(alone))
     assert (model.nq, model.nu) == (2, 1)
     assert mujoco.MjModel.from_xml_path(str(included)).nu == 0
@@ -82,7 +84,7 @@ def test_loads_from_files(tmp_path: Path) -> None:
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_positive_command_gives_positive_motion(ratio: float, backlash: bool, sense: float) -> None:
     options = MjcfOptions(backlash=backlash)
-    model, data = load(model_text(paper_actuator(ratio), "paper", options=options))
+    model, data = load(model_text(MjcfActuator(paper_actuator(ratio), "paper", options=options)))
     data.ctrl[0] = 6.0 * sense
     moved = run(model, data, 1000)[-1]
     assert sense * moved[0] > 0.01
@@ -91,7 +93,7 @@ def test_positive_command_gives_positive_motion(ratio: float, backlash: bool, se
 
 @pytest.mark.parametrize("kind", ["torque", "impedance"])
 def test_sense_of_the_other_commands(kind: str) -> None:
-    text = model_text(paper_actuator(), "paper").replace(
+    text = model_text(MjcfActuator(paper_actuator(), "paper")).replace(
         '<dcmotor name="paper" class="paper" ', f'<dcmotor name="paper" class="paper-{kind}" '
     )
     model, data = load(text)
@@ -108,7 +110,7 @@ def test_sense_of_the_other_commands(kind: str) -> None:
 @pytest.mark.parametrize("backlash", [True, False])
 def test_no_load_speed(ratio: float, backlash: bool) -> None:
     p = paper_actuator(ratio)
-    model, data = load(model_text(p, "paper", options=MjcfOptions(backlash=backlash)))
+    model, data = load(model_text(MjcfActuator(p, "paper", options=MjcfOptions(backlash=backlash))))
     data.ctrl[0] = p.drive.supply_voltage
     speeds = run(model, data, 4000)[2000:, 1]
     motor, friction, n = p.motor, p.friction, abs(ratio)
@@ -128,7 +130,7 @@ def test_no_load_speed(ratio: float, backlash: bool) -> None:
 )
 def test_stall_torque(voltage: float, current: float) -> None:
     p = paper_actuator(voltage=voltage, current=current)
-    model, data = load(model_text(p, "paper", options=MjcfOptions(backlash=False)))
+    model, data = load(model_text(MjcfActuator(p, "paper", RIGID)))
     model.dof_damping[:] = HELD
     data.ctrl[0] = voltage
     steps = math.ceil(12.0 * p.motor.inductance / p.motor.resistance / model.opt.timestep)
@@ -144,9 +146,9 @@ def test_reflected_inertia(ratio: float) -> None:
     p = paper_actuator(ratio)
     outer = p.gear.output_inertia
     whole = ratio**2 * (p.motor.rotor_inertia + p.gear.input_inertia) + outer
-    rigid = mass_matrix(*load(model_text(p, "paper", options=MjcfOptions(backlash=False))))
+    rigid = mass_matrix(*load(model_text(MjcfActuator(p, "paper", RIGID))))
     assert rigid == pytest.approx(np.array([[whole]]), rel=CLOSE)
-    loose = mass_matrix(*load(model_text(p, "paper")))
+    loose = mass_matrix(*load(model_text(MjcfActuator(p, "paper"))))
     assert loose == pytest.approx(np.array([[whole, outer], [outer, outer]]), rel=CLOSE)
 
 
@@ -154,7 +156,9 @@ def test_reflected_inertia(ratio: float) -> None:
 @pytest.mark.parametrize("torque", [None, -20.0])
 def test_ripple_is_the_work_of_the_kinematic_error(ratio: float, torque: float | None) -> None:
     p = frictionless(paper_actuator(ratio))
-    model, data = load(model_text(p, "paper", options=MjcfOptions(ripple_torque=torque)))
+    model, data = load(
+        model_text(MjcfActuator(p, "paper", options=MjcfOptions(ripple_torque=torque)))
+    )
     angles = 2.0 * math.pi * np.arange(512) / 512
     felt = np.empty(angles.size)
     for at, angle in enumerate(angles):
@@ -181,7 +185,7 @@ def test_cogging_pulls_into_its_rest_positions(ratio: float) -> None:
     p = paper_actuator(ratio)
     p = dataclasses.replace(p, friction=frictionless(p).friction)
     p = dataclasses.replace(p, motor=dataclasses.replace(p.motor, hysteresis=0.0))
-    model, data = load(model_text(p, "paper", options=MjcfOptions(False, False)))
+    model, data = load(model_text(MjcfActuator(p, "paper", options=MjcfOptions(False, False))))
     for crank in (0.01, 0.04, -0.02):
         data.qpos[0] = crank / ratio
         mujoco.mj_forward(model, data)
@@ -191,7 +195,7 @@ def test_cogging_pulls_into_its_rest_positions(ratio: float) -> None:
 
 def test_backlash_range_and_stiffness_of_its_ends() -> None:
     p = frictionless(paper_actuator())
-    model, data = load(model_text(p, "paper", options=MjcfOptions(ripple=False)))
+    model, data = load(model_text(MjcfActuator(p, "paper", options=MjcfOptions(ripple=False))))
     model.dof_damping[0] = HELD
     model.dof_damping[1] = 0.05
 
@@ -214,7 +218,7 @@ def test_backlash_range_and_stiffness_of_its_ends() -> None:
 @pytest.mark.parametrize("voltage", [24.0, -24.0, 0.0])
 def test_four_thousand_steps_are_stable(voltage: float) -> None:
     p = paper_actuator()
-    model, data = load(model_text(p, "paper"))
+    model, data = load(model_text(MjcfActuator(p, "paper")))
     data.ctrl[0] = voltage
     data.qvel[:] = (5.0, -5.0) if voltage == 0.0 else 0.0
     speeds = run(model, data, 4000)[:, 1]
@@ -250,9 +254,9 @@ HOST = """
 @pytest.mark.parametrize("angle", ["radian", "degree"])
 def test_fragment_in_a_robot_by_the_lines_of_its_own_comment(tmp_path: Path, angle: str) -> None:
     p = paper_actuator()
-    comment = fragment_text(p, "paper")
+    comment = fragment_text(MjcfActuator(p, "paper"))
     (tmp_path / "paper.xml").write_text(comment)
-    hip = actuator_lines(p, "paper", "hip", options=MjcfOptions(backlash=False))
+    hip = actuator_lines(MjcfActuator(p, "paper", RIGID), "hip")
     loose = joint_lines("paper", "hip", play=True)
     ties = tendon_lines("hip")
     for text in (*hip, *joint_lines("paper", "hip", play=False), *loose, *ties):
@@ -266,8 +270,8 @@ def test_fragment_in_a_robot_by_the_lines_of_its_own_comment(tmp_path: Path, ang
         tendon="".join(ties),
         actuators="".join(
             (
-                *actuator_lines(p, "paper", "hip"),
-                *actuator_lines(p, "paper", "knee", options=MjcfOptions(backlash=False)),
+                *actuator_lines(MjcfActuator(p, "paper"), "hip"),
+                *actuator_lines(MjcfActuator(p, "paper", RIGID), "knee"),
             )
         ),
     )
@@ -298,12 +302,12 @@ def test_sense_of_the_other_commands_in_a_robot(
 ) -> None:
     """1 N m, or 3 rad, of the motor moves the rigid joints of a robot the same way."""
     p = paper_actuator(ratio)
-    (tmp_path / "paper.xml").write_text(fragment_text(p, "paper"))
+    (tmp_path / "paper.xml").write_text(fragment_text(MjcfActuator(p, "paper")))
     rigid = MjcfOptions(backlash=False)
     lines = [
         line
         for joint in ("hip", "knee")
-        for line in actuator_lines(p, "paper", joint, options=rigid)
+        for line in actuator_lines(MjcfActuator(p, "paper", rigid), joint)
     ]
     robot = HOST.format(
         angle="radian",
@@ -325,7 +329,7 @@ def test_sense_of_the_other_commands_in_a_robot(
 @settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
 @given(p=random_actuators())
 def test_random_actuators(p: ActuatorParameters) -> None:
-    model, data = load(model_text(p, "drawn"))
+    model, data = load(model_text(MjcfActuator(p, "drawn")))
     n, motor = abs(p.gear.ratio), p.motor
     assert mass_matrix(model, data)[0, 0] == pytest.approx(p.reflected_inertia, rel=1e-6)
     data.ctrl[0] = p.drive.supply_voltage
@@ -353,7 +357,7 @@ def test_random_actuators_in_a_robot_at_its_own_step(
     peak = abs(p.gear.ratio) * p.motor.torque_constant * p.drive.current_limit
     assume(peak * 0.002 < 0.5 * most * p.reflected_inertia)
     folder = tmp_path_factory.mktemp("robot")
-    (folder / "paper.xml").write_text(fragment_text(p, "paper"))
+    (folder / "paper.xml").write_text(fragment_text(MjcfActuator(p, "paper")))
     play = p.gear.backlash > 0.0
     inertia = max(p.reflected_inertia, 1e-4)
     body = f'mass="1" diaginertia="{inertia} {inertia} {inertia}"'
@@ -364,8 +368,8 @@ def test_random_actuators_in_a_robot_at_its_own_step(
         tendon="".join(tendon_lines("hip")) if play else "",
         actuators="".join(
             (
-                *actuator_lines(p, "paper", "hip"),
-                *actuator_lines(p, "paper", "knee", options=MjcfOptions(backlash=False)),
+                *actuator_lines(MjcfActuator(p, "paper"), "hip"),
+                *actuator_lines(MjcfActuator(p, "paper", RIGID), "knee"),
             )
         ),
     )
@@ -386,7 +390,7 @@ def test_random_actuators_in_a_robot_at_its_own_step(
 def test_without_friction_and_play_nothing_of_them_is_written() -> None:
     p = frictionless(paper_actuator())
     p = dataclasses.replace(p, gear=dataclasses.replace(p.gear, backlash=0.0))
-    text = model_text(p, "bare", options=MjcfOptions(ripple=False))
+    text = model_text(MjcfActuator(p, "bare", options=MjcfOptions(ripple=False)))
     model, _ = load(text)
     assert (model.nq, model.nu) == (1, 1)
     assert "lugre=" not in text

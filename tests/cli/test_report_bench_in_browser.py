@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 from report_browser import clipped, overlapping, probe, run_browser
+from shared_outputs import report_input
 
-from cqdd_design import pipeline
 from cqdd_design.actuator.bench import run_bench
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.design import Design, load_design
-from cqdd_design.gearbox import analyse_gearbox
-from cqdd_design.report import ReportInput, build_report
-from cqdd_design.sizing.comparison import compare_with_planetary
+from cqdd_design.machine import resolve
+from cqdd_design.report import build_report
 
 pytestmark = pytest.mark.deep
 
@@ -46,17 +46,9 @@ def page(paper_design_file: Path) -> str:
     mapping = load_design(paper_design_file).to_mapping()
     mapping["requirements"]["duty"] = DUTY
     design = Design.from_mapping(mapping)
-    actuator = actuator_parameters(design)
-    analysis = analyse_gearbox(design)
-    return build_report(
-        ReportInput(
-            design=design,
-            gearbox=analysis,
-            planetary=compare_with_planetary(design, analysis=analysis),
-            provenance=pipeline.provenance(design),
-            bench=(actuator, run_bench(actuator, rated_current=20.0, beside_paper=True)),
-        )
-    )
+    actuator = actuator_parameters(resolve(design))
+    measured = run_bench(actuator, rated_current=20.0, beside_paper=True)
+    return build_report(dataclasses.replace(report_input(design), bench=(actuator, measured)))
 
 
 @pytest.fixture(scope="module", params=["1280,1600", "500,1600"])

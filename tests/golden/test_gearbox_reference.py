@@ -17,12 +17,12 @@ import numpy as np
 import pytest
 
 from cqdd_design.design import load_design
-from cqdd_design.gearbox import analyse_gearbox
 from cqdd_design.gearbox.bearing_life import basic_rating_life_hours
 from cqdd_design.gearbox.hertz import effective_modulus
 from cqdd_design.gearbox.loads import rigid_maxima
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import kinematics
+from cqdd_design.machine import resolve
 
 STEEL_4140 = float(effective_modulus(205e9, 0.29, 205e9, 0.29))
 REFERENCE = Stages(
@@ -72,7 +72,7 @@ def computed() -> dict[str, float]:
     for name, clocking in (("0", 0.0), ("quarter", pitch / 4.0), ("half", pitch / 2.0)):
         one = replace(PAPER, disc_count=1, hole_clocking=clocking)
         numbers[f"one disc cam_load_N clocked {name}"] = rigid_maxima(one, 60.0).cam_bearing_load
-    analysis = analyse_gearbox(load_design(DESIGN))
+    analysis = resolve(load_design(DESIGN)).analysis
     pins, maxima = analysis.output_pins, analysis.rigid
     numbers |= {
         "cqdd-10 ring_force_N": maxima.ring_force,

@@ -5,17 +5,18 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from shared_outputs import paper_bench, report_input
+from shared_outputs import paper_input as shared_input
 
-from cqdd_design import actuator_pipeline, pipeline
-from cqdd_design.actuator.bench import BenchResult, Metric, run_bench
-from cqdd_design.actuator.bench.gear import DIAL, DIAL_RADIUS
-from cqdd_design.actuator.bench.metric import PAPER
-from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.bench import BenchResult, Metric
+from cqdd_design.actuator.bench.gear import ARCMIN, DIAL, DIAL_RADIUS, dead_zone
+from cqdd_design.actuator.bench.metric import is_near
+from cqdd_design.actuator.demands import demands
+from cqdd_design.actuator.envelope import limit_curves
 from cqdd_design.actuator.motor import envelope
 from cqdd_design.actuator.operating import (
     DRIVER,
@@ -32,70 +33,64 @@ from cqdd_design.actuator.operating import (
 )
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.thermal import continuous_current, response, steady_state
-from cqdd_design.design import Design, load_design
-from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.catalog.paper import METRICS as PAPER
+from cqdd_design.design import Design
+from cqdd_design.machine import resolve
 from cqdd_design.report import ReportInput, build_report
-from cqdd_design.report.actuator.actuator_rows import parameter_rows
-from cqdd_design.report.actuator.actuator_view import (
-    actuator_view,
-    asked_points,
-    duration,
-    envelope_curves,
-)
-from cqdd_design.report.actuator.bench_charts import bode, spectrum
-from cqdd_design.report.actuator.bench_figures import ARCMIN, dead_zone, efficiency_maps
-from cqdd_design.report.actuator.bench_view import (
+from cqdd_design.report.actuator.bench_charts import Response, bode, spectrum
+from cqdd_design.report.actuator.bench_figures import efficiency_maps
+from cqdd_design.report.actuator.bench_table import (
     RELATIONS,
     bench_view,
     comparison,
-    is_near,
     off_by,
 )
+from cqdd_design.report.actuator.envelope import actuator_view, duration, sentence
+from cqdd_design.report.actuator.parameter_rows import parameter_rows
 from cqdd_design.report.ink.axes import Labels, linear_axis, log_axis, thinned
-from cqdd_design.report.ink.svg import Figure
-from cqdd_design.sizing.comparison import compare_with_planetary
+from cqdd_design.report.ink.svg import Figure, Words
+from cqdd_design.roads.bench import measured_actuator
 
-PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
-RPM = 30.0 / math.pi
-
-
-@pytest.fixture(scope="module")
-def design() -> Design:
-    return load_design(PAPER_FILE)
+WORDS = Words("id", "title", "description", "caption")
 
 
 @pytest.fixture(scope="module")
-def actuator(design: Design) -> ActuatorParameters:
-    return actuator_parameters(design)
+def paper_input(tmp_path_factory: pytest.TempPathFactory) -> ReportInput:
+    return shared_input(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
-def measured(actuator: ActuatorParameters) -> BenchResult:
-    return run_bench(actuator, rated_current=20.0, beside_paper=True)
+def design(paper_input: ReportInput) -> Design:
+    return paper_input.design
 
 
 @pytest.fixture(scope="module")
-def page(design: Design, actuator: ActuatorParameters, measured: BenchResult) -> str:
-    return page_of(design, bench=(actuator, measured))
+def found(tmp_path_factory: pytest.TempPathFactory) -> tuple[ActuatorParameters, BenchResult]:
+    return paper_bench(tmp_path_factory)
+
+
+@pytest.fixture(scope="module")
+def actuator(found: tuple[ActuatorParameters, BenchResult]) -> ActuatorParameters:
+    return found[0]
+
+
+@pytest.fixture(scope="module")
+def measured(found: tuple[ActuatorParameters, BenchResult]) -> BenchResult:
+    return found[1]
+
+
+@pytest.fixture(scope="module")
+def page(paper_input: ReportInput, found: tuple[ActuatorParameters, BenchResult]) -> str:
+    return page_of(paper_input, bench=found)
 
 
 def page_of(
-    design: Design,
+    results: ReportInput,
     *,
     bench: tuple[ActuatorParameters, BenchResult] | None = None,
     missing: str = "",
 ) -> str:
-    analysis = analyse_gearbox(design)
-    return build_report(
-        ReportInput(
-            design=design,
-            gearbox=analysis,
-            planetary=compare_with_planetary(design, analysis=analysis),
-            provenance=pipeline.provenance(design),
-            bench=bench,
-            bench_missing=missing,
-        )
-    )
+    return build_report(dataclasses.replace(results, bench=bench, bench_missing=missing))
 
 
 def section(page: str, anchor: str) -> str:
@@ -222,41 +217,44 @@ def test_shorter_overloads_allow_more_and_friction_takes_from_speed(
 
 
 def test_curves_stay_within_voltage_driver_and_each_other(actuator: ActuatorParameters) -> None:
-    curves = {curve.class_: curve for curve in envelope_curves(actuator, 31.0)}
-    assert set(curves) == {"series-1", "series-2", "held", "held-60", "held-10"}
-    for curve in curves.values():
+    found = limit_curves(actuator, 31.0)
+    assert [curve.temperature for curve in found[:2]] == [25.0, actuator.thermal.most]
+    curves = {curve.seconds: curve for curve in found[2:]}
+    assert set(curves) == {math.inf, 60.0, 10.0}
+    for curve in found:
         assert np.all(curve.torque >= 0.0)
         assert curve.torque[-1] == pytest.approx(0.0, abs=1e-9)
     bound = np.maximum(
-        envelope_torque(actuator, curves["held"].speed, 25.0),
-        envelope_torque(actuator, curves["held"].speed, actuator.thermal.most),
+        envelope_torque(actuator, curves[math.inf].speed, 25.0),
+        envelope_torque(actuator, curves[math.inf].speed, actuator.thermal.most),
     )
-    for name in ("held", "held-60", "held-10"):
-        assert np.all(curves[name].torque[:-1] <= bound[: len(curves[name].torque) - 1] + 1e-9)
+    for curve in curves.values():
+        assert np.all(curve.torque[:-1] <= bound[: len(curve.torque) - 1] + 1e-9)
 
 
 def test_a_heat_line_that_never_binds_is_left_out(actuator: ActuatorParameters) -> None:
     cool = dataclasses.replace(actuator.thermal, winding_to_housing=1e-3, housing_to_ambient=1e-3)
-    curves = envelope_curves(dataclasses.replace(actuator, thermal=cool), 31.0)
-    assert {curve.class_ for curve in curves} == {"series-1", "series-2"}
+    curves = limit_curves(dataclasses.replace(actuator, thermal=cool), 31.0)
+    assert all(math.isnan(curve.seconds) for curve in curves)
+    assert len(curves) == 2
 
 
 def test_points_of_the_requirements_are_judged_and_told(
     actuator: ActuatorParameters, design: Design
 ) -> None:
-    points = {point.name: point for point in asked_points(actuator, design.requirements)}
+    points = {point.name: point for point in demands(actuator, design.requirements)}
     assert set(points) == {"peak torque", "continuous torque"}
     peak, ever = points["peak torque"], points["continuous torque"]
     assert peak.found.binding == (DRIVER, PEAK)
-    assert "the driver's current and the motor's peak torque bind" in peak.sentence
+    assert "the driver's current and the motor's peak torque bind" in sentence(actuator, peak)
     assert peak.speed == 0.0
     assert ever.found.binding == (HEAT,)
-    assert "heat binds" in ever.sentence
-    assert duration(ever.found.lasts) in ever.sentence
+    assert "heat binds" in sentence(actuator, ever)
+    assert duration(ever.found.lasts) in sentence(actuator, ever)
     assert ever.speed * abs(actuator.gear.ratio) == pytest.approx(design.requirements.input_speed)
     easy = design.requirements.model_copy(update={"peak_torque": 30.0, "continuous_torque": 5.0})
-    assert all(point.found.inside for point in asked_points(actuator, easy))
-    assert all("inside" in point.sentence for point in asked_points(actuator, easy))
+    assert all(point.found.inside for point in demands(actuator, easy))
+    assert all("inside" in sentence(actuator, point) for point in demands(actuator, easy))
 
 
 def test_every_step_of_the_duty_is_a_point_and_its_heat_is_told(
@@ -269,9 +267,10 @@ def test_every_step_of_the_duty_is_a_point_and_its_heat_is_told(
     ]
     asked = Design.from_mapping(mapping).requirements
     view = actuator_view(actuator, measured, asked)
-    assert [point.name for point in view.points[2:]] == ["duty 1", "duty 2"]
-    assert [point.generating for point in view.points[2:]] == [False, True]
-    currents = [point.found.need.current for point in view.points[2:]]
+    steps = [point for point, _ in view.points[2:]]
+    assert [point.name for point in steps] == ["duty 1", "duty 2"]
+    assert [point.generating for point in steps] == [False, True]
+    currents = [point.found.need.current for point in steps]
     assert currents[0] > abs(currents[1]), "friction helps where the output drives"
     mean = math.sqrt(0.5 * currents[0] ** 2 + 0.5 * currents[1] ** 2)
     assert f"{mean:.3g}" in view.duty
@@ -288,7 +287,7 @@ def test_dots_stand_at_their_points(
     ticks = [e for e in classed(view.envelope, "text", "tick") if e.get("text-anchor") == "end"]
     level = {float(t.text or "nan"): number(g, "y1") for g, t in zip(grid, ticks, strict=True)}
     scale = (level[40.0] - level[0.0]) / 40.0
-    for dot, point in zip(dots, view.points, strict=True):
+    for dot, (point, _) in zip(dots, view.points, strict=True):
         assert number(dot, "cy") == pytest.approx(level[0.0] + scale * point.torque, abs=0.1)
         assert ("inside" in dot.get("class", "")) == point.found.inside
 
@@ -330,10 +329,7 @@ def test_crossings_of_a_bode_plot_lie_on_its_curves() -> None:
     """First order with 8 Hz: -3 dB there, -45 degrees, -90 nowhere."""
     f = np.geomspace(0.5, 200.0, 300)
     h = 1.0 / (1.0 + 1j * f / 8.0)
-    figure = bode(
-        "b", "t", "d", frequency=f, gain=np.abs(h), phase=np.angle(h), edge=8.0, quarter=None,
-        caption="c",
-    )  # fmt: skip
+    figure = bode(WORDS, Response(f, np.abs(h), np.angle(h), edge=8.0, quarter=None))
     (dot,) = classed(figure, "circle", "dot")
     curve = path_of(classed(figure, "path", "curve series-1")[0])
     y = np.interp(number(dot, "cx"), curve[:, 0], curve[:, 1])
@@ -342,10 +338,8 @@ def test_crossings_of_a_bode_plot_lie_on_its_curves() -> None:
 
 def test_faint_begins_where_coherence_falls() -> None:
     f = np.geomspace(1.0, 100.0, 50)
-    figure = bode(
-        "b", "t", "d", frequency=f, gain=np.ones(50), phase=np.zeros(50),
-        coherence=np.where(f < 20.0, 0.95, 0.3), edge=None, quarter=None, caption="c",
-    )  # fmt: skip
+    coherence = np.where(f < 20.0, 0.95, 0.3)
+    figure = bode(WORDS, Response(f, np.ones(50), np.zeros(50), None, None, coherence))
     sure = path_of(classed(figure, "path", "curve series-1")[0])
     weak = path_of(classed(figure, "path", "curve weak")[0])
     assert len(sure) == np.sum(f < 20.0)
@@ -356,9 +350,7 @@ def test_bars_of_a_spectrum_are_in_proportion() -> None:
     order = np.arange(1.0, 61.0)
     amplitude = np.zeros(60)
     amplitude[[9, 21, 43]] = 2.0, 4.0, 1.0
-    figure = spectrum(
-        "s", "t", "d", order=order, amplitude=amplitude, named=[22, 10], y_label="y", caption="c"
-    )
+    figure = spectrum(WORDS, order, amplitude, [22, 10], "y")
     bars = classed(figure, "line", "order-bar")
     tall = [number(e, "y1") - number(e, "y2") for e in bars]
     assert tall == pytest.approx([tall[1] / 2.0, tall[1], tall[1] / 4.0], abs=0.02)
@@ -481,7 +473,7 @@ def test_the_table_stands_beside_the_paper_s(
         assert row.protocol.endswith(".")
         assert (row.off == "\u2013") == (row.relation == "not comparable" or row.paper == "\u2013")
     predicted = [m for m in measured.metrics if m.relation == "predicted" and m.name in PAPER]
-    near = [m for m in predicted if is_near(m, PAPER[m.name][0])]
+    near = [m for m in predicted if is_near(m, PAPER[m.name].value)]
     assert f"Of {len(predicted)} predicted rows {len(near)} lie within" in view.summary
 
 
@@ -502,13 +494,13 @@ def test_how_far_off(name: str, value: float, paper: float, shown: str) -> None:
 
 
 def test_another_design_has_no_paper_beside_it(
-    actuator: ActuatorParameters, measured: BenchResult, design: Design
+    actuator: ActuatorParameters, measured: BenchResult, paper_input: ReportInput
 ) -> None:
     alone = dataclasses.replace(measured, beside_paper=False)
     view = bench_view(actuator, alone, pin_count=5)
     assert view.summary == ""
     assert all(row.paper == row.off == "\u2013" for row in view.rows)
-    bench = section(page_of(design, bench=(actuator, alone)), "bench")
+    bench = section(page_of(paper_input, bench=(actuator, alone)), "bench")
     assert ">Paper<" not in bench
     assert ">Off by<" not in bench
 
@@ -591,15 +583,15 @@ def test_every_measurement_has_its_row_and_protocol(page: str, measured: BenchRe
 
 
 def test_the_same_input_gives_the_same_bytes(
-    page: str, design: Design, actuator: ActuatorParameters, measured: BenchResult
+    page: str, paper_input: ReportInput, found: tuple[ActuatorParameters, BenchResult]
 ) -> None:
-    again = page_of(design, bench=(actuator, measured))
+    again = page_of(paper_input, bench=found)
     for anchor in ("actuator", "bench"):
         assert section(again, anchor) == section(page, anchor)
 
 
-def test_without_a_bench_there_are_no_sections(design: Design) -> None:
-    bare = page_of(design)
+def test_without_a_bench_there_are_no_sections(paper_input: ReportInput) -> None:
+    bare = page_of(paper_input)
     for anchor in ("actuator", "bench"):
         assert f'id="{anchor}"' not in bare
         assert f'href="#{anchor}"' not in bare
@@ -609,10 +601,10 @@ def test_a_motor_that_cannot_be_simulated_leaves_a_sentence(design: Design) -> N
     mapping = design.to_mapping()
     mapping["motor"]["name"] = "CubeMars AK10-9 V2 KV60"
     geared = Design.from_mapping(mapping)
-    found, missing = actuator_pipeline.measured_actuator(geared)
+    found, missing = measured_actuator(resolve(geared))
     assert found is None
     assert "is a geared actuator" in missing
-    page = page_of(geared, missing=missing)
+    page = page_of(report_input(geared), missing=missing)
     assert "is a geared actuator" in section(page, "actuator")
     assert 'href="#actuator"' in page
     assert 'href="#bench"' not in page

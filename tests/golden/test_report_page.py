@@ -6,35 +6,21 @@ import dataclasses
 import re
 from collections import Counter
 from html.parser import HTMLParser
-from pathlib import Path
 
 import pytest
+from shared_outputs import paper_input as shared_input
+from shared_outputs import report_input, sized
 
-from cqdd_design import pipeline
-from cqdd_design.design import Design, Requirements, load_design
-from cqdd_design.gearbox import analyse_gearbox
-from cqdd_design.report import ReportInput, build_report, read_comments, weigh
-from cqdd_design.sizing import size
-from cqdd_design.sizing.comparison import compare_with_planetary
+from cqdd_design.design import Design
+from cqdd_design.machine import resolve
+from cqdd_design.report import ReportInput, build_report
 
 VOID = {"meta", "link", "br", "hr", "img", "input", "col", "circle", "line", "path", "rect"}
 
 
-def input_for(design: Design, file: Path | None = None) -> ReportInput:
-    analysis = analyse_gearbox(design)
-    return ReportInput(
-        design=design,
-        gearbox=analysis,
-        planetary=compare_with_planetary(design, analysis=analysis),
-        provenance=pipeline.provenance(design),
-        comments={} if file is None else read_comments(file),
-        bodies=weigh(analysis.design, analysis.cam_bearing.bearing),
-    )
-
-
 @pytest.fixture(scope="module")
-def paper_input(paper_design_file: Path) -> ReportInput:
-    return input_for(load_design(paper_design_file), paper_design_file)
+def paper_input(tmp_path_factory: pytest.TempPathFactory) -> ReportInput:
+    return shared_input(tmp_path_factory)
 
 
 @pytest.fixture(scope="module")
@@ -152,7 +138,7 @@ def test_a_design_without_remarks_knows_given_default_and_derived() -> None:
             }
         }
     )
-    page = build_report(input_for(design))
+    page = build_report(report_input(design))
     rows = dict(re.findall(r'<td title="([\w.]+)">.*?<span class="chip (\w+)">', page, flags=re.S))
     assert rows["reducer.eccentricity"] == "given"
     assert rows["reducer.output_pins.circle_radius"] == "derived"
@@ -195,7 +181,9 @@ def test_text_of_the_design_cannot_become_markup(paper_input: ReportInput) -> No
     mapping["reducer"]["friction"]["lubricant"] = "<script>alert('grease')</script>"
     design = Design.from_mapping(mapping)
     comments = {"reducer.eccentricity": "assumed: <img src=x onerror=alert(1)> & more"}
-    page = build_report(dataclasses.replace(paper_input, design=design, comments=comments))
+    page = build_report(
+        dataclasses.replace(paper_input, machine=resolve(design), comments=comments)
+    )
     assert "<script>alert(" not in page
     assert "&lt;script&gt;alert(" in page
     assert "<img" not in page
@@ -243,9 +231,9 @@ def test_without_bodies_and_sizing_their_sections_are_left_out(paper_input: Repo
         assert f'href="#{anchor}"' not in bare
 
 
-def test_a_sized_design_shows_how_it_was_found() -> None:
-    found = size(Requirements(ratio=12))
-    page = build_report(dataclasses.replace(input_for(found.design), sizing=found))
+def test_a_sized_design_shows_how_it_was_found(tmp_path_factory: pytest.TempPathFactory) -> None:
+    found = sized(tmp_path_factory, 12)
+    page = build_report(dataclasses.replace(report_input(found.design), sizing=found))
     words = text_of(page[page.index('id="sizing"') : page.index('id="symbols"')])
     assert f"{found.candidates_screened:,}".replace(",", " ") in words
     for alternative in found.alternatives:

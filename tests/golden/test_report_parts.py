@@ -15,16 +15,18 @@ from hypothesis import strategies as st
 from cqdd_design.catalog import find_bearing
 from cqdd_design.design import Design
 from cqdd_design.gearbox import CHECK_GUIDE
+from cqdd_design.gearbox.disc_forces import disc_forces
 from cqdd_design.geometry.contours import ArcContour, Circle
 from cqdd_design.report.drawings.front_view import front_view
-from cqdd_design.report.drawings.outlines import Machine
-from cqdd_design.report.drawings.section_view import reach_along_x, section_view
+from cqdd_design.report.drawings.half_section import half_section, reach_along_x
+from cqdd_design.report.drawings.outlines import Outlines
 from cqdd_design.report.drawings.turning_mesh import mesh_figure
-from cqdd_design.report.ink.charts import Curve, Level, line_chart, margin_bar, nice_step
+from cqdd_design.report.ink.axes import nice_step
+from cqdd_design.report.ink.charts import Curve, Level, line_chart, margin_bar
 from cqdd_design.report.ink.dimensions import Leader, leader_column
 from cqdd_design.report.ink.mathml import mathml
 from cqdd_design.report.ink.numbers import decimals, quantity_text, significant, with_unit
-from cqdd_design.report.ink.svg import View, contour_path, element, text
+from cqdd_design.report.ink.svg import View, Words, contour_path, element, text
 from cqdd_design.report.judgement.check_rows import check_row, margin_text, printed, sentence
 from cqdd_design.results import Check
 
@@ -161,14 +163,12 @@ def test_ticks_are_round_and_few(span: float, most: int) -> None:
 def test_a_chart_puts_its_numbers_where_they_belong() -> None:
     x = np.linspace(0.0, 360.0, 5)
     figure = line_chart(
-        "a-chart",
-        "Title",
-        "Description",
-        x=x,
+        Words("a-chart", "Title", "Description"),
+        x,
+        [Curve("line", np.array([0.0, 50.0, 100.0, 50.0, 0.0]), "series-1")],
+        [Level("limit", 50.0)],
         x_label="angle",
         y_label="force",
-        curves=[Curve("line", np.array([0.0, 50.0, 100.0, 50.0, 0.0]), "series-1")],
-        levels=[Level("limit", 50.0)],
         x_ticks=(0.0, 180.0, 360.0),
     )
     svg = figure.render()
@@ -233,13 +233,47 @@ def test_drawings_of_every_ratio_are_well_formed(ratio: int, discs: int) -> None
             }
         }
     )
-    machine = Machine.from_design(design, find_bearing("6902"))
-    for figure in (front_view(machine), section_view(machine), mesh_figure(machine, 90.0, 4000.0)):
+    outlines = Outlines.from_design(design, find_bearing("6902"))
+    for figure in (
+        front_view(outlines),
+        half_section(outlines),
+        mesh_figure(outlines, 90.0, 4000.0),
+    ):
         svg = figure.render()
         minidom.parseString(svg)
         assert "nan" not in svg
         assert "inf" not in svg
         assert len(svg) < 250_000
+
+
+@pytest.mark.parametrize("degrees", [0.0, 30.0, 217.0])
+def test_drawn_pins_stand_where_the_law_has_them(degrees: float) -> None:
+    """In the order of the law, and each within its hole of every disc."""
+    design = Design.from_mapping(
+        {
+            "reducer": {
+                "ratio": 10,
+                "ring_pitch_radius": "32 mm",
+                "eccentricity": "1.6 mm",
+                "ring_pin_diameter": "7 mm",
+                "disc_count": 3,
+                "output_pins": {"count": 5, "circle_radius": "19.5 mm"},
+                "ring": {"outer_diameter": "72 mm"},
+            }
+        }
+    )
+    outlines, angle = Outlines.from_design(design, find_bearing("6902")), math.radians(degrees)
+    stages = outlines.stages
+    around = np.array(outlines.pin_angles(angle))
+    pins = stages.pin_circle_radius * np.column_stack([np.cos(around), np.sin(around)])
+    for disc in range(3):
+        forces = disc_forces(stages, 50.0, angle, disc)
+        touched = pins + stages.pin_contact_radius * forces.pin_direction
+        assert forces.pin_point == pytest.approx(touched, abs=1e-12)
+        holes = outlines.posed_disc(disc, angle).holes
+        middles = np.array([hole.centre for hole in holes if isinstance(hole, Circle)])
+        apart = np.linalg.norm(middles[:, None] - pins, axis=-1).min(axis=0)
+        assert apart == pytest.approx([design.reducer.eccentricity] * 5, abs=1e-9)
 
 
 def test_a_section_reaches_where_the_parts_do() -> None:
@@ -256,9 +290,9 @@ def test_a_section_reaches_where_the_parts_do() -> None:
             }
         }
     )
-    machine = Machine.from_design(design, find_bearing("6902"))
+    outlines = Outlines.from_design(design, find_bearing("6902"))
     apex = design.reducer.ring_pitch_radius - 0.5 * design.reducer.ring_pin_diameter
     gap = design.reducer.modification.equidistant
-    assert reach_along_x(machine.posed_disc(0, 0.0).outer) == pytest.approx(apex - gap, abs=1e-8)
-    assert reach_along_x(machine.posed_disc(1, 0.0).outer) == pytest.approx(apex - gap, abs=3e-6)
-    assert reach_along_x(machine.ring.holes[0]) == pytest.approx(apex, abs=1e-8)
+    assert reach_along_x(outlines.posed_disc(0, 0.0).outer) == pytest.approx(apex - gap, abs=1e-8)
+    assert reach_along_x(outlines.posed_disc(1, 0.0).outer) == pytest.approx(apex - gap, abs=3e-6)
+    assert reach_along_x(outlines.ring.holes[0]) == pytest.approx(apex, abs=1e-8)

@@ -12,10 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from cqdd_design.catalog import find_bearing
 from cqdd_design.design import load_design
-from cqdd_design.solids.inertia import closed_form, gearbox_inertia
-from cqdd_design.solids.parts import build_parts
+from cqdd_design.machine import resolve
 
 FILE = Path(__file__).with_suffix(".json")
 DESIGN = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
@@ -24,8 +22,7 @@ DESIGN = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
 def measure() -> dict[str, dict[str, float]]:
     """Numbers of every part, and of the whole."""
     design = load_design(DESIGN)
-    parts = build_parts(design, find_bearing(design.reducer.cam_bearing.designation))
-    found = gearbox_inertia(design, parts, closed_form)
+    found = resolve(design).inertia
     rows = {
         row.name: {
             "count": row.count,

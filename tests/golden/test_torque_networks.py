@@ -57,7 +57,7 @@ def test_every_file_says_how_it_was_made():
 def test_they_score_what_the_page_says(cqdd, tmp_path):
     pytest.importorskip("pyarrow")
     from cqdd_design.torque.data.episodes import read_data
-    from cqdd_design.torque.evaluation.estimators import network_estimator
+    from cqdd_design.torque.evaluation.estimator import network_estimator
 
     designs = REPOSITORY / "designs"
     made = cqdd(

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from cqdd_design.torque.networks.artefact import Artefact, Differentiator, Validity, expected_shapes
+from cqdd_design.torque.features.acceleration import Differentiator
+from cqdd_design.torque.networks.artefact import Artefact, Validity, expected_shapes
 
 PV = ("position_error", "velocity")
 PVA = (*PV, "acceleration")

@@ -9,11 +9,11 @@ from pathlib import Path
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from cqdd_design.catalog import find_bearing
 from cqdd_design.catalog.bearings import Bearing, bearings
 from cqdd_design.design import Design, load_design
 from cqdd_design.geometry.cycloid import undercut_radius_limit
-from cqdd_design.solids.parts import Part, build_parts
+from cqdd_design.machine import resolve
+from cqdd_design.solids.part import Part
 
 PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 
@@ -60,7 +60,7 @@ def known_design(name: str) -> Design:
 def known_parts(name: str) -> tuple[Part, ...]:
     """Its parts, built once for all tests."""
     design = known_design(name)
-    return build_parts(design, find_bearing(design.reducer.cam_bearing.designation))
+    return resolve(design).parts
 
 
 def part_named(parts: tuple[Part, ...], name: str) -> Part:

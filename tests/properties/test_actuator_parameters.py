@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,20 +15,20 @@ from hypothesis import strategies as st
 
 from cqdd_design.actuator import motor as motors
 from cqdd_design.actuator import thermal as thermals
+from cqdd_design.actuator import transmission as transmissions
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.packing import gear_table, kinematic_error, stiffness_share
 from cqdd_design.actuator.parameters import ActuatorParameters, MotorParameters, ThermalParameters
 from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Start
 from cqdd_design.actuator.simulate import simulate
-from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import Design, load_design
-from cqdd_design.errors import DesignError
+from cqdd_design.errors import ContactError, DesignError
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles
-from cqdd_design.gearbox.losses import LossModel, loss_model
+from cqdd_design.gearbox.losses import LossModel
 from cqdd_design.gearbox.tolerance.draws import draw_errors
-from cqdd_design.solids.inertia import closed_form, gearbox_inertia
-from cqdd_design.solids.parts import build_parts
+from cqdd_design.machine import resolve
 
 PAPER = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
 MOTOR = MotorParameters(0.1736, 0.143, 137e-6, 5.6e-4, 21, 4.0, 12.0, iron_loss=1e-4)
@@ -36,12 +37,12 @@ THERMAL = ThermalParameters(0.4, 0.8, 40.0, 1000.0)
 
 @lru_cache(maxsize=4)
 def built(seed: int | None = None) -> ActuatorParameters:
-    return actuator_parameters(PAPER, seed=seed)
+    return actuator_parameters(resolve(PAPER), Specimen(seed=seed))
 
 
 @lru_cache(maxsize=1)
 def loss_of_paper() -> LossModel:
-    return loss_model(ContactModel.from_design(PAPER), PAPER)
+    return resolve(PAPER).losses
 
 
 @given(st.floats(1e-3, 10.0), st.floats(1e-3, 10.0), st.floats(0.1, 100.0))
@@ -148,7 +149,7 @@ def test_simulated_backdrive_is_that_of_the_losses() -> None:
 
 
 def test_simulated_no_load_speed_is_the_closed_form() -> None:
-    one = actuator_parameters(PAPER, supply_voltage=24.0)
+    one = actuator_parameters(resolve(PAPER), supply_voltage=24.0)
     assert one.drive.supply_voltage == 24.0
     friction, n = one.friction, abs(one.gear.ratio)
     wanted = motors.no_load_speed(
@@ -181,8 +182,7 @@ def test_virtual_work_gives_the_ripple_of_the_contact_engine(seed: int | None) -
 
 
 def test_inertias_and_mass_are_those_of_the_solids() -> None:
-    parts = build_parts(PAPER, find_bearing(PAPER.reducer.cam_bearing.designation))
-    solids = gearbox_inertia(PAPER, parts, closed_form)
+    solids = resolve(PAPER).inertia
     one = built()
     n = abs(one.gear.ratio)
     whole = one.motor_side_inertia + one.gear.output_inertia / n**2
@@ -194,13 +194,37 @@ def test_inertias_and_mass_are_those_of_the_solids() -> None:
 
 
 def test_a_seed_draws_one_gearbox_and_always_the_same() -> None:
-    first, again = built(1), actuator_parameters(PAPER, seed=1)
+    first, again = built(1), actuator_parameters(resolve(PAPER), Specimen(seed=1))
     assert first.gear.backlash == again.gear.backlash
     np.testing.assert_array_equal(first.gear.error_cosine, again.gear.error_cosine)
     assert first.gear.backlash != built(2).gear.backlash
     assert len(first.gear.error_orders) <= 64
     assert {10, 11} <= set(first.gear.error_orders)
     assert set(built().gear.error_orders) <= set(range(55, 6000, 55))
+
+
+def test_a_drawn_gearbox_that_cannot_carry_its_load_is_soon_refused(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    solved = []
+    real = transmissions.contact_sweep
+
+    def counted(model: ContactModel, load: float, angle: Any = None, **more: Any) -> Any:
+        solved.append(len(more["states"].crank_angle) if angle is None else len(angle))
+        return real(model, load, angle, **more)
+
+    monkeypatch.setattr(transmissions, "contact_sweep", counted)
+    model = ContactModel.from_design(PAPER)
+    with pytest.raises(ContactError, match="beyond this gearbox"):
+        transmissions.transmission(model, PAPER, 2000.0, seed=1)
+    assert sum(solved) < 0.1 * len(output_turn_angles(model))
+
+
+def test_a_drawn_gearbox_beyond_memory_is_refused_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    model = replace(ContactModel.from_design(PAPER), lobe_count=119)
+    monkeypatch.setattr(transmissions, "nominal_states", None)
+    with pytest.raises(DesignError, match="use perfect parts"):
+        transmissions.transmission(model, PAPER, 40.0, seed=1)
 
 
 def test_table_follows_the_series() -> None:
@@ -231,17 +255,17 @@ def changed(**keys: object) -> Design:
 
 def test_motors_that_cannot_be_simulated_are_refused() -> None:
     with pytest.raises(DesignError, match="geared actuator"):
-        actuator_parameters(changed(motor__name="CubeMars AK80-9 V3"))
+        actuator_parameters(resolve(changed(motor__name="CubeMars AK80-9 V3")))
     with pytest.raises(DesignError, match="no resistance"):
-        actuator_parameters(changed(motor__name="VT8020"))
+        actuator_parameters(resolve(changed(motor__name="VT8020")))
     with pytest.raises(DesignError, match="never binds"):
-        actuator_parameters(changed(motor__current_limit="500 A"))
+        actuator_parameters(resolve(changed(motor__current_limit="500 A")))
     with pytest.raises(DesignError, match="supply_voltage"):
-        actuator_parameters(PAPER, supply_voltage=0.0)
+        actuator_parameters(resolve(PAPER), supply_voltage=0.0)
 
 
 def test_missing_catalogue_data_are_assumed_and_said() -> None:
-    one = actuator_parameters(changed(motor__name="T-Motor MN8014 KV100"))
+    one = actuator_parameters(resolve(changed(motor__name="T-Motor MN8014 KV100")))
     assert one.origins["motor.inductance"].startswith("assumed")
     assert one.origins["motor.rotor_inertia"].startswith(("assumed", "computed"))
     assert math.isnan(one.motor.rated_torque)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from actuator_machines import COLD, NO_FRICTION, machine
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.actuator.columns import TRACES
@@ -81,9 +81,8 @@ def test_kernel_and_plain_twin_agree(name: str, friction: str) -> None:
         np.testing.assert_allclose(ours, theirs, atol=1e-6 * size, rtol=0, err_msg=trace)
 
 
-@settings(max_examples=40, deadline=None)
-@given(
-    friction=st.builds(
+CONTACTS = {
+    "friction": st.builds(
         FrictionParameters,
         motor_coulomb=st.floats(0.0, 0.3),
         output_coulomb=st.floats(0.0, 2.0),
@@ -96,16 +95,60 @@ def test_kernel_and_plain_twin_agree(name: str, friction: str) -> None:
         bristle_deflection=st.floats(1e-4, 1e-2),
         bristle_damping=st.floats(0.0, 0.1),
     ),
-    backlash=st.just(0.0) | st.floats(1e-5, 5e-3),
-    damping=st.floats(0.0, 5.0),
-    stiffening=st.floats(1.0, 2.0),
-    speed=st.floats(-10.0, 10.0),
-    motor_speed=st.floats(-100.0, 100.0),
-    wound=st.floats(-0.03, 0.03),
-    step=st.floats(2e-6, 3e-5),
-    model=st.sampled_from(["clip", "lugre"]),
-)
+    "backlash": st.just(0.0) | st.floats(1e-5, 5e-3),
+    "damping": st.floats(0.0, 5.0),
+    "stiffening": st.floats(1.0, 2.0),
+    "speed": st.floats(-10.0, 10.0),
+    "motor_speed": st.floats(-100.0, 100.0),
+    "wound": st.floats(-0.03, 0.03),
+    "step": st.floats(2e-6, 3e-5),
+    "model": st.sampled_from(["clip", "lugre"]),
+}
+"""A free machine that begins wound up and moving, down to gaps that a step crosses whole."""
+
+
+def bounced(
+    damping: float,
+    stiffening: float,
+    speed: float,
+    motor_speed: float,
+    wound: float,
+    step: float,
+    backlash: float = 1e-5,
+) -> Any:
+    """Contacts without friction that once pulled, or whose equations had no solution."""
+    return example(NO_FRICTION, backlash, damping, stiffening, speed, motor_speed, wound, step,
+                   "clip")  # fmt: skip
+
+
+@pytest.mark.deep
+@settings(max_examples=3000, deadline=None)
+@given(**CONTACTS)
+def test_no_machine_is_given_energy(**contact: Any) -> None:
+    keeps_energy(**contact)
+
+
+@settings(max_examples=25, deadline=None)
+@given(**CONTACTS)
+@bounced(2.875, 1.0, 6.5, 37.0, 0.015625, 2.665e-5)
+@bounced(1.0, 1.0, 6.5, 36.0, 0.0234375, 2.665e-5)
+@bounced(5.0, 1.25, 7.09359268627194, -25.875680519488895, 0.02113827797477149, 2.09808349609375e-5)
+@bounced(1.25, 1.0, -10.0, 100.0, -0.013859719914839707, 2.808741913868685e-05, 1.13431802463e-05)
 def test_friction_and_backlash_never_give_energy(
+    friction: FrictionParameters,
+    backlash: float,
+    damping: float,
+    stiffening: float,
+    speed: float,
+    motor_speed: float,
+    wound: float,
+    step: float,
+    model: Any,
+) -> None:
+    keeps_energy(friction, backlash, damping, stiffening, speed, motor_speed, wound, step, model)
+
+
+def keeps_energy(
     friction: FrictionParameters,
     backlash: float,
     damping: float,
@@ -122,6 +165,7 @@ def test_friction_and_backlash_never_give_energy(
     found = simulate(one, scene, 2000 * step, step)
     ledger = found.ledger
     scale = float(ledger.stored_before[0]) + 1e-3
+    assert not found.warnings
     assert abs(ledger.residual[0]) < 1e-7 * scale
     for loss in LOSSES:
         assert getattr(ledger, loss)[0] >= -1e-12 * scale
@@ -137,6 +181,24 @@ def test_friction_and_backlash_never_give_energy(
         viscous = friction.motor_viscous * mean
         dry = found.motor_friction[0, 1:] - viscous
         assert np.all(dry * mean >= -1e-7 * (np.abs(dry).max() + 1e-3))
+
+
+@pytest.mark.parametrize("damping", [2.0, 5.0])
+@pytest.mark.parametrize("friction", ["clip", "lugre"])
+def test_kernel_and_plain_twin_agree_across_a_gap_of_one_step(
+    friction: Any, damping: float
+) -> None:
+    one = machine(NO_FRICTION, backlash=1e-5, damping=damping, stiffening=1.25)
+    start = Start(motor_angle=0.021, motor_speed=-26.0, output_speed=7.0)
+    scene = Scenario(Command("open"), Load.free(), start, friction)
+    fast, slow = (simulate(one, scene, 0.01, 2e-5, engine=way) for way in ("compiled", "plain"))
+    passed = fast.deflection[0, 1:] * fast.deflection[0, :-1] < 0.0
+    assert passed.any()
+    assert not fast.warnings
+    for run in (fast, slow):
+        assert abs(run.ledger.residual[0]) < 1e-9 * run.ledger.stored_before[0]
+    np.testing.assert_allclose(fast.gear_torque, slow.gear_torque, atol=1e-5)
+    np.testing.assert_allclose(fast.ledger.gear_damping, slow.ledger.gear_damping, rtol=1e-8)
 
 
 def test_dry_friction_holds_a_pendulum_for_good() -> None:

@@ -21,8 +21,10 @@ from cqdd_design.actuator.packing import kinematic_error, stiffness_share
 from cqdd_design.actuator.parameters import ActuatorParameters, ThermalParameters
 from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Sine, Start, Wall
 from cqdd_design.actuator.simulate import simulate
+from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.actuator.thermal import response
 from cqdd_design.design import load_design
+from cqdd_design.machine import resolve
 
 Validated = Callable[[str, str, float, float], None]
 SAMPLE = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
@@ -36,7 +38,7 @@ def worst(found: Any, wanted: Any) -> float:
 @pytest.fixture(scope="module")
 def drawn() -> ActuatorParameters:
     """The sample design with one gearbox drawn from its tolerances."""
-    return actuator_parameters(load_design(SAMPLE), seed=3)
+    return actuator_parameters(resolve(load_design(SAMPLE)), Specimen(seed=3))
 
 
 LOADS = {

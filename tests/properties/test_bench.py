@@ -15,8 +15,10 @@ from cqdd_design.actuator.bench.bandwidth import crossing, saturation_limits, se
 from cqdd_design.actuator.bench.gear import order_spectrum
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import load_design
 from cqdd_design.errors import UsageError
+from cqdd_design.machine import resolve
 
 PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 RPM = 30.0 / math.pi
@@ -24,7 +26,7 @@ RPM = 30.0 / math.pi
 
 @pytest.fixture(scope="module")
 def actuator() -> ActuatorParameters:
-    return actuator_parameters(load_design(PAPER))
+    return actuator_parameters(resolve(load_design(PAPER)))
 
 
 def changed(actuator: ActuatorParameters, **parts: dict[str, float]) -> ActuatorParameters:
@@ -273,7 +275,7 @@ def test_generating_is_the_inverse_and_kept_apart(actuator: ActuatorParameters) 
 
 def test_ripple_of_drawn_gearboxes_is_their_mean(actuator: ActuatorParameters) -> None:
     design = load_design(PAPER)
-    drawn = [actuator_parameters(design, seed=seed) for seed in (0, 1)]
+    drawn = [actuator_parameters(resolve(design), Specimen(seed=seed)) for seed in (0, 1)]
     each = [measured(one, "torque_ripple").value for one in drawn]
     found = measured(actuator, "torque_ripple", drawn=drawn)
     assert found.value == pytest.approx(np.mean(each))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -13,11 +14,13 @@ from cqdd_design.actuator.bench import METRICS, run_bench
 from cqdd_design.actuator.bench.calibrate import calibrate
 from cqdd_design.actuator.bench.calibration_file import read_calibration, write_calibration
 from cqdd_design.actuator.bench.measured import read_measured
-from cqdd_design.actuator.bench.unknowns import TELLS, UNKNOWNS, apply_factors
+from cqdd_design.actuator.bench.unknowns import TELLS, UNKNOWNS, Fit, apply_factors
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import load_design
 from cqdd_design.errors import UsageError
+from cqdd_design.machine import resolve
 
 HEAD = '{"format": "cqdd-design calibration 1", '
 PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
@@ -25,7 +28,7 @@ PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 
 @pytest.fixture(scope="module")
 def actuator() -> ActuatorParameters:
-    return actuator_parameters(load_design(PAPER))
+    return actuator_parameters(resolve(load_design(PAPER)))
 
 
 def rows_of(actuator: ActuatorParameters, names: list[str]) -> dict[str, float]:
@@ -71,7 +74,7 @@ def test_more_rows_than_unknowns_are_fitted_together(actuator: ActuatorParameter
 
 @pytest.mark.deep
 def test_scale_of_the_tolerances_is_found_for_a_drawn_gearbox() -> None:
-    drawn = actuator_parameters(load_design(PAPER), seed=1)
+    drawn = actuator_parameters(resolve(load_design(PAPER)), Specimen(seed=1))
     wanted = rows_of(apply_factors(drawn, {"tolerance_scale": 2.0}), ["torque_ripple"])
     found = calibrate(drawn, wanted)
     assert found.factors["tolerance_scale"] == pytest.approx(2.0, rel=0.03)
@@ -79,10 +82,10 @@ def test_scale_of_the_tolerances_is_found_for_a_drawn_gearbox() -> None:
 
 def test_paper_on_three_rows(actuator: ActuatorParameters) -> None:
     """What the documents state of the paper's actuator: three rows fitted, these predicted."""
-    from cqdd_design.actuator.bench.metric import PAPER as TABLE
-    from cqdd_design.actuator_pipeline import PAPER_ROWS
+    from cqdd_design.catalog.paper import METRICS as TABLE
+    from cqdd_design.roads.calibrate import PAPER_ROWS
 
-    measured = {name: value for name, (value, _) in TABLE.items()}
+    measured = {name: figure.value for name, figure in TABLE.items()}
     found = calibrate(actuator, measured, to=PAPER_ROWS)
     assert found.largest_residual < 1e-3
     within = {row.name for row in found.within}
@@ -124,6 +127,19 @@ def test_calibration_refuses_what_tells_nothing(
         calibrate(actuator, measured, **options)  # type: ignore[arg-type]
 
 
+def test_what_was_fitted_predicts_nothing(actuator: ActuatorParameters) -> None:
+    rows = ["backdrive_static", "backdrive_dynamic", "output_resolution"]
+
+    def relations(factors: Mapping[str, float]) -> list[str]:
+        found = run_bench(apply_factors(actuator, factors), only=rows)
+        return [metric.relation for metric in found.metrics]
+
+    assert relations({}) == ["given", "predicted", "predicted"]
+    assert relations({"friction_level": 3.0}) == ["given", "calibrated", "predicted"]
+    fit = Fit({"friction_level": 3.0}, ("backdrive_dynamic",))
+    assert relations(fit) == ["given", "predicted", "calibrated"]
+
+
 # ------------------------------------------------------------------ files
 
 
@@ -132,7 +148,9 @@ def test_file_brings_the_factors_back(actuator: ActuatorParameters, tmp_path: Pa
     found = calibrate(actuator, wanted)
     path = tmp_path / "c.json"
     write_calibration(found, "abc", path)
-    assert read_calibration(path, "abc") == (pytest.approx(dict(found.factors)), "")
+    read, warning = read_calibration(path, "abc")
+    assert dict(read) == pytest.approx(dict(found.factors))
+    assert (read.rows, warning) == (("backdrive_static",), "")
     assert "another design" in read_calibration(path, "def")[1]
 
 
@@ -149,6 +167,14 @@ def test_file_brings_the_factors_back(actuator: ActuatorParameters, tmp_path: Pa
         (
             HEAD + '"unknowns": {"friction_level": {"factor": 0}}}',
             "a number above 0",
+        ),
+        (
+            HEAD + '"unknowns": {"friction_level": {"factor": 1' + 400 * "0" + "}}}",
+            "a number above 0",
+        ),
+        (
+            HEAD + '"unknowns": {"friction_level": {"factor": 2}}, "rows": []}',
+            "no table of measurements",
         ),
         (
             HEAD + '"unknowns": {"friction_level": 2}}',

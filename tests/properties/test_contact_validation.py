@@ -26,6 +26,7 @@ from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles,
 from cqdd_design.gearbox.losses import loss_model
 from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.geometry import kinematics
+from cqdd_design.machine import resolve
 
 
 def _models() -> list[ContactModel]:
@@ -187,7 +188,9 @@ def test_input_torque(validated: Callable[..., None]) -> None:
 def test_friction_of_the_ring(validated: Callable[..., None]) -> None:
     design = paper_design()
     model = _rigid_limit(ContactModel.from_design(design))
-    losses = loss_model(model, design).at(100.0, 40.0)
+    losses = loss_model(model, resolve(design).friction, design.requirements.peak_torque).at(
+        100.0, 40.0
+    )
     disc = model.disc
     closed = (
         4.0

@@ -109,6 +109,25 @@ def test_new_file_leaves_assumed_keys_out(tmp_path):
         ({**reducer(), "requirements": {"input_speed": "20 Hz"}}, "rpm or rad/s"),
         ({**reducer(), "name": "../evil"}, "part of file names"),
         ({**reducer(), "name": ".."}, "part of file names"),
+        ({**reducer(), "name": "a\x1b[2Jb"}, r"name 'a\x1b[2Jb' becomes part of file names"),
+        ({**reducer(), "name": "a\x7fb"}, "part of file names"),
+        ({**reducer(), "name": "a\x85b"}, "part of file names"),
+        ({**reducer(), "name": "a\u200bb"}, "part of file names"),
+        ({**reducer(), "name": "a\u202eb"}, "part of file names"),
+        ({**reducer(), "name": "a\u2066b"}, "part of file names"),
+        ({**reducer(), "name": "\ufeffab"}, "part of file names"),
+        ({**reducer(), "name": "a\ud800b"}, "part of file names"),
+        ({**reducer(), "name": "a" * 201}, "200 bytes at most"),
+        (reducer(friction={"lubricant": "oil\u202e"}), "control or direction character"),
+        (reducer(ratio=10**400), "reducer.ratio is a whole number of 401 digits"),
+        (reducer(ratio=-(10**5000)), "reducer.ratio is a whole number of 5001 digits"),
+        (reducer(output_pins={"count": 2**70}), "reducer.output_pins.count is 1180591620717411"),
+        (reducer(eccentricity=10**400), "reducer.eccentricity is a whole number of 401 digits"),
+        (
+            {**reducer(), "requirements": {"duty": [{"torque": "1 N*m", "shares": 1.0}]}},
+            "requirements.duty.0.shares is not a key of table 1 of [[requirements.duty]]; "
+            "did you mean 'share'?",
+        ),
         ({}, "reducer is missing"),
         ({**reducer(), "requirments": {}}, "did you mean 'requirements'"),
     ],
@@ -151,6 +170,16 @@ def test_bad_files(tmp_path, content, error, says):
         path.write_bytes(content)
     with pytest.raises(error, match=says):
         load_design(path)
+
+
+def test_files_of_windows_editors(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_bytes(b"\xef\xbb\xbf" + PAPER.read_bytes())
+    design = load_design(path)
+    assert design.sha256 == load_design(PAPER).sha256
+    save_design(path, design.replacing({"reducer.eccentricity": 0.0017}))
+    assert load_design(path).reducer.eccentricity == 0.0017
+    assert path.read_text().startswith(PAPER.read_text()[:100])
 
 
 def test_missing_file_suggests_its_neighbour(tmp_path):

@@ -10,11 +10,11 @@ import sys
 
 import pytest
 
-from cqdd_design.catalog import bearings, find_bearing, find_material, find_motor
+from cqdd_design.catalog import bearings, find_material, find_motor
 from cqdd_design.design import load_design
-from cqdd_design.exporting import export
 from cqdd_design.exporting.solids.bom import bill_of_materials, bom_csv
-from cqdd_design.solids.parts import build_parts, total_mass
+from cqdd_design.machine import resolve
+from cqdd_design.roads.export import export
 
 COLUMNS = [
     *("item", "part", "quantity", "make_or_buy", "material", "mass_each_kg", "mass_total_kg"),
@@ -29,12 +29,14 @@ def paper(paper_design_file):
 
 @pytest.fixture(scope="module")
 def parts(paper):
-    return build_parts(paper, find_bearing(paper.reducer.cam_bearing.designation))
+    return resolve(paper).parts
 
 
 @pytest.fixture(scope="module")
 def rows(paper, parts):
-    return list(csv.DictReader(io.StringIO(bom_csv(bill_of_materials(paper, parts)))))
+    return list(
+        csv.DictReader(io.StringIO(bom_csv(bill_of_materials(resolve(paper).motor, parts))))
+    )
 
 
 def test_columns_and_items(rows):
@@ -55,7 +57,9 @@ def test_every_part_is_there_in_its_number(rows, parts):
 
 def test_masses_add_up_to_the_machine_with_its_motor(rows, parts, paper):
     total = math.fsum(float(row["mass_total_kg"]) for row in rows)
-    assert math.isclose(total, total_mass(parts), abs_tol=1e-5 * len(rows))
+    assert math.isclose(
+        total, sum(part.mass * part.count for part in parts), abs_tol=1e-5 * len(rows)
+    )
     motor = [row for row in rows if row["part"] in ("motor stator", "motor rotor")]
     mass = math.fsum(float(row["mass_total_kg"]) for row in motor)
     assert math.isclose(mass, find_motor(paper.motor.name).mass, abs_tol=2e-5)
@@ -85,8 +89,10 @@ def test_bought_parts_can_be_ordered(rows):
 
 def test_a_motor_that_is_not_drawn_is_the_last_line(paper):
     design = paper.replacing({"motor.name": "MAD 5010 110KV"})
-    parts = build_parts(design, find_bearing(paper.reducer.cam_bearing.designation))
-    (*_, motor) = csv.DictReader(io.StringIO(bom_csv(bill_of_materials(design, parts))))
+    machine = resolve(design)
+    (*_, motor) = csv.DictReader(
+        io.StringIO(bom_csv(bill_of_materials(machine.motor, machine.parts)))
+    )
     assert (motor["part"], motor["designation"]) == ("motor", "MAD 5010 110KV")
     assert (motor["mass_each_kg"], motor["mass_total_kg"]) == ("", "")
     assert "not in the catalogue" in motor["notes"]
@@ -96,7 +102,7 @@ def test_the_bill_needs_no_cad(paper_design_file, tmp_path):
     code = (
         "import sys; from pathlib import Path; from cqdd_design.design import load_design\n"
         f"sys.path.insert(0, {str(paper_design_file.parents[1])!r})\n"
-        "from cqdd_design.exporting import export\n"
+        "from cqdd_design.roads.export import export\n"
         "export(load_design(Path(sys.argv[1])), 'bom', Path(sys.argv[2]))\n"
         "assert not {'cadquery', 'OCP', 'trimesh'} & set(sys.modules)\n"
     )

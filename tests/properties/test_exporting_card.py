@@ -18,8 +18,8 @@ from cqdd_design.exporting.simulators.actuator_card import (
     card_markdown,
     card_yaml,
 )
-from cqdd_design.exporting.simulators.card_clients import CLIENTS
-from cqdd_design.exporting.simulators.card_names import NAMES
+from cqdd_design.exporting.simulators.card_clients import clients
+from cqdd_design.exporting.simulators.card_rows import card_table
 from cqdd_design.exporting.simulators.yaml_text import yaml_text
 
 TORQUES = ("torque_constant", "peak_torque", "stall_torque", "coulomb", "breakaway", "cogging")
@@ -131,7 +131,7 @@ def test_yaml_reads_back() -> None:
         assert found["unit"] == row.unit
     assert document["parameters"]["rated_torque"]["motor"] is None
     assert document["parameters"]["backlash"]["origin"].startswith("computed")
-    assert set(document["clients"]) == {client.key for client in CLIENTS}
+    assert set(document["clients"]) == {client.key for client in clients()}
 
 
 def test_markdown_tells_both_sides_with_numbers_and_what_was_not_run() -> None:
@@ -144,13 +144,14 @@ def test_markdown_tells_both_sides_with_numbers_and_what_was_not_run() -> None:
     rows = [line for line in text.splitlines() if line.startswith("| backlash, whole")]
     assert len(rows) == 2
     widths = {line.count("|") for line in text.splitlines() if line.startswith("| torque constant")}
-    assert widths == {7, len(CLIENTS) + 2}
+    assert widths == {7, len(clients()) + 2}
 
 
 def test_names_belong_to_rows_and_clients() -> None:
-    keys = {row.key for row in actuator_card(paper_actuator(), "paper").rows}
-    assert set(NAMES) <= keys
-    assert {client for names in NAMES.values() for client in names} == {c.key for c in CLIENTS}
+    keys = [row.key for row in actuator_card(paper_actuator(), "paper").rows]
+    assert keys == [row["key"] for row in card_table()]
+    assert len(set(keys)) == len(keys)
+    assert set(list(card_table()[0])[6:]) == {client.key for client in clients()}
 
 
 @settings(max_examples=200, deadline=None)

@@ -19,8 +19,9 @@ from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.design import Design
 from cqdd_design.design.toml import load_design
 from cqdd_design.errors import DesignError
-from cqdd_design.exporting import export
 from cqdd_design.exporting.simulators.actuator_card import actuator_card, card_yaml
+from cqdd_design.machine import resolve
+from cqdd_design.roads.export import export
 
 DESIGN = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
 OTHER = (("CubeMars RO100 KV55", "CubeMars RI100 KV105"), ("48 V", "36 V"), ("50.5 A", "30 A"))
@@ -41,7 +42,7 @@ def designed(which: str, folder: Path) -> Design:
 def built(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> ActuatorParameters:
-    return actuator_parameters(designed(request.param, tmp_path_factory.mktemp("design")))
+    return actuator_parameters(resolve(designed(request.param, tmp_path_factory.mktemp("design"))))
 
 
 def by_hand(p: ActuatorParameters) -> dict[str, tuple[float | None, float | None]]:

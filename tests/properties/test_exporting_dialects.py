@@ -11,13 +11,15 @@ import pytest
 
 from cqdd_design.design import load_design
 from cqdd_design.errors import ReadBackError, UsageError
-from cqdd_design.exporting import ExportOptions, export
+from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting.edm.dxf import write_flat_part
 from cqdd_design.exporting.edm.dxf_reader import loops_of, read_dxf
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.readback import read_back
 from cqdd_design.exporting.edm.wire_path import wire_paths
 from cqdd_design.exporting.options import CHOICES
+from cqdd_design.machine import resolve
+from cqdd_design.roads.export import export
 
 DIALECTS = [
     ExportOptions(dxf_version=version, dxf_style=style)
@@ -39,7 +41,7 @@ def paper(paper_design_file):
 @pytest.fixture(scope="module", params=["solid", "conjugate", "pinwheel"])
 def parts(request, paper):
     design = paper.replacing({"reducer.ring_type": request.param})
-    return design, flat_parts(design)
+    return design, flat_parts(resolve(design))
 
 
 def _write(flat, design, folder, options, *, wire=True):
@@ -79,7 +81,7 @@ def test_every_dialect_reads_back_to_the_same_loops(parts, tmp_path):
 
 @pytest.mark.parametrize("options", DIALECTS, ids=_name)
 def test_ezdxf_finds_the_entities_of_the_style(paper, tmp_path, options):
-    disc = flat_parts(paper)[0]
+    disc = flat_parts(resolve(paper))[0]
     space = ezdxf.readfile(_write(disc, paper, tmp_path, options)).modelspace()
     kinds = [e.dxftype() for e in space.query('*[layer=="CUT_OUTER"]')]
     if options.dxf_style == "entities":
@@ -92,7 +94,7 @@ def test_ezdxf_finds_the_entities_of_the_style(paper, tmp_path, options):
 
 
 def test_ezdxf_sees_arcs_end_to_end_as_long_as_the_contour(paper, tmp_path):
-    disc = flat_parts(paper)[0]
+    disc = flat_parts(resolve(paper))[0]
     path = _write(disc, paper, tmp_path, ExportOptions(dxf_style="entities"), wire=False)
     arcs = list(ezdxf.readfile(path).modelspace().query('ARC[layer=="CUT_OUTER"]'))
     for one, two in zip(arcs, arcs[1:] + arcs[:1], strict=True):
@@ -136,7 +138,7 @@ def _grow(space):
 @pytest.mark.parametrize("edit", [_move, _lose, _lose_last, _stray, _grow])
 def test_a_broken_chain_is_refused_with_its_place(paper, tmp_path, edit):
     options = ExportOptions(dxf_style="entities")
-    disc = flat_parts(paper)[0]
+    disc = flat_parts(resolve(paper))[0]
     path = _write(disc, paper, tmp_path, options, wire=False)
     drawing = ezdxf.readfile(path)
     edit(drawing.modelspace())
@@ -146,7 +148,7 @@ def test_a_broken_chain_is_refused_with_its_place(paper, tmp_path, edit):
 
 
 def test_the_other_style_is_refused(paper, tmp_path):
-    disc = flat_parts(paper)[0]
+    disc = flat_parts(resolve(paper))[0]
     loose, joined = (ExportOptions(dxf_style=style) for style in ("entities", "polyline"))
     path = _write(disc, paper, tmp_path, loose, wire=False)
     with pytest.raises(ReadBackError, match="stray ARC"):
@@ -159,7 +161,7 @@ def test_the_other_style_is_refused(paper, tmp_path):
 
 
 def test_units_must_stand_in_the_notes_of_every_dialect(paper, tmp_path):
-    disc = flat_parts(paper)[0]
+    disc = flat_parts(resolve(paper))[0]
     for options in DIALECTS[::2]:
         path = _write(disc, paper, tmp_path, options, wire=False)
         drawing = ezdxf.readfile(path)
@@ -195,8 +197,18 @@ def test_options_reach_the_writers(paper, tmp_path):
 @pytest.mark.parametrize("tolerance", ["0.1 um", "0.5 um", "50 um"])
 def test_the_fit_follows_the_tolerance_that_is_set(paper, tmp_path, tolerance):
     design = paper.replacing({"edm.profile_tolerance": tolerance})
-    (disc, _) = flat_parts(design)
+    (disc, _) = flat_parts(resolve(design))
     path = _write(disc, design, tmp_path, DIALECTS[0], wire=False)
     fit = read_back(path, disc, design.edm, DIALECTS[0]).fit
     assert 0.5 * design.edm.profile_tolerance < fit.largest_deviation
     assert fit.largest_deviation <= design.edm.profile_tolerance
+
+
+def test_classes_of_the_newest_dialect_stand_in_an_order_of_their_own(paper, tmp_path):
+    options = ExportOptions(dxf_version="R2010")
+    for file in export(paper, "dxf", tmp_path, options=options):
+        drawing = ezdxf.readfile(file.path)
+        used = drawing.entitydb.dxf_types_in_use()
+        names = [one.dxf.name for one in drawing.classes if one.dxf.name in used]
+        assert names == sorted(names)
+        assert len(names) > 1

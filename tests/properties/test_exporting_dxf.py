@@ -20,13 +20,14 @@ from hypothesis import strategies as st
 from cqdd_design.catalog import find_bearing
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, GeometryError, ReadBackError, UsageError
-from cqdd_design.exporting import EXPORTERS, export, read_kinds
+from cqdd_design.exporting import KINDS, read_kinds
 from cqdd_design.exporting.edm import dxf, flat_parts
 from cqdd_design.exporting.edm.start_holes import start_holes
-from cqdd_design.gearbox import with_chosen_bearing
 from cqdd_design.gearbox.stages import pin_mean_diameter
 from cqdd_design.geometry import CycloidDisc, lobed_outline
 from cqdd_design.geometry.disc import hole_centres
+from cqdd_design.machine import resolve
+from cqdd_design.roads.export import export
 from cqdd_design.solids.clocking import disc_groups
 
 FLIPPED = "TURNED OVER ABOUT THE X AXIS"
@@ -100,7 +101,7 @@ def test_notes_say_what_a_shop_must_know(drawings, paper):
 def test_bytes_are_the_same_in_every_process(in_two_processes):
     code = (
         "import sys; from pathlib import Path; from cqdd_design.design import load_design\n"
-        "from cqdd_design.exporting import export\n"
+        "from cqdd_design.roads.export import export\n"
         "files = export(load_design(Path(sys.argv[1])), 'dxf,svg', Path(sys.argv[2]))\n"
         "print([file.sha256 for file in files])\n"
         "heavy = {'cadquery', 'OCP', 'scipy', 'pint', 'matplotlib', 'trimesh'} & set(sys.modules)\n"
@@ -154,7 +155,7 @@ def test_programs_of_a_stack(paper, clocking, count, discs_, programs):
             "reducer.disc_count": discs_,
         }
     )
-    found = [flat for flat in flat_parts.flat_parts(design) if flat.label != "ring"]
+    found = [flat for flat in flat_parts.flat_parts(resolve(design)) if flat.label != "ring"]
     assert [(flat.quantity, flat.remarks[0]) for flat in found] == programs
 
 
@@ -166,8 +167,8 @@ def test_holes_are_made_for_the_pins_that_the_loads_are_computed_with(paper, dia
 
 def test_an_automatic_bearing_is_that_of_the_checks(paper):
     design = paper.replacing({"reducer.cam_bearing.designation": "auto"})
-    chosen = with_chosen_bearing(design).reducer.cam_bearing.designation
-    bore = flat_parts.flat_parts(design)[0].shape.holes[0]
+    chosen = resolve(design).cam.designation
+    bore = flat_parts.flat_parts(resolve(design))[0].shape.holes[0]
     assert bore.radius == find_bearing(chosen).outer_diameter / 2.0
 
 
@@ -205,7 +206,7 @@ def test_start_holes_are_clear_of_every_wall(lobes, shortening, ring_type):
             cam_bearing={"designation": "6801"},
             output_pins={"count": 4, "diameter": 0.003},
         )
-        parts = flat_parts.flat_parts(design)
+        parts = flat_parts.flat_parts(resolve(design))
     except GeometryError:
         return
     for flat in parts:
@@ -223,7 +224,7 @@ def test_a_contour_too_small_for_the_wire_is_named(paper):
     design = paper.replacing(
         {"reducer.output_pins.diameter": "0.5 mm", "reducer.eccentricity": "0.1 mm"}
     )
-    (flat, _) = flat_parts.flat_parts(design)
+    (flat, _) = flat_parts.flat_parts(resolve(design))
     with pytest.raises(GeometryError, match=r"inner contour 2 .* start hole"):
         start_holes(flat, 0.5e-3)
 
@@ -323,7 +324,7 @@ def test_unknown_kinds_name_the_nearest(text, said):
 
 
 def test_kinds_are_those_of_this_release():
-    assert {"dxf", "edm", "gcode", "step", "stl", "3mf", "glb", "svg", "bom"} <= set(EXPORTERS)
+    assert {"dxf", "edm", "gcode", "step", "stl", "3mf", "glb", "svg", "bom"} <= set(KINDS)
 
 
 def test_tighter_tolerance_gives_more_arcs(paper):

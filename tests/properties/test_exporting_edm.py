@@ -12,10 +12,10 @@ from hypothesis import HealthCheck, given, settings
 from lxml import etree
 from solids_designs import machines
 
-from cqdd_design.catalog import find_bearing, find_material, materials
+from cqdd_design.catalog import find_material, materials
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, UsageError
-from cqdd_design.exporting import ExportOptions, export
+from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting.edm.cut_facts import facts_of, heat_treatment, zone_text
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.seats import seats_of
@@ -23,8 +23,9 @@ from cqdd_design.exporting.sheets.canvas import pdf_bytes
 from cqdd_design.exporting.sheets.cut_sheet import SCALES, draw_sheet, sheet_scale
 from cqdd_design.exporting.sheets.frame import BOTTOM, LEFT, RIGHT, TOP
 from cqdd_design.exporting.sheets.lettering import WIDTHS, fitting_height, printable, text_width
+from cqdd_design.machine import resolve
+from cqdd_design.roads.export import export
 from cqdd_design.solids.fits import seat_fits
-from cqdd_design.solids.proportions import lay_out
 
 SEVERAL = settings(
     max_examples=8, deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
@@ -120,8 +121,8 @@ def _assert_legible(canvas):
 )
 def test_text_of_a_sheet_is_apart_and_on_the_page(paper, change):
     design = paper.replacing(change)
-    for flat in flat_parts(design):
-        _assert_legible(draw_sheet(facts_of(flat, design)))
+    for flat in flat_parts(resolve(design)):
+        _assert_legible(draw_sheet(facts_of(flat, resolve(design))))
 
 
 @pytest.mark.deep
@@ -130,7 +131,7 @@ def test_text_of_a_sheet_is_apart_and_on_the_page(paper, change):
 def test_sheets_of_any_design_are_legible(machine):
     design, _ = machine
     try:
-        facts = [facts_of(flat, design) for flat in flat_parts(design)]
+        facts = [facts_of(flat, resolve(design)) for flat in flat_parts(resolve(design))]
     except CqddError:
         return
     for one in facts:
@@ -175,8 +176,8 @@ def test_the_ring_sheet_shows_what_it_must(package):
 
 
 def test_the_mass_on_the_sheet_is_area_times_thickness_times_density(paper):
-    for flat in flat_parts(paper):
-        facts = facts_of(flat, paper)
+    for flat in flat_parts(resolve(paper)):
+        facts = facts_of(flat, resolve(paper))
         # Area by Green's theorem over fine polygons of every contour.
         area = 0.0
         for sign, contour in ((1, flat.shape.outer), *((-1, h) for h in flat.shape.holes)):
@@ -203,7 +204,7 @@ def test_a_pdf_is_one_whole_page(package):
 
 
 def test_a_date_is_that_of_source_date_epoch_or_none(paper, monkeypatch):
-    facts = facts_of(flat_parts(paper)[1], paper)
+    facts = facts_of(flat_parts(resolve(paper))[1], resolve(paper))
     monkeypatch.delenv("SOURCE_DATE_EPOCH", raising=False)
     assert b"CreationDate" not in pdf_bytes(draw_sheet(facts), "x")
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "86400")
@@ -215,7 +216,8 @@ def test_a_date_is_that_of_source_date_epoch_or_none(paper, monkeypatch):
 def test_bytes_are_the_same_in_every_process(in_two_processes):
     code = (
         "import sys; from pathlib import Path; from cqdd_design.design import load_design\n"
-        "from cqdd_design.exporting import ExportOptions, export\n"
+        "from cqdd_design.exporting import ExportOptions\n"
+        "from cqdd_design.roads.export import export\n"
         "for style in ('polyline', 'entities'):\n"
         "    options = ExportOptions(dxf_version='R12', dxf_style=style)\n"
         "    files = export(load_design(Path(sys.argv[1])), 'edm,gcode', Path(sys.argv[2]),\n"
@@ -251,7 +253,7 @@ def test_a_file_where_the_folder_should_be(paper, tmp_path):
 
 
 def test_seats_are_brought_to_the_middle_of_their_zones(paper):
-    disc, ring = flat_parts(paper)
+    disc, ring = flat_parts(resolve(paper))
     (bore,) = seats_of(disc)
     (outside,) = seats_of(ring)
     for seat in (bore, outside):
@@ -265,9 +267,8 @@ def test_seats_are_brought_to_the_middle_of_their_zones(paper):
 
 
 def test_seats_are_those_of_the_machine(paper):
-    bearing = find_bearing(paper.reducer.cam_bearing.designation)
-    fits = seat_fits(lay_out(paper, bearing))
-    for flat in flat_parts(paper):
+    fits = seat_fits(resolve(paper).layout)
+    for flat in flat_parts(resolve(paper)):
         (seat,) = seats_of(flat)
         part = "ring" if flat.label == "ring" else "disc"
         (fit,) = [f for f in fits if f.part == part and math.isclose(f.diameter, seat.diameter)]
@@ -275,7 +276,7 @@ def test_seats_are_those_of_the_machine(paper):
 
 
 def test_what_is_not_cut_by_wire_is_said(paper, package):
-    disc, ring = (facts_of(flat, paper) for flat in flat_parts(paper))
+    disc, ring = (facts_of(flat, resolve(paper)) for flat in flat_parts(resolve(paper)))
     assert disc.later == ()
     (said,) = ring.later
     assert re.search(r"\d holes \u00d8[\d.]+ H7 across the seam", said)
@@ -294,13 +295,13 @@ def test_every_material_has_a_heat_treatment_in_words():
 
 
 def test_zones_follow_the_tolerances_of_the_design(paper):
-    disc = flat_parts(paper)[0]
+    disc = flat_parts(resolve(paper))[0]
     wide = paper.replacing({"tolerances.disc_profile": "2 um", "tolerances.hole_position": "5 um"})
     even = paper.replacing({"tolerances.distribution": "uniform"})
-    assert zone_text(facts_of(disc, paper).zones.profile) == "0.004"
-    assert zone_text(facts_of(disc, wide).zones.profile) == "0.008"
-    assert zone_text(facts_of(disc, wide).zones.hole_position) == "0.02"
-    assert math.isclose(facts_of(disc, even).zones.profile, 2e-6 * math.sqrt(3.0))
+    assert zone_text(facts_of(disc, resolve(paper)).zones.profile) == "0.004"
+    assert zone_text(facts_of(disc, resolve(wide)).zones.profile) == "0.008"
+    assert zone_text(facts_of(disc, resolve(wide)).zones.hole_position) == "0.02"
+    assert math.isclose(facts_of(disc, resolve(even)).zones.profile, 2e-6 * math.sqrt(3.0))
 
 
 def test_widths_are_those_of_helvetica():

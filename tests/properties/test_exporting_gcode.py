@@ -17,11 +17,13 @@ from hypothesis import strategies as st
 
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, ReadBackError
-from cqdd_design.exporting import ExportOptions, export
+from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.gcode import program
 from cqdd_design.exporting.edm.gcode_check import check_program
 from cqdd_design.geometry.contours import Circle
+from cqdd_design.machine import resolve
+from cqdd_design.roads.export import export
 
 SEVERAL = settings(
     max_examples=8, deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
@@ -36,7 +38,7 @@ def paper(paper_design_file):
 
 @pytest.fixture(scope="module")
 def parts(paper):
-    return flat_parts(paper)
+    return flat_parts(resolve(paper))
 
 
 @pytest.fixture(scope="module")
@@ -216,7 +218,9 @@ def test_a_spoilt_program_is_refused(text, paper, parts, old, new, said):
 def test_a_missing_cut_and_the_wrong_part_are_refused(text, paper, parts):
     with pytest.raises(ReadBackError, match="7 cuts for 2 contours"):
         check_program(text, parts[1], paper.edm)
-    bigger = program(flat_parts(paper.replacing({"reducer.eccentricity": "1.61 mm"}))[0], paper)
+    bigger = program(
+        flat_parts(resolve(paper.replacing({"reducer.eccentricity": "1.61 mm"})))[0], paper
+    )
     with pytest.raises(ReadBackError, match=r"disc, cut \d"):
         check_program(bigger, parts[0], paper.edm)
 
@@ -230,7 +234,7 @@ def test_any_design_gives_programs_that_pass_their_check(tmp_path_factory, disc,
     folder = tmp_path_factory.mktemp("any")
     try:
         design = design_of(disc, ring_type=ring_type)
-        parts = flat_parts(design)
+        parts = flat_parts(resolve(design))
         files = export(design, "gcode", folder)
     except CqddError as error:
         refused = error

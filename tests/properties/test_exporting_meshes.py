@@ -22,6 +22,7 @@ from cqdd_design.exporting.solids.meshes import (
     write_glb,
     write_stl,
 )
+from cqdd_design.machine import resolve
 from cqdd_design.solids.mesh import DISPLAY, closed_mesh
 
 pytestmark = pytest.mark.skipif(
@@ -59,7 +60,7 @@ def test_stl_is_watertight_and_in_millimetres(name: str, tmp_path: Path) -> None
 
 
 def test_one_stl_a_part(tmp_path: Path) -> None:
-    job = ExportJob(known_design("paper"), tmp_path, lambda _: None)
+    job = ExportJob(resolve(known_design("paper")), tmp_path, lambda _: None)
     job.__dict__["parts"] = known_parts("paper")
     files = export_stl(job)
     assert [one.path.name for one in files][:3] == [
@@ -182,7 +183,7 @@ def test_glb_normals_are_unit_and_point_outward(glb: Path) -> None:
 
 
 def test_mesh_files_are_reproducible(model: Path, glb: Path, tmp_path: Path) -> None:
-    job = ExportJob(known_design("paper"), tmp_path, lambda _: None)
+    job = ExportJob(resolve(known_design("paper")), tmp_path, lambda _: None)
     job.__dict__["parts"] = known_parts("paper")
     (again,) = export_3mf(job)
     assert again.path.read_bytes() == model.read_bytes()

@@ -15,11 +15,17 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from cqdd_design import __version__
-from cqdd_design.actuator.joint_side import joint_side, ripple_harmonics, single_node
+from cqdd_design.actuator.joint_side import joint_side, ripple_harmonics
 from cqdd_design.actuator.parameters import ActuatorParameters, GearParameters, ThermalParameters
+from cqdd_design.actuator.thermal import single_node
 from cqdd_design.errors import DesignError
-from cqdd_design.exporting.simulators.mjcf import MjcfOptions, fragment_text, model_text
-from cqdd_design.exporting.simulators.mjcf_classes import HOST_STEP, time_step
+from cqdd_design.exporting.simulators.mjcf import fragment_text, model_text
+from cqdd_design.exporting.simulators.mjcf_classes import (
+    HOST_STEP,
+    MjcfActuator,
+    MjcfOptions,
+    time_step,
+)
 from cqdd_design.exporting.simulators.xml_text import comment, identifier, number
 
 
@@ -33,7 +39,7 @@ def motor_of(text: str, name: str) -> dict[str, str]:
 @settings(max_examples=60, deadline=None)
 @given(p=random_actuators())
 def test_numbers_of_the_motor_arrive(p: ActuatorParameters) -> None:
-    for text in (model_text(p, "a"), fragment_text(p, "a")):
+    for text in (model_text(MjcfActuator(p, "a")), fragment_text(MjcfActuator(p, "a"))):
         motor = motor_of(text, "a")
         assert float(motor["gear"]) == abs(p.gear.ratio)
         assert float(motor["resistance"]) == pytest.approx(p.motor.resistance, rel=1e-8)
@@ -51,7 +57,7 @@ def test_numbers_of_the_motor_arrive(p: ActuatorParameters) -> None:
 @given(p=random_actuators())
 def test_friction_generates_no_energy(p: ActuatorParameters) -> None:
     """LuGre's condition sigma2 >= sigma1 (static - coulomb)/coulomb, at both sides."""
-    root = ElementTree.fromstring(model_text(p, "a"))
+    root = ElementTree.fromstring(model_text(MjcfActuator(p, "a")))
     written = [one for one in root.iter("dcmotor") if "lugre" in one.attrib]
     coulomb = p.friction.motor_coulomb + p.motor.hysteresis
     assert len(written) == (coulomb > 0.0) + (p.friction.output_coulomb > 0.0)
@@ -72,7 +78,8 @@ def test_bristles_suit_the_step(p: ActuatorParameters) -> None:
     if whole == 0.0:
         return
     wanted = whole / p.friction.bristle_deflection
-    for text, step in ((model_text(p, "a"), time_step(p)), (fragment_text(p, "a"), 2e-3)):
+    model = MjcfActuator(p, "a")
+    for text, step in ((model_text(model), time_step(p)), (fragment_text(model), 2e-3)):
         stiffness = float(motor_of(text, "a")["lugre"].split()[0])
         bearable = p.motor_side_inertia * (0.5 / step) ** 2
         assert stiffness == pytest.approx(min(wanted, bearable), rel=1e-6)
@@ -184,7 +191,7 @@ def test_an_error_that_turns_the_output_back_is_refused() -> None:
     p = paper_actuator()
     gear = dataclasses.replace(p.gear, error_cosine=np.array([0.0, 0.0, 0.2, 0.0, 0.0]))
     with pytest.raises(DesignError, match=r"gear\.error_cosine .* at 5 N m"):
-        model_text(dataclasses.replace(p, gear=gear), "a")
+        model_text(MjcfActuator(dataclasses.replace(p, gear=gear), "a"))
 
 
 def test_one_thermal_node_for_two() -> None:
@@ -205,8 +212,8 @@ def test_one_thermal_node_for_two() -> None:
 def test_texts_are_reproducible_and_carry_their_origin() -> None:
     p = paper_actuator()
     for written in (model_text, fragment_text):
-        text = written(p, "paper", design_sha256="c0ffee")
-        assert text == written(p, "paper", design_sha256="c0ffee")
+        text = written(MjcfActuator(p, "paper", design_sha256="c0ffee"))
+        assert text == written(MjcfActuator(p, "paper", design_sha256="c0ffee"))
         assert f"cqdd-design {__version__}" in text
         assert "c0ffee" in text
         assert "signed ratio is -10" in text
@@ -214,7 +221,8 @@ def test_texts_are_reproducible_and_carry_their_origin() -> None:
 
 def test_names_that_xml_or_mujoco_would_not_bear() -> None:
     assert identifier("a--b/c") == "a-b-c"
-    for text in (model_text(paper_actuator(), "a--b<&"), fragment_text(paper_actuator(), "a--b<&")):
+    model = MjcfActuator(paper_actuator(), "a--b<&")
+    for text in (model_text(model), fragment_text(model)):
         root = ElementTree.fromstring(text)
         assert root.find(".//default[@class='a-b<&']") is not None
     assert "--" not in comment(["x -- y --- z"])[4:-3]
@@ -227,7 +235,7 @@ def test_numbers_as_text(value: float) -> None:
 
 def test_small_harmonics_are_left_out_and_said_to_be() -> None:
     p = paper_actuator()
-    text = model_text(p, "a")
+    text = model_text(MjcfActuator(p, "a"))
     assert "a-ripple-11" in text
     assert "a-ripple-20" not in text
     found = ripple_harmonics(p)
@@ -236,7 +244,7 @@ def test_small_harmonics_are_left_out_and_said_to_be() -> None:
     assert 20 in [one.order for one in small]
     assert all(f'a-ripple-{one.order}"' not in text for one in small)
     assert f"Left out as small: {len(small)} harmonics" in " ".join(text.split())
-    assert "ripple-" not in model_text(p, "a", options=MjcfOptions(ripple=False))
+    assert "ripple-" not in model_text(MjcfActuator(p, "a", options=MjcfOptions(ripple=False)))
 
 
 def test_the_step_suits_the_stiffest_friction() -> None:

@@ -24,6 +24,7 @@ from cqdd_design.exporting.edm.loops import Loop, fit_of
 from cqdd_design.exporting.edm.readback import read_back
 from cqdd_design.geometry import ArcContour, CycloidDisc, lobed_outline, ring_contour, ring_moments
 from cqdd_design.geometry.contours import as_complex
+from cqdd_design.machine import resolve
 
 FEW = settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
 
@@ -35,12 +36,12 @@ def paper(paper_design_file):
 
 @pytest.fixture(scope="module")
 def disc(paper):
-    return flat_parts(paper)[0]
+    return flat_parts(resolve(paper))[0]
 
 
 @pytest.fixture(scope="module")
 def ring(paper):
-    return flat_parts(paper)[1]
+    return flat_parts(resolve(paper))[1]
 
 
 @pytest.fixture
@@ -302,7 +303,7 @@ def test_a_wire_too_thick_for_a_corner_names_the_one_that_fits(tmp_path):
     tooth = 0.85 * R * math.sin(math.pi / (lobes + 1))
     sharp = CycloidDisc(lobes, R, 0.7 * R / (lobes + 1), tooth)
     design = design_of(sharp, cam_bearing={"designation": "6801"}, output_pins={"diameter": 0.003})
-    ring = flat_parts(design)[-1]
+    ring = flat_parts(resolve(design))[-1]
     least = contour_fit(ring).least_concave_radius
     thick = design.replacing({"edm.wire_diameter": "0.5 mm", "edm.spark_gap": "100 um"})
     assert least < 0.35e-3

@@ -15,6 +15,7 @@ from cqdd_design.errors import ReadBackError
 from cqdd_design.exporting import ExportJob
 from cqdd_design.exporting.solids import step
 from cqdd_design.exporting.solids.step import export_step, file_label, write_part_step, write_step
+from cqdd_design.machine import resolve
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("cadquery") is None, reason="cadquery is not installed"
@@ -100,7 +101,7 @@ def test_disc_has_the_arcs_of_the_drawing_and_no_spline(tmp_path: Path) -> None:
 
 
 def test_one_file_for_the_machine_and_one_for_every_part(tmp_path: Path) -> None:
-    job = ExportJob(known_design("paper"), tmp_path, lambda _: None)
+    job = ExportJob(resolve(known_design("paper")), tmp_path, lambda _: None)
     job.__dict__["parts"] = known_parts("paper")
     names = [one.path.name for one in export_step(job)]
     assert names[0] == "cqdd-10.step"

@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 
 from cqdd_design.design import load_design
-from cqdd_design.exporting import export
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.sheets.svg import front_view, part_view, path_data
 from cqdd_design.geometry import ArcContour, Circle
+from cqdd_design.machine import resolve
+from cqdd_design.roads.export import export
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -30,7 +31,7 @@ def _joints(path: str) -> np.ndarray:
 
 
 def test_a_path_has_the_arcs_of_its_contour(paper):
-    contour = flat_parts(paper)[0].shape.outer
+    contour = flat_parts(resolve(paper))[0].shape.outer
     assert isinstance(contour, ArcContour)
     path = path_data(contour)
     assert path.count("A") == len(contour)
@@ -56,7 +57,7 @@ def test_a_circle_is_two_half_circles():
 
 
 def test_views_are_to_scale_and_well_formed(paper):
-    for flat in flat_parts(paper):
+    for flat in flat_parts(resolve(paper)):
         root = ElementTree.fromstring(part_view(flat, paper))
         width = float(root.get("width").removesuffix("mm"))
         assert float(root.get("viewBox").split()[2]) == width
@@ -65,7 +66,7 @@ def test_views_are_to_scale_and_well_formed(paper):
 
 def test_the_mechanism_is_put_together_right(paper):
     """Every pin touches its hole on the side of the crank; lobes do not cross the ring's teeth."""
-    root = ElementTree.fromstring(front_view(paper))
+    root = ElementTree.fromstring(front_view(resolve(paper)))
     kinds = [path.get("class") for path in root.iter(f"{SVG}path")]
     assert kinds.count("part ring") == 1
     assert kinds.count("part disc") == 1
@@ -87,7 +88,11 @@ def test_the_mechanism_is_put_together_right(paper):
 
 def test_names_are_escaped(paper):
     odd = paper.replacing({"name": "a & b"})
-    assert ElementTree.fromstring(front_view(odd)).find(f"{SVG}title").text.startswith("a & b")
+    assert (
+        ElementTree.fromstring(front_view(resolve(odd)))
+        .find(f"{SVG}title")
+        .text.startswith("a & b")
+    )
 
 
 def test_files(paper, tmp_path):

@@ -17,7 +17,6 @@ from hypothesis import strategies as st
 
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, GeometryError, ReadBackError
-from cqdd_design.exporting import export
 from cqdd_design.exporting.edm.dxf import write_flat_part
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.readback import read_back
@@ -25,11 +24,12 @@ from cqdd_design.exporting.edm.wire_path import (
     offset_contour,
     segmented,
     split_for_tab,
-    wire_offset,
     wire_paths,
 )
 from cqdd_design.geometry import ArcContour, CycloidDisc
 from cqdd_design.geometry.contours import Circle, as_complex
+from cqdd_design.machine import resolve
+from cqdd_design.roads.export import export
 
 SEVERAL = settings(
     max_examples=8, deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
@@ -43,7 +43,7 @@ def paper(paper_design_file):
 
 @pytest.fixture(scope="module")
 def disc(paper):
-    return flat_parts(paper)[0]
+    return flat_parts(resolve(paper))[0]
 
 
 def _crossings(contour):
@@ -68,7 +68,7 @@ def _crossings(contour):
 def test_any_path_keeps_its_distance_and_does_not_cross(disc, ring_type, wire):
     try:
         design = design_of(disc, ring_type=ring_type).replacing({"edm.wire_diameter": wire})
-        parts = flat_parts(design)
+        parts = flat_parts(resolve(design))
         found = [wire_paths(flat, design.edm) for flat in parts]
     except CqddError:
         assume(False)
@@ -92,7 +92,7 @@ def test_an_arc_moved_sideways_keeps_centre_and_sweep(paper, disc):
     nominal, moved = disc.shape.outer.arcs(), path.contour.arcs()
     assert np.abs(nominal.centres - moved.centres).max() < 1e-12
     assert np.array_equal(nominal.sweeps, moved.sweeps)
-    wider = np.where(nominal.sweeps > 0.0, 1.0, -1.0) * wire_offset(paper.edm)
+    wider = np.where(nominal.sweeps > 0.0, 1.0, -1.0) * paper.edm.wire_offset
     assert np.abs(moved.radii - nominal.radii - wider).max() < 1e-12
 
 
@@ -100,7 +100,7 @@ def test_a_corner_of_the_material_is_rounded_by_the_wire(paper):
     edm = paper.edm
     square = ArcContour(np.array([[0, 0], [0.01, 0], [0.01, 0.01], [0, 0.01]]), np.zeros(4))
     path = offset_contour(square, edm, outer=True, feature="square")
-    offset = wire_offset(edm)
+    offset = edm.wire_offset
     assert len(path) == 8
     assert math.isclose(path.length(), 0.04 + 2.0 * math.pi * offset, rel_tol=1e-12)
     with pytest.raises(ReadBackError, match=r"square: .*sharp inner corner .*round it to 0\.1370"):
@@ -264,10 +264,10 @@ def test_a_start_hole_that_does_not_fit_names_a_wire_that_does(paper, tmp_path):
     assert list(tmp_path.iterdir()) == []
     most = float(str(caught.value).rpartition("at most ")[2].removesuffix(" mm."))
     fits = small.replacing({"edm.wire_diameter": most * 1e-3})
-    assert wire_paths(flat_parts(fits)[0], fits.edm)
+    assert wire_paths(flat_parts(resolve(fits))[0], fits.edm)
     thicker = small.replacing({"edm.wire_diameter": (most + 2e-3) * 1e-3})
     with pytest.raises(GeometryError):
-        wire_paths(flat_parts(thicker)[0], thicker.edm)
+        wire_paths(flat_parts(resolve(thicker))[0], thicker.edm)
 
 
 def test_the_paths_are_frozen(paper, disc):

@@ -2,14 +2,26 @@
 
 import errno
 import os
+import socket
+import time
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cqdd_design.errors import UsageError
-from cqdd_design.files import refuse_overwrite, write_atomically, write_with
+from cqdd_design.environment import source_date
+from cqdd_design.errors import DesignError, UsageError
+from cqdd_design.files import (
+    parse_json,
+    parse_toml,
+    read_regular_file,
+    read_text_file,
+    refuse_overwrite,
+    write_atomically,
+    write_with,
+)
 from cqdd_design.results import Check, MassProperties
 
 
@@ -49,6 +61,150 @@ def test_overwrite_needs_force(tmp_path):
     with pytest.raises(UsageError, match="--force"):
         refuse_overwrite(written.path, force=False)
     refuse_overwrite(written.path, force=True)
+
+
+KINDS = ["folder", "pipe", "device", "socket", "dangling", "link to a folder", "missing"]
+
+
+@pytest.fixture
+def irregular(tmp_path):
+    """A function that puts something other than a file in place."""
+
+    def make(kind):
+        path = tmp_path / "thing"
+        if kind == "folder":
+            path.mkdir()
+        elif kind == "pipe":
+            os.mkfifo(path)
+        elif kind == "device":
+            path.symlink_to("/dev/zero")
+        elif kind == "socket":
+            with socket.socket(socket.AF_UNIX) as made:
+                made.bind(os.path.relpath(path))
+        elif kind == "dangling":
+            path.symlink_to(tmp_path / "nowhere")
+        elif kind == "link to a folder":
+            (tmp_path / "folder").mkdir()
+            path.symlink_to(tmp_path / "folder")
+        return path
+
+    return make
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs pipes and devices")
+@pytest.mark.parametrize("kind", KINDS)
+def test_only_files_are_read(irregular, kind):
+    with pytest.raises(UsageError, match="cannot read"):
+        read_regular_file(irregular(kind), 1000)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs pipes and devices")
+@pytest.mark.parametrize("kind", KINDS[:-1])
+def test_what_is_no_file_is_never_replaced(irregular, tmp_path, kind):
+    path = irregular(kind)
+    before = sorted(tmp_path.iterdir()), os.lstat(path)
+    for act in (
+        lambda: refuse_overwrite(path, force=True),
+        lambda: write_atomically(path, "x", "text"),
+        lambda: write_with(path, "text", lambda place: place.write_text("x")),
+    ):
+        with pytest.raises(UsageError, match="cannot write"):
+            act()
+    assert (sorted(tmp_path.iterdir()), os.lstat(path)) == before
+
+
+def test_through_a_link_its_file_is_replaced(tmp_path):
+    (tmp_path / "elsewhere").mkdir()
+    target = tmp_path / "elsewhere" / "a.txt"
+    target.write_text("old")
+    link = tmp_path / "link.txt"
+    link.symlink_to(target)
+    with pytest.raises(UsageError, match="--force"):
+        refuse_overwrite(link, force=False)
+    refuse_overwrite(link, force=True)
+    write_atomically(link, "new", "text")
+    assert link.is_symlink()
+    assert target.read_text() == "new"
+
+
+def test_a_file_is_read_up_to_its_limit_whatever_size_it_claims(tmp_path):
+    path = tmp_path / "a"
+    path.write_bytes(b"x" * 1000)
+    assert read_regular_file(path, 1000) == b"x" * 1000
+    with pytest.raises(DesignError, match=r"larger than 0\.000999 MB"):
+        read_regular_file(path, 999, wrong=DesignError)
+    if os.path.exists("/proc/self/maps"):  # says that it has 0 bytes
+        with pytest.raises(UsageError, match="larger"):
+            read_regular_file(Path("/proc/self/maps"), 10)
+
+
+def test_windows_marks_are_left_out_and_utf_16_is_named(tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_bytes("name = 'é'".encode("utf-8-sig"))
+    assert read_text_file(path, 1000) == "name = 'é'"
+    path.write_bytes("name = 'é'".encode("utf-16"))
+    with pytest.raises(UsageError, match="UTF-16; save it as UTF-8"):
+        read_text_file(path, 1000)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("[" * 100_000, "nested too deeply"),
+        ("[" * 100 + "]" * 100, "nested too deeply"),
+        ('{"a": {"b": 1' + 400 * "0" + "}}", r"a\.b is a whole number of 401 digits"),
+        ('{"a": 1' + 5000 * "0" + "}", "a has thousands of digits"),
+        ('{"a": [1, NaN]}', r"a\.1 is nan"),
+        ('{"a": 1e999}', "a is inf"),
+        ("{", "is not JSON"),
+    ],
+)
+def test_extreme_json_is_refused_by_its_field(text, said):
+    with pytest.raises(UsageError, match=said):
+        parse_json(text, Path("a.json"))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("a." * 50_000 + "a = 1", r"nested too deeply \(at line 1\)"),
+        ("x = 1\n[" + "a . " * 50_000 + "a]", r"nested too deeply \(at line 2\)"),
+        ('"a".' * 50_000 + "a = 1", "nested too deeply"),
+        ("a = " + "{b = " * 100 + "1" + "}" * 100, "nested too deeply"),
+        ("a = " + "[" * 100_000, "nested too deeply"),
+        ("[a]\nb = 1" + 400 * "0", r"a\.b is a whole number of 401 digits"),
+        ("[a]\nb = 0x" + 5000 * "f", r"a\.b is a whole number of 6021 digits"),
+        ("[a]\nb = 1" + 5000 * "0", r"b has thousands of digits \(at line 2\)"),
+        ("a" * 900_000, "is not valid TOML"),
+        ('"' * 900_000, "is not valid TOML"),
+    ],
+)
+def test_extreme_toml_is_refused_by_its_field(text, said):
+    before = time.process_time()
+    with pytest.raises(DesignError, match=said):
+        parse_toml(text, Path("a.toml"), wrong=DesignError)
+    assert time.process_time() - before < 20.0
+
+
+def test_dots_in_values_are_no_depth():
+    text = "b = [" + "1.5, " * 1000 + "1.5]\n" + "\n".join(f"a{k}.b = 1" for k in range(100))
+    assert len(parse_toml(text, Path("a.toml"))) == 101
+
+
+@pytest.mark.parametrize("told", ["abc", "-1", "1.5", "1e9", "9" * 30, "253402300800", "\u0661"])
+def test_a_nonsense_date_is_a_sentence(monkeypatch, told):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", told)
+    with pytest.raises(UsageError, match="SOURCE_DATE_EPOCH"):
+        source_date()
+
+
+@pytest.mark.parametrize(
+    ("told", "year"), [("", None), ("0", 1970), ("1700000000", 2023), ("253402300799", 9999)]
+)
+def test_the_date_of_the_environment(monkeypatch, told, year):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", told)
+    moment = source_date()
+    assert (moment and moment.year) == year
 
 
 def _check(value, limit, sense):

@@ -21,14 +21,13 @@ from cqdd_design.errors import CqddError, GeometryError, InfeasibleError, UsageE
 from cqdd_design.gearbox import (
     CHECK_GUIDE,
     GearboxAnalysis,
-    analyse_gearbox,
     check_guide,
-    with_chosen_bearing,
 )
 from cqdd_design.gearbox.balance import paper_disc_count, stack_balance
 from cqdd_design.gearbox.bearing_life import basic_rating_life_hours, load_for_life
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.geometry import CycloidDisc
+from cqdd_design.machine import resolve
 from cqdd_design.results import Check, MassProperties, worst_status
 
 PAPER = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
@@ -64,7 +63,7 @@ def by_id(analysis: GearboxAnalysis) -> dict[str, Check]:
 
 
 def changed(changes: Mapping[str, Any], base: Design = SOUND) -> dict[str, Check]:
-    return by_id(analyse_gearbox(base.replacing(changes)))
+    return by_id(resolve(base.replacing(changes)).analysis)
 
 
 def test_limits_are_those_of_the_table() -> None:
@@ -100,9 +99,9 @@ def test_a_reversing_duty_lowers_the_fatigue_limit() -> None:
     ]
     mapping = SOUND.to_mapping()
     mapping["requirements"]["duty"] = duty
-    both = by_id(analyse_gearbox(Design.from_mapping(mapping)))["PIN-BENDING-CONTINUOUS"]
+    both = by_id(resolve(Design.from_mapping(mapping)).analysis)["PIN-BENDING-CONTINUOUS"]
     duty[1]["torque"] = "20 N*m"
-    one = by_id(analyse_gearbox(Design.from_mapping(mapping)))["PIN-BENDING-CONTINUOUS"]
+    one = by_id(resolve(Design.from_mapping(mapping)).analysis)["PIN-BENDING-CONTINUOUS"]
     assert one.limit == pytest.approx(300.0)
     # Goodman with S_u 1220 MPa: 150/(1 - 150/1220).
     assert both.limit == pytest.approx(150.0 / (1.0 - 150.0 / 1220.0))
@@ -146,7 +145,7 @@ def test_hardness_scales() -> None:
 
 
 def test_a_sound_design_passes_everything() -> None:
-    analysis = analyse_gearbox(SOUND)
+    analysis = resolve(SOUND).analysis
     assert worst_status(analysis.checks) == "pass"
     assert analysis.warnings == ()
     least = min(check.margin for check in analysis.checks if check.unit in {"MPa", "h", ""})
@@ -156,7 +155,7 @@ def test_a_sound_design_passes_everything() -> None:
 
 def test_the_papers_design_fails_where_it_should() -> None:
     """Its own shear figure passes; contact, bending, bearing and motor do not."""
-    checks = by_id(analyse_gearbox(PAPER))
+    checks = by_id(resolve(PAPER).analysis)
     assert checks["PIN-PAPER"].value == pytest.approx(295.65, abs=0.01)
     assert checks["PIN-SHARED"].value == pytest.approx(140.8, abs=0.1)
     assert {key for key, check in checks.items() if check.status == "fail"} == {
@@ -237,13 +236,13 @@ def test_the_computed_remedy_makes_the_check_pass(
 ) -> None:
     base = ROOMY if check_id in {"GEO-K1-MOST", "GEO-UNDERCUT", "GEO-TOOTH-OVERLAP"} else SOUND
     broken = base.replacing(break_it)
-    check = by_id(analyse_gearbox(broken))[check_id]
+    check = by_id(resolve(broken).analysis)[check_id]
     assert check.status != "pass"
     leaf = key.rsplit(".", 1)[1]
     named = re.search(rf"{leaf} to (?:about )?([\d.]+) {unit}", check.remedy)
     assert named, check.remedy
     mended = broken.replacing({key: f"{named.group(1)} {unit}"})
-    assert by_id(analyse_gearbox(mended))[check_id].status == "pass"
+    assert by_id(resolve(mended).analysis)[check_id].status == "pass"
 
 
 @pytest.mark.parametrize(
@@ -262,7 +261,7 @@ def test_the_computed_remedy_makes_the_check_pass(
     ],
 )
 def test_the_torque_named_is_the_most_that_passes(check_id: str, key: str) -> None:
-    check = by_id(analyse_gearbox(PAPER))[check_id]
+    check = by_id(resolve(PAPER).analysis)[check_id]
     named = re.search(rf"lower (?:the torque|requirements\.{key}) to ([\d.]+) N\*m", check.remedy)
     assert named, check.remedy
     torque = float(named.group(1))
@@ -277,7 +276,7 @@ def test_the_torque_named_is_the_most_that_passes(check_id: str, key: str) -> No
 
 
 def test_thicker_pins_named_by_the_remedy_pass_in_bending() -> None:
-    check = by_id(analyse_gearbox(PAPER))["PIN-BENDING-PEAK"]
+    check = by_id(resolve(PAPER).analysis)["PIN-BENDING-PEAK"]
     named = re.search(r"at least ([\d.]+) mm", check.remedy)
     assert named
     thick = changed({"reducer.output_pins.diameter": f"{named.group(1)} mm"}, PAPER)
@@ -311,12 +310,12 @@ def test_a_larger_sleeve_named_by_the_remedy_passes() -> None:
     soft = PAPER.replacing(
         {"reducer.output_pins.sleeve_diameter": "5 mm", "requirements.peak_torque": "300 N*m"}
     )
-    check = by_id(analyse_gearbox(soft))["PIN-BEARING-PEAK"]
+    check = by_id(resolve(soft).analysis)["PIN-BEARING-PEAK"]
     assert check.status == "fail"
     named = re.search(r"sleeve_diameter to ([\d.]+) mm", check.remedy)
     assert named, check.remedy
     wider = soft.replacing({"reducer.output_pins.sleeve_diameter": f"{named.group(1)} mm"})
-    assert by_id(analyse_gearbox(wider))["PIN-BEARING-PEAK"].status == "pass"
+    assert by_id(resolve(wider).analysis)["PIN-BEARING-PEAK"].status == "pass"
 
 
 def test_motor_shortfall_is_a_warning_unless_the_motor_is_named() -> None:
@@ -327,14 +326,14 @@ def test_motor_shortfall_is_a_warning_unless_the_motor_is_named() -> None:
 
 
 def test_a_motor_without_data_is_said_not_guessed() -> None:
-    analysis = analyse_gearbox(SOUND.replacing({"motor.name": "T-Motor U8 KV150"}))
+    analysis = resolve(SOUND.replacing({"motor.name": "T-Motor U8 KV150"})).analysis
     assert any("no peak torque" in words for words in analysis.warnings)
     assert "MOTOR-PEAK" not in by_id(analysis)
     lacking = by_id(analysis)["MOTOR-DATA"]
     assert (lacking.value, lacking.limit, lacking.status) == (1.0, 4.0, "warn")
     assert "no peak torque, no rated torque, no stator bore" in lacking.substituted
     assert worst_status(analysis.checks) == "warn"
-    geared = analyse_gearbox(SOUND.replacing({"motor.name": "CubeMars AK80-9 V3"}))
+    geared = resolve(SOUND.replacing({"motor.name": "CubeMars AK80-9 V3"})).analysis
     assert any("geared actuator" in words for words in geared.warnings)
     assert (by_id(geared)["MOTOR-DATA"].value, worst_status(geared.checks)) == (0.0, "warn")
 
@@ -396,46 +395,48 @@ def test_bearing_life_and_its_inverse(
 
 def test_auto_takes_the_smallest_bearing_that_passes() -> None:
     auto = SOUND.replacing({"reducer.cam_bearing.designation": "auto"})
-    chosen = with_chosen_bearing(auto)
-    analysis = analyse_gearbox(auto)
-    assert analysis.design == chosen
+    machine = resolve(auto)
+    analysis = machine.analysis
+    assert machine.given is auto
+    assert analysis.design == machine.design
+    assert machine.design.reducer.cam_bearing.designation == machine.cam.designation
     checks = by_id(analysis)
     assert checks["BEARING-STATIC"].status == checks["BEARING-LIFE"].status == "pass"
-    assert with_chosen_bearing(SOUND) is SOUND
+    assert resolve(SOUND).design is SOUND
     gentle = auto.replacing(
         {"requirements.peak_torque": "5 N*m", "requirements.continuous_torque": "1 N*m"}
     )
-    lighter = analyse_gearbox(gentle).cam_bearing.bearing
+    lighter = resolve(gentle).analysis.cam_bearing.bearing
     assert lighter.outer_diameter < analysis.cam_bearing.bearing.outer_diameter
     overloaded = auto.replacing({"requirements.peak_torque": "900 N*m"})
-    assert by_id(analyse_gearbox(overloaded))["BEARING-STATIC"].status == "fail"
+    assert by_id(resolve(overloaded).analysis)["BEARING-STATIC"].status == "fail"
     crowded = auto.replacing({"reducer.output_pins.circle_radius": "8 mm"})
     with pytest.raises(InfeasibleError, match="no catalogue bearing fits"):
-        with_chosen_bearing(crowded)
+        resolve(crowded)
 
 
 def test_soft_steel_is_no_raceway() -> None:
     cage = {"reducer.cam_bearing.designation": "needle cage K22x26x10"}
-    soft = analyse_gearbox(SOUND.replacing(cage))
+    soft = resolve(SOUND.replacing(cage)).analysis
     assert by_id(soft)["BEARING-RACEWAY"].status == "fail"
     assert any("58 HRC" in words for words in soft.warnings)
     hard = changed({**cage, "reducer.disc_material": "AISI 52100 / 100Cr6 hardened"})
     assert hard["BEARING-RACEWAY"].status == "pass"
-    cup = analyse_gearbox(SOUND.replacing({"reducer.cam_bearing.designation": "needle HK2210"}))
+    cup = resolve(SOUND.replacing({"reducer.cam_bearing.designation": "needle HK2210"})).analysis
     assert "BEARING-RACEWAY" not in by_id(cup)
     assert any("eccentric" in words for words in cup.warnings)
 
 
 def test_impossible_parts_are_refused() -> None:
     with pytest.raises(GeometryError, match="sleeve_diameter"):
-        analyse_gearbox(SOUND.replacing({"reducer.output_pins.sleeve_diameter": "3 mm"}))
+        resolve(SOUND.replacing({"reducer.output_pins.sleeve_diameter": "3 mm"})).analyse()
     with pytest.raises(GeometryError, match="break out"):
-        analyse_gearbox(SOUND.replacing({"reducer.output_pins.circle_radius": "30 mm"}))
+        resolve(SOUND.replacing({"reducer.output_pins.circle_radius": "30 mm"})).analyse()
     with pytest.raises(GeometryError, match="undercut"):
-        analyse_gearbox(SOUND.replacing({"reducer.eccentricity": "3.1 mm"}))
+        resolve(SOUND.replacing({"reducer.eccentricity": "3.1 mm"})).analyse()
     tight = {"reducer.output_pins.hole_clearance": "-100 um", "reducer.eccentricity": "0.04 mm"}
     with pytest.raises(GeometryError, match="hole_clearance"):
-        analyse_gearbox(SOUND.replacing(tight))
+        resolve(SOUND.replacing(tight)).analyse()
 
 
 def test_guide_and_checks_speak_of_the_same_things() -> None:
@@ -446,7 +447,7 @@ def test_guide_and_checks_speak_of_the_same_things() -> None:
             {"reducer.output_pins.sleeve_diameter": "6 mm", "reducer.output_pins.count": 8}
         ),
     ):
-        for check in analyse_gearbox(design).checks:
+        for check in resolve(design).analysis.checks:
             guide = CHECK_GUIDE[check.id]
             assert (check.title, check.unit, check.sense) == (guide.title, guide.unit, guide.sense)
             assert check.formula == guide.formula
@@ -460,7 +461,7 @@ def test_guide_and_checks_speak_of_the_same_things() -> None:
 
 
 def test_series_stay_within_the_maxima() -> None:
-    analysis = analyse_gearbox(PAPER, angles=720)
+    analysis = resolve(PAPER).analyse(angles=720)
     series, most = analysis.series, analysis.rigid
     assert series.ring_force.shape == (720, 2, 11)
     assert series.output_pin_force.shape == (720, 2, 5)
@@ -468,14 +469,14 @@ def test_series_stay_within_the_maxima() -> None:
     assert 0.999 * most.cam_bearing_load < series.cam_load.max()
     assert series.cam_load.max() <= most.cam_bearing_load * (1 + 1e-9)
     assert 0.999 * most.ring_pressure < series.ring_pressure.max()
-    half = analyse_gearbox(PAPER, torque=60.0)
+    half = resolve(PAPER).analyse(torque=60.0)
     assert half.rigid.ring_force == pytest.approx(0.5 * most.ring_force)
     assert half.checks == analysis.checks
 
 
 def judged(design: Design) -> tuple[GearboxAnalysis | None, CqddError | None]:
     try:
-        return analyse_gearbox(design), None
+        return resolve(design).analysis, None
     except CqddError as refusal:
         return None, refusal
 
@@ -527,7 +528,7 @@ def test_random_designs_are_judged_or_refused_in_words(
 def test_a_disc_without_concave_valleys_says_so() -> None:
     """(n+1) K1 <= 1: the valleys bulge outward, and there is no radius for a wire to follow."""
     flat = ROOMY.replacing({"reducer.eccentricity": "0.25 mm"})
-    analysis = analyse_gearbox(flat)
+    analysis = resolve(flat).analysis
     assert analysis.geometry.to_dict()["disc_min_concave_radius_mm"] is None
     assert "EDM-DISC" not in by_id(analysis)
     assert any("no concave valley" in words for words in analysis.warnings)
@@ -557,7 +558,7 @@ def test_every_limit_is_the_one_the_sources_give() -> None:
 
 
 def test_limits_of_the_profile_follow_from_the_geometry() -> None:
-    checks, reducer = by_id(analyse_gearbox(SOUND)), SOUND.reducer
+    checks, reducer = by_id(resolve(SOUND).analysis), SOUND.reducer
     disc = CycloidDisc.from_design(SOUND)
     undercut = 1e3 * disc.unmodified.undercut_radius_limit
     assert checks["GEO-UNDERCUT"].limit == pytest.approx(0.9 * undercut)
@@ -569,7 +570,7 @@ def test_limits_of_the_profile_follow_from_the_geometry() -> None:
 def test_the_shaking_couple_is_carried_over_all_discs(discs: int) -> None:
     """|sum m r z| omega^2 over the width of all discs, against a tenth of the cam's load."""
     design = SOUND.replacing({"reducer.disc_count": discs, "reducer.disc_thickness": "6 mm"})
-    analysis = analyse_gearbox(design)
+    analysis = resolve(design).analysis
     check = by_id(analysis)["BALANCE-COUPLE"]
     assert check.value == pytest.approx(analysis.balance.shaking_moment / (discs * 6e-3))
     assert check.limit == pytest.approx(0.1 * analysis.cam_bearing.continuous_load)
@@ -608,14 +609,14 @@ def test_more_pins_named_by_the_remedy_carry_the_load() -> None:
             "requirements.peak_torque": "100 N*m",
         }
     )
-    check = by_id(analyse_gearbox(few))["PIN-BENDING-PEAK"]
+    check = by_id(resolve(few).analysis)["PIN-BENDING-PEAK"]
     assert check.status == "fail"
     named = re.search(r"or (\d+) of them", check.remedy)
     assert named, check.remedy
     count = int(named.group(1))
-    more = by_id(analyse_gearbox(few.replacing({"reducer.output_pins.count": count})))
+    more = by_id(resolve(few.replacing({"reducer.output_pins.count": count})).analysis)
     assert more["PIN-BENDING-PEAK"].status == "pass"
-    fewer = by_id(analyse_gearbox(few.replacing({"reducer.output_pins.count": count - 2})))
+    fewer = by_id(resolve(few.replacing({"reducer.output_pins.count": count - 2})).analysis)
     assert fewer["PIN-BENDING-PEAK"].status == "fail"
 
 
@@ -631,12 +632,12 @@ def test_the_wire_named_by_the_remedy_passes() -> None:
             "edm.spark_gap": "100 um",
         }
     )
-    check = by_id(analyse_gearbox(fine))["EDM-DISC"]
+    check = by_id(resolve(fine).analysis)["EDM-DISC"]
     assert check.status == "fail"
     named = re.search(r"wire of at most ([\d.]+) mm", check.remedy)
     assert named, check.remedy
     wire = float(named.group(1))
     thinner = {"edm.wire_diameter": f"{wire} mm"}
-    assert by_id(analyse_gearbox(fine.replacing(thinner)))["EDM-DISC"].status == "pass"
+    assert by_id(resolve(fine.replacing(thinner)).analysis)["EDM-DISC"].status == "pass"
     thicker = {"edm.wire_diameter": f"{1.02 * wire:.4f} mm"}
-    assert by_id(analyse_gearbox(fine.replacing(thicker)))["EDM-DISC"].status == "fail"
+    assert by_id(resolve(fine.replacing(thicker)).analysis)["EDM-DISC"].status == "fail"

@@ -10,8 +10,9 @@ import pytest
 
 from cqdd_design.design import load_design
 from cqdd_design.gearbox.balance import stack_balance
-from cqdd_design.pipeline import InertiaAndBalance
+from cqdd_design.machine import resolve
 from cqdd_design.results import MassProperties
+from cqdd_design.roads.inertia import InertiaAndBalance
 
 PAPER = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
 
@@ -25,7 +26,7 @@ def test_weights_of_the_stated_moment_at_both_ends_balance_the_stack(discs: int)
     bodies = SimpleNamespace(
         balance={discs: found}, inertia=SimpleNamespace(to_dict=dict, total=MassProperties(1.0))
     )
-    document = InertiaAndBalance(PAPER, bodies, 2).to_dict()  # type: ignore[arg-type]
+    document = InertiaAndBalance(resolve(PAPER), bodies, 2).to_dict()  # type: ignore[arg-type]
     moment = document["balance"]["by_disc_count"][str(discs)]["counterweight_each_end_kgm"]
     half = 0.5 * (discs * b + (discs - 1) * s)
     # One disc stands on +x: both weights opposite. Of two the lower stands on +x, the upper on -x.

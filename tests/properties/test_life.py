@@ -20,6 +20,7 @@ from cqdd_design.gearbox.contact.sweep import ContactSweep, contact_sweep
 from cqdd_design.gearbox.contact.tables import pin_table, ring_table
 from cqdd_design.gearbox.life import LifeResult, PartLife, contacts, cycles, life, pins
 from cqdd_design.gearbox.life.fatigue import contact_cycles, rainflow
+from cqdd_design.machine import resolve
 
 PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 
@@ -387,11 +388,10 @@ def test_limits_are_those_of_the_allowables() -> None:
 
 
 def test_the_check_of_the_bearing_stands_beside() -> None:
-    from cqdd_design.gearbox.analysis import analyse_gearbox
 
     design = load_design(PAPER)
     result = life(design, ContactModel.from_design(design))
-    assert result.cam.hours_of_check == analyse_gearbox(design).cam_bearing.life_hours
+    assert result.cam.hours_of_check == resolve(design).analysis.cam_bearing.life_hours
     assert result.cam.speed == pytest.approx(1.1 * design.requirements.input_speed)
 
 

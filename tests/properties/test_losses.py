@@ -24,7 +24,7 @@ from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.contact.laws import CamSpring
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import ContactSweep, contact_sweep, perfect_angles
-from cqdd_design.gearbox.losses import FrictionMachine, LossModel, loss_model, losses
+from cqdd_design.gearbox.losses import LossModel
 from cqdd_design.gearbox.losses.backdrive import balance_torque
 from cqdd_design.gearbox.losses.lubricant import find_lubricant
 from cqdd_design.gearbox.losses.machine import SOURCES
@@ -33,6 +33,7 @@ from cqdd_design.gearbox.losses.shaft import equivalent_load, support_reactions
 from cqdd_design.gearbox.losses.sliding import friction_work, pin_sliding, ring_sliding
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import CycloidDisc, kinematics
+from cqdd_design.machine import resolve
 
 PAPER = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
 SPEED = 1286.0 * math.pi / 30.0
@@ -42,7 +43,7 @@ STEP = 1e-5
 @lru_cache(maxsize=32)
 def model_of(changes: tuple[tuple[str, object], ...] = ()) -> LossModel:
     design = PAPER.replacing(dict(changes)) if changes else PAPER
-    return loss_model(ContactModel.from_design(design), design)
+    return resolve(design).losses
 
 
 @lru_cache(maxsize=4)
@@ -163,8 +164,8 @@ def test_sliding_at_pins_and_under_sleeves(
 def test_sleeves_lower_pin_losses_by_the_ratio_of_diameters() -> None:
     design = PAPER.replacing({"reducer.output_pins.sleeve_diameter": 0.006})
     forces = rigid_forces(Stages.from_design(PAPER), 40.0)
-    plain = FrictionMachine.from_design(PAPER).coulomb_work(forces)["output_pins"]
-    sleeved = FrictionMachine.from_design(design).coulomb_work(forces)["output_pins"]
+    plain = resolve(PAPER).friction.coulomb_work(forces)["output_pins"]
+    sleeved = resolve(design).friction.coulomb_work(forces)["output_pins"]
     assert sleeved / plain == pytest.approx(3.975 / 6.0, rel=1e-9)
 
 
@@ -199,7 +200,7 @@ def test_work_at_teeth_equals_the_integral_of_path_differences(
 
 def test_friction_power_at_contact_teeth_is_what_virtual_work_gives() -> None:
     """Friction forces on the discs of the real equilibrium against their material velocities."""
-    sweep, machine = paper_sweep(40.0), FrictionMachine.from_design(PAPER)
+    sweep, machine = paper_sweep(40.0), resolve(PAPER).friction
     n, spin = 10, -0.1
     centre = sweep.disc_centre[:, :, None]
     arm = sweep.ring_point - centre
@@ -232,7 +233,7 @@ def test_tooth_force_change_is_the_moment_of_friction_on_the_disc(
     )
     n, forces = disc.lobe_count, rigid_forces(stages, 40.0)
     machine = replace(
-        FrictionMachine.from_design(PAPER),
+        resolve(PAPER).friction,
         lobe_count=n,
         eccentricity=disc.eccentricity,
         tooth_coefficient=mu,
@@ -272,7 +273,7 @@ def test_rigid_limit_of_the_contact_equilibrium_is_the_closed_form() -> None:
     )
     linear = ContactModel.from_design(design, "linear")
     model = replace(linear, cam=CamSpring(1e13, 1.0, 0.0))
-    work = FrictionMachine.from_design(design).coulomb_work(contact_sweep(model, 40.0))
+    work = resolve(design).friction.coulomb_work(contact_sweep(model, 40.0))
     closed = 4.0 * 0.08 * (32.0 - 3.5) / (math.pi * 10.0 * 1.6)
     assert 10.0 * work["ring_teeth"] / 40.0 == pytest.approx(closed, rel=3e-4)
 
@@ -304,19 +305,6 @@ def test_equivalent_load_adds_the_tilting_moment() -> None:
     assert float(equivalent_load([[0.0, 7.0]], [0.02], 0.02, 0.05)) == pytest.approx(7.0)
 
 
-def test_seats_without_a_layout_are_those_of_the_layout() -> None:
-    from cqdd_design.catalog.bearings import find_bearing
-    from cqdd_design.solids.proportions import lay_out
-
-    layout, machine = lay_out(PAPER, find_bearing("6902")), FrictionMachine.from_design(PAPER)
-    assert machine.support.name == layout.shaft.support.bearing.designation
-    assert machine.output.name == layout.carrier.output.bearing.designation
-    given_ones = FrictionMachine.from_design(
-        PAPER, support=find_bearing("6800"), output=find_bearing("THK RB5013")
-    )
-    assert (given_ones.support.name, given_ones.output.name) == ("6800", "THK RB5013")
-
-
 # --- bearings and lubricant --------------------------------------------------------------------
 
 
@@ -335,7 +323,7 @@ def test_drag_scales_as_palmgren_says(f0: float, nu: float, speed: float, mean: 
 
 def test_bearing_work_is_load_times_turn() -> None:
     """Every seat by hand: mu F d/2 times its turn per radian of crank."""
-    sweep, machine = paper_sweep(40.0), FrictionMachine.from_design(PAPER)
+    sweep, machine = paper_sweep(40.0), resolve(PAPER).friction
     work = machine.coulomb_work(sweep)
     cam = 0.0015 * 0.0075 * 1.1 * sweep.cam_load.sum(axis=1).mean()
     assert work["cam_bearings"] == pytest.approx(float(cam), rel=1e-12)
@@ -356,7 +344,7 @@ def test_bearing_work_is_load_times_turn() -> None:
 
 def test_drag_of_every_seat_and_of_the_grease() -> None:
     """By hand at the speeds of the seats; the power at the crank is the sum of torque x speed."""
-    machine = FrictionMachine.from_design(PAPER)
+    machine = resolve(PAPER).friction
     drag, nu = machine.drag(SPEED), 110e-6
     around = {
         "cam_bearings": 2.0 * 1.1 * float(drag_torque(1.4, nu, 1.1 * SPEED, 0.0215)),
@@ -529,20 +517,24 @@ def test_work_is_nearly_but_not_quite_proportional_to_torque() -> None:
 
 
 def test_both_senses_of_torque_lose_alike() -> None:
-    machine = FrictionMachine.from_design(PAPER)
+    machine = resolve(PAPER).friction
     ahead, back = (sum(machine.coulomb_work(paper_sweep(t)).values()) for t in (40.0, -40.0))
     assert back == pytest.approx(ahead, rel=1e-4)
 
 
+def from_sweeps(*sweeps: ContactSweep) -> LossModel:
+    return LossModel.from_sweeps(resolve(PAPER).friction, sweeps)
+
+
 def test_losses_from_existing_sweeps() -> None:
-    found = losses(paper_sweep(40.0), PAPER, SPEED)
+    found = from_sweeps(paper_sweep(40.0)).at(SPEED, 40.0)
     assert found.torque == 40.0
     assert found.total == pytest.approx(model_of().at(SPEED, 40.0).total, rel=3e-3)
-    half = losses([paper_sweep(40.0)], PAPER, SPEED, 20.0)
+    half = from_sweeps(paper_sweep(40.0)).at(SPEED, 20.0)
     assert half.ring_teeth == pytest.approx(0.5 * found.ring_teeth, rel=1e-12)
-    beyond = losses([paper_sweep(40.0)], PAPER, SPEED, 80.0)
+    beyond = from_sweeps(paper_sweep(40.0)).at(SPEED, 80.0)
     assert beyond.output_pins == pytest.approx(2.0 * found.output_pins, rel=1e-12)
-    lone = losses(contact_sweep(ContactModel.from_design(PAPER), 0.0), PAPER, SPEED)
+    lone = from_sweeps(contact_sweep(ContactModel.from_design(PAPER), 0.0)).at(SPEED, 0.0)
     assert lone.efficiency_forward is None
     assert lone.ring_teeth == 0.0 < lone.total
 
@@ -550,9 +542,13 @@ def test_losses_from_existing_sweeps() -> None:
 @pytest.mark.parametrize(
     "call",
     [
-        lambda: losses([], PAPER, SPEED, 1.0),
-        lambda: losses([paper_sweep(40.0), paper_sweep(-40.0)], PAPER, SPEED),
-        lambda: losses([paper_sweep(40.0), paper_sweep(40.0)], PAPER, SPEED),
+        lambda: LossModel.from_sweeps(resolve(PAPER).friction, []),
+        lambda: LossModel.from_sweeps(
+            resolve(PAPER).friction, [paper_sweep(40.0), paper_sweep(-40.0)]
+        ),
+        lambda: LossModel.from_sweeps(
+            resolve(PAPER).friction, [paper_sweep(40.0), paper_sweep(40.0)]
+        ),
         lambda: model_of().at(math.nan, 1.0),
         lambda: model_of().at(1.0, math.inf),
         lambda: model_of().backdrive(static_ratio=0.5),
@@ -606,7 +602,7 @@ def test_every_input_of_the_design_has_an_effect(key: str) -> None:
 
 def test_friction_coefficients_act_in_proportion() -> None:
     forces = rigid_forces(Stages.from_design(PAPER), 40.0)
-    machine = FrictionMachine.from_design(PAPER)
+    machine = resolve(PAPER).friction
     base = machine.coulomb_work(forces)
     for field, source in (("tooth_coefficient", "ring_teeth"), ("pin_coefficient", "output_pins")):
         doubled = replace(machine, **{field: 2.0 * getattr(machine, field)}).coulomb_work(forces)
@@ -621,7 +617,7 @@ def test_friction_coefficients_act_in_proportion() -> None:
 @settings(max_examples=25, deadline=None)
 def test_random_machines_have_sound_losses(machine: tuple[Design, object], torque: float) -> None:
     design, _ = machine
-    friction = FrictionMachine.from_design(design)
+    friction = resolve(design).friction
     forces = rigid_forces(Stages.from_design(design), torque, 48)
     model = LossModel.from_sweeps(friction, forces)
     found = model.at(100.0, torque)
@@ -642,7 +638,7 @@ def friction_radius(design: Design) -> float:
 
 def test_angles_of_the_sweeps_are_enough() -> None:
     model = ContactModel.from_design(PAPER)
-    machine = FrictionMachine.from_design(PAPER)
+    machine = resolve(PAPER).friction
     coarse, fine = (
         sum(machine.coulomb_work(contact_sweep(model, 40.0, perfect_angles(model, k))).values())
         for k in (120, 960)

@@ -19,27 +19,27 @@ import pytest
 from lxml import etree
 from solids_designs import CHANGES, known_design, known_parts, part_named
 
-from cqdd_design.catalog import find_bearing
 from cqdd_design.design import Design
-from cqdd_design.report.build import _environment
+from cqdd_design.machine import resolve
+from cqdd_design.report.ink.page import environment
 from cqdd_design.report.machine_view import (
     MachineViews,
     ViewerData,
     hidden_line_views,
     viewer_data,
 )
+from cqdd_design.report.machine_view.aligned_section import cut_angles, cut_faces, section_figure
 from cqdd_design.report.machine_view.camera import Camera, tinted
-from cqdd_design.report.machine_view.drawing import thinned
-from cqdd_design.report.machine_view.explode import disassembly_order, take_apart
-from cqdd_design.report.machine_view.hidden_lines import chained, visible_lines
-from cqdd_design.report.machine_view.pictures import exploded_figure
-from cqdd_design.report.machine_view.pieces import stations
-from cqdd_design.report.machine_view.section import cut_angles, cut_faces, section_figure
+from cqdd_design.report.machine_view.explode import take_apart
+from cqdd_design.report.machine_view.paint import thinned
+from cqdd_design.report.machine_view.stills import exploded_figure
 from cqdd_design.solids.cad import MM
+from cqdd_design.solids.disassembly import disassembly_order
+from cqdd_design.solids.hidden_lines import chained
 from cqdd_design.solids.layers import Annulus, turned
 from cqdd_design.solids.part import Part
-from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.poses import Body, BodyKind, body_pose
+from cqdd_design.solids.stations import stations
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("cadquery") is None, reason="cadquery is not installed"
@@ -61,7 +61,7 @@ def machine(name: str) -> tuple[Design, tuple[Part, ...]]:
         "reducer.ring.outer_diameter": 0.078,
     }
     design = known_design("paper").replacing(changes)
-    return design, build_parts(design, find_bearing(design.reducer.cam_bearing.designation))
+    return design, resolve(design).parts
 
 
 @lru_cache(maxsize=4)
@@ -117,7 +117,7 @@ def test_pictures_are_well_formed_light_and_name_every_part(name: str) -> None:
 def drawn_again_the_same() -> bool:
     """Whether freshly built parts of the paper's design give the same bytes."""
     design = known_design("paper")
-    again = build_parts(design, find_bearing(design.reducer.cam_bearing.designation))
+    again = resolve(design).parts
     first, found = views("paper"), stations(again)
     return (
         exploded_figure(design, again, found).render() == first.exploded.render()
@@ -169,15 +169,11 @@ def test_hidden_lines_of_a_tube() -> None:
 
     tube = build_solid("tube", turned([Annulus(0.0, 0.010, 0.004, 0.006)]))
     side = Camera(np.eye(3)[0], np.eye(3)[2], -np.eye(3)[1])
-    lines = visible_lines([tube], side)
+    lines = side.lines([tube])
     for chain in (*lines.edges, *lines.outlines):
         assert ((abs(abs(chain[:, 0]) - 6.0) < 1e-3) | (abs(chain[:, 1] % 10.0) < 1e-3)).all()
     above = Camera(np.eye(3)[0], np.eye(3)[1], np.eye(3)[2])
-    radii = {
-        round(float(r), 2)
-        for chain in visible_lines([tube], above).edges
-        for r in np.hypot(*chain.T)
-    }
+    radii = {round(float(r), 2) for chain in above.lines([tube]).edges for r in np.hypot(*chain.T)}
     assert radii == {4.0, 6.0}
 
 
@@ -287,7 +283,7 @@ def test_the_viewer_moves_bodies_by_the_same_law(tmp_path: Path) -> None:
 
 def test_the_fragment_needs_no_network() -> None:
     fragment = (
-        _environment()
+        environment()
         .get_template("machine3d.html")
         .render(machine_views=views("paper"), machine_viewer=model("paper"))
     )
@@ -297,7 +293,7 @@ def test_the_fragment_needs_no_network() -> None:
     assert not re.search(r"<(?:script|img|link|iframe)[^>]+(?:src|href)=", fragment)
     assert len(fragment) < 3_500_000
     still = (
-        _environment()
+        environment()
         .get_template("machine3d.html")
         .render(machine_views=views("paper"), machine_viewer=None)
     )

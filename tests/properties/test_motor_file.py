@@ -10,8 +10,10 @@ import pytest
 from cqdd_design.actuator.bench import run_bench
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.motor_file import read_motor
+from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError
+from cqdd_design.machine import resolve
 
 DESIGN = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
 
@@ -39,7 +41,7 @@ def motor(tmp_path: Path):  # type: ignore[no-untyped-def]
 )
 def test_constants_of_every_convention_are_one_motor(motor, convention, factor):
     found = motor(f'torque_constant = "{0.17 * factor!r} N*m/A"\nconvention = "{convention}"')
-    own = actuator_parameters(DESIGN, own_motor=found).motor
+    own = actuator_parameters(Specimen(motor=found).machine(DESIGN), Specimen(motor=found)).motor
     assert own.torque_constant == pytest.approx(0.17, rel=1e-12)
 
 
@@ -48,8 +50,8 @@ def test_speed_constant_and_phase_values(motor):
         'speed_constant = "55 rpm/V"\nresistance = "71.5 mohm"\ninductance = "68.5 uH"\n'
         'measured_between = "phase"'
     )
-    own = actuator_parameters(DESIGN, own_motor=found)
-    usual = actuator_parameters(DESIGN)
+    own = actuator_parameters(Specimen(motor=found).machine(DESIGN), Specimen(motor=found))
+    usual = actuator_parameters(resolve(DESIGN))
     # The very values of the catalogue's RO100, in other words.
     for name in ("torque_constant", "resistance", "inductance", "rotor_inertia", "peak_torque"):
         assert getattr(own.motor, name) == pytest.approx(getattr(usual.motor, name), rel=1e-3), name
@@ -59,8 +61,10 @@ def test_speed_constant_and_phase_values(motor):
 
 def test_cogging_of_the_file_must_be_overcome(motor):
     found = motor('cogging_amplitude = "0.02 N*m"\ncogging_order = 252')
-    bare = run_bench(actuator_parameters(DESIGN), only=["backdrive_static"]).metrics[0].value
-    own = actuator_parameters(DESIGN, own_motor=found)
+    bare = (
+        run_bench(actuator_parameters(resolve(DESIGN)), only=["backdrive_static"]).metrics[0].value
+    )
+    own = actuator_parameters(Specimen(motor=found).machine(DESIGN), Specimen(motor=found))
     cogged = run_bench(own, only=["backdrive_static"]).metrics[0].value
     # What the output must bring for it, friction under load on the way at its breakaway.
     friction = own.friction
@@ -83,7 +87,7 @@ def test_cogging_of_the_file_must_be_overcome(motor):
         ('measured_between = "wire"', "none of line, phase"),
         ("pole_pairs = 0", "whole number from 1"),
         ("pole_pairs = 2.5", "whole number from 1"),
-        ("name = ", "is not TOML"),
+        ("name = ", "is not valid TOML"),
     ],
 )
 def test_impossible_motors_are_refused(motor, text, says):

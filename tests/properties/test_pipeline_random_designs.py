@@ -12,7 +12,8 @@ from cqdd_design.catalog import bearings, materials, motors
 from cqdd_design.cli.envelope import json_ready
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import CqddError
-from cqdd_design.gearbox import GearboxAnalysis, analyse_gearbox
+from cqdd_design.gearbox import GearboxAnalysis
+from cqdd_design.machine import resolve
 from cqdd_design.sizing.comparison import cycloid_limits
 
 PAPER = (Path(__file__).parents[2] / "designs" / "cqdd-10.toml").read_text(encoding="utf-8")
@@ -106,7 +107,7 @@ def test_a_random_design_is_analysed_or_refused(mapping: dict[str, object]) -> N
 
 def analysed(mapping: dict[str, object]) -> GearboxAnalysis | CqddError:
     try:
-        analysis = analyse_gearbox(Design.from_mapping(mapping), angles=8)
+        analysis = resolve(Design.from_mapping(mapping)).analyse(angles=8)
         cycloid_limits(analysis)
     except CqddError as error:
         return error

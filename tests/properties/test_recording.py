@@ -14,7 +14,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cqdd_design import actuator_pipeline as pipeline
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.packing import largest_step
 from cqdd_design.actuator.parameters import ActuatorParameters
@@ -39,8 +38,11 @@ from cqdd_design.actuator.scenario import (
     Start,
     Wall,
 )
+from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import load_design
 from cqdd_design.errors import DependencyError, DesignError, UsageError
+from cqdd_design.machine import resolve
+from cqdd_design.roads import simulate as road
 from cqdd_design.units import ANGLE, CURRENT, TIME, TORQUE, parse_quantity
 
 DESIGN = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
@@ -52,11 +54,13 @@ SWINGING = Scenario(
 
 @functools.lru_cache(maxsize=1)
 def perfect() -> ActuatorParameters:
-    return actuator_parameters(DESIGN)
+    return actuator_parameters(resolve(DESIGN))
 
 
-def recorded(scenario: Scenario, duration: float = 0.5, **more: object) -> Recording:
-    return pipeline.simulate(DESIGN, scenario, duration=duration, **more)
+def recorded(
+    scenario: Scenario, duration: float = 0.5, *, seed: int | None = None, **more: object
+) -> Recording:
+    return road.simulate(DESIGN, scenario, Specimen(seed=seed), duration=duration, **more)
 
 
 @pytest.fixture(scope="module")
@@ -214,7 +218,7 @@ def test_without_pyarrow_the_sentence_says_what_to_install(swinging, tmp_path, m
         write_parquet(tmp_path / "a.parquet", swinging)
     assert caught.value.exit_code == 5
     with pytest.raises(DependencyError):
-        pipeline.simulation_kind(tmp_path / "a.parquet")
+        road.simulation_kind(tmp_path / "a.parquet")
     assert not list(tmp_path.iterdir())
 
 
@@ -344,7 +348,7 @@ def test_a_reference_that_is_none(tmp_path, content, said):
 
 
 def test_a_reference_that_cannot_be_read(tmp_path):
-    with pytest.raises(UsageError, match="cannot be read: No such file"):
+    with pytest.raises(UsageError, match="there is no such file"):
         read_reference(tmp_path / "none.csv", TORQUE)
     with pytest.raises(UsageError, match="cannot be read: Is a directory"):
         read_reference(tmp_path, TORQUE)

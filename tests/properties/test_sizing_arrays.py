@@ -12,7 +12,6 @@ from cqdd_design.catalog import find_bearing
 from cqdd_design.catalog.screws import pin_diameter_limits
 from cqdd_design.design import Requirements
 from cqdd_design.errors import GeometryError
-from cqdd_design.gearbox import analyse_gearbox
 from cqdd_design.gearbox.loads import rigid_maxima
 from cqdd_design.gearbox.stages import Stages, pin_mean_diameter
 from cqdd_design.geometry import (
@@ -24,6 +23,7 @@ from cqdd_design.geometry import (
     undercut_radius_limit,
 )
 from cqdd_design.geometry.relief import solid_relief
+from cqdd_design.machine import resolve
 from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.bought_parts import bearing_table
 from cqdd_design.sizing.finish import design_of, is_load, torque_reserve
@@ -160,7 +160,7 @@ def test_a_points_reserve_is_that_of_its_analysed_design(
     evaluator, points = points_near(ratio, steps, count, size)
     assume(points.reserve[0] > 0.0)
     design = design_of(evaluator, points, 0)
-    checks = analyse_gearbox(design).checks
+    checks = resolve(design).analysis.checks
     least = min(torque_reserve(check, design) for check in checks if is_load(check))
     # The tables err on the safe side where teeth vie for the greatest pressure.
     assert -1.2e-2 <= points.reserve[0] / least - 1.0 <= 2e-3

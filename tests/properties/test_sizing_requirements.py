@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from cqdd_design.catalog import find_material
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
-from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.machine import resolve
 from cqdd_design.results import worst_status
 from cqdd_design.sizing import SizingInfeasibleError, size
 
@@ -33,7 +33,7 @@ def assert_sound(result, requirements):
         assert design.reducer.ring.outer_diameter == requirements.outer_diameter
         assert design.reducer.pack_length <= requirements.length + 1e-9
         # Without the keys that were assumed: a motor that nobody named may fall short.
-        checks = analyse_gearbox(design.replacing({})).checks
+        checks = resolve(design.replacing({})).analysis.checks
         assert [check.id for check in checks if check.status == "fail"] == []
         warned = {check.id for check in checks if check.status == "warn"}
         assert all(one in MAY_WARN or one.startswith("MOTOR-") for one in warned)

@@ -9,7 +9,7 @@ import pytest
 
 from cqdd_design.design import Design, Requirements
 from cqdd_design.errors import GeometryError
-from cqdd_design.gearbox import analyse_gearbox
+from cqdd_design.machine import resolve
 from cqdd_design.sizing.frame import search_frame
 from cqdd_design.sizing.screen import screen
 from cqdd_design.sizing.shape_limits import largest_pin_circle, valley_offset
@@ -104,7 +104,7 @@ def test_every_verdict_is_that_of_the_full_analysis(ratio, peak, bearings, count
         survivors += found.survivors
         alone.update(verdict)
         try:
-            checks = analyse_gearbox(design_of(frame, tables, one)).checks
+            checks = resolve(design_of(frame, tables, one)).analysis.checks
         except GeometryError:
             # Edges that meet are refused before any check: thinner still than a thin ligament.
             assert order.index(verdict[0]) <= order.index(LAST_SHAPE)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from solids_designs import known_design, known_parts, part_named
 
-from cqdd_design.pipeline import assembly_check
+from cqdd_design.roads.check import assembly_check
 from cqdd_design.solids.clearances import SEARCH, AssemblyMotion, assembly_motion, output_revolution
 from cqdd_design.solids.mesh import DISPLAY
 from cqdd_design.solids.part import Instance, Part

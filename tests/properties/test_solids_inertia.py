@@ -11,10 +11,10 @@ from solids_designs import CHANGES, known_design, known_parts, part_named
 from cqdd_design.catalog import find_bearing, find_motor
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.machine import resolve
 from cqdd_design.results import MassProperties
-from cqdd_design.solids.inertia import closed_form, crank_properties, gearbox_inertia
+from cqdd_design.solids.inertia import closed_form, crank_properties
 from cqdd_design.solids.part import Part
-from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.poses import SHAFT, Body, body_pose
 
 STEP = 1e-6
@@ -40,7 +40,7 @@ def kinetic_inertia(
 @pytest.mark.parametrize("name", CHANGES)
 def test_reflected_inertia_is_twice_the_kinetic_energy(name: str) -> None:
     design, parts = known_design(name), known_parts(name)
-    found = gearbox_inertia(design, parts, closed_form)
+    found = resolve(design).inertia
     for part, row in zip(parts, found.parts, strict=True):
         if part.inner_body is not None:
             continue
@@ -56,7 +56,7 @@ def test_reflected_inertia_is_twice_the_kinetic_energy(name: str) -> None:
 @pytest.mark.parametrize("name", ["paper", "three discs"])
 def test_a_bearing_counts_between_its_two_rings(name: str) -> None:
     design, parts = known_design(name), known_parts(name)
-    found = gearbox_inertia(design, parts, closed_form)
+    found = resolve(design).inertia
     for part, row in zip(parts, found.parts, strict=True):
         if part.inner_body is None:
             continue
@@ -77,7 +77,7 @@ def test_a_bearing_counts_between_its_two_rings(name: str) -> None:
 
 def test_sums_and_signs() -> None:
     design, parts = known_design("paper"), known_parts("paper")
-    found = gearbox_inertia(design, parts, closed_form)
+    found = resolve(design).inertia
     rotor = find_motor("CubeMars RO100 KV55").rotor_inertia
     assert found.rotor_inertia == rotor == 5.6e-4
     # The rotor is one of the parts, drawn so that it has the catalogue's inertia.
@@ -108,16 +108,14 @@ def test_sums_and_signs() -> None:
 def test_orbiting_mass_is_disc_and_cam_bearing() -> None:
     design, parts = known_design("paper"), known_parts("paper")
     disc = part_named(parts, "disc").mass
-    found = gearbox_inertia(design, parts, closed_form)
+    found = resolve(design).inertia
     assert found.orbiting_mass == pytest.approx(disc + find_bearing("6902").mass)
 
 
 def test_discs_weigh_on_the_input_by_orbit_and_spin() -> None:
     design, parts = known_design("paper"), known_parts("paper")
     disc = part_named(parts, "disc")
-    row = next(
-        one for one in gearbox_inertia(design, parts, closed_form).parts if one.name == "disc"
-    )
+    row = next(one for one in resolve(design).inertia.parts if one.name == "disc")
     own = disc.exact_properties
     e, n = design.reducer.eccentricity, design.reducer.ratio
     assert row.reflected == pytest.approx(2.0 * (own.mass * e**2 + own.inertia[2, 2] / n**2))
@@ -125,13 +123,12 @@ def test_discs_weigh_on_the_input_by_orbit_and_spin() -> None:
 
 def test_a_motor_without_rotor_inertia_is_told() -> None:
     design = known_design("paper").replacing({"motor.name": "CubeMars R100 KV90"})
-    parts = build_parts(design, find_bearing("6902"))
-    found = gearbox_inertia(design, parts, closed_form)
+    found = resolve(design).inertia
     assert found.rotor_inertia is None
     assert found.reflected_input == found.gearbox_reflected
     assert "no sizes of rotor and stator for CubeMars R100 KV90" in found.warnings[0]
     assert "no rotor inertia for CubeMars R100 KV90" in found.warnings[1]
-    assert gearbox_inertia(known_design("paper"), known_parts("paper"), closed_form).warnings == ()
+    assert resolve(known_design("paper")).inertia.warnings == ()
 
 
 def test_crank_of_two_opposed_lobes_has_a_couple_and_no_unbalance() -> None:
@@ -151,11 +148,10 @@ def test_crank_of_two_opposed_lobes_has_a_couple_and_no_unbalance() -> None:
 
 def test_eccentricity_and_density_have_their_effect() -> None:
     design = known_design("paper")
-    bearing = find_bearing("6902")
 
     def reflected(changes: dict[str, object]) -> dict[str, float]:
         changed = design.replacing(changes)
-        rows = gearbox_inertia(changed, build_parts(changed, bearing), closed_form).parts
+        rows = resolve(changed).inertia.parts
         return {row.name: row.reflected for row in rows}
 
     base, less = reflected({}), reflected({"reducer.eccentricity": 0.0014})
@@ -174,7 +170,7 @@ def test_catalogue_mass_overrides_the_envelope() -> None:
 
 
 def test_json_form_has_the_fixed_keys() -> None:
-    found = gearbox_inertia(known_design("paper"), known_parts("paper"), closed_form).to_dict()
+    found = resolve(known_design("paper")).inertia.to_dict()
     assert {
         "parts",
         "total_mass_kg",

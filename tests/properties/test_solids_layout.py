@@ -12,14 +12,16 @@ from solids_designs import CHANGES, known_design, known_parts, machines, part_na
 
 from cqdd_design.catalog import find_bearing
 from cqdd_design.catalog.bearings import Bearing
+from cqdd_design.catalog.motors import find_motor
 from cqdd_design.design import Design
 from cqdd_design.errors import CatalogError, GeometryError
 from cqdd_design.geometry.contours import Circle
 from cqdd_design.geometry.disc import disc_contour
+from cqdd_design.machine import resolve
 from cqdd_design.solids.clocking import disc_groups
 from cqdd_design.solids.layers import Annulus, Drilling, notched_circle, on_circle, turned
 from cqdd_design.solids.part import Part
-from cqdd_design.solids.parts import build_parts, total_mass
+from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.poses import HOUSING, body_pose
 from cqdd_design.solids.proportions import lay_out
 from cqdd_design.solids.selection import output_pin
@@ -70,7 +72,7 @@ def assert_turned_parts_apart(design: Design, parts: tuple[Part, ...]) -> None:
 def test_any_machine_fits_together_or_says_why(machine: tuple[Design, Bearing]) -> None:
     design, bearing = machine
     try:
-        parts = build_parts(design, bearing)
+        parts = build_parts(design, lay_out(design, bearing, find_motor(design.motor.name)))
     except (GeometryError, CatalogError):
         return
     assert_turned_parts_apart(design, parts)
@@ -113,7 +115,7 @@ def test_known_machines_have_their_parts(name: str) -> None:
 
 def test_shoulder_screws_are_catalogue_screws_that_span_the_pack() -> None:
     design = known_design("paper")
-    layout = lay_out(design, find_bearing("6902"))
+    layout = resolve(design).layout
     carrier, pack = layout.carrier, layout.pack
     length = carrier.shoulder_top - carrier.shoulder_bottom
     assert length == pytest.approx(0.025)  # a standard length of ISO 7379
@@ -127,11 +129,10 @@ def test_shoulder_screws_are_catalogue_screws_that_span_the_pack() -> None:
 
 
 def test_stator_bore_is_the_register_where_it_suits_the_ring() -> None:
-    bearing = find_bearing("6902")
-    paper = lay_out(known_design("paper"), bearing)
+    paper = resolve(known_design("paper")).layout
     assert paper.housing.seated_motor
     assert paper.housing.register_radius == pytest.approx(0.038)
-    wide = lay_out(known_design("pinwheel"), bearing)
+    wide = resolve(known_design("pinwheel")).layout
     assert not wide.housing.seated_motor
     assert wide.housing.register_radius > 0.039
 
@@ -139,19 +140,21 @@ def test_stator_bore_is_the_register_where_it_suits_the_ring() -> None:
 def test_cam_bearings_must_not_run_into_each_other() -> None:
     design = known_design("paper").replacing({"reducer.disc_thickness": 0.006})
     with pytest.raises(GeometryError, match=r"7 mm wide, more than the 6\.5 mm"):
-        build_parts(design, find_bearing("6902"))
+        build_parts(design, resolve(design).layout)
 
 
 def test_eccentrics_must_leave_a_shaft() -> None:
     design = known_design("paper")
     with pytest.raises(GeometryError, match="leaves no eccentric shaft"):
-        build_parts(design, find_bearing("SKF 618/4"))
+        build_parts(
+            design, lay_out(design, find_bearing("SKF 618/4"), find_motor(design.motor.name))
+        )
 
 
 def test_a_sleeve_must_go_over_its_pin() -> None:
     design = known_design("paper").replacing({"reducer.output_pins.sleeve_diameter": 0.003})
     with pytest.raises(GeometryError, match="does not go over"):
-        build_parts(design, find_bearing("6902"))
+        build_parts(design, resolve(design).layout)
 
 
 @pytest.mark.parametrize("ratio", [5, 6, 10, 11, 24])
@@ -246,9 +249,8 @@ def test_fits_are_named_and_have_limits() -> None:
 def test_density_of_the_housing_shows_in_the_mass() -> None:
     design = known_design("paper")
     steel = design.replacing({"housing.material": "AISI 4140 Q&T 540C"})
-    bearing = find_bearing("6902")
-    light = {part.name: part.mass for part in build_parts(design, bearing)}
-    heavy = {part.name: part.mass for part in build_parts(steel, bearing)}
+    light = {part.name: part.mass for part in resolve(design).parts}
+    heavy = {part.name: part.mass for part in resolve(steel).parts}
     for name in ("housing", "carrier plate", "carrier cap", "ring clamp", "output cover"):
         assert heavy[name] / light[name] == pytest.approx(7850.0 / 2810.0)
     assert heavy["ring"] == light["ring"]
@@ -257,4 +259,6 @@ def test_density_of_the_housing_shows_in_the_mass() -> None:
 def test_fixed_parts_stay_where_they_are() -> None:
     design = known_design("paper")
     assert np.array_equal(body_pose(design, HOUSING, 1.234), np.eye(4))
-    assert total_mass(known_parts("paper")) == pytest.approx(1.7718, abs=1e-4)
+    assert sum(part.mass * part.count for part in known_parts("paper")) == pytest.approx(
+        1.7718, abs=1e-4
+    )

@@ -12,7 +12,8 @@ from solids_designs import known_design, known_parts, part_named
 
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.disc import profile_moments
-from cqdd_design.solids.interference import collisions, find_overlaps, shared_volume
+from cqdd_design.solids.clearances import assembly_motion
+from cqdd_design.solids.interference import overlap_of, posed_manifold
 from cqdd_design.solids.mesh import (
     DISPLAY,
     FINE,
@@ -109,7 +110,8 @@ def test_display_meshes_are_closed_and_small() -> None:
     ids=lambda value: value if isinstance(value, str) else "",
 )
 def test_nothing_runs_into_anything(name: str, angles: list[float], quality: Quality) -> None:
-    found = collisions(known_design(name), known_parts(name), angles, quality)
+    design, parts = known_design(name), known_parts(name)
+    found = assembly_motion(design, parts, np.array(angles), quality).collisions
     assert found == (), [f"{o.first} and {o.second}: {o.volume * 1e9:.3g} mm3" for o in found]
 
 
@@ -128,9 +130,10 @@ def moved(part: Part, piece: str, placement: np.ndarray) -> Part:
 
 def test_gear_train_clears_over_many_angles() -> None:
     angles = 2.0 * math.pi * np.arange(7) / 7 * known_design("paper").reducer.ratio
-    found = find_overlaps(known_design("paper"), gear_train(known_parts("paper")), angles)
+    found = assembly_motion(known_design("paper"), gear_train(known_parts("paper")), angles)
     # The teeth leave 6 um and the holes 8 um: more than the facets.
-    assert found == ()
+    assert found.collisions == ()
+    assert min(one.gap for one in found.clearances) > 0.0
 
 
 @pytest.mark.parametrize(
@@ -153,7 +156,7 @@ def test_a_wrongly_phased_disc_is_caught(fault: str, placement: np.ndarray) -> N
         )
     else:
         wrong = moved(disc, "disc 2", placement)
-    found = collisions(design, (wrong, *train[1:]), [0.4])
+    found = assembly_motion(design, (wrong, *train[1:]), np.array([0.4])).collisions
     assert found, fault
     assert all("disc 2" in {one.first, one.second} for one in found)
     others = {one.first for one in found} | {one.second for one in found}
@@ -177,9 +180,14 @@ def test_shared_volume_is_that_of_the_lens() -> None:
         4.0 * radius**2 - apart**2
     )
     height = pin.shape.top - pin.shape.bottom
-    shared = shared_volume(design, (pin, first), (pin, second), 0.0)
-    assert shared == pytest.approx(lens * height, rel=2e-4)
-    assert shared_volume(design, (pin, first), (screw, screw.instances[2]), 0.0) == 0.0
+    here, there, far = (
+        posed_manifold(part, piece.pose(design), FINE)
+        for part, piece in ((pin, first), (pin, second), (screw, screw.instances[2]))
+    )
+    shared = overlap_of(here, there)
+    assert shared is not None
+    assert shared[0] == pytest.approx(lens * height, rel=2e-4)
+    assert overlap_of(here, far) is None
 
 
 def test_posed_mesh_stands_where_the_assembly_puts_it() -> None:

@@ -14,13 +14,12 @@ from cqdd_design.catalog import find_bearing, find_motor
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.contours import Circle
+from cqdd_design.machine import resolve
+from cqdd_design.solids.clearances import assembly_motion
 from cqdd_design.solids.counterweights import crank_moments
-from cqdd_design.solids.interference import collisions
 from cqdd_design.solids.layers import Annulus, circle, reshaped, scalloped_circle, turned
 from cqdd_design.solids.mesh import DISPLAY
 from cqdd_design.solids.part import Part
-from cqdd_design.solids.parts import build_parts
-from cqdd_design.solids.proportions import lay_out
 
 BEARING = find_bearing("6902")
 MOTOR = ("motor stator", "motor rotor", "rotor bell", "motor cover", "encoder magnet")
@@ -28,7 +27,7 @@ MOTOR = ("motor stator", "motor rotor", "rotor bell", "motor cover", "encoder ma
 
 def built(changes: dict[str, object]) -> tuple[Design, tuple[Part, ...]]:
     design = known_design("paper").replacing(changes)
-    return design, build_parts(design, BEARING)
+    return design, resolve(design).parts
 
 
 # ------------------------------------------------------------------ outlines
@@ -91,7 +90,7 @@ def test_the_motor_is_the_catalogues() -> None:
 
 def test_the_magnet_is_flush_and_the_sensor_near_it() -> None:
     design = known_design("paper")
-    layout = lay_out(design, BEARING)
+    layout = resolve(design).layout
     motor = layout.motor
     assert motor is not None
     assert motor.magnet_bottom == pytest.approx(layout.shaft.bottom)
@@ -115,11 +114,14 @@ def test_a_motor_that_cannot_be_drawn_is_left_out_and_told(
 ) -> None:
     design, parts = built(changes)
     assert not {part.name for part in parts} & set(MOTOR)
-    assert why in lay_out(design, BEARING).motor_missing
+    assert why in resolve(design).layout.motor_missing
 
 
 def test_dowels_lie_half_in_ring_and_half_in_housing() -> None:
-    parts, layout = known_parts("paper"), lay_out(known_design("paper"), BEARING)
+    parts, layout = (
+        known_parts("paper"),
+        resolve(known_design("paper")).layout,
+    )
     dowel, dowels = part_named(parts, "ring dowel"), layout.dowels
     hole = math.pi * dowels.radius**2 * (layout.pack.top - dowels.bottom) * dowel.count
     plain = known_design("paper")
@@ -165,7 +167,7 @@ def test_weights_run_clear() -> None:
         for part in parts
         if part.name.startswith("balance") or part.name in (*MOTOR, "housing")
     )
-    assert collisions(design, near, [0.7], DISPLAY) == ()
+    assert assembly_motion(design, near, np.array([0.7]), DISPLAY).collisions == ()
 
 
 def test_weights_without_a_motor_are_refused() -> None:

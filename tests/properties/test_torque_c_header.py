@@ -15,7 +15,7 @@ from torque_networks import DT, PV, PVA, TAPS, features, joint, network
 from torque_samples import actuator
 
 from cqdd_design.errors import UsageError
-from cqdd_design.exporting.estimators.c_header import c_name, header_text, write_c_header
+from cqdd_design.exporting.estimators.c_header import c_name, export_c, header_text
 from cqdd_design.torque.data.episodes import Episode
 from cqdd_design.torque.features.matrix import feature_matrix
 from cqdd_design.torque.features.physics import actuator_to_dict, driven_torque
@@ -306,7 +306,7 @@ def test_the_tangent_is_good_to_a_millionth(tmp_path):
 @compiled
 def test_two_networks_live_in_one_program(tmp_path):
     for name, artefact in (("one", network()), ("two", network("mlp"))):
-        write_c_header(artefact, tmp_path / f"{name}.h")
+        export_c(artefact, tmp_path / name)
     (tmp_path / "both.c").write_text(
         '#include "one.h"\n#include "two.h"\n#include "one.h"\nint main(void) { one_state a; '
         "two_state b; one_init(&a); two_init(&b); return one_step(&a, 0.1f, 0.0f) == "

@@ -11,15 +11,25 @@ import pytest
 
 from cqdd_design.actuator.scenario import Wall
 from cqdd_design.errors import UsageError
-from cqdd_design.report.torque.torque_view import torque_page
+from cqdd_design.report.torque.page import torque_page
 from cqdd_design.torque.data.episodes import DataSet, Episode
 from cqdd_design.torque.evaluation import bootstrap, metrics
-from cqdd_design.torque.evaluation.estimators import Estimator, network_estimator, without_phase
-from cqdd_design.torque.evaluation.evaluate import PAPER, evaluate
+from cqdd_design.torque.evaluation.behaviour import Effort
+from cqdd_design.torque.evaluation.documents import result_dict
+from cqdd_design.torque.evaluation.estimator import Estimator, network_estimator, without_phase
+from cqdd_design.torque.evaluation.evaluate import evaluate
 from cqdd_design.torque.evaluation.lineup import split_of, trained_on
-from cqdd_design.torque.evaluation.ripple import BAND, order_spectrum, ripple, spectra, strokes
+from cqdd_design.torque.evaluation.markdown import ends_shown, markdown, shown
+from cqdd_design.torque.evaluation.paper import PAPER
+from cqdd_design.torque.evaluation.ripple import (
+    BAND,
+    mean_amplitudes,
+    order_spectrum,
+    ripple,
+    spectra,
+    strokes,
+)
 from cqdd_design.torque.evaluation.rollout import Pendulum, drift, pendulum_of, rollout
-from cqdd_design.torque.evaluation.table import markdown, shown
 from cqdd_design.torque.networks.artefact import Artefact, Validity
 
 DT = 0.005
@@ -154,13 +164,6 @@ def test_regimes_are_what_they_say():
     assert 0.0 < found["reversal"].mean() < 0.3
 
 
-def test_estimates_that_are_no_numbers_are_refused():
-    with pytest.raises(UsageError, match="not finite at sample 2"):
-        metrics.scores(np.array([0.0, 1.0, np.nan]), np.zeros(3))
-    with pytest.raises(UsageError, match="one for each"):
-        metrics.scores(np.zeros(2), np.zeros(3))
-
-
 def test_quantiles_of_histograms_are_quantiles():
     size = np.abs(np.random.default_rng(1).normal(size=20_000))
     counts, ends = metrics.size_histograms([size[:9000], size[9000:]])
@@ -212,6 +215,16 @@ def test_what_lies_outside_the_band_is_no_ripple():
     assert flat.amplitude_error.value == pytest.approx(-0.6, abs=2e-3)
     assert flat.frequency is None
     assert flat.phase is None
+
+
+def test_the_density_of_white_noise_is_its_power_over_half_the_rate():
+    noise = 0.7 * np.random.default_rng(8).normal(size=200_000)
+    found = spectra([noise], [2.0 * noise], [np.ones(len(noise), bool)], DT)
+    frequency, label, estimate = mean_amplitudes(found)
+    inner = slice(4, -4)
+    assert np.mean(label[inner] ** 2) == pytest.approx(0.49 * 2.0 * DT, rel=0.02)
+    np.testing.assert_allclose(estimate, 2.0 * label)
+    assert frequency[-1] == pytest.approx(0.5 / DT)
 
 
 def test_noise_apart_from_the_label_costs_coherence():
@@ -314,6 +327,13 @@ def test_intervals_repeat_by_seed_and_shrink_with_episodes():
         bootstrap.draws(0)
 
 
+def test_ninety_five_in_a_hundred_lie_within():
+    found = bootstrap.interval(500.0, np.arange(1001.0), episodes=9)
+    assert found.ends == pytest.approx([25.0, 975.0])
+    # The value itself belongs to it.
+    assert bootstrap.interval(990.0, np.arange(1001.0), episodes=9).high == 990.0
+
+
 def test_angles_keep_their_interval_across_the_turn():
     near = np.array([178.0, 179.0, -179.0, -178.0] * 100)
     found = bootstrap.circular_interval(180.0, near, episodes=4)
@@ -345,7 +365,7 @@ class Law:
     def __init__(self, gain: float = 60.0, damping: float = 2.0):
         self.gain, self.damping = gain, damping
 
-    def step(self, past: Episode) -> float:
+    def __call__(self, past: Episode) -> float:
         error = past.columns["target"][-1] - past.columns["position"][-1]
         return self.gain * error - self.damping * past.columns["velocity"][-1]
 
@@ -367,6 +387,23 @@ def test_the_pendulum_keeps_its_energy_and_has_the_period_of_its_mechanics():
         if before < 0.0 <= angle:
             times.append(t - DT * angle / (angle - before))
     assert times[1] - times[0] == pytest.approx(2 * np.pi * math.sqrt(0.5 / 6.0), rel=1e-3)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_the_wall_only_pushes_and_takes_energy(side):
+    """Hunt and Crossley: k d^n (1 + c d') outwards from the wall, and never inwards."""
+    pendulum = Pendulum(0.5, 0.0, wall=Wall(0.3 * side, 300.0, 1.5, 0.4, side))
+    held = 300.0 * 0.1**1.5
+    assert pendulum.load(0.4 * side, 0.0) == pytest.approx(side * held)
+    assert pendulum.load(0.4 * side, 0.5 * side) == pytest.approx(side * held * 1.2)
+    assert pendulum.load(0.4 * side, -0.5 * side) == pytest.approx(side * held * 0.8)
+    assert pendulum.load(0.4 * side, -9.0 * side) == 0.0
+    assert pendulum.load(0.2 * side, 5.0 * side) == 0.0
+    assert pendulum.energy(0.4 * side, 0.0) == pytest.approx(300.0 * 0.1**2.5 / 2.5)
+    before = pendulum.energy(0.25 * side, 2.0 * side)
+    angle, speed, _ = pendulum.advance(0.25 * side, 2.0 * side, 0.0, 0.5)
+    assert side * speed < 0.0
+    assert 0.3 * before < pendulum.energy(angle, speed) < 0.95 * before
 
 
 def test_work_of_a_held_torque_is_what_the_energy_gains():
@@ -467,9 +504,9 @@ def names(data: DataSet) -> tuple[str, ...]:
 
 
 def run(data, estimators, **options):
+    seen, sets = options.pop("seen", None), options.pop("sets", {"trajectory": names(data)})
     chosen = {"draws": 300, "rollouts": 0, "drift_steps": 0, "timed": False} | options
-    sets = chosen.pop("sets", {"trajectory": names(data)})
-    return evaluate(data, sets, estimators, **chosen)
+    return evaluate(data, sets, estimators, seen=seen, effort=Effort(**chosen))
 
 
 def test_known_errors_are_measured(data):
@@ -520,9 +557,7 @@ def test_seeds_of_a_model_are_averaged(data):
 def test_a_network_is_run_timed_streamed_and_rolled_out(data):
     own = network_estimator(gru(("position_error", "velocity", "sin_11", "cos_11")))
     law = Estimator("pd-law", controller, 0)
-    result = evaluate(
-        data, {"trajectory": names(data)}, [own, law], draws=200, rollouts=2, drift_steps=5000
-    )
+    result = run(data, [own, law], draws=200, rollouts=2, drift_steps=5000, timed=True)
     told = result.behaviour("pv-gru")
     assert len(told.rollouts) == 2
     assert told.drift.finite
@@ -534,7 +569,7 @@ def test_a_network_is_run_timed_streamed_and_rolled_out(data):
     assert score.unknown_phase.rmse.value != score.overall.rmse.value
     assert result.behaviour("pd-law").rollouts[0].position_rms < 1.0
     assert result.behaviour("pd-law").latency.streaming_p50 is None
-    document = result.to_dict()
+    document = result_dict(result)
     text = json.dumps(document, allow_nan=False)
     assert "NaN" not in text
     first = document["models"]["pv-gru"]
@@ -585,14 +620,17 @@ def test_what_a_model_was_trained_on_does_not_count(data):
     assert result.sets[0].model("mlp") is not None
     assert result.sets[1].model("mlp") is None
     assert any("trained on 2 of the 6" in sentence for sentence in result.warnings)
-    assert result.to_dict()["sets"]["wall"]["models"].keys() == {"pva-gru"}
+    assert result_dict(result)["sets"]["wall"]["models"].keys() == {"pva-gru"}
     with pytest.raises(UsageError, match="every model was trained"):
         run(data, [known("mlp", 1.0)], sets={"wall": names(data)}, seen=seen)
 
 
 def test_the_leaked_score_stands_beside_the_honest_one(data):
-    result = run(data, [known("mlp", 1.0)], leaked={"mlp": 0.4}, timed=True)
-    assert result.to_dict()["models"]["mlp"]["leaked_rmse_Nm"] == 0.4
+    told = network_estimator(gru(facts={"leaked_rmse_Nm": 0.4}))
+    result = run(data, [told, known("mlp", 1.0)], timed=True)
+    models = result_dict(result)["models"]
+    assert models["pv-gru"]["leaked_rmse_Nm"] == 0.4
+    assert models["mlp"]["leaked_rmse_Nm"] is None
     assert "0.400" in torque_page(result)
 
 
@@ -646,7 +684,7 @@ def test_slow_samples_show_no_ripple(data):
     result = run(slow, [known("a", 1.0)])
     assert result.sets[0].models[0].ripple is None
     assert any("does not show the ripple band" in sentence for sentence in result.warnings)
-    json.dumps(result.to_dict(), allow_nan=False)
+    json.dumps(result_dict(result), allow_nan=False)
     assert "torque-rmse-all" in torque_page(result)
 
 
@@ -667,6 +705,11 @@ def test_tables_keep_the_paper_apart(data):
     assert "1.71" not in ours
     assert shown(bootstrap.Interval(0.9712, 0.91, 1.04)) == "0.97 [0.91, 1.04]"
     assert shown(bootstrap.Interval(0.9712)) == "0.971"
+    assert ends_shown(bootstrap.Interval(0.9712, 0.91, 1.04), 100.0) == ("97", "91 to 104")
+    whole = run(data, [known("mlp", 1.0), known("pva-gru", 0.5)])
+    pair = next(p for p in whole.sets[0].paired if (p.model, p.metric) == ("mlp", "rmse"))
+    change = 100.0 * (pair.ratio.value - 1.0)
+    assert f"| mlp | pva-gru | {change:+.1f} [" in markdown(whole)
     widths = {line.count("|") for line in paper.splitlines() if line.startswith("|")}
     assert len(widths) == 1
 
@@ -674,8 +717,12 @@ def test_tables_keep_the_paper_apart(data):
 def test_files_tell_their_split():
     split = {"protocol": "wall", "seed": 3, "train": ["a"], "validation": ["b"], "test": ["c"]}
     own, other = gru(facts={"split": split}), gru(facts={"split": split | {"seed": 4}})
-    assert trained_on(own) == {"a", "b"}
-    assert trained_on(gru()) == frozenset()
+    assert trained_on(own, "0" * 64) == {"a", "b"}
+    assert trained_on(gru(), "0" * 64) == frozenset()
+    # A name says which episode only within the data set that the file names.
+    named = gru(facts={"split": split, "data_sha256": "1" * 64})
+    assert trained_on(named, "1" * 64) == {"a", "b"}
+    assert trained_on(named, "0" * 64) == frozenset()
     assert split_of([own], None) == ("wall", 3)
     assert split_of([gru()], None) == ("trajectory", 0)
     assert split_of([own, other], 5) == ("wall", 5)

@@ -10,15 +10,16 @@ import pytest
 from torque_samples import DT, actuator, data_set, episode
 
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.features.matrix import (
-    PHYSICAL,
+from cqdd_design.torque.features.acceleration import (
     acceleration,
     differentiator_error,
+    savitzky_golay,
+)
+from cqdd_design.torque.features.matrix import (
+    PHYSICAL,
     feature_matrix,
     phase_inputs,
-    savitzky_golay,
     strongest_orders,
-    windows,
 )
 from cqdd_design.torque.training.packing import pack_data, unpack_data
 
@@ -89,19 +90,18 @@ def test_noise_is_the_root_of_the_taps_squares():
     assert np.std(acceleration(noise, slope)) == pytest.approx(1e-3 * told, rel=0.02)
 
 
-def test_windows_are_oldest_first_and_end_at_each_sample():
-    matrix = np.arange(20.0).reshape(10, 2)
-    found = windows(matrix, 4)
-    assert found.shape == (7, 4, 2)
-    np.testing.assert_array_equal(found[0], matrix[:4])
-    np.testing.assert_array_equal(found[-1], matrix[6:])
-
-
 def test_strongest_orders_weigh_error_by_order():
     gear = actuator().gear
     assert strongest_orders(gear, 2) == (10, 11)
     assert strongest_orders(gear, 99) == (1, 10, 11, 20)
     assert phase_inputs((10, 11)) == ("sin_10", "cos_10", "sin_11", "cos_11")
+    # By T d/((p + 1) k T): 40 N m wind 2e4 N m/rad by 2 mrad, so a harmonic of 0.01 of the
+    # stiffness weighs as an error of 0.01 * 2e-3/2.2 = 9.1 urad of its order.
+    flat = dict.fromkeys(("error_sine", "stiffness_sine"), np.zeros(4))
+    for error, best in ((8.9e-6, 10), (9.3e-6, 11)):
+        told = {"error_cosine": np.array([0, 0, error * 10 / 11, 0])}
+        told["stiffness_cosine"] = np.array([0.0, 0.01, 0.0, 0.0])
+        assert strongest_orders(dataclasses.replace(gear, **flat, **told), 1) == (best,)
     still = dataclasses.replace(
         gear,
         **dict.fromkeys(
@@ -139,8 +139,6 @@ def test_features_that_cannot_be(name, told):
 def test_differentiators_that_cannot_be(bad):
     with pytest.raises(UsageError, match="differentiator"):
         savitzky_golay(*bad)
-    with pytest.raises(UsageError, match="does not fit"):
-        windows(np.zeros((3, 2)), 4)
 
 
 def test_a_packed_data_set_is_the_same(tmp_path):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.data.log_checks import velocity_factor
+from cqdd_design.torque.data.log_checks import check_signals, velocity_factor
 from cqdd_design.torque.data.log_files import LogMap, read_columns, read_map
 from cqdd_design.torque.data.logs import import_logs
 from cqdd_design.torque.data.splits import audit, split
@@ -263,6 +263,26 @@ def test_doubts_are_told_and_the_log_is_kept(tmp_path):
     assert any("not the derivative" in text for text in noisy.warnings)
 
 
+@pytest.mark.parametrize(
+    ("factor", "told"),
+    [
+        (math.pi / 180.0, "units position=deg"),
+        (180.0 / math.pi, "units velocity=deg/s"),
+        (30.0 / math.pi, "units velocity=rpm"),
+        (1000.0, "too long"),
+        (1e-3, "too short"),
+        (-1.0, "opposite sign"),
+        (5.0, "other units"),
+    ],
+)
+def test_a_factor_of_the_velocity_names_what_makes_it(factor, told):
+    t = np.arange(3000) / 1000.0
+    columns = {"position": np.sin(5.0 * t), "velocity": factor * 5.0 * np.cos(5.0 * t)}
+    columns |= {"target": columns["position"], "torque": np.zeros(3000)}
+    with pytest.raises(UsageError, match=told):
+        check_signals("a.csv", columns, 1e-3, **GAINS)
+
+
 @pytest.mark.parametrize("factor", [1.0, 57.3, -2.0])
 def test_the_factor_is_found_through_an_encoder_s_counts(factor):
     t = np.arange(2000) / 1000.0
@@ -389,7 +409,7 @@ def test_a_unit_of_another_kind_is_refused():
         ("[constants]\ncurrent_to_torque = 'x'", "must be a number"),
         ("[groups]\na = 3", "must be a table"),
         ("[group]\nmass = true", "group.mass must be"),
-        ("[columns", "is not TOML"),
+        ("[columns", "is not valid TOML"),
     ],
 )
 def test_broken_map_files_are_refused(tmp_path, text, told):

@@ -21,12 +21,14 @@ from torque_samples import (
 from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Start
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.data.episodes import Episode
+from cqdd_design.torque.data.episodes import DataSet, Episode
 from cqdd_design.torque.evaluation.baselines import TERMS, current_estimate, fit_friction, pd_law
-from cqdd_design.torque.features.matrix import acceleration, savitzky_golay
+from cqdd_design.torque.features.acceleration import acceleration, savitzky_golay
+from cqdd_design.torque.features.matrix import feature_matrix
 from cqdd_design.torque.features.physics import (
     actuator_from_dict,
     actuator_to_dict,
+    dry_friction,
     friction_sign,
     gear_ripple,
     motion_balance,
@@ -49,6 +51,11 @@ def steady(speed: float, error: float, samples: int = 20) -> Episode:
     return Episode("steady", {}, DT, columns)
 
 
+def recorded(one: Episode) -> DataSet:
+    """An episode's data set, of a controller that can ask for anything."""
+    return DataSet((one,), POSITION_GAIN, VELOCITY_GAIN, (-1e9, 1e9))
+
+
 def without_friction():
     parameters = actuator()
     names = ("motor_coulomb", "output_coulomb", "motor_viscous", "output_viscous")
@@ -60,7 +67,7 @@ def without_friction():
 
 def test_without_friction_it_is_the_law_less_the_reflected_inertia():
     parameters, one = without_friction(), episode("e", 0.6, 0.3)
-    law = pd_law(one, POSITION_GAIN, VELOCITY_GAIN, (-1e9, 1e9))
+    law = pd_law(recorded(one), one)
     rate = acceleration(one.columns["velocity"], SLOPE)
     wanted = law - parameters.reflected_inertia * rate
     np.testing.assert_allclose(physical_estimate(parameters, one, SLOPE), wanted, rtol=1e-9)
@@ -75,7 +82,7 @@ def test_efficiency_has_the_direction_of_power(forward):
         parameters, friction=dataclasses.replace(parameters.friction, stribeck_extra=0.0)
     )
     one = steady(1.0, 0.2 if forward else -0.2)
-    asked = float(pd_law(one, POSITION_GAIN, VELOCITY_GAIN, (-1e9, 1e9))[-1])
+    asked = float(pd_law(recorded(one), one)[-1])
     found = float(physical_estimate(parameters, one, SLOPE)[-1])
     wanted = asked / 1.1 if forward else asked / (1.0 - 0.12)
     assert found == pytest.approx(wanted, rel=1e-9)
@@ -174,7 +181,7 @@ def test_friction_is_fitted_on_the_named_episodes_alone():
     assert told["base"] == pytest.approx(COULOMB, rel=0.2)
     other = data.named(("e5",))[0]
     error = fit.estimate(other) - other.columns["torque"]
-    law = pd_law(other, POSITION_GAIN, VELOCITY_GAIN, data.torque_range)
+    law = pd_law(data, other)
     assert np.sqrt(np.mean(error**2)) < 0.4 * np.sqrt(np.mean((law - other.columns["torque"]) ** 2))
     # An episode that is not named may hold anything.
     spoiled = dataclasses.replace(other, columns={k: 100.0 * v for k, v in other.columns.items()})
@@ -195,3 +202,57 @@ def test_current_gives_torque_by_constant_ratio_and_efficiency():
     columns = {k: v for k, v in one.columns.items() if k != "current"}
     with pytest.raises(UsageError, match="has no current"):
         current_estimate(parameters, dataclasses.replace(one, columns=columns))
+
+
+@pytest.mark.parametrize("error", [0.5, -0.5])
+def test_every_friction_has_its_place_in_the_balance(error):
+    """At a constant speed, term by term at the motor and at the joint (see the module)."""
+    parameters, speed, ratio = actuator(), 0.15, 10.0
+    motor, friction = parameters.motor, parameters.friction
+    motor = dataclasses.replace(motor, hysteresis=0.02, iron_loss=3e-4)
+    parameters = dataclasses.replace(parameters, motor=motor)
+    one = steady(speed, error)
+    driven = 60.0 * error - 2.0 * speed
+    turning = ratio * speed
+    rise = 1.0 + friction.stribeck_extra * np.exp(-((turning / friction.stribeck_speed) ** 2))
+    assert rise > 1.1
+    sign = np.tanh(turning / (0.25 * friction.stribeck_speed))
+    taken = (friction.motor_viscous + motor.iron_loss) * turning
+    taken += sign * (friction.motor_coulomb * rise + motor.hysteresis)
+    left = driven - ratio * taken
+    if left * speed > 0.0:
+        through = left / (1.0 + friction.load_forward * rise * sign)
+    else:
+        through = left / (1.0 - friction.load_backward * rise * sign)
+    wanted = through - sign * friction.output_coulomb * rise - friction.output_viscous * speed
+    found = physical_estimate(parameters, one, SLOPE)[-1]
+    assert found == pytest.approx(wanted, rel=1e-9)
+    assert dry_friction(parameters) == pytest.approx(ratio * (friction.motor_coulomb + 0.02))
+
+
+def test_the_ripple_feature_is_that_of_the_balance_less_dry_friction():
+    parameters, one = actuator(), episode("e", 0.6, 0.3)
+    inputs = ("ripple", "balance", "friction_sign")
+    found = feature_matrix(one, inputs, differentiator=SLOPE, physics=parameters)
+    given = found[:, 1] - 10.0 * parameters.friction.motor_coulomb * found[:, 2]
+    wanted = gear_ripple(parameters, one.columns["position"], given)
+    np.testing.assert_allclose(found[:, 0], wanted, rtol=1e-12, atol=1e-15)
+
+
+def test_load_friction_is_fitted_by_the_direction_of_power():
+    """What pushes the joint on is lessened, what holds it back is raised: one coefficient each."""
+    data = data_set(6, 400)
+    law = [pd_law(data, one) for one in data.episodes]
+    with_load = []
+    for one, asked in zip(data.episodes, law, strict=True):
+        driving = asked * one.columns["velocity"] > 0.0
+        share = np.where(driving, 0.12, 0.3) * np.tanh(one.columns["velocity"] / 0.03)
+        torque = asked - share * np.abs(asked)
+        with_load.append(dataclasses.replace(one, columns={**one.columns, "torque": torque}))
+    data = dataclasses.replace(data, episodes=tuple(with_load))
+    fit = fit_friction(data, ("e0", "e1", "e2", "e3"), SLOPE)
+    told = dict(zip(TERMS, fit.coefficients, strict=True))
+    assert fit.sign_speed == 0.03
+    assert told["load_forward"] == pytest.approx(0.12, abs=1e-6)
+    assert told["load_backward"] == pytest.approx(0.3, abs=1e-6)
+    assert fit.training_rmse < 1e-6

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import zlib
 
 import numpy as np
 import pytest
@@ -24,7 +25,7 @@ HISTORY = 30
 
 
 def episode(name, samples=80, wall=0, seed=None, **group):
-    g = np.random.default_rng(abs(hash(name)) % 2**32 if seed is None else seed)
+    g = np.random.default_rng(zlib.crc32(name.encode()) if seed is None else seed)
     columns = {key: g.normal(size=samples) for key in ("position", "target", "velocity", "torque")}
     columns["wall"] = np.full(samples, float(wall))
     return Episode(name, {"wall": wall, **group}, 0.005, columns)
@@ -77,7 +78,7 @@ def test_the_default_size_leaves_sixty_tests_and_a_seventh_to_stop_by():
     assert len(found.train) + len(found.validation) + len(found.test) == 320
 
 
-@settings(max_examples=25)
+@settings(max_examples=10, deadline=None)
 @given(st.integers(5, 60), st.integers(1, 4), st.integers(0, 1000))
 def test_episodes_of_one_configuration_stay_together(count, repeats, seed):
     episodes = [

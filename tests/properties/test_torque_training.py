@@ -22,8 +22,9 @@ from cqdd_design.torque.networks.artefact import read_artefact, write_artefact  
 from cqdd_design.torque.networks.modules import MODELS, Network, find_model, network_of  # noqa: E402
 from cqdd_design.torque.networks.wavefront import last_state  # noqa: E402
 from cqdd_design.torque.training.packing import pack_data  # noqa: E402
-from cqdd_design.torque.training.recipe import Choice, Recipe  # noqa: E402
+from cqdd_design.torque.training.recipe import Choice, Order, Recipe  # noqa: E402
 from cqdd_design.torque.training.schedule import OneCycle, peak_rate  # noqa: E402
+from cqdd_design.torque.training.tensors import Prepared, raw, scaling  # noqa: E402
 from cqdd_design.torque.training.train import train  # noqa: E402
 
 DATA = data_set()
@@ -32,8 +33,14 @@ QUICK = Recipe(epochs=3, batch=16, stride=8, threads=1)
 MLP = Choice("tanh", 5e-3)
 
 
+ORDERED = {"recipe", "actuator", "choice", "device"}
+
+
 def quick(model="mlp-baseline", seed=0, **more):
-    return train(DATA, SPLIT, model, seed, **({"recipe": QUICK, "device": "cpu"} | more))
+    """Train on the small data; what belongs to the order, and what to its running."""
+    chosen = {"recipe": QUICK, "device": "cpu"} | more
+    order = Order(model, seed, **{name: chosen[name] for name in ORDERED & chosen.keys()})
+    return train(DATA, SPLIT, order, **{k: v for k, v in more.items() if k not in ORDERED})
 
 
 def test_sizes_are_those_of_the_paper():
@@ -177,7 +184,7 @@ def test_a_checkpoint_of_other_data_or_version_or_none_is_refused(tmp_path):
     quick(checkpoint=place)
     other = data_set(8, 161)
     with pytest.raises(UsageError, match="data is"):
-        train(other, SPLIT, "mlp-baseline", 0, recipe=QUICK, checkpoint=place, resume=True)
+        train(other, SPLIT, Order("mlp-baseline", 0, QUICK), checkpoint=place, resume=True)
     with np.load(place) as found:
         arrays = {name: found[name] for name in found.files}
     content = json.loads(str(arrays["metadata"]))
@@ -191,6 +198,24 @@ def test_a_checkpoint_of_other_data_or_version_or_none_is_refused(tmp_path):
         quick(checkpoint=place, resume=True)
     with pytest.raises(UsageError, match="no checkpoint"):
         quick(checkpoint=tmp_path / "none.npz", resume=True)
+
+
+def test_windows_end_at_every_stride_th_sample_and_lie_within_one_episode():
+    inputs = ("position_error", "velocity")
+    taken = raw(DATA.episodes[:2], inputs, None, None, residual=False)
+    prepared = Prepared(taken, scaling(taken, inputs), "cpu")
+    ends = prepared.ends(30, 40, 3)
+    # Of 160 samples each; (160 - 30 + 1) // 40 = 3 windows an episode, whatever the offset.
+    assert ends.tolist() == [32, 72, 112, 192, 232, 272]
+    x, y = prepared.windows(torch.from_numpy(ends), 30)
+    first = DATA.episodes[1].columns
+    scale = scaling(taken, inputs)
+    newest = (first["velocity"][32] - scale.input_mean[1]) / scale.input_std[1]
+    oldest = (first["velocity"][3] - scale.input_mean[1]) / scale.input_std[1]
+    assert float(x[3, -1, 1]) == pytest.approx(newest, rel=1e-5)
+    assert float(x[3, 0, 1]) == pytest.approx(oldest, rel=1e-5)
+    torque = (first["torque"][32] - scale.torque_mean) / scale.torque_std
+    assert float(y[3]) == pytest.approx(torque, rel=1e-5)
 
 
 def test_it_learns_and_keeps_the_best_epoch():
@@ -284,15 +309,15 @@ def test_unknown_models_short_and_still_data_are_refused():
     with pytest.raises(UsageError, match="did you mean 'pva-gru'"):
         find_model("pva-gr")
     with pytest.raises(UsageError, match="no episode to validation"):
-        train(DATA, dataclasses.replace(SPLIT, validation=()), "pv-gru", 0)
+        train(DATA, dataclasses.replace(SPLIT, validation=()), Order("pv-gru"))
     with pytest.raises(UsageError, match="longest episode"):
-        train(data_set(8, 20), SPLIT, "pv-gru", 0)
+        train(data_set(8, 20), SPLIT, Order("pv-gru"))
     still = [
         dataclasses.replace(e, columns={**e.columns, "velocity": np.zeros(len(e))})
         for e in DATA.episodes
     ]
     with pytest.raises(UsageError, match="velocity does not move"):
-        train(dataclasses.replace(DATA, episodes=tuple(still)), SPLIT, "pv-gru", 0)
+        train(dataclasses.replace(DATA, episodes=tuple(still)), SPLIT, Order("pv-gru"))
     with pytest.raises(UsageError, match="epochs 0"):
         Recipe(epochs=0)
     assert DATA.dt == DT
@@ -314,12 +339,12 @@ class Missing(MetaPathFinder):
 sys.meta_path.insert(0, Missing())
 from pathlib import Path
 from cqdd_design.torque.training.packing import unpack_data
-from cqdd_design.torque.training.recipe import Recipe
+from cqdd_design.torque.training.recipe import Order, Recipe
 from cqdd_design.torque.data.splits import split
 from cqdd_design.torque.training.train import train
 data, actuator = unpack_data(Path(sys.argv[1]))
 parts, recipe = split(data, "trajectory"), Recipe(epochs=2, stride=16, batch=16)
-print(train(data, parts, "physics-gru", 0, recipe=recipe, actuator=actuator).name)
+print(train(data, parts, Order("physics-gru", 0, recipe, actuator)).name)
 """
     done = subprocess.run(
         [sys.executable, "-c", program, str(tmp_path / "p.npz")],

@@ -1,14 +1,17 @@
 """Unit strings: every spelling agrees with pint, every dimension refuses its look-alikes."""
 
 import math
+import time
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 import cqdd_design.units as units
 from cqdd_design.errors import CqddError, DesignError
 from cqdd_design.units import Dimension, format_quantity, parse_quantity
+from cqdd_design.units.expression import LONGEST, parse_expression
+from cqdd_design.units.quantities import _factor_by_pint
 
 DIMENSIONS = [value for value in vars(units).values() if isinstance(value, Dimension)]
 
@@ -16,7 +19,7 @@ DIMENSIONS = [value for value in vars(units).values() if isinstance(value, Dimen
 @pytest.mark.parametrize("dimension", DIMENSIONS, ids=lambda d: f"{d.name} {d.unit}")
 def test_common_spellings_agree_with_pint(dimension):
     for spelling, factor in dimension.common:
-        assert units._factor_by_pint(spelling, dimension) == pytest.approx(factor, rel=1e-15)
+        assert _factor_by_pint(spelling, dimension) == pytest.approx(factor, rel=1e-15)
 
 
 @pytest.mark.parametrize("dimension", DIMENSIONS, ids=lambda d: f"{d.name} {d.unit}")
@@ -46,7 +49,16 @@ def test_round_trip(dimension, number):
         ("mm", units.LENGTH, "no number"),
         ("nan mm", units.LENGTH, "no number"),
         ("1e999 mm", units.LENGTH, "finite"),
-        ("4 " + "x" * 5000, units.LENGTH, "no unit"),
+        ("4 " + "x" * 5000, units.LENGTH, "too long for a unit"),
+        ("4" * 400 + " mm", units.LENGTH, "too long for a quantity"),
+        ("0.1 m^1.4", units.LENGTH, "a power is a whole number"),
+        ("0.1 m^10", units.LENGTH, "past 9"),
+        ("1 N*m*kg^0.4", units.TORQUE, "a power is a whole number"),
+        ("1 m^", units.LENGTH, "a power is a whole number"),
+        ("1 m**m", units.LENGTH, "a power is a whole number"),
+        ("1 (m", units.LENGTH, "not closed"),
+        ("1 m*", units.LENGTH, "a unit is missing"),
+        ("1 2*m", units.LENGTH, "out of place"),
         ("1 __class__", units.LENGTH, "not a unit"),
     ],
 )
@@ -67,6 +79,14 @@ def test_wrong_units_are_refused_with_the_right_form(text, dimension, says):
         ('3/8"', units.LENGTH, None),
         ("0.5 in", units.LENGTH, 0.0127),
         ("1.2 degC/W", units.THERMAL_RESISTANCE, 1.2),
+        ("1.2 °C/W", units.THERMAL_RESISTANCE, 1.2),
+        ("1e-3 m", units.LENGTH, 1e-3),
+        ("  1_000   mm ", units.LENGTH, 1.0),
+        ("2 N*m/(rad/s)", units.DAMPING_GAIN, 2.0),
+        ("2 kg m²", units.INERTIA, 2.0),
+        ("2 g*cm**2", units.INERTIA, 2e-7),
+        ("2 rad s^-1", units.SPEED, 2.0),
+        ("2 newton*meter", units.TORQUE, 2.0),
     ],
 )
 def test_usual_spellings(text, dimension, value):
@@ -75,6 +95,42 @@ def test_usual_spellings(text, dimension, value):
             parse_quantity(text, dimension)
     else:
         assert parse_quantity(text, dimension) == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1 9**9**9**9*N*m",
+        "1 N*m**9**9**9**9",
+        "1 x" + 300_000 * " ",
+        "1 x" + 300_000 * " " + "y",
+        300_000 * "1" + " N*m",
+        "1" + 300_000 * "_1" + " N*m",
+        "1 " + 300_000 * "(",
+        "1 " + 19 * "(m" + 19 * ")",
+        "1 ((((((((m^9)^9)^9)^9)^9)^9)^9)^9)",
+    ],
+    ids=lambda text: text[:20].strip(),
+)
+def test_no_text_takes_long(text):
+    before = time.process_time()
+    with pytest.raises(DesignError) as caught:
+        parse_quantity(text, units.TORQUE)
+    assert len(caught.value.message) < 200
+    assert time.process_time() - before < 5.0  # the import of pint included
+
+
+@given(st.text(alphabet="Nmrads*/^()12 -²·", max_size=LONGEST + 5))
+@example("m^2*" * 9 + "m")
+def test_an_expression_has_names_and_small_whole_powers_or_is_refused(text):
+    try:
+        powers = parse_expression(text)
+    except ValueError:
+        return
+    assert all(name.isidentifier() and abs(power) <= 40 for name, power in powers.items())
+    again = "*".join(f"{name}^{power}" for name, power in powers.items())
+    if max(map(abs, powers.values()), default=0) <= 9 and len(again) <= LONGEST:
+        assert parse_expression(again or "1") == powers
 
 
 @given(st.text(max_size=40), st.sampled_from(DIMENSIONS))

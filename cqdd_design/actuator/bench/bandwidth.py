@@ -15,7 +15,10 @@ from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.scenario import Chirp, Command, Load, Sampled, Scenario, Sine
 from cqdd_design.actuator.simulate import simulate
 
-_DOWN = 10.0 ** (-3.0 / 20.0)
+DOWN = 10.0 ** (-3.0 / 20.0)
+"""Gain at the edge of a bandwidth, over that of low frequencies: -3 dB."""
+COHERENT = 0.8
+"""Below it a transfer function is not to be trusted."""
 SENSOR_TWIST = 4e-3
 """Of a torque sensor at its rated torque, rad: a shaft of two diameters' length whose surface
 shears by 1e-3, as strain gauges for 2 mV/V want."""
@@ -97,7 +100,7 @@ def torque_bandwidth(parameters: ActuatorParameters, amplitude: float = 5.0) -> 
     low = float(gain[frequency <= 4.0].mean())
     return Metric(
         "torque_bandwidth",
-        crossing(frequency, gain / low, _DOWN),
+        crossing(frequency, gain / low, DOWN),
         "predicted",
         f"Output held by a torque sensor of {held.sensor_stiffness:.3g} N m/rad, torque chirp of "
         f"{amplitude:g} N m from {first:g} to {last:g} Hz in {chirping:g} s, rising and falling in "
@@ -105,7 +108,7 @@ def torque_bandwidth(parameters: ActuatorParameters, amplitude: float = 5.0) -> 
         details={
             "low_frequency_gain": low,
             "phase_90_deg_Hz": crossing(frequency, phase, -0.5 * math.pi),
-            "coherence_falls_below_0.8_Hz": crossing(frequency, coherence, 0.8),
+            f"coherence_falls_below_{COHERENT:g}_Hz": crossing(frequency, coherence, COHERENT),
             "sensor_stiffness_Nm_per_rad": held.sensor_stiffness,
         },
         trace={
@@ -219,7 +222,7 @@ def position_bandwidth(
     name = "position_bandwidth_45deg" if amplitude_deg > 20.0 else "position_bandwidth_5deg"
     return Metric(
         name,
-        crossing(frequencies, gain / gain[0], _DOWN),
+        crossing(frequencies, gain / gain[0], DOWN),
         "not comparable",
         f"Stepped sine of {amplitude_deg:g} deg amplitude, impedance control with "
         f"{parameters.drive.position_gain:g} N m/rad and {parameters.drive.velocity_gain:g} "

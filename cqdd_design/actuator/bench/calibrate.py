@@ -10,7 +10,13 @@ import numpy as np
 
 from cqdd_design.actuator.bench.metric import METRICS, BenchResult
 from cqdd_design.actuator.bench.run import VOLTAGE, run_bench
-from cqdd_design.actuator.bench.unknowns import TELLS, UNKNOWNS, apply_factors, refuse_unknown
+from cqdd_design.actuator.bench.unknowns import (
+    TELLS,
+    UNKNOWNS,
+    Fit,
+    apply_factors,
+    refuse_unknown,
+)
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.errors import UsageError, did_you_mean
 
@@ -64,7 +70,7 @@ class Calibration:
     ----------
     parameters : ActuatorParameters
         With the fitted values, marked so in their origins.
-    factors : mapping of str to float
+    factors : Fit
         By how much each unknown was multiplied.
     rows : tuple of Row
         Every measurement of the bench.
@@ -73,7 +79,7 @@ class Calibration:
     """
 
     parameters: ActuatorParameters
-    factors: Mapping[str, float]
+    factors: Fit
     rows: tuple[Row, ...]
     after: BenchResult
 
@@ -185,7 +191,7 @@ def calibrate(
         )
     tell = progress or (lambda text: None)
     tell(f"fitting {', '.join(names)}")
-    factors = _fit(parameters, {name: measured[name] for name in rows}, names, voltage)
+    factors = Fit(_fit(parameters, {name: measured[name] for name in rows}, names, voltage), rows)
     final = apply_factors(parameters, factors)
     tell("measuring before")
     before = run_bench(parameters, rated_current=rated_current, voltage=voltage, drawn=drawn)
@@ -195,7 +201,6 @@ def calibrate(
         rated_current=rated_current,
         voltage=voltage,
         drawn=[apply_factors(one, factors) for one in drawn],
-        calibrated=rows,
     )
     old = {metric.name: metric.value for metric in before.metrics}
     return Calibration(

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import json
-import math
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from cqdd_design.actuator.bench.calibrate import Calibration
-from cqdd_design.actuator.bench.unknowns import UNKNOWNS
+from cqdd_design.actuator.bench.metric import METRICS
+from cqdd_design.actuator.bench.unknowns import UNKNOWNS, Fit
 from cqdd_design.errors import UsageError, did_you_mean
-from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.files import WrittenFile, parse_json, read_text_file, write_atomically
 
+_MOST_BYTES = 1_000_000
 FORMAT = "cqdd-design calibration 1"
 
 
@@ -27,8 +29,10 @@ def write_calibration(calibration: Calibration, design_sha256: str, path: Path) 
     return write_atomically(path, json.dumps(content, indent=2, allow_nan=False) + "\n", "json")
 
 
-def read_calibration(path: Path, design_sha256: str) -> tuple[Mapping[str, float], str]:
-    """Factors of the unknowns, and a warning where they come from another design (else empty).
+def read_calibration(path: Path, design_sha256: str) -> tuple[Fit, str]:
+    """Factors of the unknowns with the rows they were fitted to, and a warning.
+
+    The warning says where they come from another design; else it is empty.
 
     Raises
     ------
@@ -46,7 +50,8 @@ def read_calibration(path: Path, design_sha256: str) -> tuple[Mapping[str, float
         if name not in UNKNOWNS:
             raise UsageError(f"{path}: '{name}' is no unknown{did_you_mean(name, UNKNOWNS)}.")
         factor = entry.get("factor") if isinstance(entry, dict) else None
-        if not isinstance(factor, float | int) or not math.isfinite(factor) or factor <= 0.0:
+        # An int of 400 digits is a number in JSON, but compares with the greatest float.
+        if not isinstance(factor, float | int) or not 0.0 < factor <= sys.float_info.max:
             raise UsageError(f"{path}: the factor of {name} must be a number above 0.")
         factors[name] = float(factor)
     warning = ""
@@ -55,17 +60,24 @@ def read_calibration(path: Path, design_sha256: str) -> tuple[Mapping[str, float
             f"{path} was fitted to another design ({content.get('name')}) or an earlier state of "
             "this one; its factors are applied all the same."
         )
-    return factors, warning
+    return Fit(factors, _fitted(path, content, factors)), warning
+
+
+def _fitted(
+    path: Path, content: Mapping[str, Any], factors: Mapping[str, float]
+) -> tuple[str, ...]:
+    """Rows of a calibration that it was fitted to; those that tell its factors without any rows."""
+    rows = content.get("rows", {})
+    if not isinstance(rows, dict):
+        raise UsageError(f"{path}: its rows are no table of measurements by name.")
+    found = tuple(
+        name
+        for name, row in rows.items()
+        if name in METRICS and isinstance(row, dict) and row.get("relation") == "calibrated"
+    )
+    return found or tuple(UNKNOWNS[name].told_by for name in factors)
 
 
 def _content(path: Path) -> dict[str, Any]:
-    try:
-        found = json.loads(path.read_text("utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is not text in UTF-8"
-        raise UsageError(f"cannot read {path}: {reason}.") from error
-    except json.JSONDecodeError as error:
-        raise UsageError(
-            f"{path} is not JSON (line {error.lineno}); `cqdd-design calibrate` writes one."
-        ) from error
+    found = parse_json(read_text_file(path, _MOST_BYTES), path)
     return found if isinstance(found, dict) else {}

@@ -28,6 +28,8 @@ DIAL_RADIUS = 0.1
 """Where the dial touches an arm on the output, m."""
 _MOVING = 5e-4
 """Output speed above which it counts as broken away, rad/s."""
+_AT_REST = 0.01
+"""Of a reading's whole motor angle: nearer to a flank the motor counts as resting there."""
 
 
 def backlash(parameters: ActuatorParameters, positions: int = 6) -> Metric:
@@ -81,6 +83,34 @@ def backlash(parameters: ActuatorParameters, positions: int = 6) -> Metric:
             "output [rad]": run.output_angle[0],
         },
     )
+
+
+def dead_zone(motor: FloatArray, output: FloatArray) -> tuple[float, float, float] | None:
+    """Where the motor turns back and where the output follows, and the output's angle between.
+
+    Parameters
+    ----------
+    motor, output : array (T,)
+        Angles of one reading in the order of time, rad, the motor's over the ratio.
+
+    Returns
+    -------
+    (begin, end, output angle) or None
+        rad, the dial's own threshold taken off; None where the output never follows.
+    """
+    # The flank gone to first; the motor rests there until it turns back.
+    first, last = sorted((int(motor.argmax()), int(motor.argmin())))
+    near = np.abs(motor[first:last] - motor[first]) < _AT_REST * float(np.ptp(motor))
+    if not near.any():
+        return None
+    resting = first + int(np.flatnonzero(near)[-1])
+    threshold = DIAL / DIAL_RADIUS
+    moved = np.flatnonzero(np.abs(output[resting:] - output[resting]) > threshold)
+    if not moved.size:
+        return None
+    at = resting + int(moved[0])
+    sense = math.copysign(threshold, float(motor[resting] - motor[at]))
+    return float(motor[resting]), float(motor[at]) + sense, float(output[resting])
 
 
 def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Metric | None:

@@ -10,6 +10,7 @@ from types import MappingProxyType
 
 from cqdd_design.actuator.bench.metric import METRICS
 from cqdd_design.errors import CqddError, UsageError, did_you_mean
+from cqdd_design.files import read_text_file
 from cqdd_design.units import (
     ANGLE,
     FREQUENCY,
@@ -24,6 +25,7 @@ from cqdd_design.units import (
     parse_quantity,
 )
 
+_MOST_BYTES = 1_000_000
 COLUMNS = ("name", "value", "unit")
 DIMENSIONS: Mapping[str, Dimension] = MappingProxyType(
     {
@@ -63,11 +65,7 @@ def read_measured(path: Path) -> dict[str, float]:
         For a file that cannot be read, other columns, a gap, a value that is not a finite number
         above zero, an unknown or repeated name, or a unit of something else, with the line.
     """
-    try:
-        lines = path.read_text("utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is not text in UTF-8"
-        raise UsageError(f"cannot read {path}: {reason}.") from error
+    lines = read_text_file(path, _MOST_BYTES).splitlines()
     numbered = [
         (number, line)
         for number, line in enumerate(lines, start=1)

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import Literal
 
 from cqdd_design.actuator.parameters import FloatArray
+from cqdd_design.catalog import paper
 
 Relation = Literal["given", "calibrated", "predicted", "not comparable"]
 
@@ -33,28 +34,6 @@ METRICS: Mapping[str, str] = MappingProxyType(
     }
 )
 """Names of all measurements and their units."""
-
-PAPER: Mapping[str, tuple[float, float | None]] = MappingProxyType(
-    {
-        "continuous_torque": (37.5, None),
-        "peak_torque": (89.9, None),
-        "no_load_speed": (128.6, None),
-        "rated_power": (960.0, None),
-        "output_resolution": (0.00219, None),
-        "efficiency_peak": (0.823, None),
-        "torque_density": (64.2, None),
-        "actuator_inertia": (5.01e-4, None),
-        "mass": (1.40, None),
-        "backlash": (7.03, 1.3),
-        "backdrive_static": (1.99, None),
-        "backdrive_dynamic": (1.36, None),
-        "torque_ripple": (1.5, None),
-        "torque_bandwidth": (34.3, None),
-        "position_bandwidth_45deg": (3.3, None),
-        "position_bandwidth_5deg": (22.13, None),
-    }
-)
-"""Value and spread of the paper's own actuator (Zhu, Tanaka, Rafeedi and Hong 2024, table II)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +104,7 @@ class BenchResult:
 
     def paper(self, name: str) -> float | None:
         """The paper's value of a measurement, beside the paper's own actuator only."""
-        return PAPER[name][0] if self.beside_paper and name in PAPER else None
+        return paper.METRICS[name].value if self.beside_paper and name in paper.METRICS else None
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form (``results`` of ``bench``)."""
@@ -145,3 +124,16 @@ class BenchResult:
                 for metric in self.metrics
             },
         }
+
+
+NEAR = 0.2
+"""Predictions within this share of the measured value count as near."""
+NEAR_EFFICIENCY = 0.05
+"""The same for efficiencies, as a difference."""
+
+
+def is_near(metric: Metric, measured: float) -> bool:
+    """Whether a value is near the measured one."""
+    if metric.unit == "":
+        return abs(metric.value - measured) <= NEAR_EFFICIENCY
+    return abs(metric.value / measured - 1.0) <= NEAR

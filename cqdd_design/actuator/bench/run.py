@@ -10,9 +10,10 @@ from types import MappingProxyType
 from cqdd_design.actuator.bench import bandwidth, gear, steady
 from cqdd_design.actuator.bench.metric import METRICS, BenchResult, Metric
 from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.catalog import paper
 from cqdd_design.errors import UsageError, did_you_mean
 
-VOLTAGE = 24.0
+VOLTAGE = paper.SUPPLY_VOLTAGE
 """Of the dynamic rows, V: what the paper measured at."""
 
 _HOLDS = "the output does not turn the motor at any torque; the gearbox holds itself"
@@ -36,7 +37,6 @@ def run_bench(
     only: Collection[str] = (),
     beside_paper: bool = False,
     drawn: Collection[ActuatorParameters] = (),
-    calibrated: Collection[str] = (),
     progress: Progress | None = None,
 ) -> BenchResult:
     """Measure an actuator.
@@ -55,8 +55,6 @@ def run_bench(
     drawn : collection of ActuatorParameters
         The same actuator with gearboxes drawn from the tolerances, whose mean ripple is the
         ripple; default its own.
-    calibrated : collection of str
-        Rows that the actuator was fitted to.
     progress : callable, optional
         Told the name of each measurement before it begins.
 
@@ -103,7 +101,7 @@ def run_bench(
         if metric is None:
             warnings.append(f"{name}: {_ABSENT[name]}.")
         else:
-            fitted = metric.name in calibrated and metric.relation == "predicted"
+            fitted = metric.name in parameters.fitted
             found.append(dataclasses.replace(metric, relation="calibrated") if fitted else metric)
     return BenchResult(
         name=parameters.name,

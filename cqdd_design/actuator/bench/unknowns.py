@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -118,10 +118,39 @@ def refuse_unknown(name: str) -> None:
         )
 
 
+@dataclass(frozen=True)
+class Fit(Mapping[str, float]):
+    """Factors of unknowns, and the measurements that they were fitted to.
+
+    Attributes
+    ----------
+    factors : mapping of str to float
+    rows : tuple of str
+    """
+
+    factors: Mapping[str, float]
+    rows: tuple[str, ...]
+
+    def __getitem__(self, name: str) -> float:
+        """The factor of an unknown."""
+        return self.factors[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of the unknowns."""
+        return iter(self.factors)
+
+    def __len__(self) -> int:
+        """How many there are."""
+        return len(self.factors)
+
+
 def apply_factors(
     parameters: ActuatorParameters, factors: Mapping[str, float]
 ) -> ActuatorParameters:
     """The actuator with unknowns multiplied, marked as calibrated in its origins.
+
+    It counts as fitted to the rows of a `Fit`, and to those that tell the unknowns where there are
+    factors alone.
 
     Raises
     ------
@@ -137,4 +166,7 @@ def apply_factors(
         found = UNKNOWNS[name].change(found, factor)
         for value in UNKNOWNS[name].values:
             origins[value] = f"calibrated: {name} times {factor:.4g}"
-    return dataclasses.replace(found, origins=origins)
+    told = (UNKNOWNS[name].told_by for name in factors)
+    rows = factors.rows if isinstance(factors, Fit) else told
+    fitted = tuple(dict.fromkeys((*parameters.fitted, *rows)))
+    return dataclasses.replace(found, origins=origins, fitted=fitted)

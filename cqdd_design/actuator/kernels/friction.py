@@ -11,27 +11,6 @@ STICK, FREE = 0, 2
 """A body held by friction, and one that passes standstill without; 1 and -1 are slip."""
 
 
-class Friction(NamedTuple):
-    """Friction of both sides; names as in `columns.PARAMETERS`."""
-
-    motor_coulomb: float
-    output_coulomb: float
-    hysteresis: float
-    extra: float
-    stribeck_speed: float
-    load_forward: float
-    load_backward: float
-    motor_bristle: float
-    motor_bristle_damping: float
-    output_bristle: float
-
-
-@part
-def friction_of(p: Any) -> Any:
-    """Friction from a row of parameters."""
-    return Friction(p[21], p[22], p[8], p[25], p[26], p[27], p[28], p[29], p[30], p[31])
-
-
 @part
 def stribeck_rise(extra: float, fast: float) -> float:
     """Level over Coulomb's at a speed relative to Stribeck's."""
@@ -42,27 +21,20 @@ def stribeck_rise(extra: float, fast: float) -> float:
 
 
 @part
-def levels(
-    friction: Any,
-    ratio: float,
-    toward: float,
-    transmitted: float,
-    guess: float,
-    out_guess: float,
-) -> Any:
+def levels(p: Any, toward: float, transmitted: float, guess: float, out_guess: float) -> Any:
     """Dry friction to be had at motor and output, N m.
 
     `toward` has the sign of the motor's motion, or at standstill of what pushes it; `transmitted`
     is the gear's torque of the step before.
     """
-    n = abs(ratio)
-    forward = toward * transmitted * ratio > 0.0
-    load_share = friction.load_forward if forward else friction.load_backward
-    rise = stribeck_rise(friction.extra, guess / friction.stribeck_speed)
-    level = (friction.motor_coulomb + load_share * abs(transmitted) / n) * rise
-    level += friction.hysteresis
-    rise = stribeck_rise(friction.extra, out_guess * n / friction.stribeck_speed)
-    return level, friction.output_coulomb * rise
+    n = abs(p.ratio)
+    forward = toward * transmitted * p.ratio > 0.0
+    load_share = p.load_forward if forward else p.load_backward
+    rise = stribeck_rise(p.stribeck_extra, guess / p.stribeck_speed)
+    level = (p.motor_coulomb + load_share * abs(transmitted) / n) * rise
+    level += p.hysteresis
+    rise = stribeck_rise(p.stribeck_extra, out_guess * n / p.stribeck_speed)
+    return level, p.output_coulomb * rise
 
 
 @part
@@ -88,6 +60,58 @@ def bristled(
         damper = 4.0 * level / abs(guess)
     viscous += (stiffness * h + damper) / (1.0 + relax)
     return viscous, (stiffness - damper * relax / h) * z / (1.0 + relax), relax
+
+
+class Rubbing(NamedTuple):
+    """Friction that a step begins with.
+
+    Attributes
+    ----------
+    level, output_level : float
+        Dry friction to be had at motor and output, N m; 0 where bristles stand for it.
+    viscous, output_viscous : float
+        Over the mean speeds, bristles, iron and the load's own included, N m s/rad.
+    held, output_held : float
+        What the bristles' state adds, N m.
+    relax, output_relax : float
+        How far the bristles relax in the step.
+    """
+
+    level: float
+    output_level: float
+    viscous: float
+    output_viscous: float
+    held: float
+    output_held: float
+    relax: float
+    output_relax: float
+
+
+@part
+def rubbing(
+    p: Any,
+    bristles: Any,
+    h: float,
+    toward: float,
+    transmitted: float,
+    guess: float,
+    out_guess: float,
+) -> Any:
+    """Friction of a step at guessed mean speeds; see :func:`levels` for the arguments."""
+    level, output_level = levels(p, toward, transmitted, guess, out_guess)
+    viscous, output_viscous = p.motor_viscous + p.iron_viscous, p.output_viscous + p.load_viscous
+    held, output_held, relax, output_relax = 0.0, 0.0, 0.0, 0.0
+    if p.lugre != 0.0:
+        viscous, held, relax = bristled(
+            p.motor_bristle, p.motor_bristle_damping, level, h, guess, bristles[0], viscous
+        )
+        output_viscous, output_held, output_relax = bristled(
+            p.output_bristle, 0.0, output_level, h, out_guess, bristles[1], output_viscous
+        )
+        level = output_level = 0.0
+    return Rubbing(
+        level, output_level, viscous, output_viscous, held, output_held, relax, output_relax
+    )
 
 
 @part

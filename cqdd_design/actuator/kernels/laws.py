@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numba
+from cqdd_design.files.kernel_cache import numba
 
 FAST = {"contract", "arcp", "nsz"}
 """Fused products, reciprocals, unsigned zeros: quicker, and still the same numbers every time."""

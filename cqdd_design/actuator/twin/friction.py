@@ -4,22 +4,24 @@ from __future__ import annotations
 
 import math
 
+from cqdd_design.actuator.columns import Constants
+
 STICK, FREE = 0, 2
 """A body held by friction, and one that passes standstill without; 1 and -1 are slip."""
 
 
 def levels(
-    p: dict[str, float], toward: float, transmitted: float, guess: float, out_guess: float
+    p: Constants, toward: float, transmitted: float, guess: float, out_guess: float
 ) -> list[float]:
     """Dry friction to be had at motor and output, N m; see the kernel for the arguments."""
-    n = abs(p["ratio"])
-    forward = toward * transmitted * p["ratio"] > 0.0
-    load = p["load_forward"] if forward else p["load_backward"]
+    n = abs(p.ratio)
+    forward = toward * transmitted * p.ratio > 0.0
+    load = p.load_forward if forward else p.load_backward
     rises = []
-    for fast in (guess / p["stribeck_speed"], out_guess * n / p["stribeck_speed"]):
-        rises.append(1.0 + (p["stribeck_extra"] * math.exp(-(fast**2)) if abs(fast) < 6 else 0.0))
-    level = (p["motor_coulomb"] + load * abs(transmitted) / n) * rises[0] + p["hysteresis"]
-    return [level, p["output_coulomb"] * rises[1]]
+    for fast in (guess / p.stribeck_speed, out_guess * n / p.stribeck_speed):
+        rises.append(1.0 + (p.stribeck_extra * math.exp(-(fast**2)) if abs(fast) < 6 else 0.0))
+    level = (p.motor_coulomb + load * abs(transmitted) / n) * rises[0] + p.hysteresis
+    return [level, p.output_coulomb * rises[1]]
 
 
 def bristled(

@@ -6,12 +6,13 @@ import math
 
 import numpy as np
 
+from cqdd_design.actuator.columns import Constants
 from cqdd_design.actuator.parameters import FloatArray
 
 
-def look_up(p: dict[str, float], table: FloatArray, angle: float) -> dict[str, float]:
+def look_up(p: Constants, table: FloatArray, angle: float) -> dict[str, float]:
     """Kinematic error and stiffness share at a motor angle, with slopes per rad."""
-    n = abs(p["ratio"])
+    n = abs(p.ratio)
     count = len(table)
     place = (angle / (2.0 * math.pi * n)) % 1.0 * count
     low = int(place) % count
@@ -30,11 +31,11 @@ def look_up(p: dict[str, float], table: FloatArray, angle: float) -> dict[str, f
     }
 
 
-def spring(p: dict[str, float], closing: float) -> dict[str, float]:
+def spring(p: Constants, closing: float) -> dict[str, float]:
     """Deflection beyond the dead zone, torque, energy and tangent stiffness."""
-    gap, power = p["half_backlash"], p["stiffening"]
+    gap, power = p.half_backlash, p.stiffening
     beyond = math.copysign(max(abs(closing) - gap, 0.0), closing)
-    k, reference = p["stiffness"], p["error_torque"]
+    k, reference = p.stiffness, p.error_torque
     torque = math.copysign(reference * (k * abs(beyond) / reference) ** power, beyond)
     secant = torque / beyond if beyond else (k if power == 1.0 and abs(closing) > gap else 0.0)
     return {
@@ -46,7 +47,7 @@ def spring(p: dict[str, float], closing: float) -> dict[str, float]:
 
 
 def meshed(
-    p: dict[str, float],
+    p: Constants,
     state: dict[str, float],
     table: FloatArray,
     turn: float,
@@ -56,42 +57,63 @@ def meshed(
     """Torques of the mesh over a step, the mesh at its end, and whether a pull was cut.
 
     The torques: `gear` on the output, its `slope` over the closing, its lever `arm` on the motor,
-    and `varying`, by which varying stiffness turns the motor.
+    and `varying`, by which varying stiffness turns the motor. What is cut is the flank that gives
+    way; one that the step meets beyond the gap pushes all the same.
     """
     end = look_up(p, table, state["angle"] + turn)
-    change = turn / p["ratio"] + (end["error"] - state["error"]) - out_turn
+    change = turn / p.ratio + (end["error"] - state["error"]) - out_turn
     end |= spring(p, state["closing"] + change)
-    if abs(change) > 1e-9:
-        mean = (end["energy"] - state["energy"]) / change
-        slope = (end["elastic"] - mean) / change
-    else:
-        mean, slope = 0.5 * (state["elastic"] + end["elastic"]), 0.5 * end["tangent"]
-    arm = 1.0 / p["ratio"] + state["error_slope"]
+    arm = 1.0 / p.ratio + state["error_slope"]
     bend = state["share_slope"]
     if abs(turn) > 1e-10:
-        arm = 1.0 / p["ratio"] + (end["error"] - state["error"]) / turn
+        arm = 1.0 / p.ratio + (end["error"] - state["error"]) / turn
         bend = (end["share"] - state["share"]) / turn
     share = 0.5 * (state["share"] + end["share"])
-    gear = share * mean + p["gear_damping"] * (end["deflection"] - state["deflection"]) / h
-    gear_slope = share * slope + (p["gear_damping"] / h if end["deflection"] else 0.0)
-    clipped = p["half_backlash"] > 0.0 and gear * mean <= 0.0
-    if clipped:
-        gear = gear_slope = 0.0
+    gear, slope = _torque(p, share, state, end, change, h)
+    cut = False
+    if p.half_backlash > 0.0:
+        nothing = {"energy": 0.0, "elastic": 0.0, "deflection": 0.0, "tangent": 0.0}
+        passed = state["deflection"] * end["deflection"] < 0.0
+        left = _torque(p, share, state, nothing if passed else end, change, h)[0]
+        pressed = state["elastic"] or end["elastic"]
+        cut = left * pressed <= 0.0
+        if cut:
+            gear, slope = _torque(p, share, nothing, end, change, h) if passed else (0.0, 0.0)
     varying = 0.5 * (state["energy"] + end["energy"]) * bend
-    torques = {"gear": gear, "slope": gear_slope, "arm": arm, "varying": varying}
-    return torques, end, clipped
+    torques = {"gear": gear, "slope": slope, "arm": arm, "varying": varying}
+    return torques, end, cut
+
+
+def _torque(
+    p: Constants,
+    share: float,
+    begin: dict[str, float],
+    end: dict[str, float],
+    change: float,
+    h: float,
+) -> tuple[float, float]:
+    """Mean torque of spring and damper between two states of the mesh, and its slope."""
+    if abs(change) > 1e-9:
+        mean = (end["energy"] - begin["energy"]) / change
+        slope = (end["elastic"] - mean) / change
+    else:
+        mean, slope = 0.5 * (begin["elastic"] + end["elastic"]), 0.5 * end["tangent"]
+    torque = share * mean + p.gear_damping * (end["deflection"] - begin["deflection"]) / h
+    return torque, share * slope + (p.gear_damping / h if end["deflection"] else 0.0)
 
 
 def damped_in_mesh(
-    p: dict[str, float],
+    p: Constants,
     state: dict[str, float],
     end: dict[str, float],
     change: float,
-    clipped: bool,
+    cut: bool,
     h: float,
 ) -> float:
-    """Energy that the mesh lost in a step, J: its damper's, or all that a cut contact gave back."""
-    if clipped:
-        mean_share = 0.5 * (state["share"] + end["share"])
-        return -mean_share * (end["energy"] - state["energy"])
-    return p["gear_damping"] * (end["deflection"] - state["deflection"]) * change / h
+    """Energy that the mesh lost in a step, J: its damper's, and all that a cut flank held."""
+    share = 0.5 * (state["share"] + end["share"])
+    if not cut:
+        return p.gear_damping * (end["deflection"] - state["deflection"]) * change / h
+    if state["deflection"] * end["deflection"] < 0.0:
+        return share * state["energy"] + p.gear_damping * end["deflection"] * change / h
+    return -share * (end["energy"] - state["energy"])

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from cqdd_design.actuator.columns import LEDGER, MODES, PARAMETERS, TRACES
+from cqdd_design.actuator.columns import LEDGER, MODES, TRACES, Constants, Signals, Steps
 from cqdd_design.actuator.parameters import FloatArray
 from cqdd_design.actuator.twin.drive import (
     PositionLoop,
@@ -44,7 +44,7 @@ class _Step:
     gear: float
     gear_slope: float
     arm: float
-    clipped: bool
+    cut: bool
     wall_rub: float
     end: dict[str, float]
 
@@ -53,48 +53,48 @@ class _Machine:
     """One actuator and its state."""
 
     def __init__(self, row: FloatArray, table: FloatArray, step: float) -> None:
-        self.p: dict[str, float] = dict(zip(PARAMETERS, map(float, row), strict=True))
+        self.p = Constants(*map(float, row))
         self.table, self.h = table, step
         p = self.p
         self.s = {
-            "angle": p["motor_angle"],
-            "speed": p["motor_speed"],
-            "out": p["output_angle"],
-            "out_speed": p["output_speed"],
+            "angle": p.motor_angle,
+            "speed": p.motor_speed,
+            "out": p.output_angle,
+            "out_speed": p.output_speed,
         }
-        self.current = p["current"]
-        self.heat = np.array([p["winding_temperature"], p["housing_temperature"]])
+        self.current = p.current
+        self.heat = np.array([p.winding_temperature, p.housing_temperature])
         self.bristles = np.zeros(2)
         self.slowing = self.former = np.zeros(2)
         self.traced: dict[str, float] = {}
         self.transmitted = self.way = 0.0
         self.modes = [int(np.sign(self.s["speed"])), int(np.sign(self.s["out_speed"]))]
         self.s |= look_up(p, table, self.s["angle"])
-        self.s["closing"] = self.s["angle"] / p["ratio"] + self.s["error"] - self.s["out"]
+        self.s["closing"] = self.s["angle"] / p.ratio + self.s["error"] - self.s["out"]
         self.s |= spring(p, self.s["closing"]) | wall_at(p, self.s["out"])
 
     def evaluate(self, x: float, y: float, given: dict[str, float]) -> _Step:
         """Balances of motor and output without dry friction at mean speeds x and y."""
         p, s, h = self.p, self.s, self.h
-        mesh, end, clipped = meshed(p, s, self.table, h * x, h * y, h)
+        mesh, end, cut = meshed(p, s, self.table, h * x, h * y, h)
         end |= wall_at(p, s["out"] + h * y)
         arm, gear, gear_slope = mesh["arm"], mesh["gear"], mesh["slope"]
         push, push_slope, wall_rub = wall_push(p, s, end, h, y)
-        masses = 2.0 / h * np.array([p["motor_inertia"], p["output_inertia"] + p["load_inertia"]])
+        masses = 2.0 / h * np.array([p.motor_inertia, p.carried_inertia])
         left = given["drive"] - given["drive_slope"] * x - masses[0] * (x - s["speed"])
         cog = cogging(p, s["angle"], h * x)
         left += -given["b_motor"] * x - given["add_motor"] - cog - arm * gear
         left -= mesh["varying"]
         right = gear + given["external"] - masses[1] * (y - s["out_speed"])
         right += -given["b_output"] * y - given["add_output"] - gravity_pull(p, s["out"], h * y)
-        right -= p["sensor_stiffness"] * (s["out"] + 0.5 * h * y) + p["sensor_damping"] * y
-        right -= p["wall_side"] * (push + wall_rub)
+        right -= p.sensor_stiffness * (s["out"] + 0.5 * h * y) + p.sensor_damping * y
+        right -= p.wall_side * (push + wall_rub)
         tie = arm * h * gear_slope
         matrix = np.array([[masses[0] + arm * tie, -tie], [-tie, masses[1] + h * gear_slope]])
         matrix[0, 0] += given["drive_slope"] + given["b_motor"]
-        matrix[1, 1] += given["b_output"] + p["sensor_damping"] + push_slope
-        matrix[1, 1] += 0.5 * h * p["sensor_stiffness"]
-        return _Step(left, right, matrix, gear, gear_slope, arm, clipped, wall_rub, end)
+        matrix[1, 1] += given["b_output"] + p.sensor_damping + push_slope
+        matrix[1, 1] += 0.5 * h * p.sensor_stiffness
+        return _Step(left, right, matrix, gear, gear_slope, arm, cut, wall_rub, end)
 
     def settle(
         self, x: float, y: float, given: dict[str, float], held: list[bool], dry: list[float]
@@ -118,41 +118,42 @@ class _Machine:
 def run_one(
     row: FloatArray,
     table: FloatArray,
-    signals: tuple[FloatArray, ...],
-    step: float,
-    steps: int,
-    every: int,
-    traces: FloatArray,
-    ledger: FloatArray,
+    signals: Signals,
+    steps: Steps,
+    traces: Any,
+    ledger: Any,
+    place: int,
 ) -> None:
     """Step one actuator; arguments as for the kernel's."""
-    m = _Machine(row, table, step)
-    p, h = m.p, step
-    mode, lugre, driven = MODES[int(p["mode"])], bool(p["lugre"]), bool(p["driven"])
+    h = steps.length
+    m = _Machine(row, table, h)
+    p = m.p
+    mode, lugre, driven = MODES[int(p.mode)], bool(p.lugre), bool(p.driven)
     if driven:
-        m.s["out_speed"] = float(signals[4][0])
-    line: list[float] = [0.0] * int(p["delay_steps"])
+        m.s["out_speed"] = float(signals.driven_speed[0])
+    line: list[float] = [0.0] * int(p.delay_steps)
     loop = PositionLoop(p, mode)
     tally = dict.fromkeys(LEDGER, 0.0)
     tally["stored_before"] = stored_energy(p, m.s, m.current, m.bristles)
 
-    def at(which: int, k: int) -> float:
-        return float(signals[which][k if len(signals[which]) > 1 else 0])
+    def at(signal: FloatArray, k: int) -> float:
+        return float(signal[k if len(signal) > 1 else 0])
 
-    for k in range(steps):
-        command = at(0, k)
+    for k in range(steps.number):
+        command = at(signals.reference, k)
         if mode in ("impedance", "position"):
-            command = loop.act(h, m.s["angle"], m.s["speed"], (command, at(1, k), at(2, k)))
+            wanted = (command, at(signals.reference_rate, k), at(signals.feedforward, k))
+            command = loop.act(h, m.s["angle"], m.s["speed"], wanted)
         line.append(asked_of_winding(p, mode, command))
         asked = line.pop(0)
         ahead = 2.0 * m.slowing - m.former
         given = {
             "guess": m.s["speed"] + 0.5 * h * float(ahead[0]),
-            "b_motor": p["motor_viscous"] + p["iron_viscous"],
-            "b_output": p["output_viscous"] + p["load_viscous"],
+            "b_motor": p.motor_viscous + p.iron_viscous,
+            "b_output": p.output_viscous + p.load_viscous,
             "add_motor": 0.0,
             "add_output": 0.0,
-            "external": at(3, k),
+            "external": at(signals.external, k),
         }
         out_guess = m.s["out_speed"] + 0.5 * h * float(ahead[1])
         electric = driven_current(p, h, m.current, m.heat, given["guess"], asked, mode)
@@ -161,10 +162,10 @@ def run_one(
         dry_levels = levels(p, toward, m.transmitted, given["guess"], out_guess)
         relax = [0.0, 0.0]
         if lugre:
-            damping = (p["motor_bristle_damping"], 0.0)
+            damping = (p.motor_bristle_damping, 0.0)
             for body, name in enumerate(("motor", "output")):
                 viscous, given[f"add_{name}"], relax[body] = bristled(
-                    p[f"{name}_bristle"],
+                    (p.motor_bristle, p.output_bristle)[body],
                     damping[body],
                     dry_levels[body],
                     h,
@@ -173,16 +174,18 @@ def run_one(
                 )
                 given[f"b_{name}"] += viscous
             dry_levels = [0.0, 0.0]
-        x, y, found, dry = _with_friction(m, given, out_guess, dry_levels, at(4, k + 1), driven)
-        _finish(m, given, electric, x, y, found, dry, relax, dry_levels, tally, at(4, k + 1))
-        if (k + 1) % every == 0:
-            place = (k + 1) // every - 1
+        next_speed = at(signals.driven_speed, k + 1)
+        x, y, found, dry = _with_friction(m, given, out_guess, dry_levels, next_speed, driven)
+        _finish(m, given, electric, x, y, found, dry, relax, dry_levels, tally, next_speed)
+        if (k + 1) % steps.every == 0:
             m.traced["commanded_torque"] = command
-            traces[:, place] = [m.traced[name] for name in TRACES]
+            for name in TRACES:
+                getattr(traces, name)[place, (k + 1) // steps.every - 1] = m.traced[name]
     tally["stored_after"] = stored_energy(p, m.s, m.current, m.bristles)
-    tally["motor_friction"] -= 0.5 * p["motor_bristle"] * m.bristles[0] ** 2
-    tally["output_friction"] -= 0.5 * p["output_bristle"] * m.bristles[1] ** 2
-    ledger[:] = [tally[name] for name in LEDGER]
+    tally["motor_friction"] -= 0.5 * p.motor_bristle * m.bristles[0] ** 2
+    tally["output_friction"] -= 0.5 * p.output_bristle * m.bristles[1] ** 2
+    for name in LEDGER:
+        getattr(ledger, name)[place] = tally[name]
 
 
 def _with_friction(
@@ -247,17 +250,17 @@ def _finish(
 ) -> None:
     """Move to the end of the step, book its energies, record it."""
     p, s, h = m.p, m.s, m.h
-    lugre, driven = bool(p["lugre"]), bool(p["driven"])
-    end, clipped = found.end, found.clipped
-    change = h * x / p["ratio"] + (end["error"] - s["error"]) - h * y
-    tally["gear_damping"] += damped_in_mesh(p, s, end, change, clipped, h)
-    viscous = p["motor_viscous"] + p["iron_viscous"]
+    lugre, driven = bool(p.lugre), bool(p.driven)
+    end, cut = found.end, found.cut
+    change = h * x / p.ratio + (end["error"] - s["error"]) - h * y
+    tally["gear_damping"] += damped_in_mesh(p, s, end, change, cut, h)
+    viscous = p.motor_viscous + p.iron_viscous
     if lugre:
         m.bristles = (m.bristles + h * np.array([x, y])) / (1.0 + np.array(relax))
-        m.bristles *= np.array([p["motor_bristle"] > 0.0, p["output_bristle"] > 0.0])
+        m.bristles *= np.array([p.motor_bristle > 0.0, p.output_bristle > 0.0])
         dry = [
             (given["b_motor"] - viscous) * x + given["add_motor"],
-            (given["b_output"] - p["output_viscous"] - p["load_viscous"]) * y + given["add_output"],
+            (given["b_output"] - p.output_viscous - p.load_viscous) * y + given["add_output"],
         ]
     new_speed, new_out = 2.0 * x - s["speed"], 2.0 * y - s["out_speed"]
     if not lugre and levels[0] > 0.0 and m.modes[0] == STICK:
@@ -268,15 +271,15 @@ def _finish(
         new_out = 0.0
     m.current, mean, voltage = ended_current(p, electric, h, m.current, x)
     copper = electric["resistance"] * mean**2
-    iron_share = p["hysteresis"] / levels[0] if not lugre and levels[0] > 0.0 else 0.0
-    iron = p["iron_viscous"] * x * x + iron_share * dry[0] * x
-    rubbed = p["motor_viscous"] * x * x + (1.0 - iron_share) * dry[0] * x
-    out_rubbed = p["output_viscous"] * y * y + dry[1] * y
-    load = (p["sensor_damping"] + p["load_viscous"]) * y * y + found.wall_rub * p["wall_side"] * y
+    iron_share = p.hysteresis / levels[0] if not lugre and levels[0] > 0.0 else 0.0
+    iron = p.iron_viscous * x * x + iron_share * dry[0] * x
+    rubbed = p.motor_viscous * x * x + (1.0 - iron_share) * dry[0] * x
+    out_rubbed = p.output_viscous * y * y + dry[1] * y
+    load = (p.sensor_damping + p.load_viscous) * y * y + found.wall_rub * p.wall_side * y
     # A driven output takes whatever is missing in its balance.
     external = given["external"]
     if driven:
-        inertia = p["output_inertia"] + p["load_inertia"]
+        inertia = p.carried_inertia
         balance = found.right + 2.0 / h * inertia * (y - s["out_speed"]) - external
         external = inertia * (new_out - s["out_speed"]) / h - balance + (0 if lugre else dry[1])
     tally["electrical"] += voltage * mean * h
@@ -288,8 +291,8 @@ def _finish(
     tally["external"] += external * y * h
     tally["throughput"] += (abs(voltage * mean) + abs(external * y)) * h
     m.heat = warmed(p, m.heat, copper, iron + rubbed + out_rubbed)
-    flange = found.gear - dry[1] - p["output_viscous"] * y
-    flange -= p["output_inertia"] * (new_out - s["out_speed"]) / h
+    flange = found.gear - dry[1] - p.output_viscous * y
+    flange -= p.output_inertia * (new_out - s["out_speed"]) / h
     m.former = m.slowing
     m.slowing = np.array([new_speed - s["speed"], new_out - s["out_speed"]]) / h
     m.way = dry[0] if dry[0] != 0.0 else m.way
@@ -307,8 +310,8 @@ def _finish(
         "deflection": closing,
         "gear_torque": found.gear,
         "output_torque": flange,
-        "motor_friction": dry[0] + p["motor_viscous"] * x,
-        "output_friction": dry[1] + p["output_viscous"] * y,
+        "motor_friction": dry[0] + p.motor_viscous * x,
+        "output_friction": dry[1] + p.output_viscous * y,
         "winding_temperature": float(m.heat[0]),
         "housing_temperature": float(m.heat[1]),
     }
@@ -317,19 +320,12 @@ def _finish(
 def run_sets(
     rows: FloatArray,
     tables: FloatArray,
-    reference: FloatArray,
-    reference_rate: FloatArray,
-    feedforward: FloatArray,
-    external: FloatArray,
-    driven_speed: FloatArray,
-    step: float,
-    steps: int,
-    every: int,
-    traces: FloatArray,
-    ledgers: FloatArray,
+    signals: Signals,
+    steps: Steps,
+    traces: Any,
+    ledger: Any,
 ) -> None:
     """Step S actuators one after the other; see the kernel."""
-    signals: tuple[Any, ...] = (reference, reference_rate, feedforward, external, driven_speed)
     for i in range(len(rows)):
-        own = tuple(signal[min(i, len(signal) - 1)] for signal in signals)
-        run_one(rows[i], tables[i], own, step, steps, every, traces[i], ledgers[i])
+        own = Signals(*(signal[min(i, len(signal) - 1)] for signal in signals))
+        run_one(rows[i], tables[i], own, steps, traces, ledger, i)

@@ -7,14 +7,12 @@ two of them, an even one to the whole of its zone.
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from cqdd_design.catalog import find_bearing, find_material
+from cqdd_design.catalog import find_material
 from cqdd_design.errors import DesignError
 from cqdd_design.exporting.edm.dxf import contour_fit
-from cqdd_design.exporting.edm.flat_parts import with_named_bearing
 from cqdd_design.exporting.edm.loops import LoopFit
 from cqdd_design.exporting.edm.seats import Seat, seats_of
 from cqdd_design.exporting.edm.wire_path import WirePath, wire_paths
@@ -22,6 +20,7 @@ from cqdd_design.exporting.edm.wire_path import WirePath, wire_paths
 if TYPE_CHECKING:
     from cqdd_design.design import Design
     from cqdd_design.exporting.edm.flat_parts import FlatPart
+    from cqdd_design.machine import Machine
 
 GROUND_FLATNESS = 5e-6
 """Faces of a plate from an everyday surface grinder, m."""
@@ -35,17 +34,6 @@ CUT_FINISH, FACE_FINISH = "Ra 0.4", "Ra 0.8"
 """After skim cuts, and ground, um."""
 
 _MM = 1e3
-_HEAT = (
-    (r"Q&T (\d+)C", "quenched and tempered at {} \u00b0C before cutting"),
-    (r"QT (\S+ HRC) prehard", "prehardened to {}, before cutting"),
-    (r"normalized (\d+)C", "normalized at {} \u00b0C"),
-    (r"annealed", "annealed"),
-    (r"case hardened", "case hardened and ground before cutting"),
-    (r"hardened", "through hardened before cutting"),
-    (r"(H\d{3,4})$", "precipitation hardened, condition {}, before cutting"),
-    (r"-(T\d+)$", "temper {}"),
-    (r" CD$", "cold drawn"),
-)
 
 
 @dataclass(frozen=True)
@@ -107,8 +95,14 @@ class CutFacts:
 
     @property
     def heat_treatment(self) -> str:
-        """In words, from the name of the material."""
-        return heat_treatment(self.flat.material)
+        """As the catalogue has it for drawings."""
+        return find_material(self.flat.material).drawing_note or "as delivered"
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Remarks of the part, which are in capitals, as sentences."""
+        said = (remark.capitalize().replace(" x axis", " X axis") for remark in self.flat.remarks)
+        return tuple(one + "." for one in said)
 
     @property
     def seat_by_contour(self) -> dict[int, Seat]:
@@ -133,7 +127,7 @@ class CutFacts:
         )
 
 
-def facts_of(flat: FlatPart, design: Design) -> CutFacts:
+def facts_of(flat: FlatPart, machine: Machine) -> CutFacts:
     """Gather everything about a part.
 
     Raises
@@ -143,6 +137,7 @@ def facts_of(flat: FlatPart, design: Design) -> CutFacts:
     ReadBackError
         When the wire is too thick for a contour.
     """
+    design = machine.design
     return CutFacts(
         flat=flat,
         design=design,
@@ -150,19 +145,16 @@ def facts_of(flat: FlatPart, design: Design) -> CutFacts:
         paths=wire_paths(flat, design.edm),
         zones=zones_of(flat, design),
         seats=seats_of(flat),
-        later=_after_cutting(flat, design),
+        later=_after_cutting(flat, machine),
     )
 
 
-def _after_cutting(flat: FlatPart, design: Design) -> tuple[str, ...]:
+def _after_cutting(flat: FlatPart, machine: Machine) -> tuple[str, ...]:
     """Holes of the ring that are made with its housing, not by wire."""
-    from cqdd_design.solids.proportions import lay_out
-
     if flat.label != "ring":
         return ()
-    resolved = with_named_bearing(design)
     try:
-        dowels = lay_out(resolved, find_bearing(resolved.reducer.cam_bearing.designation)).dowels
+        dowels = machine.layout.dowels
     except DesignError:
         # No machine fits around this ring; it can still be cut and quoted.
         return ()
@@ -188,21 +180,6 @@ def zones_of(flat: FlatPart, design: Design) -> Zones:
         hole_position=2.0 * half * tolerances.hole_position,
         hole_diameter=half * tolerances.hole_diameter,
     )
-
-
-def heat_treatment(material: str) -> str:
-    """Heat treatment in words.
-
-    Examples
-    --------
-    >>> heat_treatment("7075-T6")
-    'temper T6'
-    """
-    for pattern, words in _HEAT:
-        match = re.search(pattern, material)
-        if match:
-            return words.format(*match.groups())
-    return "as delivered"
 
 
 def zone_text(value: float) -> str:

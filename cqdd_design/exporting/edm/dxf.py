@@ -47,8 +47,8 @@ if TYPE_CHECKING:
     from ezdxf.layouts.layout import Modelspace
 
     from cqdd_design.design import Design
-    from cqdd_design.exporting import ExportJob
     from cqdd_design.exporting.edm.wire_path import WirePath
+    from cqdd_design.exporting.job import ExportJob
 
 REF = "REF"
 LAYERS = {CUT_OUTER: 1, CUT_INNER: 5, START_HOLE: 3, REF: 8, NOTES: 7}
@@ -63,7 +63,7 @@ def export_dxf(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write one DXF for every flat part of a design: ``<name>-disc.dxf``, ``<name>-ring.dxf``."""
     return tuple(
         write_flat_part(flat, job.design, job.path(f"-{flat.label}.dxf"), job.options)
-        for flat in flat_parts(job.design)
+        for flat in flat_parts(job.machine)
     )
 
 
@@ -111,11 +111,9 @@ def write_flat_part(
 
 def contour_fit(flat: FlatPart) -> LoopFit:
     """Measure the contour of a part against its exact curve."""
-    outer = flat.shape.outer
-    contours = [c for c in (outer, *flat.shape.holes) if isinstance(c, ArcContour)]
-    joints = as_complex(contours[0].points)
-    loop = Loop(joints, np.roll(joints, -1), contours[0].bulges)
-    return fit_of(loop, flat.exact, outer=contours[0] is outer)
+    joints = as_complex(flat.fitted.points)
+    loop = Loop(joints, np.roll(joints, -1), flat.fitted.bulges)
+    return fit_of(loop, flat.exact, outer=flat.fitted is flat.shape.outer)
 
 
 def draw(
@@ -140,9 +138,8 @@ def draw(
     for name, colour in (LAYERS | (WIRE_LAYERS if wire else {})).items():
         drawing.layers.add(name, color=colour)
     space = drawing.modelspace()
-    _add_contour(space, flat.shape.outer, CUT_OUTER, options)
-    for hole in flat.shape.holes:
-        _add_contour(space, hole, CUT_INNER, options)
+    for number, contour in enumerate(flat.contours):
+        _add_contour(space, contour, CUT_INNER if number else CUT_OUTER, options)
     starts = start_holes(flat, design.edm.wire_diameter)
     for start in starts:
         _add_contour(space, start, START_HOLE, options)
@@ -160,6 +157,10 @@ def draw(
     drawing.header["$EXTMIN"] = (-reach, bottom, 0.0)
     drawing.header["$EXTMAX"] = (reach, reach, 0.0)
     drawing.set_modelspace_vport(1.1 * (reach - bottom), (0.0, 0.5 * (reach + bottom)))
+    if options.dxf_version == "R2010":
+        # Left to itself the library adds classes in the order of a set, another in every process.
+        for kind in sorted(drawing.entitydb.dxf_types_in_use()):
+            drawing.classes.add_class(kind)
     audit = drawing.audit()
     if audit.errors or audit.fixes:
         message = (audit.errors + audit.fixes)[0].message

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cqdd_design.catalog import find_bearing
 from cqdd_design.exporting.edm.exact_curves import disc_curve, ring_curve
 from cqdd_design.exporting.edm.loops import ExactCurve
-from cqdd_design.geometry.contours import Contour, PlanarPart
+from cqdd_design.geometry.contours import ArcContour, Contour, PlanarPart
 from cqdd_design.geometry.disc import disc_contour
 from cqdd_design.geometry.ring import ring_contour
 from cqdd_design.geometry.validate import validate_geometry
@@ -22,6 +21,7 @@ from cqdd_design.solids.selection import output_pin
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
+    from cqdd_design.machine import Machine
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,35 +60,39 @@ class FlatPart:
     remarks: tuple[str, ...]
     turned_over: int = 0
 
+    @property
+    def contours(self) -> tuple[Contour, ...]:
+        """By number: 0 is the outer one, then the inner ones."""
+        return (self.shape.outer, *self.shape.holes)
 
-def flat_parts(design: Design) -> tuple[FlatPart, ...]:
-    """Every flat part of a design that is cut by wire, discs first.
+    @property
+    def cut_order(self) -> tuple[int, ...]:
+        """Numbers of the contours: the outer one last, so that the part stays in the plate."""
+        return (*range(1, len(self.contours)), 0)
+
+    @property
+    def fitted(self) -> ArcContour:
+        """The one contour that is no circle."""
+        return next(one for one in self.contours if isinstance(one, ArcContour))
+
+
+def flat_parts(machine: Machine) -> tuple[FlatPart, ...]:
+    """Every flat part of a machine that is cut by wire, discs first.
 
     Raises
     ------
     GeometryError
         When a part cannot have its shape.
     """
-    resolved = with_named_bearing(design)
-    bearing = find_bearing(resolved.reducer.cam_bearing.designation)
+    design = machine.design
     validate_geometry(
-        resolved,
-        bore_diameter=bearing.outer_diameter,
-        pin_mean_diameter=pin_diameter(resolved),
+        design,
+        bore_diameter=machine.cam.outer_diameter,
+        pin_mean_diameter=pin_diameter(design),
     )
-    groups = disc_groups(resolved)
-    discs = tuple(_disc(resolved, group, alone=len(groups) == 1) for group in groups)
-    return (*discs, _ring(resolved))
-
-
-def with_named_bearing(design: Design) -> Design:
-    """Return the design with a cam bearing of "auto" replaced by the catalogue's answer."""
-    if design.reducer.cam_bearing.designation != "auto":
-        return design
-    # Only a choice needs the loads, and the rooms that find them take long to import.
-    from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
-
-    return with_chosen_bearing(design)
+    groups = disc_groups(design)
+    discs = tuple(_disc(machine, group, alone=len(groups) == 1) for group in groups)
+    return (*discs, _ring(design))
 
 
 def pin_diameter(design: Design) -> float:
@@ -101,24 +105,23 @@ def reach_of(contour: Contour) -> float:
     return float(np.hypot(*contour.sample(1e-5).T).max())
 
 
-def disc_shape(design: Design, disc_index: int) -> PlanarPart:
-    """Return a disc in its own lobes' frame; the design must name its cam bearing."""
-    bearing = find_bearing(design.reducer.cam_bearing.designation)
+def disc_shape(machine: Machine, disc_index: int) -> PlanarPart:
+    """Return a disc in its own lobes' frame."""
     return disc_contour(
-        design,
+        machine.design,
         disc_index,
-        bore_diameter=bearing.outer_diameter,
-        pin_mean_diameter=pin_diameter(design),
+        bore_diameter=machine.cam.outer_diameter,
+        pin_mean_diameter=pin_diameter(machine.design),
     )
 
 
-def _disc(design: Design, group: DiscGroup, *, alone: bool) -> FlatPart:
-    reducer = design.reducer
+def _disc(machine: Machine, group: DiscGroup, *, alone: bool) -> FlatPart:
+    reducer = machine.design.reducer
     drawn = group.placements[0].disc
     return FlatPart(
         label="disc" if alone else f"disc-{drawn + 1}",
-        shape=disc_shape(design, drawn),
-        exact=disc_curve(design),
+        shape=disc_shape(machine, drawn),
+        exact=disc_curve(machine.design),
         thickness=reducer.disc_thickness,
         material=reducer.disc_material,
         quantity=len(group.placements),

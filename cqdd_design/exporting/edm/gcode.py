@@ -32,9 +32,9 @@ from cqdd_design.exporting.edm.wire_path import (
     OpenChain,
     WirePath,
     contour_name,
+    contour_size,
     segmented,
     split_for_tab,
-    wire_offset,
     wire_paths,
 )
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from cqdd_design.design import Design
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
 
 FOLDER = "edm"
 """Programs lie beside the EDM package."""
@@ -61,7 +61,7 @@ def export_gcode(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``edm/<name>-<part>.nc`` for every flat part of a design."""
     return tuple(
         write_program(flat, job.design, job.path(f"-{flat.label}.nc", FOLDER), job.options)
-        for flat in flat_parts(job.design)
+        for flat in flat_parts(job.machine)
     )
 
 
@@ -91,15 +91,15 @@ def program(flat: FlatPart, design: Design, options: ExportOptions = DEFAULTS) -
     """Return the program of a part as text."""
     # The paths prove that the wire can follow; the program itself stays on the contour.
     paths = wire_paths(flat, design.edm)
-    contours = [_on_grid(contour) for contour in (flat.shape.outer, *flat.shape.holes)]
-    order = [*range(1, len(contours)), 0]
+    contours = [_on_grid(contour) for contour in flat.contours]
     seats = seats_of(flat)
     heading = _heading(flat, design, options, len(contours), seats)
     lines = ["%", "O0001", *_comments(heading)]
     registers = {seat.contour: 2 + place for place, seat in enumerate(seats)}
     lines += ["G90 G21 G17", "G40"]
-    for step, number in enumerate(order, start=1):
-        title = f"CUT {step} OF {len(order)}: {_feature(flat, number)}"
+    for step, number in enumerate(flat.cut_order, start=1):
+        size = contour_size(flat.contours[number])
+        title = f"CUT {step} OF {len(contours)}: {contour_name(number)}, {size}"
         register = registers.get(number, 1)
         lines += _cut(contours[number], paths[number], title, options.tab_length, register)
         if number:
@@ -128,7 +128,7 @@ def _heading(
         f"MATERIAL {flat.material}, THICKNESS {_MM * flat.thickness:g} MM",
         "UNITS MM, ABSOLUTE, ORIGIN ON THE PART AXIS, ARC CENTRES I J FROM EACH ARC START",
         f"WIRE DIA {_MM * edm.wire_diameter:g}, SPARK GAP {_MM * edm.spark_gap:g}",
-        f"D01 IS WIRE OFFSET, {_MM * wire_offset(edm):.4f} ON THE FINISHING CUT: SET IT AND THE",
+        f"D01 IS WIRE OFFSET, {_MM * edm.wire_offset:.4f} ON THE FINISHING CUT: SET IT AND THE",
         "OFFSETS OF ROUGH AND SKIM CUTS BY YOUR TECHNOLOGY",
         *(
             f"D{place:02d} FOR {contour_name(seat.contour)}, SEAT DIA {seat}: D01 AND "
@@ -149,13 +149,6 @@ def _comments(lines: list[str]) -> list[str]:
     """Comments without inner brackets, which would end them."""
     cleaned = (line.upper().replace("(", "- ").replace(")", "") for line in lines)
     return [f"({line.encode('ascii', 'replace').decode('ascii')})" for line in cleaned]
-
-
-def _feature(flat: FlatPart, number: int) -> str:
-    contour = (flat.shape.outer, *flat.shape.holes)[number]
-    if isinstance(contour, Circle):
-        return f"{contour_name(number)}, dia {2.0 * _MM * contour.radius:.4f}"
-    return f"{contour_name(number)}, profile"
 
 
 def _on_grid(contour: Contour) -> Contour:

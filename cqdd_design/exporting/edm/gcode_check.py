@@ -79,10 +79,10 @@ def read_program(text: str) -> list[Cut]:
         raise ReadBackError("the program does not say G90 G21, absolute millimetres.")
     control, cuts = _Control(), []
     for block in blocks:
-        words = [(letter, float(value)) for letter, value in _WORD.findall(block)]
-        if "".join(block.split()) != "".join(re.findall(r"[A-Z][-+]?\d*\.?\d+", block)):
+        found = _WORD.findall(block)
+        if "".join(block.split()) != "".join(letter + value for letter, value in found):
             raise ReadBackError(f"the block '{block}' is not understood.")
-        cut = _obey(control, words, block)
+        cut = _obey(control, [(letter, float(value)) for letter, value in found], block)
         if cut is not None:
             cuts.append(cut)
     return cuts
@@ -101,12 +101,8 @@ def _obey(control: _Control, words: list[tuple[str, float]], block: str) -> Cut 
         raise ReadBackError(f"the block '{block}' does not say how to move.")
     turned = next((code for code in codes if code in (40, 41, 42)), None)
     if turned in (41, 42):
-        control.side, control.lead_in, control.segments, control.stops = (
-            turned,
-            (begin, target),
-            [],
-            0,
-        )
+        control.side, control.lead_in = turned, (begin, target)
+        control.segments, control.stops = [], 0
         return None
     if turned == 40 and control.side != 40:
         return _finished(control, (begin, target))
@@ -152,7 +148,7 @@ def check_program(text: str, flat: FlatPart, edm: Edm) -> list[Cut]:
         Naming the cut that is wrong.
     """
     cuts = read_program(text)
-    contours = [*flat.shape.holes, flat.shape.outer]
+    contours = [flat.contours[number] for number in flat.cut_order]
     if len(cuts) != len(contours):
         raise ReadBackError(f"{flat.label}: {len(cuts)} cuts for {len(contours)} contours.")
     for number, (cut, contour) in enumerate(zip(cuts, contours, strict=True), start=1):

@@ -52,8 +52,6 @@ class ReadBack:
         The fitted contour against its exact curve.
     loops : int
         Closed loops on the cut layers.
-    start_holes : int
-        Circles on the layer of start holes.
     least_concave_radius : float
         Over all loops, m; infinite when nothing is concave.
     paths : tuple of PathFit
@@ -62,7 +60,6 @@ class ReadBack:
 
     fit: LoopFit
     loops: int
-    start_holes: int
     least_concave_radius: float
     paths: tuple[PathFit, ...] = ()
 
@@ -125,7 +122,7 @@ def read_back(
             (outer.all_loops, inner.all_loops),
             edm,
         )
-    return ReadBack(fit, count, len(starts), concave, paths)
+    return ReadBack(fit, count, concave, paths)
 
 
 def _refuse_other_units(label: str, contents: DxfContents) -> None:
@@ -243,11 +240,11 @@ def _refuse_bad_starts(
 
 
 def _refuse_thick_wire(label: str, concave: float, edm: Edm) -> None:
-    if concave < edm.wire_diameter / 2.0 + edm.spark_gap:
+    if concave < edm.wire_offset:
         most = max(math.floor(2e6 * (concave - edm.spark_gap)) * 1e-6, 0.0)
         raise ReadBackError(
             f"{label}: the least concave radius is {concave * 1e3:.4f} mm, but edm.wire_diameter "
             f"{edm.wire_diameter * 1e3:g} mm with a gap of {edm.spark_gap * 1e6:g} um cuts none "
-            f"below {(edm.wire_diameter / 2.0 + edm.spark_gap) * 1e3:.4f} mm; choose a wire of at "
+            f"below {edm.wire_offset * 1e3:.4f} mm; choose a wire of at "
             f"most {most * 1e3:.3f} mm."
         )

@@ -63,7 +63,7 @@ class Seat:
 def seats_of(flat: FlatPart) -> tuple[Seat, ...]:
     """Seats of a flat part, those whose size the table of its zone knows."""
     contour, zone = RING_SEAT if flat.label == "ring" else DISC_SEAT
-    circle = (flat.shape.outer, *flat.shape.holes)[contour]
+    circle = flat.contours[contour]
     if not isinstance(circle, Circle):
         return ()
     diameter = 2.0 * circle.radius

@@ -16,14 +16,7 @@ import numpy as np
 
 from cqdd_design.errors import GeometryError
 from cqdd_design.exporting.edm.flat_parts import FlatPart, reach_of
-from cqdd_design.geometry.contours import (
-    ArcContour,
-    Circle,
-    Contour,
-    FloatArray,
-    as_complex,
-    as_points,
-)
+from cqdd_design.geometry.contours import Circle, Contour, as_complex, as_points
 
 DIAMETER = 1.5e-3
 """Of a start hole where there is room, m: an everyday electrode of EDM drilling machines."""
@@ -79,20 +72,16 @@ def _first_joint(contour: Contour) -> tuple[complex, complex]:
     """Where the cut of a contour starts, and the unit normal to its left."""
     if isinstance(contour, Circle):
         return complex(*contour.centre) + contour.radius, complex(-1.0, 0.0)
-    return complex(*contour.points[0]), _left_normal(contour)
-
-
-def _left_normal(contour: ArcContour) -> complex:
-    _, slopes = contour.evaluate(np.zeros(1))
-    slope = complex(*slopes[0, 0])
-    return 1j * slope / abs(slope)
+    slope = complex(*contour.evaluate(np.zeros(1))[1][0, 0])
+    return complex(*contour.points[0]), 1j * slope / abs(slope)
 
 
 def _beside(contour: Contour, side: float, radius: float, wall: float) -> Circle:
     """Find the nearest place to the first joint, straight off the contour, that is clear of it."""
     joint, normal = _first_joint(contour)
     need = radius + wall
-    inward = abs(complex(*_centre(contour)) - joint)
+    centre = contour.centre if isinstance(contour, Circle) else contour.moments().centroid
+    inward = abs(complex(*centre) - joint)
     # Inward to the centre, where there is room for it; outward until nothing is farther out.
     reach = inward if side > 0.0 else need + reach_of(contour) - inward
     offsets = np.linspace(min(need, reach), max(need, reach), _PLACES)
@@ -103,7 +92,3 @@ def _beside(contour: Contour, side: float, radius: float, wall: float) -> Circle
         distances = contour.distances(as_points(places))
     clear = distances >= need * (1.0 - 1e-9)
     return Circle(as_points(places[clear.argmax() if clear.any() else -1]), radius)
-
-
-def _centre(contour: Contour) -> FloatArray:
-    return contour.centre if isinstance(contour, Circle) else contour.moments().centroid

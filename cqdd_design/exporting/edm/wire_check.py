@@ -39,17 +39,11 @@ class PathFit:
         Wanted distance from the contour, m.
     least, largest : float
         Distance from the contour, m.
-    perimeter : float
-        Of the path, m.
-    lead_in : float
-        Length of the lead-in, m.
     """
 
     offset: float
     least: float
     largest: float
-    perimeter: float
-    lead_in: float
 
 
 def nearest_distances(path: Loop, contour: Loop) -> FloatArray:
@@ -104,7 +98,7 @@ def measure_path(label: str, path: Loop, contour: Loop, offset: float, *, outer:
             f"{path.area * 1e6:.5f} mm^2, not {length * 1e3:.5f} mm round {area * 1e6:.5f} mm^2: "
             "it crosses itself or leaves a stretch out."
         )
-    return PathFit(offset, least, largest, path.perimeter, 0.0)
+    return PathFit(offset, least, largest)
 
 
 def measure_paths(
@@ -137,7 +131,7 @@ def measure_paths(
     ReadBackError
         When paths, lead-ins, start holes and contours do not belong together one by one.
     """
-    offset = edm.wire_diameter / 2.0 + edm.spark_gap
+    offset = edm.wire_offset
     every = [(loop, True) for loop in contours[0]] + [(loop, False) for loop in contours[1]]
     if not len(paths) == len(leads) == len(starts) == len(every):
         raise ReadBackError(
@@ -150,9 +144,8 @@ def measure_paths(
         begin = path.start[:1]
         own = min(left, key=lambda one: _distance(one[0], begin))
         left.remove(own)
-        fit = measure_path(name, path, own[0], offset, outer=own[1])
+        fits.append(measure_path(name, path, own[0], offset, outer=own[1]))
         _refuse_bad_lead(name, path, lead, start, every, offset)
-        fits.append(PathFit(offset, fit.least, fit.largest, fit.perimeter, abs(lead[1] - lead[0])))
     return tuple(fits)
 
 

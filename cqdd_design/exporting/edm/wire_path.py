@@ -27,6 +27,7 @@ from cqdd_design.errors import ReadBackError
 from cqdd_design.exporting.edm.start_holes import start_holes
 from cqdd_design.geometry.contours import (
     ArcContour,
+    Circle,
     ComplexArray,
     Contour,
     FloatArray,
@@ -83,14 +84,14 @@ class OpenChain:
     bulges: FloatArray
 
 
-def wire_offset(edm: Edm) -> float:
-    """From contour to the wire's centre on the finishing cut, m."""
-    return edm.wire_diameter / 2.0 + edm.spark_gap
-
-
 def contour_name(number: int) -> str:
     """Name of a contour of a part: 0 is the outer one."""
     return "outer contour" if number == 0 else f"inner contour {number}"
+
+
+def contour_size(contour: Contour, sign: str = "dia ") -> str:
+    """Diameter of a round contour, mm, behind `sign`; any other is a profile."""
+    return f"{sign}{2e3 * contour.radius:.4f}" if isinstance(contour, Circle) else "profile"
 
 
 def wire_paths(flat: FlatPart, edm: Edm) -> tuple[WirePath, ...]:
@@ -104,7 +105,6 @@ def wire_paths(flat: FlatPart, edm: Edm) -> tuple[WirePath, ...]:
         When the wire is too thick for a contour: the part exists, but the files would not cut it.
     """
     starts = start_holes(flat, edm.wire_diameter)
-    contours = (flat.shape.outer, *flat.shape.holes)
     return tuple(
         WirePath(
             contour_name(number),
@@ -113,10 +113,10 @@ def wire_paths(flat: FlatPart, edm: Edm) -> tuple[WirePath, ...]:
             ),
             complex(*start.centre),
             2.0 * start.radius,
-            wire_offset(edm),
+            edm.wire_offset,
             number == 0,
         )
-        for number, (contour, start) in enumerate(zip(contours, starts, strict=True))
+        for number, (contour, start) in enumerate(zip(flat.contours, starts, strict=True))
     )
 
 
@@ -136,7 +136,7 @@ def offset_contour(contour: Contour, edm: Edm, *, outer: bool, feature: str) -> 
     ReadBackError
         When an arc is tighter than the offset, naming `feature` and the thickest wire that fits.
     """
-    distance = wire_offset(edm)
+    distance = edm.wire_offset
     # Left of the path lies the inside.
     side = -distance if outer else distance
     nominal = segmented(contour)

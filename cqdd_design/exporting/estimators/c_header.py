@@ -13,8 +13,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cqdd_design.errors import UsageError
-from cqdd_design.exporting.estimators import c_kernels, c_physics
-from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.exporting.estimators import c_physics
+from cqdd_design.exporting.estimators.c_text import ACTIVATIONS, array, filled, template
+from cqdd_design.exporting.estimators.options import Export
+from cqdd_design.files import write_atomically
 from cqdd_design.torque.networks.folded import folded_gru, folded_mlp
 
 if TYPE_CHECKING:
@@ -35,9 +37,10 @@ _HOMED = (
 )
 
 
-def write_c_header(artefact: Artefact, path: Path) -> WrittenFile:
-    """Write the header; its names begin with the file's stem as a C identifier."""
-    return write_atomically(path, header_text(artefact, c_name(path.stem)), "c")
+def export_c(artefact: Artefact, path: Path) -> Export:
+    """Write ``NAME.h``; the names in it begin with NAME as a C identifier."""
+    text = header_text(artefact, c_name(path.name))
+    return Export((write_atomically(path.with_name(f"{path.name}.h"), text, "c"),))
 
 
 def c_name(text: str) -> str:
@@ -71,10 +74,11 @@ def header_text(artefact: Artefact, name: str) -> str:
         head, offset, body = gru.head, gru.head_bias, _gru_body(artefact)
     else:
         mlp = folded_mlp(artefact)
-        arrays = []
-        for layer, (weight, bias) in enumerate(zip(mlp.weights, mlp.biases, strict=True)):
-            arrays += [_array(f"{name}_weight_{layer}", weight)]
-            arrays += [_array(f"{name}_bias_{layer}", bias)]
+        arrays = [
+            _array(f"{name}_{kind}_{layer}", values)
+            for layer, both in enumerate(zip(mlp.weights, mlp.biases, strict=True))
+            for kind, values in zip(("weight", "bias"), both, strict=True)
+        ]
         head, offset, body = mlp.head, mlp.head_bias, _mlp_body(artefact)
     arrays += [_array(f"{name}_head", head)]
     text = "\n".join(
@@ -88,7 +92,7 @@ def header_text(artefact: Artefact, name: str) -> str:
             "",
             _sizes(artefact),
             *arrays,
-            c_kernels.COMMON,
+            template("common"),
             body,
             *([c_physics.functions(artefact, actuator)] if actuator else []),
             _entry(artefact, actuator),
@@ -96,16 +100,9 @@ def header_text(artefact: Artefact, name: str) -> str:
             "",
         ]
     )
-    for token, value in {
-        "@OFFSET@": _number(offset),
-        "@NAME@": name.upper(),
-        "@name@": name,
-        "@CORRECTION@": (
-            f" + newest[{artefact.inputs.index('balance')}]" if artefact.residual else ""
-        ),
-    }.items():
-        text = text.replace(token, value)
-    return text
+    correction = f" + newest[{artefact.inputs.index('balance')}]" if artefact.residual else ""
+    words = {"OFFSET": _number(offset), "NAME": name.upper(), "name": name}
+    return filled(text, words | {"CORRECTION": correction})
 
 
 def _comment(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
@@ -218,11 +215,8 @@ def _gru_body(artefact: Artefact) -> str:
         source = "samples" if layer == 0 else "values"
         window.append(f"    @name@_sequence({weights}, {source}, {rows}, values);")
         lanes.append(f"        @name@_lane_layer({weights}, {rows}, values);")
-    return (
-        c_kernels.GRU.replace("@STEP@", "\n".join(step))
-        .replace("@WINDOW@", "\n".join(window))
-        .replace("@LANE_LAYERS@", "\n".join(lanes))
-    )
+    pieces = {"STEP": step, "WINDOW": window, "LANE_LAYERS": lanes}
+    return filled(template("gru"), {key: "\n".join(lines) for key, lines in pieces.items()})
 
 
 def _mlp_body(artefact: Artefact) -> str:
@@ -237,11 +231,8 @@ def _mlp_body(artefact: Artefact) -> str:
             f" {now});"
         )
     last = "even" if artefact.layers % 2 else "odd"
-    return (
-        c_kernels.MLP.replace("@ACTIVATION@", c_kernels.ACTIVATIONS[artefact.activation])
-        .replace("@DENSE@", "\n".join(lines))
-        .replace("@LAST@", last)
-    )
+    words = {"ACTIVATION": ACTIVATIONS[artefact.activation], "LAST": last}
+    return filled(template("mlp"), words | {"DENSE": "\n".join(lines)})
 
 
 def _entry(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
@@ -279,7 +270,7 @@ def _entry(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
                 "to onnx, where the caller makes the features."
             )
         lines.append(f"    features[{place}] = {value};")
-    lines.append(c_kernels.RUN_STREAMING if artefact.mode == "streaming" else c_kernels.RUN_WINDOW)
+    lines.append(template(f"run_{artefact.mode}").removesuffix("\n"))
     arguments = ", ".join(f"{what} {name}" for what, name, _ in _arguments(artefact))
     window = artefact.mode == "window"
     needs_index = window or artefact.differentiator
@@ -290,22 +281,17 @@ def _entry(artefact: Artefact, actuator: ActuatorParameters | None) -> str:
     )
     keeps = "past" if window else "hidden"
     size = "@NAME@_HISTORY * @NAME@_FEATURES" if window else "@NAME@_LAYERS * @NAME@_HIDDEN"
-    return (
-        c_kernels.ENTRY.replace("@KEPT@", keeps)
-        .replace("@KEPT_SIZE@", size)
-        .replace("@NEEDED@", "@NAME@_HISTORY" if window else "1")
-        .replace("@ARGUMENTS@", arguments)
-        .replace("@DECLARED@", "\n".join(declared))
-        .replace("@BODY@", "\n".join(lines))
+    words = {"KEPT": keeps, "KEPT_SIZE": size, "ARGUMENTS": arguments}
+    words |= {"NEEDED": "@NAME@_HISTORY" if window else "1"}
+    return filled(
+        template("entry"), words | {"DECLARED": "\n".join(declared), "BODY": "\n".join(lines)}
     )
 
 
 def _array(name: str, values: NDArray[np.float32]) -> str:
-    numbers = [_number(value) for value in values.ravel()]
-    rows = [
-        "    " + ", ".join(numbers[i : i + _PER_LINE]) for i in range(0, len(numbers), _PER_LINE)
-    ]
-    return f"static const float {name}[{len(numbers)}] = {{\n" + ",\n".join(rows) + "\n};\n"
+    return array(
+        f"float {name}[{values.size}]", [_number(one) for one in values.ravel()], _PER_LINE
+    )
 
 
 def _number(value: float | np.float32) -> str:

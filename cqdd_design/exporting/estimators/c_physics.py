@@ -13,6 +13,7 @@ import numpy as np
 
 from cqdd_design.actuator.packing import table_points
 from cqdd_design.errors import UsageError
+from cqdd_design.exporting.estimators.c_text import array, filled, template
 from cqdd_design.torque.features.matrix import PHYSICAL
 from cqdd_design.torque.features.physics import SMOOTHING, actuator_from_dict, dry_friction
 
@@ -23,73 +24,6 @@ if TYPE_CHECKING:
     from cqdd_design.torque.networks.artefact import Artefact
 
 _PER_LINE = 4
-
-BALANCE = """\
-/* Torque of the drive (N m at the joint): impedance law within supply voltage and current limit. */
-static inline double @name@_driven(double position_error, double velocity)
-{
-    const double back = @BACK@ * velocity;
-    const double least = (-@SUPPLY@ - back) / @RESISTANCE@;
-    const double most = (@SUPPLY@ - back) / @RESISTANCE@;
-    double current = (@STIFFNESS_GAIN@ * position_error - @DAMPING_GAIN@ * velocity) / @BACK@;
-    current = current < least ? least : current > most ? most : current;
-    current = current < -@LIMIT@ ? -@LIMIT@ : current > @LIMIT@ ? @LIMIT@ : current;
-    return @BACK@ * current;
-}
-
-/* What inertia and viscous drag leave of it (N m): the output torque but for dry friction. */
-static inline double @name@_balance(double position_error, double velocity, double acceleration)
-{
-    return @name@_driven(position_error, velocity) - @INERTIA@ * acceleration
-           - @DRAG@ * velocity;
-}
-"""
-
-FRICTION = """\
-/* Smooth sign of dry friction, -1 to 1. */
-static inline double @name@_friction_sign(double velocity)
-{
-    return tanh(@SIGN_RATE@ * velocity);
-}
-"""
-
-RIPPLE = """\
-/* What the gearbox's errors add to a torque of the motor (N m at the joint), between two of
-   @POINTS@ places in a turn. Sine and cosine of each order follow from those of the one before. */
-static inline double @name@_ripple(double position, double torque)
-{
-    const double step = @STEP_ANGLE@;
-    const double place = floor(@WAY@ * position / step);
-    const double after = @WAY@ * position / step - place;
-    const double part[2] = {1.0 - after, after};
-    double slope = 0.0, share = 1.0, share_slope = 0.0, size, windup, energy;
-    double c[2] = {1.0, 1.0}, s[2] = {0.0, 0.0}, first_c[2], first_s[2];
-    int i, j, order = 0;
-    for (j = 0; j < 2; j++) {
-        const double angle = step * fmod(place + j, @POINTS@.0);
-        first_c[j] = cos(angle);
-        first_s[j] = sin(angle);
-    }
-    for (i = 0; i < @NAME@_ORDERS; i++) {
-        double here_c, here_s;
-        for (; order < @name@_order[i]; order++)
-            for (j = 0; j < 2; j++) {
-                const double turned = c[j] * first_c[j] - s[j] * first_s[j];
-                s[j] = s[j] * first_c[j] + c[j] * first_s[j];
-                c[j] = turned;
-            }
-        here_c = part[0] * c[0] + part[1] * c[1];
-        here_s = part[0] * s[0] + part[1] * s[1];
-        slope += order * (@name@_error_sine[i] * here_c - @name@_error_cosine[i] * here_s);
-        share += @name@_share_cosine[i] * here_c + @name@_share_sine[i] * here_s;
-        share_slope += order * (@name@_share_sine[i] * here_c - @name@_share_cosine[i] * here_s);
-    }
-    size = torque < 0.0 ? -torque : torque;
-    windup = @WINDUP@ * pow(size / (share * @ERROR_TORQUE@), @SOFTENING@);
-    energy = size * windup / (@STIFFENING_MORE@ * share);
-    return (torque - @WAY@ * energy * share_slope) / (1.0 + @WAY@ * slope) - torque;
-}
-"""
 
 
 def made_inside(artefact: Artefact) -> tuple[str, ...]:
@@ -133,33 +67,28 @@ def functions(artefact: Artefact, actuator: ActuatorParameters) -> str:
     drag = ratio**2 * (friction.motor_viscous + motor.iron_loss) + friction.output_viscous
     points = table_points(gear)
     names = made_inside(artefact)
-    text = ""
-    if "balance" in names:
-        text += BALANCE + "\n"
-    if "friction_sign" in names:
-        text += FRICTION + "\n"
+    texts = [template(name) for name in names]
     if "ripple" in names:
-        text += _tables(gear) + "\n" + RIPPLE + "\n"
-    for token, value in {
-        "@BACK@": literal(ratio * motor.torque_constant),
-        "@SUPPLY@": literal(drive.supply_voltage),
-        "@RESISTANCE@": literal(motor.resistance),
-        "@STIFFNESS_GAIN@": literal(drive.position_gain),
-        "@DAMPING_GAIN@": literal(drive.velocity_gain),
-        "@LIMIT@": literal(drive.current_limit),
-        "@INERTIA@": literal(actuator.reflected_inertia),
-        "@DRAG@": literal(drag),
-        "@SIGN_RATE@": literal(ratio / (SMOOTHING * friction.stribeck_speed)),
-        "@POINTS@": str(points),
-        "@STEP_ANGLE@": literal(2.0 * np.pi / points),
-        "@WAY@": literal(np.sign(gear.ratio)),
-        "@WINDUP@": literal(gear.error_torque / gear.stiffness),
-        "@ERROR_TORQUE@": literal(gear.error_torque),
-        "@SOFTENING@": literal(1.0 / gear.stiffening),
-        "@STIFFENING_MORE@": literal(gear.stiffening + 1.0),
-    }.items():
-        text = text.replace(token, value)
-    return text.rstrip("\n") + "\n"
+        texts.insert(names.index("ripple"), _tables(gear))
+    values = {
+        "BACK": literal(ratio * motor.torque_constant),
+        "SUPPLY": literal(drive.supply_voltage),
+        "RESISTANCE": literal(motor.resistance),
+        "STIFFNESS_GAIN": literal(drive.position_gain),
+        "DAMPING_GAIN": literal(drive.velocity_gain),
+        "LIMIT": literal(drive.current_limit),
+        "INERTIA": literal(actuator.reflected_inertia),
+        "DRAG": literal(drag),
+        "SIGN_RATE": literal(ratio / (SMOOTHING * friction.stribeck_speed)),
+        "POINTS": str(points),
+        "STEP_ANGLE": literal(2.0 * np.pi / points),
+        "WAY": literal(np.sign(gear.ratio)),
+        "WINDUP": literal(gear.error_torque / gear.stiffness),
+        "ERROR_TORQUE": literal(gear.error_torque),
+        "SOFTENING": literal(1.0 / gear.stiffening),
+        "STIFFENING_MORE": literal(gear.stiffening + 1.0),
+    }
+    return filled("\n".join(texts), values)
 
 
 def step_lines(artefact: Artefact, actuator: ActuatorParameters) -> list[str]:
@@ -204,21 +133,12 @@ def _tables(gear: GearParameters) -> str:
     order = np.argsort(orders, kind="stable")
     kept = order[np.any([values[order] != 0.0 for values in series.values()], axis=0)]
     # C has no empty array; a gearbox without harmonics keeps one of them at zero.
-    chosen = [
-        ("int", "order", [str(int(one)) for one in orders[kept]] or ["1"]),
-        *(
-            ("double", name, [repr(float(one)) for one in values[kept]] or ["0.0"])
-            for name, values in series.items()
-        ),
+    numbers = [str(int(one)) for one in orders[kept]] or ["1"]
+    texts = [
+        f"#define @NAME@_ORDERS {len(numbers)}\n",
+        array("int @name@_order[@NAME@_ORDERS]", numbers, _PER_LINE),
     ]
-    texts = [f"#define @NAME@_ORDERS {len(chosen[0][2])}"]
-    for kind, name, numbers in chosen:
-        rows = [
-            "    " + ", ".join(numbers[i : i + _PER_LINE])
-            for i in range(0, len(numbers), _PER_LINE)
-        ]
-        size = "@NAME@_ORDERS"
-        texts.append(
-            f"static const {kind} @name@_{name}[{size}] = {{\n" + ",\n".join(rows) + "\n};"
-        )
-    return "\n".join(texts) + "\n"
+    for name, values in series.items():
+        numbers = [repr(float(one)) for one in values[kept]] or ["0.0"]
+        texts.append(array(f"double @name@_{name}[@NAME@_ORDERS]", numbers, _PER_LINE))
+    return "".join(texts)

@@ -36,12 +36,14 @@ if TYPE_CHECKING:
 
     from cqdd_design.torque.networks.artefact import Artefact, Mode
 
-_CLASSES = {
-    "history": "ActuatorNetMLPCfg",
-    "lstm": "ActuatorNetLSTMCfg",
-    "gru": "ActuatorNetGRUCfg",
+_FORMS = {
+    "history": ("mlp", "ActuatorNetMLPCfg"),
+    "lstm": ("lstm", "ActuatorNetLSTMCfg"),
+    "gru": ("gru", "ActuatorNetGRUCfg"),
 }
-_SUFFIXES = {"history": "mlp", "lstm": "lstm", "gru": "gru"}
+"""Ending of the file and class of the client, by shape."""
+OF_HISTORY = {"pos_scale": 1.0, "vel_scale": 1.0, "torque_scale": 1.0, "input_order": "pos_vel"}
+"""Fields that every client with a history wants: scaling is inside, positions come first."""
 
 
 def export_isaaclab(artefact: Artefact, path: Path) -> Export:
@@ -59,7 +61,7 @@ def export_isaaclab(artefact: Artefact, path: Path) -> Export:
     files: list[WrittenFile] = []
     for shape in shapes:
         _require_room(artefact, shape)
-        name = f"{path.name}-isaaclab-{_SUFFIXES[shape]}"
+        name = f"{path.name}-isaaclab-{_FORMS[shape][0]}"
         place = path.with_name(f"{name}.pt")
         files += write_shape(artefact, place, shape, _settings(artefact, shape, place.name))
     warnings = streaming_warning(artefact, "Isaac Lab's LSTM or GRU class")
@@ -81,17 +83,11 @@ def write_shape(
 def _settings(artefact: Artefact, shape: Shape, file: str) -> dict[str, Any]:
     configuration: dict[str, Any] = {"network_file": file}
     if shape == "history":
-        configuration |= {
-            "pos_scale": 1.0,
-            "vel_scale": 1.0,
-            "torque_scale": 1.0,
-            "input_order": "pos_vel",
-            "input_idx": list(range(client_history(artefact))),
-        }
+        configuration |= {**OF_HISTORY, "input_idx": list(range(client_history(artefact)))}
     return {
         **metadata(artefact, "window" if shape == "history" else "streaming"),
         "client": "isaaclab 2.3.2" if shape != "gru" else "isaaclab, pull request 6083",
-        "class": _CLASSES[shape],
+        "class": _FORMS[shape][1],
         "configuration": configuration,
     }
 
@@ -114,15 +110,10 @@ def _read_back(artefact: Artefact, place: Path, content: bytes, shape: Shape) ->
     network = torch.jit.load(io.BytesIO(content))
     length = client_history(artefact) + 5
     motions = [probe(artefact, length, seed) for seed in (0, 1)]
-    place_error, place_velocity = (
-        artefact.inputs.index(name) if name in artefact.inputs else None
-        for name in ("position_error", "velocity")
-    )
     pairs = np.zeros((2, length, 2))
-    for joint, motion in enumerate(motions):
-        for column, found in ((0, place_error), (1, place_velocity)):
-            if found is not None:
-                pairs[joint, :, column] = motion[:, found]
+    for column, name in enumerate(("position_error", "velocity")):
+        if name in artefact.inputs:
+            pairs[..., column] = [motion[:, artefact.inputs.index(name)] for motion in motions]
     wanted = [_expected(artefact, pair, shape) for pair in pairs]
     inputs = torch.tensor(pairs, dtype=torch.float32)
     with torch.no_grad():

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from cqdd_design.errors import UsageError
-from cqdd_design.exporting.estimators.isaaclab import write_shape
+from cqdd_design.exporting.estimators.isaaclab import OF_HISTORY, write_shape
 from cqdd_design.exporting.estimators.options import Export, metadata, require_inputs
 from cqdd_design.exporting.estimators.torchscript import client_history
 
@@ -42,10 +42,7 @@ def export_mjlab(artefact: Artefact, path: Path) -> Export:
         "class": "LearnedMlpActuatorCfg",
         "configuration": {
             "network_file": place.name,
-            "pos_scale": 1.0,
-            "vel_scale": 1.0,
-            "torque_scale": 1.0,
-            "input_order": "pos_vel",
+            **OF_HISTORY,
             "history_length": client_history(artefact),
         },
     }

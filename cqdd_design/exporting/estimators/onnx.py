@@ -24,7 +24,7 @@ from cqdd_design.exporting.estimators.options import (
     require_close,
 )
 from cqdd_design.files import write_atomically
-from cqdd_design.torque.networks import gru_plain
+from cqdd_design.torque.networks import plain
 from cqdd_design.torque.networks.predict import predict, predict_windows
 
 if TYPE_CHECKING:
@@ -126,9 +126,8 @@ def _update_first(values: NDArray[np.float64], width: int) -> NDArray[np.float64
 
 def _head(graph: Graph, artefact: Artefact, values: str, newest: str) -> None:
     """From (N, H) to the output ``torque`` (N,)."""
-    family = artefact.family == "gru"
-    weight, bias = ("head_weight", "head_bias")
-    if not family:
+    weight, bias = "head_weight", "head_bias"
+    if artefact.family != "gru":
         weight, bias = f"weight_{artefact.layers}", f"bias_{artefact.layers}"
     scaled = artefact.torque_std * artefact.weights[weight].astype(np.float64)
     offset = artefact.torque_std * artefact.weights[bias].astype(np.float64) + artefact.torque_mean
@@ -234,7 +233,7 @@ def _read_back(artefact: Artefact, path: Path, model: bytes, mode: Mode) -> None
         wanted = predict_windows(artefact, windows, engine="plain")
     else:
         features = probe(artefact, 8)
-        hidden = gru_plain.zero_state(artefact, 1).astype(np.float32)
+        hidden = plain.zero_state(artefact, 1).astype(np.float32)
         torques = []
         for row in features.astype(np.float32):
             torque, hidden = session.run(None, {"features": row[None], "hidden": hidden})

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cqdd_design.errors import DependencyError, ReadBackError, UsageError
-from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.errors import CqddError, DependencyError, ReadBackError, UsageError
+from cqdd_design.files import WrittenFile, parse_json, read_text_file, write_atomically
 from cqdd_design.torque.features.matrix import PHYSICAL
 
 if TYPE_CHECKING:
@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 
     from cqdd_design.torque.networks.artefact import Artefact, Mode
 
-KINDS = ("onnx", "torchscript-isaaclab", "newton", "mjlab", "c")
-"""Values of ``torque export --to``."""
 TOLERANCE = 1e-5
 """Largest difference between a file read back and the estimator, N m at 15 N m of scale."""
 SIGNS = (
@@ -38,11 +36,20 @@ SIGNS = (
 
 
 @dataclass(frozen=True)
+class Refusal:
+    """A kind that could not be written, and why."""
+
+    kind: str
+    error: CqddError
+
+
+@dataclass(frozen=True)
 class Export:
-    """What one kind of export wrote, and what its user must know."""
+    """What was written, what its user must know, and which of several kinds could not be."""
 
     files: tuple[WrittenFile, ...]
     warnings: tuple[str, ...] = ()
+    refused: tuple[Refusal, ...] = ()
 
 
 def require(name: str) -> Any:
@@ -106,23 +113,20 @@ def require_settings(path: Path, dt: float, position_gain: float, velocity_gain:
     ------
     UsageError
     """
+    given = (
+        ("sample time", "sample_dt_s", dt),
+        ("position gain", "position_gain_Nm_per_rad", position_gain),
+        ("velocity gain", "velocity_gain_Nms_per_rad", velocity_gain),
+    )
     try:
-        content = json.loads(path.read_text("utf-8"))
-        known = {
-            name: float(content[key])
-            for name, key in (
-                ("sample time", "sample_dt_s"),
-                ("position gain", "position_gain_Nm_per_rad"),
-                ("velocity gain", "velocity_gain_Nms_per_rad"),
-            )
-        }
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        content = parse_json(read_text_file(path, 1_000_000), path)
+        trained = [float(content[key]) for _, key, _ in given]
+    except (ValueError, KeyError, TypeError) as error:
         raise UsageError(f"{path} holds no settings of an exported torque network.") from error
-    given = {"sample time": dt, "position gain": position_gain, "velocity gain": velocity_gain}
-    for name, trained in known.items():
-        if not math.isclose(given[name], trained, rel_tol=1e-6, abs_tol=1e-12):
+    for (name, _, value), known in zip(given, trained, strict=True):
+        if not math.isclose(value, known, rel_tol=1e-6, abs_tol=1e-12):
             raise UsageError(
-                f"{path.name}: the network holds for a {name} of {trained:g}, not {given[name]:g} "
+                f"{path.name}: the network holds for a {name} of {known:g}, not {value:g} "
                 "(SI); use that, or train a network on data of the other."
             )
 

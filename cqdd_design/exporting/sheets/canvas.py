@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import hashlib
 import math
-import os
-import time
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -31,7 +29,14 @@ from ezdxf.addons.drawing.unified_text_renderer import UnifiedTextRenderer
 from ezdxf.fonts.font_measurements import FontMeasurements
 from ezdxf.path import Command
 
-from cqdd_design.exporting.sheets.lettering import CAP_HEIGHT, DESCENDER, printable, text_width
+from cqdd_design.environment import source_date
+from cqdd_design.exporting.sheets.lettering import (
+    CAP_HEIGHT,
+    DESCENDER,
+    printable,
+    short_number,
+    text_width,
+)
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -246,8 +251,8 @@ def pdf_bytes(canvas: Canvas, title: str) -> bytes:
 
 def sheet_date() -> str:
     """Day of SOURCE_DATE_EPOCH, or nothing: a date of today would change the bytes."""
-    epoch = os.environ.get("SOURCE_DATE_EPOCH", "")
-    return time.strftime("%Y-%m-%d", time.gmtime(int(epoch))) if epoch.isdecimal() else ""
+    moment = source_date()
+    return moment.strftime("%Y-%m-%d") if moment else ""
 
 
 def _pdf_date() -> str:
@@ -298,5 +303,5 @@ def _at(point: Any) -> str:
 
 
 def _number(value: float) -> str:
-    """Micrometres of paper are enough; never ``-0``."""
-    return f"{round(float(value), 3) + 0.0:.3f}".rstrip("0").rstrip(".")
+    """Micrometres of paper are enough."""
+    return short_number(value, 3)

@@ -33,7 +33,7 @@ from cqdd_design.exporting.sheets.canvas import Canvas, render
 from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SMALL, TEXT, SheetDrawing, new_sheet
 from cqdd_design.exporting.sheets.frame import HEIGHT, WIDTH, draw_frame
 from cqdd_design.exporting.sheets.lettering import text_width
-from cqdd_design.geometry.contours import ArcContour, Circle, ComplexArray, FloatArray, as_complex
+from cqdd_design.geometry.contours import Circle, ComplexArray, FloatArray, as_complex
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.seats import Seat
@@ -71,7 +71,7 @@ def sheet_scale(facts: CutFacts) -> float:
 def _front_view(sheet: SheetDrawing, facts: CutFacts) -> None:
     flat, factor = facts.flat, _MM * sheet.scale
     reach = factor * reach_of(flat.shape.outer)
-    for contour in (flat.shape.outer, *flat.shape.holes):
+    for contour in flat.contours:
         sheet.contour(contour, FRONT)
     arm = reach + 5.0
     sheet.line(FRONT - arm, FRONT + arm, AXIS)
@@ -158,7 +158,7 @@ def _mark(sheet: SheetDrawing, facts: CutFacts, angles: FloatArray) -> None:
 
 def _profile_callout(sheet: SheetDrawing, facts: CutFacts) -> None:
     """Tolerance of the fitted contour, all round, and the squareness of its walls."""
-    points = as_complex(_fitted(facts).sample(1e-4)) * _MM * sheet.scale
+    points = as_complex(facts.flat.fitted.sample(1e-4)) * _MM * sheet.scale
     spot = points[np.abs(np.angle(points * np.exp(-1j * math.radians(52.0)))).argmin()]
     elbow = complex(FRONT.real + 46.0, FRONT.imag + MOST_REACH + 20.0)
     words, zones = "exact curve, all round", facts.zones
@@ -169,16 +169,11 @@ def _profile_callout(sheet: SheetDrawing, facts: CutFacts) -> None:
     sheet.tolerance(frame + wide + 2.0, "perpendicularity", zone_text(WALL_SQUARENESS), ["B"])
 
 
-def _fitted(facts: CutFacts) -> ArcContour:
-    contours = (facts.flat.shape.outer, *facts.flat.shape.holes)
-    return next(c for c in contours if not isinstance(c, Circle))
-
-
 def _concave_radius(sheet: SheetDrawing, facts: CutFacts, reach: float) -> None:
     """Dimension the tightest arc that the wire must follow, in the lower right of the view."""
     flat, factor = facts.flat, _MM * sheet.scale
     outer = not isinstance(flat.shape.outer, Circle)
-    contour = segmented(_fitted(facts))
+    contour = segmented(facts.flat.fitted)
     arcs = contour.arcs()
     concave = (contour.bulges < 0.0) == outer
     concave &= contour.bulges != 0.0
@@ -239,7 +234,7 @@ def _section(sheet: SheetDrawing, facts: CutFacts) -> None:
 def _crossings(facts: CutFacts) -> list[float]:
     """Ascending places where the walls of the part cross the horizontal axis, m."""
     found: list[float] = []
-    for contour in (facts.flat.shape.outer, *facts.flat.shape.holes):
+    for contour in facts.flat.contours:
         if isinstance(contour, Circle):
             x, y = contour.centre
             if abs(y) < contour.radius:
@@ -258,7 +253,7 @@ def _diameters(sheet: SheetDrawing, facts: CutFacts, left: complex, wide: float)
     """Diameters beside the section, the smallest nearest."""
     factor, seats = _MM * sheet.scale, facts.seat_by_contour
     rows: list[tuple[float, str]] = []
-    for number, contour in enumerate((facts.flat.shape.outer, *facts.flat.shape.holes)):
+    for number, contour in enumerate(facts.flat.contours):
         if isinstance(contour, Circle):
             if abs(complex(*contour.centre)) < contour.radius:
                 rows.append((2.0 * contour.radius, _seat_words(seats.get(number))))

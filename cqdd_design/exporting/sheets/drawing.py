@@ -22,6 +22,8 @@ _PENS = {OUTLINE: 50, THIN: 18, AXIS: 18}
 TEXT, SMALL = 2.5, 2.2
 """Cap heights, mm."""
 STYLE = "SHEET"
+_STYLED: dict[str, Any] = {"dimstyle": STYLE, "dxfattribs": {"layer": THIN}}
+"""How every dimension is drawn."""
 CELL = 5.6
 """Height of a tolerance frame, mm."""
 
@@ -44,23 +46,10 @@ def new_sheet(scale: float) -> SheetDrawing:
         )
     style = drawing.dimstyles.add(STYLE)
     settings = {
-        "dimtxt": TEXT,
-        "dimasz": 2.5,
-        "dimexe": 1.2,
-        "dimexo": 0.8,
-        "dimgap": 0.8,
-        "dimtad": 1,
-        "dimtih": 0,
-        "dimtoh": 0,
+        **{"dimtxt": TEXT, "dimtxsty": STYLE, "dimtad": 1, "dimtih": 0, "dimtoh": 0},
+        **{"dimasz": 2.5, "dimexe": 1.2, "dimexo": 0.8, "dimgap": 0.8, "dimlwd": 18, "dimlwe": 18},
+        **{"dimdec": 3, "dimadec": 3, "dimdsep": ord("."), "dimzin": 8, "dimazin": 2},
         "dimlfac": 1.0 / scale,
-        "dimdec": 3,
-        "dimadec": 3,
-        "dimdsep": ord("."),
-        "dimzin": 8,
-        "dimazin": 2,
-        "dimlwd": 18,
-        "dimlwe": 18,
-        "dimtxsty": STYLE,
     }
     for name, value in settings.items():
         style.dxf.set(name, value)
@@ -91,6 +80,11 @@ class SheetDrawing:
         x, y = _xy(corner)
         points = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
         self._space.add_lwpolyline(points, close=True, dxfattribs={"layer": layer})
+
+    def polygon(self, corners: Sequence[complex]) -> None:
+        """Draw thin lines from corner to corner, and back to the first."""
+        for one, two in zip(corners, [*corners[1:], corners[0]], strict=True):
+            self.line(one, two)
 
     def circle(self, centre: complex, radius: float, layer: str = THIN) -> None:
         """Draw a circle."""
@@ -143,36 +137,20 @@ class SheetDrawing:
     ) -> None:
         """Dimension a distance; `words` as in DXF, ``<>`` for the measured value."""
         self._space.add_linear_dim(
-            base=_xy(base),
-            p1=_xy(one),
-            p2=_xy(two),
-            angle=angle,
-            text=words,
-            dimstyle=STYLE,
-            dxfattribs={"layer": THIN},
+            base=_xy(base), p1=_xy(one), p2=_xy(two), angle=angle, text=words, **_STYLED
         ).render()
 
     def diameter(self, centre: complex, radius: float, angle: float, share: float) -> None:
         """Dimension a circle across at `angle` (deg), the text at `share` of the radius."""
         place = centre + cmath.rect(share * radius, math.radians(angle))
         self._space.add_diameter_dim(
-            center=_xy(centre),
-            radius=radius,
-            angle=angle,
-            location=_xy(place),
-            dimstyle=STYLE,
-            dxfattribs={"layer": THIN},
+            center=_xy(centre), radius=radius, angle=angle, location=_xy(place), **_STYLED
         ).render()
 
     def radius(self, centre: complex, radius: float, angle: float, place: complex) -> None:
         """Dimension an arc at `angle` (deg) of it, the text at `place`, with a leader there."""
         self._space.add_radius_dim(
-            center=_xy(centre),
-            radius=radius,
-            angle=angle,
-            location=_xy(place),
-            dimstyle=STYLE,
-            dxfattribs={"layer": THIN},
+            center=_xy(centre), radius=radius, angle=angle, location=_xy(place), **_STYLED
         ).render()
 
     def angle(self, centre: complex, radius: float, start: float, end: float, out: float) -> None:
@@ -185,8 +163,7 @@ class SheetDrawing:
             end_angle=end,
             distance=0.0,
             location=_xy(centre + cmath.rect(radius + out, middle)),
-            dimstyle=STYLE,
-            dxfattribs={"layer": THIN},
+            **_STYLED,
         ).render()
 
     def callout(self, target: complex, elbow: complex, words: str, width: float) -> None:
@@ -246,8 +223,7 @@ def _profile_of_a_line(sheet: SheetDrawing, at: complex) -> None:
 
 def _flatness(sheet: SheetDrawing, at: complex) -> None:
     corners = [at - 2.0 - 0.9j, at + 1.0 - 0.9j, at + 2.0 + 0.9j, at - 1.0 + 0.9j]
-    for one, two in zip(corners, corners[1:] + corners[:1], strict=True):
-        sheet.line(one, two)
+    sheet.polygon(corners)
 
 
 def _parallelism(sheet: SheetDrawing, at: complex) -> None:

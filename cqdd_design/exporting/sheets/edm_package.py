@@ -21,7 +21,7 @@ from cqdd_design.exporting.sheets.edm_readme import readme_text
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
 
 README = "README.txt"
 
@@ -30,8 +30,8 @@ def export_edm(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write the package of a design into ``edm/``."""
     files: list[WrittenFile] = []
     parts: list[CutFacts] = []
-    for flat in flat_parts(job.design):
-        facts = facts_of(flat, job.design)
+    for flat in flat_parts(job.machine):
+        facts = facts_of(flat, job.machine)
         path = job.path(f"-{flat.label}.dxf", FOLDER)
         files.append(write_flat_part(flat, job.design, path, job.options, wire=facts.paths))
         files += _sheets(job, facts)

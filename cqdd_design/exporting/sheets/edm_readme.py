@@ -16,8 +16,7 @@ from cqdd_design.exporting.edm.cut_facts import (
     WALL_SQUARENESS,
     zone_text,
 )
-from cqdd_design.exporting.edm.wire_path import contour_name, wire_offset
-from cqdd_design.geometry.contours import Circle
+from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.cut_facts import CutFacts
@@ -61,7 +60,7 @@ def readme_text(parts: Sequence[CutFacts], options: ExportOptions) -> str:
                 ),
                 "CUT_OUTER, CUT_INNER: nominal finished contours, no kerf offset; use these with "
                 "the offset of your control.",
-                f"WIRE_PATH: centre of the wire on the finishing cut, {_MM * wire_offset(edm):g} "
+                f"WIRE_PATH: centre of the wire on the finishing cut, {_MM * edm.wire_offset:g} "
                 "mm from the contour, in the waste; use it without an offset, or for a check. "
                 "LEAD_IN: from each start hole square onto that path.",
                 "START_HOLE: where the wire is threaded; REF: centre lines; NOTES: text.",
@@ -120,10 +119,7 @@ def _part_lines(parts: Sequence[CutFacts]) -> list[str]:
                 f"Quantity {flat.quantity}, plate {_MM * flat.thickness:g} mm thick "
                 f"(+0/-{zone_text(THICKNESS_TOLERANCE)}), {1e3 * facts.mass:.1f} g each.",
                 f"Material {flat.material}: {facts.heat_treatment}; hardness {facts.hardness}.",
-                *(
-                    remark.capitalize().replace(" x axis", " X axis") + "."
-                    for remark in flat.remarks
-                ),
+                *facts.remarks,
                 f"Contour as written, read back and measured: {facts.fit_text[0]}; "
                 f"{facts.fit_text[1]}.",
                 *facts.later,
@@ -135,16 +131,10 @@ def _part_lines(parts: Sequence[CutFacts]) -> list[str]:
 def _order(parts: Sequence[CutFacts]) -> list[str]:
     said = ["One clamping a part: holes first, the outer contour last, the tab of each at its end."]
     for facts in parts:
-        contours = (facts.flat.shape.outer, *facts.flat.shape.holes)
-        names = []
-        for number in (*range(1, len(contours)), 0):
-            contour = contours[number]
-            size = (
-                f"dia {2.0 * _MM * contour.radius:.4f}"
-                if isinstance(contour, Circle)
-                else "profile"
-            )
-            names.append(f"{contour_name(number)} ({size})")
+        names = [
+            f"{contour_name(number)} ({contour_size(facts.flat.contours[number])})"
+            for number in facts.flat.cut_order
+        ]
         if len(names) > 12:
             names = [*names[:3], "...", *names[-2:]]
         said.append(f"{facts.flat.label}: {', '.join(names)}.")
@@ -180,16 +170,13 @@ def _tolerances(parts: Sequence[CutFacts]) -> list[str]:
 
 def _discs(parts: Sequence[CutFacts]) -> list[str]:
     said = []
-    for facts in parts:
-        if facts.flat.turned_over:
-            said.append(
-                f"{facts.flat.quantity} discs are one program, cut {facts.flat.quantity} times "
-                f"without change; {facts.flat.turned_over} of them goes in turned over about the X "
-                "axis, which brings lobes onto lobes and every hole to where that disc needs it."
-            )
-            said.append(
-                "Mark the upper face of every disc, the one seen in the drawing, with a dot "
-                "between two output holes before it leaves the machine: by engraver or ink, "
-                "without a burr. Assembly tells by it which way a disc goes in."
-            )
+    for flat in (facts.flat for facts in parts if facts.flat.turned_over):
+        said += [
+            f"{flat.quantity} discs are one program, cut {flat.quantity} times without change; "
+            f"{flat.turned_over} of them goes in turned over about the X axis, which brings lobes "
+            "onto lobes and every hole to where that disc needs it.",
+            "Mark the upper face of every disc, the one seen in the drawing, with a dot between "
+            "two output holes before it leaves the machine: by engraver or ink, without a burr. "
+            "Assembly tells by it which way a disc goes in.",
+        ]
     return said

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design import __version__
 from cqdd_design.exporting.edm.cut_facts import CUT_FINISH, zone_text
-from cqdd_design.exporting.edm.wire_path import contour_name, wire_offset
+from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
 from cqdd_design.exporting.sheets.canvas import sheet_date
 from cqdd_design.exporting.sheets.drawing import OUTLINE, SMALL, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import text_width
@@ -27,6 +27,12 @@ _NOTES = complex(308.0, 280.0)
 _NOTE_WIDTH, _NOTE_PITCH, _INDENT = 99.0, 3.9, 5.0
 _TABLE = complex(LEFT + 4.0, 78.0)
 _MOST_ROWS = 12
+_CUT_COLUMNS = {
+    **{"cut": 0.0, "contour": 10.0, "size": 42.0, "centre X": 74.0, "centre Y": 96.0},
+    **{"start X": 118.0, "start Y": 140.0, "start \u00d8": 162.0},
+}
+"""Columns of the table of cuts, and where they begin, mm."""
+_CUTS_WIDTH = 182.0
 
 
 def draw_frame(sheet: SheetDrawing, facts: CutFacts) -> None:
@@ -97,8 +103,7 @@ def _projection_sign(sheet: SheetDrawing, centre: complex) -> None:
     sheet.circle(centre + 5.0, 2.0)
     sheet.circle(centre + 5.0, 1.1)
     corners = [centre - 1.0 - 2.0j, centre - 1.0 + 2.0j, centre - 5.0 + 1.1j, centre - 5.0 - 1.1j]
-    for one, two in zip(corners, corners[1:] + corners[:1], strict=True):
-        sheet.line(one, two)
+    sheet.polygon(corners)
 
 
 def _notes(sheet: SheetDrawing, facts: CutFacts) -> None:
@@ -121,9 +126,9 @@ def _notes(sheet: SheetDrawing, facts: CutFacts) -> None:
 def notes(facts: CutFacts) -> list[str]:
     """Notes of a sheet, each a sentence or two."""
     flat, edm = facts.flat, facts.design.edm
-    offset = _MM * wire_offset(edm)
-    said = [_sentence(remark) for remark in flat.remarks]
-    said += [
+    offset = _MM * edm.wire_offset
+    said = [
+        *facts.remarks,
         _curve(facts),
         f"Cut from the file {facts.design.name}-{flat.label}.dxf, layers CUT_OUTER and CUT_INNER: "
         "nominal finished contour without kerf offset. WIRE_PATH is the centre of the wire on the "
@@ -134,12 +139,12 @@ def notes(facts: CutFacts) -> list[str]:
         f"Profile: zone {zone_text(facts.zones.profile)} mm wide, half to either side of the "
         "contour, after the last skim cut.",
     ]
-    for seat in facts.seats:
-        said.append(
-            f"Seat \u00d8{seat}, {contour_name(seat.contour)}: the file is nominal; cut to "
-            f"\u00d8{_MM * seat.middle:.4f}, the middle of its zone: shift the wire "
-            f"{_MM * seat.shift:+.4f} mm into the waste."
-        )
+    said += [
+        f"Seat \u00d8{seat}, {contour_name(seat.contour)}: the file is nominal; cut to "
+        f"\u00d8{_MM * seat.middle:.4f}, the middle of its zone: shift the wire "
+        f"{_MM * seat.shift:+.4f} mm into the waste."
+        for seat in facts.seats
+    ]
     said += [
         f"Datum A: axis of {'the outside' if flat.label == 'ring' else 'the bore'}. Datum B: lower "
         "face, on the table of the machine.",
@@ -168,11 +173,6 @@ def _curve(facts: CutFacts) -> str:
     )
 
 
-def _sentence(remark: str) -> str:
-    """A remark in capitals as a sentence."""
-    return remark.capitalize().replace(" x axis", " X axis").rstrip(".") + "."
-
-
 def _wrapped(text: str, width: float) -> list[str]:
     lines, line = [], ""
     for word in text.split():
@@ -187,41 +187,27 @@ def _wrapped(text: str, width: float) -> list[str]:
 
 def _cuts(sheet: SheetDrawing, facts: CutFacts) -> None:
     """Table of contours in the order they are cut."""
-    headings = (
-        "cut",
-        "contour",
-        "size",
-        "centre X",
-        "centre Y",
-        "start X",
-        "start Y",
-        "start \u00d8",
-    )
-    places = (0.0, 10.0, 42.0, 74.0, 96.0, 118.0, 140.0, 162.0, 182.0)
-    rows = [headings, *cut_rows(facts)]
+    rows = [tuple(_CUT_COLUMNS), *cut_rows(facts)]
     pitch = 4.6
     sheet.text(_TABLE + 2.0j, "CUTS IN ORDER, mm FROM THE AXIS OF THE PART", 3.0)
     for number, row in enumerate(rows):
         y = _TABLE - 1j * (number + 1) * pitch
-        for x, words in zip(places, row, strict=False):
+        for x, words in zip(_CUT_COLUMNS.values(), row, strict=True):
             sheet.text(y + x + 1.0 + 1.2j, words, SMALL)
-        sheet.line(y, y + places[-1])
-    sheet.line(_TABLE, _TABLE + places[-1])
-    for x in (places[0], places[-1]):
+        sheet.line(y, y + _CUTS_WIDTH)
+    sheet.line(_TABLE, _TABLE + _CUTS_WIDTH)
+    for x in (0.0, _CUTS_WIDTH):
         sheet.line(_TABLE + x, _TABLE + x - 1j * len(rows) * pitch)
 
 
 def cut_rows(facts: CutFacts) -> list[tuple[str, ...]]:
     """Rows of the table of cuts; of very many holes the first and the last."""
     flat = facts.flat
-    contours = (flat.shape.outer, *flat.shape.holes)
-    order = [*range(1, len(contours)), 0]
     rows = []
-    for step, number in enumerate(order, start=1):
-        contour, path = contours[number], facts.paths[number]
-        size, centre = "profile", 0j
-        if isinstance(contour, Circle):
-            size, centre = f"\u00d8{2.0 * _MM * contour.radius:.4f}", complex(*contour.centre)
+    for step, number in enumerate(flat.cut_order, start=1):
+        contour, path = flat.contours[number], facts.paths[number]
+        size = contour_size(contour, "\u00d8")
+        centre = complex(*contour.centre) if isinstance(contour, Circle) else 0j
         places = [_place(v) for at in (centre, path.start) for v in (at.real, at.imag)]
         hole = f"{_MM * path.start_diameter:.2f}"
         rows.append((str(step), contour_name(number), size, *places, hole))

@@ -17,48 +17,14 @@ CAP_HEIGHT = 0.718
 DESCENDER = 0.207
 """Depth of descenders in ems."""
 
-_LOWER: tuple[int, ...] = (
-    556,
-    556,
-    500,
-    556,
-    556,
-    278,
-    556,
-    556,
-    222,
-    222,
-    500,
-    222,
-    833,
-    556,
-    556,
-    556,
-    556,
-    333,
-)
-_LOWER += (500, 278, 556, 500, 722, 500, 500, 500)
-_UPPER: tuple[int, ...] = (
-    667,
-    667,
-    722,
-    722,
-    667,
-    611,
-    778,
-    722,
-    278,
-    500,
-    667,
-    556,
-    833,
-    722,
-    778,
-    667,
-    778,
-    722,
-)
-_UPPER += (667, 611, 722, 667, 944, 667, 667, 611)
+_LOWER = """
+    556 556 500 556 556 278 556 556 222 222 500 222 833 556 556 556 556 333 500 278 556 500 722
+    500 500 500
+"""
+_UPPER = """
+    667 667 722 722 667 611 778 722 278 500 667 556 833 722 778 667 778 722 667 611 722 667 944
+    667 667 611
+"""
 _SIGNS = {
     **dict.fromkeys(" !,./:;[\\]I\u00b7", 278),
     **dict.fromkeys('"', 355),
@@ -77,8 +43,7 @@ _SIGNS = {
     "\u00d8": 778,
 }
 WIDTHS: Mapping[str, int] = MappingProxyType(
-    dict(zip(string.ascii_lowercase, _LOWER, strict=True))
-    | dict(zip(string.ascii_uppercase, _UPPER, strict=True))
+    dict(zip(string.ascii_letters, map(int, (_LOWER + _UPPER).split()), strict=True))
     | dict.fromkeys(string.digits, 556)
     | _SIGNS
 )
@@ -105,3 +70,8 @@ def printable(text: str) -> str:
 def fitting_height(text: str, height: float, room: float) -> float:
     """Cap height at which `text` is no wider than `room`, at most `height`."""
     return min(height, height * room / max(text_width(text, height), 1e-9))
+
+
+def short_number(value: float, decimals: int) -> str:
+    """`value` to so many decimals, without the zeros at its end; never ``-0``."""
+    return f"{round(float(value), decimals) + 0.0:.{decimals}f}".rstrip("0").rstrip(".")

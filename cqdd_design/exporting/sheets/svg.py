@@ -13,15 +13,14 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
-from cqdd_design.catalog import find_bearing
 from cqdd_design.exporting.edm.flat_parts import (
     FlatPart,
     disc_shape,
     flat_parts,
     pin_diameter,
     reach_of,
-    with_named_bearing,
 )
+from cqdd_design.exporting.sheets.lettering import short_number
 from cqdd_design.files import WrittenFile, write_atomically
 from cqdd_design.geometry.contours import Circle, Contour, PlanarPart
 from cqdd_design.geometry.disc import crank_phase
@@ -29,7 +28,8 @@ from cqdd_design.geometry.ring import ring_contour, ring_pins
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
+    from cqdd_design.machine import Machine
 
 STYLE = """\
 .part { fill-rule: evenodd; stroke: #22303c; stroke-width: 0.25; }
@@ -50,9 +50,9 @@ def export_svg(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write a front view of every flat part and ``<name>-front.svg`` of the mechanism."""
     views = [
         (job.path(f"-{flat.label}.svg"), part_view(flat, job.design))
-        for flat in flat_parts(job.design)
+        for flat in flat_parts(job.machine)
     ]
-    views.append((job.path("-front.svg"), front_view(job.design)))
+    views.append((job.path("-front.svg"), front_view(job.machine)))
     return tuple(write_atomically(path, text, "svg") for path, text in views)
 
 
@@ -67,18 +67,17 @@ def part_view(flat: FlatPart, design: Design) -> str:
     return _document(shapes, reach_of(flat.shape.outer), caption)
 
 
-def front_view(design: Design) -> str:
+def front_view(machine: Machine) -> str:
     """Front view of ring, discs, output pins and cam bearings, as SVG text."""
-    design = with_named_bearing(design)
+    design, bearing = machine.design, machine.cam
     reducer = design.reducer
     ring = ring_contour(design)
-    bearing = find_bearing(reducer.cam_bearing.designation)
     shapes = [_part(ring, "ring")]
     shapes += [_part(PlanarPart("ring pin", pin), "pin") for pin in ring_pins(design)]
     for disc in reversed(range(reducer.disc_count)):
         phase = crank_phase(design, disc)
         centre = reducer.eccentricity * np.array([math.cos(phase), math.sin(phase)])
-        placed = disc_shape(design, disc).transformed(-phase / reducer.ratio, centre)
+        placed = disc_shape(machine, disc).transformed(-phase / reducer.ratio, centre)
         shapes.append(_part(placed, "disc" if disc == 0 else "disc behind"))
         inside = (Circle(centre, bearing.bore_diameter / 2.0),)
         ball = PlanarPart("cam bearing", Circle(centre, bearing.outer_diameter / 2.0), inside)
@@ -133,8 +132,8 @@ def path_data(contour: Contour) -> str:
 
 
 def _number(value: float) -> str:
-    """Nanometres are enough for a picture; never ``-0``."""
-    return f"{round(float(value), 6) + 0.0:.6f}".rstrip("0").rstrip(".")
+    """Nanometres are enough for a picture."""
+    return short_number(value, 6)
 
 
 def _axes(centre: complex, reach: float) -> str:

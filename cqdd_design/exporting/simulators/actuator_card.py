@@ -2,8 +2,8 @@
 
 As YAML for programs and as Markdown for people, from the same rows. Through a gear of n torque goes
 times n, speed and angle over n, inertia, damping and stiffness times n^2.
-`card_rows` holds the rows, `card_names` what clients call them, `card_clients` the settings of each
-simulator.
+`data/card.csv` holds the rows and what clients call them, `data/clients.toml` the clients and their
+settings.
 """
 
 from __future__ import annotations
@@ -13,16 +13,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from cqdd_design.actuator.joint_side import JointSide, joint_side, provenance
+from cqdd_design.actuator.joint_side import JointSide, joint_side
 from cqdd_design.actuator.motor import MotorConstants, motor_constants
-from cqdd_design.exporting.simulators.card_clients import CLIENTS, client_settings
+from cqdd_design.exporting.simulators.card_clients import client_settings, clients
 from cqdd_design.exporting.simulators.card_rows import Quantity, quantities
+from cqdd_design.exporting.simulators.stated import provenance
 from cqdd_design.exporting.simulators.yaml_text import yaml_text
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
 
 FORMAT = 1
 """Of the YAML's keys."""
@@ -85,7 +86,7 @@ def actuator_card(
 def card_yaml(card: Card) -> str:
     """Return the card as YAML."""
     heading = f"# Actuator card of {card.name}. Written by {provenance(card.design_sha256)}.\n"
-    clients = {
+    told = {
         client.key: {
             "name": client.title,
             "version": client.version,
@@ -93,7 +94,7 @@ def card_yaml(card: Card) -> str:
             "settings": {key: dict(part) for key, part in card.settings[client.key].items()},
             "not_expressed": client.missing,
         }
-        for client in CLIENTS
+        for client in clients()
     }
     document = {
         "format": FORMAT,
@@ -106,9 +107,12 @@ def card_yaml(card: Card) -> str:
             "crank": "against the joint" if card.side.crank_sense < 0 else "with the joint",
         },
         "conventions": {key: text for key, text in _conventions(card)},
-        "parameters": {row.key: _row_document(row) for row in card.rows},
+        "parameters": {
+            row.key: {name: value for name, value in vars(row).items() if name != "key"}
+            for row in card.rows
+        },
         "harmonics": dict(card.harmonics),
-        "clients": clients,
+        "clients": told,
     }
     return heading + yaml_text(document)
 
@@ -133,23 +137,17 @@ def card_markdown(card: Card) -> str:
         "|---|--:|--:|---|---|---|",
     ]
     for row in card.rows:
-        cells = (
-            row.title,
-            _shown(row.motor),
-            _shown(row.joint),
-            row.unit,
-            row.formula,
-            row.origin,
-        )
+        sides = (_shown(row.motor), _shown(row.joint))
+        cells = (row.title, *sides, row.unit, row.reflection, row.origin)
         lines.append(f"| {' | '.join(map(_cell, cells))} |")
     lines += ["", "## What clients call it", ""]
-    titles = [client.title for client in CLIENTS]
+    titles = [client.title for client in clients()]
     lines += [f"| parameter | {' | '.join(titles)} |", "|---" * (len(titles) + 1) + "|"]
     for row in card.rows:
-        if row.names:
-            told = [row.names.get(client.key, "") for client in CLIENTS]
+        if row.clients:
+            told = [row.clients.get(client.key, "") for client in clients()]
             lines.append(f"| {_cell(row.title)} | {' | '.join(map(_cell, told))} |")
-    for client in CLIENTS:
+    for client in clients():
         lines += ["", f"## {client.title}", "", f"Version {client.version}; {client.checked}.", ""]
         for key, part in card.settings[client.key].items():
             lines += [f"`{key}`", "", "| setting | value |", "|---|--:|"]
@@ -198,25 +196,14 @@ def _conventions(card: Card) -> tuple[tuple[str, str], ...]:
 
 def _harmonics(parameters: ActuatorParameters) -> dict[str, object]:
     gear = parameters.gear
-    return {
-        "orders": [int(order) for order in gear.error_orders],
-        "kinematic_error_cosine_rad": [float(one) for one in gear.error_cosine],
-        "kinematic_error_sine_rad": [float(one) for one in gear.error_sine],
-        "stiffness_cosine": [float(one) for one in gear.stiffness_cosine],
-        "stiffness_sine": [float(one) for one in gear.stiffness_sine],
+    series = {
+        "kinematic_error_cosine_rad": gear.error_cosine,
+        "kinematic_error_sine_rad": gear.error_sine,
+        "stiffness_cosine": gear.stiffness_cosine,
+        "stiffness_sine": gear.stiffness_sine,
     }
-
-
-def _row_document(row: Quantity) -> dict[str, object]:
-    return {
-        "title": row.title,
-        "motor": row.motor,
-        "joint": row.joint,
-        "unit": row.unit,
-        "reflection": row.formula,
-        "origin": row.origin,
-        "clients": dict(row.names),
-    }
+    orders = [int(order) for order in gear.error_orders]
+    return {"orders": orders} | {key: [float(v) for v in one] for key, one in series.items()}
 
 
 def _shown(value: object) -> str:

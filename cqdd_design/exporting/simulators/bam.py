@@ -31,12 +31,13 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from cqdd_design.actuator.joint_side import joint_side, provenance
+from cqdd_design.actuator.joint_side import joint_side
+from cqdd_design.exporting.simulators.stated import provenance
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
 
 UNITS = {
     "kt": "N m/A = V s/rad",

@@ -17,53 +17,43 @@ MuJoCo: inertia and damping by gear^2, torque by gear.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from cqdd_design.actuator.joint_side import DEAD_MASS
 from cqdd_design.exporting.simulators.mjcf_classes import (
     HOST_STEP,
     MjcfActuator,
-    MjcfOptions,
     default_classes,
     remarks,
     time_step,
 )
+from cqdd_design.exporting.simulators.stated import DEAD_MASS
 from cqdd_design.exporting.simulators.xml_text import comment, element, identifier, number, numbers
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
-    from cqdd_design.actuator.parameters import ActuatorParameters
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
 
 _UNTOUCHED = {"contype": "0", "conaffinity": "0"}
 
 
 def export_mjcf(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-test.xml``, which loads by itself, and ``<name>.xml``, to be included."""
-    test_model = model_text(job.actuator, job.design.name, design_sha256=job.design.sha256)
-    fragment = fragment_text(job.actuator, job.design.name, design_sha256=job.design.sha256)
+    model = MjcfActuator(job.actuator, job.design.name, design_sha256=job.design.sha256)
     return (
-        write_atomically(job.path("-test.xml"), test_model, "mjcf"),
-        write_atomically(job.path(".xml"), fragment, "mjcf"),
+        write_atomically(job.path("-test.xml"), model_text(model), "mjcf"),
+        write_atomically(job.path(".xml"), fragment_text(model), "mjcf"),
     )
 
 
-def model_text(
-    parameters: ActuatorParameters,
-    name: str,
-    *,
-    options: MjcfOptions | None = None,
-    design_sha256: str = "not given",
-) -> str:
+def model_text(model: MjcfActuator) -> str:
     """Return the test model as XML."""
-    model = MjcfActuator(parameters, name, options or MjcfOptions(), design_sha256)
-    name = model.name
-    play = model.play
+    parameters, name, play = model.parameters, model.name, model.play
     inertia = model.side.output_inertia
     body = element(
         "body",
         {"name": "output"},
-        *joint_lines(model.name, model.name, play=play),
+        *joint_lines(name, name, play=play),
         element(
             "inertial",
             {
@@ -99,12 +89,10 @@ def model_text(
         element("worldbody", {}, housing),
     ]
     if play:
-        sections.append(element("tendon", {}, *tendon_lines(model.name)))
-    sections.append(
-        element("actuator", {}, *actuator_lines(parameters, name, name, options=model.options))
-    )
-    where = {"tendon": f"{name}-output"} if play else {"joint": name}
+        sections.append(element("tendon", {}, *tendon_lines(name)))
+    sections.append(element("actuator", {}, *actuator_lines(model, name)))
     kind = "tendon" if play else "joint"
+    where = {kind: f"{name}-output" if play else name}
     sections.append(
         element(
             "sensor",
@@ -122,18 +110,11 @@ def model_text(
     )
 
 
-def fragment_text(
-    parameters: ActuatorParameters,
-    name: str,
-    *,
-    options: MjcfOptions | None = None,
-    design_sha256: str = "not given",
-) -> str:
+def fragment_text(model: MjcfActuator) -> str:
     """Return the classes to be included, with the lines that each joint needs in the head."""
-    model = MjcfActuator(parameters, name, options or MjcfOptions(), design_sha256)
     name = model.name
     head = [f"{name}: classes of an actuator for MuJoCo 4, to be included into a robot.", ""]
-    rigid = actuator_lines(parameters, name, "hip", options=MjcfOptions(False, True))
+    rigid = replace(model, options=replace(model.options, backlash=False))
     how = [
         "How to include it, for a joint named hip. In the robot's file:",
         "",
@@ -146,7 +127,7 @@ def fragment_text(
         "In <actuator>, with class "
         f"{name}-torque or {name}-impedance in the first line to command torque or angle:",
         "",
-        *(f"  {line}" for line in rigid),
+        *(f"  {line}" for line in actuator_lines(rigid, "hip")),
         "",
         "Commands are at the motor's side in the drive's sense: volts; N m of the motor "
         f"({number(model.side.reduction)} times as much at the joint); for impedance the "
@@ -154,7 +135,7 @@ def fragment_text(
         f"{number(model.side.reduction)}, and a torque fed forward.",
         "",
     ]
-    if parameters.gear.backlash > 0.0:
+    if model.parameters.gear.backlash > 0.0:
         how += [
             "With backlash the link has two coaxial hinges, the actuator on the first. The inertia "
             f"of the output side, {number(model.side.output_inertia)} kg m^2 about the axis, then "
@@ -207,30 +188,15 @@ def tendon_lines(joint: str) -> tuple[str, ...]:
     )
 
 
-def actuator_lines(
-    parameters: ActuatorParameters,
-    name: str,
-    joint: str,
-    *,
-    options: MjcfOptions | None = None,
-) -> tuple[str, ...]:
+def actuator_lines(model: MjcfActuator, joint: str) -> tuple[str, ...]:
     """Actuators of one joint: the motor, then what is passive."""
-    model = MjcfActuator(parameters, name, options or MjcfOptions(), "")
-    name = model.name
-    lines = [element("dcmotor", {"name": joint, "class": name, "joint": joint})]
+    on_joint = {"joint": joint}
+    found = [("", on_joint)]
     if model.output_friction:
-        place = {"tendon": f"{joint}-output"} if model.play else {"joint": joint}
-        label = {"name": f"{joint}-output-friction", "class": f"{name}-output-friction"}
-        lines.append(element("dcmotor", {**label, **place}))
-    lines += [
-        element(
-            "dcmotor",
-            {
-                "name": f"{joint}-ripple-{one.order}",
-                "class": f"{name}-ripple-{one.order}",
-                "joint": joint,
-            },
-        )
-        for one in model.harmonics
-    ]
-    return tuple(lines)
+        on_output = {"tendon": f"{joint}-output"} if model.play else on_joint
+        found.append(("-output-friction", on_output))
+    found += [(f"-ripple-{one.order}", on_joint) for one in model.harmonics]
+    return tuple(
+        element("dcmotor", {"name": joint + ending, "class": model.name + ending, **place})
+        for ending, place in found
+    )

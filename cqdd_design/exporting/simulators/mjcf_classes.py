@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
+from cqdd_design.actuator.joint_friction import held_back_torque
 from cqdd_design.actuator.joint_side import (
     JointSide,
     RippleHarmonic,
@@ -13,11 +16,11 @@ from cqdd_design.actuator.joint_side import (
     motor_breakaway,
     motor_coulomb,
     motor_viscous,
-    provenance,
     ripple_harmonics,
-    single_node,
 )
 from cqdd_design.actuator.motor import COPPER_COEFFICIENT
+from cqdd_design.actuator.thermal import single_node
+from cqdd_design.exporting.simulators.stated import provenance
 from cqdd_design.exporting.simulators.xml_text import element, identifier, number, numbers
 
 if TYPE_CHECKING:
@@ -62,29 +65,41 @@ class MjcfActuator:
     parameters, options, design_sha256
     name : str
         As given, made fit for an attribute.
-    side : JointSide
-    harmonics, left_out : tuple of RippleHarmonic
-        Written, and too small to be.
     """
 
     parameters: ActuatorParameters
     name: str
-    options: MjcfOptions
-    design_sha256: str
-    side: JointSide = field(init=False)
-    harmonics: tuple[RippleHarmonic, ...] = field(init=False)
-    left_out: tuple[RippleHarmonic, ...] = field(init=False)
+    options: MjcfOptions = MjcfOptions()
+    design_sha256: str = "not given"
 
     def __post_init__(self) -> None:
-        """Work out what all files of the actuator have in common."""
+        """Make the name fit for an attribute."""
         object.__setattr__(self, "name", identifier(self.name))
-        object.__setattr__(self, "side", joint_side(self.parameters))
-        wanted = self.options.ripple
-        found = ripple_harmonics(self.parameters, self.options.ripple_torque) if wanted else ()
-        least = LEAST_RIPPLE * max((one.amplitude for one in found), default=0.0)
-        kept = tuple(one for one in found if one.amplitude >= least)
-        object.__setattr__(self, "harmonics", kept)
-        object.__setattr__(self, "left_out", tuple(o for o in found if o.amplitude < least))
+
+    @cached_property
+    def side(self) -> JointSide:
+        """The actuator seen from its joint."""
+        return joint_side(self.parameters)
+
+    @cached_property
+    def _ripple(self) -> tuple[tuple[RippleHarmonic, ...], float]:
+        """All harmonics, and the least amplitude to be written."""
+        found: tuple[RippleHarmonic, ...] = ()
+        if self.options.ripple:
+            found = ripple_harmonics(self.parameters, self.options.ripple_torque)
+        return found, LEAST_RIPPLE * max((one.amplitude for one in found), default=0.0)
+
+    @property
+    def harmonics(self) -> tuple[RippleHarmonic, ...]:
+        """Those that are written."""
+        found, least = self._ripple
+        return tuple(one for one in found if one.amplitude >= least)
+
+    @property
+    def left_out(self) -> tuple[RippleHarmonic, ...]:
+        """Those that are too small to be."""
+        found, least = self._ripple
+        return tuple(one for one in found if one.amplitude < least)
 
     @property
     def play(self) -> bool:
@@ -131,38 +146,30 @@ def default_classes(model: MjcfActuator, *, alone: bool) -> tuple[str, ...]:
             {"class": name},
             element("joint", joint),
             element("dcmotor", _motor_attributes(model, step)),
-            element("default", {"class": f"{name}-torque"}, element("dcmotor", _torque(model))),
-            element(
-                "default", {"class": f"{name}-impedance"}, element("dcmotor", _impedance(model))
-            ),
+            _class(f"{name}-torque", "dcmotor", _torque(model)),
+            _class(f"{name}-impedance", "dcmotor", _impedance(model)),
         )
     ]
     if model.output_friction:
-        found.append(
-            element(
-                "default",
-                {"class": f"{name}-output-friction"},
-                element("dcmotor", {**_PASSIVE, **_output_friction(model, step, turning)}),
-            )
-        )
+        friction = {**_PASSIVE, **_output_friction(model, step, turning)}
+        found.append(_class(f"{name}-output-friction", "dcmotor", friction))
     for one in model.harmonics:
         cogging = numbers(one.amplitude, one.order, one.phase)
         found.append(
-            element(
-                "default",
-                {"class": f"{name}-ripple-{one.order}"},
-                element("dcmotor", {**_PASSIVE, "cogging": cogging}),
-            )
+            _class(f"{name}-ripple-{one.order}", "dcmotor", {**_PASSIVE, "cogging": cogging})
         )
     if model.parameters.gear.backlash > 0.0:
         half = 0.5 * model.parameters.gear.backlash
         for ending, unit in (("play", 1.0), ("play-degree", 180.0 / math.pi)):
             limits = {"limited": "true", "range": numbers(-half * unit, half * unit)}
             attributes = {"axis": "0 0 1", **limits, **_play_ends(model.parameters, step)}
-            found.append(
-                element("default", {"class": f"{name}-{ending}"}, element("joint", attributes))
-            )
+            found.append(_class(f"{name}-{ending}", "joint", attributes))
     return tuple(found)
+
+
+def _class(name: str, kind: str, attributes: Mapping[str, object]) -> str:
+    """A default class of one element."""
+    return element("default", {"class": name}, element(kind, attributes))
 
 
 _PASSIVE: dict[str, object] = {"input": "none", "motorconst": "0", "resistance": "1", "gear": "1"}
@@ -305,6 +312,7 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
     parameters, side = model.parameters, model.side
     gear, friction = parameters.gear, parameters.friction
     sense = "against" if side.crank_sense < 0 else "with"
+    held_back = held_back_torque(parameters, side)
     lines = [
         f"Written by {provenance(model.design_sha256)}. SI units, angles in rad.",
         "",
@@ -318,8 +326,8 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
         f"{number(side.peak_torque)} N m with the current limit, both before friction, no-load "
         f"speed {number(side.no_load_speed)} rad/s; reflected inertia "
         f"{number(side.reflected_inertia)} kg m^2, all at the joint. On a locked output the "
-        f"gearbox's friction under load holds back up to {number(_held_back(model))} N m of the "
-        "torque with the limit, which this file does not.",
+        f"gearbox's friction under load holds back up to {number(held_back)} N m of the torque "
+        "with the limit, which this file does not.",
         "",
         _ripple_remark(model),
         "",
@@ -341,13 +349,6 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
     if model.harmonics and parameters.gear.backlash > 0.0:
         lines.append("- ripple stays while the play is open, when no torque is carried.")
     return lines
-
-
-def _held_back(model: MjcfActuator) -> float:
-    """Friction on a locked output at the current limit that grows with load, N m at the joint."""
-    friction = model.parameters.friction
-    load = friction.load_forward * (1.0 + friction.stribeck_extra)
-    return model.side.peak_torque * load / (1.0 + load)
 
 
 def _ripple_remark(model: MjcfActuator) -> str:

@@ -11,13 +11,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from cqdd_design.actuator.joint_side import DEAD_MASS, JointSide, joint_side, provenance
+from cqdd_design.actuator.joint_side import JointSide, joint_side
+from cqdd_design.exporting.simulators.stated import DEAD_MASS, provenance
 from cqdd_design.exporting.simulators.xml_text import comment, element, identifier, number
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
 
 DRAKE = "http://drake.mit.edu"
 """Namespace of Drake's elements."""

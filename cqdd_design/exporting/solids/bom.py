@@ -10,16 +10,16 @@ import io
 from dataclasses import asdict, dataclass, fields
 from typing import TYPE_CHECKING
 
-from cqdd_design.catalog import bearings, find_material, find_motor, motors
+from cqdd_design.catalog import bearings, find_material
 from cqdd_design.files import WrittenFile, write_atomically
 from cqdd_design.solids.inertia import ROTOR
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from cqdd_design.design import Design
-    from cqdd_design.exporting import ExportJob
-    from cqdd_design.solids.parts import Part
+    from cqdd_design.catalog import Motor
+    from cqdd_design.exporting.job import ExportJob
+    from cqdd_design.solids.part import Part
 
 
 @dataclass(frozen=True)
@@ -59,23 +59,23 @@ class BomRow:
 
 def export_bom(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-bom.csv``."""
-    text = bom_csv(bill_of_materials(job.design, job.parts))
+    text = bom_csv(bill_of_materials(job.machine.motor, job.parts))
     return (write_atomically(job.path("-bom.csv"), text, "bom"),)
 
 
-def bill_of_materials(design: Design, parts: Sequence[Part]) -> tuple[BomRow, ...]:
+def bill_of_materials(motor: Motor, parts: Sequence[Part]) -> tuple[BomRow, ...]:
     """Return the bill of a machine; a motor that is not among its parts is its last line.
 
     Parameters
     ----------
-    design : Design
+    motor : Motor
     parts : sequence of Part
         From `solids.build_parts`.
     """
-    rows = tuple(_part_row(item, part) for item, part in enumerate(parts, start=1))
+    rows = tuple(_part_row(item, part, motor) for item, part in enumerate(parts, start=1))
     if any(part.name == ROTOR for part in parts):
         return rows
-    return (*rows, _motor_row(len(rows) + 1, design))
+    return (*rows, _motor_row(len(rows) + 1, motor))
 
 
 def bom_csv(rows: Sequence[BomRow]) -> str:
@@ -89,7 +89,7 @@ def bom_csv(rows: Sequence[BomRow]) -> str:
     return stream.getvalue()
 
 
-def _part_row(item: int, part: Part) -> BomRow:
+def _part_row(item: int, part: Part, motor: Motor) -> BomRow:
     return BomRow(
         item=item,
         part=part.name,
@@ -99,21 +99,21 @@ def _part_row(item: int, part: Part) -> BomRow:
         mass_each_kg=part.mass,
         mass_total_kg=part.count * part.mass,
         designation=part.designation,
-        notes=_mass_note(part),
+        notes=_mass_note(part, motor),
     )
 
 
-def _mass_note(part: Part) -> str:
+def _mass_note(part: Part, motor: Motor) -> str:
     if part.catalogue_mass is not None:
-        row = bearings().get(part.designation) or motors().get(part.designation.split(",")[0])
+        of_motor = part.designation.startswith(f"{motor.name}, ")
+        row = motor if of_motor else bearings().get(part.designation)
         return "mass: catalogue" + (f" ({row.source})" if row is not None else "")
     density = find_material(part.material).density
     form = "exact profile" if part.exact_section is not None else "closed form"
     return f"mass: {form} x {density:g} kg/m3 ({find_material(part.material).source})"
 
 
-def _motor_row(item: int, design: Design) -> BomRow:
-    motor = find_motor(design.motor.name)
+def _motor_row(item: int, motor: Motor) -> BomRow:
     return BomRow(
         item=item,
         part="motor",

@@ -13,7 +13,7 @@ import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from xml.sax.saxutils import quoteattr
+from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
@@ -24,9 +24,9 @@ from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
-    from cqdd_design.exporting import ExportJob
+    from cqdd_design.exporting.job import ExportJob
     from cqdd_design.geometry.contours import FloatArray
-    from cqdd_design.solids.parts import Colour, Part
+    from cqdd_design.solids.part import Colour, Part
 
 _GENERATOR = f"cqdd-design {__version__}"
 _ZIP_TIME = (1980, 1, 1, 0, 0, 0)
@@ -50,8 +50,6 @@ _RELATIONS = (
     'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>\n'
 )
 
-_GLTF_FLOAT, _GLTF_UINT32 = 5126, 5125
-_GLTF_VERTICES, _GLTF_INDICES = 34962, 34963
 _QUARTER_TURN = 0.7071067811865476
 _FINISH = (0.4, 0.5)
 """Metalness and roughness of every part."""
@@ -88,7 +86,7 @@ def write_stl(part: Part, path: Path) -> WrittenFile:
     corners = mesh.vertices[mesh.triangles]
     records = np.zeros(len(corners), dtype=_STL_TRIANGLE)
     records["corners"] = corners
-    records["normal"] = _unit(
+    records["normal"] = gltf.unit(
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     )
     # A header that began with "solid" would be taken for the text form.
@@ -139,7 +137,7 @@ def _model_xml(design: Design, parts: Sequence[Part]) -> str:
         '<?xml version="1.0" encoding="UTF-8"?>\n'
         '<model unit="millimeter" xml:lang="en-US" '
         'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">\n'
-        f'<metadata name="Title">{_escape(design.name)}</metadata>\n'
+        f'<metadata name="Title">{escape(design.name)}</metadata>\n'
         f'<metadata name="Application">{_GENERATOR}</metadata>\n'
         f'<metadata name="Description">design sha256 {design.sha256}</metadata>\n'
         f'<resources>\n<basematerials id="1">{materials}</basematerials>\n'
@@ -193,7 +191,7 @@ def write_glb(
         {"name": design.name, "rotation": [-_QUARTER_TURN, 0.0, 0.0, _QUARTER_TURN]}
     ]
     meshes, materials = [], []
-    buffer = _GltfBuffer()
+    buffer = gltf.Buffer()
     for index, part in enumerate(parts):
         meshes.append({"name": part.name, "primitives": [_primitive(part, index, buffer)]})
         materials.append(gltf.material(part, *_FINISH))
@@ -210,85 +208,23 @@ def write_glb(
                     "extras": body,
                 }
             )
-    nodes[0]["children"] = list(range(1, len(nodes)))
-    document = {
-        "asset": {
-            "version": "2.0",
-            "generator": _GENERATOR,
-            "extras": {"design_sha256": design.sha256},
-        },
-        "scene": 0,
-        "scenes": [{"name": design.name, "nodes": [0]}],
-        "nodes": nodes,
-        "meshes": meshes,
-        "materials": materials,
-        "accessors": buffer.accessors,
-        "bufferViews": buffer.views,
-        "buffers": [{"byteLength": len(buffer.content)}],
-    }
-    return write_atomically(path, gltf.container(document, bytes(buffer.content)), "glb")
+    content = gltf.scene(design, nodes, meshes, materials, buffer, generator=_GENERATOR)
+    return write_atomically(path, content, "glb")
 
 
-class _GltfBuffer:
-    """The one binary buffer of a GLB file and the views into it."""
-
-    def __init__(self) -> None:
-        self.content = bytearray()
-        self.views: list[dict[str, Any]] = []
-        self.accessors: list[dict[str, Any]] = []
-
-    def add(self, array: np.ndarray, target: int, *, bounds: bool = False) -> int:
-        """Append an array of vectors (v, 3) or indices (i,) and return its accessor's number."""
-        accessor: dict[str, Any] = {
-            "bufferView": len(self.views),
-            "componentType": _GLTF_UINT32 if array.ndim == 1 else _GLTF_FLOAT,
-            "count": len(array),
-            "type": "SCALAR" if array.ndim == 1 else "VEC3",
-        }
-        if bounds:
-            accessor["min"] = array.min(axis=0).tolist()
-            accessor["max"] = array.max(axis=0).tolist()
-        self.views.append(
-            {
-                "buffer": 0,
-                "byteOffset": len(self.content),
-                "byteLength": array.nbytes,
-                "target": target,
-            }
-        )
-        self.accessors.append(accessor)
-        self.content += array.tobytes()
-        return len(self.accessors) - 1
-
-
-def _primitive(part: Part, material: int, buffer: _GltfBuffer) -> dict[str, Any]:
+def _primitive(part: Part, material: int, buffer: gltf.Buffer) -> dict[str, Any]:
     from cqdd_design.solids.mesh import DISPLAY, facets
 
     found = facets(part, DISPLAY)
-    corners = found.vertices[found.triangles]
-    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals = np.zeros_like(found.vertices)
-    for corner in range(3):
-        np.add.at(normals, found.triangles[:, corner], across)
+    normals = gltf.vertex_normals(found.vertices, found.triangles)
     return {
         "attributes": {
-            "POSITION": buffer.add(
-                (found.vertices * 1e-3).astype("<f4"), _GLTF_VERTICES, bounds=True
-            ),
-            "NORMAL": buffer.add(_unit(normals).astype("<f4"), _GLTF_VERTICES),
+            "POSITION": buffer.add((found.vertices * 1e-3).astype("<f4"), bounds=True),
+            "NORMAL": buffer.add(normals.astype("<f4")),
         },
-        "indices": buffer.add(found.triangles.astype("<u4").ravel(), _GLTF_INDICES),
+        "indices": buffer.add(found.triangles.astype("<u4").ravel()),
         "material": material,
     }
-
-
-def _unit(vectors: FloatArray) -> FloatArray:
-    length = np.linalg.norm(vectors, axis=1, keepdims=True)
-    # A triangle without area has no normal; any unit vector keeps the file legal.
-    flat = length[:, 0] == 0.0
-    result = vectors / np.where(length == 0.0, 1.0, length)
-    result[flat] = (0.0, 0.0, 1.0)
-    return np.asarray(result)
 
 
 def _hex(colour: Colour) -> str:
@@ -297,7 +233,3 @@ def _hex(colour: Colour) -> str:
 
 def _number(value: float) -> str:
     return f"{round(float(value), 9) + 0.0:.9g}"
-
-
-def _escape(text: str) -> str:
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-import os
 import re
 from collections.abc import Iterator, Sequence
 from datetime import UTC, datetime
@@ -16,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cqdd_design import __version__
+from cqdd_design.environment import source_date
 from cqdd_design.errors import ReadBackError
 from cqdd_design.files import WrittenFile, write_with
 
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from cadquery import Assembly
 
     from cqdd_design.design import Design
-    from cqdd_design.exporting import ExportJob
-    from cqdd_design.solids.parts import Colour, Part
+    from cqdd_design.exporting.job import ExportJob
+    from cqdd_design.solids.part import Colour, Part
 
 _AUTHOR = "cqdd-design"
 _SCHEMA_SETTING = "write.step.schema"
@@ -227,8 +227,7 @@ def _header(design: Design, file_name: str) -> str:
 
 def _time_stamp() -> str:
     """Time of SOURCE_DATE_EPOCH, else the epoch itself: never the clock."""
-    epoch = os.environ.get("SOURCE_DATE_EPOCH", "")
-    moment = datetime.fromtimestamp(int(epoch) if epoch.isdecimal() else 0, UTC)
+    moment = source_date() or datetime.fromtimestamp(0, UTC)
     return moment.strftime("%Y-%m-%dT%H:%M:%S")
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.gearbox.balance import paper_disc_count
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
@@ -70,8 +70,7 @@ def _disc_count(state: GearboxState) -> Check:
 
 
 def _motor(state: GearboxState) -> tuple[tuple[Check, ...], tuple[str, ...]]:
-    name = state.design.motor.name
-    motor = find_motor(name)
+    motor, name = state.motor, state.motor.name
     known = (
         (_peak, motor.peak_torque, "peak torque"),
         (_continuous, motor.rated_torque, "rated torque"),

@@ -220,7 +220,7 @@ def _space(state: GearboxState) -> tuple[Check, ...]:
 
 def _edm(state: GearboxState) -> tuple[Check, ...]:
     edm, geometry = state.design.edm, state.geometry
-    needed = 0.5 * edm.wire_diameter + edm.spark_gap
+    needed = edm.wire_offset
 
     def one(check_id: str, radius: float, what: str) -> Check:
         finer = 2.0 * (radius - edm.spark_gap)

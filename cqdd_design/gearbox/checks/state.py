@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.gearbox.balance import StackBalance
 from cqdd_design.gearbox.cam_bearing import BearingResult
@@ -23,6 +24,7 @@ class GearboxState:
     Attributes
     ----------
     design : Design
+    motor : Motor
     stages : Stages
     geometry : GeometrySummary
     peak, continuous : RigidMaxima
@@ -35,6 +37,7 @@ class GearboxState:
     """
 
     design: Design
+    motor: Motor
     stages: Stages
     geometry: GeometrySummary
     peak: RigidMaxima

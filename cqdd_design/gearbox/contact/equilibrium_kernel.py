@@ -18,9 +18,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numba
 import numpy as np
 
+from cqdd_design.files.kernel_cache import numba
 from cqdd_design.gearbox.contact.kernel_values import Contacts, Forces, Load, Springs, Work
 from cqdd_design.gearbox.contact.laws_kernel import line_force, radial_force
 from cqdd_design.gearbox.contact.newton_kernel import evaluate_state, newton_step

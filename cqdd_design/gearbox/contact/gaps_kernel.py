@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.files.kernel_cache import numba
 from cqdd_design.gearbox.contact.kernel_values import Errors, Nominal, Toleranced
 
 FloatArray = NDArray[np.float64]

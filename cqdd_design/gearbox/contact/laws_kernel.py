@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-import numba
+from cqdd_design.files.kernel_cache import numba
 
 
 @numba.njit(cache=True, inline="always", error_model="numpy")

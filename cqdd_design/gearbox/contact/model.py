@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.design import Design
-from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import CamSpring, LineLaw, LineModel
 from cqdd_design.gearbox.contact.pin_compliance import pin_compliance
@@ -75,7 +74,7 @@ class ContactModel:
 
     @classmethod
     def from_design(cls, design: Design, line_model: LineModel = "palmgren") -> ContactModel:
-        """Read a design; a cam bearing "auto" is chosen first, a sleeve is of the pin's material.
+        """Read a design that names its cam bearing; a sleeve is of the pin's material.
 
         Parameters
         ----------
@@ -88,7 +87,6 @@ class ContactModel:
         GeometryError
             When disc or holes cannot exist.
         """
-        design = with_chosen_bearing(design)
         reducer, pins = design.reducer, design.reducer.output_pins
         disc = CycloidDisc.from_design(design)
         stages = Stages.from_design(design)

@@ -9,8 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numba
-
+from cqdd_design.files.kernel_cache import numba
 from cqdd_design.gearbox.contact.kernel_values import Contacts, Forces, Springs, Work
 from cqdd_design.gearbox.contact.laws_kernel import line_force, radial_force
 

@@ -14,6 +14,8 @@ from cqdd_design.geometry import kinematics
 
 FloatArray = NDArray[np.float64]
 
+_ANGLES_AT_ONCE = 256
+
 
 @dataclass(frozen=True, eq=False)
 class NominalStates:
@@ -178,10 +180,13 @@ def profile_error(harmonics: FloatArray, parameter: FloatArray) -> tuple[FloatAr
         m and m/rad.
     """
     order = np.arange(1, harmonics.shape[-1] + 1)
-    angle = parameter[..., None] * order
-    cosine, sine = np.cos(angle), np.sin(angle)
     a, b = harmonics[:, 0, None, :], harmonics[:, 1, None, :]
-    return (
-        np.sum(a * cosine + b * sine, axis=-1),
-        np.sum(order * (b * cosine - a * sine), axis=-1),
-    )
+    material, slope = np.empty(parameter.shape), np.empty(parameter.shape)
+    # A few angles at a time: all harmonics of all teeth over a whole output turn take gigabytes.
+    for first in range(0, len(parameter), _ANGLES_AT_ONCE):
+        some = slice(first, first + _ANGLES_AT_ONCE)
+        angle = parameter[some, ..., None] * order
+        cosine, sine = np.cos(angle), np.sin(angle)
+        material[some] = np.sum(a * cosine + b * sine, axis=-1)
+        slope[some] = np.sum(order * (b * cosine - a * sine), axis=-1)
+    return material, slope

@@ -154,6 +154,12 @@ class ContactSweep:
         return np.asarray(np.sum(self.pin_force * moment, axis=-1))
 
     @property
+    def uneven_sharing(self) -> float:
+        """Torque of the most loaded disc over the mean of the discs, greatest over the angles."""
+        share = np.abs(self.disc_torque)
+        return float((share.max(axis=1) / share.mean(axis=1)).max())
+
+    @property
     def teeth_in_contact(self) -> IntArray:
         """Loaded ring teeth, (A, D)."""
         return np.asarray(np.sum(self.ring_force > 0.0, axis=-1), dtype=np.int64)
@@ -196,6 +202,7 @@ def contact_sweep(
     *,
     errors: GearboxErrors | None = None,
     states: NominalStates | None = None,
+    changed: ErrorStates | None = None,
 ) -> ContactSweep:
     """Solve the contact equilibrium over crank angle.
 
@@ -212,6 +219,8 @@ def contact_sweep(
     states : NominalStates, optional
         From :func:`.states.nominal_states` for the same model and angles, where many sweeps share
         them.
+    changed : ErrorStates, optional
+        From :func:`.states.error_states` for the same states and errors, likewise.
 
     Returns
     -------
@@ -238,7 +247,8 @@ def contact_sweep(
             raise UsageError("a contact sweep needs a list of finite crank angles, one or more.")
         states = nominal_states(model, angle)
     _refuse_misshapen(model, errors)
-    changed = error_states(model, states, errors)
+    if changed is None:
+        changed = error_states(model, states, errors)
     problem = sweep_problem(model, torque, states, changed)
     result = problem[-1]
     solve: Any = solve_sweep

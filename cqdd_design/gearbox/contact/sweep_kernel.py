@@ -8,8 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numba
-
+from cqdd_design.files.kernel_cache import numba
 from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, new_work, solve_state
 from cqdd_design.gearbox.contact.kernel_values import (
     Contacts,

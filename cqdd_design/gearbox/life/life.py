@@ -10,10 +10,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
-from cqdd_design.gearbox.cam_bearing import cam_bearing, with_chosen_bearing
+from cqdd_design.gearbox.cam_bearing import cam_bearing
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import nominal_states
@@ -76,7 +75,6 @@ def life(design: Design, model: ContactModel) -> LifeResult:
     duty; the worst place is given. Perfect parts are assumed; forces are those of the contact
     equilibrium. Plain pins and fixed sleeves are meant: a sleeve that turns spreads its load.
     """
-    design = with_chosen_bearing(design)
     cases, assumed = duty_cases(design)
     angles = cycles.crank_angles(model.lobe_count, model.pin_count)
     states = nominal_states(model, angles)
@@ -264,14 +262,13 @@ def _cam(duty: _Duty) -> CamLife:
     design, n = duty.design, duty.design.reducer.ratio
     stages = Stages.from_design(design)
     peak = rigid_maxima(stages, design.requirements.peak_torque).cam_bearing_load
-    valley = duty.sweeps[0].model.disc.valley_distance
-    checked = cam_bearing(design, stages, peak, valley)
+    checked = cam_bearing(design, peak)
     # The output's speed times n is the crank's; the bearing turns (1 + 1/n) times that.
     speeds = np.array(
         [float(kinematics.cam_bearing_speed_ring_fixed(n, n * case.speed)) for case in duty.cases]
     )
     return cam_life(
-        find_bearing(design.reducer.cam_bearing.designation),
+        checked.bearing,
         np.stack([sweep.cam_load for sweep in duty.sweeps]),
         np.array([case.share for case in duty.cases]),
         speeds,

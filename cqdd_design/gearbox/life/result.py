@@ -88,6 +88,10 @@ class PartLife:
     output_turns: float | None
     reserve: float | None
 
+    def lasts(self, hours: float) -> bool:
+        """Whether the part lives so long; never where no limit is known."""
+        return self.limit > 0.0 and (self.hours is None or self.hours >= hours)
+
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form."""
         return {

@@ -10,7 +10,7 @@ the output drives (see :meth:`.machine.FrictionMachine.tooth_force_change`).
 
 from cqdd_design.gearbox.losses.backdrive import Backdrive
 from cqdd_design.gearbox.losses.machine import FrictionMachine
-from cqdd_design.gearbox.losses.model import EfficiencyMap, LossModel, loss_model, losses
+from cqdd_design.gearbox.losses.model import EfficiencyMap, LossModel, loss_model
 from cqdd_design.gearbox.losses.result import Losses
 
 __all__ = [
@@ -20,5 +20,4 @@ __all__ = [
     "LossModel",
     "Losses",
     "loss_model",
-    "losses",
 ]

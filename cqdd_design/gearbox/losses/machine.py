@@ -13,13 +13,11 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cqdd_design.catalog.bearings import Bearing, find_bearing
+from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.design import Design
 from cqdd_design.gearbox import output_pins
-from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
 from cqdd_design.gearbox.losses.lubricant import Lubricant, find_lubricant
 from cqdd_design.gearbox.losses.rolling import BearingFriction
-from cqdd_design.gearbox.losses.seats import output_seat, support_seat
 from cqdd_design.gearbox.losses.shaft import equivalent_load, support_reactions
 from cqdd_design.gearbox.losses.sliding import (
     friction_work,
@@ -128,18 +126,17 @@ class FrictionMachine:
 
     @classmethod
     def from_design(
-        cls, design: Design, *, support: Bearing | None = None, output: Bearing | None = None
+        cls, design: Design, *, support: BearingFriction, output: BearingFriction
     ) -> FrictionMachine:
         """Read a design.
 
         Parameters
         ----------
         design : Design
-            A cam bearing "auto" is chosen first.
-        support, output : Bearing, optional
-            At either end of the shaft, and of the carrier; default :mod:`.seats`.
+            With a named cam bearing.
+        support, output : BearingFriction
+            At either end of the shaft, and of the carrier.
         """
-        design = with_chosen_bearing(design)
         reducer, pins = design.reducer, design.reducer.output_pins
         cam = find_bearing(reducer.cam_bearing.designation)
         mean = pin_mean_diameter(design)
@@ -156,8 +153,8 @@ class FrictionMachine:
             disc_heights=tuple(float(z) for z in output_pins.disc_positions(*stack)),
             span=float(output_pins.pin_span(*stack)),
             cam=BearingFriction.of(cam),
-            support=support_seat(design, cam) if support is None else BearingFriction.of(support),
-            output=output_seat(design) if output is None else BearingFriction.of(output),
+            support=support,
+            output=output,
             lubricant=lubricant,
             face_area=moments.area,
             face_gap=max(reducer.disc_spacing, _LEAST_FILM),

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cqdd_design.design import Design
 from cqdd_design.errors import UsageError
 from cqdd_design.gearbox.losses.backdrive import STATIC_RATIO, Backdrive, balance_torque
 from cqdd_design.gearbox.losses.machine import SOURCES, ContactForces, FrictionMachine, total
@@ -286,18 +285,16 @@ def _finite(what: str, values: ArrayLike) -> FloatArray:
     return array
 
 
-def loss_model(
-    model: ContactModel, design: Design, *, machine: FrictionMachine | None = None
-) -> LossModel:
+def loss_model(model: ContactModel, machine: FrictionMachine, peak_torque: float) -> LossModel:
     """Sweep a gearbox at a few torques up to its peak torque and read the friction of each.
 
     Parameters
     ----------
     model : ContactModel
+    machine : FrictionMachine
         Of the same design.
-    design : Design
-    machine : FrictionMachine, optional
-        Where support and output bearing are known; default :meth:`FrictionMachine.from_design`.
+    peak_torque : float
+        N m.
 
     Raises
     ------
@@ -308,34 +305,5 @@ def loss_model(
     from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 
     states = nominal_states(model, perfect_angles(model, SWEEP_ANGLES))
-    peak = design.requirements.peak_torque
-    sweeps = [contact_sweep(model, share * peak, states=states) for share in TORQUE_SHARES]
-    return LossModel.from_sweeps(machine or FrictionMachine.from_design(design), sweeps)
-
-
-def losses(
-    sweeps: ContactForces | Sequence[ContactForces],
-    design: Design,
-    input_speed: float,
-    torque: float | None = None,
-    *,
-    machine: FrictionMachine | None = None,
-) -> Losses:
-    """Losses at one operating point from sweeps that exist already.
-
-    Parameters
-    ----------
-    sweeps : ContactForces or sequence of them
-        Frictionless contact sweeps of the gearbox. From a single one everything is taken in
-        proportion to its torque.
-    design : Design
-    input_speed : float
-        Of the crank, rad/s.
-    torque : float, optional
-        On the carrier, N m; default that of the first sweep.
-    machine : FrictionMachine, optional
-        As for :func:`loss_model`.
-    """
-    several = list(sweeps) if isinstance(sweeps, Sequence) else [sweeps]
-    friction = LossModel.from_sweeps(machine or FrictionMachine.from_design(design), several)
-    return friction.at(input_speed, several[0].torque if torque is None else torque)
+    sweeps = [contact_sweep(model, share * peak_torque, states=states) for share in TORQUE_SHARES]
+    return LossModel.from_sweeps(machine, sweeps)

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from cqdd_design.design import Design
 from cqdd_design.errors import UsageError
-from cqdd_design.gearbox.cam_bearing import with_chosen_bearing
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import output_turn_count
 from cqdd_design.gearbox.tolerance.draws import GROUPS, draw_errors
@@ -223,7 +222,6 @@ def make_ensemble(
     UsageError
         When the angles do not fit into memory.
     """
-    design = with_chosen_bearing(design)
     reducer = design.reducer
     wanted = output_turn_count(reducer.ratio) if angles is None else angles
     contacts = reducer.disc_count * (reducer.ratio + 1 + reducer.output_pins.count)

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 
+from cqdd_design.files.kernel_cache import numba
 from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, new_work
 from cqdd_design.gearbox.contact.gaps_kernel import fill_errors
 from cqdd_design.gearbox.contact.kernel_values import (

@@ -4,33 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from cqdd_design.report.ink.axes import (
-    Axis,
-    FloatArray,
-    Labels,
-    Panel,
-    linear_axis,
-    log_axis,
-    thinned,
-)
-from cqdd_design.report.ink.heat import shade
-from cqdd_design.report.ink.numbers import significant
-from cqdd_design.report.ink.svg import Figure, line, rectangle, text
+from cqdd_design.actuator.bench.bandwidth import COHERENT
+from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.report.ink.axes import NARROW, Axis, Panel, linear_axis, log_axis, thinned
+from cqdd_design.report.ink.heat import cell, shade
+from cqdd_design.report.ink.numbers import NONE, significant
+from cqdd_design.report.ink.svg import Figure, Words, line, rectangle, text
 
-WIDTH = 430.0
-LEFT, RIGHT = 58.0, 16.0
-DOWN = -20.0 * math.log10(math.sqrt(2.0))
+_DOWN = -20.0 * math.log10(math.sqrt(2.0))
 """Half of the power, dB."""
-COHERENT = 0.8
-"""Below it a transfer function is not to be trusted."""
 
 
-@dataclass(frozen=True)
-class Mark:
+class Mark(NamedTuple):
     """A point of a figure: place, label and style (``dot``, ``dot inside``, ``dot outside``)."""
 
     x: float
@@ -40,20 +29,17 @@ class Mark:
 
 
 def efficiency_cells(
-    id_: str,
-    title: str,
-    description: str,
-    *,
+    words: Words,
     speed: FloatArray,
     torque: FloatArray,
     efficiency: FloatArray,
     scale: tuple[float, float],
-    caption: str,
 ) -> Figure:
     """Measured efficiencies over speed and torque, each in a cell reaching half way to the next.
 
     Parameters
     ----------
+    words : Words
     speed, torque, efficiency : array (P,)
         rpm, N m (sizes) and shares; every speed is a column, an efficiency of 0 is none.
     scale : (float, float)
@@ -64,15 +50,13 @@ def efficiency_cells(
     rows = [np.flatnonzero(speed == value) for value in columns]
     rows = [index[np.argsort(torque[index])] for index in rows]
     up = [_edges(torque[index]) for index in rows]
-    height, top, bottom = 300.0, 16.0, 44.0
-    panel = Panel(
-        id_,
+    highest = max(float(edges[-1]) for edges in up)
+    panel = Panel.beside(
+        words.id,
         linear_axis(0.0, float(across[-1]), "output speed, rpm", tight=True),
-        linear_axis(0.0, max(float(edges[-1]) for edges in up), "output torque, N·m", tight=True),
-        LEFT,
-        top,
-        WIDTH - LEFT - RIGHT,
-        height - top - bottom,
+        linear_axis(0.0, highest, "output torque, N·m", tight=True),
+        240.0,
+        top=16.0,
     )
     best = int(efficiency.argmax())
     body, peak = panel.frame(), ""
@@ -80,19 +64,17 @@ def efficiency_cells(
         for j, point in enumerate(index):
             x0, y1 = panel.place(float(across[k]), float(up[k][j]))
             x1, y0 = panel.place(float(across[k + 1]), float(up[k][j + 1]))
-            value = float(efficiency[point])
+            value, wide, high = float(efficiency[point]), x1 - x0, y1 - y0
+            grade, shown = 0, NONE
             if value > 0.0:
                 grade = max(shade(value - scale[0], scale[1] - scale[0]), 1)
-                body.append(rectangle(x0, y0, x1 - x0, y1 - y0, f"heat-{grade} cell"))
-            if y1 - y0 >= 13.0 and x1 - x0 >= 28.0:
-                tone = "on-dark" if value > 0.0 and grade > 5 else "on-light"
-                shown = f"{100.0 * value:.1f}" if value > 0.0 else "\u2013"
-                place = (0.5 * (x0 + x1), 0.5 * (y0 + y1) + 4.0)
-                body.append(text(place, shown, f"cell-text {tone}", "middle"))
+                shown = f"{100.0 * value:.1f}"
+            roomy = high >= 13.0 and wide >= 28.0
+            body += cell((x0, y0, wide, high), grade, shown if roomy else "")
             if point == best and value > 0.0:
-                wide, high = max(x1 - x0 - 2.0, 0.5), max(y1 - y0 - 2.0, 0.5)
-                peak = rectangle(x0 + 1.0, y0 + 1.0, wide, high, "peak-cell")
-    return Figure(id_, title, description, WIDTH, height, "".join([*body, peak]), caption)
+                inside = (max(wide - 2.0, 0.5), max(high - 2.0, 0.5))
+                peak = rectangle(x0 + 1.0, y0 + 1.0, *inside, "peak-cell")
+    return words.figure(NARROW, 300.0, [*body, peak])
 
 
 def _edges(places: FloatArray) -> FloatArray:
@@ -104,23 +86,10 @@ def _edges(places: FloatArray) -> FloatArray:
     return np.asarray(np.r_[first, middle, 1.5 * places[-1] - 0.5 * places[-2]])
 
 
-def bode(
-    id_: str,
-    title: str,
-    description: str,
-    *,
-    frequency: FloatArray,
-    gain: FloatArray,
-    phase: FloatArray,
-    coherence: FloatArray | None = None,
-    edge: float | None,
-    quarter: float | None,
-    limits: Sequence[tuple[str, float]] = (),
-    caption: str,
-) -> Figure:
-    """Gain, phase and, where it is known, coherence over frequency.
+class Response(NamedTuple):
+    """A measured frequency response.
 
-    Parameters
+    Attributes
     ----------
     frequency : array (F,)
         Hz, rising.
@@ -128,56 +97,86 @@ def bode(
         Relative to that of low frequencies.
     phase : array (F,)
         rad, unwrapped.
-    coherence : array (F,), optional
-        Curves are drawn faint from where it first falls below `COHERENT`.
     edge, quarter : float or None
         Frequencies of -3 dB and of -90 degrees, to be marked.
+    coherence : array (F,) or None
+        Curves are drawn faint from where it first falls below `COHERENT`.
+    """
+
+    frequency: FloatArray
+    gain: FloatArray
+    phase: FloatArray
+    edge: float | None
+    quarter: float | None
+    coherence: FloatArray | None = None
+
+    @property
+    def sure(self) -> int:
+        """How many of the frequencies can be trusted."""
+        if self.coherence is None or not np.any(self.coherence < COHERENT):
+            return len(self.frequency)
+        return max(int(np.argmax(self.coherence < COHERENT)), 2)
+
+
+class _Track(NamedTuple):
+    """One panel of a Bode plot: its values, and the level it is judged at with its crossing."""
+
+    panel: Panel
+    values: FloatArray
+    level: float
+    name: str
+    crossed: float | None
+
+
+def bode(words: Words, found: Response, limits: Sequence[tuple[str, float]] = ()) -> Figure:
+    """Gain, phase and, where it is known, coherence over frequency.
+
+    Parameters
+    ----------
+    words : Words
+    found : Response
     limits : sequence of (name, Hz)
         Drawn as vertical lines, those outside the range left out.
     """
-    decibel = 20.0 * np.log10(np.maximum(gain, 1e-12))
-    degrees = np.degrees(phase)
-    sure = len(frequency)
-    if coherence is not None and np.any(coherence < COHERENT):
-        sure = max(int(np.argmax(coherence < COHERENT)), 2)
+    frequency, sure, id_ = found.frequency, found.sure, words.id
+    decibel, degrees = 20.0 * np.log10(np.maximum(found.gain, 1e-12)), np.degrees(found.phase)
     x = log_axis(float(frequency[0]), float(frequency[-1]), "frequency, Hz")
     top = 32.0 if limits else 14.0
-    shape = {"left": LEFT, "width": WIDTH - LEFT - RIGHT}
-    gain_y = linear_axis(
-        max(min(float(decibel[:sure].min()), -12.0), -40.0),
-        min(max(float(decibel[:sure].max()), 3.0), 30.0),
-        "gain, dB",
-        most=5,
-    )
-    phase_y = _angles(degrees[:sure])
-    panels = [Panel(f"{id_}-gain", x, gain_y, top=top, height=132.0, **shape)]
-    panels.append(Panel(f"{id_}-phase", x, phase_y, top=top + 148.0, height=104.0, **shape))
-    curves = [decibel, degrees]
-    if coherence is not None:
+    low = max(min(float(decibel[:sure].min()), -12.0), -40.0)
+    high = min(max(float(decibel[:sure].max()), 3.0), 30.0)
+    gain = Panel.beside(f"{id_}-gain", x, linear_axis(low, high, "gain, dB", most=5), 132.0, top)
+    phase = Panel.beside(f"{id_}-phase", x, _angles(degrees[:sure]), 104.0, top + 148.0)
+    tracks = [
+        _Track(gain, decibel, _DOWN, "\u22123 dB", found.edge),
+        _Track(phase, degrees, -90.0, "\u221290°", found.quarter),
+    ]
+    if found.coherence is not None:
         share = linear_axis(0.0, 1.0, "coherence", most=2)
-        panels.append(Panel(f"{id_}-coherence", x, share, top=top + 268.0, height=62.0, **shape))
-        curves.append(coherence)
-    crossings = {panels[0].id: (edge, DOWN), panels[1].id: (quarter, -90.0)}
+        below = Panel.beside(f"{id_}-coherence", x, share, 62.0, top + 268.0)
+        tracks.append(_Track(below, found.coherence, COHERENT, "", None))
     body = []
-    for panel, values in zip(panels, curves, strict=True):
-        body += panel.frame(names=panel is panels[-1])
-        x_drawn, y_drawn = _through(frequency, values, crossings.get(panel.id))
+    for track in tracks:
+        panel = track.panel
+        body += panel.frame(names=track is tracks[-1])
+        x_drawn, y_drawn = _through(frequency, track)
         last = int(np.searchsorted(x_drawn, frequency[sure - 1]))
         body.append(panel.curve(x_drawn[last:], y_drawn[last:], "weak"))
         body.append(panel.curve(x_drawn[: last + 1], y_drawn[: last + 1], "series-1"))
-    body += _bode_marks(panels, curves, frequency, sure, edge, quarter, limits)
-    height = panels[-1].bottom + 43.0
-    return Figure(id_, title, description, WIDTH, height, "".join(body), caption)
+    bounds = [(name, at) for name, at in limits if frequency[0] <= at <= frequency[-1]]
+    body += _bounds(gain, phase, bounds)
+    for track in tracks[:2]:
+        body += _crossing(track, frequency[:sure], bounds)
+    if found.coherence is not None:
+        body.append(tracks[2].panel.across(COHERENT, "reference"))
+    return tracks[-1].panel.figure(words, body)
 
 
-def _through(
-    x: FloatArray, y: FloatArray, crossing: tuple[float | None, float] | None
-) -> tuple[FloatArray, FloatArray]:
+def _through(x: FloatArray, track: _Track) -> tuple[FloatArray, FloatArray]:
     """A curve with its crossing of a level put in between its samples."""
-    if crossing is None or crossing[0] is None or crossing[0] in x:
-        return x, y
-    k = int(np.searchsorted(x, crossing[0]))
-    return np.insert(x, k, crossing[0]), np.insert(y, k, crossing[1])
+    if track.crossed is None or track.crossed in x:
+        return x, track.values
+    k = int(np.searchsorted(x, track.crossed))
+    return np.insert(x, k, track.crossed), np.insert(track.values, k, track.level)
 
 
 def _angles(degrees: FloatArray) -> Axis:
@@ -190,68 +189,53 @@ def _angles(degrees: FloatArray) -> Axis:
     return Axis(45.0 * low, 45.0 * high, ticks, "phase, °")
 
 
-def _bode_marks(
-    panels: Sequence[Panel],
-    curves: Sequence[FloatArray],
-    frequency: FloatArray,
-    sure: int,
-    edge: float | None,
-    quarter: float | None,
-    limits: Sequence[tuple[str, float]],
-) -> list[str]:
-    """Levels, crossings and limits, with labels that keep clear."""
+def _bounds(gain: Panel, phase: Panel, bounds: Sequence[tuple[str, float]]) -> list[str]:
+    """Vertical lines through gain and phase, named above them on two levels."""
     body = []
-    bounds = [(name, at) for name, at in limits if frequency[0] <= at <= frequency[-1]]
     for k, (name, at) in enumerate(sorted(bounds, key=lambda item: item[1])):
-        x = panels[0].place(at, 0.0)[0]
-        body += [panel.upright(at, "bound") for panel in panels[:2]]
+        body += [panel.upright(at, "bound") for panel in (gain, phase)]
         room = 6.3 * len(name)
-        begin = min(max(x - 0.5 * room, 0.0), WIDTH - room)
-        level = panels[0].top - 6.0 - (13.0 if k % 2 else 0.0)
+        begin = min(max(gain.place(at, 0.0)[0] - 0.5 * room, 0.0), NARROW - room)
+        level = gain.top - 6.0 - (13.0 if k % 2 else 0.0)
         body.append(text((begin, level), name, "tick bound-label"))
-    wanted = (
-        (panels[0], curves[0], DOWN, edge, "\u22123 dB"),
-        (panels[1], curves[1], -90.0, quarter, "\u221290°"),
-    )
-    for panel, values, level, crossed, name in wanted:
-        if not panel.y.low <= level <= panel.y.high:
-            continue
-        body.append(panel.across(level, "reference"))
-        labels = Labels(panel.left + 2.0, panel.top, panel.right, panel.bottom)
-        labels.avoid_curve(
-            panel, frequency[:sure], np.clip(values[:sure], panel.y.low, panel.y.high)
-        )
-        y = panel.place(panel.x.low, level)[1]
-        labels.avoid([panel.left, panel.right], [y, y])
-        for _, bound in bounds:
-            x = panel.place(bound, 0.0)[0]
-            labels.avoid([x, x], [panel.top, panel.bottom])
-        if crossed is not None and panel.holds(crossed, level):
-            body.append(panel.dot(crossed, level, "dot"))
-            shown = f"{name} at {significant(crossed, 3)} Hz"
-            body.append(labels.place(panel.place(crossed, level), shown))
-        else:
-            body.append(labels.place((panel.left, y), name))
-    if len(panels) > 2:
-        body.append(panels[2].across(COHERENT, "reference"))
     return body
 
 
+def _crossing(
+    track: _Track, frequency: FloatArray, bounds: Sequence[tuple[str, float]]
+) -> list[str]:
+    """A level and where the curve crosses it, with a label that keeps clear."""
+    panel, level = track.panel, track.level
+    if not panel.y.low <= level <= panel.y.high:
+        return []
+    labels = panel.labels()
+    seen = np.clip(track.values[: len(frequency)], panel.y.low, panel.y.high)
+    labels.avoid_curve(panel, frequency, seen)
+    y = panel.place(panel.x.low, level)[1]
+    labels.avoid([panel.left, panel.right], [y, y])
+    for _, bound in bounds:
+        x = panel.place(bound, 0.0)[0]
+        labels.avoid([x, x], [panel.top, panel.bottom])
+    body = [panel.across(level, "reference")]
+    if track.crossed is None or not panel.holds(track.crossed, level):
+        return [*body, labels.place((panel.left, y), track.name)]
+    shown = f"{track.name} at {significant(track.crossed, 3)} Hz"
+    dot = panel.dot(track.crossed, level, "dot")
+    return [*body, dot, labels.place(panel.place(track.crossed, level), shown)]
+
+
 def hysteresis(
-    id_: str,
-    title: str,
-    description: str,
-    *,
+    words: Words,
     motor: FloatArray,
     output: FloatArray,
     dead: tuple[float, float, float] | None,
     label: str,
-    caption: str,
 ) -> Figure:
     """Output angle over motor angle through the ratio.
 
     Parameters
     ----------
+    words : Words
     motor, output : array (T,)
         arcmin, in the order of time.
     dead : (begin, end, output angle) or None
@@ -263,13 +247,10 @@ def hysteresis(
     # The dimension stands beyond the flank on which the output rests.
     above = dead is None or dead[2] >= 0.5 * (least + most)
     least, most = least - (0.05 if above else 0.24) * span, most + (0.24 if above else 0.05) * span
-    panel = Panel(
-        id_,
+    panel = Panel.beside(
+        words.id,
         linear_axis(-reach, reach, "motor angle over ratio, arcmin", tight=True),
         linear_axis(least, most, "output angle, arcmin", tight=True),
-        LEFT,
-        14.0,
-        WIDTH - LEFT - RIGHT,
         250.0,
     )
     body = panel.frame()
@@ -286,8 +267,7 @@ def hysteresis(
         middle = 0.5 * (begin[0] + end[0])
         middle = min(max(middle, panel.left + room), panel.right - room)
         body.append(text((middle, level + (-7.0 if above else 16.0)), label, "legend", "middle"))
-    height = panel.bottom + 43.0
-    return Figure(id_, title, description, WIDTH, height, "".join(body), caption)
+    return panel.figure(words, body)
 
 
 def _sparse(x: FloatArray, y: FloatArray, points: int = 500) -> tuple[FloatArray, FloatArray]:
@@ -300,33 +280,24 @@ def _sparse(x: FloatArray, y: FloatArray, points: int = 500) -> tuple[FloatArray
 
 
 def trace(
-    id_: str,
-    title: str,
-    description: str,
+    words: Words,
+    x: tuple[str, FloatArray],
+    y: tuple[str, FloatArray],
     *,
-    x: FloatArray,
-    y: FloatArray,
-    x_label: str,
-    y_label: str,
     level: tuple[str, float] | None = None,
     marks: Sequence[Mark] = (),
-    caption: str,
 ) -> Figure:
-    """One measured curve over zero, with a level across it and marked points."""
-    low, high = float(y.min()), float(y.max())
-    low, high = min(low, 0.0), max(high, 0.0)
+    """One measured curve over zero, names and values of x and y, with a level and marked points."""
+    low, high = min(float(y[1].min()), 0.0), max(float(y[1].max()), 0.0)
     high = high if high - low > 1e-9 else 1.0
-    panel = Panel(
-        id_,
-        linear_axis(float(x.min()), float(x.max()), x_label, tight=True),
-        linear_axis(low, high + 0.08 * max(high - low, 1e-12), y_label, most=5),
-        LEFT,
-        14.0,
-        WIDTH - LEFT - RIGHT,
+    panel = Panel.beside(
+        words.id,
+        linear_axis(float(x[1].min()), float(x[1].max()), x[0], tight=True),
+        linear_axis(low, high + 0.08 * max(high - low, 1e-12), y[0], most=5),
         210.0,
     )
-    labels = Labels(panel.left + 2.0, panel.top, panel.right, panel.bottom)
-    drawn = thinned(x, y)
+    labels = panel.labels()
+    drawn = thinned(x[1], y[1])
     labels.avoid_curve(panel, *drawn)
     body = [*panel.frame(), panel.curve(*drawn, "series-1 fine")]
     if level is not None:
@@ -337,42 +308,34 @@ def trace(
     for mark in marks:
         body.append(panel.dot(mark.x, mark.y, mark.class_))
         body.append(labels.place(panel.place(mark.x, mark.y), mark.label))
-    height = panel.bottom + 43.0
-    return Figure(id_, title, description, WIDTH, height, "".join(body), caption)
+    return panel.figure(words, body)
 
 
 def spectrum(
-    id_: str,
-    title: str,
-    description: str,
-    *,
-    order: FloatArray,
-    amplitude: FloatArray,
-    named: Sequence[int],
-    y_label: str,
-    caption: str,
+    words: Words, order: FloatArray, amplitude: FloatArray, named: Sequence[int], y_label: str
 ) -> Figure:
     """Amplitudes over order as thin bars, the strongest with their numbers.
 
     Parameters
     ----------
+    words : Words
     order, amplitude : array (O,)
     named : sequence of int
         Orders to number, strongest first.
+    y_label : str
+        With the unit.
     """
     most = max(float(amplitude.max()), 1e-30)
     loud = order[amplitude > 0.004 * most]
     last = 1.06 * max(float(loud.max()), 10.0)
-    panel = Panel(
-        id_,
+    panel = Panel.beside(
+        words.id,
         linear_axis(0.0, last, "order, periods in an output turn", most=8, tight=True),
         linear_axis(0.0, 1.1 * most, y_label, most=5),
-        LEFT,
-        14.0,
-        WIDTH - LEFT - RIGHT,
         232.0,
     )
-    labels = Labels(panel.left + 2.0, panel.top, panel.right + 10.0, panel.bottom)
+    labels = panel.labels()
+    labels.right += 10.0
     body = panel.frame()
     for k, height in zip(order, amplitude, strict=True):
         if float(k) > panel.x.high or height < 0.002 * most:
@@ -384,5 +347,4 @@ def spectrum(
     for k in named:
         if k in values and k <= panel.x.high:
             body.append(labels.place(panel.place(float(k), values[k]), str(k)))
-    height = panel.bottom + 43.0
-    return Figure(id_, title, description, WIDTH, height, "".join(body), caption)
+    return panel.figure(words, body)

@@ -4,19 +4,10 @@ from __future__ import annotations
 
 import math
 
-from cqdd_design.report.drawings.outlines import Machine
+from cqdd_design.report.drawings.outlines import Outlines
 from cqdd_design.report.ink.dimensions import Leader, horizontal_dimension, leader_column
-from cqdd_design.report.ink.numbers import THIN, significant
-from cqdd_design.report.ink.svg import (
-    Figure,
-    Point,
-    View,
-    circle,
-    contour_path,
-    element,
-    line,
-    part_path,
-)
+from cqdd_design.report.ink.numbers import millimetres
+from cqdd_design.report.ink.svg import Figure, Point, View, Words, circle, line, part_shape
 
 _WIDTH, _HEIGHT = 900.0, 640.0
 _RADIUS = 226.0  # px of the ring's outside
@@ -24,205 +15,171 @@ _CENTRE: Point = (450.0, 300.0)
 _LEFT_EDGE, _RIGHT_EDGE = 172.0, 728.0
 
 
-def millimetres(metres: float, digits: int = 5) -> str:
-    """A length as on a drawing: ``7 mm``."""
-    return f"{significant(1e3 * metres, digits)}{THIN}mm"
-
-
-def front_view(machine: Machine) -> Figure:
+def front_view(outlines: Outlines) -> Figure:
     """Front view at crank angle 0: the crank of disc 1 points along +x."""
-    reducer = machine.design.reducer
+    reducer = outlines.design.reducer
     view = View(_RADIUS / (0.5 * reducer.ring.outer_diameter), _CENTRE)
-    body = [element("path", d=part_path(machine.ring, view), class_="ring")]
+    body = outlines.ring_shapes(view)
+    for index in range(reducer.disc_count):
+        class_ = "hidden" if index else "disc-body"
+        body.append(part_shape(outlines.posed_disc(index, 0.0), view, class_))
+    body += _middle(outlines, view)
+    body += outlines.pin_shapes(view, 0.0)
+    body += _centre_lines(outlines, view)
+    body += _dimensions(outlines, view)
     body += [
-        element("path", d=contour_path(pin, view), class_="ring-pin") for pin in machine.ring_pins
+        leader_column(_named_left(outlines, view), _LEFT_EDGE, "left", 90.0, 520.0),
+        leader_column(_named_right(outlines, view), _RIGHT_EDGE, "right", 90.0, 520.0),
     ]
-    body.append(element("path", d=part_path(machine.posed_disc(0, 0.0), view), class_="disc-body"))
-    for index in range(1, reducer.disc_count):
-        hidden = machine.posed_disc(index, 0.0)
-        body.append(element("path", d=part_path(hidden, view), class_="hidden"))
-    body.append(_middle(machine, view))
-    for angle in machine.pin_angles(0.0):
-        place = view.polar(reducer.output_pins.circle_radius, angle)
-        body.append(circle(place, view.length(0.5 * machine.pin_diameter), "pin"))
-    body.append(_centre_lines(machine, view))
-    body += [_below(machine, view), _above(machine, view)]
-    body += [_left(machine, view), _right(machine, view)]
     hidden_words = {1: "", 2: " Disc 2, behind, is dashed."}.get(
         reducer.disc_count, " The discs behind are dashed."
     )
-    return Figure(
+    words = Words(
         "front-view",
         "Front view",
         f"Ring with {reducer.ring_tooth_count} teeth around a disc with {reducer.ratio} lobes and "
         f"{reducer.output_pins.count} output pins, with dimensions.",
-        _WIDTH,
-        _HEIGHT,
-        "".join(body),
         f"Front view at crank angle 0, to scale, from the contours that are cut.{hidden_words}",
     )
+    return words.figure(_WIDTH, _HEIGHT, body)
 
 
-def _middle(machine: Machine, view: View) -> str:
+def _middle(outlines: Outlines, view: View) -> list[str]:
     """Cam bearing and eccentric of the first disc."""
-    centre = view.point((machine.design.reducer.eccentricity, 0.0))
-    bearing = machine.bearing
-    inner = 0.5 * bearing.bore_diameter
-    races = 0.25 * (bearing.outer_diameter - bearing.bore_diameter) * 0.42
-    return "".join(
-        [
-            circle(centre, view.length(0.5 * bearing.outer_diameter), "bearing"),
-            circle(centre, view.length(0.5 * bearing.outer_diameter - races), "race"),
-            circle(centre, view.length(inner + races), "race"),
-            circle(centre, view.length(inner), "cam"),
-        ]
-    )
+    centre = view.point(outlines.disc_pose(0, 0.0)[1])
+    bearing = outlines.bearing
+    outer, inner = 0.5 * bearing.outer_diameter, 0.5 * bearing.bore_diameter
+    races = 0.5 * (outer - inner) * 0.42
+    return [
+        circle(centre, view.length(radius), class_)
+        for radius, class_ in (
+            (outer, "bearing"),
+            (outer - races, "race"),
+            (inner + races, "race"),
+            (inner, "cam"),
+        )
+    ]
 
 
-def _centre_lines(machine: Machine, view: View) -> str:
-    reducer = machine.design.reducer
+def _centre_lines(outlines: Outlines, view: View) -> list[str]:
+    reducer = outlines.design.reducer
     reach = _RADIUS + 14.0
     x, y = view.origin
     off = view.length(reducer.eccentricity)
-    return "".join(
-        [
-            circle(view.origin, view.length(reducer.ring_pitch_radius), "centre-line"),
-            circle(view.origin, view.length(reducer.output_pins.circle_radius), "centre-line"),
-            line((x - reach, y), (x + reach, y), "centre-line"),
-            line((x, y - reach), (x, y + reach), "centre-line"),
-            line((x + off, y - 30.0), (x + off, y + 30.0), "centre-line"),
-        ]
+    radii = (reducer.ring_pitch_radius, reducer.output_pins.circle_radius)
+    ends = (
+        ((x - reach, y), (x + reach, y)),
+        ((x, y - reach), (x, y + reach)),
+        ((x + off, y - 30.0), (x + off, y + 30.0)),
     )
+    return [
+        *(circle(view.origin, view.length(radius), "centre-line") for radius in radii),
+        *(line(*pair, "centre-line") for pair in ends),
+    ]
 
 
-def _below(machine: Machine, view: View) -> str:
-    reducer = machine.design.reducer
-    y = view.origin[1]
-    half = 0.5 * reducer.ring.outer_diameter
-    return horizontal_dimension(
-        view.origin,
-        view.point((reducer.ring_pitch_radius, 0.0)),
-        y + _RADIUS + 38.0,
-        f"Z_r = {millimetres(reducer.ring_pitch_radius)}",
-        "ring pitch radius",
-    ) + horizontal_dimension(
-        view.point((-half, 0.0)),
-        view.point((half, 0.0)),
-        y + _RADIUS + 84.0,
-        f"\u2300 {millimetres(reducer.ring.outer_diameter)}",
-        "ring outside diameter",
+def _dimensions(outlines: Outlines, view: View) -> list[str]:
+    """Ring pitch radius and outside diameter below, eccentricity above."""
+    reducer, y = outlines.design.reducer, view.origin[1]
+    pitch, e, outside = (
+        reducer.ring_pitch_radius,
+        reducer.eccentricity,
+        reducer.ring.outer_diameter,
     )
+    return [
+        horizontal_dimension(
+            view.point((start, 0.0)), view.point((end, 0.0)), y + level, value, name
+        )
+        for start, end, level, value, name in (
+            (0.0, pitch, _RADIUS + 38.0, f"Z_r = {millimetres(pitch)}", "ring pitch radius"),
+            (
+                -0.5 * outside,
+                0.5 * outside,
+                _RADIUS + 84.0,
+                f"\u2300 {millimetres(outside)}",
+                "ring outside diameter",
+            ),
+            (0.0, e, -_RADIUS - 34.0, f"Z_e = {millimetres(e)}", "eccentricity"),
+        )
+    ]
 
 
-def _above(machine: Machine, view: View) -> str:
-    e = machine.design.reducer.eccentricity
-    return horizontal_dimension(
-        view.origin,
-        view.point((e, 0.0)),
-        view.origin[1] - _RADIUS - 34.0,
-        f"Z_e = {millimetres(e)}",
-        "eccentricity",
-    )
+def _nearest(first: float, count: int, wanted: float) -> float:
+    """Of `count` angles evenly round a turn, the one nearest to a wanted one (degrees), rad."""
+    angles = [first + 2.0 * math.pi * k / count for k in range(count)]
+    return _closest(angles, wanted)
 
 
-def _nearest(angles: list[float], wanted: float) -> float:
-    return min(angles, key=lambda a: abs(math.remainder(a - wanted, 2.0 * math.pi)))
+def _closest(angles: list[float], wanted: float) -> float:
+    aim = math.radians(wanted)
+    return min(angles, key=lambda a: abs(math.remainder(a - aim, 2.0 * math.pi)))
 
 
-def _left(machine: Machine, view: View) -> str:
-    """Ring and profile, named on the left."""
-    reducer, profile = machine.design.reducer, machine.profile
-    radius = 0.5 * reducer.ring_pin_diameter
-    teeth = [2.0 * math.pi * i / reducer.ring_tooth_count for i in range(reducer.ring_tooth_count)]
-    tooth = _nearest(teeth, math.radians(140.0))
+def _named_left(outlines: Outlines, view: View) -> list[Leader]:
+    """Ring and profile."""
+    reducer, profile = outlines.design.reducer, outlines.profile
+    centre = outlines.disc_pose(0, 0.0)[1]
+    pitch, radius = reducer.ring_pitch_radius, 0.5 * reducer.ring_pin_diameter
+    tooth = _nearest(0.0, reducer.ring_tooth_count, 140.0)
     # The tooth's flank, seen from the middle of the gearbox.
-    flank_x = reducer.ring_pitch_radius * math.cos(tooth) - radius * math.cos(tooth - 0.5)
-    flank_y = reducer.ring_pitch_radius * math.sin(tooth) - radius * math.sin(tooth - 0.5)
-    lobes = [math.pi * (2 * k + 1) / reducer.ratio for k in range(reducer.ratio)]
-    lobe = _nearest(lobes, math.radians(180.0))
-    off = reducer.eccentricity
-    tip = (
-        off + profile.tip_distance * math.cos(lobe),
-        profile.tip_distance * math.sin(lobe),
-    )
-    valleys = [2.0 * math.pi * k / reducer.ratio for k in range(reducer.ratio)]
-    valley = _nearest(valleys, math.radians(222.0))
-    low = (
-        off + profile.valley_distance * math.cos(valley),
-        profile.valley_distance * math.sin(valley),
-    )
-    leaders = [
+    at_tooth = (pitch * math.cos(tooth), pitch * math.sin(tooth))
+    lobe = _closest([math.pi * (2 * k + 1) / reducer.ratio for k in range(reducer.ratio)], 180.0)
+    valley = _nearest(0.0, reducer.ratio, 222.0)
+    return [
         Leader(
-            view.point((flank_x, flank_y)),
+            view.polar(-radius, tooth - 0.5, at_tooth),
             f"Z_p = \u2300 {millimetres(reducer.ring_pin_diameter)}",
             f"ring teeth, {reducer.ring_tooth_count} of them",
         ),
         Leader(
-            view.point(tip),
+            view.polar(profile.tip_distance, lobe, centre),
             f"\u2300 {millimetres(2.0 * profile.tip_distance)}",
             f"disc over its {reducer.ratio} lobes",
         ),
         Leader(
-            view.point(low),
+            view.polar(profile.valley_distance, valley, centre),
             f"\u2300 {millimetres(2.0 * profile.valley_distance)}",
             "disc in its valleys",
         ),
     ]
-    return leader_column(leaders, _LEFT_EDGE, "left", 90.0, 520.0)
 
 
-def _right(machine: Machine, view: View) -> str:
-    """Output pins and bore, named on the right."""
-    reducer, bearing = machine.design.reducer, machine.bearing
-    pins = reducer.output_pins
-    angles = machine.pin_angles(0.0)
-    e = reducer.eccentricity
-
-    def on_circle(radius: float, centre: float, toward: float) -> Point:
-        return view.point(
-            (
-                pins.circle_radius * math.cos(centre) + radius * math.cos(toward),
-                pins.circle_radius * math.sin(centre) + radius * math.sin(toward),
-            )
-        )
-
-    first = _nearest(angles, math.radians(38.0))
-    second = _nearest([a for a in angles if a != first], math.radians(-32.0))
-    hole = (
-        pins.circle_radius * math.cos(second) + e + 0.5 * machine.hole_diameter,
-        pins.circle_radius * math.sin(second),
+def _named_right(outlines: Outlines, view: View) -> list[Leader]:
+    """Output pins and bore."""
+    pins, stages = outlines.design.reducer.output_pins, outlines.stages
+    centre = outlines.disc_pose(0, 0.0)[1]
+    circle_radius, bore = pins.circle_radius, outlines.bearing.outer_diameter
+    angles = outlines.pin_angles(0.0)
+    first = _closest(angles, 38.0)
+    second = _closest([a for a in angles if a != first], -32.0)
+    at_first = (circle_radius * math.cos(first), circle_radius * math.sin(first))
+    at_second = (
+        circle_radius * math.cos(second) + centre[0],
+        circle_radius * math.sin(second),
     )
-    words = "sleeves" if pins.sleeve_diameter > 0.0 else "screws"
-    shown = pins.sleeve_diameter if pins.sleeve_diameter > 0.0 else pins.diameter
-    bore_at = math.radians(20.0)
+    sleeved = pins.sleeve_diameter > 0.0
+    shown = pins.sleeve_diameter if sleeved else pins.diameter
     # Between two pins, where nothing else lies on the circle.
-    half = math.pi / pins.count
-    circle_at = _nearest([angle + half for angle in angles], math.radians(62.0))
-    leaders = [
+    between = _closest([angle + math.pi / pins.count for angle in angles], 62.0)
+    return [
         Leader(
-            view.polar(pins.circle_radius, circle_at),
-            f"R {millimetres(pins.circle_radius)}",
+            view.polar(circle_radius, between),
+            f"R {millimetres(circle_radius)}",
             "circle of the output pins",
         ),
         Leader(
-            on_circle(0.5 * machine.pin_diameter, first, 0.3),
+            view.polar(stages.pin_contact_radius, 0.3, at_first),
             f"Z_o = \u2300 {millimetres(shown)}",
-            f"output pins, {pins.count} {words}",
+            f"output pins, {pins.count} {'sleeves' if sleeved else 'screws'}",
         ),
         Leader(
-            view.point(
-                (
-                    e + 0.5 * bearing.outer_diameter * math.cos(bore_at),
-                    0.5 * bearing.outer_diameter * math.sin(bore_at),
-                )
-            ),
-            f"\u2300 {millimetres(bearing.outer_diameter)}",
+            view.polar(0.5 * bore, math.radians(20.0), centre),
+            f"\u2300 {millimetres(bore)}",
             "bore for the cam bearing",
         ),
         Leader(
-            view.point(hole),
-            f"\u2300 {millimetres(machine.hole_diameter)}",
+            view.polar(stages.hole_radius, 0.0, at_second),
+            f"\u2300 {millimetres(2.0 * stages.hole_radius)}",
             "output holes",
         ),
     ]
-    return leader_column(leaders, _RIGHT_EDGE, "right", 90.0, 520.0)

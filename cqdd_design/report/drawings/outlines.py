@@ -6,24 +6,27 @@ from dataclasses import dataclass
 
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.design import Design
-from cqdd_design.gearbox.stages import pin_mean_diameter
+from cqdd_design.gearbox.stages import Stages, pin_mean_diameter
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.contours import Circle, PlanarPart
 from cqdd_design.geometry.cycloid import CycloidDisc
-from cqdd_design.geometry.disc import crank_phase, disc_contour, hole_diameter
+from cqdd_design.geometry.disc import disc_contour
 from cqdd_design.geometry.ring import ring_contour, ring_pins
+from cqdd_design.report.ink.svg import View, circle, contour_shape, part_shape
 
-#: Distance of a drawn outline from the exact one, m: a hundredth of a px at the largest scale.
 DRAWING_TOLERANCE = 2e-6
+"""Distance of a drawn outline from the exact one, m: a hundredth of a px at the largest scale."""
 
 
 @dataclass(frozen=True)
-class Machine:
+class Outlines:
     """Contours and sizes of a gearbox, in m.
 
     Attributes
     ----------
     design : Design
+    stages : Stages
+        Its sizes as the rigid law reads them, fits included.
     profile : CycloidDisc
         The disc's lobed outline.
     ring : PlanarPart
@@ -34,23 +37,19 @@ class Machine:
         Each in the frame of its own lobes.
     bearing : Bearing
         The cam bearing, "auto" resolved.
-    pin_diameter, hole_diameter : float
-        Mean diameter of pin or sleeve as it runs in the hole, and the hole.
     """
 
     design: Design
+    stages: Stages
     profile: CycloidDisc
     ring: PlanarPart
     ring_pins: tuple[Circle, ...]
     discs: tuple[PlanarPart, ...]
     bearing: Bearing
-    pin_diameter: float
-    hole_diameter: float
 
     @classmethod
-    def from_design(cls, design: Design, bearing: Bearing) -> Machine:
+    def from_design(cls, design: Design, bearing: Bearing) -> Outlines:
         """Contours of a design whose cam bearing is `bearing`."""
-        pins = design.reducer.output_pins
         mean = pin_mean_diameter(design)
         discs = tuple(
             disc_contour(
@@ -63,31 +62,45 @@ class Machine:
             for index in range(design.reducer.disc_count)
         )
         return cls(
-            design=design,
-            profile=CycloidDisc.from_design(design),
-            ring=ring_contour(design, DRAWING_TOLERANCE),
-            ring_pins=ring_pins(design),
-            discs=discs,
-            bearing=bearing,
-            pin_diameter=pins.sleeve_diameter if pins.sleeve_diameter > 0.0 else mean,
-            hole_diameter=hole_diameter(design, mean),
+            design,
+            Stages.from_design(design),
+            CycloidDisc.from_design(design),
+            ring_contour(design, DRAWING_TOLERANCE),
+            ring_pins(design),
+            discs,
+            bearing,
         )
 
-    def phase(self, disc: int) -> float:
-        """Crank phase of a disc, rad."""
-        return crank_phase(self.design, disc)
+    def disc_pose(self, disc: int, crank_angle: float) -> tuple[float, tuple[float, float]]:
+        """Turn of a disc's lobes (rad) and its centre (m) in the fixed frame."""
+        phase = float(self.stages.phases[disc])
+        turn = kinematics.lobe_pattern_rotation(self.stages.lobe_count, crank_angle, phase)
+        x, y = kinematics.disc_centre(self.stages.eccentricity, crank_angle, phase).tolist()
+        return float(turn), (x, y)
 
     def posed_disc(self, disc: int, crank_angle: float) -> PlanarPart:
         """A disc in the fixed frame at a crank angle (rad)."""
-        reducer, phase = self.design.reducer, self.phase(disc)
-        x, y = kinematics.disc_centre(reducer.eccentricity, crank_angle, phase)
-        turned = kinematics.lobe_pattern_rotation(reducer.ratio, crank_angle, phase)
-        return self.discs[disc].transformed(float(turned), (float(x), float(y)))
+        return self.discs[disc].transformed(*self.disc_pose(disc, crank_angle))
 
     def pin_angles(self, crank_angle: float) -> list[float]:
         """Angles of the output pins in the fixed frame, rad."""
-        reducer, pins = self.design.reducer, self.design.reducer.output_pins
         angles = kinematics.output_pin_angles(
-            reducer.ratio, pins.count, pins.hole_clocking, [crank_angle]
+            self.stages.lobe_count,
+            self.stages.pin_count,
+            self.stages.hole_clocking,
+            [crank_angle],
         )
         return [float(angle) for angle in angles[0]]
+
+    def ring_shapes(self, view: View) -> list[str]:
+        """The ring and its separate pins."""
+        pins = [contour_shape(pin, view, "ring-pin") for pin in self.ring_pins]
+        return [part_shape(self.ring, view, "ring"), *pins]
+
+    def pin_shapes(self, view: View, crank_angle: float) -> list[str]:
+        """The output pins, or their sleeves."""
+        radius = view.length(self.stages.pin_contact_radius)
+        return [
+            circle(view.polar(self.stages.pin_circle_radius, angle), radius, "pin")
+            for angle in self.pin_angles(crank_angle)
+        ]

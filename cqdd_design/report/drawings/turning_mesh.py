@@ -7,106 +7,39 @@ same law from a dozen numbers, so it can show any crank angle; a test holds the 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from cqdd_design.gearbox import rigid
-from cqdd_design.report.drawings.outlines import Machine
-from cqdd_design.report.ink.numbers import decimals, significant
+from cqdd_design.gearbox.disc_forces import DiscForces, disc_forces
+from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.report.drawings.outlines import Outlines
+from cqdd_design.report.ink.numbers import THIN, decimals, significant
 from cqdd_design.report.ink.svg import (
     Figure,
     View,
+    Words,
     circle,
-    contour_path,
     element,
     fixed,
     group,
     line,
-    part_path,
+    part_shape,
 )
 
-#: Crank angle of the still picture, degrees: no lobe on an axis, so nothing looks special.
 POSTER_ANGLE_DEG = 30.0
+"""Crank angle of the still picture, degrees: no lobe on an axis, so nothing looks special."""
+_POSTER = math.radians(POSTER_ANGLE_DEG)
 _SIZE = 560.0
 _MARGIN = 12.0
-#: Length of the cam bearing's arrow at its greatest, as a share of the ring pitch radius.
 _LONGEST_ARROW = 0.8
+"""Length of the cam bearing's arrow at its greatest, as a share of the ring pitch radius."""
+_PAGE = View(1e3, (0.0, 0.0))
+"""The figure is drawn in mm and scaled as a whole."""
 
 
-@dataclass(frozen=True)
-class MeshState:
-    """Forces on one disc at one crank angle: N, and places in mm.
-
-    Attributes
-    ----------
-    ring_force, ring_normal, ring_point : arrays (n+1,), (n+1, 2), (n+1, 2)
-    pin_force, pin_point : arrays (N_w,), (N_w, 2)
-    pin_direction, cam_force, centre : arrays (2,)
-    """
-
-    ring_force: NDArray[np.float64]
-    ring_normal: NDArray[np.float64]
-    ring_point: NDArray[np.float64]
-    pin_force: NDArray[np.float64]
-    pin_point: NDArray[np.float64]
-    pin_direction: NDArray[np.float64]
-    cam_force: NDArray[np.float64]
-    centre: NDArray[np.float64]
-
-
-def mesh_state(machine: Machine, torque: float, crank_angle: float, disc: int = 0) -> MeshState:
-    """Rigid-law forces on one disc.
-
-    Parameters
-    ----------
-    machine : Machine
-    torque : float
-        Output torque, N m, shared equally by the discs.
-    crank_angle : float
-        rad.
-    disc : int
-        From 0.
-    """
-    reducer = machine.design.reducer
-    share = torque / reducer.disc_count
-    own = np.array([crank_angle + machine.phase(disc)])
-    ring = rigid.ring_stage(
-        reducer.ratio,
-        reducer.ring_pitch_radius,
-        reducer.eccentricity,
-        0.5 * reducer.ring_pin_diameter,
-        share,
-        own,
-    )
-    pins = rigid.output_stage(
-        reducer.ratio,
-        reducer.output_pins.count,
-        reducer.output_pins.circle_radius,
-        0.5 * machine.pin_diameter,
-        share,
-        own,
-        reducer.output_pins.hole_clocking + machine.phase(disc) / reducer.ratio,
-    )
-    direction = pins.normal[0]
-    cam = -(ring.force[0] @ ring.normal[0] + pins.force[0].sum() * direction)
-    return MeshState(
-        ring_force=ring.force[0],
-        ring_normal=ring.normal[0],
-        ring_point=1e3 * ring.point[0],
-        pin_force=pins.force[0],
-        pin_point=1e3 * pins.point[0],
-        pin_direction=direction,
-        cam_force=cam,
-        centre=-1e3 * reducer.eccentricity * direction,
-    )
-
-
-def arrow_path(
-    tip: NDArray[np.float64], force: float, along: NDArray[np.float64], mm_per_newton: float
-) -> str:
-    """Path data of an arrow (page mm, y down) whose tip stands where the force acts."""
+def arrow_path(tip: FloatArray, force: float, along: FloatArray, mm_per_newton: float) -> str:
+    """Path data of an arrow (page mm, y down) whose tip (m) stands where the force acts."""
     length = force * mm_per_newton
     if length < 0.05:
         return "M0 0"
@@ -114,8 +47,8 @@ def arrow_path(
     width, half = 0.28, min(0.85, 0.3 * length)
 
     def at(back: float, side: float) -> str:
-        x = tip[0] - back * along[0] - side * along[1]
-        y = tip[1] - back * along[1] + side * along[0]
+        x = 1e3 * tip[0] - back * along[0] - side * along[1]
+        y = 1e3 * tip[1] - back * along[1] + side * along[0]
         return f"{fixed(float(x), 3)} {fixed(-float(y), 3)}"
 
     corners = [(0.0, 0.0), (head, half), (head, width), (length, width)]
@@ -123,160 +56,136 @@ def arrow_path(
     return "M" + "L".join(at(*corner) for corner in corners) + "Z"
 
 
-def mm_per_newton(machine: Machine, cam_load: float) -> float:
+def mm_per_newton(outlines: Outlines, cam_load: float) -> float:
     """Scale of the arrows, from the greatest cam bearing load (N)."""
-    return _LONGEST_ARROW * 1e3 * machine.design.reducer.ring_pitch_radius / cam_load
+    return _LONGEST_ARROW * 1e3 * outlines.stages.ring_pitch_radius / cam_load
 
 
-def mesh_data(machine: Machine, torque: float, cam_load: float) -> dict[str, float]:
+def mesh_data(outlines: Outlines, torque: float, cam_load: float) -> dict[str, float]:
     """What the script needs: the gearbox in mm, N and N m."""
-    reducer = machine.design.reducer
-    pins = reducer.output_pins
+    stages = outlines.stages
     return {
-        "lobe_count": reducer.ratio,
-        "disc_count": reducer.disc_count,
-        "pin_count": pins.count,
-        "ring_pitch_radius": 1e3 * reducer.ring_pitch_radius,
-        "eccentricity": 1e3 * reducer.eccentricity,
-        "tooth_radius": 500.0 * reducer.ring_pin_diameter,
-        "pin_circle_radius": 1e3 * pins.circle_radius,
-        "pin_contact_radius": 500.0 * machine.pin_diameter,
-        "hole_clocking": pins.hole_clocking,
+        "lobe_count": stages.lobe_count,
+        "disc_count": stages.disc_count,
+        "pin_count": stages.pin_count,
+        "ring_pitch_radius": 1e3 * stages.ring_pitch_radius,
+        "eccentricity": 1e3 * stages.eccentricity,
+        "tooth_radius": 1e3 * stages.tooth_radius,
+        "pin_circle_radius": 1e3 * stages.pin_circle_radius,
+        "pin_contact_radius": 1e3 * stages.pin_contact_radius,
+        "hole_clocking": stages.hole_clocking,
         "torque_Nm": torque,
-        "mm_per_newton": mm_per_newton(machine, cam_load),
+        "mm_per_newton": mm_per_newton(outlines, cam_load),
         "poster_angle_deg": POSTER_ANGLE_DEG,
     }
 
 
-def mesh_readout(machine: Machine, torque: float) -> dict[str, str]:
+def mesh_readout(outlines: Outlines, torque: float) -> dict[str, str]:
     """What stands beside the poster; the script writes the same for every other angle."""
-    state = mesh_state(machine, torque, math.radians(POSTER_ANGLE_DEG))
+    state = disc_forces(outlines.stages, torque, _POSTER)
     tooth, pin = int(state.ring_force.argmax()), int(state.pin_force.argmax())
-    thin = "\u202f"
+    carrier = math.degrees(kinematics.carrier_angle(outlines.stages.lobe_count, _POSTER))
     return {
         "crank": f"{decimals(POSTER_ANGLE_DEG, 1)}\u00b0",
-        "carrier": f"{decimals(-POSTER_ANGLE_DEG / machine.design.reducer.ratio, 1)}\u00b0",
-        "ring_force": f"{decimals(state.ring_force[tooth], 0)}{thin}N on tooth {tooth + 1}",
-        "pin_force": f"{decimals(state.pin_force[pin], 0)}{thin}N on pin {pin + 1}",
-        "cam_force": f"{decimals(float(np.hypot(*state.cam_force)), 0)}{thin}N",
+        "carrier": f"{decimals(carrier, 1)}\u00b0",
+        "ring_force": f"{decimals(state.ring_force[tooth], 0)}{THIN}N on tooth {tooth + 1}",
+        "pin_force": f"{decimals(state.pin_force[pin], 0)}{THIN}N on pin {pin + 1}",
+        "cam_force": f"{decimals(float(np.hypot(*state.cam_force)), 0)}{THIN}N",
     }
 
 
-def mesh_figure(machine: Machine, torque: float, cam_load: float) -> Figure:
+def mesh_figure(outlines: Outlines, torque: float, cam_load: float) -> Figure:
     """The poster: ring, discs, carrier pins, crank and the forces on the first disc."""
-    reducer = machine.design.reducer
-    outer = 500.0 * reducer.ring.outer_diameter
-    scale = (_SIZE - 2.0 * _MARGIN) / (2.0 * outer)
-    view = View(1e3, (0.0, 0.0))
-    angle = math.radians(POSTER_ANGLE_DEG)
-    parts = [element("path", d=part_path(machine.ring, view), class_="ring")]
-    parts += [
-        element("path", d=contour_path(pin, view), class_="ring-pin") for pin in machine.ring_pins
+    reducer = outlines.design.reducer
+    scale = (_SIZE - 2.0 * _MARGIN) / (1e3 * reducer.ring.outer_diameter)
+    order = range(reducer.disc_count - 1, -1, -1)
+    state = disc_forces(outlines.stages, torque, _POSTER)
+    parts = [
+        *outlines.ring_shapes(_PAGE),
+        group((_disc(outlines, disc) for disc in order), class_="mesh-discs"),
+        *(_cam(outlines, disc) for disc in order),
+        _carrier(outlines),
+        _crank(outlines),
+        _arrows(state, mm_per_newton(outlines, cam_load)),
     ]
-    stack = [_disc(machine, disc, angle, view) for disc in range(reducer.disc_count)]
-    parts.append(group(reversed(stack), class_="mesh-discs"))
-    parts += [_cam(machine, disc, angle) for disc in range(reducer.disc_count - 1, -1, -1)]
-    parts += [_carrier(machine, angle), _crank(machine, angle)]
-    state = mesh_state(machine, torque, angle)
-    parts.append(_arrows(state, mm_per_newton(machine, cam_load)))
     body = group(
         parts,
         transform=f"translate({fixed(_SIZE / 2)} {fixed(_SIZE / 2)}) scale({fixed(scale, 4)})",
         class_="mesh",
     )
-    return Figure(
+    words = Words(
         "mesh",
         "The mesh under load",
         f"Ring with {reducer.ring_tooth_count} teeth, disc with {reducer.ratio} lobes and "
         f"{reducer.output_pins.count} output pins, with the contact forces at "
         f"{significant(torque)} N·m.",
-        _SIZE,
-        _SIZE,
-        body,
+    )
+    return words.figure(_SIZE, _SIZE, [body])
+
+
+def _turned(angle: float) -> str:
+    """A transform by an angle that is counter-clockwise in the machine (rad)."""
+    return f"rotate({fixed(-math.degrees(angle), 4)})"
+
+
+def _moving(outlines: Outlines, kind: str, disc: int, shapes: list[str], *, turns: bool) -> str:
+    """Shapes that go round with a disc's centre, turning with its lobes or not."""
+    turn, (x, y) = outlines.disc_pose(disc, _POSTER)
+    place = f"translate({fixed(1e3 * x, 4)} {fixed(-1e3 * y, 4)})"
+    return group(
+        shapes,
+        class_=f"mesh-{kind}" if disc == 0 else f"mesh-{kind} behind",
+        data_disc=str(disc),
+        transform=f"{place} {_turned(turn)}" if turns else place,
     )
 
 
-def _disc(machine: Machine, disc: int, crank_angle: float, view: View) -> str:
-    reducer = machine.design.reducer
-    own = crank_angle + machine.phase(disc)
-    e = 1e3 * reducer.eccentricity
-    place = f"translate({fixed(e * math.cos(own), 4)} {fixed(-e * math.sin(own), 4)})"
-    shape = element("path", d=part_path(machine.discs[disc], view), class_="disc-body")
+def _disc(outlines: Outlines, disc: int) -> str:
+    shape = part_shape(outlines.discs[disc], _PAGE, "disc-body")
     # A mark on one lobe makes the slow turning visible.
-    tip = 1e3 * machine.profile.tip_distance
-    mark = math.pi / reducer.ratio
-    dot = circle(((tip - 2.0) * math.cos(mark), -(tip - 2.0) * math.sin(mark)), 0.7, "disc-mark")
-    return group(
-        [shape, dot],
-        class_="mesh-disc" if disc == 0 else "mesh-disc behind",
-        data_disc=str(disc),
-        transform=f"{place} rotate({fixed(math.degrees(own) / reducer.ratio, 4)})",
-    )
+    mark = _PAGE.polar(outlines.profile.tip_distance - 2e-3, outlines.profile.half_pitch)
+    return _moving(outlines, "disc", disc, [shape, circle(mark, 0.7, "disc-mark")], turns=True)
 
 
-def _cam(machine: Machine, disc: int, crank_angle: float) -> str:
-    own = crank_angle + machine.phase(disc)
-    e = 1e3 * machine.design.reducer.eccentricity
-    bearing = machine.bearing
-    return group(
-        [
-            circle((0.0, 0.0), 500.0 * bearing.outer_diameter, "bearing"),
-            circle((0.0, 0.0), 500.0 * bearing.bore_diameter, "cam"),
-        ],
-        class_="mesh-cam" if disc == 0 else "mesh-cam behind",
-        data_disc=str(disc),
-        transform=f"translate({fixed(e * math.cos(own), 4)} {fixed(-e * math.sin(own), 4)})",
-    )
-
-
-def _carrier(machine: Machine, crank_angle: float) -> str:
-    reducer = machine.design.reducer
-    pins = reducer.output_pins
-    radius = 1e3 * pins.circle_radius
-    shapes = []
-    for j in range(pins.count):
-        at = pins.hole_clocking + 2.0 * math.pi * j / pins.count
-        shapes.append(
-            circle(
-                (radius * math.cos(at), -radius * math.sin(at)),
-                500.0 * machine.pin_diameter,
-                "pin first" if j == 0 else "pin",
-            )
-        )
-    turn = math.degrees(crank_angle) / reducer.ratio
-    return group(shapes, class_="mesh-carrier", transform=f"rotate({fixed(turn, 4)})")
-
-
-def _crank(machine: Machine, crank_angle: float) -> str:
-    reach = 500.0 * machine.bearing.bore_diameter
-    return group(
-        [line((0.0, 0.0), (0.72 * reach, 0.0), "crank-hand"), circle((0.0, 0.0), 0.9, "axis-dot")],
-        class_="mesh-crank",
-        transform=f"rotate({fixed(-math.degrees(crank_angle), 4)})",
-    )
-
-
-def _arrows(state: MeshState, scale: float) -> str:
+def _cam(outlines: Outlines, disc: int) -> str:
+    bearing = outlines.bearing
     shapes = [
-        element("path", d=arrow_path(point, float(force), normal, scale), class_="force force-ring")
-        for point, force, normal in zip(
-            state.ring_point, state.ring_force, state.ring_normal, strict=True
-        )
+        circle((0.0, 0.0), 500.0 * bearing.outer_diameter, "bearing"),
+        circle((0.0, 0.0), 500.0 * bearing.bore_diameter, "cam"),
     ]
-    shapes += [
-        element(
-            "path",
-            d=arrow_path(point, float(force), state.pin_direction, scale),
-            class_="force force-pin",
+    return _moving(outlines, "cam", disc, shapes, turns=False)
+
+
+def _carrier(outlines: Outlines) -> str:
+    stages = outlines.stages
+    shapes = [
+        circle(
+            _PAGE.polar(stages.pin_circle_radius, angle),
+            _PAGE.length(stages.pin_contact_radius),
+            "pin" if index else "pin first",
         )
-        for point, force in zip(state.pin_point, state.pin_force, strict=True)
+        for index, angle in enumerate(outlines.pin_angles(0.0))
     ]
+    turn = float(kinematics.carrier_angle(stages.lobe_count, _POSTER))
+    return group(shapes, class_="mesh-carrier", transform=_turned(turn))
+
+
+def _crank(outlines: Outlines) -> str:
+    reach = 500.0 * outlines.bearing.bore_diameter
+    hand = line((0.0, 0.0), (0.72 * reach, 0.0), "crank-hand")
+    shapes = [hand, circle((0.0, 0.0), 0.9, "axis-dot")]
+    return group(shapes, class_="mesh-crank", transform=_turned(_POSTER))
+
+
+def _arrows(state: DiscForces, scale: float) -> str:
+    def arrow(kind: str, tip: FloatArray, force: float, along: FloatArray) -> str:
+        data = arrow_path(tip, force, along, scale)
+        return element("path", d=data, class_=f"force force-{kind}")
+
     load = float(np.hypot(*state.cam_force))
-    shapes.append(
-        element(
-            "path",
-            d=arrow_path(state.centre, load, state.cam_force / load, scale),
-            class_="force force-cam",
-        )
-    )
+    ring = zip(state.ring_point, state.ring_force, state.ring_normal, strict=True)
+    pins = zip(state.pin_point, state.pin_force, strict=True)
+    shapes = [arrow("ring", point, float(force), normal) for point, force, normal in ring]
+    shapes += [arrow("pin", point, float(force), state.pin_direction) for point, force in pins]
+    shapes.append(arrow("cam", state.centre, load, state.cam_force / load))
     return group(shapes, class_="mesh-forces")

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.gearbox import GearboxAnalysis
+from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.report.ink.charts import Curve, Level, line_chart
 from cqdd_design.report.ink.numbers import decimals, significant, with_unit
-from cqdd_design.report.ink.svg import Figure
+from cqdd_design.report.ink.svg import Figure, Words
 from cqdd_design.results import Check
 
-FloatArray = NDArray[np.float64]
-
+_ANGLE = "crank angle, °"
 _TURN = (0.0, 60.0, 120.0, 180.0, 240.0, 300.0, 360.0)
 
 
@@ -24,79 +24,78 @@ def load_charts(analysis: GearboxAnalysis) -> tuple[Figure, ...]:
     analysis : GearboxAnalysis
         Its series covers one crank turn at the peak torque.
     """
-    series = analysis.series
-    angle = np.degrees(series.crank_angle)
+    series, rigid = analysis.series, analysis.rigid
     torque = with_unit(series.torque, "N*m")
-    checks = {check.id: check for check in analysis.checks}
     tooth, pin = series.ring_force[:, 0, :], series.output_pin_force[:, 0, :]
-    cam = series.cam_load
-    return (
-        line_chart(
-            "ring-force-chart",
-            "Force at the ring teeth, disc 1",
-            f"Force on each ring tooth over one crank turn at {torque}; the most loaded tooth "
-            f"reaches {decimals(analysis.rigid.ring_force, 0)} N.",
-            x=angle,
-            x_label="crank angle, °",
-            y_label="force, N",
-            curves=[
-                *_each(tooth, "each tooth"),
-                Curve("most loaded tooth", tooth.max(axis=1), "series-1"),
-            ],
-            x_ticks=_TURN,
-            caption=f"At {torque}, discs sharing equally. Greatest over the period: "
-            f"{decimals(analysis.rigid.ring_force, 0)} N.",
+    ring, pins, cam = (
+        f"{decimals(force, 0)} N"
+        for force in (rigid.ring_force, rigid.output_pin_force, rigid.cam_bearing_load)
+    )
+    over = f"over one crank turn at {torque}"
+    charts: list[tuple[Words, str, list[Curve], list[Level]]] = [
+        (
+            Words(
+                "ring-force-chart",
+                "Force at the ring teeth, disc 1",
+                f"Force on each ring tooth {over}; the most loaded tooth reaches {ring}.",
+                f"At {torque}, discs sharing equally. Greatest over the period: {ring}.",
+            ),
+            "force, N",
+            [*_each(tooth, "each tooth"), _most(tooth, "most loaded tooth")],
+            [],
         ),
-        line_chart(
-            "pin-force-chart",
-            "Force at the output pins, disc 1",
-            f"Force of each output pin over one crank turn at {torque}; the most loaded pin "
-            f"reaches {decimals(analysis.rigid.output_pin_force, 0)} N.",
-            x=angle,
-            x_label="crank angle, °",
-            y_label="force, N",
-            curves=[
-                *_each(pin, "each pin"),
-                Curve("most loaded pin", pin.max(axis=1), "series-1"),
-            ],
-            x_ticks=_TURN,
-            caption=f"At {torque}. Greatest over the period: "
-            f"{decimals(analysis.rigid.output_pin_force, 0)} N.",
+        (
+            Words(
+                "pin-force-chart",
+                "Force at the output pins, disc 1",
+                f"Force of each output pin {over}; the most loaded pin reaches {pins}.",
+                f"At {torque}. Greatest over the period: {pins}.",
+            ),
+            "force, N",
+            [*_each(pin, "each pin"), _most(pin, "most loaded pin")],
+            [],
         ),
-        line_chart(
-            "cam-load-chart",
-            "Load on the cam bearings",
-            f"Load on each cam bearing over one crank turn at {torque}, output-pin reaction "
-            f"included; at most {decimals(analysis.rigid.cam_bearing_load, 0)} N.",
-            x=angle,
-            x_label="crank angle, °",
-            y_label="load, N",
-            curves=[
-                Curve(f"disc {d + 1}", cam[:, d], f"series-{d + 1}") for d in range(cam.shape[1])
+        (
+            Words(
+                "cam-load-chart",
+                "Load on the cam bearings",
+                f"Load on each cam bearing {over}, output-pin reaction included; at most {cam}.",
+                "Ring and output-pin forces together. Greatest over the period, the discs and "
+                f"both senses of torque: {cam}.",
+            ),
+            "load, N",
+            [
+                Curve(f"disc {d}", load, f"series-{d}")
+                for d, load in enumerate(series.cam_load.T, 1)
             ],
-            levels=_static_rating(analysis),
-            x_ticks=_TURN,
-            caption="Ring and output-pin forces together. Greatest over the period, the discs and "
-            f"both senses of torque: {decimals(analysis.rigid.cam_bearing_load, 0)} N.",
+            _static_rating(analysis),
         ),
-        line_chart(
-            "pressure-chart",
-            "Hertz pressure, greatest of all discs",
-            f"Greatest Hertz pressure at ring teeth and output pins over one crank turn at "
-            f"{torque}, with the limits of the peak torque.",
-            x=angle,
-            x_label="crank angle, °",
-            y_label="pressure, MPa",
-            curves=[
+        (
+            Words(
+                "pressure-chart",
+                "Hertz pressure, greatest of all discs",
+                f"Greatest Hertz pressure at ring teeth and output pins {over}, with the limits "
+                "of the peak torque.",
+                "Raw pressures, without the factor for uneven sharing that the checks apply "
+                f"(√{UNEVEN_SHARING:g} on pressures).",
+            ),
+            "pressure, MPa",
+            [
                 Curve("ring teeth", series.ring_pressure.max(axis=1) / 1e6, "series-1"),
                 Curve("output pins", series.output_pressure.max(axis=1) / 1e6, "series-2"),
             ],
-            levels=_pressure_limits(checks),
-            x_ticks=_TURN,
-            caption="Raw pressures, without the factor for uneven sharing that the checks apply "
-            "(√1.15 on pressures).",
+            _pressure_limits({check.id: check for check in analysis.checks}),
         ),
+    ]
+    angle = np.degrees(series.crank_angle)
+    return tuple(
+        line_chart(words, angle, curves, levels, y_label=label, x_label=_ANGLE, x_ticks=_TURN)
+        for words, label, curves, levels in charts
     )
+
+
+def _most(values: FloatArray, label: str) -> Curve:
+    return Curve(label, values.max(axis=1), "series-1")
 
 
 def _each(values: FloatArray, label: str) -> list[Curve]:

@@ -7,12 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from cqdd_design.report.ink.charts import nice_step
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.report.ink.numbers import significant
 from cqdd_design.report.ink.svg import (
+    Figure,
     Point,
+    Words,
     circle,
     element,
     group,
@@ -23,11 +25,43 @@ from cqdd_design.report.ink.svg import (
     text,
 )
 
-FloatArray = NDArray[np.float64]
-
+NARROW = 430.0
+"""Width of a figure beside another, px."""
+LEFT, RIGHT, BELOW = 58.0, 16.0, 43.0
+"""Room beside and below a panel for its labels, px."""
 _PITCH, _HIGH = 6.3, 13.0
 """px per character and line of a label, a little generous."""
-_LEGEND_PITCH = 6.9
+
+
+def nice_step(span: float, most: int) -> float:
+    """A tick distance of 1, 2, 2.5 or 5 times a power of ten that gives at most `most` steps.
+
+    Examples
+    --------
+    >>> nice_step(1527.0, 5)
+    500.0
+    """
+    if span <= 0.0:
+        return 1.0
+    power = 10.0 ** math.floor(math.log10(span / most))
+    for factor in (1.0, 2.0, 2.5, 5.0, 10.0):
+        if factor * power * most >= span * (1.0 - 1e-12):
+            return factor * power
+    return 20.0 * power
+
+
+def tick_below(x: float, base: float, value: float) -> list[str]:
+    """A tick under a horizontal axis at the height `base`, with its number."""
+    number = text((x, base + 17.0), significant(value), "tick", "middle")
+    return [line((x, base), (x, base + 4.0), "axis"), number]
+
+
+def axis_names(x: tuple[float, float, str], y: tuple[float, str]) -> list[str]:
+    """Labels of both axes: place and text of the lower one, height and text of the left one."""
+    return [
+        text(x[:2], x[2], "label", "middle"),
+        text((14.0, y[0]), y[1], "label", "middle", turn=-90.0),
+    ]
 
 
 @dataclass(frozen=True)
@@ -134,15 +168,19 @@ class Panel:
             self.bottom - self.height * self.y.share(y),
         )
 
+    @classmethod
+    def beside(cls, id_: str, x: Axis, y: Axis, height: float, top: float = 14.0) -> Panel:
+        """The one panel of a figure of the width `NARROW`."""
+        return cls(id_, x, y, LEFT, top, NARROW - LEFT - RIGHT, height)
+
+    def figure(self, words: Words, body: Sequence[str]) -> Figure:
+        """The figure of the width `NARROW` whose lowest panel this is."""
+        return words.figure(NARROW, self.bottom + BELOW, body)
+
     def frame(self, *, names: bool = True) -> list[str]:
         """Grid, ticks and labels; the abscissa's only with `names`."""
-        body = [
-            element(
-                "clipPath",
-                element("rect", x=self.left, y=self.top, width=self.width, height=self.height),
-                id=f"{self.id}-clip",
-            )
-        ]
+        area = element("rect", x=self.left, y=self.top, width=self.width, height=self.height)
+        body = [element("clipPath", area, id=f"{self.id}-clip")]
         for tick in self.y.ticks:
             y = self.place(self.x.low, tick)[1]
             body.append(line((self.left, y), (self.right, y), "grid"))
@@ -151,16 +189,11 @@ class Panel:
             x = self.place(tick, self.y.low)[0]
             if self.x.log:
                 body.append(line((x, self.top), (x, self.bottom), "grid"))
-            body.append(line((x, self.bottom), (x, self.bottom + 4.0), "axis"))
-            if names:
-                body.append(text((x, self.bottom + 17.0), significant(tick), "tick", "middle"))
+            body += tick_below(x, self.bottom, tick)[: 2 if names else 1]
         body.append(line((self.left, self.bottom), (self.right, self.bottom), "axis"))
         middle = (self.left + 0.5 * self.width, self.top + 0.5 * self.height)
-        if names:
-            place = (middle[0], self.bottom + 35.0)
-            body.append(text(place, self.x.label, "label", "middle"))
-        body.append(text((14.0, middle[1]), self.y.label, "label", "middle", turn=-90.0))
-        return body
+        below = (middle[0], self.bottom + 35.0, self.x.label)
+        return body + axis_names(below, (middle[1], self.y.label))[0 if names else 1 :]
 
     def clipped(self, children: Sequence[str]) -> str:
         """Elements cut off at the panel's edges."""
@@ -190,6 +223,10 @@ class Panel:
     def dot(self, x: float, y: float, class_: str) -> str:
         """A marked point."""
         return circle(self.place(x, y), 4.2, class_)
+
+    def labels(self) -> Labels:
+        """Labels that stay within the panel."""
+        return Labels(self.left + 2.0, self.top, self.right, self.bottom)
 
     def holds(self, x: float, y: float) -> bool:
         """Whether a point lies in the panel."""
@@ -273,28 +310,49 @@ def _around(at: Point, wide: float, reach: float) -> tuple[Point, ...]:
     )
 
 
-def legend(entries: Sequence[tuple[str, str]], left: float, right: float, top: float) -> str:
-    """Rows of (label, class) with a short line each, from `left` on."""
-    pieces, x, y = [], left, top
-    for label, class_ in entries:
-        needed = 24.0 + _LEGEND_PITCH * len(label)
-        if x + needed > right and x > left:
-            x, y = left, y + 17.0
-        pieces.append(line((x, y - 4.0), (x + 18.0, y - 4.0), f"curve {class_}"))
-        pieces.append(text((x + 24.0, y), label, "legend"))
-        x += needed + 10.0
-    return group(pieces, class_="legend-row")
+@dataclass(frozen=True)
+class Legend:
+    """Rows of (label, class), each label with a short line before it.
 
+    Attributes
+    ----------
+    entries : sequence of (str, str)
+    left, right : float
+        Where rows begin, and what they do not pass, px.
+    pitch, apart : float
+        px per character, a little generous, and px between two entries.
+    """
 
-def legend_rows(entries: Sequence[tuple[str, str]], left: float, right: float) -> int:
-    """How many rows `legend` takes."""
-    rows, x = 1, left
-    for label, _ in entries:
-        needed = 24.0 + _LEGEND_PITCH * len(label)
-        if x + needed > right and x > left:
-            x, rows = left, rows + 1
-        x += needed + 10.0
-    return rows
+    entries: Sequence[tuple[str, str]]
+    left: float = LEFT
+    right: float = NARROW
+    pitch: float = 6.9
+    apart: float = 10.0
+
+    def _places(self) -> list[tuple[float, int]]:
+        """Beginning and row of every entry."""
+        found, x, row = [], self.left, 0
+        for label, _ in self.entries:
+            needed = 24.0 + self.pitch * len(label)
+            if x + needed > self.right and x > self.left:
+                x, row = self.left, row + 1
+            found.append((x, row))
+            x += needed + self.apart
+        return found
+
+    @property
+    def height(self) -> float:
+        """Of all rows, px."""
+        return 17.0 * max((row + 1 for _, row in self._places()), default=1)
+
+    def render(self) -> str:
+        """The legend at the top of a figure."""
+        pieces = []
+        for (label, class_), (x, row) in zip(self.entries, self._places(), strict=True):
+            y = 14.0 + 17.0 * row
+            pieces.append(line((x, y - 4.0), (x + 18.0, y - 4.0), f"curve {class_}"))
+            pieces.append(text((x + 24.0, y), label, "legend"))
+        return group(pieces, class_="legend-row")
 
 
 def thinned(x: FloatArray, y: FloatArray, bins: int = 240) -> tuple[FloatArray, FloatArray]:

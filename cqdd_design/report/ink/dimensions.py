@@ -36,23 +36,20 @@ def horizontal_dimension(
     """
     parts = [_extension(start, y), _extension(end, y)]
     left, right = (start[0], y), (end[0], y)
-    if end[0] - start[0] < _OUTSIDE:
-        reach = 26.0
+    narrow, gap = end[0] - start[0] < _OUTSIDE, 6.0
+    if narrow:
+        reach, gap = 26.0, 31.0
         parts.append(line((left[0] - reach, y), (right[0] + reach, y), "dimension"))
         parts += [arrow_head(left, (1.0, 0.0)), arrow_head(right, (-1.0, 0.0))]
-        at = right[0] + reach + 5.0 if side > 0 else left[0] - reach - 5.0
-        anchor = "start" if side > 0 else "end"
-        parts.append(text((at, y + 13.0), name, "name", anchor))
-        parts.append(text((at, y - 1.0), value, "value", anchor))
-        return group(parts, class_="dim")
-    parts.append(line(left, right, "dimension"))
-    parts += [arrow_head(left, (-1.0, 0.0)), arrow_head(right, (1.0, 0.0))]
-    middle = 0.5 * (left[0] + right[0])
-    if _label_width(value, name) < right[0] - left[0] - 8.0:
+    else:
+        parts.append(line(left, right, "dimension"))
+        parts += [arrow_head(left, (-1.0, 0.0)), arrow_head(right, (1.0, 0.0))]
+    if not narrow and _label_width(value, name) < right[0] - left[0] - 8.0:
+        middle = 0.5 * (left[0] + right[0])
         parts.append(text((middle, y + 14.0), name, "name", "middle"))
         parts.append(text((middle, y - 5.0), value, "value", "middle"))
     else:
-        at = right[0] + 6.0 if side > 0 else left[0] - 6.0
+        at = right[0] + gap if side > 0 else left[0] - gap
         anchor = "start" if side > 0 else "end"
         parts.append(text((at, y + 13.0), name, "name", anchor))
         parts.append(text((at, y - 1.0), value, "value", anchor))

@@ -16,24 +16,10 @@ from __future__ import annotations
 
 import html
 import re
+from unicodedata import lookup
 
-_GREEK = {
-    "alpha": "\u03b1",
-    "beta": "\u03b2",
-    "delta": "\u03b4",
-    "gamma": "\u03b3",
-    "eta": "\u03b7",
-    "kappa": "\u03ba",
-    "nu": "\u03bd",
-    "omega": "\u03c9",
-    "phi": "\u03c6",
-    "pi": "\u03c0",
-    "psi": "\u03c8",
-    "rho": "\u03c1",
-    "sigma": "\u03c3",
-    "tau": "\u03c4",
-    "theta": "\u03b8",
-}
+_LETTERS = "alpha beta delta gamma eta kappa nu omega phi pi psi rho sigma tau theta"
+_GREEK = {name: lookup(f"GREEK SMALL LETTER {name}") for name in _LETTERS.split(" ")}
 _FUNCTIONS = {"sin", "cos", "tan", "min", "max", "ln"}
 _UPRIGHT = {"HB", "HRC", "MPa", "mm", "rpm", "h", "N", "W", "um", "KV"}
 _RELATIONS = {"=": "=", "<=": "\u2264", ">=": "≥", "<": "<", ">": ">", ",": ","}

@@ -7,6 +7,13 @@ import math
 MINUS = "\u2212"
 THIN = "\u202f"
 TIMES = "\u00d7"
+NONE = "\u2013"
+"""Printed where there is no value."""
+
+RPM = 30.0 / math.pi
+"""Turns a minute in 1 rad/s."""
+ARCMIN = math.degrees(1.0) * 60.0
+"""Minutes of arc in 1 rad."""
 
 
 def significant(value: float, digits: int = 4) -> str:
@@ -55,21 +62,33 @@ def with_unit(value: float, unit: str, digits: int = 4) -> str:
     return f"{shown}{gap}{pretty_unit(unit)}"
 
 
-_PRETTY = {
-    "N*m": "N\u00b7m",
-    "um": "\u00b5m",
-    "N/um": "N/\u00b5m",
-    "deg": "\u00b0",
-    "arcmin": "arcmin",
-    "kg*m": "kg\u00b7m",
-    "kg*m^2": "kg\u00b7m\u00b2",
-    "kg m^2": "kg\u00b7m\u00b2",
-    "kg m": "kg\u00b7m",
-    "N*m/rad": "N\u00b7m/rad",
-    "N*m*s/rad": "N\u00b7m\u00b7s/rad",
-    "mm^2": "mm\u00b2",
-    "mm^3": "mm\u00b3",
-}
+def millimetres(metres: float, digits: int = 5) -> str:
+    """A length as on a drawing: ``7 mm``."""
+    return with_unit(1e3 * metres, "mm", digits)
+
+
+def per_cent(share: float, digits: int = 4) -> str:
+    """A share in per cent: ``38 %``."""
+    return f"{significant(100.0 * share, digits)}{THIN}%"
+
+
+def maybe(value: float | None, digits: int = 4) -> str:
+    """A number, or a dash where there is none."""
+    return NONE if value is None or not math.isfinite(value) else significant(value, digits)
+
+
+def grouped(number: int) -> str:
+    """A whole number with thin spaces between thousands.
+
+    Examples
+    --------
+    >>> grouped(1234567)
+    '1\u202f234\u202f567'
+    """
+    return f"{number:,}".replace(",", THIN)
+
+
+_PRETTY = {"um": "\u00b5m", "N/um": "N/\u00b5m", "deg": "\u00b0"}
 
 
 def pretty_unit(unit: str) -> str:
@@ -99,7 +118,7 @@ def _grouped(shown: str) -> str:
     whole, dot, rest = shown.partition(".")
     sign, digits = ("-", whole[1:]) if whole.startswith("-") else ("", whole)
     if len(digits) > 4:
-        digits = f"{int(digits):,}".replace(",", THIN)
+        digits = grouped(int(digits))
     return f"{sign}{digits}{dot}{rest}"
 
 

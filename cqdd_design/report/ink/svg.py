@@ -10,11 +10,12 @@ import html
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from cqdd_design.geometry.contours import ArcContour, Circle, Contour, PlanarPart
+from cqdd_design.geometry.contours import ArcContour, Circle, Contour, FloatArray, PlanarPart
 
 Point = tuple[float, float]
 
@@ -148,9 +149,10 @@ class View:
         x, y = np.asarray(place, dtype=float)
         return (self.origin[0] + self.scale * float(x), self.origin[1] - self.scale * float(y))
 
-    def polar(self, radius: float, angle: float) -> Point:
-        """The point at `radius` (m) and `angle` (rad) from the machine's origin, px."""
-        return self.point((radius * math.cos(angle), radius * math.sin(angle)))
+    def polar(self, radius: float, angle: float, centre: Point = (0.0, 0.0)) -> Point:
+        """The point at `radius` (m) and `angle` (rad) from a centre in the machine (m), px."""
+        x, y = centre
+        return self.point((x + radius * math.cos(angle), y + radius * math.sin(angle)))
 
     def length(self, metres: float) -> float:
         """A length in px."""
@@ -185,9 +187,15 @@ def _arc_path(contour: ArcContour, view: View) -> str:
     return "".join(pieces) + "Z"
 
 
-def part_path(part: PlanarPart, view: View) -> str:
-    """Path data of a part with its holes; fill it with the even-odd rule."""
-    return "".join(contour_path(c, view) for c in (part.outer, *part.holes))
+def contour_shape(contour: Contour, view: View, class_: str) -> str:
+    """A closed contour."""
+    return element("path", d=contour_path(contour, view), class_=class_)
+
+
+def part_shape(part: PlanarPart, view: View, class_: str) -> str:
+    """A part with its holes; its class fills by the even-odd rule."""
+    data = "".join(contour_path(c, view) for c in (part.outer, *part.holes))
+    return element("path", d=data, class_=class_)
 
 
 @dataclass(frozen=True)
@@ -232,6 +240,20 @@ class Figure:
         )
 
 
-def points_of(xs: NDArray[np.float64], ys: NDArray[np.float64]) -> list[Point]:
+class Words(NamedTuple):
+    """What a figure says beside its picture, as :class:`Figure` holds it."""
+
+    id: str
+    title: str
+    description: str
+    caption: str = ""
+
+    def figure(self, width: float, height: float, body: Iterable[str]) -> Figure:
+        """The figure of some elements in a box of so many px."""
+        head = (self.id, self.title, self.description)
+        return Figure(*head, width, height, "".join(body), self.caption)
+
+
+def points_of(xs: FloatArray, ys: FloatArray) -> list[Point]:
     """Two arrays as a list of px points."""
     return [(float(x), float(y)) for x, y in zip(xs, ys, strict=True)]

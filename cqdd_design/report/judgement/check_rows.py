@@ -12,7 +12,7 @@ from cqdd_design.report.ink.numbers import MINUS, TIMES, significant, superscrip
 from cqdd_design.results import Check, Status, worst_status
 
 #: Headings by the first part of a check's identifier, in the order of the report.
-_CHAPTERS = {
+_HEADINGS = {
     "CONTACT": "Contact pressure",
     "PIN": "Output pins",
     "BEARING": "Cam bearing",
@@ -30,20 +30,7 @@ _MANY = 1000.0
 
 @dataclass(frozen=True)
 class CheckRow:
-    """One check, ready for the page.
-
-    Attributes
-    ----------
-    check : Check
-    value, limit, margin : str
-        As shown; `limit` with its sense.
-    formula, bar : str
-        Markup.
-    substituted, remedy, source : str
-        Text with print signs.
-    word : str
-        Status in words.
-    """
+    """One check as shown: `limit` with its sense, `formula` and `bar` as markup."""
 
     check: Check
     value: str
@@ -131,11 +118,11 @@ def sentence(text: str) -> str:
     return text if text.endswith((".", "!", "?")) else f"{text}."
 
 
-def chapters(checks: Iterable[Check]) -> tuple[tuple[str, Status, tuple[CheckRow, ...]], ...]:
+def check_groups(checks: Iterable[Check]) -> tuple[tuple[str, Status, tuple[CheckRow, ...]], ...]:
     """All checks under headings, with the worst status of each; within one, worst margin first."""
-    grouped: dict[str, list[Check]] = {name: [] for name in _CHAPTERS.values()}
+    grouped: dict[str, list[Check]] = {name: [] for name in _HEADINGS.values()}
     for check in checks:
-        name = _CHAPTERS.get(check.id.partition("-")[0], "Other checks")
+        name = _HEADINGS.get(check.id.partition("-")[0], "Other checks")
         grouped.setdefault(name, []).append(check)
     return tuple(
         (

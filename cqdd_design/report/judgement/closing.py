@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cqdd_design.catalog.bearings import bearings, find_bearing
 from cqdd_design.catalog.materials import find_material
-from cqdd_design.catalog.motors import find_motor
 from cqdd_design.catalog.screws import find_shoulder_screw
 from cqdd_design.design import Design
 from cqdd_design.errors import CatalogError
@@ -16,9 +15,8 @@ from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.gearbox.balance import paper_disc_count
 from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
 from cqdd_design.geometry import kinematics
-from cqdd_design.report.ink.numbers import MINUS, with_unit
-from cqdd_design.results import Check
-from cqdd_design.solids.parts import Part
+from cqdd_design.report.ink.numbers import MINUS, millimetres
+from cqdd_design.solids.part import Part
 
 #: Where the paper's own arithmetic or units do not hold: place, printed, correct, reason.
 ERRATA = (
@@ -43,49 +41,40 @@ ERRATA = (
 )
 
 
+PLANETARY_SOURCES = (
+    "ISO 6336-1, -2 and -3:2019, load capacity of spur gears",
+    "ISO 6336-5:2016, strength of gear materials",
+    "ISO 1328-1:2013, flank tolerances",
+    "ISO 21771:2007, geometry of cylindrical gears",
+)
+
+
 def paper_symbols(design: Design) -> tuple[tuple[str, str, str, str], ...]:
     """The paper's symbols: symbol, meaning there, name in design files, value of this design."""
-    reducer = design.reducer
+    reducer, pins = design.reducer, design.reducer.output_pins
     n = reducer.ratio
-    return (
-        (
-            "Z_r",
-            "pitch radius of the ring",
-            "reducer.ring_pitch_radius",
-            with_unit(1e3 * reducer.ring_pitch_radius, "mm", 6),
-        ),
-        (
-            "Z_e",
-            "eccentricity",
-            "reducer.eccentricity",
-            with_unit(1e3 * reducer.eccentricity, "mm", 6),
-        ),
+    lengths = (
+        ("Z_r", "pitch radius of the ring", "ring_pitch_radius", reducer.ring_pitch_radius),
+        ("Z_e", "eccentricity", "eccentricity", reducer.eccentricity),
         (
             "Z_p",
             "diameter of an outer pin, here of a ring tooth",
-            "reducer.ring_pin_diameter",
-            with_unit(1e3 * reducer.ring_pin_diameter, "mm", 6),
+            "ring_pin_diameter",
+            reducer.ring_pin_diameter,
         ),
-        (
-            "Z_o",
-            "diameter of an output pin",
-            "reducer.output_pins.diameter",
-            with_unit(1e3 * reducer.output_pins.diameter, "mm", 6),
+        ("Z_o", "diameter of an output pin", "output_pins.diameter", pins.diameter),
+    )
+    ratio = f"{MINUS}{abs(kinematics.ratio_ring_fixed(n))}"
+    discs = f"{reducer.disc_count} (rule of the paper: {paper_disc_count(n)})"
+    return (
+        *(
+            (symbol, meaning, f"reducer.{key}", millimetres(length, 6))
+            for symbol, meaning, key, length in lengths
         ),
         ("Z_{np}", "number of outer pins, ring teeth", "reducer.ratio + 1", str(n + 1)),
         ("Z_{nt}", "number of teeth on the disc, lobes", "reducer.ratio", str(n)),
-        (
-            "Z_R",
-            "transmission ratio, ring held",
-            f"{MINUS}reducer.ratio",
-            f"{MINUS}{abs(kinematics.ratio_ring_fixed(n))}",
-        ),
-        (
-            "N_Z",
-            "number of discs",
-            "reducer.disc_count",
-            f"{reducer.disc_count} (rule of the paper: {paper_disc_count(n)})",
-        ),
+        ("Z_R", "transmission ratio, ring held", f"{MINUS}reducer.ratio", ratio),
+        ("N_Z", "number of discs", "reducer.disc_count", discs),
     )
 
 
@@ -105,7 +94,7 @@ def model_assumptions(design: Design) -> tuple[str, ...]:
         if reducer.output_pins.support == "both"
         else "Output pins are cantilevers from one plate; the farthest disc bends them most."
     )
-    found = [
+    return (
         sharing,
         "Rigid load law: bodies are rigid, every tooth and pin is an equal spring without a gap, "
         "one side is loaded. Contact deflection, clearances and errors change the sharing.",
@@ -117,8 +106,7 @@ def model_assumptions(design: Design) -> tuple[str, ...]:
         "the period.",
         "Basic rating life by ISO 281 without the factors for lubrication and cleanliness.",
         "The balance checks count the discs with their cam bearings, from exact areas.",
-    ]
-    return tuple(found)
+    )
 
 
 @dataclass(frozen=True)
@@ -130,20 +118,14 @@ class Source:
 
 
 def sources_used(
-    checks: Sequence[Check],
-    analysis: GearboxAnalysis,
-    planetary: Iterable[str],
-    parts: Sequence[Part] = (),
+    analysis: GearboxAnalysis, parts: Sequence[Part] = ()
 ) -> tuple[tuple[Source, ...], tuple[Source, ...]]:
     """Literature behind the checks and the comparison, and catalogue rows, as used here.
 
     Parameters
     ----------
-    checks : sequence of Check
     analysis : GearboxAnalysis
-        Names materials, bearing, screws and motor.
-    planetary : iterable of str
-        Sources of the planetary comparison.
+        Its checks tell their sources, and it names materials, bearing, screws and motor.
     parts : sequence of Part
         Of the machine, where they have been weighed.
 
@@ -153,16 +135,18 @@ def sources_used(
         Literature and catalogue rows, each sorted by first use.
     """
     used: dict[str, list[str]] = {}
-    for check in checks:
+    for check in analysis.checks:
         literature = check.source.partition("; limit: ")[0]
         for part in _parts(literature):
             used.setdefault(part, []).append(check.id)
-    for text in planetary:
+    for text in PLANETARY_SOURCES:
         used.setdefault(text, []).append("planetary comparison")
-    literature_rows = tuple(
-        Source(text, ", ".join(dict.fromkeys(ids))) for text, ids in used.items()
-    )
+    literature_rows = tuple(Source(text, _listed(ids)) for text, ids in used.items())
     return literature_rows, _catalogue(analysis, parts)
+
+
+def _listed(uses: Sequence[str]) -> str:
+    return ", ".join(dict.fromkeys(uses))
 
 
 def _parts(source: str) -> list[str]:
@@ -186,7 +170,7 @@ def _catalogue(analysis: GearboxAnalysis, parts: Sequence[Part]) -> tuple[Source
     for part in parts:
         named.setdefault(part.material, []).append(part.name)
     rows = [
-        Source(f"{name}: {find_material(name).source}", ", ".join(dict.fromkeys(uses)))
+        Source(f"{name}: {find_material(name).source}", _listed(uses))
         for name, uses in named.items()
     ]
     bearing = analysis.cam_bearing.bearing
@@ -195,7 +179,7 @@ def _catalogue(analysis: GearboxAnalysis, parts: Sequence[Part]) -> tuple[Source
         if part.designation in bearings():
             seats.setdefault(part.designation, []).append(part.name)
     rows += [
-        Source(f"bearing {name}: {find_bearing(name).source}", ", ".join(dict.fromkeys(uses)))
+        Source(f"bearing {name}: {find_bearing(name).source}", _listed(uses))
         for name, uses in seats.items()
     ]
     try:
@@ -203,6 +187,6 @@ def _catalogue(analysis: GearboxAnalysis, parts: Sequence[Part]) -> tuple[Source
         rows.append(Source(f"{screw.name}: {screw.source}", "output pins, limits of size"))
     except CatalogError:
         rows.append(Source("ISO 286-2, zone f9", "output pins, limits of size"))
-    motor = find_motor(design.motor.name)
+    motor = analysis.motor
     rows.append(Source(f"{motor.name}: {motor.source}", "motor checks"))
     return tuple(rows)

@@ -8,7 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from cqdd_design.design import Design
+from cqdd_design.design import LARGEST_FILE, Design
+from cqdd_design.design.reducer import PIN_CIRCLE_SHARE, RING_WALL
+from cqdd_design.design.requirements import (
+    DEFAULT_CONTINUOUS_SHARE,
+    DEFAULT_PEAK_MOST,
+    DEFAULT_PEAK_PER_RATIO,
+)
+from cqdd_design.files import read_text_file
 from cqdd_design.report.ink.numbers import quantity_text
 from cqdd_design.report.judgement.check_rows import printed
 from cqdd_design.report.judgement.labels import GROUPS, Label, label_of
@@ -21,11 +28,13 @@ _NAMED = re.compile(
 #: Keys whose defaults follow from other values of the same file, and how.
 _FOLLOWS = {
     "requirements.ratio": "the reducer's",
-    "requirements.peak_torque": printed("min(9 N*m x ratio, 90 N*m)"),
-    "requirements.continuous_torque": "0.38 of the peak torque",
+    "requirements.peak_torque": printed(
+        f"min({DEFAULT_PEAK_PER_RATIO:g} N*m x ratio, {DEFAULT_PEAK_MOST:g} N*m)"
+    ),
+    "requirements.continuous_torque": f"{DEFAULT_CONTINUOUS_SHARE:g} of the peak torque",
     "reducer.output_pins.hole_clocking": "a quarter lobe pitch: two discs are one part",
-    "reducer.output_pins.circle_radius": "0.61 of the ring pitch radius",
-    "reducer.ring.outer_diameter": "root of the ring and a wall of 3 mm",
+    "reducer.output_pins.circle_radius": f"{PIN_CIRCLE_SHARE:g} of the ring pitch radius",
+    "reducer.ring.outer_diameter": f"root of the ring and a wall of {1e3 * RING_WALL:g} mm",
 }
 
 
@@ -45,7 +54,6 @@ class Value:
     key : str
         Dotted key of the design file.
     label : Label
-        Words and symbol.
     shown : str
         Value and unit.
     origin : str
@@ -71,7 +79,7 @@ def read_comments(path: Path) -> dict[str, str]:
     """
     import tomlkit
 
-    return dict(_comments(tomlkit.parse(path.read_text(encoding="utf-8")), ""))
+    return dict(_comments(tomlkit.parse(read_text_file(path, LARGEST_FILE)), ""))
 
 
 def _comments(table: Mapping[str, Any], prefix: str) -> Iterator[tuple[str, str]]:
@@ -140,3 +148,13 @@ def _shown(key: str, raw: object) -> str:
             for step in raw
         )
     return f"{raw:g}" if isinstance(raw, float) else str(raw)
+
+
+def defaults(groups: tuple[tuple[str, tuple[Value, ...]], ...]) -> tuple[str, ...]:
+    """Words and values of what the design file leaves to this program."""
+    return tuple(
+        f"{row.label.words} {row.shown}"
+        for _, rows in groups
+        for row in rows
+        if row.origin == "default"
+    )

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from cqdd_design.catalog.paper import PIN_TORQUE, PINS_TORQUE
+from cqdd_design.design import Design
 from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.report.ink.numbers import TIMES, decimals, significant, with_unit
 from cqdd_design.report.judgement.check_rows import CheckRow, closest, failing
 from cqdd_design.results import Check, Status, worst_status
 
-#: What the paper prints for its output pins, N m (section III-A).
-PAPER_PER_PIN, PAPER_TOTAL = 59.13, 295.65
-#: Checks shown for a design that fails none.
 _CLOSEST = 6
+"""Checks shown for a design that fails none."""
 
 
 @dataclass(frozen=True)
@@ -42,49 +42,43 @@ class Verdict:
     least: str
 
 
-def verdict(name: str, checks: Sequence[Check], peak: float, continuous: float) -> Verdict:
-    """Sum up the checks of a design.
-
-    Parameters
-    ----------
-    name : str
-        Of the design.
-    checks : sequence of Check
-    peak, continuous : float
-        Torques asked for, N m.
-    """
+def verdict(design: Design, checks: Sequence[Check]) -> Verdict:
+    """Sum up the checks of a design."""
+    name, asked = design.name, design.requirements
     status = worst_status(checks)
     total = len(checks)
     failed = sum(check.status == "fail" for check in checks)
     warned = sum(check.status == "warn" for check in checks)
-    asked = f"{with_unit(peak, 'N*m')} peak and {with_unit(continuous, 'N*m')} continuous torque"
+    at = (
+        f"at {with_unit(asked.peak_torque, 'N*m')} peak and "
+        f"{with_unit(asked.continuous_torque, 'N*m')} continuous torque"
+    )
     least = min(checks, key=lambda check: check.margin)
     if status == "fail":
         badge = f"Fails {failed} of {total} checks"
-        headline = (
-            f"{name} does not meet its requirements: at {asked}, {failed} of {total} checks fail."
-        )
+        headline = f"{name} does not meet its requirements: {at}, {failed} of {total} checks fail."
     elif status == "warn":
         badge = f"Passes, {_count(warned, 'warning')}"
         headline = (
-            f"{name} meets every limit that decides at {asked}, with {_count(warned, 'warning')} "
+            f"{name} meets every limit that decides {at}, with {_count(warned, 'warning')} "
             f"among its {total} checks."
         )
     else:
         badge = f"Passes all {total} checks"
-        headline = f"{name} meets its requirements: at {asked}, all {total} checks pass."
+        headline = f"{name} meets its requirements: {at}, all {total} checks pass."
     also = (
         f" {_count(warned, 'more is a warning', 'more are warnings')}." if failed and warned else ""
     )
+    margin = significant(least.margin, 3)
     return Verdict(
         status=status,
         badge=badge,
         headline=headline,
-        detail=f"The least margin is {significant(least.margin, 3)}, in "
+        detail=f"The least margin is {margin}, in "
         f"“{least.title[0].lower()}{least.title[1:]}”.{also}",
         rows=failing(checks),
         closest=() if failed else closest(checks, _CLOSEST),
-        least=significant(least.margin, 3),
+        least=margin,
     )
 
 
@@ -98,71 +92,65 @@ class PinFigure:
 
     Attributes
     ----------
+    paper : (str, str)
+        What the paper prints a pin and in all, N m.
     as_printed : bool
         Whether these pins give the very figure that the paper prints.
     rows : tuple of (method, per pin, in all, share of the peak torque)
     conclusion : str
     """
 
+    paper: tuple[str, str]
     as_printed: bool
     rows: tuple[tuple[str, str, str, str], ...]
     conclusion: str
 
 
+_HELD = {"both": "held at both ends", "cantilever": "held at one end"}
+
+
 def pin_figure(analysis: GearboxAnalysis) -> PinFigure:
     """Output pins of a design by the paper's method, by shared shear and by shared bending."""
-    pins = analysis.output_pins
-    requirements = analysis.design.requirements
-    peak = requirements.peak_torque
-    shear = pins.paper_shear / 1e6
-    printed = (
-        abs(pins.paper_torque_per_pin - PAPER_PER_PIN) < 0.006
-        and abs(pins.paper_torque_total - PAPER_TOTAL) < 0.05
-    )
-
-    def row(method: str, per_pin: str, capacity: float) -> tuple[str, str, str, str]:
-        return (
-            method,
-            per_pin,
-            _torque(capacity),
-            f"{decimals(capacity / peak, 2)} {TIMES}",
-        )
-
-    held = {
-        "both": "held at both ends",
-        "cantilever": "held at one end",
-    }[analysis.design.reducer.output_pins.support]
-    rows = (
-        row(
-            f"The paper's method: every pin in single shear at {significant(shear)} MPa, all at "
-            "full load and full radius at once",
+    pins, design = analysis.output_pins, analysis.design
+    peak, bending = design.requirements.peak_torque, pins.bending_torque_capacity
+    methods = (
+        (
+            "The paper's method: every pin in single shear at "
+            f"{significant(pins.paper_shear / 1e6)} MPa, all at full load and full radius at once",
             _torque(pins.paper_torque_per_pin),
             pins.paper_torque_total,
         ),
-        row(
+        (
             "The same shear strength, with the torque shared as rigid discs share it",
             "shared",
             pins.shared_torque_capacity,
         ),
-        row(
-            f"Bending at the peak limit, shared the same way, pins {held}",
+        (
+            "Bending at the peak limit, shared the same way, pins "
+            f"{_HELD[design.reducer.output_pins.support]}",
             "shared",
-            pins.bending_torque_capacity,
+            bending,
         ),
     )
-    if pins.bending_torque_capacity < peak:
-        conclusion = (
-            "The shear figure is no capacity: it loads every pin fully at once and leaves out "
-            f"bending. A pin in bending reaches its limit at "
-            f"{with_unit(pins.bending_torque_capacity, 'N*m', 3)} of output torque, "
-            f"{significant(pins.bending_torque_capacity / peak, 2)} of the peak torque asked for."
+    conclusion = "The shear figure is no capacity: it loads every pin fully at once and leaves out "
+    if bending < peak:
+        conclusion += (
+            "bending. A pin in bending reaches its limit at "
+            f"{with_unit(bending, 'N*m', 3)} of output torque, "
+            f"{significant(bending / peak, 2)} of the peak torque asked for."
         )
     else:
-        conclusion = (
-            "The shear figure is no capacity: it loads every pin fully at once and leaves out "
-            "bending. Here bending, too, leaves room at the peak torque asked for."
-        )
-    return PinFigure(printed, rows, conclusion)
+        conclusion += "bending. Here bending, too, leaves room at the peak torque asked for."
+    paper = (f"{PIN_TORQUE:.2f}", f"{PINS_TORQUE:.2f}")
+    return PinFigure(
+        paper,
+        (f"{pins.paper_torque_per_pin:.2f}", f"{pins.paper_torque_total:.2f}") == paper,
+        tuple(
+            (method, per_pin, _torque(capacity), f"{decimals(capacity / peak, 2)} {TIMES}")
+            for method, per_pin, capacity in methods
+        ),
+        conclusion,
+    )
 
 
 def _torque(value: float) -> str:

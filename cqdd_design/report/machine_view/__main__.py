@@ -12,10 +12,10 @@ from cqdd_design.solids.parts import build_parts
 
 
 def main() -> int:
-    """Read (design, cam bearing), write (views, viewer)."""
-    design, bearing = pickle.load(sys.stdin.buffer)
+    """Read (design, layout), write (views, viewer)."""
+    design, layout = pickle.load(sys.stdin.buffer)
     try:
-        parts = build_parts(design, bearing)
+        parts = build_parts(design, layout)
         found = hidden_line_views(design, parts), viewer_data(design, parts)
     except CqddError as error:
         sys.stderr.write(f"{error.message}\n")

@@ -9,10 +9,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from cqdd_design.catalog.bearings import Bearing
-    from cqdd_design.design import Design
-    from cqdd_design.report.machine_view.pictures import MachineViews
-    from cqdd_design.report.machine_view.viewer_data import ViewerData
+    from cqdd_design.machine import Machine
+    from cqdd_design.report.machine_view.model import ViewerData
+    from cqdd_design.report.machine_view.stills import MachineViews
 
 
 @dataclass(frozen=True)
@@ -37,7 +36,7 @@ class Drawing:
         return f"no pictures of the machine: {why}"
 
 
-def start_drawing(design: Design, cam_bearing: Bearing) -> Drawing:
+def start_drawing(machine: Machine) -> Drawing:
     """Begin; a design that cannot be built is told by :meth:`Drawing.fetch`."""
     process = subprocess.Popen(
         [sys.executable, "-m", "cqdd_design.report.machine_view"],
@@ -45,4 +44,4 @@ def start_drawing(design: Design, cam_bearing: Bearing) -> Drawing:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     )
-    return Drawing(process, pickle.dumps((design, cam_bearing)))
+    return Drawing(process, pickle.dumps((machine.design, machine.layout)))

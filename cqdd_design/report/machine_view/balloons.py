@@ -9,7 +9,7 @@ import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.report.ink.svg import element, text
-from cqdd_design.report.machine_view.drawing import INK, Sheet
+from cqdd_design.report.machine_view.paint import INK, Sheet
 from cqdd_design.solids.part import Part
 
 _RADIUS = 11.0

@@ -7,13 +7,19 @@ directions in it: `right` and `up` on the page, and `towards` the viewer.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.solids.hidden_lines import VisibleLines, visible_lines
 from cqdd_design.solids.part import Colour
+
+if TYPE_CHECKING:
+    from cadquery import Shape
 
 _LIGHT = np.array([-0.42, 0.74, 0.53]) / np.linalg.norm([-0.42, 0.74, 0.53])
 """Direction to the light on the page: from the upper left, before the picture."""
@@ -63,6 +69,10 @@ class Camera:
     def page(self, points: FloatArray) -> FloatArray:
         """Points (..., 3) on the page (..., 2), in their own unit, y up."""
         return np.asarray(points @ self.matrix[:2].T)
+
+    def lines(self, shapes: Sequence[Shape]) -> VisibleLines:
+        """What can be seen of posed shapes (mm) that nothing hides."""
+        return visible_lines(shapes, self.right, self.towards)
 
     def brightness(self, normals: FloatArray) -> FloatArray:
         """Light from 0 to 1 on surfaces with these outward unit normals (..., 3)."""

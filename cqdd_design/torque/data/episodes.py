@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -20,12 +20,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.actuator.recording import require_pyarrow
-from cqdd_design.errors import UsageError
-from cqdd_design.files import WrittenFile, ensure_folder, write_atomically, write_with
+from cqdd_design.errors import UsageError, shown
+from cqdd_design.files import (
+    WrittenFile,
+    ensure_folder,
+    open_regular_file,
+    parse_json,
+    read_text_file,
+    write_atomically,
+    write_with,
+)
+from cqdd_design.torque.stored import MANIFEST, require
 
 FloatArray = NDArray[np.float64]
 
 FORMAT = "cqdd-design torque data 1"
+_MOST_OF_MANIFEST, _MOST_VALUES = 64_000_000, 50_000_000
 UNITS: Mapping[str, str] = {
     "position": "rad",
     "target": "rad",
@@ -100,6 +110,16 @@ class Episode:
         """`wall` or `saturated` as booleans (N,); all false where not recorded."""
         values = self.columns.get(name)
         return np.zeros(len(self), bool) if values is None else np.asarray(values) > 0.5
+
+
+def asked_torque(
+    columns: Mapping[str, FloatArray], position_gain: float, velocity_gain: float
+) -> FloatArray:
+    """What the joint's controller asks for (N,), N m: kp (target - position) - kd velocity."""
+    target, position, velocity = (
+        np.asarray(columns[name], np.float64) for name in ("target", "position", "velocity")
+    )
+    return np.asarray(position_gain * (target - position) - velocity_gain * velocity)
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,30 +236,21 @@ def read_data(folder: Path) -> DataSet:
     DependencyError
         Without pyarrow.
     """
-    _, parquet = require_pyarrow()
     manifest = folder / "manifest.json"
-    try:
-        content = json.loads(manifest.read_text("utf-8"))
-    except OSError as error:
+    if not manifest.exists():
         raise UsageError(
             f"{folder} holds no data set (no manifest.json); `cqdd-design torque generate` or "
             "`torque import` writes one."
-        ) from error
-    except ValueError as error:
-        raise UsageError(f"{manifest} is not JSON; write the data set anew.") from error
-    if not isinstance(content, dict) or content.get("format") != FORMAT:
-        told = content.get("format") if isinstance(content, dict) else None
-        raise UsageError(f"{manifest} is '{told}', not '{FORMAT}'; write the data set anew.")
+        )
+    content = parse_json(read_text_file(manifest, _MOST_OF_MANIFEST), manifest)
+    told = content.get("format") if isinstance(content, dict) else None
+    if told != FORMAT:
+        raise UsageError(f"{manifest} is {shown(told)}, not '{FORMAT}'; write the data set anew.")
+    require(MANIFEST, content, str(manifest), "write the data set anew")
     episodes = []
     for entry in content["episodes"]:
         path = folder / "episodes" / f"{entry['name']}.parquet"
-        try:
-            table = parquet.read_table(path)
-        except Exception as error:
-            raise UsageError(f"cannot read {path}: {error}".split("\n")[0]) from error
-        columns = {
-            name: table.column(name).to_numpy().astype(np.float64) for name in table.column_names
-        }
+        columns = read_parquet(path, lambda names: names)
         episodes.append(Episode(entry["name"], entry["group"], content["dt_s"], columns))
     low, high = content["torque_range_Nm"]
     return DataSet(
@@ -249,3 +260,45 @@ def read_data(folder: Path) -> DataSet:
         torque_range=(low, high),
         facts=content["facts"],
     )
+
+
+def read_parquet(
+    path: Path, choose: Callable[[Sequence[str]], Sequence[str]]
+) -> dict[str, FloatArray]:
+    """Columns of a Parquet file.
+
+    Parameters
+    ----------
+    path : Path
+    choose : callable
+        Gets the names of all columns and returns those to read.
+
+    Raises
+    ------
+    UsageError
+        When it cannot be read, is too large, or a column holds no numbers.
+    DependencyError
+        Without pyarrow.
+    """
+    _, parquet = require_pyarrow()
+    with open_regular_file(path) as stream:
+        try:
+            file = parquet.ParquetFile(stream)
+            names = list(choose(file.schema_arrow.names))
+            values = file.metadata.num_rows * len(names)
+            if values <= _MOST_VALUES:
+                table = file.read(columns=names)
+        except UsageError:
+            raise
+        except Exception as error:  # pyarrow has a dozen kinds for a damaged file
+            raise UsageError(f"cannot read {path}: {error}".split("\n")[0][:300]) from error
+    if values > _MOST_VALUES:
+        raise UsageError(f"{path} has more than {_MOST_VALUES / 1e6:g} million values; split it.")
+    columns = {}
+    for name in names:
+        try:
+            column = table.column(name).to_numpy(zero_copy_only=False)
+            columns[name] = np.asarray(column).astype(np.float64)
+        except (KeyError, TypeError, ValueError) as error:
+            raise UsageError(f"{path}: column '{name}' does not hold numbers.") from error
+    return columns

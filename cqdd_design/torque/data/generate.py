@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from cqdd_design import __version__
-from cqdd_design.actuator.bench.unknowns import apply_factors
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.parameters import ActuatorParameters
-from cqdd_design.design import Design
+from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.errors import DesignError, UsageError
+from cqdd_design.machine import Machine
 from cqdd_design.torque.data import pendulum
 from cqdd_design.torque.data.episodes import DataSet, FloatArray
 from cqdd_design.torque.data.sensing import SensorChain
@@ -98,24 +98,24 @@ class Request:
 
 
 def generate(
-    design: Design,
+    machine: Machine,
     request: Request | None = None,
     *,
-    chain: SensorChain | None = None,
-    calibration: Mapping[str, float] | None = None,
+    specimen: Specimen = AS_DRAWN,
     tell: Tell | None = None,
     progress: pendulum.Progress | None = None,
 ) -> tuple[DataSet, tuple[str, ...]]:
-    """Generate pendulum data of a design.
+    """Generate pendulum data of a machine.
 
     Parameters
     ----------
-    design : Design
+    machine : Machine
+        Of the specimen's motor.
     request : Request, optional
-    chain : SensorChain, optional
-    calibration : mapping of str to float, optional
-        Factors of unknowns. That of the tolerances is left out: the ripple is what the contact
-        equilibrium of the drawn gearbox gives.
+    specimen : Specimen
+        Its motor and its factors; gearboxes are those of the request. The factor of the
+        tolerances is left out: the ripple is what the contact equilibrium of the drawn gearbox
+        gives.
     tell : callable, optional
         Told what begins.
     progress : callable, optional
@@ -135,10 +135,10 @@ def generate(
         When the design makes no actuator, naming the seed where a drawn gearbox does not.
     """
     asked = request or Request()
-    sensors = chain or SensorChain()
+    sensors = SensorChain()
     say = tell or (lambda text: None)
     warnings = []
-    factors = dict(calibration or {})
+    design, factors = machine.given, dict(specimen.factors)
     if factors.pop("tolerance_scale", None) is not None:
         warnings.append(
             "the calibration's tolerance_scale is left out: the ripple is that of the drawn "
@@ -148,7 +148,8 @@ def generate(
     gearboxes = {}
     for seed in seeds:
         say(f"contact equilibrium of gearbox {seed}")
-        gearboxes[seed] = _gearbox(design, seed, factors, asked)
+        drawn = dataclasses.replace(specimen, seed=seed, factors=factors)
+        gearboxes[seed] = _gearbox(machine, drawn, asked)
     plans = _experiments(asked)
     names = [f"{kind}-{number:04d}" for kind, number, _ in plans]
     experiments = [one for _, _, one in plans]
@@ -215,6 +216,8 @@ def generate(
             one.name: round(float(np.mean(one.flag("saturated"))), 6) for one in episodes
         },
     }
+    if specimen.motor is not None:
+        facts["motor"] = specimen.motor.name
     data = DataSet(
         episodes=episodes,
         position_gain=drive.position_gain,
@@ -225,15 +228,12 @@ def generate(
     return data, tuple(warnings)
 
 
-def _gearbox(
-    design: Design, seed: int, factors: Mapping[str, float], asked: Request
-) -> ActuatorParameters:
+def _gearbox(machine: Machine, specimen: Specimen, asked: Request) -> ActuatorParameters:
     try:
-        drawn = actuator_parameters(design, seed=seed, supply_voltage=asked.voltage)
+        drawn = actuator_parameters(machine, specimen, supply_voltage=asked.voltage)
     except DesignError as error:
-        raise type(error)(f"the gearbox of seed {seed}: {error.message}") from error
-    calibrated = apply_factors(drawn, factors)
-    drive = calibrated.drive
+        raise type(error)(f"the gearbox of seed {specimen.seed}: {error.message}") from error
+    drive = drawn.drive
     stiff = drive.position_gain if asked.position_gain is None else asked.position_gain
     damped = drive.velocity_gain if asked.velocity_gain is None else asked.velocity_gain
     if not stiff > 0.0:
@@ -242,7 +242,7 @@ def _gearbox(
             'use --position-gain "60 N*m/rad".'
         )
     drive = dataclasses.replace(drive, position_gain=stiff, velocity_gain=damped)
-    return dataclasses.replace(calibrated, drive=drive)
+    return dataclasses.replace(drawn, drive=drive)
 
 
 def _experiments(asked: Request) -> list[tuple[str, int, pendulum.Configuration]]:
@@ -274,30 +274,25 @@ def _gearbox_ripple(
     The same experiments with and without them: most of the torque in the band is dry friction
     that changes its sign. None where every experiment has a wall, or saturates, or is too short.
     """
-    none = np.zeros(len(drawn.gear.error_orders))
-    flat = dataclasses.replace(
-        drawn.gear,
-        error_cosine=none,
-        error_sine=none,
-        stiffness_cosine=none,
-        stiffness_sine=none,
-    )
-    perfect = dataclasses.replace(drawn, gear=flat)
+    errors = ("error_cosine", "error_sine", "stiffness_cosine", "stiffness_sine")
+    none: dict[str, Any] = dict.fromkeys(errors, np.zeros(len(drawn.gear.error_orders)))
+    perfect = dataclasses.replace(drawn, gear=dataclasses.replace(drawn.gear, **none))
     free = [dataclasses.replace(one, gearbox=0) for one in experiments if one.wall_angle is None]
     free = free[:RIPPLE_EPISODES]
     if not free or seconds * RIPPLE_BAND[0] <= 4.0:
         return None
-    runs = []
-    for one in (drawn, perfect):
-        quiet = dataclasses.replace(sensors, torque_noise=0.0)
-        names = [str(i) for i in range(len(free))]
-        runs.append(pendulum.record(free, names, {0: one}, seconds=seconds, chain=quiet, seed=0)[0])
+    quiet = dataclasses.replace(sensors, torque_noise=0.0)
+    names = [str(i) for i in range(len(free))]
+    runs = [
+        pendulum.record(free, names, {0: one}, seconds=seconds, chain=quiet, seed=0)[0]
+        for one in (drawn, perfect)
+    ]
     powers = []
     for first, second in zip(*runs, strict=True):
         if not (first.flag("saturated").any() or second.flag("saturated").any()):
             difference = first.columns["torque"] - second.columns["torque"]
             powers.append(_band_power(difference, first.dt))
-    return math.sqrt(2.0 * float(np.mean(powers))) if powers else None
+    return _amplitude(powers)
 
 
 def describe(data: DataSet) -> dict[str, Any]:
@@ -341,16 +336,18 @@ def describe(data: DataSet) -> dict[str, Any]:
 
 def _ripple(data: DataSet) -> float | None:
     """None where no episode is long enough, or every one has a wall or saturates."""
-    free = [
-        one
-        for one in data.episodes
-        if not (one.flag("wall").any() or one.flag("saturated").any() or one.group.get("wall"))
-    ]
-    powers = [
-        _band_power(one.columns["torque"], one.dt)
-        for one in free
-        if len(one) * data.dt * RIPPLE_BAND[0] > 4.0
-    ]
+    long = [one for one in data.episodes if len(one) * data.dt * RIPPLE_BAND[0] > 4.0]
+    return _amplitude(
+        [
+            _band_power(one.columns["torque"], one.dt)
+            for one in long
+            if not (one.flag("wall").any() or one.flag("saturated").any() or one.group.get("wall"))
+        ]
+    )
+
+
+def _amplitude(powers: list[float]) -> float | None:
+    """Of the sine that carries the mean of some powers; None without any."""
     return math.sqrt(2.0 * float(np.mean(powers))) if powers else None
 
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.data.episodes import FloatArray
+from cqdd_design.torque.data.episodes import FloatArray, asked_torque
 
 MOST_ANGLE = 50.0
 """rad; eight turns of a joint. Degrees and motor counts lie beyond."""
@@ -118,8 +118,7 @@ def check_signals(
                 f"{name}: velocity is {factor:.4g} times the derivative of position; a sample time "
                 "that is off by that much, or a filtered velocity, makes it so."
             )
-    asked = position_gain * (columns["target"] - columns["position"])
-    asked = asked - velocity_gain * columns["velocity"]
+    asked = asked_torque(columns, position_gain, velocity_gain)
     torque = columns["torque"]
     if np.std(asked) > 0.0 and np.std(torque) > 0.0:
         likeness = float(np.corrcoef(asked, torque)[0, 1])

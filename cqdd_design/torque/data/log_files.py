@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
-import tomllib
-from collections.abc import Mapping, Sequence
+from array import array
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from cqdd_design.actuator.recording import require_pyarrow
 from cqdd_design.errors import DesignError, UsageError, did_you_mean
-from cqdd_design.torque.data.episodes import FloatArray
+from cqdd_design.files import parse_toml, read_regular_file, read_text_file
+from cqdd_design.torque.data.episodes import FloatArray, read_parquet
 from cqdd_design.units import ANGLE, CURRENT, LOAD_SPEED, TIME, TORQUE, Dimension, parse_quantity
 
 QUANTITIES: Mapping[str, Dimension | None] = {
@@ -30,6 +31,7 @@ QUANTITIES: Mapping[str, Dimension | None] = {
 """What a log's columns may hold; flags have no unit."""
 NEEDED = ("position", "target", "velocity")
 _DELIMITERS = ",;\t"
+_MOST_BYTES, _MOST_OF_MAP = 256_000_000, 1_000_000
 _PARTS = ("columns", "units", "constants", "group", "groups", "facts")
 
 
@@ -116,13 +118,7 @@ def read_map(path: Path, over: Mapping[str, Mapping[str, Any]] | None = None) ->
     UsageError
         When it cannot be read, or holds anything else.
     """
-    try:
-        content = tomllib.loads(path.read_text("utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is not text in UTF-8"
-        raise UsageError(f"cannot read {path}: {reason}.") from error
-    except tomllib.TOMLDecodeError as error:
-        raise UsageError(f"{path} is not TOML: {error}.") from error
+    content = parse_toml(read_text_file(path, _MOST_OF_MAP), path)
     for name, table in content.items():
         if name not in _PARTS:
             raise UsageError(f"{path}: '{name}' is no table{did_you_mean(name, _PARTS) or '.'}")
@@ -213,51 +209,46 @@ def _missing(path: Path, wanted: Sequence[str], there: Sequence[str]) -> None:
 
 
 def _parquet(path: Path, wanted: Sequence[str]) -> dict[str, FloatArray]:
-    _, parquet = require_pyarrow()
-    try:
-        table = parquet.read_table(path)
-    except Exception as error:
-        raise UsageError(f"cannot read {path}: {error}".split("\n")[0]) from error
-    _missing(path, wanted, table.column_names)
-    found = {}
-    for name in wanted:
-        try:
-            column = table.column(name).to_numpy(zero_copy_only=False)
-            found[name] = np.asarray(column, np.float64)
-        except (TypeError, ValueError) as error:
-            raise UsageError(f"{path}: column '{name}' does not hold numbers.") from error
-    return found
+    def choose(names: Sequence[str]) -> Sequence[str]:
+        _missing(path, wanted, names)
+        return wanted
+
+    return read_parquet(path, choose)
 
 
 def _text(path: Path, wanted: Sequence[str]) -> dict[str, FloatArray]:
+    content = read_regular_file(path, _MOST_BYTES)
     try:
-        with path.open(newline="", encoding="utf-8-sig") as stream:
+        with io.TextIOWrapper(io.BytesIO(content), encoding="utf-8-sig", newline="") as stream:
             first = stream.readline()
             delimiter = max(_DELIMITERS, key=first.count)
             stream.seek(0)
-            rows = list(csv.reader(stream, delimiter=delimiter))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        reason = getattr(error, "strerror", None) or "it is not text in UTF-8 with columns"
-        raise UsageError(f"cannot read {path}: {reason}.") from error
-    if not rows:
+            return _columns(path, csv.reader(stream, delimiter=delimiter), wanted)
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise UsageError(f"cannot read {path}: it is not text in UTF-8 with columns.") from error
+
+
+def _columns(path: Path, rows: Iterator[list[str]], wanted: Sequence[str]) -> dict[str, FloatArray]:
+    """The wanted columns of rows, the first of which names them."""
+    head = [name.strip() for name in next(rows, [])]
+    if not head:
         raise UsageError(f"{path} is empty.")
-    head = [name.strip() for name in rows[0]]
     _missing(path, wanted, head)
     places = [head.index(name) for name in wanted]
-    values = np.empty((len(rows) - 1, len(wanted)))
-    last = len(rows)
-    for line, row in enumerate(rows[1:], start=2):
-        if not row and all(not later for later in rows[line:]):
-            last = line - 1  # blank lines at the end
-            break
-        for column, place in enumerate(places):
-            text = row[place].strip() if place < len(row) else ""
+    values = [array("d") for _ in wanted]
+    blank = 0
+    for line, row in enumerate(rows, start=2):
+        if not row:
+            blank = blank or line  # blank lines at the end are nothing
+            continue
+        for place, column in zip(places, values, strict=True):
+            text = row[place].strip() if place < len(row) and not blank else ""
             try:
-                values[line - 2, column] = float(text)
+                column.append(float(text))
             except ValueError:
-                told = f"'{text}' is no number" if text else "is missing"
+                told = f"'{text[:40]}' is no number" if text else "is missing"
                 raise UsageError(
-                    f"{path}, line {line}: {head[place]} {told}; complete the line, or remove it."
+                    f"{path}, line {blank or line}: {head[place]} {told}; complete the line, or "
+                    "remove it."
                 ) from None
-    values = values[: last - 1]
-    return {name: np.ascontiguousarray(values[:, i]) for i, name in enumerate(wanted)}
+    return {name: np.array(column, np.float64) for name, column in zip(wanted, values, strict=True)}

@@ -182,10 +182,7 @@ def import_logs(
         "torque_from": "torque" if "torque" in mapped.columns else "current",
         "current_to_torque_Nm_per_A": mapped.current_to_torque,
         "torque_range_from": "the greatest recorded" if torque_limit is None else "given",
-        "filter": "second order, causal, the same for every signal",
-        "filter_frequency_Hz": FILTER_SHARE * rate,
-        "filter_damping_ratio": Filter().damping,
-        "filter_delay_s": Filter(FILTER_SHARE * rate).delay,
+        **Filter(FILTER_SHARE * rate).to_dict(),
         "filtered_logs": sorted(tally.filtered),
         "gaps": [[gap.log, gap.begin, gap.seconds] for gap in tally.gaps],
         "dropped_pieces": tally.dropped,
@@ -223,8 +220,11 @@ def _read(
                 f"{path}: without a time column the sample time must be given: name the column in "
                 '--columns time=..., or use --dt "1 ms".'
             )
-        count = len(columns["position"])
-        return columns, _given_times(path.name, dt, count), dt
+        if not (math.isfinite(dt) and dt > 0.0):
+            raise UsageError(f"{path.name}: a sample time of {dt:g} s must be above 0.")
+        times = np.asarray(dt * np.arange(len(columns["position"])), np.float64)
+        check_time(path.name, times)
+        return columns, times, dt
     own = check_time(path.name, times)
     if dt is not None and abs(own / dt - 1.0) > 0.1:
         raise UsageError(
@@ -232,15 +232,6 @@ def _read(
             "out, or correct the unit of time."
         )
     return columns, times, own
-
-
-def _given_times(name: str, dt: float, count: int) -> FloatArray:
-    """Times (N,) of a sample time that was given, s."""
-    if not (math.isfinite(dt) and dt > 0.0):
-        raise UsageError(f"{name}: a sample time of {dt:g} s must be above 0.")
-    times: FloatArray = dt * np.arange(count, dtype=np.float64)
-    check_time(name, times)
-    return times
 
 
 def _pieces(path: Path, times: FloatArray, dt: float, tally: _Tally) -> Iterator[slice]:
@@ -270,8 +261,7 @@ def _sampled(
             f'samples hold no more: use --rate "{own:.3g} Hz".'
         )
     wanted = times[0] + np.arange(math.floor((times[-1] - times[0]) * rate + 1e-6) + 1) / rate
-    slow = own < 1.01 * rate
-    if slow:
+    if own < 1.01 * rate:
         return {
             name: _at(name, wanted, times, values, 1.0 / rate) for name, values in columns.items()
         }

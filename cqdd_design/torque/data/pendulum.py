@@ -19,8 +19,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cqdd_design.actuator.joint_side import joint_side
 from cqdd_design.actuator.packing import largest_step
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.recording import LONGEST_STEP
@@ -30,8 +30,6 @@ from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.errors import UsageError
 from cqdd_design.torque.data.episodes import Episode
 from cqdd_design.torque.data.sensing import SensorChain, Truth, measured
-
-FloatArray = NDArray[np.float64]
 
 FREQUENCIES, AMPLITUDES, STARTS = (0.3, 1.5), (0.5, 1.5), (0.0, 1.0)
 """Hz, rad, rad; paper."""
@@ -172,14 +170,6 @@ def torque_limit(parameters: ActuatorParameters) -> float:
     return most * abs(parameters.gear.ratio)
 
 
-def no_load_speed(parameters: ActuatorParameters) -> float:
-    """Of the joint at the supply, less what dry friction takes, rad/s."""
-    motor, drive = parameters.motor, parameters.drive
-    friction = parameters.friction.motor_coulomb / motor.torque_constant
-    left = max(drive.supply_voltage - motor.resistance * friction, 0.0)
-    return left / motor.torque_constant / abs(parameters.gear.ratio)
-
-
 def shortfalls(configuration: Configuration, parameters: ActuatorParameters) -> tuple[str, ...]:
     """Why the target cannot be followed exactly by this actuator; empty where it can."""
     pulse = 2.0 * math.pi * configuration.frequency
@@ -190,7 +180,7 @@ def shortfalls(configuration: Configuration, parameters: ActuatorParameters) -> 
     needed = -inertia * pulse**2 * swing
     needed += load.gravity_moment * np.sin(configuration.start + swing)
     most, limit = float(np.max(np.abs(needed))), torque_limit(parameters)
-    speed, top = configuration.amplitude * pulse, no_load_speed(parameters)
+    speed, top = configuration.amplitude * pulse, joint_side(parameters).no_load_speed
     found = []
     if speed > top:
         found.append(f"speed {speed:.3g} rad/s above the no-load speed of {top:.3g} rad/s")

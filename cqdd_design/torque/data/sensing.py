@@ -16,8 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import UsageError
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.torque.data.episodes import FloatArray
 
 LEAST_OVERSAMPLING = 4
 """Acquisition over filter frequency, below which a digital filter is no longer the analogue one."""
@@ -56,6 +55,15 @@ class Filter:
     def delay(self) -> float:
         """Group delay at low frequency, s."""
         return self.damping / (math.pi * self.frequency)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON form, units in the names."""
+        return {
+            "filter": "second order, causal, the same for every signal",
+            "filter_frequency_Hz": self.frequency,
+            "filter_damping_ratio": self.damping,
+            "filter_delay_s": self.delay,
+        }
 
     def coefficients(self, rate: float) -> tuple[FloatArray, FloatArray]:
         """Numerator and denominator (3,) at a rate, Hz: bilinear, exact at its own frequency.
@@ -152,10 +160,7 @@ class SensorChain:
             "torque_lag_Hz": self.torque_lag,
             "torque_lag_at_17_Hz_deg": lag,
             "current": "of the motor, positive where it drives the joint forward",
-            "filter": "second order, causal, the same for every signal",
-            "filter_frequency_Hz": self.filter.frequency,
-            "filter_damping_ratio": self.filter.damping,
-            "filter_delay_s": self.filter.delay,
+            **self.filter.to_dict(),
             "filter_lag_at_17_Hz_deg": math.degrees(self.filter.phase_lag(17.0)),
             "flags": "wall and saturated: at any time since the sample before, not filtered",
         }

@@ -7,8 +7,8 @@ windows therefore tests on what was trained on. Here whole configurations change
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -94,19 +94,17 @@ def split(data: DataSet, protocol: str, seed: int = 0) -> Split:
             f"There are {', '.join(PROTOCOLS)}."
         )
     own = [one for one in data.episodes if _own(one, data)]
-    if protocol == "trajectory":
-        pool, test = own, None
-    elif protocol == "wall":
+    pool, test = own, None
+    if protocol == "wall":
         _need(data, "wall", protocol)
         pool = [one for one in own if not _flag(one)]
         test = [one for one in own if _flag(one)]
     elif protocol == "mass":
         _need_fact(data, "held_mass_kg", "mass", protocol)
-        pool, held = own, data.facts["held_mass_kg"]
+        held = data.facts["held_mass_kg"]
         test = [one for one in data.episodes if _same(one, "mass", held) and _trained_on(one, data)]
-    else:
+    elif protocol == "gearbox":
         _need_fact(data, "training_gearbox", "gearbox", protocol)
-        pool = own
         test = [one for one in data.episodes if not _trained_on(one, data)]
     if test is not None and not test:
         raise UsageError(
@@ -132,22 +130,26 @@ def _divided(
         )
     lists = list(grouped.values())
     order = np.random.default_rng([seed, 7]).permutation(len(lists))
-    tests = max(round(TEST_SHARE * len(lists)), 1) if test is None else 0
-    stops = max(round(VALIDATION_SHARE * len(lists)), 1)
-
-    def named(places: Iterable[int]) -> tuple[str, ...]:
-        return tuple(sorted(name for i in places for name in lists[i]))
-
-    tested = named(order[:tests])
+    drawn = [lists[i] for i in order]
+    tests, stops = _shares(len(drawn))
     if test is not None:
-        tested = tuple(sorted(one.name for one in test))
+        tests, drawn = 1, [[one.name for one in test], *drawn]
+
+    def named(groups: list[list[str]]) -> tuple[str, ...]:
+        return tuple(sorted(name for names in groups for name in names))
+
     return Split(
-        train=named(order[tests + stops :]),
-        validation=named(order[tests : tests + stops]),
-        test=tested,
+        train=named(drawn[tests + stops :]),
+        validation=named(drawn[tests : tests + stops]),
+        test=named(drawn[:tests]),
         protocol=protocol,
         seed=seed,
     )
+
+
+def _shares(count: int) -> tuple[int, int]:
+    """How many of some groups test, and how many say when to stop."""
+    return max(round(TEST_SHARE * count), 1), max(round(VALIDATION_SHARE * count), 1)
 
 
 def audit(data: DataSet, split: Split, history: int) -> None:
@@ -227,11 +229,11 @@ def _audit_records(sides: Mapping[str, Sequence[Episode]], history: int) -> None
 
 
 def _audit_held(data: DataSet, sides: Mapping[str, Sequence[Episode]], protocol: str) -> None:
+    if protocol == "random-window":
+        return
     for side in ("train", "validation"):
         for one in sides[side]:
             told = ""
-            if protocol == "random-window":
-                continue
             if not _trained_on(one, data):
                 told = f"gearbox {one.group.get('gearbox')}, not that of training"
             elif not _own(one, data):
@@ -246,35 +248,29 @@ def _audit_held(data: DataSet, sides: Mapping[str, Sequence[Episode]], protocol:
 
 def _audit_samples(sides: Mapping[str, Sequence[Episode]], history: int) -> None:
     """The same readings under two names: a copy, or records that overlap."""
-    rows, owners, episodes_of = [], [], []
-    names: list[str] = []
-    for number, (side, episodes) in enumerate(sides.items()):
-        for one in episodes:
-            table = np.stack([np.asarray(one.columns[c], "<f4") for c in REQUIRED], axis=1)
-            unique = np.unique(np.ascontiguousarray(table).view("V16").ravel())
-            rows.append(unique)
-            owners.append(np.full(len(unique), number))
-            episodes_of.append(np.full(len(unique), len(names)))
-            names.append(f"{one.name} ({side})")
-    row, owner = np.concatenate(rows), np.concatenate(owners)
-    episode = np.concatenate(episodes_of)
-    key = np.frombuffer(row.tobytes(), dtype=[("a", "<u8"), ("b", "<u8")])
+    pieces = [(side, one) for side, episodes in sides.items() for one in episodes]
+    names = [f"{one.name} ({side})" for side, one in pieces]
+    tables = [
+        np.stack([np.asarray(one.columns[c], "<f4") for c in REQUIRED], axis=1) for _, one in pieces
+    ]
+    # A row of four readings as two numbers that sort.
+    rows = [np.unique(np.ascontiguousarray(table).view("V16").ravel()) for table in tables]
+    counts = [len(one) for one in rows]
+    key = np.frombuffer(np.concatenate(rows).tobytes(), dtype=[("a", "<u8"), ("b", "<u8")])
     order = np.lexsort((key["b"], key["a"]))
-    key, owner, episode = key[order], owner[order], episode[order]
+    key, episode = key[order], np.repeat(np.arange(len(pieces)), counts)[order]
+    owner = np.array([list(sides).index(side) for side, _ in pieces])[episode]
     shared = np.flatnonzero((key[1:] == key[:-1]) & (owner[1:] != owner[:-1]))
     if not len(shared):
         return
     # Single readings may agree by chance, as at rest; a window's worth of them does not.
-    pairs, counts = np.unique(
-        np.sort(np.stack([episode[shared], episode[shared + 1]], axis=1)),
-        axis=0,
-        return_counts=True,
-    )
-    most = int(np.argmax(counts))
-    if counts[most] >= history:
+    found = np.sort(np.stack([episode[shared], episode[shared + 1]], axis=1))
+    pairs, times = np.unique(found, axis=0, return_counts=True)
+    most = int(np.argmax(times))
+    if times[most] >= history:
         first, second = (names[int(i)] for i in pairs[most])
         raise UsageError(
-            f"leak: {first} and {second} share {counts[most]} readings; one is a copy or a part "
+            f"leak: {first} and {second} share {times[most]} readings; one is a copy or a part "
             "of the other."
         )
 
@@ -372,16 +368,7 @@ def random_window_split(
         group = {**one.group, "record": one.name, "first": first}
         windows.append(Episode(f"window-{number:06d}", group, one.dt, columns))
     names = [one.name for one in windows]
-    tests = max(round(TEST_SHARE * len(names)), 1)
-    stops = max(round(VALIDATION_SHARE * len(names)), 1)
-    found = Split(
-        train=tuple(names[tests + stops :]),
-        validation=tuple(names[tests : tests + stops]),
-        test=tuple(names[:tests]),
-        protocol="random-window",
-        seed=seed,
-    )
-    drawn = DataSet(
-        tuple(windows), data.position_gain, data.velocity_gain, data.torque_range, data.facts
-    )
-    return drawn, found
+    tests, stops = _shares(len(names))
+    train, validation = names[tests + stops :], names[tests : tests + stops]
+    found = Split(tuple(train), tuple(validation), tuple(names[:tests]), "random-window", seed)
+    return replace(data, episodes=tuple(windows)), found

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.data.episodes import DataSet, Episode
-from cqdd_design.torque.features.matrix import acceleration
-from cqdd_design.torque.networks.artefact import Differentiator
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.torque.data.episodes import DataSet, Episode, FloatArray, asked_torque
+from cqdd_design.torque.features.acceleration import Differentiator, acceleration
 
 STRIBECK_SPEEDS = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0)
 """Of the output, rad/s: tried by `fit_friction`."""
@@ -59,16 +57,10 @@ def current_estimate(
     return np.asarray(current * (parameters.motor.torque_constant * ratio * efficiency))
 
 
-def pd_law(
-    episode: Episode,
-    position_gain: float,
-    velocity_gain: float,
-    torque_range: tuple[float, float],
-) -> FloatArray:
-    """What the controller asks for (N,), N m: kp (target - position) - kd velocity, clipped."""
-    error = np.asarray(episode.columns["target"], np.float64) - episode.columns["position"]
-    asked = position_gain * error - velocity_gain * np.asarray(episode.columns["velocity"])
-    return np.clip(asked, *torque_range)
+def pd_law(data: DataSet, episode: Episode) -> FloatArray:
+    """What the controller of a data set asks for (N,), N m, within the torque that it can."""
+    asked = asked_torque(episode.columns, data.position_gain, data.velocity_gain)
+    return np.clip(asked, *data.torque_range)
 
 
 @dataclass(frozen=True)
@@ -81,8 +73,8 @@ class FrictionFit:
 
     Attributes
     ----------
-    position_gain, velocity_gain, torque_range
-        Of `pd_law`.
+    law : callable
+        From an `Episode` to what the controller asks for (N,), N m.
     coefficients : tuple of float
         Of `TERMS`.
     stribeck_speed, sign_speed : float
@@ -92,9 +84,7 @@ class FrictionFit:
         N m.
     """
 
-    position_gain: float
-    velocity_gain: float
-    torque_range: tuple[float, float]
+    law: Callable[[Episode], FloatArray]
     coefficients: tuple[float, ...]
     stribeck_speed: float
     sign_speed: float
@@ -108,7 +98,7 @@ class FrictionFit:
 
     def estimate(self, episode: Episode) -> FloatArray:
         """Output torque (N,), N m."""
-        asked = pd_law(episode, self.position_gain, self.velocity_gain, self.torque_range)
+        asked = self.law(episode)
         terms = _terms(episode, asked, self.stribeck_speed, self.sign_speed, self.differentiator)
         return np.asarray(asked - terms @ np.asarray(self.coefficients))
 
@@ -161,9 +151,9 @@ def fit_friction(
     """
     if not names:
         raise UsageError("friction is fitted on training episodes, and there are none.")
-    gains = (data.position_gain, data.velocity_gain, data.torque_range)
+    law = partial(pd_law, data)
     episodes = data.named(names)
-    asked = [pd_law(episode, *gains) for episode in episodes]
+    asked = [law(episode) for episode in episodes]
     missing = np.concatenate(
         [law - one.columns["torque"] for law, one in zip(asked, episodes, strict=True)]
     )
@@ -184,7 +174,7 @@ def fit_friction(
             rmse = float(np.sqrt(np.mean((missing - terms @ found) ** 2)))
             if best is None or rmse < best.training_rmse:
                 best = FrictionFit(
-                    *gains,
+                    law,
                     coefficients=tuple(float(value) for value in found),
                     stribeck_speed=stribeck,
                     sign_speed=sign,

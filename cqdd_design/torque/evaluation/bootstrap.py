@@ -13,11 +13,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.errors import UsageError
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.torque.data.episodes import FloatArray
 
 DRAWS = 2000
 LEVEL = 0.95

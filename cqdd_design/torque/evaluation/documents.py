@@ -7,8 +7,10 @@ from dataclasses import asdict
 from typing import Any
 
 from cqdd_design.torque.evaluation import bootstrap
+from cqdd_design.torque.evaluation.behaviour import Behaviour
 from cqdd_design.torque.evaluation.bootstrap import Interval
-from cqdd_design.torque.evaluation.evaluate import PAPER, PAPER_SOURCE, Behaviour, EvaluationResult
+from cqdd_design.torque.evaluation.evaluate import EvaluationResult
+from cqdd_design.torque.evaluation.paper import PAPER, PAPER_SOURCE
 from cqdd_design.torque.evaluation.ripple import Ripple
 from cqdd_design.torque.evaluation.scoring import SetResult
 from cqdd_design.torque.evaluation.seeds import ModelScore, RegimeScores
@@ -16,7 +18,7 @@ from cqdd_design.torque.evaluation.seeds import ModelScore, RegimeScores
 
 def result_dict(result: EvaluationResult) -> dict[str, Any]:
     """The whole JSON form."""
-    headline = result.sets[0]
+    headline, data, effort = result.sets[0], result.data, result.effort
     models = {}
     for own in result.models:
         score = headline.model(own.name)
@@ -39,12 +41,12 @@ def result_dict(result: EvaluationResult) -> dict[str, Any]:
             for row in PAPER
         ],
         "data": {
-            "sha256": result.data_sha256,
-            "dt_s": result.dt,
-            "position_gain_Nm_per_rad": result.position_gain,
-            "velocity_gain_Nms_per_rad": result.velocity_gain,
+            "sha256": data.sha256,
+            "dt_s": data.dt,
+            "position_gain_Nm_per_rad": data.position_gain,
+            "velocity_gain_Nms_per_rad": data.velocity_gain,
         },
-        "bootstrap": {"draws": result.draws, "seed": result.seed, "level": bootstrap.LEVEL},
+        "bootstrap": {"draws": effort.draws, "seed": effort.seed, "level": bootstrap.LEVEL},
         "seconds": result.seconds,
     }
 

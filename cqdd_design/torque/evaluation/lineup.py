@@ -6,20 +6,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
-
-import numpy as np
 
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.errors import UsageError, did_you_mean
-from cqdd_design.torque.data.episodes import DataSet, Episode
+from cqdd_design.torque.data.episodes import DataSet
+from cqdd_design.torque.data.splits import PROTOCOLS, split
 from cqdd_design.torque.evaluation.baselines import current_estimate, fit_friction, pd_law
-from cqdd_design.torque.evaluation.estimators import Estimator, FloatArray, network_estimator
-from cqdd_design.torque.features.matrix import savitzky_golay
+from cqdd_design.torque.evaluation.estimator import Estimator, network_estimator
+from cqdd_design.torque.features.acceleration import savitzky_golay
 from cqdd_design.torque.features.physics import actuator_from_dict, physical_estimate, with_gains_of
 from cqdd_design.torque.networks.artefact import Artefact, read_artefact
-
-PROTOCOLS = ("trajectory", "mass", "wall", "gearbox")
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,15 +29,12 @@ class Lineup:
         Test episodes of each protocol.
     seen : mapping of str to frozenset of str
         Episodes that each estimator was trained, validated or fitted on.
-    leaked : mapping of str to float
-        Scores on random windows, N m, of models of which a network trained on such is given.
     warnings : tuple of str
     """
 
     estimators: tuple[Estimator, ...]
     sets: Mapping[str, tuple[str, ...]]
     seen: Mapping[str, frozenset[str]]
-    leaked: Mapping[str, float]
     warnings: tuple[str, ...]
 
 
@@ -57,14 +50,12 @@ def read_networks(paths: Sequence[Path], data: DataSet) -> dict[str, Artefact]:
     if twice is not None:
         raise UsageError(f"{twice} is given twice; give each file once.")
     found = [(path, read_artefact(path)) for path in paths]
-    honest = [artefact.name for _, artefact in found if not is_leaky(artefact)]
+    models = [artefact.name for _, artefact in found]
     named: dict[str, Artefact] = {}
     for path, artefact in found:
         artefact.require(data.dt, data.position_gain, data.velocity_gain)
         name = artefact.name
-        if is_leaky(artefact):
-            name = f"{name} (random windows)"
-        elif honest.count(name) > 1:
+        if models.count(name) > 1:
             seed = artefact.facts.get("seed")
             name = f"{name} seed {seed}" if seed is not None else f"{name} ({path.stem})"
             if name in named:
@@ -75,19 +66,22 @@ def read_networks(paths: Sequence[Path], data: DataSet) -> dict[str, Artefact]:
     return named
 
 
-def is_leaky(artefact: Artefact) -> bool:
-    """Whether a network was trained on random windows, to show what such a score is worth."""
-    split = artefact.facts.get("split")
-    return isinstance(split, Mapping) and split.get("protocol") == "random-window"
+def trained_on(artefact: Artefact, data_sha256: str) -> frozenset[str]:
+    """Episodes of a data set that a network's file says it was trained and validated on.
 
-
-def trained_on(artefact: Artefact) -> frozenset[str]:
-    """Episodes that a network's file says it was trained and validated on."""
+    A name is an episode's within its own data set only: of a network whose file names other data,
+    none are known to be among these. A file that names no data is taken to mean these.
+    """
     split = artefact.facts.get("split")
-    if not isinstance(split, Mapping):
+    if not isinstance(split, Mapping) or of_other_data(artefact, data_sha256):
         return frozenset()
     names = [*split.get("train", ()), *split.get("validation", ())]
     return frozenset(str(name) for name in names)
+
+
+def of_other_data(artefact: Artefact, data_sha256: str) -> bool:
+    """Whether a network's file says that it was trained on another data set."""
+    return bool(artefact.facts.get("data_sha256", data_sha256) != data_sha256)
 
 
 def actuator_of(artefacts: Sequence[Artefact]) -> ActuatorParameters | None:
@@ -134,7 +128,7 @@ def line_up(
     data : DataSet
     networks : mapping of str to Artefact
     protocols : sequence of str
-        Of `PROTOCOLS`; default that of the first network.
+        Of `splits.PROTOCOLS`; default that of the first network.
     split_seed : int, optional
         Default that of the networks.
     actuator : ActuatorParameters, optional
@@ -146,41 +140,37 @@ def line_up(
     UsageError
         For an unknown protocol, or a network that needs an actuator where none is known.
     """
-    from cqdd_design.torque.data.splits import split
-
-    leaky = [artefact for artefact in networks.values() if is_leaky(artefact)]
-    networks = {name: one for name, one in networks.items() if not is_leaky(one)}
     own, seed = split_of(list(networks.values()), split_seed)
     chosen = tuple(dict.fromkeys(protocols)) or (own,)
-    for name in chosen:
-        if name not in PROTOCOLS:
-            raise UsageError(
-                f"there is no test set '{name}'{did_you_mean(name, PROTOCOLS)}; there are "
-                f"{', '.join(PROTOCOLS)}."
-            )
+    unknown = next((name for name in chosen if name not in PROTOCOLS), None)
+    if unknown is not None:
+        raise UsageError(
+            f"there is no test set '{unknown}'{did_you_mean(unknown, PROTOCOLS)}; there are "
+            f"{', '.join(PROTOCOLS)}."
+        )
     splits = {name: split(data, name, seed) for name in chosen}
     warnings: list[str] = []
-    known = actuator or actuator_of([*networks.values(), *leaky])
+    known = actuator or actuator_of(list(networks.values()))
     if known is not None:
         known = with_gains_of(known, data)
     estimators = [
         network_estimator(artefact, name=name, actuator=known)
         for name, artefact in networks.items()
     ]
-    seen = {name: trained_on(artefact) for name, artefact in networks.items()}
-    if any(not names for names in seen.values()):
-        without = ", ".join(name for name, names in seen.items() if not names)
+    identity = data.sha256
+    seen = {name: trained_on(artefact, identity) for name, artefact in networks.items()}
+    strange = [name for name, one in networks.items() if of_other_data(one, identity)]
+    without = ", ".join(name for name, own in seen.items() if not own and name not in strange)
+    if without:
         warnings.append(
             f"{without}: the file does not say which episodes it was trained on, so a test on them "
             "cannot be ruled out."
         )
-    for name, artefact in networks.items():
-        told = artefact.facts.get("data_sha256")
-        if told is not None and told != data.sha256:
-            warnings.append(
-                f"{name} was trained on other data than these; that no test episode was among "
-                "them cannot be told by names."
-            )
+    warnings += [
+        f"{name} was trained on other data than these; that no test episode was among them cannot "
+        "be told by names."
+        for name in strange
+    ]
     first = splits[chosen[0]]
     fitted = tuple(name for name in first.train if all(name not in s.test for s in splits.values()))
     estimators += baselines(data, fitted, known)
@@ -194,7 +184,6 @@ def line_up(
         estimators=tuple(estimators),
         sets={name: one.test for name, one in splits.items()},
         seen=seen,
-        leaked=_leaked(data, networks, leaky, known, warnings),
         warnings=tuple(warnings),
     )
 
@@ -202,95 +191,21 @@ def line_up(
 def baselines(
     data: DataSet, fitted: tuple[str, ...], actuator: ActuatorParameters | None
 ) -> list[Estimator]:
-    """Estimates that no network makes; friction is fitted on the episodes named."""
-    differentiator = savitzky_golay(data.dt)
-    span = len(differentiator.taps)
+    """Estimates that no network makes; friction is fitted on the episodes named.
 
-    def law(episode: Episode) -> FloatArray:
-        return pd_law(episode, data.position_gain, data.velocity_gain, data.torque_range)
-
-    found = [Estimator("pd-law", law, 0, remark="what the controller asks for")]
-    if fitted:
-        fit = fit_friction(data, fitted, differentiator)
-        found.append(
-            Estimator(
-                "friction-fit",
-                fit.estimate,
-                fit.parameters,
-                history=span,
-                remark="controller less fitted friction and inertia",
-            )
-        )
-    if actuator is not None:
-        found.append(
-            Estimator(
-                "physics",
-                partial(_physics, actuator, differentiator),
-                0,
-                history=span,
-                remark="the actuator's known parameters, nothing fitted",
-            )
-        )
-        found.append(
-            Estimator(
-                "current",
-                partial(current_estimate, actuator),
-                0,
-                needs=("current",),
-                remark="current times constant, ratio and efficiency",
-            )
-        )
-    return found
-
-
-def _physics(actuator: ActuatorParameters, differentiator: Any, episode: Episode) -> FloatArray:
-    return physical_estimate(actuator, episode, differentiator)
-
-
-def _leaked(
-    data: DataSet,
-    networks: Mapping[str, Artefact],
-    leaky: Sequence[Artefact],
-    actuator: ActuatorParameters | None,
-    warnings: list[str],
-) -> dict[str, float]:
-    """Scores on random windows of the models compared, by the networks trained on such."""
-    found: dict[str, float] = {}
-    for artefact in leaky:
-        names = [name for name, one in networks.items() if one.name == artefact.name]
-        if not names:
-            warnings.append(
-                f"{artefact.name} trained on random windows has no honest twin among the models; "
-                "its score says nothing alone and is left out."
-            )
-            continue
-        score = leaked_rmse(artefact, data, actuator)
-        found |= dict.fromkeys(names, score)
-    return found
-
-
-def leaked_rmse(
-    artefact: Artefact, data: DataSet, actuator: ActuatorParameters | None = None
-) -> float:
-    """RMSE (N m) of a network trained on random windows, on the windows that it was not shown.
-
-    Raises
-    ------
-    UsageError
-        When the windows drawn from these data are not those of its training.
+    ``pd-law`` is what the controller asks for, ``friction-fit`` that less fitted friction and
+    inertia, ``physics`` the actuator's known parameters with nothing fitted, and ``current`` the
+    current times constant, ratio and efficiency.
     """
-    from cqdd_design.torque.data.splits import random_window_split
-
-    split = artefact.facts["split"]
-    drawn, windows = random_window_split(data, int(split["seed"]))
-    if artefact.facts.get("data_sha256") != drawn.sha256:
-        raise UsageError(
-            f"{artefact.name} was trained on random windows of other data, or drawn otherwise; "
-            "train it anew, or leave it out."
-        )
-    estimator = network_estimator(artefact, actuator=actuator)
-    errors = [
-        float(estimator.estimate(one)[-1] - one.columns["torque"][-1])
-        for one in drawn.named(windows.test)
-    ]
-    return float(np.sqrt(np.mean(np.square(errors))))
+    slope = savitzky_golay(data.dt)
+    span = len(slope.taps)
+    found = [Estimator("pd-law", partial(pd_law, data), 0)]
+    if fitted:
+        fit = fit_friction(data, fitted, slope)
+        found.append(Estimator("friction-fit", fit.estimate, fit.parameters, history=span))
+    if actuator is not None:
+        physics = partial(physical_estimate, actuator, differentiator=slope)
+        current = partial(current_estimate, actuator)
+        found.append(Estimator("physics", physics, 0, history=span))
+        found.append(Estimator("current", current, 0, needs=("current",)))
+    return found

@@ -8,10 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.errors import UsageError
-from cqdd_design.torque.data.episodes import Episode
+from cqdd_design.torque.data.episodes import Episode, FloatArray
 
-FloatArray = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 REGIMES: Mapping[str, str] = {
@@ -93,14 +91,8 @@ def on_one_flank(episode: Episode) -> Mask:
 
 
 def scores(prediction: FloatArray, label: FloatArray) -> Scores | None:
-    """Scores of estimates (N,) against labels (N,), N m; None for no samples.
-
-    Raises
-    ------
-    UsageError
-        For arrays of different lengths, or with entries that are not finite.
-    """
-    error = errors(prediction, label)
+    """Scores of estimates (N,) against labels (N,), N m, all finite; None for no samples."""
+    error = prediction - label
     if not len(error):
         return None
     bias = float(error.mean())
@@ -116,22 +108,6 @@ def scores(prediction: FloatArray, label: FloatArray) -> Scores | None:
         p95=float(np.quantile(size, 0.95)),
         most=float(size.max()),
     )
-
-
-def errors(prediction: FloatArray, label: FloatArray) -> FloatArray:
-    """Prediction less label (N,), both checked."""
-    found = np.asarray(prediction, np.float64)
-    known = np.asarray(label, np.float64)
-    if found.shape != known.shape or found.ndim != 1:
-        raise UsageError(f"{found.shape} estimates for {known.shape} labels; give one for each.")
-    for what, values in (("estimate", found), ("label", known)):
-        bad = np.flatnonzero(~np.isfinite(values))
-        if len(bad):
-            raise UsageError(
-                f"the {what} is not finite at sample {bad[0]} of those scored ({len(bad)} in all); "
-                "look for inputs far outside what the network was trained on."
-            )
-    return np.asarray(found - known)
 
 
 def sums(error: FloatArray, label: FloatArray, mask: Mask) -> FloatArray:

@@ -16,10 +16,9 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from cqdd_design.torque.data.episodes import Episode
+from cqdd_design.torque.data.episodes import Episode, FloatArray
 from cqdd_design.torque.evaluation.bootstrap import Interval, circular_interval, interval
 
-FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 Mask = NDArray[np.bool_]
 
@@ -224,36 +223,32 @@ def ripple(found: Spectra, weights: FloatArray) -> Ripple | None:
     episodes = int(np.sum(found.segments > 0.0))
     if not episodes:
         return None
-    whole = {k: float(v[0]) for k, v in _quantities(found, np.ones((1, len(weights[0])))).items()}
+    alone, many = (_quantities(found, one) for one in (np.ones((1, len(weights[0]))), weights))
+    for told in (alone, many):
+        for name in ("amplitude", "frequency"):
+            told[f"{name}_error"] = told[name] - told[f"{name}_label"]
+    whole = {name: float(values[0]) for name, values in alone.items()}
     if not whole["amplitude_label"] > 0.0:
         return None
-    many = _quantities(found, weights)
-    many["amplitude_error"] = many["amplitude"] - many["amplitude_label"]
-    many["frequency_error"] = many["frequency"] - many["frequency_label"]
-    whole["amplitude_error"] = whole["amplitude"] - whole["amplitude_label"]
-    whole["frequency_error"] = whole["frequency"] - whole["frequency_label"]
-
-    def told(name: str) -> Interval | None:
-        if math.isnan(whole[name]):
-            return None
-        return interval(whole[name], many[name], episodes=episodes)
-
+    ends = {
+        name: interval(value, many[name], episodes=episodes)
+        for name, value in whole.items()
+        if not math.isnan(value)
+    }
     silent = not whole["amplitude"] > 0.0
     return Ripple(
         amplitude_label=whole["amplitude_label"],
-        amplitude=interval(whole["amplitude"], many["amplitude"], episodes=episodes),
-        amplitude_error=interval(
-            whole["amplitude_error"], many["amplitude_error"], episodes=episodes
-        ),
+        amplitude=ends["amplitude"],
+        amplitude_error=ends["amplitude_error"],
         frequency_label=whole["frequency_label"],
-        frequency=told("frequency"),
-        frequency_error=told("frequency_error"),
+        frequency=ends.get("frequency"),
+        frequency_error=ends.get("frequency_error"),
         phase=None
         if silent
         else circular_interval(whole["phase"], many["phase"], episodes=episodes),
         coherence=whole["coherence"],
-        error_rms=interval(whole["error_rms"], many["error_rms"], episodes=episodes),
-        share=told("share"),
+        error_rms=ends["error_rms"],
+        share=ends.get("share"),
         segments=int(found.segments.sum()),
     )
 

@@ -10,16 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.actuator.scenario import Wall
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.data.episodes import DataSet, Episode
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.torque.data.episodes import DataSet, Episode, FloatArray
 
 PHYSICS_STEP = 1e-4
 """Of the pendulum, s."""
@@ -31,11 +28,8 @@ _RUNAWAY = 100.0
 """rad; a joint that gets there has run away."""
 
 
-class Stepper(Protocol):
-    """An estimator that runs one sample at a time."""
-
-    def step(self, past: Episode) -> float:
-        """Torque (N m) at the last sample of a record of the past."""
+Stepper = Callable[[Episode], float]
+"""From a record of the past to the torque (N m) at its last sample; keeps its own state."""
 
 
 @dataclass(frozen=True)
@@ -71,21 +65,14 @@ class Pendulum:
                 found += self.wall.side * self.wall.stiffness * depth**self.wall.exponent * rub
         return found
 
-    def touches(self, angle: float) -> bool:
-        """Whether the wall is touched."""
-        return self.wall is not None and self.wall.side * (angle - self.wall.angle) > 0.0
-
     def energy(self, angle: float, speed: float) -> float:
         """Of motion, weight and wall, J."""
         found = 0.5 * self.inertia * speed**2
         found -= self.gravity_moment * math.cos(angle - self.hanging_angle)
         if self.wall is not None:
             depth = max(self.wall.side * (angle - self.wall.angle), 0.0)
-            found += (
-                self.wall.stiffness
-                * depth ** (self.wall.exponent + 1.0)
-                / (self.wall.exponent + 1.0)
-            )
+            more = self.wall.exponent + 1.0
+            found += self.wall.stiffness * depth**more / more
         return found
 
     def advance(self, angle: float, speed: float, torque: float, duration: float) -> Any:
@@ -114,8 +101,6 @@ class Rollout:
         By the estimator, and by the recorded torque, over the same time, J.
     injects : bool
         Whether, with the target held, the joint's kinetic energy grew instead of dying out.
-    held_speed : float
-        r.m.s. over the last second of the hold, rad/s.
     diverged : bool
     position : array (N,)
         rad; the plant's own up to where the loop closes.
@@ -126,7 +111,6 @@ class Rollout:
     work: float
     plant_work: float
     injects: bool
-    held_speed: float
     diverged: bool
     position: FloatArray
 
@@ -222,7 +206,7 @@ def rollout(
         past = Episode(
             episode.name, episode.group, dt, {n: v[first : k + 1] for n, v in columns.items()}
         )
-        torque[k] = stepper.step(past)
+        torque[k] = stepper(past)
         if k < begin or k + 1 == len(target):
             # A window that is not full yet gives no number, and none is needed.
             torque[k] = torque[k] if math.isfinite(torque[k]) else 0.0
@@ -252,7 +236,6 @@ def rollout(
         work=work,
         plant_work=float(np.sum(0.5 * (force[1:] + force[:-1]) * turned)),
         injects=diverged or late_square > 1.05 * early_square + 1e-6,
-        held_speed=math.sqrt(late_square),
         diverged=diverged,
         position=position[:count],
     )

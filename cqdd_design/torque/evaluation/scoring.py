@@ -6,16 +6,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.data.episodes import Episode
+from cqdd_design.torque.data.episodes import Episode, FloatArray
 from cqdd_design.torque.evaluation import bootstrap, metrics
 from cqdd_design.torque.evaluation.bootstrap import Interval, Paired
-from cqdd_design.torque.evaluation.estimators import Estimator
+from cqdd_design.torque.evaluation.estimator import Estimator
 from cqdd_design.torque.evaluation.metrics import REGIMES, Mask
 from cqdd_design.torque.evaluation.ripple import (
     FLANK_SEGMENT,
+    SEGMENT,
+    Ripple,
     Spectra,
     Stroke,
     error_rms,
@@ -34,8 +35,6 @@ from cqdd_design.torque.evaluation.stretches import (
     long_trace,
     zoom_trace,
 )
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,39 +191,34 @@ def _score(
     swings: Sequence[Stroke],
     seed: int,
 ) -> tuple[ModelScore, dict[str, FloatArray], Spectra | None]:
-    errors = [p - y for p, y in zip(estimates, records.labels, strict=True)]
-    regimes = {one: _regime(one, estimates, errors, records) for one in REGIMES}
+    dt = records.episodes[0].dt
+
+    def band(told: Sequence[FloatArray], mask: str, seconds: float = SEGMENT) -> Spectra | None:
+        free = [one[mask] for one in records.masks]
+        return spectra(records.labels, told, free, dt, seconds=seconds) if reaches(dt) else None
+
+    def rippled(found: Spectra | None) -> Ripple | None:
+        return None if found is None else ripple(found, records.weights)
+
+    errors = records.errors(estimates)
     totals = np.array([_sums(e, k, "all", records) for k, e in enumerate(errors)])
     resampled = metrics.scores_of_sums(records.weights @ totals)
-    free = [mask["swing"] for mask in records.masks]
-    found = flank = None
     own = {"rmse": resampled["rmse"], "variance": resampled["variance"]}
-    if reaches(records.episodes[0].dt):
-        found = spectra(records.labels, estimates, free, records.episodes[0].dt)
+    found = band(estimates, "swing")
+    if found is not None:
         own["ripple_error"] = error_rms(found, records.weights)
-        loaded = [mask["flank"] for mask in records.masks]
-        flank = spectra(
-            records.labels,
-            estimates,
-            loaded,
-            records.episodes[0].dt,
-            seconds=FLANK_SEGMENT,
-        )
     lost, lost_ripple = None, None
     if estimator.knows_phase:
         turned = records.estimates(estimator, seed)
-        off = [p - y for p, y in zip(turned, records.labels, strict=True)]
-        lost = _regime("all", turned, off, records)
-        if found is not None:
-            astray = spectra(records.labels, turned, free, records.episodes[0].dt)
-            lost_ripple = ripple(astray, records.weights)
+        lost = _regime("all", turned, records)
+        lost_ripple = rippled(band(turned, "swing"))
     clipped = np.clip(np.concatenate(errors), edges[0], edges[-1])
     score = ModelScore(
         name=estimator.name,
         model=estimator.model or estimator.name,
-        regimes=regimes,
-        ripple=None if found is None else ripple(found, records.weights),
-        flank_ripple=None if flank is None else ripple(flank, records.weights),
+        regimes={name: _regime(name, estimates, records) for name in REGIMES},
+        ripple=rippled(found),
+        flank_ripple=rippled(band(estimates, "flank", FLANK_SEGMENT)),
         unknown_phase=lost,
         unknown_phase_ripple=lost_ripple,
         error_counts=np.asarray(np.histogram(clipped, edges)[0], np.float64),
@@ -238,18 +232,14 @@ def _sums(error: FloatArray, index: int, regime: str, records: Records) -> Float
     return metrics.sums(error, records.labels[index], records.masks[index][regime])
 
 
-def _regime(
-    regime: str,
-    estimates: Sequence[FloatArray],
-    errors: Sequence[FloatArray],
-    records: Records,
-) -> RegimeScores | None:
+def _regime(regime: str, estimates: Sequence[FloatArray], records: Records) -> RegimeScores | None:
     masks = [mask[regime] for mask in records.masks]
     chosen = np.concatenate([p[m] for p, m in zip(estimates, masks, strict=True)])
     labels = np.concatenate([y[m] for y, m in zip(records.labels, masks, strict=True)])
     found = metrics.scores(chosen, labels)
     if found is None:
         return None
+    errors = records.errors(estimates)
     totals = np.array([_sums(error, k, regime, records) for k, error in enumerate(errors)])
     many = metrics.scores_of_sums(records.weights @ totals)
     episodes = int(np.sum(totals[:, 0] > 0.0))

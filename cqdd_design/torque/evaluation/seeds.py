@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cqdd_design.torque.data.episodes import FloatArray
 from cqdd_design.torque.evaluation import bootstrap
 from cqdd_design.torque.evaluation.bootstrap import Interval, Paired
 from cqdd_design.torque.evaluation.metrics import Scores
 from cqdd_design.torque.evaluation.ripple import OrderSpectrum, Ripple
-
-FloatArray = NDArray[np.float64]
 
 REFERENCES = ("mlp", "pva-gru")
 """Models that the others are paired with, where they are there."""
@@ -119,6 +117,22 @@ class SeedSummary:
     unknown_phase_ripple: float | None
 
 
+METRICS: Mapping[str, Callable[[ModelScore], Interval | None]] = {
+    "rmse": lambda one: one.overall.rmse,
+    "variance": lambda one: one.overall.variance,
+    "ripple_error": lambda one: _in_band(one.ripple),
+}
+"""What is averaged over seeds and compared between models."""
+
+
+def _rmse(found: RegimeScores | None) -> Interval | None:
+    return None if found is None else found.rmse
+
+
+def _in_band(found: Ripple | None) -> Interval | None:
+    return None if found is None else found.error_rms
+
+
 def between(
     scored: Sequence[ModelScore], resampled: Mapping[str, Mapping[str, FloatArray]], episodes: int
 ) -> tuple[tuple[SeedSummary, ...], tuple[Paired, ...]]:
@@ -126,39 +140,30 @@ def between(
     members: dict[str, list[ModelScore]] = {}
     for one in scored:
         members.setdefault(one.model, []).append(one)
-    values: dict[str, dict[str, float]] = {"rmse": {}, "variance": {}, "ripple_error": {}}
-    many: dict[str, dict[str, FloatArray]] = {metric: {} for metric in values}
+    values: dict[str, dict[str, float]] = {metric: {} for metric in METRICS}
+    many: dict[str, dict[str, FloatArray]] = {metric: {} for metric in METRICS}
     seeds = []
     for model, own in members.items():
-        rows = {
-            "rmse": [one.overall.rmse.value for one in own],
-            "variance": [one.overall.variance.value for one in own],
-            "ripple_error": [one.ripple.error_rms.value for one in own if one.ripple is not None],
-        }
         told: dict[str, Interval] = {}
-        for metric, found in rows.items():
-            if len(found) < len(own):
+        for metric, of in METRICS.items():
+            mean = _mean(of(one) for one in own)
+            if mean is None:
                 continue
-            values[metric][model] = float(np.mean(found))
+            values[metric][model] = mean
             many[metric][model] = np.mean([resampled[one.name][metric] for one in own], axis=0)
-            told[metric] = bootstrap.interval(
-                values[metric][model], many[metric][model], episodes=episodes
-            )
-        spread = float(np.std(rows["rmse"], ddof=1)) if len(own) > 1 else 0.0
+            told[metric] = bootstrap.interval(mean, many[metric][model], episodes=episodes)
+        errors = [one.overall.rmse.value for one in own]
         seeds.append(
             SeedSummary(
-                model,
-                len(own),
-                told["rmse"],
-                spread,
-                told["variance"],
-                told.get("ripple_error"),
-                _regimes(own),
-                _mean(None if one.unknown_phase is None else one.unknown_phase.rmse for one in own),
-                _mean(
-                    None if one.unknown_phase_ripple is None else one.unknown_phase_ripple.error_rms
-                    for one in own
-                ),
+                model=model,
+                seeds=len(own),
+                rmse=told["rmse"],
+                rmse_std=float(np.std(errors, ddof=1)) if len(own) > 1 else 0.0,
+                variance=told["variance"],
+                ripple_error=told.get("ripple_error"),
+                regimes=_regimes(own),
+                unknown_phase=_mean(_rmse(one.unknown_phase) for one in own),
+                unknown_phase_ripple=_mean(_in_band(one.unknown_phase_ripple) for one in own),
             )
         )
     pairs = [
@@ -173,13 +178,10 @@ def between(
 
 
 def _regimes(own: Sequence[ModelScore]) -> dict[str, float]:
-    found = {}
-    for name in own[0].regimes:
-        scores = [one.regimes[name] for one in own]
-        mean = _mean(None if one is None else one.rmse for one in scores)
-        if mean is not None:
-            found[name] = mean
-    return found
+    """Mean RMSE of each regime that every seed has samples of, N m."""
+    names = own[0].regimes
+    means = {name: _mean(_rmse(one.regimes[name]) for one in own) for name in names}
+    return {name: mean for name, mean in means.items() if mean is not None}
 
 
 def _mean(values: Iterable[Interval | None]) -> float | None:

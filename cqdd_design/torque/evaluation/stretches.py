@@ -8,15 +8,12 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.data.episodes import Episode
-from cqdd_design.torque.evaluation.estimators import Estimator, without_phase
+from cqdd_design.torque.data.episodes import Episode, FloatArray
+from cqdd_design.torque.evaluation.estimator import Estimator, without_phase
 from cqdd_design.torque.evaluation.metrics import Mask
 from cqdd_design.torque.evaluation.ripple import BAND, reaches
-
-FloatArray = NDArray[np.float64]
 
 ZOOM = 0.4
 """Of the trace that shows ripple, s."""
@@ -60,6 +57,10 @@ class Records:
         # Compiled networks let other threads run; each episode is by itself.
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             return list(pool.map(scored, range(len(self.episodes))))
+
+    def errors(self, estimates: Sequence[FloatArray]) -> list[FloatArray]:
+        """Estimate less label of every episode, N m."""
+        return [found - label for found, label in zip(estimates, self.labels, strict=True)]
 
     def scored_part(self) -> list[Episode]:
         """Every episode without the samples that are not scored."""

@@ -1,119 +1,24 @@
-"""What a network sees of an episode: features of one sample, causal acceleration, windows."""
+"""What a network sees of an episode: features of one sample, and windows of them."""
 
 from __future__ import annotations
 
-import cmath
-import math
-from dataclasses import dataclass
-
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.actuator.parameters import ActuatorParameters, GearParameters
 from cqdd_design.errors import UsageError, did_you_mean
-from cqdd_design.torque.data.episodes import Episode
-from cqdd_design.torque.networks.artefact import Differentiator
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.torque.data.episodes import Episode, FloatArray
+from cqdd_design.torque.features.acceleration import Differentiator, acceleration
+from cqdd_design.torque.features.physics import (
+    dry_friction,
+    friction_sign,
+    gear_ripple,
+    motion_balance,
+)
 
 PHYSICAL = ("balance", "friction_sign", "ripple")
 """Features that are made with an actuator's parameters; see :mod:`.physics`."""
 PLAIN = ("position_error", "velocity", "acceleration", *PHYSICAL)
 """Features that are no phase of the gearbox."""
-
-
-def savitzky_golay(dt: float, points: int = 5, order: int = 2) -> Differentiator:
-    """Slope, at its newest point, of the polynomial through the last samples in least squares.
-
-    Savitzky and Golay 1964, one-sided: no sample after the newest one takes part.
-
-    Parameters
-    ----------
-    dt : float
-        Sample time, s.
-    points : int
-        Samples that take part, 2 to 64.
-    order : int
-        Of the polynomial, 1 to ``points - 1``. From 2 on, the group delay at zero frequency is 0,
-        and the noise is greater than that of order 1.
-
-    Raises
-    ------
-    UsageError
-        For numbers that make no such filter.
-    """
-    if not (math.isfinite(dt) and dt > 0.0):
-        raise UsageError(f"a differentiator's sample time {dt:g} s must be above 0.")
-    if not (2 <= points <= 64 and 1 <= order < points):
-        raise UsageError(
-            f"a differentiator of order {order} over {points} points does not exist; take 2 to 64 "
-            "points and an order from 1 to one less than them, such as 5 and 2."
-        )
-    past = -np.arange(points, dtype=np.float64)
-    taps = np.linalg.pinv(np.vander(past, order + 1, increasing=True))[1] / dt
-    delay = -0.5 * float(np.sum(taps * (past * dt) ** 2))
-    # What is left of a sum that is zero by construction.
-    delay = 0.0 if abs(delay) < 1e-9 * dt else delay
-    return Differentiator(tuple(float(tap) for tap in taps), delay)
-
-
-def acceleration(velocity: FloatArray, differentiator: Differentiator) -> FloatArray:
-    """Acceleration (N,), rad/s^2, of a velocity (N,), rad/s; before its start it stood still at it.
-
-    Sample k depends on samples up to k only.
-    """
-    taps = np.asarray(differentiator.taps)
-    velocity = np.asarray(velocity, np.float64)
-    past = np.concatenate([np.full(len(taps) - 1, velocity[0]), velocity])
-    return np.convolve(past, taps, mode="valid")
-
-
-@dataclass(frozen=True)
-class DifferentiatorError:
-    """What a differentiator does to one frequency.
-
-    Attributes
-    ----------
-    frequency : float
-        Hz.
-    gain : float
-        Over that of a true derivative.
-    phase : float
-        Ahead of a true derivative, rad.
-    delay : float
-        The lag that this phase is, s; negative where the filter leads.
-    noise : float
-        Standard deviation of the acceleration, over that of white noise of the velocity, 1/s.
-    """
-
-    frequency: float
-    gain: float
-    phase: float
-    delay: float
-    noise: float
-
-
-def differentiator_error(
-    differentiator: Differentiator, dt: float, frequency: float
-) -> DifferentiatorError:
-    """Gain and phase of a differentiator against a true derivative at a frequency (Hz)."""
-    if not 0.0 < frequency < 0.5 / dt:
-        raise UsageError(
-            f"{frequency:g} Hz is not between 0 and {0.5 / dt:g} Hz, half of the sample rate."
-        )
-    pulse = 2.0 * math.pi * frequency
-    response = sum(
-        tap * cmath.exp(-1j * pulse * dt * k) for k, tap in enumerate(differentiator.taps)
-    )
-    ratio = response / (1j * pulse)
-    phase = cmath.phase(ratio)
-    return DifferentiatorError(
-        frequency=frequency,
-        gain=abs(ratio),
-        phase=phase,
-        delay=-phase / pulse,
-        noise=math.sqrt(sum(tap**2 for tap in differentiator.taps)),
-    )
 
 
 def strongest_orders(gear: GearParameters, count: int = 4) -> tuple[int, ...]:
@@ -209,13 +114,6 @@ def _physical(
     wanted = [name for name in inputs if name in PHYSICAL]
     if not wanted:
         return {}
-    from cqdd_design.torque.features.physics import (
-        dry_friction,
-        friction_sign,
-        gear_ripple,
-        motion_balance,
-    )
-
     slopes = [_needed(differentiator, name) for name in wanted if name != "friction_sign"]
     if physics is None:
         raise UsageError(
@@ -235,19 +133,3 @@ def _needed(differentiator: Differentiator | None, name: str) -> Differentiator:
     if differentiator is None:
         raise UsageError(f"the feature '{name}' needs a differentiator.")
     return differentiator
-
-
-def windows(matrix: FloatArray, history: int) -> FloatArray:
-    """Windows (N - history + 1, history, F) of a matrix (N, F), oldest sample first; a view.
-
-    Raises
-    ------
-    UsageError
-        For an episode shorter than one window.
-    """
-    if not 1 <= history <= len(matrix):
-        raise UsageError(
-            f"a window of {history} samples does not fit into an episode of {len(matrix)}."
-        )
-    view = np.lib.stride_tricks.sliding_window_view(matrix, history, axis=0)
-    return np.moveaxis(view, -1, 1)

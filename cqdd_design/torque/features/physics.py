@@ -18,11 +18,10 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, fields, replace
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.actuator.packing import gear_table, table_points
 from cqdd_design.actuator.parameters import (
@@ -33,12 +32,9 @@ from cqdd_design.actuator.parameters import (
     MotorParameters,
     ThermalParameters,
 )
-from cqdd_design.errors import UsageError
-from cqdd_design.torque.data.episodes import DataSet, Episode
-from cqdd_design.torque.features.matrix import acceleration
-from cqdd_design.torque.networks.artefact import Differentiator
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.errors import DesignError, UsageError
+from cqdd_design.torque.data.episodes import DataSet, Episode, FloatArray, asked_torque
+from cqdd_design.torque.features.acceleration import Differentiator, acceleration
 
 SMOOTHING = 0.25
 """Speed over the Stribeck speed at which the smooth sign of friction has reached tanh(1)."""
@@ -48,10 +44,9 @@ def driven_torque(parameters: ActuatorParameters, episode: Episode) -> FloatArra
     """Torque of the motor times the ratio (N,), N m: impedance law, current and voltage limits."""
     motor, drive = parameters.motor, parameters.drive
     ratio = abs(parameters.gear.ratio)
-    error = np.asarray(episode.columns["target"], np.float64) - episode.columns["position"]
-    velocity = np.asarray(episode.columns["velocity"], np.float64)
-    asked = drive.position_gain * error - drive.velocity_gain * velocity
+    asked = asked_torque(episode.columns, drive.position_gain, drive.velocity_gain)
     current = asked / (ratio * motor.torque_constant)
+    velocity = np.asarray(episode.columns["velocity"], np.float64)
     back = motor.torque_constant * ratio * velocity
     current = np.clip(
         current,
@@ -225,20 +220,20 @@ def actuator_from_dict(content: Mapping[str, Any]) -> ActuatorParameters:
     """
     try:
         parts = {part: _part(kind, content[part]) for part, kind in _PARTS.items()}
-        return ActuatorParameters(name=content["name"], mass=content["mass"], **parts)
-    except (KeyError, TypeError, ValueError) as error:
+        name, mass = content["name"], content["mass"]
+        if not isinstance(name, str) or not isinstance(mass, float | int):
+            raise TypeError("name is no text, or mass no number")
+        return ActuatorParameters(name=name, mass=math.nan if mass is None else mass, **parts)
+    except (KeyError, TypeError, ValueError, AttributeError, DesignError) as error:
         raise UsageError(
             f"these are no actuator's parameters of this program ({error}); write them anew."
         ) from error
 
 
 def _part(kind: type[Any], content: Mapping[str, Any]) -> Any:
-    known = {item.name for item in fields(kind)}
-    unknown = sorted(set(content) - known)
-    if unknown:
-        raise KeyError(", ".join(unknown))
-
     def value(key: str, given: Any) -> Any:
+        if isinstance(given, bool) or not isinstance(given, int | float | list | None):
+            raise TypeError(f"{key} is no number")
         if isinstance(given, list):
             return np.asarray(given, np.int64 if key == "error_orders" else np.float64)
         return np.nan if given is None else given

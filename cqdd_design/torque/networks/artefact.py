@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import math
-import zipfile
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
@@ -17,30 +16,23 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.errors import UsageError
-from cqdd_design.files import WrittenFile, write_with
+from cqdd_design.errors import UsageError, shown
+from cqdd_design.files import WrittenFile, read_arrays, write_with
+from cqdd_design.torque.features.acceleration import Differentiator
+from cqdd_design.torque.stored import NETWORK, require
 
 FORMAT = "cqdd-design torque network 1"
+_MOST_BYTES = 256_000_000
+_WHAT = (
+    "a torque network of this program (an .npz without pickles, which are never read); "
+    "`cqdd-design torque train` writes one"
+)
 Family = Literal["gru", "mlp"]
 Mode = Literal["window", "streaming"]
+ACTIVATIONS = ("relu", "tanh", "softsign", "elu")
+"""Of an MLP; the compiled kernel takes a place in this row."""
 
 WeightArray = NDArray[np.float32]
-
-
-@dataclass(frozen=True)
-class Differentiator:
-    """Causal acceleration: one-sided Savitzky-Golay derivative of the velocity.
-
-    Attributes
-    ----------
-    taps : tuple of float
-        Weights of the newest, the one before, ... velocity, 1/s.
-    delay : float
-        Group delay at zero frequency, s.
-    """
-
-    taps: tuple[float, ...]
-    delay: float
 
 
 @dataclass(frozen=True)
@@ -211,37 +203,19 @@ def read_artefact(path: Path) -> Artefact:
     UsageError
         For a file that is none: missing, a pickle or another file, of another version, or broken.
     """
-    advice = "`cqdd-design torque train` writes one"
-    try:
-        with np.load(path, allow_pickle=False) as found:
-            arrays = {name: found[name] for name in found.files}
-    except FileNotFoundError as error:
-        raise UsageError(f"there is no {path}; {advice}.") from error
-    except (OSError, ValueError, zipfile.BadZipFile, EOFError) as error:
-        raise UsageError(
-            f"{path} is not a torque network of this program (an .npz without pickles, which are "
-            f"never read); {advice}."
-        ) from error
-    try:
-        content = json.loads(str(arrays.pop("metadata")))
-        told = content.pop("format")
-    except (KeyError, ValueError, AttributeError) as error:
-        raise UsageError(f"{path} has no metadata of a torque network; {advice}.") from error
+    arrays, content = read_arrays(path, _MOST_BYTES, _WHAT)
+    told = content.pop("format", None) if isinstance(content, dict) else None
     if told != FORMAT:
-        raise UsageError(f"{path} is '{told}', not '{FORMAT}'; train it anew.")
-    try:
-        taps = content.pop("differentiator")
-        valid = content.pop("validity")
-        low, high = valid.pop("torque_range")
-        own: dict[str, Any] = {
-            key: tuple(value) if isinstance(value, list) else value
-            for key, value in content.items()
-        }
-        return Artefact(
-            **own,
-            validity=Validity(**valid, torque_range=(low, high)),
-            differentiator=taps and Differentiator(tuple(taps["taps"]), taps["delay"]),
-            weights=arrays,
-        )
-    except (TypeError, KeyError, ValueError) as error:
-        raise UsageError(f"{path}: its metadata are incomplete; train it anew.") from error
+        raise UsageError(f"{path} is {shown(told)}, not '{FORMAT}'; train it anew.")
+    require(NETWORK, content, str(path), "train it anew")
+    taps, valid = content.pop("differentiator"), content.pop("validity")
+    low, high = valid.pop("torque_range")
+    own: dict[str, Any] = {
+        key: tuple(value) if isinstance(value, list) else value for key, value in content.items()
+    }
+    return Artefact(
+        **own,
+        validity=Validity(**valid, torque_range=(low, high)),
+        differentiator=taps and Differentiator(tuple(taps["taps"]), taps["delay"]),
+        weights=arrays,
+    )

@@ -51,8 +51,8 @@ class FoldedGru:
     @property
     def flat(self) -> Float32Array:
         """All numbers in one row: of each layer input, state and bias; then the head."""
-        parts = [part.ravel() for one in self.layers for part in (one.input, one.state, one.bias)]
-        return np.concatenate([*parts, self.head, np.array([self.head_bias], np.float32)])
+        parts = (part for one in self.layers for part in (one.input, one.state, one.bias))
+        return _row(*parts, self.head, np.float32(self.head_bias))
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,9 +76,12 @@ class FoldedMlp:
     @property
     def flat(self) -> Float32Array:
         """All numbers in one row: of each layer weights and bias; then the head."""
-        pairs = zip(self.weights, self.biases, strict=True)
-        parts = [part.ravel() for pair in pairs for part in pair]
-        return np.concatenate([*parts, self.head, np.array([self.head_bias], np.float32)])
+        parts = (part for pair in zip(self.weights, self.biases, strict=True) for part in pair)
+        return _row(*parts, self.head, np.float32(self.head_bias))
+
+
+def _row(*parts: NDArray[np.float32] | np.float32) -> Float32Array:
+    return np.concatenate([np.ravel(part) for part in parts])
 
 
 def folded_gru(artefact: Artefact) -> FoldedGru:

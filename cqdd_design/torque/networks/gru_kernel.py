@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
+
+from cqdd_design.files.kernel_cache import numba
 
 FAST = {"contract", "arcp", "nsz"}
 LANES = 64
@@ -142,18 +143,20 @@ def window(weights: Any, samples: Any, state: Any) -> Any:
 
 @part
 def add_lanes(
-    weights: Any, place: int, stride: int, gap: int, values: Any, rows: int, a: Any, b: Any, c: Any
+    weights: Any, place: int, gap: int, values: Any, rows: int, a: Any, b: Any, c: Any
 ) -> None:
-    """Add, in every lane, values (rows, LANES) times three columns of weights to three sums."""
-    row = 0
+    """Add, in every lane, values (rows, LANES) times three columns of weights to three sums.
+
+    The first column begins at `place`; the next two stand `gap`, the layer's width, apart.
+    """
+    row, stride = 0, 3 * gap
     while row + 4 <= rows:
         p0, p1 = place + row * stride, place + (row + 1) * stride
         p2, p3 = place + (row + 2) * stride, place + (row + 3) * stride
         a0, a1, a2, a3 = weights[p0], weights[p1], weights[p2], weights[p3]
         b0, b1, b2, b3 = weights[p0 + gap], weights[p1 + gap], weights[p2 + gap], weights[p3 + gap]
-        gap2 = 2 * gap
-        c0, c1 = weights[p0 + gap2], weights[p1 + gap2]
-        c2, c3 = weights[p2 + gap2], weights[p3 + gap2]
+        c0, c1 = weights[p0 + 2 * gap], weights[p1 + 2 * gap]
+        c2, c3 = weights[p2 + 2 * gap], weights[p3 + 2 * gap]
         for s in range(LANES):
             v0, v1, v2, v3 = (
                 values[row, s],
@@ -202,8 +205,8 @@ def windows(weights: Any, samples: Any, layers: int, width: int, torque: Any) ->
                 for j in range(width):
                     n[:], r[:] = weights[bias + j], weights[bias + width + j]
                     z[:], m[:] = weights[bias + 2 * width + j], weights[bias + 3 * width + j]
-                    add_lanes(weights, start + j, 3 * width, width, values[sample], rows, n, r, z)
-                    add_lanes(weights, across + j, 3 * width, width, before, width, r, z, m)
+                    add_lanes(weights, start + j, width, values[sample], rows, n, r, z)
+                    add_lanes(weights, across + j, width, before, width, r, z, m)
                     for s in range(LANES):
                         reset = _HALF + _HALF * tanh32(r[s])
                         update = _HALF + _HALF * tanh32(z[s])

@@ -8,16 +8,13 @@ import numpy as np
 
 from cqdd_design.torque.networks.gru_kernel import add_products, kernel, part, tanh32
 
-ACTIVATIONS = ("relu", "tanh", "softsign", "elu")
-"""By number, as the kernel takes them."""
-
 _ZERO, _ONE, _HALF, _TWO = np.float32(0.0), np.float32(1.0), np.float32(0.5), np.float32(2.0)
 _ELU_LEAST = np.float32(-15.0)
 
 
 @part
 def activate(kind: int, values: Any, count: int) -> None:
-    """Apply an activation in place."""
+    """Apply one of `artefact.ACTIVATIONS` in place, by its number."""
     if kind == 0:
         for j in range(count):
             values[j] = values[j] if values[j] > _ZERO else _ZERO

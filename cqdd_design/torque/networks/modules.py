@@ -15,9 +15,8 @@ from typing import Any
 import numpy as np
 
 from cqdd_design.errors import DependencyError, UsageError, did_you_mean
-from cqdd_design.torque.networks.artefact import Artefact, Family, WeightArray
+from cqdd_design.torque.networks.artefact import ACTIVATIONS, Artefact, Family, WeightArray
 
-ACTIVATIONS = ("relu", "tanh", "softsign", "elu")
 PV = ("position_error", "velocity")
 PVA = (*PV, "acceleration")
 CORRECTED = (*PVA, "balance", "friction_sign")
@@ -42,7 +41,6 @@ class Model:
         Whether it corrects the feature ``balance``.
     searched : bool
         Whether activation, learning rate and weight decay are searched.
-    about : str
     """
 
     name: str
@@ -55,7 +53,6 @@ class Model:
     phase: bool = False
     residual: bool = False
     searched: bool = False
-    about: str = ""
 
     @property
     def needs_actuator(self) -> bool:
@@ -63,36 +60,22 @@ class Model:
         return self.phase or self.residual
 
 
-def _gru(name: str, inputs: tuple[str, ...], about: str, **more: Any) -> Model:
-    return Model(name, "gru", inputs, 4, 32, 30, about=about, **more)
+_GRU: Any = {"family": "gru", "layers": 4, "hidden": 32, "history": 30}
+_MLP: Any = {"family": "mlp", "layers": 3, "hidden": 32, "activation": "softsign"}
 
-
-def _mlp(name: str, inputs: tuple[str, ...], history: int, about: str, *, searched: bool) -> Model:
-    return Model(name, "mlp", inputs, 3, 32, history, "softsign", searched=searched, about=about)
-
-
+# The first four are the paper's; mlp-acceleration shows what that input alone brings, and the
+# last three know the actuator: its balance, the phases of its gearbox, or both.
 MODELS: Mapping[str, Model] = {
     model.name: model
     for model in (
-        _gru("pva-gru", PVA, "the paper's, with acceleration"),
-        _gru("pv-gru", PV, "the paper's"),
-        _mlp("mlp", PV, 24, "the paper's tuned MLP", searched=True),
-        _mlp("mlp-baseline", PV, 3, "the paper's baseline MLP", searched=False),
-        _mlp(
-            "mlp-acceleration",
-            PVA,
-            24,
-            "the tuned MLP with acceleration: what the input alone brings",
-            searched=True,
-        ),
-        _gru("physics-gru", CORRECTED, "corrects the actuator's own balance", residual=True),
-        _gru("phase-gru", PVA, "with the phases of the gearbox's orders", phase=True),
-        _gru(
-            "physics-phase-gru",
-            (*CORRECTED, "ripple"),
-            "the same, with the gearbox's ripple at the homed position",
-            residual=True,
-        ),
+        Model("pva-gru", inputs=PVA, **_GRU),
+        Model("pv-gru", inputs=PV, **_GRU),
+        Model("mlp", inputs=PV, history=24, searched=True, **_MLP),
+        Model("mlp-baseline", inputs=PV, history=3, **_MLP),
+        Model("mlp-acceleration", inputs=PVA, history=24, searched=True, **_MLP),
+        Model("physics-gru", inputs=CORRECTED, residual=True, **_GRU),
+        Model("phase-gru", inputs=PVA, phase=True, **_GRU),
+        Model("physics-phase-gru", inputs=(*CORRECTED, "ripple"), residual=True, **_GRU),
     )
 }
 

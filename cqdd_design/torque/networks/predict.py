@@ -7,18 +7,19 @@ compares.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cqdd_design.errors import UsageError
-from cqdd_design.torque.networks import gru_plain
-from cqdd_design.torque.networks.artefact import Artefact, Mode
+from cqdd_design.torque.data.episodes import FloatArray
+from cqdd_design.torque.networks import plain
+from cqdd_design.torque.networks.artefact import ACTIVATIONS, Artefact, Mode
 from cqdd_design.torque.networks.folded import folded_gru, folded_mlp
 
-FloatArray = NDArray[np.float64]
 Engine = Literal["compiled", "plain"]
 
 
@@ -72,8 +73,8 @@ def predict_windows(
             f"{windows.shape}."
         )
     if engine == "plain":
-        plain = gru_plain.gru_windows if artefact.family == "gru" else gru_plain.mlp_windows
-        return plain(artefact, np.asarray(windows, np.float64))
+        judge = plain.gru_windows if artefact.family == "gru" else plain.mlp_windows
+        return judge(artefact, np.asarray(windows, np.float64))
     single = np.asarray(windows, np.float32)
     torque = np.zeros(len(single), np.float32)
     if artefact.family == "gru":
@@ -84,7 +85,7 @@ def predict_windows(
     else:
         from cqdd_design.torque.networks import mlp_kernel
 
-        kind = mlp_kernel.ACTIVATIONS.index(artefact.activation)
+        kind = ACTIVATIONS.index(artefact.activation)
         weights = folded_mlp(artefact).flat
         mlp_kernel.windows(weights, single, artefact.layers, artefact.hidden, kind, torque)
     return _corrected(artefact, torque, windows[:, -1])
@@ -104,30 +105,29 @@ class Streaming:
     """
 
     def __init__(self, artefact: Artefact, mode: Mode | None = None) -> None:
-        self.artefact = artefact
-        self.mode = _mode(artefact, mode)
+        self.artefact, self.mode = artefact, _mode(artefact, mode)
         self._base = artefact.inputs.index("balance") if artefact.residual else -1
-        self._count = len(artefact.inputs)
-        gru = artefact.family == "gru"
-        self._weights = (folded_gru(artefact) if gru else folded_mlp(artefact)).flat
-        self._features = np.zeros(self._count, np.float32)
-        self._state = np.zeros((artefact.layers, artefact.hidden), np.float32)
-        self._scratch = np.zeros(4 * artefact.hidden, np.float32)
-        self._layers = np.zeros((2, artefact.hidden), np.float32)
-        self._past = np.zeros((artefact.history, self._count), np.float32)
-        self._seen = 0
-        self._kind = 0
-        self._step: Any
-        self._window: Any
-        if gru:
+        layers, width = artefact.layers, artefact.hidden
+        self._rows = artefact.history if self.mode == "window" else 1
+        past = np.zeros((self._rows, len(artefact.inputs)), np.float32)
+        self._state = np.zeros((layers, width), np.float32)
+        self._past, self._seen = past, 0
+        self._torque: Callable[[], Any]
+        if artefact.family == "gru":
             from cqdd_design.torque.networks import gru_kernel
 
-            self._step, self._window = gru_kernel.step, gru_kernel.window
+            weights, sums = folded_gru(artefact).flat, np.zeros(4 * width, np.float32)
+            self._torque = partial(gru_kernel.window, weights, past, self._state)
+            if self.mode == "streaming":
+                self._torque = partial(gru_kernel.step, weights, past[0], self._state, sums)
         else:
             from cqdd_design.torque.networks import mlp_kernel
 
-            self._window = mlp_kernel.window
-            self._kind = mlp_kernel.ACTIVATIONS.index(artefact.activation)
+            # An MLP takes its window flattened, newest sample first.
+            self._past, flat = past[::-1], past.ravel()
+            kind, scratch = ACTIVATIONS.index(artefact.activation), np.zeros((2, width), np.float32)
+            weights = folded_mlp(artefact).flat
+            self._torque = partial(mlp_kernel.window, weights, flat, layers, width, kind, scratch)
 
     def reset(self) -> None:
         """Forget all samples."""
@@ -137,36 +137,20 @@ class Streaming:
 
     def step(self, features: Sequence[float] | NDArray[Any]) -> float:
         """Torque at this sample, N m; `features` (F,) raw, in the order of ``artefact.inputs``."""
-        if self.mode == "streaming":
-            self._features[:] = features
-            torque = float(self._step(self._weights, self._features, self._state, self._scratch))
-        else:
-            torque = self._step_window(features)
-        return torque if self._base < 0 else torque + float(features[self._base])
-
-    def _step_window(self, features: Sequence[float] | NDArray[Any]) -> float:
-        history, past = self.artefact.history, self._past
-        self._seen = min(self._seen + 1, history)
-        if self.artefact.family == "gru":
-            past[:-1] = past[1:]
-            past[-1] = features
-            if self._seen < history:
-                return math.nan
-            return float(self._window(self._weights, past, self._state))
-        past[1:] = past[:-1]
-        past[0] = features
-        if self._seen < history:
+        if self._rows > 1:
+            self._past[:-1] = self._past[1:]
+        self._past[-1] = features
+        self._seen = min(self._seen + 1, self._rows)
+        if self._seen < self._rows:
             return math.nan
-        layers, width = self.artefact.layers, self.artefact.hidden
-        return float(
-            self._window(self._weights, past.ravel(), layers, width, self._kind, self._layers)
-        )
+        torque = float(self._torque())
+        return torque if self._base < 0 else torque + float(features[self._base])
 
 
 def _streamed(artefact: Artefact, raw: FloatArray, engine: Engine) -> FloatArray:
     if engine == "plain":
-        state = gru_plain.zero_state(artefact, 1)
-        rows = [gru_plain.gru_step(artefact, row[None], state)[0] for row in raw]
+        state = plain.zero_state(artefact, 1)
+        rows = [plain.gru_step(artefact, row[None], state)[0] for row in raw]
         return np.array(rows, np.float64)
     from cqdd_design.torque.networks import gru_kernel
 

@@ -9,9 +9,8 @@ reset, update, new.
 from __future__ import annotations
 
 import functools
+import importlib
 from typing import Any, ClassVar
-
-from cqdd_design.torque.networks.modules import require_torch
 
 
 def last_state(x: Any, parameters: list[Any]) -> Any:
@@ -29,7 +28,8 @@ def last_state(x: Any, parameters: list[Any]) -> Any:
 
 @functools.lru_cache(maxsize=1)
 def _function() -> Any:
-    torch = require_torch()
+    # Who has tensors has torch; asking for it kindly is the caller's.
+    torch = importlib.import_module("torch")
 
     class Wavefront(torch.autograd.Function):  # type: ignore[misc, name-defined]
         @staticmethod

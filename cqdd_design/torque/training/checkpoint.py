@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,10 +11,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.errors import UsageError
-from cqdd_design.files import WrittenFile, write_with
+from cqdd_design.errors import UsageError, shown
+from cqdd_design.files import WrittenFile, read_arrays, write_with
+from cqdd_design.torque.stored import CHECKPOINT, require
 
 FORMAT = "cqdd-design torque checkpoint 1"
+_MOST_BYTES = 1_000_000_000
+_WHAT = (
+    "a checkpoint of this program (an .npz without pickles, which are never read); delete it and "
+    "train anew"
+)
 
 Arrays = Mapping[str, NDArray[np.float32]]
 _GROUPS = ("weights", "first_moment", "second_moment", "best")
@@ -88,39 +93,31 @@ def read_checkpoint(path: Path) -> Checkpoint:
     UsageError
         When there is none, or it is of another version, or broken.
     """
-    try:
-        with np.load(path, allow_pickle=False) as found:
-            arrays = {name: found[name] for name in found.files}
-    except FileNotFoundError as error:
+    if not path.exists():
         raise UsageError(
             f"there is no checkpoint {path} to resume from; leave --resume out, or give the --out "
             "of the training that was interrupted."
-        ) from error
-    except (OSError, ValueError, zipfile.BadZipFile, EOFError) as error:
-        raise UsageError(
-            f"{path} is not a checkpoint of this program (an .npz without pickles, which are never "
-            "read); delete it and train anew."
-        ) from error
-    try:
-        content = json.loads(str(arrays.pop("metadata")))
-        told = content.pop("format")
-    except (KeyError, ValueError, AttributeError) as error:
-        raise UsageError(
-            f"{path} has no metadata of a checkpoint; delete it and train anew."
-        ) from error
+        )
+    arrays, content = read_arrays(path, _MOST_BYTES, _WHAT)
+    told = content.pop("format", None) if isinstance(content, dict) else None
     if told != FORMAT:
         raise UsageError(
-            f"{path} is '{told}', not '{FORMAT}': a checkpoint is resumed by the version that "
+            f"{path} is {shown(told)}, not '{FORMAT}': a checkpoint is resumed by the version that "
             "wrote it; train anew."
         )
+    require(CHECKPOINT, content, str(path), "delete it and train anew")
     groups: dict[str, Any] = {name: {} for name in _GROUPS}
-    try:
-        for key, values in arrays.items():
-            group, _, name = key.partition(":")
-            groups[group][name] = values
-        return Checkpoint(**content | {"log": tuple(content["log"])}, **groups)
-    except (KeyError, TypeError) as error:
-        raise UsageError(f"{path} is incomplete; delete it and train anew.") from error
+    for key, values in arrays.items():
+        group, _, name = key.partition(":")
+        if group not in groups or values.dtype != np.float32 or not np.all(np.isfinite(values)):
+            raise UsageError(f"{path}: {shown(key)} is no weight; delete it and train anew.")
+        groups[group][name] = values
+    shapes = {name: values.shape for name, values in groups["weights"].items()}
+    for group, found in groups.items():
+        own = {name: values.shape for name, values in found.items()}
+        if own != shapes and not (group == "best" and not own and not content["epoch"]):
+            raise UsageError(f"{path}: its {group} do not fit; delete it and train anew.")
+    return Checkpoint(**content | {"log": tuple(content["log"])}, **groups)
 
 
 def require_same(checkpoint: Checkpoint, identity: Mapping[str, Any], path: Path) -> None:

@@ -6,18 +6,19 @@ Besides the episodes it can hold the actuator's parameters, which take the conta
 from __future__ import annotations
 
 import json
-import zipfile
 from pathlib import Path
 
 import numpy as np
 
 from cqdd_design.actuator.parameters import ActuatorParameters
-from cqdd_design.errors import UsageError
-from cqdd_design.files import WrittenFile, write_with
+from cqdd_design.errors import UsageError, shown
+from cqdd_design.files import WrittenFile, read_arrays, write_with
 from cqdd_design.torque.data.episodes import DataSet, Episode
 from cqdd_design.torque.features.physics import actuator_from_dict, actuator_to_dict
+from cqdd_design.torque.stored import DATA, require
 
 FORMAT = "cqdd-design packed torque data 1"
+_MOST_BYTES = 2_000_000_000
 
 
 def pack_data(data: DataSet, path: Path, actuator: ActuatorParameters | None = None) -> WrittenFile:
@@ -56,30 +57,21 @@ def unpack_data(path: Path) -> tuple[DataSet, ActuatorParameters | None]:
     UsageError
         For anything else.
     """
-    try:
-        with np.load(path, allow_pickle=False) as found:
-            arrays = {
-                name: found[name].astype(np.float64) for name in found.files if name != "metadata"
-            }
-            content = json.loads(str(found["metadata"]))
-    except FileNotFoundError as error:
-        raise UsageError(f"there is no {path}; `pack_data` writes one.") from error
-    except (OSError, ValueError, KeyError, zipfile.BadZipFile, EOFError) as error:
-        raise UsageError(f"{path} is not a packed data set; write it anew.") from error
-    if not isinstance(content, dict) or content.get("format") != FORMAT:
-        raise UsageError(f"{path} is not '{FORMAT}'; write it anew.")
-    episodes = tuple(
-        Episode(
-            one["name"],
-            one["group"],
-            content["dt"],
-            dict(zip(one["columns"], arrays[str(k)], strict=True)),
-        )
-        for k, one in enumerate(content["episodes"])
-    )
+    arrays, content = read_arrays(path, _MOST_BYTES, "a packed data set; `pack_data` writes one")
+    told = content.get("format") if isinstance(content, dict) else None
+    if told != FORMAT:
+        raise UsageError(f"{path} is {shown(told)}, not '{FORMAT}'; write it anew.")
+    require(DATA, content, str(path), "write it anew")
+    episodes = []
+    for k, one in enumerate(content["episodes"]):
+        values = arrays.get(str(k))
+        if values is None or values.ndim != 2 or len(values) != len(one["columns"]):
+            raise UsageError(f"{path}: episode {one['name']} has other columns; write it anew.")
+        columns = dict(zip(one["columns"], values.astype(np.float64), strict=True))
+        episodes.append(Episode(one["name"], one["group"], content["dt"], columns))
     low, high = content["torque_range"]
     data = DataSet(
-        episodes=episodes,
+        episodes=tuple(episodes),
         position_gain=content["position_gain"],
         velocity_gain=content["velocity_gain"],
         torque_range=(low, high),

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import get_args
 
+from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.errors import UsageError
 from cqdd_design.torque.networks.artefact import Mode
 from cqdd_design.torque.training.schedule import Reading, peak_rate
 
-MODES: tuple[Mode, ...] = ("window", "streaming")
+MODES: tuple[Mode, ...] = get_args(Mode)
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,39 @@ class Choice:
     activation: str
     peak: float
     weight_decay: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Order:
+    """One training.
+
+    Attributes
+    ----------
+    model : str
+        Of `modules.MODELS`.
+    seed : int
+        Of weights and order; on one CPU with one number of threads the result is the same to the
+        last bit.
+    recipe : Recipe
+    actuator : ActuatorParameters or None
+        For models that need one; stored in the artefact's facts under the data's gains.
+    choice : Choice or None
+        For a searched model, instead of the search; see `search`.
+    device : str
+        ``auto``, ``cpu`` or ``cuda``.
+    """
+
+    model: str
+    seed: int = 0
+    recipe: Recipe = field(default_factory=Recipe)
+    actuator: ActuatorParameters | None = None
+    choice: Choice | None = None
+    device: str = "auto"
+
+    def __post_init__(self) -> None:
+        """Refuse a seed that numpy and torch do not both take."""
+        if not 0 <= self.seed < 2**63:
+            raise UsageError(f"seed {self.seed} is not within 0 to 2^63 - 1.")
 
 
 @dataclass(frozen=True)

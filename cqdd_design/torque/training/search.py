@@ -12,9 +12,9 @@ from dataclasses import asdict, dataclass, replace
 from itertools import product
 from typing import Any
 
-from cqdd_design.torque.networks.modules import ACTIVATIONS
+from cqdd_design.torque.networks.artefact import ACTIVATIONS
+from cqdd_design.torque.training.epochs import Task, Trainer
 from cqdd_design.torque.training.recipe import Choice, Recipe
-from cqdd_design.torque.training.trainer import Task, Trainer
 
 RATES = (1e-3, 2.5e-3, 6e-3, 1.5e-2)
 DECAYS = (0.0, 1e-2)

@@ -1,0 +1,148 @@
+"""Every figure of the paper that this package stands beside, once, with its place there.
+
+S. Zhu, Y. Tanaka, A. Rafeedi and D. Hong, "Cycloidal Quasi-Direct Drive Actuator Designs with
+Learning-based Torque Estimation for Legged Robotics", arXiv:2410.16591 (2024). SI units, but for
+the table of measurements, which has those of the virtual test bench.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import NamedTuple
+
+SOURCE = "Zhu, Tanaka, Rafeedi and Hong 2024, arXiv:2410.16591"
+
+
+class Figure(NamedTuple):
+    """A printed value.
+
+    Attributes
+    ----------
+    value : float
+    place : str
+        Where the paper has it.
+    spread : float or None
+        Printed behind a plus-minus.
+    """
+
+    value: float
+    place: str
+    spread: float | None = None
+
+
+_TABLE = "table I"
+METRICS: Mapping[str, Figure] = MappingProxyType(
+    {
+        "continuous_torque": Figure(37.5, f"{_TABLE}, section V-A"),
+        "peak_torque": Figure(89.9, f"{_TABLE}, section V-A"),
+        "no_load_speed": Figure(128.6, f"{_TABLE}, at 24 V"),
+        "rated_power": Figure(960.0, _TABLE),
+        "output_resolution": Figure(0.00219, _TABLE),
+        "efficiency_peak": Figure(0.823, f"{_TABLE}, section V-A"),
+        "torque_density": Figure(64.2, "table II; table I prints 64.21"),
+        "actuator_inertia": Figure(5.01e-4, _TABLE),
+        "mass": Figure(1.40, _TABLE),
+        "backlash": Figure(7.03, f"{_TABLE}; section V-B prints 7.0", 1.3),
+        "backdrive_static": Figure(1.99, f"{_TABLE}, section V-B"),
+        "backdrive_dynamic": Figure(1.36, f"{_TABLE}, section V-B"),
+        "torque_ripple": Figure(1.5, f"{_TABLE}, half of the swing"),
+        "torque_bandwidth": Figure(34.3, f"{_TABLE}, section V-A, at 5 N m"),
+        "position_bandwidth_45deg": Figure(3.3, _TABLE),
+        "position_bandwidth_5deg": Figure(22.13, _TABLE),
+    }
+)
+"""What was measured of the actuator, in the units of the virtual test bench."""
+SUPPLY_VOLTAGE = 24.0
+"""Of the speed without load, V (table I)."""
+
+
+RATIO = 10
+"""Table I, and of the planetary, section III-A."""
+
+
+class Compared(NamedTuple):
+    """One column of the paper's comparison; torque density as it prints it, N m/kg."""
+
+    name: str
+    gearing: str
+    ratio: float
+    peak_torque: float
+    mass: float
+    torque_density: str
+    efficiency: float | None
+
+
+COMPARISON: tuple[Compared, ...] = (
+    Compared(
+        "C-QDD (paper)",
+        "cycloid",
+        RATIO,
+        METRICS["peak_torque"].value,
+        METRICS["mass"].value,
+        "64.2",
+        METRICS["efficiency_peak"].value,
+    ),
+    Compared("BEAR", "planetary", 10.0, 32.0, 0.670, "47.7", None),
+    Compared("PULSE115-60", "planetary", 5.0, 62.5, 1.25, "50", None),
+    Compared("Lee et al.", "cycloid", 11.0, 155.32, 1.85, "83.7", 0.9),
+)
+"""Table II: N m, kg, N m/kg."""
+
+PEAK_TORQUE, CONTINUOUS_TORQUE = 120.0, 40.0
+"""Loads that the gearing was sized for, N m (section III-A)."""
+PIN_TORQUE, PINS_TORQUE = 59.13, 295.65
+"""Capacity of one output pin and of all, N m (section III-A)."""
+PLANETARY_TEETH = (12, 36, 22, 70)
+"""Sun, both planets, ring of the compound planetary (section III-A)."""
+PLANETARY_MODULE, PLANETARY_FACE_WIDTH, PLANETARY_PLANETS = 1e-3, 12e-3, 6
+"""m, m, and how many it is said to need (section III-A)."""
+
+ACTUATOR: Mapping[str, float | str] = MappingProxyType(
+    {
+        "reducer.ratio": RATIO,
+        # Section III-C.
+        "reducer.ring_type": "solid",
+        # Section III-B: two discs for an even ratio.
+        "reducer.disc_count": 2,
+        # Section III-A; count and diameter follow from the capacities printed.
+        "reducer.output_pins.circle_radius": 19.5e-3,
+        "reducer.output_pins.count": round(PINS_TORQUE / PIN_TORQUE),
+        "reducer.output_pins.diameter": 4e-3,
+        # Not printed: Z_r, Z_e and Z_p as this package assumes them, see designs/cqdd-10.toml.
+        "reducer.ring_pitch_radius": 32e-3,
+        "reducer.eccentricity": 1.6e-3,
+        "reducer.ring_pin_diameter": 7e-3,
+        # By 24 V x 55 rpm/V, 12 N m x 10 and its maker's driver (section V-A).
+        "motor.name": "CubeMars RO100",
+        # 89.9 N m over ten times 0.178 N m/A, which 128.6 rpm at 24 V stand for (table I).
+        "motor.current_limit": 50.5,
+    }
+)
+"""What makes a design the paper's actuator: dotted keys, SI; a motor's name by its beginning.
+
+Clearances, tolerances, friction and cooling are not among them: the paper prints none, and they are
+what a user fits.
+"""
+
+
+def is_papers_actuator(design: object) -> bool:
+    """Whether a design is that of the paper's actuator, whatever it is called.
+
+    Parameters
+    ----------
+    design : Design
+        Whose keys of `ACTUATOR` are compared.
+    """
+    for key, wanted in ACTUATOR.items():
+        found: object = design
+        for part in key.split("."):
+            found = getattr(found, part)
+        if isinstance(wanted, str):
+            same = str(found).startswith(wanted)
+        else:
+            same = math.isclose(float(found), wanted, rel_tol=1e-9)  # type: ignore[arg-type]
+        if not same:
+            return False
+    return True

@@ -1,0 +1,5 @@
+/* Smooth sign of dry friction, -1 to 1. */
+static inline double @name@_friction_sign(double velocity)
+{
+    return tanh(@SIGN_RATE@ * velocity);
+}

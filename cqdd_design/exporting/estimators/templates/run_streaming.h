@@ -1,0 +1,2 @@
+    state->seen = 1;
+    return @name@_recurrent(state->hidden, features);

@@ -1,0 +1,31 @@
+"""Files: read within bounds, written whole or not at all."""
+
+from cqdd_design.files.arrays import read_arrays
+from cqdd_design.files.parsing import parse_json, parse_toml, refuse_extremes
+from cqdd_design.files.reading import open_regular_file, read_regular_file, read_text_file
+from cqdd_design.files.writing import (
+    WrittenFile,
+    atomic_path,
+    describe_file,
+    ensure_folder,
+    refuse_overwrite,
+    write_atomically,
+    write_with,
+)
+
+__all__ = [
+    "WrittenFile",
+    "atomic_path",
+    "describe_file",
+    "ensure_folder",
+    "open_regular_file",
+    "parse_json",
+    "parse_toml",
+    "read_arrays",
+    "read_regular_file",
+    "read_text_file",
+    "refuse_extremes",
+    "refuse_overwrite",
+    "write_atomically",
+    "write_with",
+]

@@ -1,0 +1,148 @@
+"""One call from a machine to its contact equilibrium, precision, losses and life.
+
+The closed forms of `Machine.analysis` need none of this; the compiled kernels load only here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.gearbox.contact.laws import LineModel
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.states import nominal_states
+from cqdd_design.gearbox.contact.sweep import ANGLES, ContactSweep, contact_sweep, perfect_angles
+from cqdd_design.gearbox.life import LifeResult, life
+from cqdd_design.gearbox.losses import EfficiencyMap, Losses, LossModel, loss_model
+from cqdd_design.gearbox.precision.precision import Precision, precision
+from cqdd_design.machine.machine import Machine
+
+FloatArray = NDArray[np.float64]
+
+_MAP_STEPS = 8
+_PICTURE_ANGLES = 180
+
+
+@dataclass(frozen=True, eq=False)
+class ContactAnalysis:
+    """What the contact equilibrium says about a gearbox of perfect parts.
+
+    Attributes
+    ----------
+    model : ContactModel
+    sweep, reversed : ContactSweep
+        Over the period, at the torque and at its negative.
+    preload : ContactSweep or None
+        Without load, where the fits are of interference.
+    precision : Precision
+        At the continuous torque, or at the one asked for.
+    loss_model : LossModel
+    losses : Losses
+        At the torque of `precision` and the input speed.
+    map : EfficiencyMap
+        From an eighth of the input speed and of the peak torque up to both.
+    life : LifeResult
+        Over the duty of the requirements.
+    """
+
+    model: ContactModel
+    sweep: ContactSweep
+    reversed: ContactSweep
+    preload: ContactSweep | None
+    precision: Precision
+    loss_model: LossModel
+    losses: Losses
+    map: EfficiencyMap
+    life: LifeResult
+
+    @property
+    def crank_turn(self) -> ContactSweep:
+        """The same load over one crank turn, every two degrees, for pictures."""
+        angle = 2.0 * np.pi * np.arange(_PICTURE_ANGLES) / _PICTURE_ANGLES
+        return contact_sweep(self.model, self.sweep.torque, angle)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Everything the parts warn of."""
+        return (*self.precision.warnings, *self.losses.warnings, *self.life.warnings)
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form: ``contact``, ``precision``, ``losses``, ``life``."""
+        contact = self.sweep.to_dict()
+        back = self.reversed
+        for key, here, there in (
+            ("ring_force_max_N", self.sweep.ring_force, back.ring_force),
+            ("output_pin_force_max_N", self.sweep.pin_force, back.pin_force),
+            ("cam_bearing_load_max_N", self.sweep.cam_load, back.cam_load),
+            ("ring_pressure_max_MPa", self.sweep.ring_pressure / 1e6, back.ring_pressure / 1e6),
+            ("output_pressure_max_MPa", self.sweep.pin_pressure / 1e6, back.pin_pressure / 1e6),
+        ):
+            contact[key] = max(float(here.max()), float(there.max()))
+        contact["contact_law"] = self.model.ring_law.model
+        contact["preload"] = None if self.preload is None else _preload(self.preload)
+        return {
+            "contact": contact,
+            "precision": self.precision.to_dict(),
+            "losses": self.losses.to_dict() | {"efficiency_map": self.map.to_dict()},
+            "life": self.life.to_dict(),
+        }
+
+
+def _preload(sweep: ContactSweep) -> dict[str, float]:
+    return {
+        "ring_force_max_N": float(sweep.ring_force.max()),
+        "output_pin_force_max_N": float(sweep.pin_force.max()),
+        "cam_bearing_load_max_N": float(sweep.cam_load.max()),
+        "ring_pressure_max_MPa": float(sweep.ring_pressure.max()) / 1e6,
+        "output_pressure_max_MPa": float(sweep.pin_pressure.max()) / 1e6,
+    }
+
+
+def analyse_contact(
+    machine: Machine,
+    *,
+    torque: float | None = None,
+    angles: int = ANGLES,
+    line_model: LineModel = "palmgren",
+) -> ContactAnalysis:
+    """Solve the contact equilibrium of a machine over its period, and what follows from it.
+
+    Parameters
+    ----------
+    machine : Machine
+    torque : float, optional
+        Output torque, N m. Where left out, the forces are at the peak torque of the requirements,
+        precision and losses at the continuous one.
+    angles : int
+        Crank angles over the period.
+    line_model : {"palmgren", "johnson", "linear"}
+        Approach of teeth and pins.
+
+    Raises
+    ------
+    ContactError
+        When the gearbox has no equilibrium at the torque, naming torque and angle.
+    """
+    design, usual = machine.design, line_model == "palmgren"
+    model = machine.contact if usual else ContactModel.from_design(design, line_model)
+    states = nominal_states(model, perfect_angles(model, angles))
+    asked = design.requirements
+    peak = asked.peak_torque if torque is None else torque
+    steady = asked.continuous_torque if torque is None else torque
+    sweep = contact_sweep(model, peak, states=states)
+    tight = bool(states.gaps.min() < 0.0)
+    friction = machine.losses if usual else loss_model(model, machine.friction, asked.peak_torque)
+    shares = np.arange(1, _MAP_STEPS + 1) / _MAP_STEPS
+    return ContactAnalysis(
+        model=model,
+        sweep=sweep,
+        reversed=contact_sweep(model, -peak, states=states),
+        preload=contact_sweep(model, 0.0, states=states) if tight else None,
+        precision=precision(model, steady, angles=angles),
+        loss_model=friction,
+        losses=friction.at(asked.input_speed, steady),
+        map=friction.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),
+        life=life(design, model),
+    )

@@ -1,0 +1,151 @@
+"""The `Machine`: what a design means once bearings and motor are chosen and laid out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from cqdd_design.catalog.bearings import Bearing, find_bearing
+from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.design import Design
+from cqdd_design.solids.layout import Layout
+from cqdd_design.solids.part import Part
+from cqdd_design.solids.parts import build_parts
+from cqdd_design.solids.proportions import lay_out, seat_bearings
+from cqdd_design.solids.selection import ChosenBearing
+
+if TYPE_CHECKING:
+    from cqdd_design.gearbox.analysis import GearboxAnalysis
+    from cqdd_design.gearbox.contact.model import ContactModel
+    from cqdd_design.gearbox.losses import FrictionMachine, LossModel
+    from cqdd_design.gearbox.losses.rolling import BearingFriction
+    from cqdd_design.solids.inertia import GearboxInertia
+
+AUTO = "auto"
+"""Designation of a cam bearing that is left to the catalogue."""
+
+
+@dataclass(frozen=True, eq=False)
+class Machine:
+    """A design made concrete, from `resolve`.
+
+    What takes time is worked out when it is first asked for, and kept.
+
+    Attributes
+    ----------
+    given : Design
+        As it was written: what it left open is still "auto", and still counts as assumed.
+    design : Design
+        The same with its cam bearing named.
+    cam : Bearing
+        The cam bearing.
+    motor : Motor
+        The catalogue's row, or what a file says instead.
+    """
+
+    given: Design
+    design: Design
+    cam: Bearing
+    motor: Motor
+
+    def changed(self, changes: Mapping[str, Any]) -> Machine:
+        """The machine with other values of some dotted keys, and the same bearing and motor."""
+        return replace(self, design=self.design.replacing(changes))
+
+    @cached_property
+    def seats(self) -> tuple[ChosenBearing, ChosenBearing]:
+        """Bearings at both ends of the shaft, and of the carrier."""
+        return seat_bearings(self.design, self.cam)
+
+    @cached_property
+    def layout(self) -> Layout:
+        """Heights and turned dimensions of every part; GeometryError where nothing fits."""
+        return lay_out(self.design, self.cam, self.motor)
+
+    @cached_property
+    def parts(self) -> tuple[Part, ...]:
+        """Every part; GeometryError where they cannot exist or be put together."""
+        return build_parts(self.design, self.layout)
+
+    @cached_property
+    def inertia(self) -> GearboxInertia:
+        """Mass properties of the parts in closed form."""
+        from cqdd_design.solids.inertia import closed_form, gearbox_inertia
+
+        return gearbox_inertia(self.design, self.motor, self.parts, closed_form)
+
+    @cached_property
+    def analysis(self) -> GearboxAnalysis:
+        """Closed forms and checks at the torques of the requirements."""
+        return self.analyse()
+
+    def analyse(self, *, torque: float | None = None, angles: int | None = None) -> GearboxAnalysis:
+        """Closed forms and checks, see `gearbox.analyse_gearbox`."""
+        from cqdd_design.gearbox.analysis import DEFAULT_ANGLES, analyse_gearbox
+
+        return analyse_gearbox(
+            self.design, self.motor, torque=torque, angles=angles or DEFAULT_ANGLES
+        )
+
+    @cached_property
+    def contact(self) -> ContactModel:
+        """What the contact equilibrium needs."""
+        from cqdd_design.gearbox.contact.model import ContactModel
+
+        return ContactModel.from_design(self.design)
+
+    @cached_property
+    def friction(self) -> FrictionMachine:
+        """What friction and losses need."""
+        from cqdd_design.gearbox.losses import FrictionMachine
+
+        support, output = (self._seat_friction(seat) for seat in self.seats)
+        return FrictionMachine.from_design(self.design, support=support, output=output)
+
+    def _seat_friction(self, seat: ChosenBearing) -> BearingFriction:
+        from cqdd_design.gearbox.losses.rolling import BearingFriction
+
+        row = seat.bearing
+        if seat.source == "bush":
+            coefficient = self.design.reducer.friction.pin
+            return BearingFriction.bush(row.bore_diameter, row.width, coefficient)
+        return BearingFriction.of(row)
+
+    @cached_property
+    def losses(self) -> LossModel:
+        """Losses over speed and torque; ContactError where a sweep has no equilibrium."""
+        from cqdd_design.gearbox.losses import loss_model
+
+        return loss_model(self.contact, self.friction, self.design.requirements.peak_torque)
+
+
+def resolve(design: Design, motor: Motor | None = None) -> Machine:
+    """Make a design concrete.
+
+    Parameters
+    ----------
+    design : Design
+    motor : Motor, optional
+        Default the catalogue's row of the design's motor.
+
+    Raises
+    ------
+    GeometryError
+        When the disc or its holes cannot exist and the cam bearing is "auto".
+    InfeasibleError
+        When "auto" finds no bearing that fits.
+    """
+    named = design
+    if design.reducer.cam_bearing.designation == AUTO:
+        # Only a choice needs the loads, and the rooms that find them take long to import.
+        from cqdd_design.machine.cam import named_bearing
+
+        named = named_bearing(design)
+    return Machine(
+        given=design,
+        design=named,
+        cam=find_bearing(named.reducer.cam_bearing.designation),
+        motor=motor or find_motor(design.motor.name),
+    )

@@ -1,0 +1,169 @@
+"""The contact equilibrium in the report: heat maps of load, the worst angle, the rigid law."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cqdd_design.gearbox.loads import RigidMaxima
+from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.report.drawings.outlines import Outlines
+from cqdd_design.report.ink.axes import Axis
+from cqdd_design.report.ink.heat import heat_map
+from cqdd_design.report.ink.numbers import decimals, with_unit
+from cqdd_design.report.ink.svg import (
+    Figure,
+    Point,
+    View,
+    Words,
+    arrow_head,
+    line,
+    part_shape,
+    text,
+)
+
+if TYPE_CHECKING:
+    from cqdd_design.gearbox.contact.sweep import ContactSweep
+    from cqdd_design.machine.contact_analysis import ContactAnalysis
+
+_TURN = Axis(0.0, 360.0, (0.0, 90.0, 180.0, 270.0, 360.0), "crank angle, \u00b0")
+
+
+@dataclass(frozen=True)
+class ContactView:
+    """What the section shows.
+
+    Attributes
+    ----------
+    heat_maps : tuple of Figure
+        One a disc.
+    worst : Figure
+    rows : tuple of (name, rigid law, contact)
+    torque : str
+    preload : str
+        A sentence; empty without interference.
+    """
+
+    heat_maps: tuple[Figure, ...]
+    worst: Figure
+    rows: tuple[tuple[str, str, str], ...]
+    torque: str
+    preload: str
+
+
+def contact_view(analysis: ContactAnalysis, outlines: Outlines, law: RigidMaxima) -> ContactView:
+    """Values of the section; `law` holds the greatest values of the rigid law at its torque."""
+    turn = analysis.crank_turn
+    return ContactView(
+        heat_maps=tuple(_heat_map(turn, disc) for disc in range(turn.model.disc_count)),
+        worst=force_picture(turn, outlines),
+        rows=_rows(analysis, law),
+        torque=with_unit(analysis.sweep.torque, "N*m"),
+        preload=_preload(analysis),
+    )
+
+
+def _heat_map(turn: ContactSweep, disc: int) -> Figure:
+    force = turn.ring_force[:, disc, :].T
+    most = int(turn.teeth_in_contact[:, disc].max())
+    greatest = decimals(float(force.max()), 0)
+    words = Words(
+        f"tooth-load-{disc + 1}",
+        f"Load of every ring tooth, disc {disc + 1}",
+        f"Force of each ring tooth on disc {disc + 1} over one crank turn; at most {greatest} N, "
+        f"on up to {most} teeth together.",
+        f"Greatest {greatest} N; up to {most} teeth carry together.",
+    )
+    names = [str(k + 1) for k in range(len(force))]
+    return heat_map(words, force, names, "ring tooth", _TURN, "N")
+
+
+def force_picture(turn: ContactSweep, outlines: Outlines) -> Figure:
+    """Contact forces on the disc and at the angle of the greatest ring force, true to direction."""
+    at, disc, tooth = map(int, np.unravel_index(turn.ring_force.argmax(), turn.ring_force.shape))
+    angle = float(turn.crank_angle[at])
+    width, centre = 560.0, 280.0
+    view = View(212.0 / (0.5 * outlines.design.reducer.ring.outer_diameter), (centre, centre))
+    body = [
+        part_shape(outlines.ring, view, "ring"),
+        part_shape(outlines.posed_disc(disc, angle), view, "disc-body"),
+        *outlines.pin_shapes(view, angle),
+    ]
+    cam = turn.cam_force[at, disc]
+    load = float(np.hypot(*cam))
+    greatest = max(float(turn.ring_force[at, disc].max()), load, 1e-12)
+    scale = 95.0 / greatest
+    for kind, forces, normals, points in (
+        ("ring", turn.ring_force, turn.ring_normal, turn.ring_point),
+        ("pin", turn.pin_force, turn.pin_normal, turn.pin_point),
+    ):
+        for k, force in enumerate(forces[at, disc].tolist()):
+            if force > 0.0:
+                tip = view.point(points[at, disc, k])
+                body += _arrow(tip, normals[at, disc, k], force, scale, f"force-{kind}")
+    if load > 0.0:
+        tip = view.point(turn.disc_centre[at, disc])
+        body += _arrow(tip, cam / load, load, scale, "force-cam")
+    degrees = math.degrees(angle)
+    shown = greatest if greatest > load else turn.ring_force.max()
+    words = Words(
+        "contact-forces",
+        "Contact forces at the worst angle",
+        f"Forces on disc {disc + 1} at crank angle {degrees:.0f} degrees, where tooth "
+        f"{tooth + 1} carries {shown:.0f} N.",
+        f"Disc {disc + 1} at crank angle {decimals(degrees, 0)}\u00b0, where tooth {tooth + 1} "
+        "carries the greatest force. Arrows are forces on the disc, in N: ring teeth red, output "
+        "pins green, cam bearing violet.",
+    )
+    return words.figure(width, width, body)
+
+
+def _arrow(tip: Point, direction: FloatArray, force: float, scale: float, class_: str) -> list[str]:
+    """An arrow that ends where its force acts, with the force in newtons at its tail."""
+    ux, uy = float(direction[0]), -float(direction[1])
+    length = max(scale * force, 9.0)
+    tail = (tip[0] - length * ux, tip[1] - length * uy)
+    label = (tail[0] - 11.0 * ux, tail[1] - 11.0 * uy + 4.0)
+    shaft = (tip[0] - 6.0 * ux, tip[1] - 6.0 * uy)
+    return [
+        line(tail, shaft, f"force-line {class_}-line"),
+        arrow_head(tip, (ux, uy), f"force {class_}", 10.0),
+        text(label, decimals(force, 0), "force-label", "middle"),
+    ]
+
+
+def _rows(analysis: ContactAnalysis, law: RigidMaxima) -> tuple[tuple[str, str, str], ...]:
+    sweep, back = analysis.sweep, analysis.reversed
+    teeth = sweep.teeth_in_contact
+
+    def row(name: str, rigid: float, key: str, unit: str = "N") -> tuple[str, str, str]:
+        scale = 1e-6 if unit == "MPa" else 1.0
+        found = max(float(getattr(one, key).max()) for one in (sweep, back))
+        return f"greatest {name}", with_unit(scale * rigid, unit), with_unit(scale * found, unit)
+
+    return (
+        row("force at a ring tooth", law.ring_force, "ring_force"),
+        row("Hertz pressure at a ring tooth", law.ring_pressure, "ring_pressure", "MPa"),
+        row("force at an output pin", law.output_pin_force, "pin_force"),
+        row("Hertz pressure at an output pin", law.output_pressure, "pin_pressure", "MPa"),
+        row("load of a cam bearing", law.cam_bearing_load, "cam_load"),
+        ("most loaded disc over the mean", "1", decimals(sweep.uneven_sharing, 3)),
+        (
+            "ring teeth that carry together",
+            "half of them",
+            f"{int(teeth.min())} to {int(teeth.max())}",
+        ),
+    )
+
+
+def _preload(analysis: ContactAnalysis) -> str:
+    if analysis.preload is None:
+        return ""
+    force = decimals(float(analysis.preload.ring_force.max()), 0)
+    return (
+        "The fits are of interference: without any torque the teeth already press with up to "
+        f"{force}\u202fN."
+    )

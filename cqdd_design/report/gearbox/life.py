@@ -1,0 +1,83 @@
+"""Life in the report."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from cqdd_design.report.ink.numbers import NONE, RPM, per_cent, significant, with_unit
+
+if TYPE_CHECKING:
+    from cqdd_design.gearbox.life import LifeResult, PartLife
+
+Judged = tuple[str, bool]
+"""A value as shown, and whether it is long enough."""
+
+
+@dataclass(frozen=True)
+class LifeView:
+    """What the section shows.
+
+    Attributes
+    ----------
+    duty : tuple of (torque, speed, share)
+    assumed : bool
+    required : str
+    rows : tuple of (part, worst place, stress, limit, life, reserve)
+    bearings : tuple of (name, load, life)
+    """
+
+    duty: tuple[tuple[str, str, str], ...]
+    assumed: bool
+    required: str
+    rows: tuple[tuple[str, str, str, str, Judged, str], ...]
+    bearings: tuple[tuple[str, str, Judged], ...]
+
+
+def life_view(result: LifeResult) -> LifeView:
+    """Values of the section."""
+    required, cam = result.required_hours, result.cam
+    loads = cam.equivalent_load
+    hours = cam.hours or (None,) * len(loads)
+    bearings = [
+        (f"{cam.designation}, disc {disc}", with_unit(load, "N"), _bearing(found, required))
+        for disc, (load, found) in enumerate(zip(loads, hours, strict=True), 1)
+    ]
+    if len(loads) > 1 and cam.set_hours is not None:
+        bearings.append(("all of them", "", _bearing(cam.set_hours, required)))
+    return LifeView(
+        duty=tuple(
+            (
+                with_unit(case.torque, "N*m"),
+                f"{significant(case.speed * RPM)} rpm",
+                per_cent(case.share),
+            )
+            for case in result.duty
+        ),
+        assumed=result.assumed,
+        required=with_unit(required, "h"),
+        rows=tuple(_row(part, required) for part in result.parts),
+        bearings=tuple(bearings),
+    )
+
+
+def _bearing(hours: float | None, required: float) -> Judged:
+    return ("unknown", False) if hours is None else (with_unit(hours, "h", 3), hours >= required)
+
+
+def _hours(hours: float | None) -> str:
+    if hours is None:
+        return "no end"
+    return "under an hour" if hours < 1.0 else with_unit(hours, "h", 3)
+
+
+def _row(part: PartLife, required: float) -> tuple[str, str, str, str, Judged, str]:
+    known = part.limit > 0.0
+    return (
+        part.part,
+        part.place,
+        with_unit(part.stress / 1e6, "MPa"),
+        with_unit(part.limit / 1e6, "MPa") if known else "unknown",
+        (_hours(part.hours) if known else "unknown", part.lasts(required)),
+        NONE if part.reserve is None else significant(min(part.reserve, 1e3), 3),
+    )

@@ -1,0 +1,81 @@
+"""Losses in the report: where the power goes, efficiency over speed and torque, backdriving."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from cqdd_design.report.ink.bars import bar_chart
+from cqdd_design.report.ink.heat import labelled_map
+from cqdd_design.report.ink.numbers import NONE, RPM, per_cent, significant, with_unit
+from cqdd_design.report.ink.svg import Figure, Words
+
+if TYPE_CHECKING:
+    from cqdd_design.machine.contact_analysis import ContactAnalysis
+
+
+@dataclass(frozen=True)
+class LossesView:
+    """What the section shows: figures, and rows of (name, value, remark)."""
+
+    figures: tuple[Figure, ...]
+    rows: tuple[tuple[str, str, str], ...]
+
+
+def losses_view(analysis: ContactAnalysis) -> LossesView:
+    """Values of the section."""
+    found, grid, order = analysis.losses, analysis.map, slice(None, None, -1)
+    total = f"{significant(found.total, 3)} W in all"
+    at = f"at {with_unit(found.torque, 'N*m')} and {with_unit(found.input_speed * RPM, 'rpm')}"
+    sources = found.by_source
+    bars = bar_chart(
+        Words(
+            "loss-bars",
+            "Where the power goes",
+            f"Losses by source {at}, {total}.",
+            f"{total} {at} of the input: Coulomb friction, bearings and the shear of the grease; "
+            "no Stribeck curve.",
+        ),
+        [name.replace("_", " ") for name in sources],
+        list(sources.values()),
+        [f"{significant(value, 3)} W" for value in sources.values()],
+    )
+    chart = labelled_map(
+        Words(
+            "efficiency-map",
+            "Forward efficiency",
+            "Forward efficiency of the gearbox over input speed and output torque, in per cent.",
+            "Per cent, the motor driving; the gearbox alone.",
+        ),
+        grid.forward.T[order],
+        [significant(float(t), 3) for t in grid.torque[order]],
+        [significant(float(w) * RPM, 3) for w in grid.input_speed],
+        ("output torque, N\u00b7m", "input speed, rpm"),
+    )
+    return LossesView((bars, chart), _rows(analysis))
+
+
+def _rows(analysis: ContactAnalysis) -> tuple[tuple[str, str, str], ...]:
+    found = analysis.losses
+    back = found.backdrive
+    turns = "the output turns the gearbox" if found.backdrives else "the gearbox holds itself"
+    at_output = "at the output; without motor cogging, seals and preloads"
+    torques = [
+        "does not turn" if torque is None else with_unit(torque, "N*m", 3)
+        for torque in (back.static_torque, back.dynamic_torque)
+    ]
+    return (
+        ("forward efficiency", _share(found.efficiency_forward), "the motor drives"),
+        ("backward efficiency", _share(found.efficiency_backward), f"the output drives; {turns}"),
+        ("backdrive torque, breakaway", torques[0], at_output),
+        ("backdrive torque, running", torques[1], at_output),
+        (
+            "friction's own effect on the tooth forces",
+            _share(found.tooth_force_change),
+            "left out of every other figure",
+        ),
+    )
+
+
+def _share(value: float | None) -> str:
+    return NONE if value is None else per_cent(value, 3)

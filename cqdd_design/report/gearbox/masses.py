@@ -1,0 +1,277 @@
+"""Bill of materials, masses, reflected inertia and balance, from the parts of the machine."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Container
+from dataclasses import dataclass
+
+from cqdd_design.catalog.paper import METRICS, is_papers_actuator
+from cqdd_design.design import Design
+from cqdd_design.errors import CatalogError
+from cqdd_design.exporting.solids.bom import BomRow, bill_of_materials
+from cqdd_design.gearbox.balance import paper_disc_count
+from cqdd_design.machine.weighing import DISC_COUNTS, Bodies
+from cqdd_design.report.ink.numbers import decimals, millimetres, significant, with_unit
+from cqdd_design.report.ink.svg import Figure, Words, line, rectangle, text
+from cqdd_design.report.judgement.check_rows import printed
+from cqdd_design.solids.fits import Fit
+from cqdd_design.solids.inertia import ROTOR, GearboxInertia, PartInertia
+
+_BARE_MOTOR = 0.525
+"""What other sources than the catalogue give for the mass of the paper's motor, bare, kg."""
+
+Row = tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class BodiesView:
+    """What the page shows of parts and inertia.
+
+    Attributes
+    ----------
+    rows : tuple of (part, pieces, designation, material, source, g each, g in all, at the input)
+    total_mass, total_of : str
+        Of everything that is drawn, and what that is.
+    groups : tuple of (group, mass, share, inertia at the input, share)
+    paper : tuple of (quantity, here, in the paper, why)
+        Empty but for the paper's own actuator.
+    reflected : tuple of (name, at the input, remark)
+    balance : tuple of ((discs, static, couple, force, moment), is this design)
+    rule : str
+        What the paper's rule would ask for.
+    chart : Figure
+        Shares of the reflected inertia.
+    notes : tuple of str
+    seats : tuple of (part, seat, diameter, zone, upper, lower)
+        ISO 286 zones of the seats.
+    """
+
+    rows: tuple[Row, ...]
+    total_mass: str
+    total_of: str
+    groups: tuple[Row, ...]
+    paper: tuple[Row, ...]
+    reflected: tuple[Row, ...]
+    balance: tuple[tuple[Row, bool], ...]
+    rule: str
+    chart: Figure
+    notes: tuple[str, ...]
+    seats: tuple[Row, ...]
+
+
+def bodies_view(design: Design, bodies: Bodies) -> BodiesView:
+    """Arrange parts, mass properties and balance of a design for the page."""
+    inertia = bodies.inertia
+    by_name = {part.name: part for part in inertia.parts}
+    beside = is_papers_actuator(design) and not inertia.motor_missing
+    return BodiesView(
+        rows=tuple(
+            _part_row(row, by_name.get(row.part), inertia)
+            for row in bill_of_materials(bodies.inertia.motor, bodies.parts)
+        ),
+        total_mass=with_unit(inertia.total.mass, "kg", 4),
+        total_of="gearbox without motor" if inertia.motor_missing else "actuator",
+        groups=_groups(inertia),
+        paper=_beside_the_paper(design, inertia) if beside else (),
+        reflected=_reflected(inertia),
+        balance=_balance(design, bodies),
+        rule=_rule(design, bodies.balance),
+        chart=_chart(inertia),
+        notes=inertia.warnings,
+        seats=tuple(_seat(part.name, fit) for part in bodies.parts for fit in part.fits),
+    )
+
+
+def _seat(part: str, fit: Fit) -> Row:
+    try:
+        limits = fit.limits
+    except CatalogError:
+        upper = lower = "beyond the table"
+    else:
+        upper, lower = (f"{1e6 * value:+.4g}" for value in (limits.upper, limits.lower))
+    return part, fit.feature, millimetres(fit.diameter, 4), fit.zone, upper, lower
+
+
+def _part_row(row: BomRow, part: PartInertia | None, inertia: GearboxInertia) -> Row:
+    """A line of the bill; a motor that is not drawn has no part, but its rotor has inertia."""
+    reflected = inertia.rotor_inertia if part is None else part.reflected
+    each, whole = row.mass_each_kg, row.mass_total_kg
+    catalogue = row.notes.startswith("mass: catalogue")
+    return (
+        row.part,
+        str(row.quantity),
+        printed(row.designation),
+        row.material,
+        row.make_or_buy,
+        "not known" if each is None else decimals(1e3 * each, 1) + ("*" if catalogue else ""),
+        "" if whole is None else decimals(1e3 * whole, 1),
+        "not known" if reflected is None else _scaled(reflected),
+    )
+
+
+def _groups(inertia: GearboxInertia) -> tuple[Row, ...]:
+    def share(value: float, whole: float) -> str:
+        return f"{decimals(100.0 * value / whole, 1)}\u202f%"
+
+    shares = inertia.group_inertias
+    return tuple(
+        (
+            name,
+            with_unit(1e3 * mass, "g", 4),
+            share(mass, inertia.total.mass),
+            _scaled(shares[name]),
+            share(shares[name], inertia.reflected_input),
+        )
+        for name, mass in inertia.group_masses.items()
+    )
+
+
+def _beside_the_paper(design: Design, inertia: GearboxInertia) -> tuple[Row, ...]:
+    """Mass and inertia beside what the paper prints, with what makes the difference."""
+    paper = {name: figure.value for name, figure in METRICS.items()}
+    groups, shares = inertia.group_masses, inertia.group_inertias
+    mass, whole = inertia.total.mass, inertia.reflected_input
+    rotor, bell = inertia.rotor_inertia or 0.0, shares["bell, cover and encoder"]
+    peak, dense = design.requirements.peak_torque, "\u202fN\u00b7m/kg"
+
+    def inertial(value: float, digits: int = 3) -> str:
+        return significant(1e4 * value, digits)
+
+    fourth = "\u00d7 10\u207b\u2074 kg\u00b7m\u00b2"
+    return (
+        (
+            "mass",
+            with_unit(mass, "kg", 4),
+            with_unit(paper["mass"], "kg", 3),
+            f"{1e3 * (mass - paper['mass']):.0f} g more. The motor is the catalogue's "
+            f"{1e3 * groups['motor']:.0f} g; other sources give {1e3 * _BARE_MOTOR:.0f} g for it "
+            f"bare, which would explain {1e3 * (groups['motor'] - _BARE_MOTOR):.0f} g. Housing, "
+            "bell and cover, whose walls the paper does not print and which are proportioned "
+            "here, weigh "
+            f"{1e3 * (groups['housing'] + groups['bell, cover and encoder']):.0f} g. Discs and "
+            f"ring of steel ({1e3 * groups['discs and ring']:.0f} g) and the bearings are as the "
+            "paper describes them.",
+        ),
+        (
+            "inertia at the input",
+            f"{inertial(whole)} {fourth}",
+            f"{inertial(paper['actuator_inertia'])} {fourth}",
+            f"{inertial(whole - paper['actuator_inertia'])} more. The catalogue's rotor alone has "
+            f"{inertial(rotor)}, an estimate from its size that is above the paper's figure for "
+            f"everything; the bell adds {inertial(bell)} and the gearbox "
+            f"{inertial(whole - shares['motor'] - bell, 2)}. A rotor and bell of together "
+            f"{inertial(paper['actuator_inertia'] - whole + rotor + bell)} would agree.",
+        ),
+        (
+            f"torque density, at the paper's {paper['peak_torque']:g}\u202fN\u00b7m",
+            f"{significant(paper['peak_torque'] / mass, 3)}{dense}",
+            f"{significant(paper['torque_density'], 3)}{dense}",
+            f"follows from the mass; {significant(peak / mass, 3)} at this design's "
+            f"{significant(peak)}\u202fN\u00b7m.",
+        ),
+    )
+
+
+def _scaled(inertia: float) -> str:
+    """An inertia in 1e-6 kg m^2, the unit of the table's column."""
+    return significant(1e6 * inertia, 3)
+
+
+def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
+    def shown(value: float | None) -> str:
+        return "not known" if value is None else significant(1e4 * value, 4)
+
+    estimated = "rotor inertia estimated" in inertia.motor.note
+    printed_there = shown(METRICS["actuator_inertia"].value)
+    return (
+        (
+            "gearbox, at the input",
+            shown(inertia.gearbox_reflected),
+            "all parts but the rotor's ring of magnets",
+        ),
+        (
+            "rotor of the motor",
+            shown(inertia.rotor_inertia),
+            f"{inertia.motor.name}{', an estimate' if estimated else ''}",
+        ),
+        (
+            "together, at the input",
+            shown(inertia.reflected_input),
+            f"the paper prints {printed_there} for its actuator, at the motor",
+        ),
+        (
+            "together, at the output",
+            shown(inertia.reflected_output),
+            f"{inertia.ratio}² times that at the input",
+        ),
+    )
+
+
+def _balance(design: Design, bodies: Bodies) -> tuple[tuple[Row, bool], ...]:
+    reducer, speed = design.reducer, design.requirements.input_speed
+    # What cancels on paper leaves rounding of the sums, which is shown as nothing.
+    throw = bodies.inertia.orbiting_mass * reducer.eccentricity
+    arm = reducer.disc_thickness
+
+    def shown(value: float, scale: float, least: float, digits: int) -> str:
+        return "0" if value < 1e-9 * least else significant(scale * value, digits)
+
+    return tuple(
+        (
+            (
+                str(count),
+                shown(found.static_unbalance, 1e6, throw, 4),
+                shown(found.couple_unbalance, 1e9, throw * arm, 4),
+                shown(found.shaking_force, 1.0, throw * speed**2, 3),
+                shown(found.shaking_moment, 1.0, throw * arm * speed**2, 3),
+            ),
+            count == reducer.disc_count,
+        )
+        for count, found in bodies.balance.items()
+    )
+
+
+def _rule(design: Design, counts: Container[int]) -> str:
+    ratio, count = design.reducer.ratio, design.reducer.disc_count
+    wanted = paper_disc_count(ratio)
+    parity = "even" if ratio % 2 == 0 else "odd"
+    verdict = "as here" if wanted == count else f"this design has {count}"
+    missing = " or ".join(str(number) for number in DISC_COUNTS if number not in counts)
+    without = f" With {missing} of these discs the machine cannot be built." if missing else ""
+    return (
+        f"By the paper's rule an {parity} ratio takes {wanted} discs ({verdict}). It is reported, "
+        "not imposed: two discs balance statically at any ratio, and three leave a couple, too."
+        f"{without}"
+    )
+
+
+_WIDTH, _LEFT, _BAR_END, _PITCH = 860.0, 170.0, 700.0, 25.0
+
+
+def _chart(inertia: GearboxInertia) -> Figure:
+    """Horizontal bars: what each moving part of the gearbox adds at the input."""
+    found = sorted(
+        (p for p in inertia.parts if p.reflected > 0.0 and p.name != ROTOR),
+        key=lambda p: -p.reflected,
+    )
+    height = 14.0 + _PITCH * len(found)
+    body = []
+    for index, part in enumerate(found):
+        y = 8.0 + _PITCH * index
+        width = max((_BAR_END - _LEFT) * part.reflected / found[0].reflected, 1.0)
+        share = part.reflected / inertia.gearbox_reflected
+        pieces = f", {part.count} pieces" if part.count > 1 else ""
+        label = f"{_scaled(part.reflected)} ({decimals(100.0 * share, 1)} %{pieces})"
+        body.append(text((_LEFT - 10.0, y + 14.0), part.name, "name-dark", "end"))
+        body.append(rectangle(_LEFT, y + 2.0, width, 16.0, "share-bar"))
+        body.append(text((_LEFT + width + 8.0, y + 14.0), label, "legend"))
+    body.append(line((_LEFT, 4.0), (_LEFT, height - 4.0), "axis"))
+    total = significant(1e6 * inertia.gearbox_reflected, 4)
+    words = Words(
+        "inertia-chart",
+        "What the gearbox adds at the input",
+        f"Bars of the inertia each part adds at the input; {found[0].name} adds most.",
+        f"In 10⁻⁶ kg·m², of {total} in all; the rotor of the motor is not among them.",
+    )
+    return words.figure(_WIDTH, math.ceil(height), body)

@@ -1,0 +1,193 @@
+"""The machine for the interactive view: one binary glTF with everything that moves it.
+
+Positions are 16-bit steps of the part's own box (glTF extension KHR_mesh_quantization), normals
+bytes, and all pieces of a part share one mesh, so that the file stays small enough to travel inside
+the report. A node stands for a piece; its ``extras`` say what it is, what it moves with, and how
+far it goes when the machine is taken apart. Lengths are in metres, z along the axis as in the
+package: the report's viewer wants no other axis up.
+"""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from cqdd_design.design import Design
+from cqdd_design.exporting.solids import gltf
+from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.report.machine_view.explode import take_apart
+from cqdd_design.report.machine_view.stills import EXPLODED_TILT
+from cqdd_design.solids.cad import MM
+from cqdd_design.solids.mesh import Quality, facets
+from cqdd_design.solids.part import Part
+from cqdd_design.solids.stations import stations
+
+_VENDOR = Path(__file__).parents[1] / "vendor"
+_CHORD = 0.05
+"""Most distance of a facet from the surface, mm."""
+_SMOOTH = np.cos(np.radians(28.0))
+"""Facets that turn by less than this at a vertex share a normal there."""
+_STEPS = 65535
+
+
+@dataclass(frozen=True, eq=False)
+class ViewerData:
+    """What the page needs for the interactive view.
+
+    Attributes
+    ----------
+    glb : bytes
+        Binary glTF 2.0.
+    turns : int
+        Turns of the crank in one turn of the carrier.
+    """
+
+    glb: bytes
+    turns: int
+
+    @cached_property
+    def glb_base64(self) -> str:
+        """The file as text for the page."""
+        return base64.b64encode(self.glb).decode("ascii")
+
+    @property
+    def script(self) -> str:
+        """The vendored viewer."""
+        return (_VENDOR / "machine-viewer.min.js").read_text(encoding="utf-8")
+
+
+def viewer_data(design: Design, parts: Sequence[Part]) -> ViewerData:
+    """The machine at crank angle 0 with its law of motion.
+
+    Parameters
+    ----------
+    design : Design
+    parts : sequence of Part
+        From `build_parts`.
+
+    Returns
+    -------
+    ViewerData
+        The same parts give the same bytes.
+
+    Raises
+    ------
+    GeometryError
+        When a part's mesh is not closed.
+    DependencyError
+        When CadQuery is not usable.
+    """
+    found = stations(parts)
+    apart = take_apart(found, EXPLODED_TILT)
+    shifts = {
+        piece.name: shift
+        for station, shift in zip(found, apart.shifts, strict=True)
+        for piece in station.pieces
+    }
+    buffer = gltf.Buffer()
+    meshes, materials, boxes = [], [], []
+    for index, part in enumerate(parts):
+        primitive, box = _primitive(part, index, buffer)
+        meshes.append({"name": part.name, "primitives": [primitive]})
+        boxes.append(box)
+        materials.append(gltf.material(part, *_finish(part)))
+    nodes: list[dict[str, Any]] = [
+        {
+            "name": design.name,
+            "extras": {
+                "ratio": design.reducer.ratio,
+                "eccentricity": design.reducer.eccentricity,
+                "discCount": design.reducer.disc_count,
+            },
+        }
+    ]
+    for index, part in enumerate(parts):
+        low, step = boxes[index]
+        metalness, roughness = _finish(part)
+        for piece in part.instances:
+            extras: dict[str, Any] = {
+                "part": part.name,
+                "name": piece.name,
+                "material": part.material,
+                "designation": part.designation,
+                "body": piece.body.kind,
+                "explode": round(shifts[piece.name], 6),
+                "placement": (np.round(piece.placement, 12) + 0.0).T.ravel().tolist(),
+                "metalness": metalness,
+                "roughness": roughness,
+                # Bearings and what is bought stay without hatching when they are cut.
+                "hatch": 0.0 if part.source == "buy" or part.inner_body else _hatch(parts),
+                "slope": 1.0 if index % 2 == 0 else -1.0,
+            }
+            if piece.body.kind == "disc":
+                extras["disc"] = piece.body.disc
+            nodes.append(
+                {
+                    "name": piece.name,
+                    "mesh": index,
+                    "translation": low.tolist(),
+                    "scale": [step, step, step],
+                    "extras": extras,
+                }
+            )
+    content = gltf.scene(
+        design, nodes, meshes, materials, buffer, extensions=["KHR_mesh_quantization"]
+    )
+    return ViewerData(content, design.reducer.ratio)
+
+
+def _hatch(parts: Sequence[Part]) -> float:
+    """Distance of hatching lines, m: about fifty across the machine."""
+    return round(max(part.shape.outside_radius for part in parts) / 25.0, 5)
+
+
+def _finish(part: Part) -> tuple[float, float]:
+    """Metalness and roughness: everything is metal, ground and bought pieces shine more."""
+    if part.source == "buy" or part.inner_body is not None:
+        return 0.6, 0.32
+    return 0.35, 0.45
+
+
+def _primitive(
+    part: Part, material: int, buffer: gltf.Buffer
+) -> tuple[dict[str, Any], tuple[FloatArray, float]]:
+    """The mesh of a part; and the lowest corner (m) and the size of a step (m) of its box."""
+    quality = Quality(min(2e-3, _CHORD / (part.shape.outside_radius * MM)), 0.35)
+    mesh = facets(part, quality)
+    vertices = mesh.vertices / MM
+    low = vertices.min(axis=0)
+    step = float((vertices.max(axis=0) - low).max()) / _STEPS
+    steps = np.round((vertices - low) / step).astype("<u2")
+    normals = np.round(127.0 * _normals(mesh.vertices, mesh.triangles)).astype("i1")
+    triangles = mesh.triangles.ravel()
+    primitive = {
+        "attributes": {
+            "POSITION": buffer.add(steps, bounds=True),
+            "NORMAL": buffer.add(normals, normalized=True),
+        },
+        # As narrow as their number allows.
+        "indices": buffer.add(triangles.astype("<u2" if triangles.max() < _STEPS else "<u4")),
+        "material": material,
+    }
+    return primitive, (np.round(low, 12) + 0.0, step)
+
+
+def _normals(vertices: FloatArray, triangles: np.ndarray) -> FloatArray:
+    """Unit normals (v, 3), the same on both sides of a smooth seam between faces."""
+    own = gltf.vertex_normals(vertices, triangles)
+    keys = np.round(vertices * 1e4).astype(np.int64)
+    _, place = np.unique(keys, axis=0, return_inverse=True)
+    order = np.argsort(place, kind="stable")
+    starts = np.flatnonzero(np.diff(place[order].ravel(), prepend=-1))
+    joined = own.copy()
+    for rows in np.split(order.ravel(), starts[1:]):
+        if len(rows) > 1:
+            alike = own[rows] @ own[rows].T > _SMOOTH
+            joined[rows] = alike @ own[rows]
+    return gltf.unit(joined)

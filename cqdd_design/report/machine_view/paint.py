@@ -1,0 +1,186 @@
+"""SVG of projected machines: path data, silhouettes, and one paint box for all pictures."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.report.ink.svg import element, fixed
+from cqdd_design.report.machine_view.camera import Camera
+from cqdd_design.report.machine_view.surfaces import Patch
+from cqdd_design.solids.hidden_lines import VisibleLines
+from cqdd_design.solids.stations import Posed
+
+if TYPE_CHECKING:
+    from manifold3d import Manifold
+
+_DECIMALS = 1
+"""Of px: a twentieth of a px is finer than any screen shows."""
+_SMALL = 0.02
+"""Outlines simpler than the drawing can show, mm."""
+
+_FINE = 0.16
+"""Points this near to the line without them are left out, px."""
+
+INK = "#17212b"
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """The map from the camera's page (mm, y up) to a figure (px, y down).
+
+    Attributes
+    ----------
+    scale : float
+        px per mm.
+    left, top : float
+        What lies in the figure's upper left corner, mm.
+    """
+
+    scale: float
+    left: float
+    top: float
+
+    def px(self, points: FloatArray) -> FloatArray:
+        """Points (..., 2) in px."""
+        return np.stack(
+            [self.scale * (points[..., 0] - self.left), self.scale * (self.top - points[..., 1])],
+            axis=-1,
+        )
+
+
+def path_data(lines: Iterable[FloatArray], sheet: Sheet, *, closed: bool) -> str:
+    """Path data of chains (k, 2) in mm, with relative steps and no more points than show."""
+    pieces = []
+    for line in lines:
+        grid = np.round(thinned(sheet.px(line)) * 10**_DECIMALS).astype(np.int64)
+        keep = np.ones(len(grid), dtype=bool)
+        keep[1:] = (np.diff(grid, axis=0) != 0).any(axis=1)
+        grid = grid[keep]
+        if len(grid) < 2:
+            continue
+        steps = " ".join(_tenths(step) for step in np.diff(grid, axis=0))
+        pieces.append(f"M{_tenths(grid[0])}l{steps}{'Z' if closed else ''}")
+    return "".join(pieces)
+
+
+def thinned(points: FloatArray) -> FloatArray:
+    """A chain (k, 2) in px without the points that the eye would not miss (Douglas-Peucker)."""
+    keep = np.zeros(len(points), dtype=bool)
+    keep[[0, -1]] = True
+    spans = [(0, len(points) - 1)]
+    while spans:
+        first, last = spans.pop()
+        if last - first < 2:
+            continue
+        chord = points[last] - points[first]
+        length = float(np.hypot(*chord))
+        away = points[first + 1 : last] - points[first]
+        if length < _FINE:
+            distance = np.hypot(*away.T)
+        else:
+            distance = np.abs(away[:, 0] * chord[1] - away[:, 1] * chord[0]) / length
+        worst = int(distance.argmax())
+        if distance[worst] > _FINE:
+            keep[first + 1 + worst] = True
+            spans += [(first, first + 1 + worst), (first + 1 + worst, last)]
+    return points[keep]
+
+
+def _tenths(pair: np.ndarray) -> str:
+    return " ".join(fixed(int(value) / 10**_DECIMALS, _DECIMALS) for value in pair)
+
+
+def painted(patches: Sequence[Patch], sheet: Sheet) -> str:
+    """Patches as filled paths; walls have a hair of their own colour round them against seams."""
+    found = []
+    for patch in patches:
+        data = path_data(patch.loops, sheet, closed=True)
+        if data:
+            found.append(
+                element("path", d=data, color=patch.fill, stroke="none" if patch.flat else None)
+            )
+    if not found:
+        return ""
+    return element(
+        "g",
+        *found,
+        fill="currentColor",
+        stroke="currentColor",
+        stroke_width="0.5",
+        fill_rule="evenodd",
+    )
+
+
+def drawn(lines: VisibleLines, sheet: Sheet) -> str:
+    """Visible lines: sharp edges thin, the limbs of round surfaces a little stronger."""
+    return stroked(lines.edges, sheet, 0.7) + stroked(lines.outlines, sheet, 0.9)
+
+
+def stroked(
+    lines: Iterable[FloatArray], sheet: Sheet, width: float, *, closed: bool = False
+) -> str:
+    """Chains as one unfilled path."""
+    data = path_data(lines, sheet, closed=closed)
+    if not data:
+        return ""
+    return element(
+        "path",
+        d=data,
+        fill="none",
+        stroke=INK,
+        stroke_width=fixed(width),
+        stroke_linejoin="round",
+        stroke_linecap="round",
+    )
+
+
+def silhouette(pieces: Sequence[Posed], camera: Camera) -> tuple[FloatArray, ...]:
+    """Closed outlines (k, 2) of what some pieces cover together on the page, mm."""
+    from manifold3d import CrossSection, FillRule, OpType
+
+    shadows = []
+    for piece in pieces:
+        solid = solid_of(piece.vertices @ camera.matrix.T, piece.triangles)
+        shadows.append(CrossSection(solid.project().to_polygons(), FillRule.Positive))
+    joined = CrossSection.batch_boolean(shadows, OpType.Add).simplify(_SMALL)
+    return tuple(np.asarray(loop) for loop in joined.to_polygons())
+
+
+def solid_of(vertices: FloatArray, triangles: np.ndarray) -> Manifold:
+    """A closed mesh (v, 3), (t, 3) for cuts and shadows."""
+    from manifold3d import Manifold, Mesh
+
+    return Manifold(Mesh(vertices.astype(np.float32), triangles.astype(np.uint32)))
+
+
+def bounds(loops: Iterable[FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Lowest and highest coordinates (2,) of some chains."""
+    points = np.concatenate(list(loops))
+    return points.min(axis=0), points.max(axis=0)
+
+
+def titled(name: str, *children: str) -> str:
+    """A group that shows a name under the pointer."""
+    return element("g", element("title", html.escape(name)), *children)
+
+
+def visible_parts(
+    outlines: Sequence[tuple[FloatArray, ...]],
+) -> list[tuple[FloatArray, ...]]:
+    """What stays visible of outlines that are painted one over the other, in order."""
+    from manifold3d import CrossSection, FillRule
+
+    cover = CrossSection()
+    found: list[tuple[FloatArray, ...]] = []
+    for loops in reversed(outlines):
+        own = CrossSection([*loops], FillRule.Positive)
+        rest = (own - cover).offset(-0.4).simplify(_SMALL)
+        found.append(tuple(np.asarray(loop) for loop in rest.to_polygons()))
+        cover = cover + own
+    return found[::-1]

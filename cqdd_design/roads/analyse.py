@@ -1,0 +1,83 @@
+"""Everything a gearbox says about itself at one operating point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cqdd_design.design import Design
+from cqdd_design.errors import ContactError
+from cqdd_design.gearbox import GearboxAnalysis
+from cqdd_design.gearbox.contact.laws import LineModel
+from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
+
+
+@dataclass(frozen=True, eq=False)
+class Analysis:
+    """Closed forms of a gearbox, and its contact equilibrium.
+
+    Attributes
+    ----------
+    machine : Machine
+    gearbox : GearboxAnalysis
+    contact : ContactAnalysis or None
+        None for a gearbox that cannot carry the torque.
+    missing : str
+        Why there is none.
+    """
+
+    machine: Machine
+    gearbox: GearboxAnalysis
+    contact: ContactAnalysis | None
+    missing: str
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What was not checked or cannot be relied on."""
+        if self.contact is None:
+            return (*self.gearbox.warnings, f"no contact analysis: {self.missing}")
+        return (*self.gearbox.warnings, *self.contact.warnings)
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form (``results`` of ``analyse``)."""
+        if self.contact is None:
+            absent = dict.fromkeys(("contact", "precision", "losses", "life"))
+            return self.gearbox.to_dict() | absent
+        return self.gearbox.to_dict() | self.contact.to_dict()
+
+
+def analyse(
+    design: Design,
+    *,
+    torque: float | None = None,
+    speed: float | None = None,
+    angles: int,
+    line_model: LineModel = "palmgren",
+) -> Analysis:
+    """Analyse a design; one that cannot carry the torque as far as closed forms go.
+
+    Parameters
+    ----------
+    design : Design
+    torque : float, optional
+        At the output, N m; see `analyse_contact`.
+    speed : float, optional
+        Input speed, rad/s; default that of the requirements.
+    angles : int
+        Crank angles over a period.
+    line_model : {"palmgren", "johnson", "linear"}
+        Approach of teeth and pins.
+
+    Raises
+    ------
+    GeometryError
+        When disc, ring or holes cannot exist.
+    """
+    asked = design if speed is None else design.replacing({"requirements.input_speed": speed})
+    machine = resolve(asked)
+    gearbox = machine.analyse(torque=torque, angles=angles)
+    try:
+        contact = analyse_contact(machine, torque=torque, angles=angles, line_model=line_model)
+    except ContactError as error:
+        return Analysis(machine, gearbox, None, error.message)
+    return Analysis(machine, gearbox, contact, "")

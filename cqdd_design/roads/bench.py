@@ -1,0 +1,133 @@
+"""Measure the actuator of a design on the virtual test bench."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from cqdd_design.actuator.bench import BenchResult, run_bench
+from cqdd_design.actuator.bench.run import VOLTAGE
+from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.comparison import ComparedActuator, compare_actuators, present_actuator
+from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
+from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
+from cqdd_design.catalog.paper import is_papers_actuator
+from cqdd_design.design import Design
+from cqdd_design.errors import CqddError
+from cqdd_design.files import WrittenFile, ensure_folder, refuse_overwrite, write_with
+from cqdd_design.machine import Machine
+from cqdd_design.roads.telling import Progress, silent
+
+#: Toleranced gearboxes whose mean ripple is the bench's.
+RIPPLE_DRAWS = 6
+
+#: Tooth meshes of an output turn up to which gearboxes are drawn for the ripple: their equilibrium
+#: takes half a second each here, and tens of seconds with 24 lobes.
+MOST_DRAWN_MESHES = 200
+
+
+def bench(
+    design: Design,
+    specimen: Specimen = AS_DRAWN,
+    *,
+    only: tuple[str, ...] = (),
+    voltage: float | None = None,
+    progress: Progress = silent,
+) -> BenchResult:
+    """Measure the actuator of a design on the virtual test bench.
+
+    Parameters
+    ----------
+    design : Design
+    specimen : Specimen
+        Without a seed perfect parts are measured, and their ripple is that of drawn ones.
+    only : tuple of str
+        Names of measurements; default all.
+    voltage : float, optional
+        Supply of the dynamic rows, V; default the paper's 24 V.
+    progress : callable
+        Told what is measured next.
+    """
+    return measure(specimen.machine(design), specimen, only, voltage, progress)[1]
+
+
+def measure(
+    machine: Machine,
+    specimen: Specimen,
+    only: tuple[str, ...] = (),
+    voltage: float | None = None,
+    progress: Progress = silent,
+) -> tuple[ActuatorParameters, BenchResult]:
+    """Parameters of a machine's actuator, and what the bench measures on it; see `bench`."""
+    parameters = actuator_parameters(machine, specimen)
+    rippling = specimen.seed is None and (not only or "torque_ripple" in only)
+    return parameters, run_bench(
+        parameters,
+        rated_current=machine.motor.rated_current,
+        voltage=VOLTAGE if voltage is None else voltage,
+        only=only,
+        beside_paper=is_papers_actuator(machine.given),
+        drawn=drawn_actuators(machine, specimen) if rippling else (),
+        progress=progress,
+    )
+
+
+def drawn_actuators(machine: Machine, specimen: Specimen) -> list[ActuatorParameters]:
+    """Actuators with gearboxes drawn from the tolerances, for the ripple of a usual one."""
+    lobes = machine.design.reducer.ratio
+    if lobes * (lobes + 1) > MOST_DRAWN_MESHES:
+        return []
+    seeds = range(RIPPLE_DRAWS)
+    return [actuator_parameters(machine, replace(specimen, seed=seed)) for seed in seeds]
+
+
+def measured_actuator(
+    machine: Machine, specimen: Specimen = AS_DRAWN
+) -> tuple[tuple[ActuatorParameters, BenchResult] | None, str]:
+    """Parameters and measurements of a machine's actuator, or a sentence on why there are none."""
+    try:
+        return measure(machine, specimen), ""
+    except CqddError as error:
+        return None, f"The actuator of this design cannot be simulated: {error.message}"
+
+
+def compared_actuators(
+    design: Design, result: BenchResult, more: Sequence[str] = ()
+) -> tuple[ComparedActuator, ...]:
+    """The paper's table of actuators with a measured design as a column, and catalogue rows.
+
+    Raises
+    ------
+    CatalogError
+        For a name that is no geared actuator of the catalogue.
+    """
+    peak, mass = result.value("peak_torque"), result.value("mass")
+    own = None
+    if peak is not None and mass is not None:
+        efficiency = result.value("efficiency_peak")
+        own = present_actuator(design.name, design.reducer.ratio, peak, mass, efficiency)
+    return compare_actuators(own, more)
+
+
+def write_traces(
+    result: BenchResult, folder: Path, *, force: bool = False
+) -> tuple[WrittenFile, ...]:
+    """Write the trace of every measurement as ``<name>-<measurement>.npz``, columns with units."""
+    import numpy as np
+
+    ensure_folder(folder)
+    files = []
+    for metric in result.metrics:
+        if not metric.trace:
+            continue
+        path = folder / f"{result.name}-{metric.name.replace('_', '-')}.npz"
+        refuse_overwrite(path, force=force)
+        columns = dict(metric.trace)
+
+        def write(place: Path, columns: dict[str, FloatArray] = columns) -> None:
+            with place.open("wb") as stream:
+                np.savez(stream, allow_pickle=False, **columns)
+
+        files.append(write_with(path, "npz", write))
+    return tuple(files)

@@ -1,0 +1,99 @@
+"""Judge a design by every check; where asked, turn its solids through a revolution too."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
+from cqdd_design.design import Design
+from cqdd_design.gearbox.checks.guide import check_guide
+from cqdd_design.results import Check
+
+if TYPE_CHECKING:
+    from cqdd_design.solids.clearances import AssemblyMotion
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """What the checks say of a design.
+
+    Attributes
+    ----------
+    checks : tuple of Check
+    warnings : tuple of str
+        What could not be checked, and why.
+    motion : AssemblyMotion or None
+        What a revolution of the output showed, where it was asked for.
+    """
+
+    checks: tuple[Check, ...]
+    warnings: tuple[str, ...]
+    motion: AssemblyMotion | None = None
+
+
+def check(
+    design: Design,
+    specimen: Specimen = AS_DRAWN,
+    *,
+    assembly_angles: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Judgement:
+    """Judge a design.
+
+    Parameters
+    ----------
+    design : Design
+    specimen : Specimen
+        Whose motor is judged.
+    assembly_angles : int, optional
+        Crank angles at which all solids are looked at for collisions; default not at all.
+    progress : callable, optional
+        Told how many of these angles are done, and of how many.
+
+    Raises
+    ------
+    GeometryError
+        When disc, ring or holes cannot exist, or, looked at as solids, the parts.
+    """
+    machine = specimen.machine(design)
+    found = machine.analysis
+    if assembly_angles is None:
+        return Judgement(found.checks, found.warnings)
+    from cqdd_design.solids.clearances import assembly_motion, output_revolution
+
+    motion = assembly_motion(
+        machine.design,
+        machine.parts,
+        output_revolution(machine.design, assembly_angles),
+        progress=progress,
+    )
+    return Judgement((*found.checks, assembly_check(motion)), found.warnings, motion)
+
+
+def assembly_check(motion: AssemblyMotion) -> Check:
+    """The check ``ASSEMBLY-CLEAR`` of what a revolution showed."""
+    guide = check_guide("ASSEMBLY-CLEAR")
+    remedy, found = "", f"{motion.pairs} pairs of solids at {motion.angles} crank angles"
+    if motion.collisions:
+        worst = motion.collisions[0]
+        found = (
+            f"{worst.first} and {worst.second} share {worst.volume * 1e9:.3g} mm3 at "
+            f"{math.degrees(worst.crank_angle):.4g} deg"
+        )
+        remedy = f"Give {worst.first} and {worst.second} {worst.thickness * 1e6:.3g} um more room."
+    return Check(
+        id=guide.id,
+        title=guide.title,
+        value=float(len({(one.first, one.second) for one in motion.collisions})),
+        limit=0.0,
+        unit=guide.unit,
+        sense=guide.sense,
+        formula=guide.formula,
+        substituted=found,
+        why=guide.why,
+        remedy=remedy,
+        source=guide.source,
+    )

@@ -1,0 +1,131 @@
+"""One self-contained HTML file about a design, from everything that can be computed of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
+from cqdd_design.design import Design
+from cqdd_design.errors import ContactError, UsageError
+from cqdd_design.files import WrittenFile, refuse_overwrite, write_atomically
+from cqdd_design.gearbox import GearboxAnalysis
+from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
+from cqdd_design.machine import Machine
+from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
+from cqdd_design.machine.weighing import weigh_if_possible
+from cqdd_design.report import ReportInput, build_report, read_comments
+from cqdd_design.report.machine_view.apart import start_drawing
+from cqdd_design.roads.bench import measured_actuator
+from cqdd_design.roads.telling import Progress, provenance, silent
+from cqdd_design.sizing import SizingResult
+from cqdd_design.sizing.comparison import compare_with_planetary
+
+#: How often `write_report` tells its progress.
+REPORT_STAGES = 6
+
+#: Toleranced gearboxes of a report, fewer of those with many teeth: percentiles to a few per
+#: cent in some seconds, and never too few for a ranking.
+REPORT_SAMPLES, LEAST_REPORT_SAMPLES = 400, 128
+_REPORT_ANGLES = 1000
+
+
+def write_report(
+    design: Design,
+    path: Path | None = None,
+    *,
+    specimen: Specimen = AS_DRAWN,
+    source: Path | None = None,
+    sizing: SizingResult | None = None,
+    files: tuple[WrittenFile, ...] = (),
+    samples: int = REPORT_SAMPLES,
+    force: bool = False,
+    progress: Progress = silent,
+) -> tuple[WrittenFile, GearboxAnalysis]:
+    """Write the report of a design.
+
+    Parameters
+    ----------
+    design : Design
+    path : Path, optional
+        Default ``reports/NAME.html``, whose file is this function's own and is replaced.
+    specimen : Specimen
+        Which actuator is meant.
+    source : Path, optional
+        The design's file, whose comments tell where values come from.
+    sizing : SizingResult, optional
+        Where the design has been found in the same run.
+    files : tuple of WrittenFile
+        Written in the same run, to be listed.
+    samples : int
+        Toleranced gearboxes to draw; 0 leaves the section out.
+    force : bool
+        Replace an existing file that was named.
+    progress : callable
+        Told in a few words what begins.
+
+    Returns
+    -------
+    WrittenFile, GearboxAnalysis
+        The report, and the analysis it shows.
+    """
+    target = path or Path("reports") / f"{design.name}.html"
+    refuse_overwrite(target, force=force or path is None)
+    progress("analysing loads and the planetary")
+    machine = specimen.machine(design)
+    analysis = machine.analysis
+    bodies, notes = weigh_if_possible(machine)
+    drawing = start_drawing(machine) if bodies else None
+    contact, ensemble, unsolved = _contact_and_tolerances(machine, samples, progress)
+    progress("measuring the actuator on the test bench")
+    measured, unmeasured = measured_actuator(machine, specimen)
+    progress("drawing the machine")
+    pictures = None if drawing is None else drawing.fetch()
+    if isinstance(pictures, str):
+        notes, pictures = (*notes, pictures), None
+    results = ReportInput(
+        machine=machine,
+        gearbox=analysis,
+        planetary=compare_with_planetary(machine),
+        provenance=provenance(design),
+        comments={} if source is None else read_comments(source),
+        bodies=bodies,
+        notes=(*specimen.remarks, *notes, *unsolved),
+        sizing=sizing,
+        files=files,
+        contact=contact,
+        tolerance=ensemble,
+        pictures=pictures,
+        bench=measured,
+        bench_missing=unmeasured,
+    )
+    progress("writing the report")
+    return write_atomically(target, build_report(results), "report"), analysis
+
+
+def _contact_and_tolerances(
+    machine: Machine, samples: int, progress: Progress
+) -> tuple[ContactAnalysis | None, ToleranceResult | None, tuple[str, ...]]:
+    """Contact analysis and ensemble of a machine, or sentences on why there are none."""
+    progress("solving the contact equilibrium")
+    try:
+        contact = analyse_contact(machine)
+    except ContactError as error:
+        return None, None, (f"no contact analysis: {error.message}",)
+    progress("solving toleranced gearboxes")
+    if not samples:
+        return contact, None, contact.warnings
+    ratio = machine.design.reducer.ratio
+    # Eight angles a tooth as in `tolerance`, down to two where there are many teeth.
+    per_tooth = min(max(_REPORT_ANGLES // (ratio * (ratio + 1)), 2), 8)
+    angles = per_tooth * ratio * (ratio + 1)
+    fitting = samples * _REPORT_ANGLES // max(angles, _REPORT_ANGLES)
+    try:
+        ensemble = run_ensemble(
+            make_ensemble(machine.design, angles=angles),
+            max(fitting, min(samples, LEAST_REPORT_SAMPLES)),
+        )
+    except (ContactError, UsageError) as error:
+        return contact, None, (*contact.warnings, f"no tolerances: {error.message}")
+    if ensemble.interrupted:
+        raise KeyboardInterrupt
+    return contact, ensemble, contact.warnings

@@ -1,0 +1,167 @@
+"""The whole road in one call: requirements to a checked design file, its exports, its report."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+
+from cqdd_design.actuator.motor_file import MotorFile
+from cqdd_design.actuator.specimen import Specimen
+from cqdd_design.catalog.motors import find_motor
+from cqdd_design.design import Design, Requirements, save_design
+from cqdd_design.errors import UsageError
+from cqdd_design.exporting import export, stages
+from cqdd_design.files import WrittenFile, atomic_path, describe_file, refuse_overwrite
+from cqdd_design.roads.telling import Progress, silent
+from cqdd_design.sizing import SizingResult, size
+
+#: How often sizing tells its progress.
+SIZING_STAGES = 2
+
+_STAMP = "# `size` replaces this file only while the lines above have this sha256: "
+
+
+@dataclass(frozen=True)
+class Road:
+    """A sized gearbox with its files.
+
+    Attributes
+    ----------
+    sizing : SizingResult
+    design : Design
+        The sized design under the name of its file.
+    files : tuple of WrittenFile
+        The design file first, then exports, then the report.
+    """
+
+    sizing: SizingResult
+    design: Design
+    files: tuple[WrittenFile, ...]
+
+
+def size_and_write(
+    requirements: Requirements,
+    path: Path | None = None,
+    *,
+    motor: MotorFile | None = None,
+    kinds: tuple[str, ...] = (),
+    report: bool = False,
+    force: bool = False,
+    progress: Progress = silent,
+) -> Road:
+    """Go the whole road: size, check, write the design, export, report.
+
+    Parameters
+    ----------
+    requirements : Requirements
+    path : Path, optional
+        The design file; default ``designs/sized-N.toml``, this function's own, which is replaced
+        unless it has been edited since. Its stem names the design, and so the default places of
+        exports and report.
+    motor : MotorFile, optional
+        What a file says of the required motor instead of the catalogue.
+    kinds : tuple of str
+        Kinds of file to export.
+    report : bool
+        Whether to write the report.
+    force : bool
+        Replace an existing design file that was named, or edited.
+    progress : callable
+        Told in a few words what begins, `road_stages` times.
+
+    Raises
+    ------
+    InfeasibleError
+        When no design meets the requirements; the message names the limits that bind.
+    """
+    target = path or Path("designs") / f"sized-{requirements.ratio}.toml"
+    if path is not None:
+        refuse_overwrite(target, force=force)
+    elif not force:
+        _refuse_edited(target)
+    row = None
+    if motor is not None:
+        # Whoever gives a motor's data asks for that motor.
+        requirements = requirements.model_copy(update={"motor": requirements.motor})
+        row = motor.row(find_motor(requirements.motor))
+    sizing = size(requirements, progress, motor=row)
+    # Both are written to the file even where they equal their defaults.
+    design = sizing.design.replacing({"schema_version": 1, "name": target.stem})
+    specimen = Specimen(motor=motor)
+    files: tuple[WrittenFile, ...] = (_write_fresh(target, design),)
+    if kinds:
+        files += export(specimen.machine(design), kinds, specimen=specimen, progress=progress)
+    if report:
+        # It computes everything there is, and imports as much.
+        from cqdd_design.roads.report import write_report
+
+        written, _ = write_report(
+            design, specimen=specimen, source=target, sizing=sizing, files=files, progress=progress
+        )
+        files += (written,)
+    return Road(sizing, design, files)
+
+
+def road_stages(kinds: tuple[str, ...], *, report: bool) -> int:
+    """How often `size_and_write` tells its progress."""
+    if not report:
+        return SIZING_STAGES + stages(kinds)
+    from cqdd_design.roads.report import REPORT_STAGES
+
+    return SIZING_STAGES + stages(kinds) + REPORT_STAGES
+
+
+def _refuse_edited(path: Path) -> None:
+    """Raise where a file of this name holds work that is not `size`'s own."""
+    try:
+        above, stamp, told = path.read_bytes().rpartition(_STAMP.encode())
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise UsageError(f"cannot read {path}: {error.strerror}.") from error
+    if not stamp or told.strip() != _digest(above).encode():
+        raise UsageError(
+            f"{path} has been edited since `size` wrote it; add --force to replace it, or choose "
+            "another place with --out."
+        )
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
+
+
+def _write_fresh(path: Path, design: Design) -> WrittenFile:
+    """Write a design file anew, with its stamp: a former one leaves no comments behind."""
+    with atomic_path(path) as temporary:
+        temporary.unlink()
+        save_design(temporary, design, comments=_origins(design))
+        content = temporary.read_bytes()
+        temporary.write_bytes(content + f"{_STAMP}{_digest(content)}\n".encode())
+    return describe_file(path, "design")
+
+
+#: Reducer keys that sizing takes over from the requirements.
+_TAKEN_OVER = {
+    "reducer.ratio": "ratio",
+    "reducer.disc_count": "disc_count",
+    "reducer.disc_material": "disc_material",
+    "reducer.ring_material": "ring_material",
+    "reducer.output_pins.material": "pin_material",
+    "reducer.ring.outer_diameter": "outer_diameter",
+    "motor.name": "motor",
+}
+
+
+def _origins(design: Design) -> dict[str, str]:
+    """A remark for every key of a sized design that is written: where its value comes from."""
+    remarks = {}
+    for key in design.dotted_keys():
+        if key.startswith("requirements."):
+            remarks[key] = "given"
+        elif key in _TAKEN_OVER:
+            wanted = f"requirements.{_TAKEN_OVER[key]}"
+            remarks[key] = "assumed" if wanted in design.assumed else "given"
+        elif key.startswith("reducer."):
+            remarks[key] = "sized"
+    return remarks

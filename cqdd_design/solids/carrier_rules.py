@@ -1,0 +1,142 @@
+"""The rules of the output carrier: pins in plate and cap, and the plate's heights and seats."""
+
+from __future__ import annotations
+
+import math
+
+from cqdd_design.design import Design
+from cqdd_design.errors import GeometryError
+from cqdd_design.solids.layout import CarrierLayout, PackLayout
+from cqdd_design.solids.selection import ChosenBearing, OutputPin, thread_size
+
+
+def pin_wall(diameter: float, unit: float) -> float:
+    """Material of the cap around a pin or its counterbore, m."""
+    return max(unit, 0.375 * diameter)
+
+
+def counterbore_radius(pin: OutputPin, unit: float) -> float:
+    """Radius of the counterbore for a pin's head, m; that of the pin for a dowel."""
+    if pin.screw is None:
+        return 0.5 * pin.nominal_diameter
+    return 0.5 * pin.head_diameter + 0.25 * unit
+
+
+def lay_out_carrier(
+    design: Design,
+    pin: OutputPin,
+    pack: PackLayout,
+    support: ChosenBearing,
+    output: ChosenBearing,
+    core: float,
+    unit: float,
+    most_shoulder: float,
+) -> CarrierLayout:
+    """Lay out plate, cap, nut and pins around the pack of discs.
+
+    Parameters
+    ----------
+    design : Design
+    pin : OutputPin
+    pack : PackLayout
+    support, output : ChosenBearing
+        Of shaft and carrier.
+    core : float
+        Radius of the shaft's core, m.
+    unit : float
+        A millimetre at the scale of this machine, m.
+    most_shoulder : float
+        Room for the plate's shoulder inside the ring clamp, radius, m.
+
+    Raises
+    ------
+    GeometryError
+        When the pins leave no room for the plate inside the ring.
+    """
+    pins = design.reducer.output_pins
+    circle, diameter = pins.circle_radius, pins.diameter
+    wall = pin_wall(diameter, unit)
+    both = pins.support == "both"
+    counterbore = counterbore_radius(pin, unit)
+    most_outer = pack.ledge_radius - 0.4 * unit
+    # A catalogue head may be too large for a dense pin circle; ground dowels always fit.
+    crowded = 2.0 * circle * math.sin(math.pi / pins.count) < 2.0 * counterbore + 0.4 * unit
+    inward = circle - counterbore - core < unit
+    outward = circle + counterbore + 0.4 * unit > most_outer
+    if crowded or inward or outward:
+        pin = pin.as_dowel()
+    if pin.screw is None:
+        counterbore = 0.0
+    around = max(counterbore, 0.5 * diameter)
+
+    bottom = pack.top + pack.gap
+    span = bottom + pack.gap
+    register, web = _seat_depths(pin, span, both, unit)
+    shoulder_bottom = -pack.gap - web
+    cap_bottom = shoulder_bottom - pin.head_height if both else -pack.gap
+    lowest = min(cap_bottom, shoulder_bottom - pin.head_height)
+
+    clamp = max(2.5 * unit, pack.gap + 1.5 * unit)
+    shoulder = min(output.shoulder_radius, most_shoulder)
+    if shoulder < 0.5 * output.bearing.bore_diameter + 0.05 * unit:
+        raise GeometryError(
+            f"output_pins.circle_radius {circle * 1e3:.6g} mm leaves no room for the carrier plate "
+            f"inside a ring of {2e3 * pack.ring_radius:.6g} mm; raise ring.outer_diameter to "
+            f"{2e3 * (pack.ring_radius + 3.0 * unit):.4g} mm, or lower circle_radius."
+        )
+    bearing_bottom = pack.top + clamp
+    bearing_top = bearing_bottom + output.bearing.width
+    nut_top = bearing_top + max(3.0 * unit, 0.05 * output.bearing.bore_diameter)
+    plate_top = max(
+        nut_top + unit,
+        bottom + register + pin.thread_length + 0.5 * unit,
+        bottom + support.bearing.width + 1.5 * unit,
+    )
+    room = circle - 0.5 * diameter - 0.5 * support.bearing.outer_diameter
+    bolt_circle = 0.5 * support.bearing.outer_diameter + 0.5 * room
+    # Six bolts stand their circle's radius apart.
+    bolt = thread_size(min(0.55 * room, bolt_circle / 2.0, 4.0 * unit))
+    return CarrierLayout(
+        pin=pin,
+        pin_count=pins.count,
+        pin_circle_radius=circle,
+        clocking=pins.hole_clocking,
+        shoulder_bottom=shoulder_bottom,
+        shoulder_top=bottom + register,
+        cap=both,
+        cap_bottom=cap_bottom,
+        # Between the shaft's core and the pins, whatever room there is.
+        cap_inner=max(circle - around - wall, 0.5 * (core + circle - around)),
+        cap_outer=min(circle + around + wall, most_outer),
+        counterbore_radius=counterbore,
+        lowest=lowest,
+        output=output,
+        shoulder_radius=shoulder,
+        plate_bottom=bottom,
+        bearing_bottom=bearing_bottom,
+        bearing_top=bearing_top,
+        nut_top=nut_top,
+        plate_top=plate_top,
+        nut_radius=0.5 * output.bearing.bore_diameter - 0.25 * unit,
+        bolt_thread=bolt if bolt <= min(0.7 * room, bolt_circle / 1.5) else 0.0,
+        bolt_circle_radius=bolt_circle,
+    )
+
+
+def _seat_depths(pin: OutputPin, span: float, both: bool, unit: float) -> tuple[float, float]:
+    """Depth of the pin's seat in the plate, and length of shoulder below the pack, m.
+
+    Screws come in steps of length; what a step is too long is shared between both seats.
+    """
+    diameter = pin.nominal_diameter
+    if pin.screw is None:
+        web = max(2.5 * unit, 0.75 * diameter) if both else 0.0
+        return pin.shoulder_length(span + web + 1.5 * diameter) - span - web, web
+    least_register = max(unit, 0.25 * diameter)
+    least_web = max(1.5 * unit, 0.5 * diameter) if both else 0.0
+    spare = pin.shoulder_length(span + least_register + least_web) - span
+    if both:
+        register = max(least_register, min(0.5 * spare, spare - least_web))
+    else:
+        register = min(spare, 1.5 * diameter)
+    return register, spare - register

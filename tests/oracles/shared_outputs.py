@@ -1,0 +1,82 @@
+"""Costly outputs, made once in a run of the tests and shared by all its workers.
+
+Whichever worker asks first makes a value and leaves it, pickled, in the folder that all workers of
+the run have in common; a lock makes the others wait for it meanwhile.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import pickle
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeVar
+
+import pytest
+
+from cqdd_design.actuator.bench import BenchResult, run_bench
+from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.design import Design, Requirements, load_design
+from cqdd_design.machine import resolve
+from cqdd_design.machine.weighing import weigh_if_possible
+from cqdd_design.report import ReportInput, read_comments
+from cqdd_design.roads.telling import provenance
+from cqdd_design.sizing import SizingResult, size
+from cqdd_design.sizing.comparison import compare_with_planetary
+
+PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
+
+Made = TypeVar("Made")
+
+
+def shared(factory: pytest.TempPathFactory, name: str, make: Callable[[], Made]) -> Made:
+    """What `make` returns, made by the first of all workers that asks for `name`."""
+    root = factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        root = root.parent
+    place = root / f"shared-{name}.pickle"
+    with (root / f"shared-{name}.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not place.exists():
+            unfinished = place.with_suffix(".part")
+            unfinished.write_bytes(pickle.dumps(make()))
+            unfinished.rename(place)
+        found: Made = pickle.loads(place.read_bytes())
+    return found
+
+
+def report_input(design: Design, file: Path | None = None) -> ReportInput:
+    """What a report of the rigid law and the parts is made from, without the costly chapters."""
+    machine = resolve(design)
+    bodies, notes = weigh_if_possible(machine)
+    return ReportInput(
+        machine=machine,
+        gearbox=machine.analysis,
+        planetary=compare_with_planetary(machine),
+        provenance=provenance(design),
+        comments={} if file is None else read_comments(file),
+        bodies=bodies,
+        notes=notes,
+    )
+
+
+def paper_input(factory: pytest.TempPathFactory) -> ReportInput:
+    """That of the paper's design."""
+    return shared(factory, "paper-input", lambda: report_input(load_design(PAPER_FILE), PAPER_FILE))
+
+
+def paper_bench(factory: pytest.TempPathFactory) -> tuple[ActuatorParameters, BenchResult]:
+    """The paper's actuator, and what the test bench measures of it."""
+
+    def measure() -> tuple[ActuatorParameters, BenchResult]:
+        actuator = actuator_parameters(resolve(load_design(PAPER_FILE)))
+        return actuator, run_bench(actuator, rated_current=20.0, beside_paper=True)
+
+    return shared(factory, "paper-bench", measure)
+
+
+def sized(factory: pytest.TempPathFactory, ratio: int) -> SizingResult:
+    """The search for a design of a ratio, all else at its default."""
+    return shared(factory, f"sized-{ratio}", lambda: size(Requirements(ratio=ratio)))
