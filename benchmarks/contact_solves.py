@@ -28,7 +28,7 @@ from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import error_states, nominal_states
-from cqdd_design.gearbox.contact.sweep import contact_sweep, law_arguments, stiffness_scale
+from cqdd_design.gearbox.contact.sweep import contact_sweep, sweep_problem
 from cqdd_design.gearbox.contact.sweep_kernel import solve_sweep
 from cqdd_design.gearbox.tolerance.draws import draw_errors
 from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
@@ -61,34 +61,14 @@ def kernel_rate(model: ContactModel, torque: float, angle: np.ndarray) -> tuple[
     """Solves a second of one thread (best of seven), and mean Newton steps."""
     states = nominal_states(model, angle)
     perfect = error_states(model, states, None)
-    count, discs, contacts = states.gaps.shape
-    out = (
-        np.empty((count, 3 + 3 * discs)),
-        np.empty((count, discs, contacts)),
-        np.empty((count, discs, 2)),
-        np.empty(count),
-        np.zeros(count, dtype=np.int64),
-    )
+    problem = sweep_problem(model, torque, states, perfect)
     best = np.inf
     for _ in range(7):
         began = time.perf_counter()
-        failed = solve_sweep(
-            states.rows,
-            states.gaps,
-            states.coefficient,
-            model.tooth_count,
-            *law_arguments(model),
-            perfect.offset,
-            perfect.half_play,
-            0.0,
-            torque / states.length,
-            stiffness_scale(model, torque),
-            states.turns,
-            *out,
-        )
+        failed = solve_sweep(*problem)
         best = min(best, time.perf_counter() - began)
         assert failed < 0
-    return count / best, float(out[4].mean())
+    return len(angle) / best, float(problem[-1].steps.mean())
 
 
 def worst_imbalance(model: ContactModel, torque: float, angle: np.ndarray) -> float:

@@ -7,12 +7,12 @@ and read by cubic Hermite interpolation, which is exact where the angles fall on
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.files.kernel_cache import numba
+from cqdd_design.gearbox.contact.kernel_values import Errors, Nominal, Toleranced
 
 FloatArray = NDArray[np.float64]
 
@@ -32,38 +32,17 @@ def harmonic_basis(size: int, harmonics: int) -> FloatArray:
 
 
 @numba.njit(cache=True, error_model="numpy")
-def fill_errors(
-    rows: Any,
-    rates: Any,
-    parameter: Any,
-    parameter_rate: Any,
-    crank_angle: Any,
-    phases: Any,
-    lobe_count: int,
-    play: float,
-    basis: Any,
-    tooth_position: Any,
-    tooth_radius: Any,
-    disc_profile: Any,
-    hole_position: Any,
-    hole_radius: Any,
-    pin_position: Any,
-    pin_radius: Any,
-    cam_centre: Any,
-    cam_play: Any,
-    nominal: Any,
-    gaps: Any,
-    gap_rates: Any,
-    offset: Any,
-    offset_rates: Any,
-    half_play: Any,
-) -> None:
+def fill_errors(nominal: Nominal, errors: Errors, found: Toleranced) -> None:
     """Gaps (nominal plus errors), gap rates by errors, cam offsets and play of one gearbox.
 
-    Shapes and signs are those of :class:`.states.ErrorStates`; `gaps` includes `nominal`.
+    Shapes and signs are those of :class:`.states.ErrorStates`; the gaps include the nominal ones.
     """
-    count, discs, contacts = nominal.shape
-    teeth = tooth_radius.shape[0]
+    rows, rates, lobe_count = nominal.rows, nominal.rates, nominal.lobe_count
+    basis, disc_profile = nominal.basis, errors.disc_profile
+    gaps, gap_rates = found.gaps, found.gap_rates
+    offset, offset_rates = found.offset, found.offset_rates
+    count, discs, contacts = nominal.gaps.shape
+    teeth = errors.tooth_radius.shape[0]
     size, harmonics = basis.shape[0], basis.shape[2]
     spacing = 2.0 * math.pi / size
     material = np.zeros((discs, size))
@@ -78,17 +57,18 @@ def fill_errors(
                 s += (m + 1) * (b * c - a * v)
             material[d, g] = w
             slope[d, g] = s * spacing
-        half_play[d] = max(0.5 * (play + cam_play[d]), 0.0)
+        found.half_play[d] = max(0.5 * (nominal.play + errors.cam_play[d]), 0.0)
     for i in range(count):
-        phi = crank_angle[i]
+        phi = nominal.crank_angle[i]
+        # `kinematics.carrier_angle`, with which holes and pins turn.
         back = -phi / lobe_count
         cosine, sine = math.cos(back), math.sin(back)
         for d in range(discs):
             for k in range(teeth):
                 nx, ny = rows[i, d, k, 0], rows[i, d, k, 1]
                 spin = rates[i, d, k, 0]
-                tx, ty = tooth_position[k, 0], tooth_position[k, 1]
-                place = parameter[i, d, k] / spacing
+                tx, ty = errors.tooth_position[k, 0], errors.tooth_position[k, 1]
+                place = nominal.parameter[i, d, k] / spacing
                 whole = math.floor(place + 0.5)
                 if abs(place - whole) < 1e-6:
                     place = whole
@@ -99,26 +79,28 @@ def fill_errors(
                 w0, w1 = material[d, g0], material[d, g1]
                 s0, s1 = slope[d, g0], slope[d, g1]
                 rise = w1 - w0
+                # Cubic Hermite: w0 + u s0 + c2 u^2 + c3 u^3 meets values and slopes at both ends.
                 c2 = 3.0 * rise - 2.0 * s0 - s1
                 c3 = s0 + s1 - 2.0 * rise
                 w = w0 + u * (s0 + u * (c2 + u * c3))
                 s = (s0 + u * (2.0 * c2 + 3.0 * u * c3)) / spacing
-                gaps[i, d, k] = nominal[i, d, k] - (nx * tx + ny * ty) - tooth_radius[k] - w
-                gap_rates[i, d, k] = -spin * (nx * ty - ny * tx) - s * parameter_rate[i, d, k]
+                grown = errors.tooth_radius[k]
+                gaps[i, d, k] = nominal.gaps[i, d, k] - (nx * tx + ny * ty) - grown - w
+                slid = nominal.parameter_rate[i, d, k]
+                gap_rates[i, d, k] = -spin * (nx * ty - ny * tx) - s * slid
             for k in range(teeth, contacts):
                 j = k - teeth
                 nx, ny = rows[i, d, k, 0], rows[i, d, k, 1]
                 spin = rates[i, d, k, 0]
-                ax = hole_position[d, j, 0] - pin_position[j, 0]
-                ay = hole_position[d, j, 1] - pin_position[j, 1]
+                ax = errors.hole_position[d, j, 0] - errors.pin_position[j, 0]
+                ay = errors.hole_position[d, j, 1] - errors.pin_position[j, 1]
                 wx, wy = cosine * ax - sine * ay, sine * ax + cosine * ay
-                gaps[i, d, k] = (
-                    nominal[i, d, k] + nx * wx + ny * wy + hole_radius[d, j] - pin_radius[j]
-                )
+                wider, thicker = errors.hole_radius[d, j], errors.pin_radius[j]
+                gaps[i, d, k] = nominal.gaps[i, d, k] + nx * wx + ny * wy + wider - thicker
                 gap_rates[i, d, k] = (spin + 1.0 / lobe_count) * (nx * wy - ny * wx)
-            own = phi + phases[d]
+            own = phi + nominal.phases[d]
             ux, uy = math.cos(own), math.sin(own)
-            along, across = cam_centre[d, 0], cam_centre[d, 1]
+            along, across = errors.cam_centre[d, 0], errors.cam_centre[d, 1]
             offset[i, d, 0] = along * ux - across * uy
             offset[i, d, 1] = along * uy + across * ux
             offset_rates[i, d, 0] = -along * uy - across * ux

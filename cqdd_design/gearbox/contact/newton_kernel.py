@@ -10,44 +10,34 @@ import math
 from typing import Any
 
 from cqdd_design.files.kernel_cache import numba
+from cqdd_design.gearbox.contact.kernel_values import Contacts, Forces, Springs, Work
 from cqdd_design.gearbox.contact.laws_kernel import line_force, radial_force
 
 
 @numba.njit(cache=True, error_model="numpy")
 def evaluate_state(
-    rows: Any,
-    gaps: Any,
-    coefficient: Any,
-    teeth: int,
-    codes: Any,
-    logarithms: Any,
-    series: Any,
-    cam: Any,
-    offset: Any,
-    half_play: Any,
-    carrier_stiffness: float,
-    pull: float,
-    state: Any,
-    force: Any,
-    stiff: Any,
-    closed: Any,
-    cam_force: Any,
-    gradient: Any,
-    block: Any,
-    shared: Any,
+    contacts: Contacts, springs: Springs, pull: float, state: Any, forces: Forces, work: Work
 ) -> float:
     """Forces, gradient and Hessian blocks at `state`; returns the largest force of a contact.
 
-    `block` (D, 6) holds the disc blocks xx, xy, xt, yy, yt, tt, `shared` (D, 6) the pins' part,
-    which also couples to the carrier; `force`, `stiff`, `closed` (D, C) are per contact.
+    The energy is Pi = sum of all springs + k_carrier (X^2 + Y^2)/2 - pull gamma. A contact of the
+    ring sees its disc, one of a pin its disc against the carrier.
     """
-    discs, contacts = gaps.shape
+    discs, count = contacts.gaps.shape
+    # Arrays are taken out of their tuples before a loop: numba counts references at every access.
+    rows, gaps, coefficient = contacts.rows, contacts.gaps, contacts.coefficient
+    offset, half_play, series = contacts.offset, contacts.half_play, springs.pin_series
+    force, cam, stiff, closed = forces.contact, forces.cam, work.stiff, work.closed
+    teeth, gradient, block, shared = springs.teeth, work.gradient, work.block, work.shared
     for i in range(gradient.size):
         gradient[i] = 0.0
-    gradient[0] = carrier_stiffness * state[0]
-    gradient[1] = carrier_stiffness * state[1]
+    gradient[0] = springs.carrier_stiffness * state[0]
+    gradient[1] = springs.carrier_stiffness * state[1]
     gradient[2] = -pull
     largest = 0.0
+    # A contact closes by delta = -(n_x x + n_y y + h t) - gap; its force f adds -f (n_x, n_y, h)
+    # to the gradient and f' n n^T to the Hessian. Ring and pins are written out, so
+    # that the ring's loop knows that nothing stands in series.
     for d in range(discs):
         x, y, t = state[3 + 3 * d], state[4 + 3 * d], state[5 + 3 * d]
         hxx = hxy = hxt = hyy = hyt = htt = 0.0
@@ -60,7 +50,9 @@ def evaluate_state(
                 force[d, k] = 0.0
                 stiff[d, k] = 0.0
                 continue
-            f, s = line_force(codes[0], coefficient[d, k], logarithms[0], 0.0, delta)
+            f, s = line_force(
+                springs.ring_law, coefficient[d, k], springs.ring_logarithm, 0.0, delta
+            )
             force[d, k] = f
             stiff[d, k] = s
             largest = max(largest, f)
@@ -78,7 +70,7 @@ def evaluate_state(
         t -= state[2]
         sxx = sxy = sxt = syy = syt = stt = 0.0
         px = py = pt = 0.0
-        for k in range(teeth, contacts):
+        for k in range(teeth, count):
             nx, ny, h = rows[d, k, 0], rows[d, k, 1], rows[d, k, 2]
             delta = -(nx * x + ny * y + h * t) - gaps[d, k]
             closed[d, k] = delta
@@ -86,7 +78,9 @@ def evaluate_state(
                 force[d, k] = 0.0
                 stiff[d, k] = 0.0
                 continue
-            f, s = line_force(codes[1], coefficient[d, k], logarithms[1], series[d], delta)
+            f, s = line_force(
+                springs.pin_law, coefficient[d, k], springs.pin_logarithm, series[d], delta
+            )
             force[d, k] = f
             stiff[d, k] = s
             largest = max(largest, f)
@@ -102,27 +96,29 @@ def evaluate_state(
         gradient[0] -= px
         gradient[1] -= py
         gradient[2] -= pt
+        # The cam pulls along its displacement beyond half of the play, F = K (rho - play/2)^p:
+        # its Hessian is F' along u u^T and F/rho across it.
         rx = state[3 + 3 * d] - offset[d, 0]
         ry = state[4 + 3 * d] - offset[d, 1]
         rho = math.sqrt(rx * rx + ry * ry)
         over = rho - half_play[d]
-        cam_force[d, 0] = 0.0
-        cam_force[d, 1] = 0.0
+        cam[d, 0] = 0.0
+        cam[d, 1] = 0.0
         if over > 0.0 and rho > 0.0:
-            f, s = radial_force(cam[0], cam[1], over)
+            f, s = radial_force(springs.cam_stiffness, springs.cam_exponent, over)
             largest = max(largest, f)
             ux, uy, across = rx / rho, ry / rho, f / rho
-            cam_force[d, 0] = -f * ux
-            cam_force[d, 1] = -f * uy
+            cam[d, 0] = -f * ux
+            cam[d, 1] = -f * uy
             gx += f * ux
             gy += f * uy
             hxx += s * ux * ux + across * uy * uy
             hxy += (s - across) * ux * uy
             hyy += s * uy * uy + across * ux * ux
-        elif over >= 0.0 and cam[1] == 1.0:
+        elif over >= 0.0 and springs.cam_exponent == 1.0:
             # A linear bearing without play is stiff in its centre too.
-            hxx += cam[0]
-            hyy += cam[0]
+            hxx += springs.cam_stiffness
+            hyy += springs.cam_stiffness
         gradient[3 + 3 * d] = gx + px
         gradient[4 + 3 * d] = gy + py
         gradient[5 + 3 * d] = gt + pt
@@ -149,20 +145,17 @@ def _solve3(a: Any, ridge: float, b0: float, b1: float, b2: float) -> tuple[floa
     return b0 / d0 - l1 * x1 - l2 * y2, x1, y2
 
 
-@numba.njit(cache=True, error_model="numpy")
-def newton_step(
-    block: Any,
-    shared: Any,
-    gradient: Any,
-    carrier_stiffness: float,
-    ridge: float,
-    step: Any,
-    carrier: Any,
-) -> float:
+@numba.njit(cache=True, error_model="numpy", forceinline=True)
+def newton_step(work: Work, carrier_stiffness: float, ridge: float) -> float:
     """Newton step by eliminating the discs; returns the torsional stiffness left at the carrier.
 
-    With a rigid carrier bearing (stiffness 0) only its angle moves.
+    With H_d the block of a disc and S_d its pins' part, disc and carrier obey
+    H_d dq_d - S_d dq_0 = -g_d and (k + sum S_d) dq_0 - sum S_d dq_d = -g_0. Eliminated:
+    (k + sum (S_d - S_d H_d^-1 S_d)) dq_0 = -g_0 - sum S_d H_d^-1 g_d. With a rigid carrier bearing
+    (stiffness 0) only its angle moves.
     """
+    block, shared, gradient = work.block, work.shared, work.gradient
+    step, carrier = work.step, work.carrier
     discs = block.shape[0]
     for i in range(6):
         carrier[i] = 0.0

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.contact import laws
+from cqdd_design.gearbox.contact.kernel_values import Contacts, Load, Springs, SweepResult
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.states import (
@@ -248,40 +249,19 @@ def contact_sweep(
     _refuse_misshapen(model, errors)
     if changed is None:
         changed = error_states(model, states, errors)
-    count, discs, contacts = states.gaps.shape
-    size = 3 + 3 * discs
-    state, force = np.empty((count, size)), np.empty((count, discs, contacts))
-    cam_force, torsional = np.empty((count, discs, 2)), np.empty(count)
-    steps = np.zeros(count, dtype=np.int64)
-    gaps = states.gaps + changed.gaps
+    problem = sweep_problem(model, torque, states, changed)
+    result = problem[-1]
     solve: Any = solve_sweep
-    failed = solve(
-        states.rows,
-        gaps,
-        states.coefficient,
-        model.tooth_count,
-        *law_arguments(model),
-        changed.offset,
-        changed.half_play,
-        model.carrier_stiffness or 0.0,
-        torque / states.length,
-        stiffness_scale(model, torque),
-        states.turns,
-        state,
-        force,
-        cam_force,
-        torsional,
-        steps,
-    )
+    failed = solve(*problem)
     if failed >= 0:
         raise ContactError(
             f"no contact equilibrium was found at crank angle "
             f"{math.degrees(states.crank_angle[failed]):.6g} deg and {torque:g} N*m; check the "
             "clearances in reducer.modification, output_pins.hole_clearance and cam_bearing."
         )
-    _refuse_out_of_reach(model, torque, states, state)
-    _refuse_outside_law(model, torque, states, force)
-    return _assemble(model, torque, states, changed, state, force, cam_force, torsional, steps)
+    _refuse_out_of_reach(model, torque, states, result.states)
+    _refuse_outside_law(model, torque, states, result.force)
+    return _assemble(model, torque, states, changed, result)
 
 
 def _refuse_misshapen(model: ContactModel, errors: GearboxErrors | None) -> None:
@@ -295,13 +275,41 @@ def _refuse_misshapen(model: ContactModel, errors: GearboxErrors | None) -> None
             raise UsageError(f"errors.{name} has the shape {given}; this gearbox needs {shape}.")
 
 
-def law_arguments(model: ContactModel) -> tuple[Any, ...]:
-    """Codes, Johnson's logarithms, pin series and cam spring as the kernel takes them."""
-    return (
-        (model.ring_law.code, model.pin_law.code),
-        (model.ring_law.logarithm, model.pin_law.logarithm),
-        np.ascontiguousarray(model.pin_series),
-        (model.cam.stiffness, model.cam.exponent),
+def sweep_problem(
+    model: ContactModel, torque: float, states: NominalStates, changed: ErrorStates
+) -> tuple[Contacts, Springs, Load, FloatArray, SweepResult]:
+    """Arguments of :func:`.sweep_kernel.solve_sweep`, the last of them still to be filled."""
+    count, discs, each = states.gaps.shape
+    contacts = Contacts(
+        rows=states.rows,
+        gaps=states.gaps + changed.gaps,
+        coefficient=states.coefficient,
+        offset=changed.offset,
+        half_play=changed.half_play,
+    )
+    load = Load(torque / states.length, stiffness_scale(model, torque))
+    result = SweepResult(
+        states=np.empty((count, 3 + 3 * discs)),
+        force=np.empty((count, discs, each)),
+        cam_force=np.empty((count, discs, 2)),
+        torsional=np.empty(count),
+        steps=np.zeros(count, dtype=np.int64),
+    )
+    return contacts, springs_of(model), load, states.turns, result
+
+
+def springs_of(model: ContactModel) -> Springs:
+    """The force laws of a gearbox as the kernels take them."""
+    return Springs(
+        teeth=model.tooth_count,
+        ring_law=model.ring_law.code,
+        pin_law=model.pin_law.code,
+        ring_logarithm=model.ring_law.logarithm,
+        pin_logarithm=model.pin_law.logarithm,
+        pin_series=np.ascontiguousarray(model.pin_series),
+        cam_stiffness=model.cam.stiffness,
+        cam_exponent=model.cam.exponent,
+        carrier_stiffness=model.carrier_stiffness or 0.0,
     )
 
 
@@ -349,13 +357,10 @@ def _assemble(
     torque: float,
     states: NominalStates,
     changed: ErrorStates,
-    state: FloatArray,
-    force: FloatArray,
-    cam_force: FloatArray,
-    torsional: FloatArray,
-    steps: IntArray,
+    result: SweepResult,
 ) -> ContactSweep:
     teeth, length = model.tooth_count, states.length
+    state, force, cam_force = result.states, result.force, result.cam_force
     discs = state[:, 3:].reshape(len(state), -1, 3)
     energy = _spring_energy(model, states, force, cam_force)
     carrier = state[:, :2]
@@ -388,8 +393,8 @@ def _assemble(
         carrier_displacement=carrier,
         energy=energy,
         energy_slope=energy_slope(states, changed, state, force, cam_force, teeth),
-        stiffness=np.where(touching, np.maximum(torsional, 0.0) * length**2, 0.0),
-        steps=steps,
+        stiffness=np.where(touching, np.maximum(result.torsional, 0.0) * length**2, 0.0),
+        steps=result.steps,
     )
 
 

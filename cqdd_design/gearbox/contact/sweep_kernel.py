@@ -8,10 +8,16 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
 from cqdd_design.files.kernel_cache import numba
-from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, solve_state
+from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, new_work, solve_state
+from cqdd_design.gearbox.contact.kernel_values import (
+    Contacts,
+    Forces,
+    Load,
+    Springs,
+    SweepResult,
+    Work,
+)
 
 _FIRM_APPROACH = 5e-6
 """Approach, m, of a load that presses the discs firmly against what stops them."""
@@ -41,105 +47,91 @@ def predict(state: Any, before: Any, turn: float, known: int, out: Any) -> None:
 
 @numba.njit(cache=True, error_model="numpy")
 def solve_from_above(
-    rows: Any,
-    gaps: Any,
-    coefficient: Any,
-    teeth: int,
-    codes: Any,
-    logarithms: Any,
-    series: Any,
-    cam: Any,
-    offset: Any,
-    half_play: Any,
-    carrier_stiffness: float,
-    pull: float,
-    scale_stiffness: float,
-    state: Any,
-    force: Any,
-    cam_force: Any,
-    work: Any,
+    contacts: Contacts, springs: Springs, load: Load, state: Any, forces: Forces, work: Work
 ) -> tuple[int, int, float]:
-    """Solve one state from nothing by lowering the load to `pull`, tenfold at a time.
+    """Solve one state from nothing by lowering the load to its pull, tenfold at a time.
 
     Slow and safe: under a small load the discs slide round their cams' play, a narrow curved
     valley that Newton's method follows only in small steps; under a firm one they do not.
     Arguments and returns are those of :func:`.equilibrium_kernel.solve_state`.
     """
+    pull = load.pull
     firm = abs(pull)
-    while 0.0 < firm < _FIRM_APPROACH * scale_stiffness:
+    while 0.0 < firm < _FIRM_APPROACH * load.scale_stiffness:
         firm *= 10.0
     state[:] = 0.0
     steps = 0
     while True:
-        load = max(firm, abs(pull))
-        status, used, torsional = solve_state(
-            rows, gaps, coefficient, teeth, codes, logarithms, series, cam, offset, half_play,
-            carrier_stiffness, math.copysign(load, pull), scale_stiffness, state, force,
-            cam_force, work,
-        )  # fmt: skip
+        now = max(firm, abs(pull))
+        eased = Load(math.copysign(now, pull), load.scale_stiffness)
+        status, used, torsional = solve_state(contacts, springs, eased, state, forces, work)
         steps += used
-        if load <= abs(pull):
+        if now <= abs(pull):
             return status, steps, torsional
         firm /= 10.0
         if firm < 2.0 * abs(pull):
             firm = abs(pull)
 
 
+@numba.njit(cache=True, error_model="numpy", forceinline=True)
+def solve_near(
+    contacts: Contacts, springs: Springs, load: Load, state: Any, forces: Forces, work: Work
+) -> tuple[int, int, float]:
+    """Solve one state from the start in `state`, and from above where that does not lead to it."""
+    status, steps, torsional = solve_state(contacts, springs, load, state, forces, work)
+    if status != CONVERGED:
+        return solve_from_above(contacts, springs, load, state, forces, work)
+    return status, steps, torsional
+
+
+@numba.njit(cache=True, error_model="numpy", forceinline=True)
+def contacts_at(contacts: Contacts, a: int) -> Contacts:
+    """The contacts at one of many crank angles."""
+    return Contacts(
+        contacts.rows[a],
+        contacts.gaps[a],
+        contacts.coefficient[a],
+        contacts.offset[a],
+        contacts.half_play,
+    )
+
+
 @numba.njit(cache=True, error_model="numpy")
 def solve_sweep(
-    rows: Any,
-    gaps: Any,
-    coefficient: Any,
-    teeth: int,
-    codes: Any,
-    logarithms: Any,
-    series: Any,
-    cam: Any,
-    offset: Any,
-    half_play: Any,
-    carrier_stiffness: float,
-    pull: float,
-    scale_stiffness: float,
-    turns: Any,
-    states: Any,
-    force: Any,
-    cam_force: Any,
-    torsional: Any,
-    steps: Any,
+    contacts: Contacts, springs: Springs, load: Load, turns: Any, result: SweepResult
 ) -> int:
     """Equilibria at consecutive crank angles, each from the ones before.
 
-    Arrays are those of :func:`.equilibrium_kernel.solve_state` with a leading axis A (`states`
-    (A, 3 + 3 D) and the rest are results); `turns` (A,) is the crank angle since the state before,
-    rad.
+    Parameters
+    ----------
+    contacts : Contacts
+        With a leading axis A.
+    springs, load
+        Of all angles.
+    turns : array (A,)
+        Crank angle since the state before, rad.
+    result : SweepResult
+        Out.
 
     Returns
     -------
     int
         -1, or the index of the first state that did not converge.
     """
-    count, discs, contacts = gaps.shape
-    size = 3 + 3 * discs
-    work = np.empty(6 * size + 2 * discs * contacts + 12 * discs + 6)
+    count, discs, each = contacts.gaps.shape
+    states = result.states
+    work = new_work(discs, each)
     for a in range(count):
         if a == 0:
-            for i in range(size):
-                states[0, i] = 0.0
+            states[0, :] = 0.0
         else:
             predict(states[a - 1], states[max(a - 2, 0)], turns[a], a, states[a])
-        status, used, left = solve_state(
-            rows[a], gaps[a], coefficient[a], teeth, codes, logarithms, series, cam, offset[a],
-            half_play, carrier_stiffness, pull, scale_stiffness, states[a], force[a],
-            cam_force[a], work,
-        )  # fmt: skip
+        forces = Forces(result.force[a], result.cam_force[a])
+        status, used, left = solve_near(
+            contacts_at(contacts, a), springs, load, states[a], forces, work
+        )
         if status != CONVERGED:
-            status, used, left = solve_from_above(
-                rows[a], gaps[a], coefficient[a], teeth, codes, logarithms, series, cam,
-                offset[a], half_play, carrier_stiffness, pull, scale_stiffness, states[a],
-                force[a], cam_force[a], work,
-            )  # fmt: skip
-            if status != CONVERGED:
-                return a
-        torsional[a] = left
-        steps[a] = used
+            return a
+        result.torsional[a] = left
+        result.steps[a] = used
     return -1

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError
+from cqdd_design.gearbox.contact.kernel_values import Extremes, RigidParts
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.states import (
@@ -157,27 +158,23 @@ def _push(
     from cqdd_design.gearbox.precision.backlash_kernel import backlash_sweep
 
     count, discs = gaps.shape[:2]
-    end, overlap, poses = np.empty(count), np.empty(count), np.empty((count, 3 + 3 * discs))
-    failed = backlash_sweep(
-        states.rows,
-        gaps,
-        states.ring.centre_curvature,
-        tooth_centres(model.disc),
-        states.crank_angle[:, None] + model.phases,
-        states.pins.pin_angle,
-        _apart(model, states, errors),
-        changed.offset,
-        changed.half_play,
-        model.eccentricity,
-        states.length,
-        np.arange(count),
-        states.crank_angle,
-        sense,
-        np.zeros((count, 3 + 3 * discs)),
-        end,
-        overlap,
-        poses,
+    parts = RigidParts(
+        rows=states.rows,
+        gaps=gaps,
+        curvature=states.ring.centre_curvature,
+        tooth_centre=tooth_centres(model.disc),
+        pin_angle=states.pins.pin_angle,
+        crank_angle=states.crank_angle,
+        own_angle=states.crank_angle[:, None] + model.phases,
+        apart=_apart(model, states, errors),
+        offset=changed.offset,
+        half_play=changed.half_play,
+        eccentricity=model.eccentricity,
+        length=states.length,
     )
+    found = Extremes(np.empty(count), np.empty(count), np.empty((count, 3 + 3 * discs)))
+    starts = np.zeros((count, 3 + 3 * discs))
+    failed = backlash_sweep(parts, np.arange(count), sense, starts, found)
     if failed >= 0:
         raise ContactError(
             "the parts are too loose for a backlash: at crank angle "
@@ -185,7 +182,7 @@ def _push(
             "its nominal place. Lower reducer.modification, output_pins.hole_clearance or "
             "cam_bearing.radial_clearance."
         )
-    return end, overlap, poses
+    return found.ends, found.preload, found.poses
 
 
 def _exact_and_modelled(

@@ -13,7 +13,15 @@ from typing import Any
 import numpy as np
 
 from cqdd_design.files.kernel_cache import numba
-from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, solve_state
+from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, new_work, solve_state
+from cqdd_design.gearbox.contact.kernel_values import (
+    Contacts,
+    Extremes,
+    Forces,
+    Load,
+    RigidParts,
+    Springs,
+)
 from cqdd_design.gearbox.contact.sweep_kernel import predict
 
 OVERLAP = 1e-7
@@ -32,26 +40,18 @@ _STILL = 2e-10
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _true_gaps(
-    nominal_rows: Any,
-    nominal_gaps: Any,
-    curvature: Any,
-    tooth_centre: Any,
-    own_angle: Any,
-    pin_angle: Any,
-    apart: Any,
-    eccentricity: float,
-    length: float,
-    teeth: int,
-    state: Any,
-    rows: Any,
-    gaps: Any,
-) -> None:
+def _true_gaps(parts: RigidParts, at: int, state: Any, rows: Any, gaps: Any) -> None:
     """Rows and gaps linearised at the displaced state, with gaps in the nominal coordinates.
 
-    `apart` (D, P, 2) is how far each hole stands off its pin by position errors, in the ring's
-    frame; everything else is as in :func:`backlash_sweep`.
+    `at` is the index of the crank angle. A gap is seen as that of the flank's osculating circle of
+    curvature kappa: with the tooth moved by a outward and b along, it opens by
+    (2 a + kappa (a^2 + b^2))/(1 + sqrt((1 + kappa a)^2 + (kappa b)^2)).
     """
+    eccentricity, length, tooth_centre = parts.eccentricity, parts.length, parts.tooth_centre
+    nominal_rows, nominal_gaps = parts.rows[at], parts.gaps[at]
+    curvature, own_angle = parts.curvature[at], parts.own_angle[at]
+    pin_angle, apart = parts.pin_angle[at], parts.apart[at]
+    teeth = tooth_centre.shape[0]
     discs, contacts = nominal_gaps.shape
     turn = state[2] / length
     for d in range(discs):
@@ -101,8 +101,9 @@ def _true_gaps(
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _overlaps(force: Any, cam_force: Any) -> tuple[float, float]:
+def _overlaps(forces: Forces) -> tuple[float, float]:
     """Greatest overlap and the sum of their squares; on springs of 1 N/m a force is one."""
+    force, cam_force = forces.contact, forces.cam
     greatest, squares = 0.0, 0.0
     for d in range(force.shape[0]):
         for k in range(force.shape[1]):
@@ -116,85 +117,45 @@ def _overlaps(force: Any, cam_force: Any) -> tuple[float, float]:
 
 @numba.njit(cache=True, error_model="numpy")
 def backlash_sweep(
-    nominal_rows: Any,
-    nominal_gaps: Any,
-    curvature: Any,
-    tooth_centre: Any,
-    own_angle: Any,
-    pin_angle: Any,
-    apart: Any,
-    offset: Any,
-    half_play: Any,
-    eccentricity: float,
-    length: float,
-    angles: Any,
-    crank_angle: Any,
-    sense: float,
-    starts: Any,
-    ends: Any,
-    preload: Any,
-    poses: Any,
+    parts: RigidParts, angles: Any, sense: float, starts: Any, found: Extremes
 ) -> int:
     """Extreme carrier angle of rigid parts at some crank angles.
 
     Parameters
     ----------
-    nominal_rows : array (A, D, C, 3)
-        n_x, n_y, h/length at the nominal pose.
-    nominal_gaps : array (A, D, C)
-        With errors, m.
-    curvature : array (A, D, T)
-        Of the curve parallel to the flank through each tooth's centre, 1/m.
-    tooth_centre : array (T, 2)
-        Nominal, m.
-    own_angle : array (A, D)
-        Crank angle of every disc, rad.
-    pin_angle : array (A, P)
-        Of every pin in the ring's frame, rad.
-    apart : array (A, D, P, 2)
-        Hole off its pin by position errors, in the ring's frame, m.
-    offset, half_play : array (A, D, 2), (D,)
-        Of the cams, m.
-    eccentricity, length : float
-        e and the pin circle, m.
+    parts : RigidParts
+        At A crank angles.
     angles : array (B,)
         Indices of the angles to solve, rising.
-    crank_angle : array (A,)
-        rad.
     sense : float
         1 for the greatest carrier angle, -1 for the least.
     starts : array (A, 3 + 3 D)
         Known poses nearby, such as those of the perfect gearbox, or zeros; a state starts from
         its own plus the deviation of the one before.
-    ends : array (B,)
-        Out: that angle, rad; meaningless where parts overlap whatever they do.
-    preload : array (B,)
-        Out: greatest overlap that no motion removes, m; clearances give about the push.
-    poses : array (B, 3 + 3 D)
-        Out: carrier and discs there, angles times `length`, m.
+    found : Extremes
+        Out.
 
     Returns
     -------
     int
         -1, or the place in `angles` that did not converge.
     """
-    discs, contacts = nominal_gaps.shape[1:]
-    teeth = tooth_centre.shape[0]
-    size = 3 + 3 * discs
-    work = np.empty(6 * size + 2 * discs * contacts + 12 * discs + 6)
-    rows = np.empty((discs, contacts, 3))
-    gaps = np.empty((discs, contacts))
-    force = np.empty((discs, contacts))
-    cam_force = np.empty((discs, 2))
-    ones = np.ones((discs, contacts))
-    soft = np.zeros(discs)
+    discs, count = parts.gaps.shape[1:]
+    length, size = parts.length, 3 + 3 * discs
+    work = new_work(discs, count)
+    rows = np.empty((discs, count, 3))
+    gaps = np.empty((discs, count))
+    ones = np.ones((discs, count))
+    forces = Forces(np.empty((discs, count)), np.empty((discs, 2)))
+    # Linear springs of 1 N/m everywhere, and a rigid bearing of the carrier.
+    springs = Springs(parts.tooth_centre.shape[0], 2, 2, 0.0, 0.0, np.zeros(discs), 1.0, 1.0, 0.0)
     state, origin, deviation = np.zeros(size), np.zeros(size), np.zeros(size)
     last, before = np.zeros(size), np.zeros(size)
     push = sense * _PUSH
     for b in range(angles.size):
         a = angles[b]
         if b > 0:
-            turn = crank_angle[a] - crank_angle[angles[b - 1]]
+            turn = parts.crank_angle[a] - parts.crank_angle[angles[b - 1]]
             predict(last, before, turn, 1, deviation)
         for i in range(size):
             state[i] = starts[a, i] + deviation[i]
@@ -205,22 +166,17 @@ def backlash_sweep(
                 for i in range(size):
                     state[i] = 0.5 * (state[i] + origin[i])
             origin[:] = state
-            _true_gaps(
-                nominal_rows[a], nominal_gaps[a], curvature[a], tooth_centre, own_angle[a],
-                pin_angle[a], apart[a], eccentricity, length, teeth, state, rows, gaps,
-            )  # fmt: skip
+            _true_gaps(parts, a, state, rows, gaps)
+            contacts = Contacts(rows, gaps, ones, parts.offset[a], parts.half_play)
             # A firmer push first: it finds which contacts matter in fewer steps.
-            firm = _FIRM * push if round_ == 0 else push
-            status, _, _ = solve_state(
-                rows, gaps, ones, teeth, (2, 2), (0.0, 0.0), soft, (1.0, 1.0), offset[a],
-                half_play, 0.0, firm, 1.0, state, force, cam_force, work,
-            )  # fmt: skip
+            firm = Load(_FIRM * push if round_ == 0 else push, 1.0)
+            status, _, _ = solve_state(contacts, springs, firm, state, forces, work)
             if status != CONVERGED:
                 return b
             # States that change contacts with each other end up closer than anyone can measure.
             near = _NEARLY_STILL if round_ > 2 * _FREE_ROUNDS else _STILL
             still = round_ > 0 and abs(state[2] - origin[2]) <= near
-            overlap, squares = _overlaps(force, cam_force)
+            overlap, squares = _overlaps(forces)
             # Parts that overlap wherever they go have no free range to converge to.
             tight = tight + 1 if overlap > OVERLAP else 0
             if round_ > _FREE_ROUNDS:
@@ -234,9 +190,9 @@ def backlash_sweep(
             overlap = max(worst, 2.0 * OVERLAP)
         # What the springs yield to the push: the work of the push is that of the contact forces
         # over gaps and overlaps, and rigid parts have the same forces without the overlaps.
-        ends[b] = (state[2] - squares / push) / length
-        preload[b] = overlap
-        poses[b] = state
+        found.ends[b] = (state[2] - squares / push) / length
+        found.preload[b] = overlap
+        found.poses[b] = state
         for i in range(size):
             last[i] = state[i] - starts[a, i]
     return -1

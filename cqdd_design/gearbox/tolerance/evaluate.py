@@ -10,14 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError
+from cqdd_design.gearbox.contact.kernel_values import Errors, Load, Nominal, Start
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import ErrorBatch
 from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
 from cqdd_design.gearbox.contact.sweep import (
     contact_sweep,
-    law_arguments,
     output_turn_angles,
     output_turn_count,
+    springs_of,
     stiffness_scale,
 )
 from cqdd_design.gearbox.precision.backlash import backlash
@@ -129,6 +130,31 @@ def ensemble_tables(
     )
 
 
+def _nominal(tables: EnsembleTables, harmonics: int) -> Nominal:
+    """The perfect gearbox as the kernels take it, with a profile table for so many harmonics."""
+    from cqdd_design.gearbox.contact.gaps_kernel import harmonic_basis, table_size
+
+    model, states = tables.model, tables.states
+    return Nominal(
+        rows=states.rows,
+        gaps=states.gaps,
+        coefficient=states.coefficient,
+        rates=states.rates,
+        parameter=states.ring.parameter,
+        parameter_rate=states.ring.parameter_rate,
+        curvature=states.ring.centre_curvature,
+        tooth_centre=tooth_centres(model.disc),
+        pin_angle=states.pins.pin_angle,
+        crank_angle=states.crank_angle,
+        phases=model.phases,
+        basis=harmonic_basis(table_size(len(states.crank_angle), harmonics), harmonics),
+        lobe_count=model.lobe_count,
+        play=model.cam.play,
+        eccentricity=model.eccentricity,
+        length=states.length,
+    )
+
+
 def evaluate_gearboxes(
     tables: EnsembleTables, batch: ErrorBatch, threads: int | None = None
 ) -> Outcome:
@@ -149,49 +175,20 @@ def evaluate_gearboxes(
     """
     import numba
 
-    from cqdd_design.gearbox.contact.gaps_kernel import harmonic_basis, table_size
     from cqdd_design.gearbox.tolerance.ensemble_kernel import solve_gearboxes
 
     model, states = tables.model, tables.states
-    harmonics = batch.disc_profile.shape[-1]
     values, failed = np.empty((len(batch), 5)), np.empty(len(batch), dtype=np.int64)
     former = numba.get_num_threads()
     numba.set_num_threads(min(threads or former, former))
     try:
         solve: Any = solve_gearboxes
         solve(
-            states.rows,
-            states.rates,
-            states.gaps,
-            states.coefficient,
-            states.ring.parameter,
-            states.ring.parameter_rate,
-            states.ring.centre_curvature,
-            tooth_centres(model.disc),
-            states.crank_angle,
-            model.phases,
-            states.pins.pin_angle,
-            tables.marked,
-            tables.perfect,
-            tables.free_poses,
-            harmonic_basis(table_size(len(states.crank_angle), harmonics), harmonics),
-            model.lobe_count,
-            model.cam.play,
-            model.eccentricity,
-            states.length,
-            tables.torque,
-            stiffness_scale(model, tables.torque),
-            *law_arguments(model),
-            model.carrier_stiffness or 0.0,
-            batch.tooth_position,
-            batch.tooth_radius,
-            batch.disc_profile,
-            batch.hole_position,
-            batch.hole_radius,
-            batch.pin_position,
-            batch.pin_radius,
-            batch.cam_centre,
-            batch.cam_play,
+            _nominal(tables, batch.disc_profile.shape[-1]),
+            springs_of(model),
+            Load(tables.torque / states.length, stiffness_scale(model, tables.torque)),
+            Start(tables.marked, tables.perfect, tables.free_poses, tables.torque),
+            Errors(**vars(batch)),
             values,
             failed,
         )

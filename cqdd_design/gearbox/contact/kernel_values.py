@@ -1,0 +1,206 @@
+"""Named values that the compiled kernels of contact, backlash and tolerance take and return.
+
+A ``NamedTuple`` of arrays costs a kernel nothing and tells a reader what each array is. A is the
+number of crank angles, D of discs, T of ring teeth, P of output pins, C = T + P of contacts. Angles
+in states are multiplied by the pin circle's radius ("length"), so that every entry is a length.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+class Springs(NamedTuple):
+    """Force laws that every state of a gearbox shares."""
+
+    teeth: int
+    """Contacts of a disc that belong to the ring; the rest are pins."""
+    ring_law: int
+    pin_law: int
+    """Codes of :data:`.laws.LINE_MODELS`."""
+    ring_logarithm: float
+    pin_logarithm: float
+    """Johnson's B, m/N."""
+    pin_series: FloatArray
+    """(D,) Compliance of a pin at every disc, m/N."""
+    cam_stiffness: float
+    cam_exponent: float
+    """K and p of F = K delta^p."""
+    carrier_stiffness: float
+    """N/m; 0 is rigid."""
+
+
+class Contacts(NamedTuple):
+    """Contacts at one crank angle, or (with a leading axis A, but for the play) at many."""
+
+    rows: FloatArray
+    """(D, C, 3) n_x, n_y and h/length of every contact, ring teeth first."""
+    gaps: FloatArray
+    """(D, C) m."""
+    coefficient: FloatArray
+    """(D, C) Of either law."""
+    offset: FloatArray
+    """(D, 2) Displacement of the cams' centres, m."""
+    half_play: FloatArray
+    """(D,) Half of the play of every cam bearing, m."""
+
+
+class Load(NamedTuple):
+    """Torque as a force at the pin circle."""
+
+    pull: float
+    """T/length, N."""
+    scale_stiffness: float
+    """A typical stiffness, N/m; sets the ridge that keeps slack discs where they are."""
+
+
+class Forces(NamedTuple):
+    """Forces of one state, N."""
+
+    contact: FloatArray
+    """(D, C)"""
+    cam: FloatArray
+    """(D, 2)"""
+
+
+class Work(NamedTuple):
+    """Scratch of one equilibrium, made once by :func:`.equilibrium_kernel.new_work`."""
+
+    gradient: FloatArray
+    step: FloatArray
+    trial: FloatArray
+    """(3 + 3 D,)"""
+    stiff: FloatArray
+    closed: FloatArray
+    """(D, C) Stiffness and closing of every contact."""
+    block: FloatArray
+    shared: FloatArray
+    """(D, 6) Hessian blocks xx, xy, xt, yy, yt, tt: of a disc, and its pins' part."""
+    carrier: FloatArray
+    """(6,) What is left at the carrier."""
+
+
+class SweepResult(NamedTuple):
+    """Equilibria at A crank angles, filled by :func:`.sweep_kernel.solve_sweep`."""
+
+    states: FloatArray
+    """(A, 3 + 3 D)"""
+    force: FloatArray
+    """(A, D, C) N."""
+    cam_force: FloatArray
+    """(A, D, 2) N."""
+    torsional: FloatArray
+    """(A,) dT/dgamma/length^2, N/m."""
+    steps: NDArray[np.int64]
+    """(A,) Newton steps."""
+
+
+class Errors(NamedTuple):
+    """Part errors as in :class:`.part_errors.GearboxErrors`; of a batch with a leading axis S."""
+
+    tooth_position: FloatArray
+    tooth_radius: FloatArray
+    disc_profile: FloatArray
+    hole_position: FloatArray
+    hole_radius: FloatArray
+    pin_position: FloatArray
+    pin_radius: FloatArray
+    cam_centre: FloatArray
+    cam_play: FloatArray
+
+
+class Nominal(NamedTuple):
+    """The perfect gearbox over its crank angles: what toleranced ones differ from."""
+
+    rows: FloatArray
+    gaps: FloatArray
+    coefficient: FloatArray
+    """As in :class:`Contacts`, (A, D, C, ...)."""
+    rates: FloatArray
+    """(A, D, C, 4) See :class:`.states.NominalStates`."""
+    parameter: FloatArray
+    parameter_rate: FloatArray
+    """(A, D, T) Place on the disc's profile, rad, and its derivative."""
+    curvature: FloatArray
+    """(A, D, T) Of the curve parallel to the flank through each tooth's centre, 1/m."""
+    tooth_centre: FloatArray
+    """(T, 2) m."""
+    pin_angle: FloatArray
+    """(A, P) Of every pin in the ring's frame, rad."""
+    crank_angle: FloatArray
+    """(A,) rad."""
+    phases: FloatArray
+    """(D,) rad."""
+    basis: FloatArray
+    """(G, 2, M) From :func:`.gaps_kernel.harmonic_basis`."""
+    lobe_count: int
+    play: float
+    """Total play of a cam bearing, m."""
+    eccentricity: float
+    length: float
+    """Pin circle, m."""
+
+
+class Toleranced(NamedTuple):
+    """Gaps of one gearbox with its errors, filled by :func:`.gaps_kernel.fill_errors`."""
+
+    gaps: FloatArray
+    gap_rates: FloatArray
+    """(A, D, C) m."""
+    offset: FloatArray
+    offset_rates: FloatArray
+    """(A, D, 2) m."""
+    half_play: FloatArray
+    """(D,) m."""
+
+
+class Start(NamedTuple):
+    """What the perfect gearbox knows before toleranced ones are solved."""
+
+    marked: NDArray[np.bool_]
+    """(A,) Angles that serve backlash and stiffness."""
+    perfect: FloatArray
+    """(A, 3 + 3 D) Its states under the torque."""
+    free_poses: FloatArray
+    """(2, A, 3 + 3 D) Its poses at both ends of its backlash."""
+    torque: float
+    """N m."""
+
+
+class RigidParts(NamedTuple):
+    """A gearbox whose parts do not yield, over its crank angles."""
+
+    rows: FloatArray
+    gaps: FloatArray
+    """As in :class:`Contacts`, with errors, (A, D, C, ...)."""
+    curvature: FloatArray
+    tooth_centre: FloatArray
+    pin_angle: FloatArray
+    crank_angle: FloatArray
+    """As in :class:`Nominal`."""
+    own_angle: FloatArray
+    """(A, D) Crank angle of every disc, rad."""
+    apart: FloatArray
+    """(A, D, P, 2) Hole off its pin by position errors, in the ring's frame, m."""
+    offset: FloatArray
+    half_play: FloatArray
+    """(A, D, 2) and (D,) Of the cams, m."""
+    eccentricity: float
+    length: float
+    """e and the pin circle, m."""
+
+
+class Extremes(NamedTuple):
+    """Ends of the carrier's free range at B angles, filled by `backlash_sweep`."""
+
+    ends: FloatArray
+    """(B,) Angle, rad; meaningless where parts overlap whatever they do."""
+    preload: FloatArray
+    """(B,) Greatest overlap that no motion removes, m; clearances give about the push."""
+    poses: FloatArray
+    """(B, 3 + 3 D) Carrier and discs there, m."""
