@@ -91,6 +91,8 @@ app.add_typer(torque)
 
 _FULL = {errno.ENOSPC, errno.EFBIG, errno.EDQUOT}
 """A disk without room."""
+_BARRED = {errno.ENAMETOOLONG, errno.EACCES, errno.EPERM, errno.EROFS, errno.ELOOP, errno.ENOTDIR}
+"""A place that cannot be, or is not ours."""
 
 
 def _show_version(wanted: bool) -> None:
@@ -141,6 +143,10 @@ def run(arguments: Sequence[str]) -> int:
             # Compiled kernels are kept on disk by numba, which does not ask whether there is room.
             place = error.filename or "what is kept for the next run"
             return _end(arguments, 2, "UsageError", f"cannot write {place}: {error.strerror}.")
+        if isinstance(error, OSError) and error.errno in _BARRED and error.filename:
+            place = str(error.filename)
+            told = place if len(place) <= 80 else f"{place[:80]}..."
+            return _end(arguments, 2, "UsageError", f"cannot use {told}: {error.strerror}.")
         missing = missing_dependency(error) if isinstance(error, ImportError) else None
         if missing is not None:
             return _end(arguments, missing.exit_code, type(missing).__name__, missing.message)

@@ -4,6 +4,7 @@
     python -m tools.fuzz --group designs --seed 7         # one group with another seed
     python -m tools.fuzz --group designs --seed 7 --case 41 --show    # one case, with its files
     python -m tools.fuzz --properties                     # the property tests, at random
+    python -m tools.fuzz --properties tests/properties/test_units.py     # those of one file
 
 Every case is drawn from its group, seed and number alone, and runs in a process of its own, forked
 from one that has its imports done. What must hold: an exit code of docs/cli.md, never that of a
@@ -66,8 +67,8 @@ def main() -> int:
     """Run the campaign; the exit code is 1 where a promise was broken."""
     asked = _parser().parse_args()
     if asked.properties:
-        command = [sys.executable, "-m", "pytest", "tests/properties", "-q"]
-        return subprocess.call([*command, "--hypothesis-profile=random", *asked.rest])
+        command = [sys.executable, "-m", "pytest", "-q", "--hypothesis-profile=random"]
+        return subprocess.call([*command, *(asked.rest or ["tests/properties"])])
     warnings.simplefilter("ignore")  # of forks beside threads, and names twice in an archive
     preload()
     failed = 0
@@ -93,7 +94,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--case", type=int, help="this one alone")
     parser.add_argument("--show", action="store_true", help="print the case before it runs")
     parser.add_argument("--properties", action="store_true", help="hypothesis at random instead")
-    parser.add_argument("rest", nargs="*", help="for pytest, after --")
+    parser.add_argument("rest", nargs="*", help="files of property tests")
     return parser
 
 

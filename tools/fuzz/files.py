@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import io
 import json
 import random
@@ -39,9 +40,9 @@ def damaged(draw: random.Random, content: bytes) -> bytes:
 
 def changed(draw: random.Random, content: Any) -> Any:
     """A JSON document with something else in one to three places."""
-    copy = json.loads(json.dumps(content))
+    own = json.loads(json.dumps(content))
     for _ in range(draw.randint(1, 3)):
-        table: Any = copy
+        table: Any = own
         while True:
             keys = list(table) if isinstance(table, dict) else range(len(table))
             if not keys:
@@ -52,13 +53,13 @@ def changed(draw: random.Random, content: Any) -> Any:
                 continue
             kind = draw.random()
             if kind < 0.75:
-                table[key] = draw.choice(_VALUES)
+                table[key] = copy.deepcopy(draw.choice(_VALUES))
             elif kind < 0.85 and isinstance(table, dict):
                 del table[key]
             elif isinstance(table, dict):
-                table[f"{key}x"] = draw.choice(_VALUES)
+                table[f"{key}x"] = copy.deepcopy(draw.choice(_VALUES))
             break
-    return copy
+    return own
 
 
 def json_bytes(draw: random.Random, content: Any) -> bytes:
