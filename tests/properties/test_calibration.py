@@ -80,6 +80,7 @@ def test_scale_of_the_tolerances_is_found_for_a_drawn_gearbox() -> None:
     assert found.factors["tolerance_scale"] == pytest.approx(2.0, rel=0.03)
 
 
+@pytest.mark.deep
 def test_paper_on_three_rows(actuator: ActuatorParameters) -> None:
     """What the documents state of the paper's actuator: three rows fitted, these predicted."""
     from cqdd_design.catalog.paper import METRICS as TABLE
@@ -143,6 +144,7 @@ def test_what_was_fitted_predicts_nothing(actuator: ActuatorParameters) -> None:
 # ------------------------------------------------------------------ files
 
 
+@pytest.mark.deep
 def test_file_brings_the_factors_back(actuator: ActuatorParameters, tmp_path: Path) -> None:
     wanted = rows_of(apply_factors(actuator, {"friction_level": 2.0}), ["backdrive_static"])
     found = calibrate(actuator, wanted)

@@ -79,7 +79,7 @@ def texts(markup: str) -> list[str]:
     return ["".join(item.itertext()) for item in root.iter("text", f"{SVG}text")]
 
 
-@pytest.mark.parametrize("name", ["paper", BOTH])
+@pytest.mark.parametrize("name", [pytest.param("paper", marks=pytest.mark.deep), BOTH])
 def test_pictures_are_well_formed_light_and_name_every_part(name: str) -> None:
     found, (design, parts) = views(name), machine(name)
     for figure in (found.assembled, found.exploded, found.section):

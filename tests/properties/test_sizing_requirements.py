@@ -248,6 +248,7 @@ def test_thick_screws_get_the_clearance_their_tolerance_needs():
     assert pins.hole_clearance > 16e-6
 
 
+@pytest.mark.deep
 def test_every_requirement_has_an_effect():
     asked = {"ratio": 12, "peak_torque": "50 N*m", "continuous_torque": "15 N*m"}
     base = sized(**asked).design
@@ -281,6 +282,7 @@ def test_needles_are_used_where_the_discs_are_hard_enough_to_be_raceways():
     assert design.reducer.cam_bearing.designation.startswith("needle")
 
 
+@pytest.mark.deep
 def test_harder_discs_allow_more():
     """Pressure limits rise with hardness, so the ring contact stops binding."""
     assert find_material("AISI 52100 / 100Cr6 hardened").rockwell_hardness >= 58.0

@@ -38,6 +38,7 @@ def test_the_angles_go_once_round_the_output() -> None:
     assert np.ptp(angles) == pytest.approx(2.0 * math.pi * 10 * 71 / 72)
 
 
+@pytest.mark.deep
 def test_gaps_are_those_of_the_design(motion: AssemblyMotion) -> None:
     assert motion.collisions == ()
     # 6 um at the teeth, half of 16 um in the holes, 0.5 mm beside the discs; facets take some.

@@ -101,10 +101,10 @@ def test_display_meshes_are_closed_and_small() -> None:
 @pytest.mark.parametrize(
     ("name", "angles", "quality"),
     [
-        ("paper", [2.3], FINE),
-        ("three discs", [1.1], DISPLAY),
+        pytest.param("paper", [2.3], FINE, marks=pytest.mark.deep),
+        pytest.param("three discs", [1.1], DISPLAY, marks=pytest.mark.deep),
         ("pinwheel", [4.0], DISPLAY),
-        ("conjugate", [7.7], DISPLAY),
+        pytest.param("conjugate", [7.7], DISPLAY, marks=pytest.mark.deep),
         ("one disc", [30.0], DISPLAY),
     ],
     ids=lambda value: value if isinstance(value, str) else "",

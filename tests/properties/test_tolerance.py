@@ -159,6 +159,7 @@ def test_statistics_are_those_of_the_values() -> None:
     assert result.solves == 40 * 2 * 88
 
 
+@pytest.mark.deep
 def test_memory_stays_flat() -> None:
     ensemble = make_ensemble(paper(), angles=44)
     run_ensemble(ensemble, 500, sensitivity=False)
