@@ -396,3 +396,14 @@ def test_a_design_without_a_position_gain_is_told_what_to_give():
     )
     with pytest.raises(DesignError, match="position_gain"):
         generate(loose, SMALL)
+
+
+def test_the_difference_of_two_readings_is_late_by_the_delay_told() -> None:
+    chain = SensorChain()
+    told = chain.to_dict(1000.0, 0, -10.0)
+    rate, _ = chain.acquisition(1000.0)
+    times = np.arange(20) / rate
+    # Under a constant acceleration of 3 rad/s^2 the speed seen is that of the delay before.
+    seen = np.diff(1.5 * times**2) * rate
+    delays = times[1:] - seen / 3.0
+    np.testing.assert_allclose(delays, told["velocity_delay_s"], rtol=1e-9)
