@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike
 
 from cqdd_design.actuator.motor import COPPER_COEFFICIENT, resistance_at
 from cqdd_design.actuator.parameters import (
-    DriveParameters,
     FloatArray,
     MotorParameters,
     ThermalParameters,
@@ -67,24 +66,6 @@ def continuous_current(
         )
     total = thermal.winding_to_housing + thermal.housing_to_ambient
     return math.sqrt(rise / (total * float(resistance_at(motor, hottest))))
-
-
-def derated_limit(
-    motor: MotorParameters,
-    drive: DriveParameters,
-    thermal: ThermalParameters,
-    temperature: ArrayLike,
-) -> FloatArray:
-    """Current limit at winding temperatures (deg C), A.
-
-    The drive's limit up to `derating_begins`, then straight down to the continuous current of
-    `most`, and no further.
-    """
-    hold = min(continuous_current(motor, thermal), drive.current_limit)
-    span = max(thermal.most - thermal.derating_begins, 1e-9)
-    over = (np.asarray(temperature, dtype=float) - thermal.derating_begins) / span
-    share = np.clip(over, 0.0, 1.0)
-    return np.asarray(drive.current_limit + share * (hold - drive.current_limit))
 
 
 def system(

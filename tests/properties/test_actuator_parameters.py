@@ -14,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.actuator import motor as motors
+from cqdd_design.actuator import operating
 from cqdd_design.actuator import thermal as thermals
 from cqdd_design.actuator import transmission as transmissions
 from cqdd_design.actuator.build import actuator_parameters
@@ -82,6 +83,23 @@ def test_envelope_is_point_symmetric_and_bound_by_both_limits() -> None:
     assert motors.no_load_speed(MOTOR, 24.0, drag=50.0) == 0.0
 
 
+def test_iron_drags_against_the_motion_and_the_envelope_pays_it() -> None:
+    one = replace(MOTOR, hysteresis=0.02)
+    np.testing.assert_allclose(motors.iron_drag(one, [-50.0, 0.0, 50.0]), [-0.025, 0.0, 0.025])
+    speed = np.array([-50.0, 50.0])
+    with_drag, without = (
+        motors.envelope(motor, built().drive, speed)
+        for motor in (one, replace(one, hysteresis=0.0, iron_loss=0.0))
+    )
+    np.testing.assert_allclose(without.high - with_drag.high, [-0.025, 0.025])
+    needs = operating.needed(replace(built(), motor=one), 10.0, 5.0, 25.0)
+    freely = operating.needed(
+        replace(built(), motor=replace(one, hysteresis=0.0, iron_loss=0.0)), 10.0, 5.0, 25.0
+    )
+    assert (needs.current - freely.current) * one.torque_constant == pytest.approx(0.025)
+    assert needs.heat - freely.heat == pytest.approx(0.025 * 50.0)
+
+
 @given(st.floats(0.0, 30.0), st.floats(0.0, 20.0))
 @settings(max_examples=30)
 def test_thermal_response_obeys_its_equations(current: float, heat: float) -> None:
@@ -99,18 +117,12 @@ def test_thermal_response_obeys_its_equations(current: float, heat: float) -> No
     np.testing.assert_allclose(slope[:, 1] * 1000.0, heat + across - out, atol=1e-2 + 1e-4 * heat)
 
 
-def test_continuous_current_ends_at_the_limit_and_derating_there() -> None:
+def test_continuous_current_ends_at_the_limit() -> None:
     current = thermals.continuous_current(MOTOR, THERMAL, housing_heat=10.0)
     ends = thermals.steady_state(MOTOR, THERMAL, current, 10.0)
     assert ends[0] == pytest.approx(THERMAL.most)
     late = thermals.response(MOTOR, THERMAL, current, [1e6], housing_heat=10.0)[0]
     assert late == pytest.approx(ends)
-    drive = built().drive
-    limits = thermals.derated_limit(MOTOR, drive, THERMAL, [25.0, 100.0, 110.0, 120.0, 200.0])
-    held = thermals.continuous_current(MOTOR, THERMAL)
-    middle = 0.5 * (held + drive.current_limit)
-    full = drive.current_limit
-    np.testing.assert_allclose(limits, [full, full, middle, held, held])
     with pytest.raises(DesignError, match="without end"):
         thermals.steady_state(MOTOR, THERMAL, thermals.runaway_current(MOTOR, THERMAL))
     with pytest.raises(DesignError, match="leaves nothing"):
