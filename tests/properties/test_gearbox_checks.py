@@ -641,3 +641,15 @@ def test_the_wire_named_by_the_remedy_passes() -> None:
     assert by_id(resolve(fine.replacing(thinner)).analysis)["EDM-DISC"].status == "pass"
     thicker = {"edm.wire_diameter": f"{1.02 * wire:.4f} mm"}
     assert by_id(resolve(fine.replacing(thicker)).analysis)["EDM-DISC"].status == "fail"
+
+
+def test_the_crank_turns_faster_against_the_disc() -> None:
+    """(1 + 1/n) of the input: the disc turns backwards at 1/n."""
+    analysis = resolve(SOUND).analysis
+    speed = SOUND.requirements.input_speed
+    assert analysis.cam_bearing.speed == pytest.approx(1.1 * speed)
+    cam = analysis.cam_bearing
+    turns = (cam.bearing.dynamic_rating / cam.continuous_load) ** 3 * 1e6
+    assert by_id(analysis)["BEARING-LIFE"].value == pytest.approx(
+        turns * 2.0 * math.pi / (3600.0 * 1.1 * speed)
+    )

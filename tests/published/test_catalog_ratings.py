@@ -20,6 +20,8 @@ from cqdd_design.catalog import (
     shoulder_screws,
 )
 from cqdd_design.catalog.needles import dynamic_rating, needle_set, static_rating
+from cqdd_design.gearbox.contact.laws import ball_complement, cam_spring
+from cqdd_design.gearbox.losses.rolling import DRAG_FACTOR
 
 
 def test_every_row_names_its_source():
@@ -111,3 +113,22 @@ def test_needles_fill_the_space_between_the_rings(size, drawn_cup, expected):
     lengths = (found.diameter, found.length, found.pitch_diameter)
     assert [1e3 * value for value in lengths] == pytest.approx(expected[:3])
     assert found.count == expected[3]
+
+
+def test_a_size_on_the_step_belongs_to_the_range_below():
+    """ISO 286: over 3 up to and including 6 mm."""
+    assert fit_limits("f9", 3e-3).up_to == pytest.approx(3e-3)
+    assert fit_limits("f9", 6e-3).up_to == pytest.approx(6e-3)
+
+
+def test_rolling_elements_of_the_cam_bearing():
+    """Balls of 0.3 (D - d), counted from C0; needles: 7.68e-5 Q^0.9/l^0.8 with Q = 4.08 F/Z."""
+    count, diameter = ball_complement(find_bearing("6902"))
+    assert (count, diameter) == (12, pytest.approx(0.3 * 13e-3))
+    cage = find_bearing("needle cage K20x24x13")
+    needles = needle_set(0.020, 0.024, 0.013, drawn_cup=False)
+    spring = cam_spring(cage, 0.0)
+    force = 2000.0
+    approach = 7.68e-8 * (4.08 * force / needles.count) ** 0.9 / (1e3 * needles.length) ** 0.8
+    assert spring.stiffness * approach**spring.exponent == pytest.approx(force)
+    assert DRAG_FACTOR["needle"] == DRAG_FACTOR["needle cage"] == 12.0
