@@ -189,12 +189,15 @@ def _manifest(draw: random.Random) -> Case:
     content = {
         **{"format": "cqdd-design torque data 1", "dt_s": 0.01, "torque_range_Nm": [-9.0, 9.0]},
         **{"position_gain_Nm_per_rad": 60.0, "velocity_gain_Nms_per_rad": 2.0},
-        "facts": {"held_mass_kg": 1.0, "pendulum": {"gravity": 9.81, "wall": {"side": 1}}},
+        "facts": {"held_mass_kg": 1.0, "pendulum": {**dict.fromkeys(_PENDULUM, 1.0), "wall": None}},
         "episodes": [{"name": "a", "samples": 3, "group": {"mass": 1}}],
     }
     episode = files.damaged(draw, _parquet())
     given = {"d/manifest.json": files.json_bytes(draw, content), "d/episodes/a.parquet": episode}
     return Case(given, call=lambda: read_data(Path("d")))
+
+
+_PENDULUM = ("gravity", "bar_gravity_moment", "bar_inertia", "hanging_angle", "viscous")
 
 
 @functools.cache
