@@ -144,8 +144,8 @@ class GearboxInertia:
 
     @property
     def rotor_inertia(self) -> float | None:
-        """Of the motor, kg m^2; None where it is not known."""
-        return self.motor.rotor_inertia
+        """Of the bare motor, kg m^2; None where it is not known, as of a geared actuator."""
+        return self.motor.rotor_inertia if self.motor.torque_at == "motor" else None
 
     @property
     def gearbox_reflected(self) -> float:

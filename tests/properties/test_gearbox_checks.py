@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 import re
@@ -15,7 +16,7 @@ from geometry_designs import design_of, discs
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cqdd_design.catalog import find_material, materials
+from cqdd_design.catalog import find_bearing, find_material, materials
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import CqddError, GeometryError, InfeasibleError, UsageError
 from cqdd_design.gearbox import (
@@ -25,6 +26,7 @@ from cqdd_design.gearbox import (
 )
 from cqdd_design.gearbox.balance import paper_disc_count, stack_balance
 from cqdd_design.gearbox.bearing_life import basic_rating_life_hours, load_for_life
+from cqdd_design.gearbox.cam_bearing import choose
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.geometry import CycloidDisc
 from cqdd_design.machine import resolve
@@ -653,3 +655,15 @@ def test_the_crank_turns_faster_against_the_disc() -> None:
     assert by_id(analysis)["BEARING-LIFE"].value == pytest.approx(
         turns * 2.0 * math.pi / (3600.0 * 1.1 * speed)
     )
+
+
+def test_of_bearings_that_fail_the_one_with_most_load_reserve_is_chosen() -> None:
+    """Half the life of a ball bearing is a reserve of 0.79, more than a static safety of 0.6."""
+    speed = 100.0
+    load = float(load_for_life(10e3, allowables.LIFE_HOURS / 2.0, speed))
+    short = dataclasses.replace(find_bearing("6902"), dynamic_rating=10e3, static_rating=1e9)
+    weak = dataclasses.replace(short, dynamic_rating=1e9, static_rating=0.6 * load)
+    for order in ((short, weak), (weak, short)):
+        chosen = choose(order, load, load, speed)
+        assert chosen is not None
+        assert chosen.bearing is short

@@ -6,6 +6,7 @@ import json
 import math
 from dataclasses import replace
 from itertools import pairwise
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given, settings
@@ -13,6 +14,7 @@ from hypothesis import strategies as st
 
 from cqdd_design.catalog import find_material, materials
 from cqdd_design.errors import CqddError, GeometryError, UsageError
+from cqdd_design.planetary import load_factors
 from cqdd_design.planetary.compare import compare_planetary
 from cqdd_design.planetary.cycloid import CycloidLimit
 from cqdd_design.planetary.gear_material import gear_material, stress_numbers
@@ -202,6 +204,34 @@ def test_torsion_of_the_pinion_is_that_of_a_solid_shaft():
     twist = 0.5 * torque * width / (shear_modulus * math.pi / 32.0 * diameter**4)
     found = influence.torsional_misalignment(load, width, diameter, 1, True)
     assert found == pytest.approx(twist * diameter / 2.0, rel=5e-3)
+
+
+def test_notch_sensitivity_goes_with_the_fourth_root_of_strength():
+    """At 300 and at 16 times 300 MPa the root is 1 and a half (ISO 6336-3, 13.3.2)."""
+    for strength, root in ((300e6, 1.0), (16 * 300e6, 0.5)):
+        gear = replace(STEEL, yield_strength=strength)
+        found = bending.relative_notch_sensitivity_static(gear, 3.0)
+        assert found == pytest.approx((1.0 + 2.0 * 0.82 * root) / (1.0 + 0.82 * root))
+
+
+def test_solid_gears_resonate_with_the_mass_at_their_mean_diameter():
+    """ISO 6336-1, eq. 30 to 32 and 6.4.7.2, of a sun of 12 mm between 14 and 9.5 mm in a planet."""
+    pair = SimpleNamespace(
+        pinion_teeth=12,
+        wheel_teeth=36,
+        tip_diameters=(14e-3, 38e-3),
+        root_diameters=(9.5e-3, 33.5e-3),
+        base_diameter=lambda teeth: teeth * 1e-3 * math.cos(math.radians(20.0)),
+    )
+    mesh = SimpleNamespace(pair=pair, pinion_is_sun=True)
+    sun, planet = (
+        math.pi / 8.0 * 7850.0 * mean**4 / pair.base_diameter(teeth) ** 2
+        for mean, teeth in ((11.75e-3, 12), (35.75e-3, 36))
+    )
+    found = load_factors.reduced_mass(mesh, 3, 7850.0)
+    assert found == pytest.approx(planet * sun / (3.0 * planet + sun))
+    mesh.pinion_is_sun = False
+    assert load_factors.reduced_mass(mesh, 3, 7850.0) == pytest.approx(sun)
 
 
 def test_helix_interpolates_between_spur_and_full_overlap():

@@ -131,6 +131,14 @@ def test_a_motor_without_rotor_inertia_is_told() -> None:
     assert resolve(known_design("paper")).inertia.warnings == ()
 
 
+def test_the_rotor_of_a_geared_actuator_is_none_of_a_bare_motor() -> None:
+    geared = "CubeMars AK10-9 V2 KV60"
+    assert find_motor(geared).rotor_inertia is not None
+    found = resolve(known_design("paper").replacing({"motor.name": geared})).inertia
+    assert found.rotor_inertia is None
+    assert found.reflected_input == found.gearbox_reflected
+
+
 def test_crank_of_two_opposed_lobes_has_a_couple_and_no_unbalance() -> None:
     design = known_design("paper")
     crank = crank_properties(design, known_parts("paper"), closed_form)
