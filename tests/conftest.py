@@ -44,6 +44,14 @@ def pytest_sessionstart(session: pytest.Session) -> None:
         half.wait()  # what does not compile here is told by the tests that need it
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Keep a file's tests on one worker: its costly fixtures are made once."""
+    from xdist.scheduler import LoadFileScheduling
+
+    return LoadFileScheduling(config, log)
+
+
 @dataclass(frozen=True)
 class Finished:
     """A process that has ended."""

@@ -117,20 +117,20 @@ def test_without_dask_it_says_what_to_install(tmp_path: Path) -> None:
 def test_ctrl_c_keeps_what_is_done(cqdd) -> None:
     cqdd("tolerance", str(DESIGN), "--samples", "1", "--angles", "44")  # compiled from here on
     process = subprocess.Popen(
-        [sys.executable, "-m", "cqdd_design", "tolerance", str(DESIGN), "--samples", "20000",
+        [sys.executable, "-m", "cqdd_design", "tolerance", str(DESIGN), "--samples", "3000",
          "--angles", "44", "--json"],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
     )  # fmt: skip
     assert process.stderr is not None
-    assert any("of 20000 gearboxes" in line for line in process.stderr)
+    assert any("of 3000 gearboxes" in line for line in process.stderr)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=120)
     assert process.returncode == 130, err
     results = json.loads(out)["results"]
     assert results["interrupted"] is True
-    assert 0 < results["samples"] < 20_000
+    assert 0 < results["samples"] < 3_000
     assert results["backlash_arcmin"]["std"] > 0.0
     assert "Traceback" not in err
 
