@@ -192,7 +192,11 @@ def log(draw: random.Random) -> bytes:
         draw,
         ["time", "q", "q_des", "dq", "tau"],
         draw.choice([0, 1, 2, 50, 400]),
-        lambda row, k: f"{row * step:.4f}" if k == 0 else f"{np.sin(0.1 * row + k):.5f}",
+        lambda row, k: (
+            f"{row * step:.4f}"
+            if k == 0
+            else f"{[np.sin, np.sin, np.cos, np.sin][k - 1](0.1 * row) * [1, 1, 10, 5][k - 1]:.5f}"
+        ),
     )
 
 
