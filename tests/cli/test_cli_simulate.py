@@ -197,7 +197,7 @@ WRONG = {
     ("--end-frequency", "0.2 Hz"): "--end-frequency 0.2 Hz is not above --frequency 0.5 Hz",
     ("--signal", "file"): "needs --reference FILE.csv with the columns time [s],torque [N*m]",
     ("--signal", "sine", "--reference", "r.csv"): "--reference does not belong to --signal sine",
-    ("--reference", "none.csv"): "none.csv cannot be read: No such file or directory",
+    ("--reference", "none.csv"): "cannot read none.csv: there is no such file",
     ("--out", "trace.csv"): "trace.csv ends neither in .npz nor in .parquet; name it trace.npz",
     ("--out", "."): "name it simulation.npz",
     ("--seed", "18446744073709551615", "--samples", "2"): "seeds end at 18446744073709551615",

@@ -435,7 +435,7 @@ def test_newtons_file_holds_what_its_loader_reads(tmp_path):
 def test_a_client_that_cannot_feed_an_input_is_refused(tmp_path, kind, inputs, why):
     artefact = network(inputs=inputs, mode="window")
     with pytest.raises(UsageError, match=why):
-        export_artefact(artefact, ["onnx", kind], tmp_path, "net")
+        export_artefact(artefact, [kind], tmp_path, "net")
     assert not list(tmp_path.iterdir())
 
 
@@ -466,5 +466,5 @@ def test_other_settings_than_the_trainings_are_refused(tmp_path):
     ):
         with pytest.raises(UsageError, match=name):
             require_settings(settings, *given)
-    with pytest.raises(UsageError, match="no settings"):
+    with pytest.raises(UsageError, match="is not a text file"):
         require_settings(tmp_path / "net-mjlab.pt", DT, 60.0, 2.0)

@@ -350,5 +350,5 @@ def test_a_reference_that_is_none(tmp_path, content, said):
 def test_a_reference_that_cannot_be_read(tmp_path):
     with pytest.raises(UsageError, match="there is no such file"):
         read_reference(tmp_path / "none.csv", TORQUE)
-    with pytest.raises(UsageError, match="cannot be read: Is a directory"):
+    with pytest.raises(UsageError, match="it is a folder"):
         read_reference(tmp_path, TORQUE)
