@@ -73,6 +73,7 @@ def test_the_bill_names_the_motor_of_the_file(cqdd, tmp_path, paper_design_file,
     assert "RO100 KV55, stator" not in text
 
 
+@pytest.mark.deep
 def test_the_report_shows_the_motor_of_the_file(cqdd, tmp_path, paper_design_file, motor_file):
     page = tmp_path / "page.html"
     done = cqdd("report", paper_design_file, "--out", page, "--motor-file", motor_file)

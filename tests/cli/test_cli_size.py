@@ -7,6 +7,7 @@ import pytest
 from cqdd_design.design import load_design
 
 
+@pytest.mark.deep
 def test_the_first_command_of_a_newcomer(cqdd, tmp_path):
     done = cqdd("size", "--ratio", "10", "--report", "--export", "dxf")
     assert done.code == 0, done.err
@@ -79,6 +80,7 @@ def test_motor_that_does_not_exist(cqdd):
     assert "CubeMars RO100 KV55" in done.err
 
 
+@pytest.mark.deep
 def test_the_file_names_the_design(cqdd, tmp_path):
     done = cqdd("size", "--ratio", "10", "--out", "knee.toml", "--report")
     assert done.code == 0

@@ -25,6 +25,7 @@ def run(tmp_path, monkeypatch):
     return process
 
 
+@pytest.mark.deep
 def test_a_spoilt_kernel_is_compiled_anew(run, tmp_path):
     first = run()
     assert first.returncode == 0, first.stderr
