@@ -187,15 +187,15 @@ def table(
 
 def log(draw: random.Random) -> bytes:
     """A log of a joint."""
-    step = draw.choice([0.01, 0.01, 0.0, -0.01, 1e-9])
+    step = draw.choice([*(6 * [0.005]), 0.0, -0.005, 1e-9])
     return table(
         draw,
         ["time", "q", "q_des", "dq", "tau"],
-        draw.choice([0, 1, 2, 50, 400]),
+        draw.choice([0, 1, 2, 50, 400, 400, 400]),
         lambda row, k: (
             f"{row * step:.4f}"
             if k == 0
-            else f"{[np.sin, np.sin, np.cos, np.sin][k - 1](0.1 * row) * [1, 1, 10, 5][k - 1]:.5f}"
+            else f"{[np.sin, np.sin, np.cos, np.sin][k - 1](0.1 * row) * [1, 1, 20, 5][k - 1]:.5f}"
         ),
     )
 

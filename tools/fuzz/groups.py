@@ -113,15 +113,15 @@ def _tables(draw: random.Random) -> Case:
 
 
 def _log(draw: random.Random) -> Case:
-    given = {f"log{draw.choice(['.csv', '.csv', '.tsv', '.parquet', '.pkl'])}": files.log(draw)}
+    given = {f"log{draw.choice([*(8 * ['.csv']), '.tsv', '.parquet', '.pkl'])}": files.log(draw)}
     arguments = ["torque", "import", *given, "--position-gain", "60 N*m/rad"]
-    arguments += ["--velocity-gain", draw.choice(["2 N*m*s/rad", "2 N*m*s/rad", "2 N*m", "-1"])]
-    if draw.random() < 0.3:
+    arguments += ["--velocity-gain", draw.choice([*(14 * ["2 N*m*s/rad"]), "2 N*m", "-1"])]
+    if draw.random() < 0.15:
         given["map.toml"] = files.log_map(draw)
         arguments += ["--map", "map.toml"]
-    if draw.random() < 0.8:
+    if draw.random() < 0.95:
         arguments += ["--columns", "time=time,position=q,target=q_des,velocity=dq,torque=tau"]
-    if draw.random() < 0.3:
+    if draw.random() < 0.1:
         unit = draw.choice(
             ["position=deg", "torque=N*mm", "torque=9**9**9", "x=y", "position", "="]
         )
@@ -133,7 +133,7 @@ def _log(draw: random.Random) -> Case:
         ("--torque-limit", ["10 N*m", "-1 N*m", "1e300 N*m"]),
         ("--current-to-torque", ["1", "nan", "0", "x"]),
     ):
-        if draw.random() < 0.15:
+        if draw.random() < 0.04:
             arguments += [option, draw.choice(values)]
     return Case(given, (*arguments, "--out", "data", "--json"))
 
