@@ -113,9 +113,10 @@ class _Section:
         return (_MIDDLE + self.scale * z, _AXIS - self.scale * x)
 
     def box(self, z: Extent, x: Extent, class_: str) -> str:
-        """A rectangle along the axis (z) and above it (x), m."""
-        size = (self.scale * (z[1] - z[0]), self.scale * (x[1] - x[0]))
-        return rectangle(*self.at(z[0], x[1]), *size, class_)
+        """A rectangle along the axis (z) and above it (x, whichever end is first), m."""
+        low, high = sorted(x)
+        size = (self.scale * (z[1] - z[0]), self.scale * (high - low))
+        return rectangle(*self.at(z[0], high), *size, class_)
 
     def disc_extent(self, disc: int) -> Extent:
         """Where a disc begins and ends on the axis, m."""
