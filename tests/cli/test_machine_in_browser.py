@@ -73,7 +73,7 @@ _PROBE = """<script>
   var waits = 0, timer = setInterval(function () {
     waits += 1;
     var view = document.getElementById("machine-view");
-    if (!window.cqddMachineHandle && waits < 200 && !view.hasAttribute("data-failed")) { return; }
+    if (!window.cqddMachineHandle && waits < 2000 && !view.hasAttribute("data-failed")) { return; }
     clearInterval(timer);
     var found = { failed: view.getAttribute("data-failed"), poster: getComputedStyle(
       document.getElementById("machine-poster")).display };
