@@ -124,7 +124,7 @@ def test_ctrl_c_keeps_what_is_done(cqdd) -> None:
         text=True,
     )  # fmt: skip
     assert process.stderr is not None
-    assert any("of 3000 gearboxes" in line for line in process.stderr)
+    assert any(" gearboxes" in line for line in process.stderr)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=120)
     assert process.returncode == 130, err
