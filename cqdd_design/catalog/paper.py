@@ -20,7 +20,6 @@ class Figure(NamedTuple):
 
     Attributes
     ----------
-    value : float
     place : str
         Where the paper has it.
     spread : float or None

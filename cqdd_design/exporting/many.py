@@ -64,7 +64,6 @@ def export_many(
 
     Parameters
     ----------
-    designs : sequence of Path
     arguments : sequence of str
         Options of ``cqdd-design export``, the same for all.
     folder : Path, optional

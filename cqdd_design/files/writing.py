@@ -133,10 +133,6 @@ def write_atomically(path: Path, content: bytes | str, kind: str) -> WrittenFile
     kind : str
         What the file is, for the list of files ("dxf", "report", ...).
 
-    Returns
-    -------
-    WrittenFile
-
     Raises
     ------
     UsageError

@@ -124,7 +124,6 @@ def require_one_centre_distance(
 
     Parameters
     ----------
-    teeth : PlanetaryTeeth
     module : float
         m, only for the message.
     sun_distance, ring_distance : float

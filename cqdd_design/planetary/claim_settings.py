@@ -76,7 +76,6 @@ class ClaimSetting:
     ----------
     material, factors : str
         Material with hardness and quality; key of :func:`searched_factors`.
-    application_factor : float
     planets_needed : int or None
         Fewest planets that bear the peak torque and assemble; None if 24 do not suffice.
     contact_safety_six, contact_safety_fitting : float

@@ -82,8 +82,6 @@ def paper_claims(
 
     Parameters
     ----------
-    material : GearMaterial
-    settings : RatingSettings
     sun_speed : float
         rad/s, for life cycles and lubrication.
     bore : float or None

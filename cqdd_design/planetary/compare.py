@@ -49,9 +49,6 @@ class PlanetaryComparison:
 
     Attributes
     ----------
-    gears : PlanetaryGearSet
-    material : GearMaterial
-    peak, continuous : LoadCase
     bore : float or None
         Space inside the stator, m.
     planets : int
@@ -64,11 +61,8 @@ class PlanetaryComparison:
         Fewest planets that keep the safety factor, fitting or not; None when 24 do not.
     ratings : tuple of (int, tuple of MeshRating)
         For each number of planets: sun and ring mesh at peak, then at continuous torque.
-    claims : tuple of Claim
     claim_settings : tuple of ClaimSetting
         The grid behind two of the claims.
-    cycloid : tuple of CycloidLimit
-    warnings : tuple of str
     """
 
     gears: PlanetaryGearSet
@@ -243,13 +237,8 @@ def compare_planetary(
         The number looked at in detail; default the most that fit and assemble.
     bore : float, optional
         Diameter of the space inside the stator, m.
-    settings : RatingSettings, optional
     cycloid : sequence of CycloidLimit
         The cycloid's limits at the same loads, computed elsewhere.
-
-    Returns
-    -------
-    PlanetaryComparison
 
     Raises
     ------

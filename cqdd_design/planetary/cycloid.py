@@ -26,7 +26,6 @@ class CycloidLimit:
         Output torque `value` was computed at, N*m.
     value, limit : float
         In `unit`, both positive; `value` may reach `limit`.
-    unit : str
     torque_exponent : float
         `value` grows as torque to this power: 1 for forces and stresses, 0.5 for Hertz pressures of
         line contacts.

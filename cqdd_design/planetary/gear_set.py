@@ -63,15 +63,10 @@ class PlanetaryGearSet:
 
     Attributes
     ----------
-    teeth : PlanetaryTeeth
     module, face_width : float
         m; both meshes share them.
-    shifts : ProfileShifts
     centre_distance : float
         m.
-    sun_mesh, ring_mesh : PlanetaryMesh
-    envelope : PlanetaryEnvelope
-    settings : RatingSettings
     warnings : tuple of str
         Undercut, interference, thin tips, ranges of validity.
     """
@@ -107,10 +102,8 @@ def build_gear_set(
 
     Parameters
     ----------
-    teeth : PlanetaryTeeth
     module, face_width : float
         m.
-    settings : RatingSettings, optional
 
     Raises
     ------
@@ -317,9 +310,6 @@ def planets_needed(
 
     Parameters
     ----------
-    gears : PlanetaryGearSet
-    case : LoadCase
-    material : GearMaterial
     criterion : {"contact", "bending"}
 
     Returns

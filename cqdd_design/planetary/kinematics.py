@@ -204,7 +204,6 @@ def torques(teeth: PlanetaryTeeth, output_torque: float, planets: int) -> Planet
 
     Parameters
     ----------
-    teeth : PlanetaryTeeth
     output_torque : float
         N*m at the carrier.
     planets : int

@@ -20,14 +20,12 @@ class PlanetaryMesh:
     ----------
     name : str
         ``sun_planet`` or ``planet_ring``.
-    pair : GearPair
     pinion_is_sun : bool
         The sun meets every planet, so its wind-up grows with their number; a planet meets one ring.
     reversed_pinion, reversed_wheel : bool
         Whether that gear's roots are bent both ways by the other mesh (an idler planet).
     rims : tuple of float
         Material behind the roots of pinion and wheel, m; infinite for a solid gear.
-    forms : tuple of ToothForm
     """
 
     name: str
@@ -70,7 +68,6 @@ class MeshLoad:
     ----------
     name : str
         ``peak`` or ``continuous``.
-    planets : int
     tangential : float
         Nominal F_t of one mesh with equal sharing, N.
     pinion_speed : float

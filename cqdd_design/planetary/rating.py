@@ -73,19 +73,7 @@ class MeshRating:
 def rate_mesh(
     mesh: PlanetaryMesh, load: MeshLoad, material: GearMaterial, settings: RatingSettings
 ) -> MeshRating:
-    """Rate one mesh at one load (ISO 6336-1, -2, -3; both gears of `material`).
-
-    Parameters
-    ----------
-    mesh : PlanetaryMesh
-    load : MeshLoad
-    material : GearMaterial
-    settings : RatingSettings
-
-    Returns
-    -------
-    MeshRating
-    """
+    """Rate one mesh at one load (ISO 6336-1, -2, -3; both gears of `material`)."""
     pair = mesh.pair
     factors = load_factors(mesh, load, material, settings)
     elasticity = pitting.elasticity_factor(material, material)

@@ -120,7 +120,6 @@ class GearPair:
         Profile shift coefficients x1, x2.
     helix_angle : float
         At the reference cylinder, rad; 0 for spur gears.
-    rack : BasicRack
     pinion_tip_diameter, wheel_tip_diameter : float or None
         Made tip diameters in m (negative for a ring); None for the rack's addendum with shift.
     centre_distance : float or None

@@ -36,7 +36,6 @@ class ReportInput:
         At the torques of the requirements.
     planetary : PlanetaryComparison
         For the same loads.
-    provenance : Provenance
     comments : mapping
         Dotted key to the remark in the design file, from :func:`.origins.read_comments`.
     bodies : Bodies or None

@@ -18,8 +18,6 @@ class Analysis:
 
     Attributes
     ----------
-    machine : Machine
-    gearbox : GearboxAnalysis
     contact : ContactAnalysis or None
         None for a gearbox that cannot carry the torque.
     missing : str
@@ -58,7 +56,6 @@ def analyse(
 
     Parameters
     ----------
-    design : Design
     torque : float, optional
         At the output, N m; see `analyse_contact`.
     speed : float, optional

@@ -39,7 +39,6 @@ def bench(
 
     Parameters
     ----------
-    design : Design
     specimen : Specimen
         Without a seed perfect parts are measured, and their ripple is that of drawn ones.
     only : tuple of str

@@ -33,7 +33,6 @@ def calibrate(
 
     Parameters
     ----------
-    design : Design
     measured : mapping of str to float, optional
         Measurements in the bench's units; default the paper's, of its own actuator only, fitted
         to continuous torque, static backdrive torque and efficiency.

@@ -22,7 +22,6 @@ class Judgement:
 
     Attributes
     ----------
-    checks : tuple of Check
     warnings : tuple of str
         What could not be checked, and why.
     motion : AssemblyMotion or None
@@ -45,7 +44,6 @@ def check(
 
     Parameters
     ----------
-    design : Design
     specimen : Specimen
         Whose motor is judged.
     assembly_angles : int, optional

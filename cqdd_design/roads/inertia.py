@@ -21,7 +21,6 @@ class InertiaAndBalance:
 
     Attributes
     ----------
-    machine : Machine
     bodies : Bodies
         Parts, their mass properties, and the balance by number of discs.
     paper_disc_count : int
@@ -78,7 +77,6 @@ def inertia(
 
     Parameters
     ----------
-    design : Design
     specimen : Specimen
         Whose motor is weighed.
     speed : float, optional

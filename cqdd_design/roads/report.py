@@ -45,7 +45,6 @@ def write_report(
 
     Parameters
     ----------
-    design : Design
     path : Path, optional
         Default ``reports/NAME.html``, whose file is this function's own and is replaced.
     specimen : Specimen

@@ -41,9 +41,6 @@ def simulate(
 
     Parameters
     ----------
-    design : Design
-    scenario : Scenario
-    specimen : Specimen
     duration, step : float
         s; default step: the safe one of `actuator.recording.plan`.
     rate : float
@@ -111,7 +108,6 @@ def write_simulation(
 
     Parameters
     ----------
-    recording : Recording
     path : Path, optional
         Default ``exports/NAME-simulation.npz``, this function's own, which is replaced.
     force : bool

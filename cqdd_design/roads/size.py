@@ -28,7 +28,6 @@ class Road:
 
     Attributes
     ----------
-    sizing : SizingResult
     design : Design
         The sized design under the name of its file.
     files : tuple of WrittenFile
@@ -54,7 +53,6 @@ def size_and_write(
 
     Parameters
     ----------
-    requirements : Requirements
     path : Path, optional
         The design file; default ``designs/sized-N.toml``, this function's own, which is replaced
         unless it has been edited since. Its stem names the design, and so the default places of

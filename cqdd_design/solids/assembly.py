@@ -18,7 +18,6 @@ def build_assembly(design: Design, parts: Sequence[Part], crank_angle: float = 0
 
     Parameters
     ----------
-    design : Design
     parts : sequence of Part
         From `build_parts`.
     crank_angle : float

@@ -36,9 +36,6 @@ def lay_out_carrier(
 
     Parameters
     ----------
-    design : Design
-    pin : OutputPin
-    pack : PackLayout
     support, output : ChosenBearing
         Of shaft and carrier.
     core : float

@@ -130,7 +130,6 @@ def assembly_motion(
 
     Parameters
     ----------
-    design : Design
     parts : sequence of Part
         From `build_parts`.
     crank_angles : array (A,), optional

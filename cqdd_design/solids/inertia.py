@@ -78,7 +78,6 @@ class PartInertia:
 
     Attributes
     ----------
-    name, material : str
     count : int
         Pieces in the machine.
     volume, exact_volume : float
@@ -123,12 +122,10 @@ class GearboxInertia:
 
     Attributes
     ----------
-    parts : tuple of PartInertia
     total : MassProperties
         All pieces at crank angle 0 in the ring's frame, the motor too where it is drawn.
     ratio : int
         n.
-    motor : Motor
     motor_missing : str
         Why the motor is not among the parts; empty where it is.
     orbiting_mass : float
@@ -215,8 +212,6 @@ def gearbox_inertia(
 
     Parameters
     ----------
-    design : Design
-    motor : Motor
     parts : sequence of Part
         From `build_parts`.
     source : callable

@@ -62,12 +62,7 @@ class Layer:
 
 @dataclass(frozen=True, eq=False)
 class Stack:
-    """A part as touching, never overlapping layers.
-
-    Attributes
-    ----------
-    layers : tuple of Layer
-    """
+    """A part as touching, never overlapping layers."""
 
     layers: tuple[Layer, ...]
 

@@ -38,8 +38,6 @@ class PackLayout:
     ----------
     disc_thickness, pitch, top, gap : float
         One disc; from disc to disc; upper face of the last disc; from the pack to cap and plate.
-    disc_count : int
-    eccentricity : float
     cam : ChosenBearing
         Between eccentric and disc.
     reach : float
@@ -108,8 +106,6 @@ class CarrierLayout:
 
     Attributes
     ----------
-    pin : OutputPin
-    pin_count : int
     pin_circle_radius, clocking : float
         Of the pins; the first pin's angle at crank angle 0.
     shoulder_bottom, shoulder_top : float
@@ -120,7 +116,6 @@ class CarrierLayout:
         Of the cap; the counterbore is 0 for dowels.
     lowest : float
         Height of the lowest thing that turns with the carrier.
-    output : ChosenBearing
     shoulder_radius : float
         Of the plate's shoulder under the output bearing.
     plate_bottom, bearing_bottom, bearing_top, nut_top, plate_top : float
@@ -216,16 +211,13 @@ class MotorLayout:
         Of the encoder's magnet: flush with the end of the shaft, or on it.
     board_radius, board_bottom, board_top, sensor_top : float
         Encoder board with its sensor.
-    board_screw : CapScrew
     cover_inner, cover_outer, cover_floor, cover_wall : float
         Inside and outside radius of the cover; height of its floor's inner face about the bell,
         and its thickness (the dish under the board lies lower).
-    ear_count : int
     ear_radius, ear_circle, ear_height : float
         Ears of flange and cover, for the screws that hold them together.
     flange_top : float
         Height of the flange's face under the heads of those screws.
-    cover_screw : CapScrew
     cable_radius, cable_circle : float
         Hole in the flange for the phase leads; 0 where there is no room.
     """
@@ -284,7 +276,6 @@ class DowelLayout:
         rad, where the wall is thickest.
     bottom : float
         Of their holes, which open at the upper face of the ring.
-    length : float
     """
 
     radius: float

@@ -33,8 +33,6 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
 
     Parameters
     ----------
-    design : Design
-    layout : Layout
     fastener : str
         Material of screws.
     """

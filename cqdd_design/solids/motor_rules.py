@@ -102,7 +102,6 @@ def lay_out_motor(
     ----------
     motor : Motor
         With the sizes that :func:`drawn_motor` asks for.
-    pack, housing : PackLayout, HousingLayout
     support : ChosenBearing
         Its bore is the diameter of the shaft's stub.
     unit : float

@@ -52,7 +52,6 @@ def build_parts(design: Design, layout: Layout) -> tuple[Part, ...]:
 
     Parameters
     ----------
-    design : Design
     layout : Layout
         Of the same design, from `lay_out`.
 

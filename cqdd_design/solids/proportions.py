@@ -45,12 +45,6 @@ def millimetre_unit(ring_outer_diameter: float) -> float:
 def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
     """Lay out the machine around the discs of a design.
 
-    Parameters
-    ----------
-    design : Design
-    cam_bearing : Bearing
-    motor : Motor
-
     Raises
     ------
     GeometryError
@@ -97,11 +91,6 @@ def seat_bearings(design: Design, cam_bearing: Bearing) -> tuple[ChosenBearing, 
 
     They are also told where the rest of the machine cannot be laid out: such a gearbox can still
     be analysed. A shaft without room for its core counts with the least one.
-
-    Parameters
-    ----------
-    design : Design
-    cam_bearing : Bearing
 
     Raises
     ------

@@ -51,8 +51,6 @@ class Station:
 
     Attributes
     ----------
-    part : Part
-    pieces : tuple of Instance
     number : int
         Of the part in the lists, from 1.
     """
@@ -159,7 +157,6 @@ class Posed:
 
     Attributes
     ----------
-    part : Part
     pose : array (4, 4)
         From the part's frame to the machine's; m.
     """

@@ -61,13 +61,10 @@ class CutFacts:
 
     Attributes
     ----------
-    flat : FlatPart
-    design : Design
     fit : LoopFit
         Of its fitted contour, measured.
     paths : tuple of WirePath
         One a contour, the outer one first.
-    zones : Zones
     seats : tuple of Seat
         Contours with an ISO 286 zone.
     later : tuple of str

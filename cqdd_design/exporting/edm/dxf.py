@@ -79,8 +79,6 @@ def write_flat_part(
 
     Parameters
     ----------
-    flat : FlatPart
-    design : Design
     path : Path
         Of the file.
     options : ExportOptions, optional

@@ -206,7 +206,6 @@ def split_for_tab(contour: ArcContour, tab: float) -> tuple[OpenChain, OpenChain
 
     Parameters
     ----------
-    contour : ArcContour
     tab : float
         Length of the tab, m, below that of the contour.
 

@@ -136,7 +136,6 @@ def require_inputs(artefact: Artefact, client: str, *, made: tuple[str, ...] = (
 
     Parameters
     ----------
-    artefact : Artefact
     client : str
         Its name, for the message.
     made : tuple of str

@@ -61,7 +61,6 @@ class SheetDrawing:
 
     Attributes
     ----------
-    drawing : ezdxf document
     scale : float
         Millimetres of paper for one of the part.
     """

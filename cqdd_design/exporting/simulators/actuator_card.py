@@ -35,12 +35,8 @@ class Card:
 
     Attributes
     ----------
-    name, design_sha256 : str
-    side : JointSide
     ratio : float
         Signed.
-    constants : MotorConstants
-    rows : tuple of Quantity
     harmonics : mapping
         Of kinematic error and stiffness: orders in a turn of the output, and coefficients.
     settings : mapping

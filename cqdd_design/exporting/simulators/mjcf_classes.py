@@ -62,7 +62,6 @@ class MjcfActuator:
 
     Attributes
     ----------
-    parameters, options, design_sha256
     name : str
         As given, made fit for an attribute.
     """

@@ -68,7 +68,6 @@ def bill_of_materials(motor: Motor, parts: Sequence[Part]) -> tuple[BomRow, ...]
 
     Parameters
     ----------
-    motor : Motor
     parts : sequence of Part
         From `solids.build_parts`.
     """

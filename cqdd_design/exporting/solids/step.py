@@ -72,7 +72,6 @@ def write_step(
 
     Parameters
     ----------
-    design : Design
     parts : sequence of Part
         From `solids.parts.build_parts`.
     path : Path

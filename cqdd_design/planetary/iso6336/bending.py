@@ -200,7 +200,6 @@ def bearable_root_stress(
 
     Parameters
     ----------
-    gear : GearMaterial
     endurance_factors, static_factors : float
         Y_deltarelT Y_RrelT Y_X; the static product has no Y_RrelT.
     cycles : float

@@ -65,7 +65,6 @@ def root_section(
         z_n, negative for an internal gear.
     shift : float
         x.
-    rack : BasicRack
     cutter_teeth : int
         z0 of the pinion cutter; only for internal gears.
 
@@ -189,7 +188,6 @@ def tooth_form(
         z_n, negative for an internal gear.
     shift : float
         x.
-    rack : BasicRack
     load_point_diameter : float
         d_en/m_n, signed like the teeth.
     cutter_teeth : int

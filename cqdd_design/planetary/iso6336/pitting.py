@@ -94,7 +94,6 @@ def nominal_contact_stress(
 
     Parameters
     ----------
-    pair : GearPair
     tangential : float
         Nominal F_t of one mesh, N.
     elasticity : float

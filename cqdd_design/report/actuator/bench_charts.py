@@ -39,7 +39,6 @@ def efficiency_cells(
 
     Parameters
     ----------
-    words : Words
     speed, torque, efficiency : array (P,)
         rpm, N m (sizes) and shares; every speed is a column, an efficiency of 0 is none.
     scale : (float, float)
@@ -133,8 +132,6 @@ def bode(words: Words, found: Response, limits: Sequence[tuple[str, float]] = ()
 
     Parameters
     ----------
-    words : Words
-    found : Response
     limits : sequence of (name, Hz)
         Drawn as vertical lines, those outside the range left out.
     """
@@ -235,7 +232,6 @@ def hysteresis(
 
     Parameters
     ----------
-    words : Words
     motor, output : array (T,)
         arcmin, in the order of time.
     dead : (begin, end, output angle) or None
@@ -318,7 +314,6 @@ def spectrum(
 
     Parameters
     ----------
-    words : Words
     order, amplitude : array (O,)
     named : sequence of int
         Orders to number, strongest first.

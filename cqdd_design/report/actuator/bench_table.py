@@ -96,7 +96,6 @@ def bench_view(parameters: ActuatorParameters, bench: BenchResult, *, pin_count:
 
     Parameters
     ----------
-    parameters : ActuatorParameters
     bench : BenchResult
         Of the same actuator.
     pin_count : int

@@ -53,7 +53,6 @@ def actuator_view(
 
     Parameters
     ----------
-    parameters : ActuatorParameters
     bench : BenchResult
         Of the same actuator.
     requirements : Requirements

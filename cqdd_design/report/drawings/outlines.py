@@ -24,7 +24,6 @@ class Outlines:
 
     Attributes
     ----------
-    design : Design
     stages : Stages
         Its sizes as the rigid law reads them, fits included.
     profile : CycloidDisc

@@ -40,9 +40,7 @@ class ContactView:
     ----------
     heat_maps : tuple of Figure
         One a disc.
-    worst : Figure
     rows : tuple of (name, rigid law, contact)
-    torque : str
     preload : str
         A sentence; empty without interference.
     """

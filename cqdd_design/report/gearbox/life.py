@@ -21,8 +21,6 @@ class LifeView:
     Attributes
     ----------
     duty : tuple of (torque, speed, share)
-    assumed : bool
-    required : str
     rows : tuple of (part, worst place, stress, limit, life, reserve)
     bearings : tuple of (name, load, life)
     """

@@ -42,7 +42,6 @@ class BodiesView:
         What the paper's rule would ask for.
     chart : Figure
         Shares of the reflected inertia.
-    notes : tuple of str
     seats : tuple of (part, seat, diameter, zone, upper, lower)
         ISO 286 zones of the seats.
     """

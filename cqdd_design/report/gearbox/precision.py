@@ -29,7 +29,6 @@ class PrecisionView:
 
     Attributes
     ----------
-    figures : tuple of Figure
     rows : tuple of (name, value, measured in the paper, remark)
         The third only beside the paper.
     measured : bool

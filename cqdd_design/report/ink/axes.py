@@ -70,11 +70,8 @@ class Axis:
 
     Attributes
     ----------
-    low, high : float
-    ticks : tuple of float
     label : str
         With the unit.
-    log : bool
     """
 
     low: float
@@ -132,8 +129,6 @@ class Panel:
     ----------
     id : str
         Unique in the page, for clipping.
-    x, y : Axis
-    left, top, width, height : float
     """
 
     id: str

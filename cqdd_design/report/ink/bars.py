@@ -34,7 +34,6 @@ def bar_chart(
 
     Parameters
     ----------
-    words : Words
     names, shown : sequences of str
         Left of each bar and right of it.
     values : sequence of float
@@ -71,7 +70,6 @@ def histogram(
 
     Parameters
     ----------
-    words : Words
     values : array (S,)
     marks : sequence of (str, float)
         Drawn as vertical lines with their names, in rising order.

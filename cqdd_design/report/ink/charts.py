@@ -76,7 +76,6 @@ def line_chart(
 
     Parameters
     ----------
-    words : Words
     x : array (A,)
         Abscissae of all curves.
     curves, levels : sequences

@@ -115,7 +115,6 @@ def leader_column(
 
     Parameters
     ----------
-    leaders : sequence of Leader
     x : float
         Edge of the column towards the drawing.
     side : {"left", "right"}

@@ -65,7 +65,6 @@ def heat_map(
 
     Parameters
     ----------
-    words : Words
     values : array (rows, columns)
         Not negative; drawn at `MOST_ROWS` by `MOST_COLUMNS` or coarser.
     rows : sequence of str
@@ -134,7 +133,6 @@ def labelled_map(
 
     Parameters
     ----------
-    words : Words
     values : array (rows, columns)
         Shares from 0 to 1, written in per cent and shaded between their least and greatest.
     rows, columns : sequences of str

@@ -53,7 +53,6 @@ class Value:
     ----------
     key : str
         Dotted key of the design file.
-    label : Label
     shown : str
         Value and unit.
     origin : str

@@ -38,10 +38,8 @@ class PlanetaryView:
     summary : tuple of (name, value)
     headings : tuple of str
         Columns of `rows` after the first three.
-    rows : tuple of PlanetaryRow
     cycloid : tuple of (load, part, title, value and limit, (torque capacity, holds))
     claims : tuple of (claim, paper, ours, holds, under)
-    warnings : tuple of str
     """
 
     summary: tuple[tuple[str, str], ...]

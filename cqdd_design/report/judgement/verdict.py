@@ -22,7 +22,6 @@ class Verdict:
 
     Attributes
     ----------
-    status : Status
     badge, headline, detail : str
         A few words; one sentence; one more.
     rows : tuple of CheckRow
@@ -97,7 +96,6 @@ class PinFigure:
     as_printed : bool
         Whether these pins give the very figure that the paper prints.
     rows : tuple of (method, per pin, in all, share of the peak torque)
-    conclusion : str
     """
 
     paper: tuple[str, str]

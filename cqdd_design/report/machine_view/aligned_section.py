@@ -56,7 +56,6 @@ class CutFace:
 
     Attributes
     ----------
-    station : Station
     loops : tuple of array (k, 2)
         Outlines, mm: across the axis and along it; inner loops are holes.
     area : float

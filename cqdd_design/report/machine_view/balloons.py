@@ -35,7 +35,6 @@ def ballooned(
         What is visible of the stations, in the order along the axis; mm on the page.
     outlines : sequence of loops
         What the balloons must keep off, mm on the page.
-    sheet : Sheet
     width, height : float
         Of the picture, px.
     """

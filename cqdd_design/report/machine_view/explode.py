@@ -32,7 +32,6 @@ def take_apart(stations: Sequence[Station], tilt: float) -> Exploded:
 
     Parameters
     ----------
-    stations : sequence of Station
     tilt : float
         Angle between the axis and the line of sight of the picture, rad: the flatter the look,
         the more room a plate needs so as not to hide the piece behind it.

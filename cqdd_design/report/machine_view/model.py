@@ -67,7 +67,6 @@ def viewer_data(design: Design, parts: Sequence[Part]) -> ViewerData:
 
     Parameters
     ----------
-    design : Design
     parts : sequence of Part
         From `build_parts`.
 

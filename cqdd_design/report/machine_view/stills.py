@@ -39,12 +39,7 @@ EXPLODED_TILT = math.radians(62.0)
 
 @dataclass(frozen=True)
 class MachineViews:
-    """Pictures of the machine.
-
-    Attributes
-    ----------
-    assembled, exploded, section : Figure
-    """
+    """Pictures of the machine."""
 
     assembled: Figure
     exploded: Figure
@@ -56,7 +51,6 @@ def hidden_line_views(design: Design, parts: Sequence[Part]) -> MachineViews:
 
     Parameters
     ----------
-    design : Design
     parts : sequence of Part
         From `build_parts`.
 

@@ -93,7 +93,6 @@ class Errors(NamedTuple):
 
     Attributes
     ----------
-    name, class_ : str
     counts : array (K,)
         In bins.
     bias, spread : float
@@ -162,8 +161,6 @@ def interval_bars(words: Words, bars: Sequence[IntervalBar], most: float) -> Fig
 
     Parameters
     ----------
-    words : Words
-    bars : sequence of IntervalBar
     most : float
         What the longest bar stands for; what is longer is cut and told.
     """
@@ -211,10 +208,8 @@ def over(
 
     Parameters
     ----------
-    words : Words
     x : (str, array (F,))
         Name with unit, and abscissae.
-    y_label : str
     label : array (F,)
     estimates : sequence of (name, class, array (F,))
     band : (float, float), optional

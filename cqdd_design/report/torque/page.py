@@ -49,14 +49,10 @@ class TorqueView:
 
     Attributes
     ----------
-    lead : str
     models : Table
         Ours, on the headline set.
     paper : Table
         The paper's hardware, apart.
-    wide, figures, regimes : tuples of Figure
-    tables : tuple of Table
-    warnings : tuple of str
     """
 
     lead: str
@@ -74,7 +70,6 @@ def torque_page(results: EvaluationResult, *, date: str = "") -> str:
 
     Parameters
     ----------
-    results : EvaluationResult
     date : str
         As printed in the head; left out where empty.
     """
