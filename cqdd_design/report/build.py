@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
 from cqdd_design.report.actuator.bench_table import bench_view
@@ -23,7 +21,7 @@ from cqdd_design.report.gearbox.masses import bodies_view
 from cqdd_design.report.gearbox.precision import precision_view
 from cqdd_design.report.gearbox.tolerances import tolerance_view
 from cqdd_design.report.ink.numbers import RPM, significant, with_unit
-from cqdd_design.report.ink.page import environment
+from cqdd_design.report.ink.page import Values, environment
 from cqdd_design.report.input import ReportInput
 from cqdd_design.report.judgement.check_rows import check_groups, printed
 from cqdd_design.report.judgement.closing import (
@@ -36,7 +34,10 @@ from cqdd_design.report.judgement.facts import derived_values, head_facts
 from cqdd_design.report.judgement.origins import Value, defaults, values_by_group
 from cqdd_design.report.judgement.planetary import planetary_view
 from cqdd_design.report.judgement.search import sizing_view
-from cqdd_design.report.judgement.verdict import Verdict, pin_figure, verdict
+from cqdd_design.report.judgement.verdict import pin_figure, verdict
+
+if TYPE_CHECKING:
+    from cqdd_design.machine.contact_analysis import ContactAnalysis
 
 
 def build_report(results: ReportInput) -> str:
@@ -55,117 +56,119 @@ def build_report(results: ReportInput) -> str:
     str
         HTML, to be written as UTF-8.
     """
-    source = _Source(results)
-    shown = [(chapter, chapter.values(source)) for chapter in CHAPTERS]
-    context: dict[str, Any] = {
+    judged = verdict(results.design, results.gearbox.checks)
+    shown = [chapter for chapter in _chapters(results) if chapter.values is not None]
+    context: Values = {
         "design": results.design,
         "provenance": results.provenance,
         "date": results.provenance.time.partition("T")[0],
-        "verdict": source.verdict,
-        "facts": head_facts(results, source.verdict.least),
-        "contents": tuple(
-            heading for chapter, found in shown if found is not None for heading in chapter.headings
-        ),
-        "chapters": tuple(chapter.template for chapter, found in shown if found is not None),
+        "verdict": judged,
+        "facts": head_facts(results, judged["least"]),
+        "contents": tuple(heading for chapter in shown for heading in chapter.headings),
+        "chapters": tuple(chapter.template for chapter in shown),
     }
-    for _, found in shown:
-        context |= found or {}
+    for chapter in shown:
+        context |= chapter.values or {}
     return environment().get_template("report.html").render(context)
 
 
-@dataclass(frozen=True)
-class _Source:
-    """What chapters are made from: the results, and what several chapters share."""
+class _Chapter(NamedTuple):
+    """One template: its entries in the contents, and its values; None leaves the chapter out."""
 
-    results: ReportInput
-
-    @cached_property
-    def outlines(self) -> Outlines:
-        results = self.results
-        return Outlines.from_design(results.design, results.gearbox.cam_bearing.bearing)
-
-    @cached_property
-    def verdict(self) -> Verdict:
-        return verdict(self.results.design, self.results.gearbox.checks)
-
-    @cached_property
-    def groups(self) -> tuple[tuple[str, tuple[Value, ...]], ...]:
-        return values_by_group(self.results.design, self.results.comments)
+    template: str
+    headings: tuple[tuple[str, str], ...]
+    values: Values | None
 
 
-Values = dict[str, Any] | None
+def _chapters(results: ReportInput) -> list[_Chapter]:
+    """The report from top to bottom."""
+    design, gearbox, contact = results.design, results.gearbox, results.contact
+    outlines = Outlines.from_design(design, gearbox.cam_bearing.bearing)
+    groups, law = values_by_group(design, results.comments), gearbox.rigid
+    pictures, tolerance = results.pictures, results.tolerance
+    uneven, pin_count = significant(UNEVEN_SHARING), design.reducer.output_pins.count
+
+    def chapter(name: str, title: str, values: Values | None) -> _Chapter:
+        """One whose template is called like its entry in the contents."""
+        return _Chapter(f"{name}.html", ((name, title),), values)
+
+    def of_contact(name: str, title: str, view: Callable[[ContactAnalysis], Values]) -> _Chapter:
+        return chapter(name, title, None if contact is None else {name: view(contact)})
+
+    return [
+        chapter("verdict", "Verdict", {"pins": pin_figure(gearbox), "uneven_sharing": uneven}),
+        chapter("requirements", "Requirements", {"requirements": groups[0]}),
+        _Chapter(
+            "drawings.html",
+            (("drawings", "Drawings"), ("mesh-section", "Mesh")),
+            {
+                "front_view": front_view(outlines),
+                "section_view": half_section(outlines),
+                "mesh": mesh_figure(outlines, law.torque, law.cam_bearing_load),
+                "mesh_data": mesh_data(outlines, law.torque, law.cam_bearing_load),
+                "mesh_readout": mesh_readout(outlines, law.torque),
+                "mesh_torque": with_unit(law.torque, "N*m"),
+            },
+        ),
+        _Chapter(
+            "machine3d.html",
+            (("machine", "The machine"),),
+            pictures and {"machine_views": pictures[0], "machine_viewer": pictures[1]},
+        ),
+        chapter(
+            "values", "Design values", {"values": groups[1:], "derived": derived_values(results)}
+        ),
+        chapter("checks", "Checks", {"check_groups": check_groups(gearbox.checks)}),
+        chapter("loads", "Forces", {"load_charts": load_charts(gearbox)}),
+        of_contact("contact", "Contact", lambda found: contact_view(found, outlines, law)),
+        of_contact("precision", "Precision", lambda found: precision_view(found, design)),
+        of_contact("losses", "Losses", losses_view),
+        of_contact("life", "Life", lambda found: life_view(found.life)),
+        chapter(
+            "tolerances",
+            "Tolerances",
+            None if tolerance is None else {"tolerances": tolerance_view(tolerance)},
+        ),
+        chapter("actuator", "Actuator", _actuator(results)),
+        chapter(
+            "bench",
+            "Test bench",
+            results.bench and {"bench": bench_view(*results.bench, pin_count=pin_count)},
+        ),
+        chapter("planetary", "Planetary", {"planetary": planetary_view(results.planetary)}),
+        chapter("edm", "Wire EDM", {"edm": edm_view(results.machine)}),
+        _Chapter(
+            "bodies.html", (("inertia", "Inertia"), ("bom", "Bill of materials")), _bodies(results)
+        ),
+        chapter(
+            "sizing",
+            "Sizing",
+            None if results.sizing is None else {"sizing": sizing_view(results.sizing)},
+        ),
+        _Chapter(
+            "closing.html",
+            (
+                ("symbols", "Symbols"),
+                ("assumptions", "Assumptions"),
+                ("sources", "Sources"),
+                ("provenance", "Provenance"),
+            ),
+            _closing(results, groups),
+        ),
+    ]
 
 
-def _verdict(source: _Source) -> Values:
-    return {
-        "pins": pin_figure(source.results.gearbox),
-        "uneven_sharing": significant(UNEVEN_SHARING),
-    }
-
-
-def _drawings(source: _Source) -> Values:
-    outlines, law = source.outlines, source.results.gearbox.rigid
-    return {
-        "front_view": front_view(outlines),
-        "section_view": half_section(outlines),
-        "mesh": mesh_figure(outlines, law.torque, law.cam_bearing_load),
-        "mesh_data": mesh_data(outlines, law.torque, law.cam_bearing_load),
-        "mesh_readout": mesh_readout(outlines, law.torque),
-        "mesh_torque": with_unit(law.torque, "N*m"),
-    }
-
-
-def _machine(source: _Source) -> Values:
-    found = source.results.pictures
-    return None if found is None else {"machine_views": found[0], "machine_viewer": found[1]}
-
-
-def _values(source: _Source) -> Values:
-    return {"values": source.groups[1:], "derived": derived_values(source.results)}
-
-
-def _contact(source: _Source) -> Values:
-    found, law = source.results.contact, source.results.gearbox.rigid
-    return None if found is None else {"contact": contact_view(found, source.outlines, law)}
-
-
-def _precision(source: _Source) -> Values:
-    found, design = source.results.contact, source.results.design
-    return None if found is None else {"precision": precision_view(found, design)}
-
-
-def _losses(source: _Source) -> Values:
-    found = source.results.contact
-    return None if found is None else {"losses": losses_view(found)}
-
-
-def _life(source: _Source) -> Values:
-    found = source.results.contact
-    return None if found is None else {"life": life_view(found.life)}
-
-
-def _tolerances(source: _Source) -> Values:
-    found = source.results.tolerance
-    return None if found is None else {"tolerances": tolerance_view(found)}
-
-
-def _actuator(source: _Source) -> Values:
-    results = source.results
+def _actuator(results: ReportInput) -> Values | None:
     if results.bench is None:
         missing = results.bench_missing
         return {"actuator": None, "bench_missing": missing} if missing else None
     return {"actuator": actuator_view(*results.bench, results.design.requirements)}
 
 
-def _bench(source: _Source) -> Values:
-    found, pins = source.results.bench, source.results.design.reducer.output_pins
-    return None if found is None else {"bench": bench_view(*found, pin_count=pins.count)}
-
-
-def _bodies(source: _Source) -> Values:
-    results, design = source.results, source.results.design
+def _bodies(results: ReportInput) -> Values | None:
     if results.bodies is None:
         return None
+    design = results.design
     return {
         "bodies": bodies_view(results.gearbox.design, results.bodies),
         "counterweights": design.reducer.balance.counterweights,
@@ -173,13 +176,8 @@ def _bodies(source: _Source) -> Values:
     }
 
 
-def _sizing(source: _Source) -> Values:
-    found = source.results.sizing
-    return None if found is None else {"sizing": sizing_view(found)}
-
-
-def _closing(source: _Source) -> Values:
-    results, design, analysis = source.results, source.results.design, source.results.gearbox
+def _closing(results: ReportInput, groups: tuple[tuple[str, tuple[Value, ...]], ...]) -> Values:
+    design, analysis = results.design, results.gearbox
     parts = () if results.bodies is None else results.bodies.parts
     literature, catalogue = sources_used(analysis, parts)
     return {
@@ -187,67 +185,8 @@ def _closing(source: _Source) -> Values:
         "errata": ERRATA,
         "assumptions": model_assumptions(design),
         "warnings": tuple(printed(line) for line in (*analysis.warnings, *results.notes)),
-        "defaults": defaults(source.groups),
+        "defaults": defaults(groups),
         "literature": literature,
         "catalogue": catalogue,
         "files": results.files,
     }
-
-
-class Chapter(NamedTuple):
-    """One template: its entries in the contents, and its values; None leaves the chapter out."""
-
-    template: str
-    headings: tuple[tuple[str, str], ...]
-    values: Callable[[_Source], Values]
-
-
-CHAPTERS = (
-    Chapter("verdict.html", (("verdict", "Verdict"),), _verdict),
-    Chapter(
-        "requirements.html",
-        (("requirements", "Requirements"),),
-        lambda source: {"requirements": source.groups[0]},
-    ),
-    Chapter("drawings.html", (("drawings", "Drawings"), ("mesh-section", "Mesh")), _drawings),
-    Chapter("machine3d.html", (("machine", "The machine"),), _machine),
-    Chapter("values.html", (("values", "Design values"),), _values),
-    Chapter(
-        "checks.html",
-        (("checks", "Checks"),),
-        lambda source: {"check_groups": check_groups(source.results.gearbox.checks)},
-    ),
-    Chapter(
-        "loads.html",
-        (("loads", "Forces"),),
-        lambda source: {"load_charts": load_charts(source.results.gearbox)},
-    ),
-    Chapter("contact.html", (("contact", "Contact"),), _contact),
-    Chapter("precision.html", (("precision", "Precision"),), _precision),
-    Chapter("losses.html", (("losses", "Losses"),), _losses),
-    Chapter("life.html", (("life", "Life"),), _life),
-    Chapter("tolerances.html", (("tolerances", "Tolerances"),), _tolerances),
-    Chapter("actuator.html", (("actuator", "Actuator"),), _actuator),
-    Chapter("bench.html", (("bench", "Test bench"),), _bench),
-    Chapter(
-        "planetary.html",
-        (("planetary", "Planetary"),),
-        lambda source: {"planetary": planetary_view(source.results.planetary)},
-    ),
-    Chapter(
-        "edm.html", (("edm", "Wire EDM"),), lambda source: {"edm": edm_view(source.results.machine)}
-    ),
-    Chapter("bodies.html", (("inertia", "Inertia"), ("bom", "Bill of materials")), _bodies),
-    Chapter("sizing.html", (("sizing", "Sizing"),), _sizing),
-    Chapter(
-        "closing.html",
-        (
-            ("symbols", "Symbols"),
-            ("assumptions", "Assumptions"),
-            ("sources", "Sources"),
-            ("provenance", "Provenance"),
-        ),
-        _closing,
-    ),
-)
-"""The report from top to bottom."""

@@ -267,27 +267,27 @@ def test_every_step_of_the_duty_is_a_point_and_its_heat_is_told(
     ]
     asked = Design.from_mapping(mapping).requirements
     view = actuator_view(actuator, measured, asked)
-    steps = [point for point, _ in view.points[2:]]
+    steps = [point for point, _ in view["points"][2:]]
     assert [point.name for point in steps] == ["duty 1", "duty 2"]
     assert [point.generating for point in steps] == [False, True]
     currents = [point.found.need.current for point in steps]
     assert currents[0] > abs(currents[1]), "friction helps where the output drives"
     mean = math.sqrt(0.5 * currents[0] ** 2 + 0.5 * currents[1] ** 2)
-    assert f"{mean:.3g}" in view.duty
-    assert "within its limit" in view.duty
-    assert len(classed(view.envelope, "circle", "dot")) == 4
+    assert f"{mean:.3g}" in view["duty"]
+    assert "within its limit" in view["duty"]
+    assert len(classed(view["envelope"], "circle", "dot")) == 4
 
 
 def test_dots_stand_at_their_points(
     actuator: ActuatorParameters, measured: BenchResult, design: Design
 ) -> None:
     view = actuator_view(actuator, measured, design.requirements)
-    dots = classed(view.envelope, "circle", "dot")
-    grid = classed(view.envelope, "line", "grid")
-    ticks = [e for e in classed(view.envelope, "text", "tick") if e.get("text-anchor") == "end"]
+    dots = classed(view["envelope"], "circle", "dot")
+    grid = classed(view["envelope"], "line", "grid")
+    ticks = [e for e in classed(view["envelope"], "text", "tick") if e.get("text-anchor") == "end"]
     level = {float(t.text or "nan"): number(g, "y1") for g, t in zip(grid, ticks, strict=True)}
     scale = (level[40.0] - level[0.0]) / 40.0
-    for dot, (point, _) in zip(dots, view.points, strict=True):
+    for dot, (point, _) in zip(dots, view["points"], strict=True):
         assert number(dot, "cy") == pytest.approx(level[0.0] + scale * point.torque, abs=0.1)
         assert ("inside" in dot.get("class", "")) == point.found.inside
 
@@ -386,7 +386,7 @@ def test_the_dead_zone_of_a_drawn_loop_is_found(sense: float) -> None:
 def test_figures_of_the_bench_show_its_numbers(
     actuator: ActuatorParameters, measured: BenchResult
 ) -> None:
-    figures = {f.id: f for f in bench_view(actuator, measured, pin_count=5).figures}
+    figures = {f.id: f for f in bench_view(actuator, measured, pin_count=5)["figures"]}
     assert list(figures) == [
         "torque-bode",
         "position-bode-45",
@@ -459,22 +459,24 @@ def test_the_table_stands_beside_the_paper_s(
     actuator: ActuatorParameters, measured: BenchResult
 ) -> None:
     view = bench_view(actuator, measured, pin_count=5)
-    rows = {row.name: row for row in view.rows}
+    rows = {row["name"]: row for row in view["rows"]}
     assert set(PAPER) <= set(rows)
-    assert rows["output_resolution"].value == "0.002197"
-    assert rows["output_resolution"].off == "+0.3\u202f%"
-    assert rows["backlash"].paper == "7.03 ±1.3"
-    assert rows["efficiency_peak"].off.endswith(" points")
-    assert rows["efficiency_peak"].paper == "82.3"
-    assert rows["actuator_inertia"].unit == "kg·cm²"
-    assert rows["actuator_inertia"].paper == "5.01"
-    for row in view.rows:
-        assert row.relation in dict(RELATIONS)
-        assert row.protocol.endswith(".")
-        assert (row.off == "\u2013") == (row.relation == "not comparable" or row.paper == "\u2013")
+    assert rows["output_resolution"]["value"] == "0.002197"
+    assert rows["output_resolution"]["off"] == "+0.3\u202f%"
+    assert rows["backlash"]["paper"] == "7.03 ±1.3"
+    assert rows["efficiency_peak"]["off"].endswith(" points")
+    assert rows["efficiency_peak"]["paper"] == "82.3"
+    assert rows["actuator_inertia"]["unit"] == "kg·cm²"
+    assert rows["actuator_inertia"]["paper"] == "5.01"
+    for row in view["rows"]:
+        assert row["relation"] in dict(RELATIONS)
+        assert row["protocol"].endswith(".")
+        assert (row["off"] == "\u2013") == (
+            row["relation"] == "not comparable" or row["paper"] == "\u2013"
+        )
     predicted = [m for m in measured.metrics if m.relation == "predicted" and m.name in PAPER]
     near = [m for m in predicted if is_near(m, PAPER[m.name].value)]
-    assert f"Of {len(predicted)} predicted rows {len(near)} lie within" in view.summary
+    assert f"Of {len(predicted)} predicted rows {len(near)} lie within" in view["summary"]
 
 
 @pytest.mark.parametrize(
@@ -498,8 +500,8 @@ def test_another_design_has_no_paper_beside_it(
 ) -> None:
     alone = dataclasses.replace(measured, beside_paper=False)
     view = bench_view(actuator, alone, pin_count=5)
-    assert view.summary == ""
-    assert all(row.paper == row.off == "\u2013" for row in view.rows)
+    assert view["summary"] == ""
+    assert all(row["paper"] == row["off"] == "\u2013" for row in view["rows"])
     bench = section(page_of(paper_input, bench=(actuator, alone)), "bench")
     assert ">Paper<" not in bench
     assert ">Off by<" not in bench
@@ -511,27 +513,29 @@ def test_a_gearbox_that_holds_itself_has_nothing_to_backdrive(
     stiff = dataclasses.replace(actuator.friction, load_backward=1.3)
     holding = dataclasses.replace(actuator, friction=stiff)
     view = bench_view(holding, measured, pin_count=5)
-    assert {"breakaway-trace", "backdrive-trace"}.isdisjoint(figure.id for figure in view.figures)
-    rows = {row.name: row for row in view.rows}
+    assert {"breakaway-trace", "backdrive-trace"}.isdisjoint(
+        figure.id for figure in view["figures"]
+    )
+    rows = {row["name"]: row for row in view["rows"]}
     for name in ("backdrive_static", "backdrive_dynamic"):
-        assert (rows[name].value, rows[name].off) == ("\u2013", "\u2013")
-        assert "holds itself" in rows[name].protocol
+        assert (rows[name]["value"], rows[name]["off"]) == ("\u2013", "\u2013")
+        assert "holds itself" in rows[name]["protocol"]
     seen = actuator_view(holding, measured, design.requirements)
-    assert [figure.id for figure in seen.efficiency] == ["efficiency-driving"]
-    assert "holds itself" in seen.lead
+    assert [figure.id for figure in seen["efficiency"]] == ["efficiency-driving"]
+    assert "holds itself" in seen["lead"]
 
 
 def test_the_comparison_has_this_design_and_the_misprint(
     actuator: ActuatorParameters, measured: BenchResult
 ) -> None:
     table = comparison(actuator, measured)
-    assert measured.name in table.headings[table.own]
-    rows = dict(table.rows)
+    assert measured.name in table["headings"][table["own"]]
+    rows = dict(table["rows"])
     density = metric_of(measured, "peak_torque").value / actuator.mass
-    assert float(rows["torque density, N·m/kg"][table.own]) == pytest.approx(density, rel=1e-3)
-    assert any("83.96" in remark and "83.7" in remark for remark in table.remarks)
+    assert float(rows["torque density, N·m/kg"][table["own"]]) == pytest.approx(density, rel=1e-3)
+    assert any("83.96" in remark and "83.7" in remark for remark in table["remarks"])
     bare = dataclasses.replace(measured, metrics=measured.metrics[:1])
-    assert comparison(actuator, bare).own == -1
+    assert comparison(actuator, bare)["own"] == -1
 
 
 def test_every_parameter_is_listed_with_its_origin(actuator: ActuatorParameters) -> None:

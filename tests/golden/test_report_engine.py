@@ -149,9 +149,9 @@ def test_the_darkest_cell_is_the_most_loaded_tooth(
     found: ContactAnalysis, outlines: Outlines, design: Design
 ) -> None:
     view = contact_view(found, outlines, resolve(design).analysis.rigid)
-    assert len(view.heat_maps) == 2
+    assert len(view["heat_maps"]) == 2
     turn = found.crank_turn
-    for disc, figure in enumerate(view.heat_maps):
+    for disc, figure in enumerate(view["heat_maps"]):
         force = turn.ring_force[:, disc, :]
         angle, tooth = np.unravel_index(int(force.argmax()), force.shape)
         frame = classed(figure, "rect", "frame")[0]
@@ -163,7 +163,7 @@ def test_the_darkest_cell_is_the_most_loaded_tooth(
             and number(e, "y") <= at_y <= number(e, "y") + 15.0
         ]  # fmt: skip
         assert inside
-    rows = {name: (law, here) for name, law, here in view.rows}
+    rows = {name: (law, here) for name, law, here in view["rows"]}
     law, here = rows["greatest load of a cam bearing"]
     assert "5003" in law
     assert f"{found.sweep.cam_load.max():.0f}"[:3] in here.replace("\u202f", "")
@@ -192,14 +192,14 @@ def test_precision_stands_beside_the_paper_only_for_its_design(
 ) -> None:
     paper = precision_view(found, design)
     other = precision_view(found, design.replacing({"reducer.ring_pin_diameter": 6.9e-3}))
-    assert paper.measured
-    assert not other.measured
-    assert [row[2] for row in paper.rows if row[2]] == [
+    assert paper["measured"]
+    assert not other["measured"]
+    assert [row[2] for row in paper["rows"] if row[2]] == [
         "7.03 \u00b1 1.3 arcmin",
         "3 N\u00b7m (\u00b11.5)",
     ]
-    assert other.rows == tuple((row[0], row[1], row[3]) for row in paper.rows)
-    bars = classed(paper.figures[1], "rect", "share-bar")
+    assert other["rows"] == tuple((row[0], row[1], row[3]) for row in paper["rows"])
+    bars = classed(paper["figures"][1], "rect", "share-bar")
     sizes = [o.amplitude for o in found.precision.orders[: len(bars)]]
     widths = [number(b, "width") for b in bars]
     assert widths[1] / widths[0] == pytest.approx(sizes[1] / sizes[0], rel=0.02)
@@ -207,10 +207,10 @@ def test_precision_stands_beside_the_paper_only_for_its_design(
 
 def test_losses_add_up(found: ContactAnalysis) -> None:
     view = losses_view(found)
-    widths = [number(b, "width") for b in classed(view.figures[0], "rect", "share-bar")]
+    widths = [number(b, "width") for b in classed(view["figures"][0], "rect", "share-bar")]
     power = list(found.losses.by_source.values())
     assert widths[1] / widths[0] == pytest.approx(power[1] / power[0], rel=0.01)
-    shown = [float(e.text or "nan") for e in classed(view.figures[1], "text", "cell-text")]
+    shown = [float(e.text or "nan") for e in classed(view["figures"][1], "text", "cell-text")]
     grid = found.map
     assert shown[0] == pytest.approx(100.0 * grid.forward[0, -1], abs=0.05)
     assert shown[-1] == pytest.approx(100.0 * grid.forward[-1, 0], abs=0.05)
@@ -218,8 +218,8 @@ def test_losses_add_up(found: ContactAnalysis) -> None:
 
 def test_life_tells_what_does_not_last(found: ContactAnalysis) -> None:
     view = life_view(found.life)
-    assert view.assumed
-    holds = {row[0]: row[4][1] for row in view.rows}
+    assert view["assumed"]
+    holds = {row[0]: row[4][1] for row in view["rows"]}
     for part in found.life.parts:
         lasts = part.hours is None or part.hours >= 1000.0
         assert holds[part.part] is (lasts and part.limit > 0.0)
@@ -228,9 +228,9 @@ def test_life_tells_what_does_not_last(found: ContactAnalysis) -> None:
 @pytest.mark.deep
 def test_tolerances_show_the_ensemble(ensemble: ToleranceResult) -> None:
     view = tolerance_view(ensemble)
-    assert "160 gearboxes" in view.lead
-    assert len(view.figures) == 4
+    assert "160 gearboxes" in view["lead"]
+    assert len(view["figures"]) == 4
     ranked = ensemble.ranking("backlash_arcmin")
-    names = [e.text for e in classed(view.figures[2], "text", "name-dark")]
+    names = [e.text for e in classed(view["figures"][2], "text", "name-dark")]
     assert names == [group.replace("_", " ") for group, _, _ in ranked]
-    assert len(view.rows) == 5
+    assert len(view["rows"]) == 5

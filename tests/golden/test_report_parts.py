@@ -131,11 +131,11 @@ def test_margin_bar_points_the_right_way(value: float, limit: float, side: int) 
 
 def test_check_rows() -> None:
     row = check_row(check(200.0, 100.0))
-    assert (row.word, row.margin, row.limit) == ("fails", "0.5", "\u2264 100\u202fMPa")
-    assert row.substituted == "2 \u00d7 3 N\u00b7m = 6 \u00b5m"
-    assert row.remedy == "Use more."
-    assert check_row(check(50.0, 100.0)).remedy == ""
-    assert check_row(check(200.0, 100.0, severity="warn")).word == "warning"
+    assert (row["word"], row["margin"], row["limit"]) == ("fails", "0.5", "\u2264 100\u202fMPa")
+    assert row["substituted"] == "2 \u00d7 3 N\u00b7m = 6 \u00b5m"
+    assert row["remedy"] == "Use more."
+    assert check_row(check(50.0, 100.0))["remedy"] == ""
+    assert check_row(check(200.0, 100.0, severity="warn"))["word"] == "warning"
 
 
 def test_a_narrow_failure_does_not_read_as_one() -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from cqdd_design.actuator.bench import BenchResult
 from cqdd_design.actuator.bench.metric import NEAR, NEAR_EFFICIENCY, Metric, is_near
@@ -25,7 +24,7 @@ from cqdd_design.report.ink.numbers import (
     significant,
     with_unit,
 )
-from cqdd_design.report.ink.svg import Figure
+from cqdd_design.report.ink.page import Values
 
 _NO_SPREAD = 1e-3
 """Of the value: a smaller spread is not told in digits."""
@@ -52,47 +51,8 @@ _WORDS = {
 _SHOWN_UNITS: dict[str, tuple[str, float]] = {"": ("%", 100.0), "kg*m^2": ("kg·cm²", 1e4)}
 
 
-@dataclass(frozen=True)
-class BenchRow:
-    """One measurement as printed; `off` is how far it lies from the paper's."""
-
-    name: str
-    words: str
-    value: str
-    spread: str
-    unit: str
-    paper: str
-    off: str
-    relation: str
-    protocol: str
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """The table of actuators: headings, rows of (quantity, cells), own column, remarks."""
-
-    headings: tuple[str, ...]
-    rows: tuple[tuple[str, tuple[str, ...]], ...]
-    own: int
-    remarks: tuple[str, ...]
-    sources: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class BenchView:
-    """What the section shows; `summary` is empty where no measured values stand beside."""
-
-    lead: str
-    summary: str
-    rows: tuple[BenchRow, ...]
-    beside_paper: bool
-    relations: tuple[tuple[str, str], ...]
-    figures: tuple[Figure, ...]
-    comparison: Comparison
-
-
-def bench_view(parameters: ActuatorParameters, bench: BenchResult, *, pin_count: int) -> BenchView:
-    """Values of the section.
+def bench_view(parameters: ActuatorParameters, bench: BenchResult, *, pin_count: int) -> Values:
+    """Table, figures and comparison; `summary` is empty where no measured values stand beside.
 
     Parameters
     ----------
@@ -108,15 +68,15 @@ def bench_view(parameters: ActuatorParameters, bench: BenchResult, *, pin_count:
         f"{with_unit(parameters.drive.supply_voltage, 'V')}."
     )
     holds = holds_itself(parameters)
-    return BenchView(
-        lead=lead,
-        summary=_summary(bench),
-        rows=tuple(bench_row(metric, bench, holds=holds) for metric in bench.metrics),
-        beside_paper=bench.beside_paper,
-        relations=RELATIONS,
-        figures=bench_figures(parameters, bench, pin_count),
-        comparison=comparison(parameters, bench),
-    )
+    return {
+        "lead": lead,
+        "summary": _summary(bench),
+        "rows": tuple(bench_row(metric, bench, holds=holds) for metric in bench.metrics),
+        "beside_paper": bench.beside_paper,
+        "relations": RELATIONS,
+        "figures": bench_figures(parameters, bench, pin_count),
+        "comparison": comparison(parameters, bench),
+    }
 
 
 def words_of(name: str) -> str:
@@ -124,25 +84,28 @@ def words_of(name: str) -> str:
     return _WORDS.get(name, name.replace("_", " "))
 
 
-def bench_row(metric: Metric, bench: BenchResult, *, holds: bool = False) -> BenchRow:
-    """One row of the table; `holds` where the output cannot turn the gearbox."""
+def bench_row(metric: Metric, bench: BenchResult, *, holds: bool = False) -> Values:
+    """One measurement as printed; `off` is how far it lies from the paper's.
+
+    `holds` tells that the output cannot turn the gearbox.
+    """
     protocol = prose(metric.protocol)
     if holds and metric.name in BACKDRIVEN:
         metric = dataclasses.replace(metric, value=math.nan, spread=None)
         protocol += " The gearbox holds itself: the output does not turn it."
     unit, factor = _SHOWN_UNITS.get(metric.unit, (pretty_unit(metric.unit), 1.0))
     paper = bench.paper(metric.name)
-    return BenchRow(
-        name=metric.name,
-        words=words_of(metric.name),
-        value=maybe(factor * metric.value),
-        spread=_spread(metric, factor),
-        unit=unit,
-        paper=NONE if paper is None else _paper(metric.name, paper, factor),
-        off=off_by(metric, paper),
-        relation=metric.relation,
-        protocol=protocol,
-    )
+    return {
+        "name": metric.name,
+        "words": words_of(metric.name),
+        "value": maybe(factor * metric.value),
+        "spread": _spread(metric, factor),
+        "unit": unit,
+        "paper": NONE if paper is None else _paper(metric.name, paper, factor),
+        "off": off_by(metric, paper),
+        "relation": metric.relation,
+        "protocol": protocol,
+    }
 
 
 def _spread(metric: Metric, factor: float) -> str:
@@ -204,8 +167,8 @@ def _summary(bench: BenchResult) -> str:
     return " ".join(parts)
 
 
-def comparison(parameters: ActuatorParameters, bench: BenchResult) -> Comparison:
-    """The paper's table of actuators with this one as a column."""
+def comparison(parameters: ActuatorParameters, bench: BenchResult) -> Values:
+    """The paper's table of actuators with this one as a column, whose number is `own`."""
     peak, efficiency = bench.value("peak_torque"), bench.value("efficiency_peak")
     own = None
     if peak is not None and math.isfinite(peak):
@@ -214,13 +177,13 @@ def comparison(parameters: ActuatorParameters, bench: BenchResult) -> Comparison
     table = compare_actuators(own)
 
     names = [actuator.name for actuator in table]
-    return Comparison(
-        headings=tuple(names),
-        rows=tuple((name, tuple(cell(actuator) for actuator in table)) for name, cell in _CELLS),
-        own=-1 if own is None else names.index(own.name),
-        remarks=tuple(prose(actuator.remark) for actuator in table if actuator.remark),
-        sources=tuple(dict.fromkeys(actuator.source for actuator in table)),
-    )
+    return {
+        "headings": tuple(names),
+        "rows": tuple((name, tuple(cell(actuator) for actuator in table)) for name, cell in _CELLS),
+        "own": -1 if own is None else names.index(own.name),
+        "remarks": tuple(prose(actuator.remark) for actuator in table if actuator.remark),
+        "sources": tuple(dict.fromkeys(actuator.source for actuator in table)),
+    }
 
 
 def _peak(actuator: ComparedActuator) -> str:

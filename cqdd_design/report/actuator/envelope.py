@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from cqdd_design.actuator.bench import BenchResult
 from cqdd_design.actuator.demands import Demand, demands, duty_heat
@@ -25,31 +24,19 @@ from cqdd_design.actuator.operating import (
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.design import Requirements
 from cqdd_design.report.actuator.bench_figures import efficiency_maps
-from cqdd_design.report.actuator.parameter_rows import ParameterRow, counted, parameter_rows
+from cqdd_design.report.actuator.parameter_rows import counted, parameter_rows
 from cqdd_design.report.ink.axes import BELOW, Legend, Panel, linear_axis
 from cqdd_design.report.ink.numbers import RPM, with_unit
+from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Figure, Words, points_of, polyline
 
 _WIDTH, _LEFT, _RIGHT = 760.0, 60.0, 18.0
 
 
-@dataclass(frozen=True)
-class ActuatorView:
-    """What the section shows; each point is a demand with its sentence."""
-
-    lead: str
-    envelope: Figure
-    points: tuple[tuple[Demand, str], ...]
-    duty: str
-    efficiency: tuple[Figure, ...]
-    parameters: tuple[tuple[str, tuple[ParameterRow, ...]], ...]
-    counted: str
-
-
 def actuator_view(
     parameters: ActuatorParameters, bench: BenchResult, requirements: Requirements
-) -> ActuatorView:
-    """Values of the section.
+) -> Values:
+    """Envelope and parameters; each point is a demand with its sentence.
 
     Parameters
     ----------
@@ -73,15 +60,15 @@ def actuator_view(
     if holds:
         lead += " The gearbox holds itself: no power comes back from the output."
     grid = next((m for m in bench.metrics if m.name == "efficiency_peak" and m.trace), None)
-    return ActuatorView(
-        lead=lead,
-        envelope=envelope_figure(parameters, points),
-        points=tuple((point, sentence(parameters, point)) for point in points),
-        duty=_duty_heat(parameters, requirements),
-        efficiency=() if grid is None else efficiency_maps(grid, driving_only=holds),
-        parameters=parameter_rows(parameters),
-        counted=counted(parameters),
-    )
+    return {
+        "lead": lead,
+        "envelope": envelope_figure(parameters, points),
+        "points": tuple((point, sentence(parameters, point)) for point in points),
+        "duty": _duty_heat(parameters, requirements),
+        "efficiency": () if grid is None else efficiency_maps(grid, driving_only=holds),
+        "parameters": parameter_rows(parameters),
+        "counted": counted(parameters),
+    }
 
 
 _LIMITS = {

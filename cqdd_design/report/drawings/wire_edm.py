@@ -3,38 +3,27 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts
 from cqdd_design.machine import Machine
 from cqdd_design.report.ink.numbers import decimals, significant, with_unit
+from cqdd_design.report.ink.page import Values
 
 
-@dataclass(frozen=True)
-class EdmView:
-    """What the section shows: a row a program, and what the shop must know of each part."""
-
-    lead: str
-    rows: tuple[tuple[str, ...], ...]
-    remarks: tuple[str, ...]
-
-
-def edm_view(machine: Machine) -> EdmView:
-    """Measure the contours of a machine as their files hold them."""
-    edm = machine.design.edm
-    flats = flat_parts(machine)
-    return EdmView(
-        lead=(
-            f"Arcs follow the exact curve within {with_unit(edm.profile_tolerance * 1e6, 'um')}; "
-            f"the wire's centre runs {with_unit(edm.wire_offset * 1e3, 'mm')} beside it. Every "
-            "file is read back from disk and measured so before it gets its name."
-        ),
-        rows=tuple(_row(flat) for flat in flats),
-        remarks=tuple(
+def edm_view(machine: Machine) -> Values:
+    """Measure the contours of a machine as their files hold them: a row a program."""
+    edm, flats = machine.design.edm, flat_parts(machine)
+    within = with_unit(edm.profile_tolerance * 1e6, "um")
+    offset = with_unit(edm.wire_offset * 1e3, "mm")
+    return {
+        "lead": f"Arcs follow the exact curve within {within}; the wire's centre runs {offset} "
+        "beside it. Every file is read back from disk and measured so before it gets its name.",
+        "rows": tuple(_row(flat) for flat in flats),
+        "remarks": tuple(
             f"{flat.label}: {remark.lower()}" for flat in flats for remark in flat.remarks
         ),
-    )
+    }
 
 
 def _row(flat: FlatPart) -> tuple[str, ...]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +13,7 @@ from cqdd_design.report.drawings.outlines import Outlines
 from cqdd_design.report.ink.axes import Axis
 from cqdd_design.report.ink.heat import heat_map
 from cqdd_design.report.ink.numbers import decimals, with_unit
+from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import (
     Figure,
     Point,
@@ -32,36 +32,19 @@ if TYPE_CHECKING:
 _TURN = Axis(0.0, 360.0, (0.0, 90.0, 180.0, 270.0, 360.0), "crank angle, \u00b0")
 
 
-@dataclass(frozen=True)
-class ContactView:
-    """What the section shows.
+def contact_view(analysis: ContactAnalysis, outlines: Outlines, law: RigidMaxima) -> Values:
+    """Heat maps of each disc, the worst angle, and rows of (name, rigid law, contact).
 
-    Attributes
-    ----------
-    heat_maps : tuple of Figure
-        One a disc.
-    rows : tuple of (name, rigid law, contact)
-    preload : str
-        A sentence; empty without interference.
+    `law` holds the greatest values of the rigid law at its torque.
     """
-
-    heat_maps: tuple[Figure, ...]
-    worst: Figure
-    rows: tuple[tuple[str, str, str], ...]
-    torque: str
-    preload: str
-
-
-def contact_view(analysis: ContactAnalysis, outlines: Outlines, law: RigidMaxima) -> ContactView:
-    """Values of the section; `law` holds the greatest values of the rigid law at its torque."""
     turn = analysis.crank_turn
-    return ContactView(
-        heat_maps=tuple(_heat_map(turn, disc) for disc in range(turn.model.disc_count)),
-        worst=force_picture(turn, outlines),
-        rows=_rows(analysis, law),
-        torque=with_unit(analysis.sweep.torque, "N*m"),
-        preload=_preload(analysis),
-    )
+    return {
+        "heat_maps": tuple(_heat_map(turn, disc) for disc in range(turn.model.disc_count)),
+        "worst": force_picture(turn, outlines),
+        "rows": _rows(analysis, law),
+        "torque": with_unit(analysis.sweep.torque, "N*m"),
+        "preload": _preload(analysis),
+    }
 
 
 def _heat_map(turn: ContactSweep, disc: int) -> Figure:

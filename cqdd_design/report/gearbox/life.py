@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cqdd_design.report.ink.numbers import NONE, RPM, per_cent, significant, with_unit
+from cqdd_design.report.ink.page import Values
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.life import LifeResult, PartLife
@@ -14,26 +14,8 @@ Judged = tuple[str, bool]
 """A value as shown, and whether it is long enough."""
 
 
-@dataclass(frozen=True)
-class LifeView:
-    """What the section shows.
-
-    Attributes
-    ----------
-    duty : tuple of (torque, speed, share)
-    rows : tuple of (part, worst place, stress, limit, life, reserve)
-    bearings : tuple of (name, load, life)
-    """
-
-    duty: tuple[tuple[str, str, str], ...]
-    assumed: bool
-    required: str
-    rows: tuple[tuple[str, str, str, str, Judged, str], ...]
-    bearings: tuple[tuple[str, str, Judged], ...]
-
-
-def life_view(result: LifeResult) -> LifeView:
-    """Values of the section."""
+def life_view(result: LifeResult) -> Values:
+    """Duty as (torque, speed, share), and the life of every part and bearing."""
     required, cam = result.required_hours, result.cam
     loads = cam.equivalent_load
     hours = cam.hours or (None,) * len(loads)
@@ -43,8 +25,8 @@ def life_view(result: LifeResult) -> LifeView:
     ]
     if len(loads) > 1 and cam.set_hours is not None:
         bearings.append(("all of them", "", _bearing(cam.set_hours, required)))
-    return LifeView(
-        duty=tuple(
+    return {
+        "duty": tuple(
             (
                 with_unit(case.torque, "N*m"),
                 f"{significant(case.speed * RPM)} rpm",
@@ -52,11 +34,11 @@ def life_view(result: LifeResult) -> LifeView:
             )
             for case in result.duty
         ),
-        assumed=result.assumed,
-        required=with_unit(required, "h"),
-        rows=tuple(_row(part, required) for part in result.parts),
-        bearings=tuple(bearings),
-    )
+        "assumed": result.assumed,
+        "required": with_unit(required, "h"),
+        "rows": tuple(_row(part, required) for part in result.parts),
+        "bearings": tuple(bearings),
+    }
 
 
 def _bearing(hours: float | None, required: float) -> Judged:

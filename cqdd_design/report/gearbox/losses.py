@@ -2,28 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cqdd_design.report.ink.bars import bar_chart
 from cqdd_design.report.ink.heat import labelled_map
 from cqdd_design.report.ink.numbers import NONE, RPM, per_cent, significant, with_unit
-from cqdd_design.report.ink.svg import Figure, Words
+from cqdd_design.report.ink.page import Values
+from cqdd_design.report.ink.svg import Words
 
 if TYPE_CHECKING:
     from cqdd_design.machine.contact_analysis import ContactAnalysis
 
 
-@dataclass(frozen=True)
-class LossesView:
-    """What the section shows: figures, and rows of (name, value, remark)."""
-
-    figures: tuple[Figure, ...]
-    rows: tuple[tuple[str, str, str], ...]
-
-
-def losses_view(analysis: ContactAnalysis) -> LossesView:
-    """Values of the section."""
+def losses_view(analysis: ContactAnalysis) -> Values:
+    """Figures, and rows of (name, value, remark)."""
     found, grid, order = analysis.losses, analysis.map, slice(None, None, -1)
     total = f"{significant(found.total, 3)} W in all"
     at = f"at {with_unit(found.torque, 'N*m')} and {with_unit(found.input_speed * RPM, 'rpm')}"
@@ -52,7 +44,7 @@ def losses_view(analysis: ContactAnalysis) -> LossesView:
         [significant(float(w) * RPM, 3) for w in grid.input_speed],
         ("output torque, N\u00b7m", "input speed, rpm"),
     )
-    return LossesView((bars, chart), _rows(analysis))
+    return {"figures": (bars, chart), "rows": _rows(analysis)}
 
 
 def _rows(analysis: ContactAnalysis) -> tuple[tuple[str, str, str], ...]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container
-from dataclasses import dataclass
 
 from cqdd_design.catalog.paper import METRICS, is_papers_actuator
 from cqdd_design.design import Design
@@ -13,6 +12,7 @@ from cqdd_design.exporting.solids.bom import BomRow, bill_of_materials
 from cqdd_design.gearbox.balance import paper_disc_count
 from cqdd_design.machine.weighing import DISC_COUNTS, Bodies
 from cqdd_design.report.ink.numbers import decimals, millimetres, significant, with_unit
+from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Figure, Words, line, rectangle, text
 from cqdd_design.report.judgement.check_rows import printed
 from cqdd_design.solids.fits import Fit
@@ -24,62 +24,31 @@ _BARE_MOTOR = 0.525
 Row = tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class BodiesView:
-    """What the page shows of parts and inertia.
+def bodies_view(design: Design, bodies: Bodies) -> Values:
+    """Parts, mass properties, balance and seats of a design.
 
-    Attributes
-    ----------
-    rows : tuple of (part, pieces, designation, material, source, g each, g in all, at the input)
-    total_mass, total_of : str
-        Of everything that is drawn, and what that is.
-    groups : tuple of (group, mass, share, inertia at the input, share)
-    paper : tuple of (quantity, here, in the paper, why)
-        Empty but for the paper's own actuator.
-    reflected : tuple of (name, at the input, remark)
-    balance : tuple of ((discs, static, couple, force, moment), is this design)
-    rule : str
-        What the paper's rule would ask for.
-    chart : Figure
-        Shares of the reflected inertia.
-    seats : tuple of (part, seat, diameter, zone, upper, lower)
-        ISO 286 zones of the seats.
+    Rows of the bill are (part, pieces, designation, material, source, g each, g in all, at the
+    input), of groups (group, mass, share, inertia at the input, share).
     """
-
-    rows: tuple[Row, ...]
-    total_mass: str
-    total_of: str
-    groups: tuple[Row, ...]
-    paper: tuple[Row, ...]
-    reflected: tuple[Row, ...]
-    balance: tuple[tuple[Row, bool], ...]
-    rule: str
-    chart: Figure
-    notes: tuple[str, ...]
-    seats: tuple[Row, ...]
-
-
-def bodies_view(design: Design, bodies: Bodies) -> BodiesView:
-    """Arrange parts, mass properties and balance of a design for the page."""
     inertia = bodies.inertia
     by_name = {part.name: part for part in inertia.parts}
     beside = is_papers_actuator(design) and not inertia.motor_missing
-    return BodiesView(
-        rows=tuple(
+    return {
+        "rows": tuple(
             _part_row(row, by_name.get(row.part), inertia)
             for row in bill_of_materials(bodies.inertia.motor, bodies.parts)
         ),
-        total_mass=with_unit(inertia.total.mass, "kg", 4),
-        total_of="gearbox without motor" if inertia.motor_missing else "actuator",
-        groups=_groups(inertia),
-        paper=_beside_the_paper(design, inertia) if beside else (),
-        reflected=_reflected(inertia),
-        balance=_balance(design, bodies),
-        rule=_rule(design, bodies.balance),
-        chart=_chart(inertia),
-        notes=inertia.warnings,
-        seats=tuple(_seat(part.name, fit) for part in bodies.parts for fit in part.fits),
-    )
+        "total_mass": with_unit(inertia.total.mass, "kg", 4),
+        "total_of": "gearbox without motor" if inertia.motor_missing else "actuator",
+        "groups": _groups(inertia),
+        "paper": _beside_the_paper(design, inertia) if beside else (),
+        "reflected": _reflected(inertia),
+        "balance": _balance(design, bodies),
+        "rule": _rule(design, bodies.balance),
+        "chart": _chart(inertia),
+        "notes": inertia.warnings,
+        "seats": tuple(_seat(part.name, fit) for part in bodies.parts for fit in part.fits),
+    }
 
 
 def _seat(part: str, fit: Fit) -> Row:

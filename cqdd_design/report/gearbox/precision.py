@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +12,7 @@ from cqdd_design.gearbox.precision.precision import LOST_MOTION_SHARE
 from cqdd_design.report.ink.bars import bar_chart
 from cqdd_design.report.ink.charts import Curve, line_chart
 from cqdd_design.report.ink.numbers import ARCMIN, significant, with_unit
+from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Figure, Words
 
 if TYPE_CHECKING:
@@ -23,25 +23,11 @@ if TYPE_CHECKING:
 _ORDERS = 8
 
 
-@dataclass(frozen=True)
-class PrecisionView:
-    """What the section shows.
+def precision_view(analysis: ContactAnalysis, design: Design) -> Values:
+    """Figures, and rows of (name, value, measured in the paper, remark).
 
-    Attributes
-    ----------
-    rows : tuple of (name, value, measured in the paper, remark)
-        The third only beside the paper.
-    measured : bool
-        Whether rows have measured values.
+    The third stands only beside the paper's own actuator; `measured` tells whether it does.
     """
-
-    figures: tuple[Figure, ...]
-    rows: tuple[tuple[str, ...], ...]
-    measured: bool
-
-
-def precision_view(analysis: ContactAnalysis, design: Design) -> PrecisionView:
-    """Values of the section."""
     found = analysis.precision
     torque = with_unit(found.torque, "N*m")
     angle = np.degrees(found.free.crank_angle)
@@ -70,7 +56,7 @@ def precision_view(analysis: ContactAnalysis, design: Design) -> PrecisionView:
     rows = _rows(found)
     if not paper:
         rows = tuple((name, value, remark) for name, value, _, remark in rows)
-    return PrecisionView((error, *orders), rows, paper)
+    return {"figures": (error, *orders), "rows": rows, "measured": paper}
 
 
 def _order_bars(orders: tuple[Order, ...], torque: str) -> Figure:

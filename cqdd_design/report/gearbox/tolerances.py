@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cqdd_design.report.ink.bars import bar_chart, histogram
 from cqdd_design.report.ink.numbers import significant, with_unit
+from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Figure, Words
 
 if TYPE_CHECKING:
@@ -20,22 +20,11 @@ _NAMES = {
     "torque_ripple_pp_Nm": ("torque ripple, peak to peak", "N\u00b7m"),
 }
 _SHOWN = ("backlash_arcmin", "torque_ripple_pp_Nm")
-
-
 _STATISTICS = ("mean", "std", "p5", "p50", "p95", "p99")
 
 
-@dataclass(frozen=True)
-class ToleranceView:
-    """What the section shows; rows are of (name, mean, std, p5, p50, p95, p99)."""
-
-    lead: str
-    figures: tuple[Figure, ...]
-    rows: tuple[tuple[str, ...], ...]
-
-
-def tolerance_view(result: ToleranceResult) -> ToleranceView:
-    """Values of the section."""
+def tolerance_view(result: ToleranceResult) -> Values:
+    """Figures, and rows of (name, mean, std, p5, p50, p95, p99)."""
     ensemble, count = result.ensemble, len(result.values)
     lead = (
         f"{count} gearboxes drawn from the tolerances of the design (seed {ensemble.seed}) and "
@@ -48,7 +37,7 @@ def tolerance_view(result: ToleranceResult) -> ToleranceView:
     )
     histograms = [_histogram(result, name) for name in _SHOWN]
     rankings = [_ranking(result, name) for name in _SHOWN if result.ranking(name)]
-    return ToleranceView(lead, (*histograms, *rankings), rows)
+    return {"lead": lead, "figures": (*histograms, *rankings), "rows": rows}
 
 
 def _histogram(result: ToleranceResult, name: str) -> Figure:

@@ -5,12 +5,15 @@ from __future__ import annotations
 import html
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from cqdd_design.report.ink.mathml import lowered
 
 if TYPE_CHECKING:
     from jinja2 import Environment
+
+Values = dict[str, Any]
+"""What a template is given, by the names it uses; one that is missing is an error."""
 
 _TEMPLATES = Path(__file__).parents[1] / "templates"
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 from cqdd_design.report.ink.charts import margin_bar
 from cqdd_design.report.ink.mathml import mathml
 from cqdd_design.report.ink.numbers import MINUS, TIMES, significant, superscript, with_unit
+from cqdd_design.report.ink.page import Values
 from cqdd_design.results import Check, Status, worst_status
 
 #: Headings by the first part of a check's identifier, in the order of the report.
@@ -28,37 +28,21 @@ WORDS: dict[Status, str] = {"pass": "passes", "warn": "warning", "fail": "fails"
 _MANY = 1000.0
 
 
-@dataclass(frozen=True)
-class CheckRow:
+def check_row(check: Check) -> Values:
     """One check as shown: `limit` with its sense, `formula` and `bar` as markup."""
-
-    check: Check
-    value: str
-    limit: str
-    margin: str
-    formula: str
-    bar: str
-    substituted: str
-    remedy: str
-    source: str
-    word: str
-
-
-def check_row(check: Check) -> CheckRow:
-    """One check as a row."""
     sign = "≤" if check.sense == "max" else "≥"
-    return CheckRow(
-        check=check,
-        value=with_unit(_quiet(check.value, check.limit), check.unit),
-        limit=f"{sign} {with_unit(check.limit, check.unit)}",
-        margin=margin_text(check),
-        formula=mathml(check.formula),
-        bar=margin_bar(check),
-        substituted=printed(check.substituted),
-        remedy="" if check.satisfied else sentence(printed(check.remedy)),
-        source=printed(check.source).rstrip("."),
-        word=WORDS[check.status],
-    )
+    return {
+        "check": check,
+        "value": with_unit(_quiet(check.value, check.limit), check.unit),
+        "limit": f"{sign} {with_unit(check.limit, check.unit)}",
+        "margin": margin_text(check),
+        "formula": mathml(check.formula),
+        "bar": margin_bar(check),
+        "substituted": printed(check.substituted),
+        "remedy": "" if check.satisfied else sentence(printed(check.remedy)),
+        "source": printed(check.source).rstrip("."),
+        "word": WORDS[check.status],
+    }
 
 
 def _quiet(value: float, limit: float) -> float:
@@ -118,7 +102,7 @@ def sentence(text: str) -> str:
     return text if text.endswith((".", "!", "?")) else f"{text}."
 
 
-def check_groups(checks: Iterable[Check]) -> tuple[tuple[str, Status, tuple[CheckRow, ...]], ...]:
+def check_groups(checks: Iterable[Check]) -> tuple[tuple[str, Status, tuple[Values, ...]], ...]:
     """All checks under headings, with the worst status of each; within one, worst margin first."""
     grouped: dict[str, list[Check]] = {name: [] for name in _HEADINGS.values()}
     for check in checks:
@@ -139,13 +123,13 @@ def _severity(check: Check) -> tuple[int, float]:
     return ({"fail": 0, "warn": 1, "pass": 2}[check.status], check.margin)
 
 
-def failing(checks: Sequence[Check]) -> tuple[CheckRow, ...]:
+def failing(checks: Sequence[Check]) -> tuple[Values, ...]:
     """Failures, then warnings, each by least margin."""
     found = sorted((c for c in checks if not c.satisfied), key=_severity)
     return tuple(check_row(check) for check in found)
 
 
-def closest(checks: Sequence[Check], number: int) -> tuple[CheckRow, ...]:
+def closest(checks: Sequence[Check], number: int) -> tuple[Values, ...]:
     """The checks that are met with the least margins, least first."""
     met = sorted((c for c in checks if c.satisfied), key=lambda check: check.margin)
     return tuple(check_row(check) for check in met[:number])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from cqdd_design.catalog.bearings import bearings, find_bearing
 from cqdd_design.catalog.materials import find_material
@@ -109,12 +108,8 @@ def model_assumptions(design: Design) -> tuple[str, ...]:
     )
 
 
-@dataclass(frozen=True)
-class Source:
-    """A source and what this report took from it."""
-
-    text: str
-    used_for: str
+Source = tuple[str, str]
+"""A source, and what this report took from it."""
 
 
 def sources_used(
@@ -141,7 +136,7 @@ def sources_used(
             used.setdefault(part, []).append(check.id)
     for text in PLANETARY_SOURCES:
         used.setdefault(text, []).append("planetary comparison")
-    literature_rows = tuple(Source(text, _listed(ids)) for text, ids in used.items())
+    literature_rows = tuple((text, _listed(ids)) for text, ids in used.items())
     return literature_rows, _catalogue(analysis, parts)
 
 
@@ -170,8 +165,7 @@ def _catalogue(analysis: GearboxAnalysis, parts: Sequence[Part]) -> tuple[Source
     for part in parts:
         named.setdefault(part.material, []).append(part.name)
     rows = [
-        Source(f"{name}: {find_material(name).source}", _listed(uses))
-        for name, uses in named.items()
+        (f"{name}: {find_material(name).source}", _listed(uses)) for name, uses in named.items()
     ]
     bearing = analysis.cam_bearing.bearing
     seats = {bearing.designation: ["cam bearing"]}
@@ -179,14 +173,14 @@ def _catalogue(analysis: GearboxAnalysis, parts: Sequence[Part]) -> tuple[Source
         if part.designation in bearings():
             seats.setdefault(part.designation, []).append(part.name)
     rows += [
-        Source(f"bearing {name}: {find_bearing(name).source}", _listed(uses))
+        (f"bearing {name}: {find_bearing(name).source}", _listed(uses))
         for name, uses in seats.items()
     ]
     try:
         screw = find_shoulder_screw(reducer.output_pins.diameter)
-        rows.append(Source(f"{screw.name}: {screw.source}", "output pins, limits of size"))
+        rows.append((f"{screw.name}: {screw.source}", "output pins, limits of size"))
     except CatalogError:
-        rows.append(Source("ISO 286-2, zone f9", "output pins, limits of size"))
+        rows.append(("ISO 286-2, zone f9", "output pins, limits of size"))
     motor = analysis.motor
-    rows.append(Source(f"{motor.name}: {motor.source}", "motor checks"))
+    rows.append((f"{motor.name}: {motor.source}", "motor checks"))
     return tuple(rows)

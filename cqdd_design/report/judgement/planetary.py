@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from cqdd_design.planetary.assembly import MOST_PLANETS, assembles
 from cqdd_design.planetary.compare import PlanetaryComparison
 from cqdd_design.planetary.kinematics import ratio_ring_fixed
 from cqdd_design.planetary.rating import MeshRating
 from cqdd_design.report.ink.numbers import decimals, millimetres, significant, with_unit
+from cqdd_design.report.ink.page import Values
 from cqdd_design.report.judgement.check_rows import printed
 
 #: Every number of planets up to this has a row; past it, those that some answer names.
@@ -19,51 +19,20 @@ _ASSEMBLING = 12
 _MESH = {"sun_planet": "sun and planet", "planet_ring": "planet and ring"}
 
 
-@dataclass(frozen=True)
-class PlanetaryRow:
-    """One number of planets: whether it fits and assembles, and its least safeties."""
-
-    planets: int
-    fits: bool
-    assembles: bool
-    cells: tuple[tuple[str, bool], ...]
-
-
-@dataclass(frozen=True)
-class PlanetaryView:
-    """What the page shows of a comparison.
-
-    Attributes
-    ----------
-    summary : tuple of (name, value)
-    headings : tuple of str
-        Columns of `rows` after the first three.
-    cycloid : tuple of (load, part, title, value and limit, (torque capacity, holds))
-    claims : tuple of (claim, paper, ours, holds, under)
-    """
-
-    summary: tuple[tuple[str, str], ...]
-    headings: tuple[str, ...]
-    rows: tuple[PlanetaryRow, ...]
-    cycloid: tuple[tuple[str, str, str, str, tuple[str, bool]], ...]
-    claims: tuple[tuple[str, str, str, bool | None, str], ...]
-    warnings: tuple[str, ...]
-
-
-def planetary_view(comparison: PlanetaryComparison) -> PlanetaryView:
-    """Arrange a comparison for the page."""
+def planetary_view(comparison: PlanetaryComparison) -> Values:
+    """Answers, ratings by number of planets, what limits the cycloid, and the paper's claims."""
     settings = comparison.gears.settings
     contact, bending = settings.least_contact_safety, settings.least_bending_safety
     limits = sorted(comparison.cycloid, key=lambda one: (one.load != "peak", one.torque_capacity))
-    return PlanetaryView(
-        summary=_summary(comparison),
-        headings=(
+    return {
+        "summary": _summary(comparison),
+        "headings": (
             f"contact, peak (S_H ≥ {contact:g})",
             f"bending, peak (S_F ≥ {bending:g})",
             f"contact, continuous (S_H ≥ {contact:g})",
         ),
-        rows=_rows(comparison),
-        cycloid=tuple(
+        "rows": _rows(comparison),
+        "cycloid": tuple(
             (
                 limit.load,
                 limit.part,
@@ -73,7 +42,7 @@ def planetary_view(comparison: PlanetaryComparison) -> PlanetaryView:
             )
             for limit in limits
         ),
-        claims=tuple(
+        "claims": tuple(
             (
                 printed(claim.claim),
                 printed(claim.paper),
@@ -83,11 +52,11 @@ def planetary_view(comparison: PlanetaryComparison) -> PlanetaryView:
             )
             for claim in comparison.claims
         ),
-        warnings=tuple(printed(warning) for warning in comparison.warnings),
-    )
+        "warnings": tuple(printed(warning) for warning in comparison.warnings),
+    }
 
 
-def _rows(comparison: PlanetaryComparison) -> tuple[PlanetaryRow, ...]:
+def _rows(comparison: PlanetaryComparison) -> tuple[Values, ...]:
     gears, settings = comparison.gears, comparison.gears.settings
     contact, bending = settings.least_contact_safety, settings.least_bending_safety
     needed = {
@@ -103,8 +72,8 @@ def _rows(comparison: PlanetaryComparison) -> tuple[PlanetaryRow, ...]:
         peak = [rating for rating in found if rating.load.name == "peak"]
         steady = [rating for rating in found if rating.load.name == "continuous"]
         cells = (_contact(peak, contact), _bending(peak, bending), _contact(steady, contact))
-        assembling = assembles(gears.teeth, planets)
-        rows.append(PlanetaryRow(planets, gears.fits(planets), assembling, cells))
+        row = {"planets": planets, "fits": gears.fits(planets), "cells": cells}
+        rows.append(row | {"assembles": assembles(gears.teeth, planets)})
     return tuple(rows)
 
 

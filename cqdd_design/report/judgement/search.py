@@ -4,50 +4,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cqdd_design.design import Design
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.gearbox import CHECK_GUIDE
 from cqdd_design.report.ink.numbers import TIMES, grouped, millimetres, significant, with_unit
+from cqdd_design.report.ink.page import Values
 
 if TYPE_CHECKING:
     from cqdd_design.sizing.result import Objective, SizingResult
 
 
-@dataclass(frozen=True)
-class SizingView:
-    """What the page shows of a search.
-
-    Attributes
-    ----------
-    screened, survivors : str
-        Numbers of candidates.
-    headings : tuple of str
-        This design, then its alternatives.
-    rows : tuple of (quantity, one value a design)
-    tally : tuple of (title, number, width of its bar in per cent)
-    """
-
-    screened: str
-    survivors: str
-    headings: tuple[str, ...]
-    rows: tuple[tuple[str, tuple[str, ...]], ...]
-    tally: tuple[tuple[str, str, float], ...]
-
-
-def sizing_view(sizing: SizingResult) -> SizingView:
-    """Arrange a sizing result for the page."""
+def sizing_view(sizing: SizingResult) -> Values:
+    """A design and its alternatives, and the tally as (title, number, width of its bar, %)."""
     designs = [(sizing.design, sizing.objective)]
     designs += [(one.design, one.objective) for one in sizing.alternatives]
-    return SizingView(
-        screened=grouped(sizing.candidates_screened),
-        survivors=grouped(sizing.survivors),
-        headings=("this design", *(one.design.name for one in sizing.alternatives)),
-        rows=_rows(designs),
-        tally=_tally(sizing.rejected),
-    )
+    return {
+        "screened": grouped(sizing.candidates_screened),
+        "survivors": grouped(sizing.survivors),
+        "headings": ("this design", *(one.design.name for one in sizing.alternatives)),
+        "rows": _rows(designs),
+        "tally": _tally(sizing.rejected),
+    }
 
 
 def _rows(designs: list[tuple[Design, Objective]]) -> tuple[tuple[str, tuple[str, ...]], ...]:

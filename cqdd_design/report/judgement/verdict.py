@@ -3,46 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from cqdd_design.catalog.paper import PIN_TORQUE, PINS_TORQUE
 from cqdd_design.design import Design
 from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.report.ink.numbers import TIMES, decimals, significant, with_unit
-from cqdd_design.report.judgement.check_rows import CheckRow, closest, failing
-from cqdd_design.results import Check, Status, worst_status
+from cqdd_design.report.ink.page import Values
+from cqdd_design.report.judgement.check_rows import closest, failing
+from cqdd_design.results import Check, worst_status
 
 _CLOSEST = 6
 """Checks shown for a design that fails none."""
 
 
-@dataclass(frozen=True)
-class Verdict:
-    """What a reader must know first.
-
-    Attributes
-    ----------
-    badge, headline, detail : str
-        A few words; one sentence; one more.
-    rows : tuple of CheckRow
-        Failures, then warnings.
-    closest : tuple of CheckRow
-        Where nothing fails: the checks met with the least margins.
-    least : str
-        Least margin of all checks, with what it belongs to.
-    """
-
-    status: Status
-    badge: str
-    headline: str
-    detail: str
-    rows: tuple[CheckRow, ...]
-    closest: tuple[CheckRow, ...]
-    least: str
-
-
-def verdict(design: Design, checks: Sequence[Check]) -> Verdict:
-    """Sum up the checks of a design."""
+def verdict(design: Design, checks: Sequence[Check]) -> Values:
+    """What a reader must know first: failures and warnings, or the least margins where none."""
     name, asked = design.name, design.requirements
     status = worst_status(checks)
     total = len(checks)
@@ -69,45 +44,26 @@ def verdict(design: Design, checks: Sequence[Check]) -> Verdict:
         f" {_count(warned, 'more is a warning', 'more are warnings')}." if failed and warned else ""
     )
     margin = significant(least.margin, 3)
-    return Verdict(
-        status=status,
-        badge=badge,
-        headline=headline,
-        detail=f"The least margin is {margin}, in "
+    return {
+        "status": status,
+        "badge": badge,
+        "headline": headline,
+        "detail": f"The least margin is {margin}, in "
         f"“{least.title[0].lower()}{least.title[1:]}”.{also}",
-        rows=failing(checks),
-        closest=() if failed else closest(checks, _CLOSEST),
-        least=margin,
-    )
+        "rows": failing(checks),
+        "closest": () if failed else closest(checks, _CLOSEST),
+        "least": margin,
+    }
 
 
 def _count(number: int, one: str, many: str = "") -> str:
     return f"{number} {one if number == 1 else many or one + 's'}"
 
 
-@dataclass(frozen=True)
-class PinFigure:
-    """The paper's output-pin figure beside what shared loads allow.
-
-    Attributes
-    ----------
-    paper : (str, str)
-        What the paper prints a pin and in all, N m.
-    as_printed : bool
-        Whether these pins give the very figure that the paper prints.
-    rows : tuple of (method, per pin, in all, share of the peak torque)
-    """
-
-    paper: tuple[str, str]
-    as_printed: bool
-    rows: tuple[tuple[str, str, str, str], ...]
-    conclusion: str
-
-
 _HELD = {"both": "held at both ends", "cantilever": "held at one end"}
 
 
-def pin_figure(analysis: GearboxAnalysis) -> PinFigure:
+def pin_figure(analysis: GearboxAnalysis) -> Values:
     """Output pins of a design by the paper's method, by shared shear and by shared bending."""
     pins, design = analysis.output_pins, analysis.design
     peak, bending = design.requirements.peak_torque, pins.bending_torque_capacity
@@ -140,15 +96,16 @@ def pin_figure(analysis: GearboxAnalysis) -> PinFigure:
     else:
         conclusion += "bending. Here bending, too, leaves room at the peak torque asked for."
     paper = (f"{PIN_TORQUE:.2f}", f"{PINS_TORQUE:.2f}")
-    return PinFigure(
-        paper,
-        (f"{pins.paper_torque_per_pin:.2f}", f"{pins.paper_torque_total:.2f}") == paper,
-        tuple(
+    return {
+        "paper": paper,
+        "as_printed": paper
+        == (f"{pins.paper_torque_per_pin:.2f}", f"{pins.paper_torque_total:.2f}"),
+        "rows": tuple(
             (method, per_pin, _torque(capacity), f"{decimals(capacity / peak, 2)} {TIMES}")
             for method, per_pin, capacity in methods
         ),
-        conclusion,
-    )
+        "conclusion": conclusion,
+    }
 
 
 def _torque(value: float) -> str:

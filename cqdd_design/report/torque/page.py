@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.report.ink.numbers import grouped, per_cent, significant
-from cqdd_design.report.ink.page import environment
+from cqdd_design.report.ink.page import Values, environment
 from cqdd_design.report.ink.svg import Figure, Words
 from cqdd_design.report.torque.charts import (
     Errors,
@@ -21,7 +20,6 @@ from cqdd_design.report.torque.charts import (
     zoomed,
 )
 from cqdd_design.report.torque.tables import (
-    Table,
     further_tables,
     models_table,
     ordered,
@@ -41,28 +39,6 @@ _CURVES = 4
 """Models that share one panel; more cannot be told apart."""
 _PANELS = 9
 _COLOURS = 8
-
-
-@dataclass(frozen=True)
-class TorqueView:
-    """What the section shows.
-
-    Attributes
-    ----------
-    models : Table
-        Ours, on the headline set.
-    paper : Table
-        The paper's hardware, apart.
-    """
-
-    lead: str
-    models: Table
-    paper: Table
-    wide: tuple[Figure, ...]
-    figures: tuple[Figure, ...]
-    regimes: tuple[Figure, ...]
-    tables: tuple[Table, ...]
-    warnings: tuple[str, ...]
 
 
 def torque_page(results: EvaluationResult, *, date: str = "") -> str:
@@ -86,19 +62,19 @@ def torque_page(results: EvaluationResult, *, date: str = "") -> str:
     )
 
 
-def torque_view(results: EvaluationResult) -> TorqueView:
-    """Values of the section."""
+def torque_view(results: EvaluationResult) -> Values:
+    """Models on the headline set, the paper's hardware apart, figures and further tables."""
     headline = results.sets[0]
-    return TorqueView(
-        lead=_lead(headline),
-        models=models_table(results, headline),
-        paper=paper_table(),
-        wide=tuple(_wide(results, headline)),
-        figures=tuple(_figures(results, headline)),
-        regimes=tuple(_regime_bars(results, headline, tuple(REGIMES)[1:])),
-        tables=further_tables(results, headline),
-        warnings=results.warnings,
-    )
+    return {
+        "lead": _lead(headline),
+        "models": models_table(results, headline),
+        "paper": paper_table(),
+        "wide": tuple(_wide(results, headline)),
+        "figures": tuple(_figures(results, headline)),
+        "regimes": tuple(_regime_bars(results, headline, tuple(REGIMES)[1:])),
+        "tables": further_tables(results, headline),
+        "warnings": results.warnings,
+    }
 
 
 def _facts(results: EvaluationResult) -> tuple[tuple[str, str, str], ...]:
