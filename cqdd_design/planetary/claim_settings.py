@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from cqdd_design.catalog import find_material, paper
 from cqdd_design.planetary.assembly import MOST_PLANETS, assembles, most_planets_that_fit
-from cqdd_design.planetary.gear_material import GearMaterial, gear_material
+from cqdd_design.planetary.gear_material import GearMaterial, Quality, gear_material
 from cqdd_design.planetary.gear_set import (
     LoadCase,
     PlanetaryGearSet,
@@ -32,7 +32,7 @@ SEARCHED_MATERIALS = (
     "AISI 4140 Q&T 425C",
     "SCM415/16MnCr5 case hardened",
 )
-SEARCHED_QUALITIES = ("ML", "MQ")
+SEARCHED_QUALITIES: tuple[Quality, ...] = ("ML", "MQ")
 SEARCHED_APPLICATION_FACTORS = (1.0, 1.5)
 
 

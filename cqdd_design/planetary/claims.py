@@ -62,13 +62,7 @@ class Claim:
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form: claim, paper, ours, holds, under."""
-        return {
-            "claim": self.claim,
-            "paper": self.paper,
-            "ours": self.ours,
-            "holds": self.holds,
-            "under": self.under,
-        }
+        return dict(vars(self))
 
 
 def paper_claims(

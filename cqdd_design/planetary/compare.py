@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from cqdd_design.errors import UsageError
 from cqdd_design.planetary.assembly import (
@@ -103,20 +103,10 @@ class PlanetaryComparison:
     def _planetary(self) -> dict[str, object]:
         gears, envelope = self.gears, self.gears.envelope
         return {
-            "teeth": {
-                "sun": gears.teeth.sun,
-                "planet_sun": gears.teeth.planet_sun,
-                "planet_ring": gears.teeth.planet_ring,
-                "ring": gears.teeth.ring,
-            },
+            "teeth": dict(vars(gears.teeth)),
             "module_mm": gears.module * 1e3,
             "face_width_mm": gears.face_width * 1e3,
-            "profile_shifts": {
-                "sun": gears.shifts.sun,
-                "planet_sun": gears.shifts.planet_sun,
-                "planet_ring": gears.shifts.planet_ring,
-                "ring": gears.shifts.ring,
-            },
+            "profile_shifts": dict(vars(gears.shifts)),
             "material": self.material.label,
             "contact_limit_MPa": self.material.contact_limit * 1e-6,
             "bending_limit_MPa": self.material.bending_limit * 1e-6,
@@ -291,10 +281,7 @@ def compare_planetary(
         )
         for n in range(1, last + 1)
     )
-    # Shifts, rim and bore drawn for other teeth say nothing about the paper's.
-    own = teeth == PAPER_TEETH and module == PAPER_MODULE
-    for_paper = chosen if own else replace(chosen, shifts=None, ring_rim=None, planet_bore=None)
-    claims, grid = paper_claims(material, for_paper, input_speed, bore, cycloid)
+    claims, grid = paper_claims(material, chosen, input_speed, bore, cycloid)
     return PlanetaryComparison(
         gears=gears,
         material=material,

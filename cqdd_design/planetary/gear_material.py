@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from cqdd_design.catalog import Material
-from cqdd_design.errors import UsageError, did_you_mean
+from cqdd_design.errors import UsageError
 
 MaterialClass = Literal[
     "through-hardened carbon steel",
@@ -68,8 +68,6 @@ _BENDING: dict[tuple[MaterialClass, Quality], _Row] = {
     (_INDUCTION, "MQ"): _Row(0.138, 290.0, 500.0, 570.0, 53),
     (_INDUCTION, "ME"): _Row(0.271, 237.0, 500.0, 615.0, 55),
 }
-MATERIAL_CLASSES: tuple[MaterialClass, ...] = (_CARBON, _ALLOY, _CASE, _INDUCTION)
-QUALITIES: tuple[Quality, ...] = ("ML", "MQ", "ME")
 
 #: HRC and HV of unalloyed and low-alloy steel, ISO 18265:2013 Table A.1 (from memory, to 1 %).
 _ROCKWELL_VICKERS = (
@@ -123,8 +121,6 @@ class GearMaterial:
         Pa, 1, kg/m^3.
     yield_strength : float
         sigma_S or sigma_0.2, Pa; enters the notch sensitivity.
-    material_class : str
-        One of :data:`MATERIAL_CLASSES`.
     quality : {"ML", "MQ", "ME"}
         Modest, normal, high demands on the material.
     hardness_vickers : float
@@ -190,12 +186,12 @@ def stress_numbers(
     return values[0], values[1], note
 
 
-def gear_material(
-    material: Material,
-    quality: str = "MQ",
-    material_class: str | None = None,
-) -> GearMaterial:
+def gear_material(material: Material, quality: Quality = "MQ") -> GearMaterial:
     """A catalogue material as ISO 6336-5 sees it.
+
+    What the catalogue calls case-hardened is; otherwise 485 HV and more is rated as
+    induction-hardened (the only class of the table for hard steel without a case), 200 HV and more
+    as through-hardened alloy steel, less as through-hardened carbon steel.
 
     Parameters
     ----------
@@ -203,16 +199,11 @@ def gear_material(
         A steel with a hardness in HB or HRC.
     quality : {"ML", "MQ", "ME"}
         MQ is what an experienced maker reaches at ordinary cost.
-    material_class : str, optional
-        One of :data:`MATERIAL_CLASSES`. Without it: what the catalogue calls case-hardened is;
-        otherwise 485 HV and more is rated as induction-hardened (the only class of the table for
-        hard steel without a case), 200 HV and more as through-hardened alloy steel, less as
-        through-hardened carbon steel.
 
     Raises
     ------
     UsageError
-        Not a steel, no hardness, or an unknown quality or class.
+        Not a steel, or no hardness.
 
     Examples
     --------
@@ -220,16 +211,6 @@ def gear_material(
     >>> round(gear_material(find_material("AISI 4140 Q&T 540C")).contact_limit / 1e6)
     835
     """
-    if quality not in QUALITIES:
-        raise UsageError(
-            f"quality: '{quality}' is no ISO 6336-5 quality{did_you_mean(quality, QUALITIES)} "
-            "Choose ML, MQ or ME; MQ is usual."
-        )
-    if material_class is not None and material_class not in MATERIAL_CLASSES:
-        raise UsageError(
-            f"material class: '{material_class}' is not one of {', '.join(MATERIAL_CLASSES)}"
-            f"{did_you_mean(material_class, MATERIAL_CLASSES)}."
-        )
     vickers = _vickers(material)
     stainless = material.youngs_modulus < 200e9
     if not 185e9 <= material.youngs_modulus <= 220e9 or material.yield_strength is None:
@@ -242,10 +223,8 @@ def gear_material(
             f"material: '{material.name}' has no hardness in the catalogue, and ISO 6336-5 rates "
             "steel by its hardness; choose one that has, such as 'AISI 4140 Q&T 540C'."
         )
-    chosen = _class_of(material, vickers) if material_class is None else material_class
-    found_class = next(known for known in MATERIAL_CLASSES if known == chosen)
-    found_quality = next(known for known in QUALITIES if known == quality)
-    contact, bending, note = stress_numbers(found_class, found_quality, vickers)
+    found_class = _class_of(material, vickers)
+    contact, bending, note = stress_numbers(found_class, quality, vickers)
     notes = [note] if note else []
     if stainless:
         notes.append(
@@ -259,7 +238,7 @@ def gear_material(
         density=material.density,
         yield_strength=material.yield_strength,
         material_class=found_class,
-        quality=found_quality,
+        quality=quality,
         hardness_vickers=vickers,
         contact_limit=contact,
         bending_limit=bending,

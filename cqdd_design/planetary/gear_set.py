@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from cqdd_design.errors import GeometryError, UsageError
+from cqdd_design.errors import GeometryError
 from cqdd_design.planetary.assembly import (
     MOST_PLANETS,
     PlanetaryEnvelope,
@@ -29,10 +29,8 @@ from cqdd_design.planetary.rating import MeshRating, rate_mesh
 from cqdd_design.planetary.settings import RatingSettings
 from cqdd_design.planetary.tooth_geometry import GearPair, validate_module
 
-#: Least rim outside the ring's root, m: the least wall of the cycloid's ring.
-LEAST_RING_WALL = 2.5e-3
-#: Rim of the ring in modules where nothing else is asked.
-RING_RIM_MODULES = 2.5
+#: Least rim outside the ring's root, m (the least wall of the cycloid's ring), and in modules.
+LEAST_RING_WALL, RING_RIM_MODULES = 2.5e-3, 2.5
 
 
 @dataclass(frozen=True)
@@ -108,7 +106,7 @@ def build_gear_set(
     Raises
     ------
     UsageError
-        Module, width or shifts outside their ranges.
+        Module or width outside their ranges.
     GeometryError
         Unequal centre distances, teeth that cannot mesh, pointed teeth.
 
@@ -118,73 +116,21 @@ def build_gear_set(
     >>> round(gears.centre_distance * 1e3, 9), gears.fits(3), gears.fits(4)
     (24.0, True, False)
     """
-    chosen = settings or RatingSettings()
-    shifts = chosen.shifts or default_shifts(teeth, chosen.rack)
-    if not teeth.stepped and shifts.planet_sun != shifts.planet_ring:
-        raise UsageError(
-            f"profile shift: the planet of {teeth.planet_sun} teeth is one gear in both meshes and "
-            f"cannot have the shifts {shifts.planet_sun:g} and {shifts.planet_ring:g}; give both "
-            f"{shifts.planet_sun:g}."
-        )
+    shifts = default_shifts(teeth)
     validate_module(module)
-    if shifts.sun + shifts.planet_sun == 0.0 == shifts.planet_ring + shifts.ring:
-        # Before the teeth are looked at: counts that belong on no common pin deserve that message,
-        # not a remark about some tooth of theirs.
-        require_one_centre_distance(
-            teeth,
-            module,
-            0.5 * module * (teeth.sun + teeth.planet_sun),
-            0.5 * module * (teeth.ring - teeth.planet_ring),
-        )
+    # Before the teeth are looked at: counts that belong on no common pin deserve that message,
+    # not a remark about some tooth of theirs.
+    require_one_centre_distance(teeth, module)
     sun_pair = GearPair(
-        teeth.sun,
-        teeth.planet_sun,
-        module,
-        face_width,
-        shifts.sun,
-        shifts.planet_sun,
-        rack=chosen.rack,
+        teeth.sun, teeth.planet_sun, module, face_width, shifts.sun, shifts.planet_sun
     )
     ring_pair = GearPair(
-        teeth.planet_ring,
-        -teeth.ring,
-        module,
-        face_width,
-        shifts.planet_ring,
-        shifts.ring,
-        rack=chosen.rack,
+        teeth.planet_ring, -teeth.ring, module, face_width, shifts.planet_ring, shifts.ring
     )
-    distance = require_one_centre_distance(
-        teeth, module, sun_pair.working_centre_distance, -ring_pair.working_centre_distance
-    )
-    rim = chosen.ring_rim
-    if rim is None:
-        rim = max(LEAST_RING_WALL, RING_RIM_MODULES * module)
-    idler = not teeth.stepped
-    rims = [math.inf, math.inf]
-    if chosen.planet_bore is not None:
-        rims = [
-            0.5 * (sun_pair.root_diameters[1] - chosen.planet_bore),
-            0.5 * (ring_pair.root_diameters[0] - chosen.planet_bore),
-        ]
-    sun_mesh = PlanetaryMesh.build(
-        "sun_planet",
-        sun_pair,
-        pinion_is_sun=True,
-        reversed_pinion=False,
-        reversed_wheel=idler,
-        rims=(math.inf, rims[0]),
-        cutter_teeth=chosen.cutter_teeth,
-    )
-    ring_mesh = PlanetaryMesh.build(
-        "planet_ring",
-        ring_pair,
-        pinion_is_sun=False,
-        reversed_pinion=idler,
-        reversed_wheel=False,
-        rims=(rims[1], rim),
-        cutter_teeth=chosen.cutter_teeth,
-    )
+    distance = sun_pair.working_centre_distance
+    rim, idler = max(LEAST_RING_WALL, RING_RIM_MODULES * module), not teeth.stepped
+    sun_mesh = PlanetaryMesh("sun_planet", sun_pair, (False, idler))
+    ring_mesh = PlanetaryMesh("planet_ring", ring_pair, (idler, False), rim)
     tip = max(sun_pair.tip_diameters[1], ring_pair.tip_diameters[0])
     smallest_root, depth = min(
         (sun_pair.root_diameters[1], sun_pair.tooth_depths[1]),
@@ -204,8 +150,8 @@ def build_gear_set(
         sun_mesh,
         ring_mesh,
         envelope,
-        chosen,
-        _warnings(teeth, shifts, sun_pair, ring_pair, chosen),
+        settings or RatingSettings(),
+        _warnings(teeth, shifts, sun_pair, ring_pair),
     )
 
 
@@ -214,7 +160,6 @@ def _warnings(
     shifts: ProfileShifts,
     sun_pair: GearPair,
     ring_pair: GearPair,
-    settings: RatingSettings,
 ) -> tuple[str, ...]:
     """What a rating of these teeth cannot promise, one sentence each."""
     found = []
@@ -223,7 +168,7 @@ def _warnings(
         ("planet at the sun", teeth.planet_sun, shifts.planet_sun),
         ("planet at the ring", teeth.planet_ring, shifts.planet_ring),
     ):
-        least = least_shift_without_undercut(count, settings.rack)
+        least = least_shift_without_undercut(count)
         if shift < least - 1e-9:
             found.append(
                 f"The {name} of {count} teeth is undercut at profile shift {shift:g}; ISO 6336 "

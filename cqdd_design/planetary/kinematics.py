@@ -15,7 +15,6 @@ both, and every formula becomes that of the simple planetary.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from cqdd_design.errors import GeometryError, UsageError
@@ -70,30 +69,6 @@ class PlanetaryTeeth:
                 f"{self.planet_ring}; with this sun and planet the ring has "
                 f"{self.matching_ring} teeth."
             )
-
-    @classmethod
-    def from_sequence(cls, counts: Sequence[int]) -> PlanetaryTeeth:
-        """From four counts (sun, planet at the sun, planet at the ring, ring) or three (simple).
-
-        Raises
-        ------
-        UsageError
-            Neither three nor four counts.
-
-        Examples
-        --------
-        >>> PlanetaryTeeth.from_sequence([20, 40, 100])
-        PlanetaryTeeth(sun=20, planet_sun=40, planet_ring=40, ring=100)
-        """
-        if len(counts) == 3:
-            sun, planet, ring = counts
-            return cls(sun, planet, planet, ring)
-        if len(counts) != 4:
-            raise UsageError(
-                f"teeth: {len(counts)} counts were given; give four (sun, planet at the sun, "
-                "planet at the ring, ring), such as 12,36,22,70, or three for a simple planetary."
-            )
-        return cls(*counts)
 
     @property
     def stepped(self) -> bool:

@@ -6,13 +6,13 @@ import math
 from dataclasses import dataclass
 
 from cqdd_design.planetary.kinematics import PlanetaryTeeth
-from cqdd_design.planetary.tooth_geometry import BasicRack
+from cqdd_design.planetary.tooth_geometry import ISO_53_A, BasicRack
 
 #: Shifts are drawn in steps of this many modules.
 SHIFT_STEP = 0.05
 
 
-def least_shift_without_undercut(teeth: float, rack: BasicRack | None = None) -> float:
+def least_shift_without_undercut(teeth: float, rack: BasicRack = ISO_53_A) -> float:
     """Smallest profile shift x at which a rack does not undercut an external gear.
 
     x_min = h_fP* - rho_fP* (1 - sin(alpha)) - z sin^2(alpha)/2: the straight flank of the rack ends
@@ -24,7 +24,6 @@ def least_shift_without_undercut(teeth: float, rack: BasicRack | None = None) ->
     >>> round(least_shift_without_undercut(12), 3)
     0.298
     """
-    rack = rack or BasicRack()
     sine = math.sin(rack.pressure_angle)
     straight = rack.dedendum - rack.fillet_radius * (1.0 - sine)
     return straight - 0.5 * teeth * sine * sine
@@ -40,7 +39,7 @@ class ProfileShifts:
     ring: float
 
 
-def default_shifts(teeth: PlanetaryTeeth, rack: BasicRack | None = None) -> ProfileShifts:
+def default_shifts(teeth: PlanetaryTeeth) -> ProfileShifts:
     """Least shifts that avoid undercut and add to zero in each mesh, so both centre distances stay.
 
     The sun takes the smallest shift, in steps of 0.05, that leaves neither it nor its planet
@@ -55,12 +54,12 @@ def default_shifts(teeth: PlanetaryTeeth, rack: BasicRack | None = None) -> Prof
     ProfileShifts(sun=0.3, planet_sun=-0.3, planet_ring=0.0, ring=0.0)
     """
     sun = _nearest_to_zero(
-        least_shift_without_undercut(teeth.sun, rack),
-        -least_shift_without_undercut(teeth.planet_sun, rack),
+        least_shift_without_undercut(teeth.sun),
+        -least_shift_without_undercut(teeth.planet_sun),
     )
     if not teeth.stepped:
         return ProfileShifts(sun, 0.0 - sun, 0.0 - sun, sun)
-    planet = _nearest_to_zero(least_shift_without_undercut(teeth.planet_ring, rack), math.inf)
+    planet = _nearest_to_zero(least_shift_without_undercut(teeth.planet_ring), math.inf)
     return ProfileShifts(sun, 0.0 - sun, planet, 0.0 - planet)
 
 

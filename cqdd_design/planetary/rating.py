@@ -142,10 +142,8 @@ def _rate_root(
     """sigma_F, sigma_FG (Pa) and the Y factors of pinion (0) or wheel (1)."""
     pair, form = mesh.pair, mesh.forms[index]
     contact_ratio = pair.transverse_contact_ratio / math.cos(pair.base_helix_angle) ** 2
-    if index == 1 and pair.internal:
-        rim = bending.rim_factor_internal(mesh.rims[index], pair.module)
-    else:
-        rim = bending.rim_factor_external(mesh.rims[index], pair.tooth_depths[index])
+    of_ring = index == 1 and pair.internal
+    rim = bending.rim_factor_internal(mesh.ring_rim, pair.module) if of_ring else 1.0
     helix = bending.helix_factor(pair)
     deep = bending.deep_tooth_factor(contact_ratio, settings.accuracy_class)
     nominal = bending.nominal_root_stress(
@@ -162,7 +160,7 @@ def _rate_root(
     static = bending.relative_notch_sensitivity_static(material, form.stress_correction)
     surface = bending.relative_surface_factor(settings.root_roughness)
     size = bending.size_factor(material, pair.module)
-    reversed_bending = settings.reversing or (mesh.reversed_pinion, mesh.reversed_wheel)[index]
+    reversed_bending = mesh.reversed_bending[index]
     bearable = bending.bearable_root_stress(
         material, sensitivity * surface * size, static * size, cycles, reversed_bending
     )

@@ -58,25 +58,6 @@ class BasicRack:
     fillet_radius: float = 0.38
     pressure_angle: float = math.radians(20.0)
 
-    def __post_init__(self) -> None:
-        """Refuse racks no tool could have."""
-        for name, value, least, most, usual in (
-            ("addendum", self.addendum, 0.5, 1.5, 1.0),
-            ("dedendum", self.dedendum, 0.7, 2.0, 1.25),
-            ("fillet radius", self.fillet_radius, 0.01, 0.8, 0.38),
-            ("pressure angle", math.degrees(self.pressure_angle), 14.0, 30.0, 20.0),
-        ):
-            if not least <= value <= most:
-                raise UsageError(
-                    f"basic rack: {name} {value:g} is outside {least:g} to {most:g}; {usual:g} is "
-                    "usual."
-                )
-        if self.half_tip_land < 0.0:
-            raise GeometryError(
-                f"basic rack: a rounding of {self.fillet_radius:g} modules does not fit the tip of "
-                f"a tool {self.dedendum:g} modules high; at 1.25 modules and 20 degrees 0.47 does."
-            )
-
     @property
     def half_tip_land(self) -> float:
         """Half the flat between the roundings of the tool's tip, in modules.
@@ -147,12 +128,6 @@ class GearPair:
                 f"face width: {self.face_width * 1e3:g} mm is not a positive length; the paper's "
                 "gear has 12 mm."
             )
-        for shift in (self.pinion_shift, self.wheel_shift):
-            if not -2.0 <= shift <= 2.0:
-                raise UsageError(
-                    f"profile shift: {shift:g} modules is outside -2 to 2; +0.3 on a 12-tooth sun "
-                    "and -0.3 on its planet is usual."
-                )
         if self.wheel_teeth < 0 and -self.wheel_teeth <= self.pinion_teeth:
             raise GeometryError(
                 f"a ring of {-self.wheel_teeth} teeth cannot surround a gear of "

@@ -33,7 +33,7 @@ def computed() -> dict[str, Any]:
     }
     through = gear_material(find_material("AISI 4140 Q&T 540C"))
     case = gear_material(find_material("SCM415/16MnCr5 case hardened"))
-    simple = PlanetaryTeeth.from_sequence([20, 40, 100])
+    simple = PlanetaryTeeth(20, 40, 40, 100)
     found = {
         "paper_4140": compare_planetary(through, **loads),
         "paper_case_hardened": compare_planetary(case, **loads),

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.catalog import find_material, materials
-from cqdd_design.errors import CqddError, GeometryError, UsageError
+from cqdd_design.errors import CqddError, UsageError
 from cqdd_design.planetary import load_factors
 from cqdd_design.planetary.compare import compare_planetary
 from cqdd_design.planetary.cycloid import CycloidLimit
@@ -26,9 +26,8 @@ from cqdd_design.planetary.gear_set import (
 )
 from cqdd_design.planetary.iso6336 import bending, influence, pitting
 from cqdd_design.planetary.kinematics import PlanetaryTeeth
-from cqdd_design.planetary.profile_shift import ProfileShifts
 from cqdd_design.planetary.settings import RatingSettings
-from cqdd_design.planetary.tooth_geometry import BasicRack, GearPair
+from cqdd_design.planetary.tooth_geometry import GearPair
 
 TEETH = PlanetaryTeeth(12, 36, 22, 70)
 STEEL = gear_material(find_material("AISI 4140 Q&T 540C"))
@@ -52,11 +51,10 @@ def test_doubling_the_torque(torque, planets):
         assert twice.contact_safety == pytest.approx(once.contact_safety / math.sqrt(2.0))
 
 
-@given(st.floats(0.5, 5.0))
+@given(st.floats(1.0, 5.0))
 def test_geometric_similarity(scale):
     """Gears `scale` times as large, rim and all, carry scale^3 the torque at the same stress."""
-    grown = replace(NOMINAL, ring_rim=scale * 2.5e-3)
-    grown_ratings = rated(40.0 * scale**3, chosen=grown, scale=scale)
+    grown_ratings = rated(40.0 * scale**3, scale=scale)
     for small, large in zip(rated(), grown_ratings, strict=True):
         assert large.contact_stress == pytest.approx(small.contact_stress, rel=1e-9)
         assert large.root_stress == pytest.approx(small.root_stress, rel=1e-9)
@@ -107,11 +105,6 @@ CHANGED = {
     "flank_roughness": 6e-6,
     "root_roughness": 20e-6,
     "life_hours": 5000.0,
-    "reversing": True,
-    "shifts": ProfileShifts(0.35, -0.35, 0.1, -0.1),
-    "cutter_teeth": 30,
-    "ring_rim": 3.2e-3,
-    "planet_bore": 16e-3,
 }
 
 
@@ -128,9 +121,7 @@ def test_every_setting_has_an_effect(name):
 
 
 def test_settings_that_act_elsewhere_have_an_effect():
-    """The basic rack, the life at peak and the safety factors asked."""
-    rack = replace(RatingSettings().rack, dedendum=1.4, fillet_radius=0.3)
-    assert rated(chosen=replace(NOMINAL, rack=rack))[0].root_stress != rated()[0].root_stress
+    """The life at peak and the safety factors asked."""
     gears = build_gear_set(TEETH, 1e-3, 12e-3)
     peak = LoadCase("peak", 120.0, SPEED, 1e4)
     assert planets_needed(gears, replace(peak, cycles=1e7), STEEL, "contact") is None
@@ -144,12 +135,9 @@ def test_settings_that_act_elsewhere_have_an_effect():
     )
 
 
-@pytest.mark.parametrize(
-    "change",
-    [{"quality": "ML"}, {"quality": "ME"}, {"material_class": "induction-hardened steel"}],
-)
-def test_material_quality_and_class_have_an_effect(change):
-    other = gear_material(find_material("AISI 4140 Q&T 540C"), **change)
+@pytest.mark.parametrize("quality", ["ML", "ME"])
+def test_the_material_s_quality_has_an_effect(quality):
+    other = gear_material(find_material("AISI 4140 Q&T 540C"), quality)
     assert other.contact_limit != STEEL.contact_limit
     assert rated(steel=other)[0].contact_safety != rated()[0].contact_safety
 
@@ -282,20 +270,16 @@ def test_every_catalogue_material_is_rated_or_refused(name):
     st.integers(-40, 40),
     st.floats(0.2e-3, 5e-3),
     st.floats(1e-3, 60e-3),
-    st.tuples(st.floats(-1.2, 1.2), st.floats(-1.2, 1.2)) | st.none(),
     st.integers(1, 24),
 )
-def test_nothing_but_our_own_errors(counts, change, module, width, shift, planets):
-    """Random teeth, shifts, sizes: a rating with finite numbers, or an error that names the fix."""
+def test_nothing_but_our_own_errors(counts, change, module, width, planets):
+    """Random teeth and sizes: a rating with finite numbers, or an error that names the fix."""
     try:
         ring = counts[0] + counts[1] + counts[2 if len(counts) == 4 else 1]
         teeth = PlanetaryTeeth(
             *counts[:2], counts[2 if len(counts) == 4 else 1], ring + change // 20
         )
-        chosen = RatingSettings()
-        if shift is not None:
-            chosen = replace(chosen, shifts=ProfileShifts(shift[0], -shift[0], shift[1], -shift[1]))
-        gears = build_gear_set(teeth, module, width, chosen)
+        gears = build_gear_set(teeth, module, width)
         found = rate_gear_set(gears, planets, LoadCase("peak", 40.0, SPEED, 1e4), STEEL)
     except CqddError:
         return
@@ -307,43 +291,13 @@ def test_nothing_but_our_own_errors(counts, change, module, width, shift, planet
 @pytest.mark.parametrize(
     ("change", "error", "named"),
     [
-        ({"dedendum": 0.0}, UsageError, "dedendum"),
-        ({"pressure_angle": math.nan}, UsageError, "pressure angle"),
-        ({"fillet_radius": 0.6}, GeometryError, "does not fit"),
-    ],
-)
-def test_racks_that_are_none(change, error, named):
-    with pytest.raises(error, match=named):
-        BasicRack(**change)
-
-
-BAD_SETTINGS = [
-    ({"application_factor": 0.0}, "application_factor"),
-    ({"application_factor": math.nan}, "application_factor"),
-    ({"accuracy_class": 0}, "accuracy_class"),
-    ({"mesh_load_table": "isoo"}, "'iso'"),
-    ({"lubricant_viscosity": 150.0}, "lubricant_viscosity"),
-    ({"planet_bore": -1.0}, "planet_bore"),
-]
-
-
-@pytest.mark.parametrize(("change", "named"), BAD_SETTINGS)
-def test_settings_out_of_range_are_named(change, named):
-    with pytest.raises(UsageError, match=named):
-        RatingSettings(**change)
-
-
-@pytest.mark.parametrize(
-    ("change", "error", "named"),
-    [
         ({"peak_torque": 0.0}, UsageError, "peak torque"),
         ({"peak_torque": math.nan}, UsageError, "peak torque"),
         ({"continuous_torque": -1.0}, UsageError, "continuous torque"),
         ({"input_speed": 0.0}, UsageError, "input speed"),
         ({"bore": -1.0}, UsageError, "bore"),
         ({"planets": 0}, UsageError, "planets"),
-        ({"settings": RatingSettings(ring_rim=1e-3)}, GeometryError, "too thin"),
-        ({"settings": RatingSettings(planet_bore=19e-3)}, GeometryError, "too thin"),
+        ({"settings": RatingSettings(mesh_load_table="isoo")}, UsageError, "'iso'"),
     ],
 )
 def test_comparison_refuses(change, error, named):
@@ -386,15 +340,6 @@ def test_claims_are_about_the_papers_gears_whatever_is_compared():
     own = compare_planetary(STEEL, **asked)
     assert other.claims == own.claims
     assert str(other.gears.teeth) == "18/42/30/90"
-
-
-def test_shifts_drawn_for_other_teeth_do_not_reach_the_papers_gears():
-    asked = {"peak_torque": 30.0, "continuous_torque": 10.0, "input_speed": SPEED}
-    shifted = RatingSettings(shifts=ProfileShifts(0.1, -0.1, 0.2, -0.2))
-    other = compare_planetary(
-        STEEL, **asked, teeth=PlanetaryTeeth(18, 42, 30, 90), settings=shifted
-    )
-    assert other.claims == compare_planetary(STEEL, **asked).claims
 
 
 def test_json_has_the_promised_keys_and_finite_numbers():

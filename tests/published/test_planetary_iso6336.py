@@ -20,12 +20,12 @@ from pathlib import Path
 import pytest
 
 from cqdd_design.catalog import find_material
-from cqdd_design.planetary.gear_material import gear_material
-from cqdd_design.planetary.gear_set import LoadCase, build_gear_set, rate_gear_set
+from cqdd_design.planetary.gear_material import GearMaterial, gear_material
 from cqdd_design.planetary.iso6336 import influence, pitting
 from cqdd_design.planetary.iso6336.form_factor import tooth_form
-from cqdd_design.planetary.kinematics import PlanetaryTeeth, tangential_force
-from cqdd_design.planetary.profile_shift import ProfileShifts
+from cqdd_design.planetary.kinematics import PlanetaryTeeth, tangential_force, torques
+from cqdd_design.planetary.load_factors import MeshLoad, PlanetaryMesh
+from cqdd_design.planetary.rating import MeshRating, rate_mesh
 from cqdd_design.planetary.settings import RatingSettings
 from cqdd_design.planetary.tooth_geometry import BasicRack, GearPair
 
@@ -132,12 +132,18 @@ def test_charts_of_form_and_stress_correction():
     assert form.stress_correction == pytest.approx(1.55, abs=0.005)
 
 
+def sun_mesh(planets: int, steel: GearMaterial) -> MeshRating:
+    """The paper's sun and planet without profile shift, 40 N m over so many planets, all K = 1."""
+    teeth = PlanetaryTeeth(12, 36, 22, 70)
+    tangential = tangential_force(torques(teeth, 40.0, planets).sun / planets, 12, 1e-3)
+    load = MeshLoad("continuous", planets, tangential, 134.7, 1e8, 1e8)
+    mesh = PlanetaryMesh("sun_planet", GearPair(12, 36, 1e-3, 12e-3), (False, False))
+    return rate_mesh(mesh, load, steel, RatingSettings.nominal())
+
+
 def test_hertz_pressure_of_the_papers_planetary():
-    settings = replace(RatingSettings.nominal(), shifts=ProfileShifts(0.0, 0.0, 0.0, 0.0))
-    gears = build_gear_set(PlanetaryTeeth(12, 36, 22, 70), 1e-3, 12e-3, settings)
-    case = LoadCase("continuous", 40.0, 134.7, None)
     for planets, pitch_point, with_factors in ((6, 468.0, 518.0), (3, 661.0, 733.0)):
-        sun, _ = rate_gear_set(gears, planets, case, STEEL)
+        sun = sun_mesh(planets, STEEL)
         assert sun.hertz_pitch_point * 1e-6 == pytest.approx(pitch_point, abs=0.5)
         # The printed pair multiplies rounded factors: 661.4 * 0.903 * 1.227 = 732.8.
         assert sun.contact_stress * 1e-6 == pytest.approx(with_factors, abs=0.8)
@@ -147,10 +153,7 @@ def test_hertz_pressure_of_the_papers_planetary():
 
 def test_hertz_pressure_needs_the_modulus_it_was_computed_with():
     """With the catalogue's 205 GPa and 0.29 the same gear has 465 MPa: 206 GPa and 0.3 give 468."""
-    settings = replace(RatingSettings.nominal(), shifts=ProfileShifts(0.0, 0.0, 0.0, 0.0))
-    gears = build_gear_set(PlanetaryTeeth(12, 36, 22, 70), 1e-3, 12e-3, settings)
-    steel = gear_material(find_material("AISI 4140 Q&T 540C"))
-    sun, _ = rate_gear_set(gears, 6, LoadCase("continuous", 40.0, 134.7, None), steel)
+    sun = sun_mesh(6, gear_material(find_material("AISI 4140 Q&T 540C")))
     assert sun.hertz_pitch_point * 1e-6 == pytest.approx(465.0, abs=0.5)
 
 

@@ -31,7 +31,8 @@ def teeth_of(inputs: str) -> PlanetaryTeeth:
     """Tooth counts written `18/49/29/96` or `Ns12;Np1 36;Np2 22;Nr70`."""
     named = re.findall(r"(?:Ns|Np1|Np2|Nr)\s*(\d+)", inputs)
     counts = named or re.search(r"\d+(?:/\d+)+", inputs).group().split("/")
-    return PlanetaryTeeth.from_sequence([int(count) for count in counts])
+    sun, *planets, ring = map(int, counts)
+    return PlanetaryTeeth(sun, planets[0], planets[-1], ring)
 
 
 def test_the_file_has_these_rows():

@@ -36,25 +36,6 @@ def helix_factor(pair: GearPair) -> float:
     return 1.0 - min(pair.overlap_ratio, 1.0) * angle / 120.0
 
 
-def rim_factor_external(rim: float, tooth_depth: float) -> float:
-    """Y_B of an external gear, 9.3, eq. 41, 42: 1 from s_R = 1.2 h_t, 1.6 ln(2.242 h_t/s_R) below.
-
-    Raises
-    ------
-    GeometryError
-        s_R <= 0.5 h_t, where the standard gives no factor.
-    """
-    ratio = rim / tooth_depth
-    if ratio >= 1.2:
-        return 1.0
-    if ratio <= 0.5:
-        raise GeometryError(
-            f"a rim of {rim * 1e3:.3g} mm under teeth {tooth_depth * 1e3:.3g} mm deep is too thin "
-            f"to rate; make it {0.6 * tooth_depth * 1e3:.3g} mm or more."
-        )
-    return 1.6 * math.log(2.242 / ratio)
-
-
 def rim_factor_internal(rim: float, module: float) -> float:
     """Y_B of a ring, 9.3, eq. 43, 44: 1 from s_R = 3.5 m_n, 1.15 ln(8.324 m_n/s_R) below.
 
