@@ -80,21 +80,8 @@ class Check:
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form; the first eight keys are a fixed interface."""
-        return {
-            "id": self.id,
-            "title": self.title,
-            "value": self.value,
-            "limit": self.limit,
-            "unit": self.unit,
-            "margin": self.margin,
-            "status": self.status,
-            "source": self.source,
-            "sense": self.sense,
-            "formula": self.formula,
-            "substituted": self.substituted,
-            "why": self.why,
-            "remedy": self.remedy,
-        }
+        keys = "id title value limit unit margin status source sense formula substituted why remedy"
+        return {key: getattr(self, key) for key in keys.split()}
 
 
 def worst_status(checks: Iterable[Check]) -> Status:
@@ -160,8 +147,4 @@ class Provenance:
 
     def to_dict(self) -> dict[str, str]:
         """The JSON form."""
-        return {
-            "version": self.version,
-            "time": self.time,
-            "design_sha256": self.design_sha256,
-        }
+        return dict(vars(self))

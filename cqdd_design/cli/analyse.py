@@ -54,8 +54,7 @@ def analyse(
     results, checks = found.to_dict(), found.gearbox.checks
     lines = _lines(found.gearbox, results)
     out.say(*lines, "", f"checks: {verdict(checks)} (see `check`)")
-    for sentence in found.warnings:
-        out.warn(sentence)
+    out.warn(*found.warnings)
     out.document(results, design=found.machine.given, checks=checks)
 
 

@@ -78,8 +78,7 @@ def bench(
     if others or not names:
         out.say("", *_comparison(actuators))
     out.wrote(files)
-    for sentence in result.warnings:
-        out.warn(sentence)
+    out.warn(*result.warnings)
     document = result.to_dict() | {"comparison": [one.to_dict() for one in actuators]}
     out.document(document, design=loaded, files=files)
 

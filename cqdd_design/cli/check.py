@@ -46,8 +46,7 @@ def check(
     if worst != "pass":
         out.say(remedies(checks), "")
     out.say(f"{loaded.name}: {verdict(checks)}")
-    for sentence in found.warnings:
-        out.warn(sentence)
+    out.warn(*found.warnings)
     seen = {} if motion is None else {"assembly": motion.to_dict()}
     out.document({"verdict": worst, **seen}, design=loaded, checks=checks)
     return 4 if worst == "fail" else 0

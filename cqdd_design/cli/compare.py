@@ -35,15 +35,14 @@ def compare(
 ) -> None:
     """The same loads on a compound planetary, rated by ISO 6336."""
     from cqdd_design.design import load_design
-    from cqdd_design.machine import resolve
     from cqdd_design.planetary.kinematics import PlanetaryTeeth
-    from cqdd_design.sizing.comparison import compare_with_planetary
+    from cqdd_design.roads.compare import compare as compared
     from cqdd_design.units import LENGTH
 
     counts = parse_whole_list("--teeth", teeth, 4, "12,36,22,70")
     loaded = load_design(design)
-    found = compare_with_planetary(
-        resolve(loaded),
+    found = compared(
+        loaded,
         teeth=PlanetaryTeeth(*counts),
         module=parse_positive("--module", module, LENGTH),
         face_width=parse_positive("--face-width", face_width, LENGTH),
@@ -51,25 +50,15 @@ def compare(
         planets=planets,
     )
     out.say(*_lines(found))
-    for sentence in found.warnings:
-        out.warn(sentence)
+    out.warn(*found.warnings)
     out.document(found.to_dict(), design=loaded)
 
 
 def _lines(found: PlanetaryComparison) -> list[str]:
     results = found.to_dict()["planetary"]
     assert isinstance(results, dict)
-    head = [
-        "planets",
-        "fits",
-        "assembles",
-        "mesh",
-        "load",
-        "sigma_H MPa",
-        "S_H",
-        "sigma_F MPa",
-        "S_F",
-    ]
+    head = ["planets", "fits", "assembles", "mesh", "load"]
+    head += ["sigma_H MPa", "S_H", "sigma_F MPa", "S_F"]
     rows = [
         [
             str(row["planets"]),
@@ -86,9 +75,8 @@ def _lines(found: PlanetaryComparison) -> list[str]:
     claims = []
     for claim in found.claims:
         word = {True: "holds", False: "does not hold", None: "open"}[claim.holds]
-        claims.append(
-            _paragraph(f"- {claim.claim} Paper: {claim.paper}. Ours: {claim.ours}. It {word}.")
-        )
+        told = f"- {claim.claim} Paper: {claim.paper}. Ours: {claim.ours}. It {word}."
+        claims.append(textwrap.fill(told, width=96, subsequent_indent="  "))
     return [
         f"compound planetary, {results['material']}: ratio {number(results['ratio'], 6)}, "
         f"centre distance {number(results['centre_distance_mm'])} mm",
@@ -99,7 +87,3 @@ def _lines(found: PlanetaryComparison) -> list[str]:
         "the paper's claims:",
         *claims,
     ]
-
-
-def _paragraph(text: str) -> str:
-    return textwrap.fill(text, width=96, subsequent_indent="  ")

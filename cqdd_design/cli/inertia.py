@@ -29,8 +29,7 @@ def inertia(
     specimen = read_specimen(out, loaded, motor_file=motor_file)
     found = weighed(loaded, specimen, speed=asked, progress=out.stages(INERTIA_STAGES))
     out.say(*_lines(found))
-    for sentence in found.warnings:
-        out.warn(sentence)
+    out.warn(*found.warnings)
     out.document(found.to_dict(), design=loaded)
 
 

@@ -42,6 +42,5 @@ def report(
     )
     out.wrote([file])
     out.say(f"{loaded.name}: {verdict(analysis.checks)}")
-    for sentence in analysis.warnings:
-        out.warn(sentence)
+    out.warn(*analysis.warnings)
     out.document({}, design=loaded, checks=analysis.checks, files=[file])

@@ -133,10 +133,11 @@ class Output:
             self.end_progress()
             print_result("\n".join(lines))
 
-    def warn(self, sentence: str) -> None:
-        """Tell a warning on stderr and keep it for the envelope."""
-        self.warnings.append(sentence)
-        self.note(f"warning: {sentence}")
+    def warn(self, *sentences: str) -> None:
+        """Tell warnings on stderr and keep them for the envelope."""
+        self.warnings += sentences
+        for sentence in sentences:
+            self.note(f"warning: {sentence}")
 
     def note(self, sentence: str) -> None:
         """Narrate on stderr."""

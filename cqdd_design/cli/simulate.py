@@ -171,8 +171,7 @@ def simulate(
     loaded = load_design(design)
     supply = chosen.quantity("--voltage", "VOLTAGE", None, example="24 V")
     told, seconds = chosen.command(command, signal, loaded, supply)
-    for sentence in chosen.warnings:
-        out.warn(sentence)
+    out.warn(*chosen.warnings)
     specimen = read_specimen(out, loaded, motor_file=motor_file, calibration=calibration, seed=seed)
     out.note_compilation(simulation=True)
     result = simulated(
@@ -190,8 +189,7 @@ def simulate(
     file = write_simulation(result, target, force=force)
     out.say(*_lines(result))
     out.wrote([file])
-    for sentence in result.warnings:
-        out.warn(sentence)
+    out.warn(*result.warnings)
     out.document(result.to_dict(), design=loaded, files=[file])
 
 

@@ -96,18 +96,11 @@ def size(
         progress=out.stages(road_stages(kinds, report=report)),
     )
     out.say(*_lines(road.design, road.sizing))
-    for check in road.sizing.checks:
-        if check.status == "warn":
-            out.warn(f"{check.id}: {check.remedy}.")
-    for sentence in road.sizing.warnings:
-        out.warn(sentence)
+    out.warn(*(f"{c.id}: {c.remedy}." for c in road.sizing.checks if c.status == "warn"))
+    out.warn(*road.sizing.warnings)
     out.wrote(road.files)
-    out.document(
-        road.sizing.to_dict(),
-        design=road.design,
-        checks=road.sizing.checks,
-        files=road.files,
-    )
+    results, checks = road.sizing.to_dict(), road.sizing.checks
+    out.document(results, design=road.design, checks=checks, files=road.files)
 
 
 def _requirements(asked: dict[str, Any], file: Path | None) -> Requirements:

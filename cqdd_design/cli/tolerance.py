@@ -45,25 +45,24 @@ def tolerance(
 ) -> int:
     """Toleranced gearboxes over a whole output turn: distributions and ranking."""
     from cqdd_design.design import load_design
-    from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble, work_here
-    from cqdd_design.machine import resolve
+    from cqdd_design.roads.tolerance import tolerance as drawn
     from cqdd_design.units import TORQUE
 
     asked_torque = parse_positive("--torque", torque, TORQUE)
     loaded = load_design(design)
-    ensemble = make_ensemble(resolve(loaded).design, torque=asked_torque, angles=angles, seed=seed)
-    progress = out.counting("gearboxes")
     if scheduler is None:
         out.note_compilation()
-        result = run_ensemble(ensemble, samples, mapper=work_here, progress=progress)
-    else:
-        from cqdd_design.sizing.distributed import dask_client, on_cluster
-
-        with dask_client(scheduler) as client:
-            result = run_ensemble(ensemble, samples, mapper=on_cluster(client), progress=progress)
+    result = drawn(
+        loaded,
+        samples=samples,
+        torque=asked_torque,
+        angles=angles,
+        seed=seed,
+        scheduler=scheduler,
+        progress=out.counting("gearboxes"),
+    )
     out.say(*_lines(result))
-    for sentence in result.warnings:
-        out.warn(sentence)
+    out.warn(*result.warnings)
     out.document(result.to_dict(), design=loaded)
     return INTERRUPTED_WITH_RESULTS if result.interrupted else 0
 

@@ -86,8 +86,7 @@ def evaluate(
         actuator = data_actuator(out, known, design, None, calibration, motor_file)
     names = parse_names(sets)
     lineup = line_up(known, networks, names, split_seed=split_seed, actuator=actuator)
-    for sentence in lineup.warnings:
-        out.warn(sentence)
+    out.warn(*lineup.warnings)
     work = len(lineup.estimators) * (len(lineup.sets) + 1)
     result = measure(
         known,
@@ -112,8 +111,7 @@ def evaluate(
         out.say(*_lines(result, one))
     out.say(*_paper(), "", f"in {number(result.seconds)} s")
     out.wrote(files)
-    for sentence in result.warnings:
-        out.warn(sentence)
+    out.warn(*result.warnings)
     of_models = {name: str(path) for name, path in zip(networks, model or [], strict=True)}
     out.document(result_dict(result) | {"files_of_models": of_models}, files=files)
 

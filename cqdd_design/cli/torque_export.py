@@ -45,10 +45,8 @@ def export_network(
         model.stem,
         force=force or folder is None,
     )
-    for sentence in written.warnings:
-        out.warn(sentence)
-    for refusal in written.refused:
-        out.warn(f"{refusal.kind} was not written: {refusal.error.message}")
+    out.warn(*written.warnings)
+    out.warn(*(f"{one.kind} was not written: {one.error.message}" for one in written.refused))
     out.wrote(written.files)
     out.document(metadata(artefact, artefact.mode), files=written.files)
     return written.refused[0].error.exit_code if written.refused else 0

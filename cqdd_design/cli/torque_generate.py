@@ -59,12 +59,9 @@ def generate(
     force: Force = False,
 ) -> None:
     """Generate pendulum data on the simulated actuator, as Parquet with a JSON manifest."""
-    from cqdd_design.actuator.recording import require_pyarrow
     from cqdd_design.design import load_design
-    from cqdd_design.files import refuse_overwrite
-    from cqdd_design.torque.data.episodes import write_data
-    from cqdd_design.torque.data.generate import Request, describe
-    from cqdd_design.torque.data.generate import generate as generated
+    from cqdd_design.roads.torque_data import generate as generated
+    from cqdd_design.torque.data.generate import Request
     from cqdd_design.units import DAMPING_GAIN, MASS, STIFFNESS_GAIN, VOLTAGE
 
     held = None if held_mass == "none" else parse_positive("--held-mass", held_mass, MASS)
@@ -79,36 +76,22 @@ def generate(
         position_gain=parse_option("--position-gain", position_gain, STIFFNESS_GAIN),
         velocity_gain=parse_option("--velocity-gain", velocity_gain, DAMPING_GAIN),
     )
-    require_pyarrow()
     loaded = load_design(design)
-    if folder is not None:
-        refuse_overwrite(folder / "manifest.json", force=force)
     specimen = read_specimen(out, loaded, motor_file=motor_file, calibration=calibration)
     out.note_compilation(simulation=True)
-    data, warnings = generated(
-        specimen.machine(loaded),
+    found = generated(
+        loaded,
         request,
+        folder,
         specimen=specimen,
+        force=force,
         tell=out.note,
         progress=out.counting("episodes"),
     )
-    target = folder or Path("exports") / f"{loaded.name}-torque"
-    files = write_data(data, target, force=force or folder is None)
-    found = describe(data)
-    if found["episodes_infeasible"] or found["episodes_saturated"]:
-        warnings = (
-            *warnings,
-            f"{found['episodes_infeasible']} of {found['episodes']} targets cannot be followed "
-            f"exactly by this actuator, and {found['episodes_saturated']} episodes saturate it, "
-            f"{found['saturated_share']:.1%} of all samples; they are kept and flagged.",
-        )
-    for sentence in warnings:
-        out.warn(sentence)
-    out.say(*summary_lines(found))
-    out.say(*folder_line(target, files))
-    manifest = files[-1]
-    infeasible = data.facts["infeasible"]
-    out.document({**found, "infeasible": infeasible}, design=loaded, files=[manifest])
+    out.warn(*found.warnings)
+    out.say(*summary_lines(found.facts))
+    out.say(*folder_line(found.folder, found.files))
+    out.document(found.facts, design=loaded, files=[found.files[-1]])
 
 
 def summary_lines(found: Mapping[str, Any]) -> list[str]:

@@ -106,8 +106,7 @@ def import_log(
         )
     if found.dropped:
         out.warn(f"{found.dropped} pieces are too short, and are left out.")
-    for sentence in found.warnings:
-        out.warn(sentence)
+    out.warn(*found.warnings)
     told = describe(found.data)
     out.say(*summary_lines(told))
     out.say(*folder_line(target, files))

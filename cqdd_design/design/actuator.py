@@ -99,11 +99,14 @@ class Tolerances(FrozenModel):
     ] = default("2 um")
 
 
+THINNEST_WIRE = "0.02 mm"
+
+
 class Edm(FrozenModel):
     """Wire EDM: the wire, its gap, and how closely files follow the exact curve."""
 
     wire_diameter: Annotated[
-        float, QuantityIn(LENGTH, "0.02 mm", "0.5 mm", "wires made for EDM")
+        float, QuantityIn(LENGTH, THINNEST_WIRE, "0.5 mm", "wires made for EDM")
     ] = default("0.25 mm")
     spark_gap: Annotated[
         float, QuantityIn(SMALL_LENGTH, "0 um", "200 um", "gap between wire and work")

@@ -6,9 +6,9 @@ import json
 import math
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from cqdd_design.errors import CqddError, UsageError, shown
 
@@ -26,30 +26,39 @@ def parse_toml(text: str, path: Path, *, wrong: type[CqddError] = UsageError) ->
     if deep:
         line = text.count("\n", 0, deep.start()) + 1
         raise wrong(f"{path} has tables nested too deeply (at line {line}).")
-    try:
-        content = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise wrong(f"{path} is not valid TOML: {str(error)[:200]}.") from None
-    except RecursionError:
-        raise wrong(f"{path} is not valid TOML: tables nested too deeply.") from None
-    except ValueError:
-        _refuse_digits(text, path, wrong)
+    content: dict[str, Any] = _parsed(tomllib.loads, text, path, wrong)
     refuse_extremes(content, str(path), wrong=wrong)
     return content
 
 
 def parse_json(text: str, path: Path, *, wrong: type[CqddError] = UsageError) -> Any:
     """The content of a JSON text, whose place is `path` in the error `wrong`."""
+    content = _parsed(json.loads, text, path, wrong)
+    refuse_extremes(content, str(path), finite=True, wrong=wrong)
+    return content
+
+
+def _parsed(read: Callable[[str], Any], text: str, path: Path, wrong: type[CqddError]) -> Any:
+    """What tomllib or json make of a text."""
     try:
-        content = json.loads(text)
+        return read(text)
+    except tomllib.TOMLDecodeError as error:
+        raise wrong(f"{path} is not valid TOML: {str(error)[:200]}.") from None
     except json.JSONDecodeError as error:
         raise wrong(f"{path} is not JSON (line {error.lineno}: {error.msg}).") from None
     except RecursionError:
-        raise wrong(f"{path} is not JSON that can be read: it is nested too deeply.") from None
+        told = "JSON that can be read: it is" if read is json.loads else "valid TOML: tables"
+        raise wrong(f"{path} is not {told} nested too deeply.") from None
     except ValueError:
-        _refuse_digits(text, path, wrong)
-    refuse_extremes(content, str(path), finite=True, wrong=wrong)
-    return content
+        # A number too long for Python to read.
+        long = _MANY_DIGITS.search(text)
+        start = long.start() if long else 0
+        key = _KEY_BEFORE.search(text[max(0, start - 200) : start])
+        line = text.count("\n", 0, start) + 1
+        raise wrong(
+            f"{path}: {key[1] if key else 'a number'} has thousands of digits (at line {line}); "
+            "no value here is that large."
+        ) from None
 
 
 def refuse_extremes(
@@ -82,15 +91,3 @@ def refuse_extremes(
             )
         elif finite and isinstance(value, float) and not math.isfinite(value):
             raise wrong(f"{source}: {'.'.join(place)} is {value}; it must be a finite number.")
-
-
-def _refuse_digits(text: str, path: Path, wrong: type[CqddError]) -> NoReturn:
-    """Refuse a number that Python does not read because of its length, naming its field."""
-    long = _MANY_DIGITS.search(text)
-    start = long.start() if long else 0
-    key = _KEY_BEFORE.search(text[max(0, start - 200) : start])
-    line = text.count("\n", 0, start) + 1
-    raise wrong(
-        f"{path}: {key[1] if key else 'a number'} has thousands of digits (at line {line}); "
-        "no value here is that large."
-    )

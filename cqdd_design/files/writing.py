@@ -27,12 +27,7 @@ class WrittenFile:
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form of interfaces: path, kind, bytes, sha256."""
-        return {
-            "path": str(self.path),
-            "kind": self.kind,
-            "bytes": self.bytes,
-            "sha256": self.sha256,
-        }
+        return vars(self) | {"path": str(self.path)}
 
 
 def _refusal(path: Path, error: OSError) -> UsageError:

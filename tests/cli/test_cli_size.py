@@ -5,6 +5,7 @@ import tomllib
 import pytest
 
 from cqdd_design.design import load_design
+from cqdd_design.design.requirements import LEAST_RATIO, MOST_RATIO
 
 
 @pytest.mark.deep
@@ -193,3 +194,9 @@ def test_when_nothing_fits(cqdd, tmp_path):
     assert error["details"]["binding"]
     assert 3.0 < error["details"]["most_peak_torque_Nm"] < 8.0
     assert list(tmp_path.iterdir()) == []
+
+
+def test_help_names_the_ratios_that_requirements_take(cqdd):
+    """The help is shown without the models of the design, so it cannot read them."""
+    told = " ".join(cqdd("size", "--help").out.split())
+    assert f"a whole number from {LEAST_RATIO} to {MOST_RATIO}." in told

@@ -14,9 +14,11 @@ import math
 
 import numpy as np
 
+from cqdd_design.design.actuator import THINNEST_WIRE
 from cqdd_design.errors import GeometryError
 from cqdd_design.exporting.edm.flat_parts import FlatPart, reach_of
 from cqdd_design.geometry.contours import Circle, Contour, as_complex, as_points
+from cqdd_design.units import LENGTH, parse_quantity
 
 DIAMETER = 1.5e-3
 """Of a start hole where there is room, m: an everyday electrode of EDM drilling machines."""
@@ -24,9 +26,6 @@ WALL = 1.0e-3
 """From start hole to contour where there is room, m: a drilled hole wanders and burns."""
 THREADING = 0.1e-3
 """A start hole is at least this much wider than the wire, m."""
-
-THINNEST_WIRE = 0.02e-3
-"""The least edm.wire_diameter of a design, m."""
 
 _PLACES = 96
 
@@ -49,8 +48,8 @@ def start_holes(flat: FlatPart, wire_diameter: float) -> tuple[Circle, ...]:
             most = 2.0 * radius - THREADING
             thinner = (
                 f"choose a wire of at most {math.floor(most * 1e6) * 1e-3:.3f} mm"
-                if most >= THINNEST_WIRE
-                else f"no wire of {THINNEST_WIRE * 1e3:g} mm or more fits it"
+                if most >= parse_quantity(THINNEST_WIRE, LENGTH)
+                else f"no wire of {THINNEST_WIRE} or more fits it"
             )
             raise GeometryError(
                 f"{flat.label}: inner contour {number} is {2e3 * room:.3g} mm across, too small "

@@ -1,0 +1,54 @@
+"""Toleranced gearboxes of a design over a whole output turn, here or on a cluster."""
+
+from __future__ import annotations
+
+from cqdd_design.design import Design
+from cqdd_design.gearbox.tolerance.ensemble import (
+    Progress,
+    ToleranceResult,
+    make_ensemble,
+    run_ensemble,
+)
+from cqdd_design.machine import resolve
+
+
+def tolerance(
+    design: Design,
+    *,
+    samples: int = 1000,
+    torque: float | None = None,
+    angles: int | None = None,
+    seed: int = 0,
+    scheduler: str | None = None,
+    progress: Progress | None = None,
+) -> ToleranceResult:
+    """Draw gearboxes from the tolerances of a design and solve them.
+
+    Parameters
+    ----------
+    design : Design
+    samples : int
+        Gearboxes.
+    torque : float, optional
+        At the output, N m; default the continuous one.
+    angles : int, optional
+        Crank angles over the output turn; default 8 n (n+1), which miss no order.
+    seed : int
+        Of the draws.
+    scheduler : str, optional
+        Address of the Dask scheduler to work on, such as ``tcp://HOST:8786``; default this machine.
+    progress : callable, optional
+        Told how many gearboxes are solved, and of how many.
+
+    Raises
+    ------
+    UsageError
+        When the angles do not fit into memory, or no scheduler answers.
+    """
+    ensemble = make_ensemble(resolve(design).design, torque=torque, angles=angles, seed=seed)
+    if scheduler is None:
+        return run_ensemble(ensemble, samples, progress=progress)
+    from cqdd_design.sizing.distributed import dask_client, on_cluster
+
+    with dask_client(scheduler) as client:
+        return run_ensemble(ensemble, samples, mapper=on_cluster(client), progress=progress)

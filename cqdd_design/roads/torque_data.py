@@ -1,0 +1,92 @@
+"""Pendulum data of a design's actuator, generated and written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from cqdd_design.actuator.recording import require_pyarrow
+from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
+from cqdd_design.design import Design
+from cqdd_design.files import WrittenFile, refuse_overwrite
+from cqdd_design.roads.telling import silent
+from cqdd_design.torque.data.episodes import write_data
+from cqdd_design.torque.data.generate import Request, Tell, describe
+from cqdd_design.torque.data.generate import generate as run
+
+
+@dataclass(frozen=True)
+class GeneratedData:
+    """A data set on disk.
+
+    Attributes
+    ----------
+    folder : Path
+        Where it lies.
+    files : tuple of WrittenFile
+        Episodes, and the manifest last.
+    facts : mapping
+        What is in it (``results`` of ``torque generate``).
+    warnings : tuple of str
+        What cannot be relied on.
+    """
+
+    folder: Path
+    files: tuple[WrittenFile, ...]
+    facts: Mapping[str, Any]
+    warnings: tuple[str, ...]
+
+
+def generate(
+    design: Design,
+    request: Request,
+    folder: Path | None = None,
+    *,
+    specimen: Specimen = AS_DRAWN,
+    force: bool = False,
+    tell: Tell = silent,
+    progress: Callable[[int, int], None] | None = None,
+) -> GeneratedData:
+    """Generate pendulum data on the simulated actuator, as Parquet with a JSON manifest.
+
+    Parameters
+    ----------
+    design : Design
+    request : Request
+        What to generate.
+    folder : Path, optional
+        Where to; default ``exports/NAME-torque``, whose files are this function's own.
+    specimen : Specimen
+        Which actuator is meant.
+    force : bool
+        Replace existing files in a named folder.
+    tell, progress : callable
+        Told what begins, and how many episodes are done of how many.
+
+    Raises
+    ------
+    DependencyError
+        Without pyarrow.
+    UsageError
+        When the folder holds data and `force` is not set, or cannot be written.
+    """
+    require_pyarrow()
+    if folder is not None:
+        refuse_overwrite(folder / "manifest.json", force=force)
+    data, warnings = run(
+        specimen.machine(design), request, specimen=specimen, tell=tell, progress=progress
+    )
+    target = folder or Path("exports") / f"{design.name}-torque"
+    files = write_data(data, target, force=force or folder is None)
+    facts = describe(data)
+    if facts["episodes_infeasible"] or facts["episodes_saturated"]:
+        warnings = (
+            *warnings,
+            f"{facts['episodes_infeasible']} of {facts['episodes']} targets cannot be followed "
+            f"exactly by this actuator, and {facts['episodes_saturated']} episodes saturate it, "
+            f"{facts['saturated_share']:.1%} of all samples; they are kept and flagged.",
+        )
+    facts = {**facts, "infeasible": data.facts["infeasible"]}
+    return GeneratedData(target, files, facts, warnings)
