@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, parse_positive, quantity_option
+from cqdd_design.cli.options import DesignFile, option, parse_positive, quantity_option
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 
@@ -29,13 +29,10 @@ def analyse(
     torque: Annotated[
         str | None, quantity_option('Output torque of the loads, as in "40 N*m".')
     ] = None,
-    angles: Annotated[
-        int, typer.Option(metavar="N", min=8, max=100_000, help="Crank angles of the curves.")
-    ] = 360,
+    angles: Annotated[int, option("N", "Crank angles of the curves.", min=8, max=100_000)] = 360,
     speed: Annotated[str | None, quantity_option('Input speed, as in "1286 rpm".')] = None,
     law: Annotated[
-        ContactLaw,
-        typer.Option("--contact-law", help="How line contacts yield to force."),
+        ContactLaw, typer.Option("--contact-law", help="How line contacts yield to force.")
     ] = ContactLaw.palmgren,
 ) -> None:
     """Loads, contact equilibrium, precision, losses and life."""

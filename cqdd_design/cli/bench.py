@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from cqdd_design.cli.options import (
     BenchSeed,
     BenchSupply,
@@ -14,6 +12,7 @@ from cqdd_design.cli.options import (
     DesignFile,
     Force,
     OwnMotor,
+    option,
     parse_names,
     parse_positive,
 )
@@ -30,22 +29,17 @@ if TYPE_CHECKING:
 def bench(
     out: Output,
     design: DesignFile,
-    only: Annotated[
-        str | None, typer.Option(metavar="NAMES", help="Measurements, separated by commas.")
-    ] = None,
+    only: Annotated[str | None, option("NAMES", "Measurements, separated by commas.")] = None,
     voltage: BenchSupply = None,
     seed: BenchSeed = None,
     calibration: Calibrated = None,
     motor_file: OwnMotor = None,
     beside: Annotated[
         str | None,
-        typer.Option(
-            metavar="NAMES",
-            help="Geared actuators of the catalogue to compare with, by semicolons.",
-        ),
+        option("NAMES", "Geared actuators of the catalogue to compare with, by semicolons."),
     ] = None,
     folder: Annotated[
-        Path | None, typer.Option("--out", metavar="DIR", help="Write every trace there, as npz.")
+        Path | None, option("DIR", "Write every trace there, as npz.", "--out")
     ] = None,
     force: Force = False,
 ) -> None:

@@ -5,14 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from cqdd_design.cli.options import (
     BenchSeed,
     BenchSupply,
     DesignFile,
     Force,
     OwnMotor,
+    option,
     parse_names,
     parse_positive,
 )
@@ -28,23 +27,20 @@ def calibrate(
     design: DesignFile,
     measured: Annotated[
         Path | None,
-        typer.Option(
-            metavar="FILE",
-            help="CSV with the columns name,value,unit; default the paper's table, for its own "
+        option(
+            "FILE",
+            "CSV with the columns name,value,unit; default the paper's table, for its own "
             "actuator.",
         ),
     ] = None,
     to: Annotated[
-        str | None,
-        typer.Option(
-            metavar="ROWS", help="Measured rows to fit to, by commas; the others are predicted."
-        ),
+        str | None, option("ROWS", "Measured rows to fit to, by commas; the others are predicted.")
     ] = None,
     unknowns: Annotated[
         str | None,
-        typer.Option(
-            metavar="NAMES",
-            help="What to fit: thermal_resistance, friction_level, friction_viscous, "
+        option(
+            "NAMES",
+            "What to fit: thermal_resistance, friction_level, friction_viscous, "
             "friction_load, current_loop, tolerance_scale; default what the rows decide.",
         ),
     ] = None,
@@ -53,9 +49,7 @@ def calibrate(
     motor_file: OwnMotor = None,
     path: Annotated[
         Path | None,
-        typer.Option(
-            "--out", metavar="FILE", help="Default exports/NAME-calibration.json, its own output."
-        ),
+        option("FILE", "Default exports/NAME-calibration.json, its own output.", "--out"),
     ] = None,
     force: Force = False,
 ) -> None:

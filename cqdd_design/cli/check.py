@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, OwnMotor
+from cqdd_design.cli.options import DesignFile, OwnMotor, option
 from cqdd_design.cli.session import Output, read_specimen
 
 if TYPE_CHECKING:
@@ -21,9 +21,7 @@ def check(
         bool,
         typer.Option("--assembly", help="Also turn the solids through a revolution of the output."),
     ] = False,
-    angles: Annotated[
-        int, typer.Option(metavar="N", min=1, max=100_000, help="Crank angles of --assembly.")
-    ] = 72,
+    angles: Annotated[int, option("N", "Crank angles of --assembly.", min=1, max=100_000)] = 72,
     motor_file: OwnMotor = None,
 ) -> int:
     """Run every check of a design (exit code 4: one fails)."""

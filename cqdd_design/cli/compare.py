@@ -5,9 +5,13 @@ from __future__ import annotations
 import textwrap
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from cqdd_design.cli.options import DesignFile, parse_positive, parse_whole_list, quantity_option
+from cqdd_design.cli.options import (
+    DesignFile,
+    option,
+    parse_positive,
+    parse_whole_list,
+    quantity_option,
+)
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 
@@ -19,18 +23,15 @@ def compare(
     out: Output,
     design: DesignFile,
     teeth: Annotated[
-        str,
-        typer.Option(metavar="S,P1,P2,R", help="Teeth of sun, planet at sun and at ring, ring."),
+        str, option("S,P1,P2,R", "Teeth of sun, planet at sun and at ring, ring.")
     ] = "12,36,22,70",
     module: Annotated[str, quantity_option("Module of both meshes.")] = "1 mm",
     face_width: Annotated[str, quantity_option("Face width of both meshes.")] = "12 mm",
     material: Annotated[
-        str | None,
-        typer.Option(metavar="NAME", help="Material of the gears; default that of the discs."),
+        str | None, option("NAME", "Material of the gears; default that of the discs.")
     ] = None,
     planets: Annotated[
-        int | None,
-        typer.Option(metavar="N", help="Planets looked at in detail; default the most that fit."),
+        int | None, option("N", "Planets looked at in detail; default the most that fit.")
     ] = None,
 ) -> None:
     """The same loads on a compound planetary, rated by ISO 6336."""

@@ -14,8 +14,7 @@ from cqdd_design.cli.tables import table
 def explain(
     out: Output,
     check: Annotated[
-        str | None,
-        typer.Argument(metavar="CHECK", help="Id of a check; without it, all ids."),
+        str | None, typer.Argument(metavar="CHECK", help="Id of a check; without it, all ids.")
     ] = None,
 ) -> None:
     """Tell what a check means: its rule, why it matters, where it comes from."""

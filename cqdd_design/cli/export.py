@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from cqdd_design.cli.options import Calibrated, Force, OwnMotor, parse_positive
+from cqdd_design.cli.options import Calibrated, Force, OwnMotor, option, parse_positive
 from cqdd_design.cli.session import Output, read_specimen
 from cqdd_design.exporting.kinds import kinds_for, read_kinds, stages
 
@@ -20,39 +20,21 @@ def export(
     ],
     to: Annotated[
         str,
-        typer.Option(
-            "--to",
-            metavar="LIST",
-            help=f"Kinds: {kinds_for('makers')}; {kinds_for('simulators')} for simulators.",
-        ),
+        option("LIST", f"Kinds: {kinds_for('makers')}; {kinds_for('simulators')} for simulators."),
     ] = "dxf,step",
     folder: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="DIR", help="Where to; default exports/NAME."),
+        Path | None, option("DIR", "Where to; default exports/NAME.", "--out")
     ] = None,
-    dxf_version: Annotated[
-        str, typer.Option("--dxf-version", metavar="R12|R2000|R2010", help="Dialect of DXF.")
-    ] = "R2000",
+    dxf_version: Annotated[str, option("R12|R2000|R2010", "Dialect of DXF.")] = "R2000",
     dxf_style: Annotated[
-        str,
-        typer.Option(
-            "--dxf-style",
-            metavar="polyline|entities",
-            help="Contours closed, or as lines and arcs end to end.",
-        ),
+        str, option("polyline|entities", "Contours closed, or as lines and arcs end to end.")
     ] = "polyline",
-    step_schema: Annotated[
-        str, typer.Option("--step-schema", metavar="AP214|AP242", help="Protocol of STEP.")
-    ] = "AP214",
+    step_schema: Annotated[str, option("AP214|AP242", "Protocol of STEP.")] = "AP214",
     tab_length: Annotated[
-        str | None,
-        typer.Option(
-            "--tab-length", metavar="Q", help='Left uncut in G-code until held; default "3 mm".'
-        ),
+        str | None, option("Q", 'Left uncut in G-code until held; default "3 mm".')
     ] = None,
     workers: Annotated[
-        int | None,
-        typer.Option(metavar="N", min=1, help="Designs at a time; default one for each core."),
+        int | None, option("N", "Designs at a time; default one for each core.", min=1)
     ] = None,
     seed: Annotated[
         int | None,

@@ -15,14 +15,19 @@ if TYPE_CHECKING:
     from cqdd_design.units import Dimension
 
 
+def option(metavar: str, text: str, *names: str, **more: Any) -> Any:
+    """An option, called like its argument unless named: what stands for its value, and its help."""
+    return typer.Option(*names, metavar=metavar, help=text, **more)
+
+
 def quantity_option(text: str) -> Any:
     """Option of a number with its unit."""
-    return typer.Option(metavar="Q", help=text)
+    return option("Q", text)
 
 
 def count_option(text: str, least: int = 1) -> Any:
     """Option of a whole number."""
-    return typer.Option(metavar="N", min=least, help=text)
+    return option("N", text, min=least)
 
 
 DesignFile = Annotated[Path, typer.Argument(metavar="DESIGN", help="Design file (TOML).")]

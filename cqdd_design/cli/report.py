@@ -5,9 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
-from cqdd_design.cli.options import BenchSeed, Calibrated, DesignFile, Force, OwnMotor
+from cqdd_design.cli.options import BenchSeed, Calibrated, DesignFile, Force, OwnMotor, option
 from cqdd_design.cli.session import Output, read_specimen
 
 
@@ -15,8 +13,7 @@ def report(
     out: Output,
     design: DesignFile,
     target: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="FILE", help="Where to; default reports/NAME.html."),
+        Path | None, option("FILE", "Where to; default reports/NAME.html.", "--out")
     ] = None,
     seed: BenchSeed = None,
     calibration: Calibrated = None,

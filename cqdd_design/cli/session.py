@@ -34,8 +34,7 @@ INTERRUPTED_WITH_RESULTS = -130
 
 _COMMON: dict[str, Any] = {
     "as_json": Annotated[
-        bool,
-        typer.Option("--json", help="Print one JSON document on stdout, all else on stderr."),
+        bool, typer.Option("--json", help="Print one JSON document on stdout, all else on stderr.")
     ],
     "quiet": Annotated[
         bool, typer.Option("--quiet", help="Print nothing but errors (and JSON with --json).")

@@ -14,6 +14,7 @@ from cqdd_design.cli.options import (
     Force,
     OwnMotor,
     Supply,
+    option,
     quantity_option,
 )
 from cqdd_design.cli.session import Output, read_specimen
@@ -85,8 +86,7 @@ def simulate(
     ] = None,
     end_frequency: Annotated[str | None, quantity_option('Of a chirp; default "50 Hz".')] = None,
     reference: Annotated[
-        Path | None,
-        typer.Option(metavar="CSV", help="Command over time: columns as time [s],torque [N m]."),
+        Path | None, option("CSV", "Command over time: columns as time [s],torque [N m].")
     ] = None,
     position_gain: Annotated[
         str | None,
@@ -106,20 +106,20 @@ def simulate(
     voltage: Supply = None,
     seed: Annotated[
         int | None,
-        typer.Option(
-            metavar="N",
+        option(
+            "N",
+            "Draw the gearbox from the tolerances; default perfect parts.",
             min=0,
             max=2**64 - 1,
-            help="Draw the gearbox from the tolerances; default perfect parts.",
         ),
     ] = None,
     samples: Annotated[
         int | None,
-        typer.Option(
-            metavar="N",
+        option(
+            "N",
+            "Gearboxes to draw, seeds from --seed (default 0) on; column `set` numbers them.",
             min=1,
             max=_MOST_SAMPLES,
-            help="Gearboxes to draw, seeds from --seed (default 0) on; column `set` numbers them.",
         ),
     ] = None,
     friction: Annotated[str, _choice(FRICTION, "Model of dry friction.")] = "clip",
@@ -127,11 +127,7 @@ def simulate(
     motor_file: OwnMotor = None,
     target: Annotated[
         Path | None,
-        typer.Option(
-            "--out",
-            metavar="FILE",
-            help="As .npz or .parquet; default exports/NAME-simulation.npz.",
-        ),
+        option("FILE", "As .npz or .parquet; default exports/NAME-simulation.npz.", "--out"),
     ] = None,
     force: Force = False,
 ) -> None:

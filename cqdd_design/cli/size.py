@@ -10,6 +10,7 @@ import typer
 from cqdd_design.cli.options import (
     Force,
     OwnMotor,
+    option,
     parse_option,
     parse_ratio,
     quantity_option,
@@ -26,9 +27,7 @@ if TYPE_CHECKING:
 
 def size(
     out: Output,
-    ratio: Annotated[
-        str | None, typer.Option(metavar="N", help="Reduction, a whole number from 4 to 119.")
-    ] = None,
+    ratio: Annotated[str | None, option("N", "Reduction, a whole number from 4 to 119.")] = None,
     peak_torque: Annotated[
         str | None, quantity_option("At the output; default min(9*N, 90) N*m.")
     ] = None,
@@ -38,29 +37,18 @@ def size(
     input_speed: Annotated[str | None, quantity_option('Default "1286 rpm".')] = None,
     outer_diameter: Annotated[str | None, quantity_option('Of the ring; default "72 mm".')] = None,
     length: Annotated[str | None, quantity_option('Of the disc pack; default "20 mm".')] = None,
-    motor: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Default CubeMars RO100 KV55.")
-    ] = None,
+    motor: Annotated[str | None, option("NAME", "Default CubeMars RO100 KV55.")] = None,
     motor_file: OwnMotor = None,
-    discs: Annotated[
-        int | None, typer.Option(metavar="N", help="Discs on the crank, 1 to 3; default 2.")
-    ] = None,
+    discs: Annotated[int | None, option("N", "Discs on the crank, 1 to 3; default 2.")] = None,
     requirements: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="TOML with [requirements]; options replace its values."),
+        Path | None, option("FILE", "TOML with [requirements]; options replace its values.")
     ] = None,
-    target: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="FILE", help="Default designs/sized-N.toml."),
-    ] = None,
+    target: Annotated[Path | None, option("FILE", "Default designs/sized-N.toml.", "--out")] = None,
     report: Annotated[
         bool, typer.Option("--report", help="Write reports/sized-N.html too.")
     ] = False,
     export: Annotated[
-        str | None,
-        typer.Option(
-            metavar="LIST", help="Write exports/sized-N/ too: dxf, step, ... as `export`."
-        ),
+        str | None, option("LIST", "Write exports/sized-N/ too: dxf, step, ... as `export`.")
     ] = None,
     force: Force = False,
 ) -> None:

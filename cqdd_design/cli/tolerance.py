@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from cqdd_design.cli.options import DesignFile, parse_positive, quantity_option
+from cqdd_design.cli.options import DesignFile, option, parse_positive, quantity_option
 from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, Output
 from cqdd_design.cli.tables import number, table
 
@@ -20,27 +18,19 @@ _RANKED = 4
 def tolerance(
     out: Output,
     design: DesignFile,
-    samples: Annotated[
-        int, typer.Option(metavar="N", min=1, max=_MOST_SAMPLES, help="Gearboxes to draw.")
-    ] = 1000,
+    samples: Annotated[int, option("N", "Gearboxes to draw.", min=1, max=_MOST_SAMPLES)] = 1000,
     angles: Annotated[
         int | None,
-        typer.Option(
-            metavar="N",
-            min=8,
-            help="Crank angles over the output turn; default 8 n (n+1), which miss no order.",
+        option(
+            "N", "Crank angles over the output turn; default 8 n (n+1), which miss no order.", min=8
         ),
     ] = None,
-    seed: Annotated[
-        int, typer.Option(metavar="N", min=0, max=2**64 - 1, help="Of the random draws.")
-    ] = 0,
+    seed: Annotated[int, option("N", "Of the random draws.", min=0, max=2**64 - 1)] = 0,
     torque: Annotated[
-        str | None,
-        quantity_option('Output torque, as in "40 N*m"; default the continuous.'),
+        str | None, quantity_option('Output torque, as in "40 N*m"; default the continuous.')
     ] = None,
     scheduler: Annotated[
-        str | None,
-        typer.Option(metavar="ADDRESS", help="Dask scheduler to work on, as tcp://HOST:8786."),
+        str | None, option("ADDRESS", "Dask scheduler to work on, as tcp://HOST:8786.")
     ] = None,
 ) -> int:
     """Toleranced gearboxes over a whole output turn: distributions and ranking."""

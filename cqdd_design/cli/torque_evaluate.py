@@ -5,9 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from cqdd_design.cli.options import Calibrated, Force, OwnMotor, parse_names
+from cqdd_design.cli.options import Calibrated, Force, OwnMotor, option, parse_names
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 from cqdd_design.cli.torque_actuator import data_actuator
@@ -21,48 +19,34 @@ if TYPE_CHECKING:
 
 def evaluate(
     out: Output,
-    data: Annotated[
-        Path, typer.Option("--data", metavar="DIR", help="As `torque generate` or import wrote.")
-    ],
-    model: Annotated[
-        list[Path] | None,
-        typer.Option("--model", metavar="FILE", help="A network (.npz); once for each."),
-    ] = None,
+    data: Annotated[Path, option("DIR", "As `torque generate` or import wrote.")],
+    model: Annotated[list[Path] | None, option("FILE", "A network (.npz); once for each.")] = None,
     sets: Annotated[
         str | None,
-        typer.Option(
+        option(
+            "NAMES",
+            "Test sets: trajectory,mass,wall,gearbox; default that of the first network.",
             "--set",
-            metavar="NAMES",
-            help="Test sets: trajectory,mass,wall,gearbox; default that of the first network.",
         ),
     ] = None,
     design: Annotated[
         Path | None,
-        typer.Option(
-            metavar="DESIGN",
-            help="Of the actuator, for the estimates by physics and from the current; default "
+        option(
+            "DESIGN",
+            "Of the actuator, for the estimates by physics and from the current; default "
             "what the networks' files say.",
         ),
     ] = None,
     calibration: Calibrated = None,
     motor_file: OwnMotor = None,
     split_seed: Annotated[
-        int | None,
-        typer.Option(metavar="N", min=0, help="Of the split; default that of the networks."),
+        int | None, option("N", "Of the split; default that of the networks.", min=0)
     ] = None,
-    draws: Annotated[
-        int, typer.Option(metavar="N", min=100, max=100_000, help="Resamples of the bootstrap.")
-    ] = 2000,
-    seed: Annotated[int, typer.Option(metavar="N", min=0, help="Of the bootstrap.")] = 0,
-    rollouts: Annotated[
-        int, typer.Option(metavar="N", min=0, help="Episodes that each model drives; 0: none.")
-    ] = 6,
-    report: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="One self-contained HTML page.")
-    ] = None,
-    markdown: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="The tables as Markdown.")
-    ] = None,
+    draws: Annotated[int, option("N", "Resamples of the bootstrap.", min=100, max=100_000)] = 2000,
+    seed: Annotated[int, option("N", "Of the bootstrap.", min=0)] = 0,
+    rollouts: Annotated[int, option("N", "Episodes that each model drives; 0: none.", min=0)] = 6,
+    report: Annotated[Path | None, option("FILE", "One self-contained HTML page.")] = None,
+    markdown: Annotated[Path | None, option("FILE", "The tables as Markdown.")] = None,
     force: Force = False,
 ) -> None:
     """Score networks and baselines on held-out episodes, with intervals, beside the paper."""

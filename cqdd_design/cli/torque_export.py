@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from cqdd_design.cli.options import Force
+from cqdd_design.cli.options import Force, option
 from cqdd_design.cli.session import Output
 from cqdd_design.exporting.estimators.kinds import KINDS
 from cqdd_design.exporting.kinds import read_kinds
@@ -18,17 +18,8 @@ def export_network(
     model: Annotated[
         Path, typer.Argument(metavar="MODEL", help="Network (.npz) that was trained.")
     ],
-    to: Annotated[
-        str,
-        typer.Option(
-            "--to",
-            metavar="LIST",
-            help=f"Of {', '.join(KINDS)}; with commas.",
-        ),
-    ] = "onnx,c",
-    folder: Annotated[
-        Path | None, typer.Option("--out", metavar="DIR", help="Default exports/NAME.")
-    ] = None,
+    to: Annotated[str, option("LIST", f"Of {', '.join(KINDS)}; with commas.")] = "onnx,c",
+    folder: Annotated[Path | None, option("DIR", "Default exports/NAME.", "--out")] = None,
     force: Force = False,
 ) -> int:
     """Write a trained network for simulators, onnxruntime, or as a C header."""

@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from cqdd_design.cli.options import (
     Calibrated,
     DesignFile,
@@ -14,6 +12,7 @@ from cqdd_design.cli.options import (
     OwnMotor,
     Supply,
     count_option,
+    option,
     parse_option,
     parse_positive,
     quantity_option,
@@ -31,11 +30,10 @@ def generate(
     out: Output,
     design: DesignFile,
     folder: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="DIR", help="Default exports/NAME-torque, its own output."),
+        Path | None, option("DIR", "Default exports/NAME-torque, its own output.", "--out")
     ] = None,
     episodes: Annotated[int, count_option("On the gearbox of training.")] = 320,
-    seconds: Annotated[float, typer.Option(metavar="S", help="Of each episode.")] = 10.0,
+    seconds: Annotated[float, option("S", "Of each episode.")] = 10.0,
     gearbox: Annotated[int, count_option("Seed of the one gearbox of training.", 0)] = 1,
     unit_gearboxes: Annotated[
         int, count_option("Further gearboxes, for the unit-to-unit test alone.", 0)

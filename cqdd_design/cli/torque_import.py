@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cqdd_design.cli.options import Force, parse_option, parse_positive, quantity_option
+from cqdd_design.cli.options import Force, option, parse_option, parse_positive, quantity_option
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.torque_generate import folder_line, summary_lines
 from cqdd_design.errors import UsageError
@@ -32,11 +32,11 @@ def import_log(
     ],
     map_file: Annotated[
         Path | None,
-        typer.Option(
-            "--map",
-            metavar="FILE",
-            help="TOML with tables columns, units, constants, group, groups, facts; the options "
+        option(
+            "FILE",
+            "TOML with tables columns, units, constants, group, groups, facts; the options "
             "below go before it.",
+            "--map",
         ),
     ] = None,
     columns: Annotated[
@@ -52,8 +52,7 @@ def import_log(
         str | None, _pairs_of("mass=1.14,wall=0", "Configuration of all these logs:")
     ] = None,
     current_to_torque: Annotated[
-        float | None,
-        typer.Option(metavar="N*m/A", help="Joint torque over current, signed, without a torque."),
+        float | None, option("N*m/A", "Joint torque over current, signed, without a torque.")
     ] = None,
     dt: Annotated[
         str | None, quantity_option('Sample time of logs without a time column, such as "1 ms".')
@@ -71,8 +70,7 @@ def import_log(
         ),
     ] = None,
     folder: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="DIR", help="Default exports/torque-logs, its own output."),
+        Path | None, option("DIR", "Default exports/torque-logs, its own output.", "--out")
     ] = None,
     force: Force = False,
 ) -> None:

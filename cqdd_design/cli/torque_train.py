@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
-from cqdd_design.cli.options import Force, OwnMotor, count_option, parse_positive
+from cqdd_design.cli.options import Force, OwnMotor, count_option, option, parse_positive
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 from cqdd_design.cli.torque_actuator import data_actuator
@@ -24,32 +24,26 @@ if TYPE_CHECKING:
 
 def train(
     out: Output,
-    folder: Annotated[
-        Path, typer.Option("--data", metavar="DIR", help="Data set of `torque generate`.")
-    ],
+    folder: Annotated[Path, option("DIR", "Data set of `torque generate`.", "--data")],
     model: Annotated[
         str,
-        typer.Option(
-            metavar="NAME",
-            help="pva-gru, pv-gru, mlp, mlp-baseline, mlp-acceleration, physics-gru, phase-gru or "
+        option(
+            "NAME",
+            "pva-gru, pv-gru, mlp, mlp-baseline, mlp-acceleration, physics-gru, phase-gru or "
             "physics-phase-gru.",
         ),
     ] = "pva-gru",
     seed: Annotated[int, count_option("Of weights and order.", 0)] = 0,
     target: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="FILE", help="Default exports/MODEL-seed-N.npz."),
+        Path | None, option("FILE", "Default exports/MODEL-seed-N.npz.", "--out")
     ] = None,
     epochs: Annotated[int, count_option("At most.")] = 20,
     protocol: Annotated[
-        str,
-        typer.Option(
-            "--split", metavar="NAME", help="What is held out: trajectory, mass, wall or gearbox."
-        ),
+        str, option("NAME", "What is held out: trajectory, mass, wall or gearbox.", "--split")
     ] = "trajectory",
     split_seed: Annotated[int, count_option("Of the split.", 0)] = 0,
     mode: Annotated[
-        str, typer.Option(metavar="window|streaming", help="How it is trained and will be run.")
+        str, option("window|streaming", "How it is trained and will be run.")
     ] = "window",
     device: Annotated[str, typer.Option(metavar="auto|cpu|cuda")] = "auto",
     resume: Annotated[
@@ -57,10 +51,10 @@ def train(
     ] = False,
     reading: Annotated[
         str,
-        typer.Option(
+        option(
+            "max|initial|ours",
+            "Of the paper's 1e-4: the cycle's peak, or its start, a 25th of it; or our own.",
             "--learning-rate-reading",
-            metavar="max|initial|ours",
-            help="Of the paper's 1e-4: the cycle's peak, or its start, a 25th of it; or our own.",
         ),
     ] = "initial",
     batch: Annotated[int, count_option("Windows in a step.")] = 64,
@@ -73,15 +67,13 @@ def train(
     ] = 1,
     orders: Annotated[int, count_option("Of the gearbox, for phase-gru.")] = 4,
     sample_time: Annotated[
-        str | None,
-        typer.Option(metavar="Q", help='That the data must have, as "5 ms"; default theirs.'),
+        str | None, option("Q", 'That the data must have, as "5 ms"; default theirs.')
     ] = None,
     design: Annotated[
         Path | None,
-        typer.Option(
-            "--design",
-            metavar="FILE",
-            help="Whose parameters physics-gru, physics-phase-gru and phase-gru use; stored in the "
+        option(
+            "FILE",
+            "Whose parameters physics-gru, physics-phase-gru and phase-gru use; stored in the "
             "network.",
         ),
     ] = None,
@@ -90,18 +82,15 @@ def train(
         count_option("Seed of the gearbox drawn for --design; default that of the data.", 0),
     ] = None,
     calibration: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE", help="Factors that `calibrate` wrote; default those in the data."
-        ),
+        Path | None, option("FILE", "Factors that `calibrate` wrote; default those in the data.")
     ] = None,
     motor_file: OwnMotor = None,
     like: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            "FILE",
+            "Network whose searched hyperparameters are taken instead of a new search.",
             "--hyperparameters-of",
-            metavar="FILE",
-            help="Network whose searched hyperparameters are taken instead of a new search.",
         ),
     ] = None,
     leaked: Annotated[
