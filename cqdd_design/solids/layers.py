@@ -217,17 +217,16 @@ def turned(rings: Sequence[Annulus], drillings: Sequence[Drilling] = ()) -> Stac
         inside = [
             d for d in drillings if d.bottom < ring.top - _SAME_HEIGHT and d.top > ring.bottom
         ]
-        ends = {ring.bottom, ring.top}
-        ends.update(h for d in inside for h in (d.bottom, d.top) if ring.bottom < h < ring.top)
-        levels = sorted(ends)
-        levels = [
-            level
-            for i, level in enumerate(levels)
-            if i == 0 or level - levels[i - 1] > _SAME_HEIGHT
-        ]
-        for bottom, top in pairwise(levels):
+        for bottom, top in _slices(ring, [h for d in inside for h in (d.bottom, d.top)]):
             layers.append(_annulus_layer(ring, bottom, top, inside))
     return Stack(tuple(layers))
+
+
+def _slices(whole: Annulus | Layer, heights: Sequence[float]) -> Iterable[tuple[float, float]]:
+    """Bottom and top of the pieces into which something is cut at heights within it."""
+    within = {height for height in heights if whole.bottom < height < whole.top}
+    ends = sorted({whole.bottom, whole.top, *within})
+    return pairwise(h for i, h in enumerate(ends) if i == 0 or h - ends[i - 1] > _SAME_HEIGHT)
 
 
 def _annulus_layer(
@@ -243,10 +242,9 @@ def _annulus_layer(
     return Layer(PlanarPart("annulus", circle(ring.outer), tuple(holes)), bottom, top)
 
 
-def hexagon(across_flats: float, centre: ArrayLike = (0.0, 0.0)) -> ArcContour:
+def hexagon(across_flats: float) -> ArcContour:
     """A regular hexagon, such as a hexagon socket, by its width across flats (m)."""
-    corners = on_circle(6, across_flats / math.sqrt(3.0), 0.0) + np.asarray(centre)
-    return ArcContour(corners, np.zeros(6))
+    return ArcContour(on_circle(6, across_flats / math.sqrt(3.0), 0.0), np.zeros(6))
 
 
 def notched_circle(radius: float, count: int, width: float, depth: float) -> ArcContour:
@@ -313,13 +311,7 @@ def reshaped(
     """The stack with the shape of every layer between two heights changed, split there."""
     layers = []
     for layer in stack.layers:
-        ends = [
-            layer.bottom,
-            *(h for h in (bottom, top) if layer.bottom < h < layer.top),
-            layer.top,
-        ]
-        levels = [h for i, h in enumerate(ends) if i == 0 or h - ends[i - 1] > _SAME_HEIGHT]
-        for low, high in pairwise(levels):
+        for low, high in _slices(layer, (bottom, top)):
             inside = bottom < 0.5 * (low + high) < top
             layers.append(Layer(change(layer.shape) if inside else layer.shape, low, high))
     return Stack(tuple(layers))

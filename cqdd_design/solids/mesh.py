@@ -67,20 +67,11 @@ class Facets:
     triangles: IntArray
 
 
-@dataclass(frozen=True, eq=False)
-class ClosedMesh:
+class ClosedMesh(Facets):
     """A watertight mesh: every edge belongs to two triangles that run through it in turn.
 
-    Attributes
-    ----------
-    vertices : array (v, 3)
-        mm, in the part's frame; no two at the same place.
-    triangles : array (t, 3)
-        Counter-clockwise seen from outside.
+    No two of its vertices are at the same place.
     """
-
-    vertices: FloatArray
-    triangles: IntArray
 
     @property
     def volume(self) -> float:
@@ -226,15 +217,6 @@ def mass_properties(part: Part) -> MassProperties:
 def mesh_volume(part: Part) -> float:
     """Volume of one piece from its fine mesh, m^3."""
     return float(tessellate(part, FINE).volume) / MM**3
-
-
-def posed_mesh(part: Part, pose: FloatArray, quality: Quality = FINE) -> Trimesh:
-    """A copy of a part's mesh at a pose (4, 4; lengths in m), in mm."""
-    mesh = tessellate(part, quality).copy()
-    placed = pose.copy()
-    placed[:3, 3] *= MM
-    mesh.apply_transform(placed)
-    return mesh
 
 
 def surface_slack(part: Part, quality: Quality = FINE) -> float:

@@ -65,26 +65,17 @@ def register_radius(motor: Motor, pack: PackLayout, unit: float) -> tuple[float,
     if bore is None:
         return own, None, missing
     wall = 0.5 * bore - pack.ring_radius
+    ring, stator = f"{2e3 * pack.ring_radius:.4g} mm", f"{bore * 1e3:.4g} mm stator bore"
     if wall < unit * (1.0 - 1e-9):
-        return (
-            own,
-            None,
-            (
-                f"a ring of {2e3 * pack.ring_radius:.4g} mm does not go into the "
-                f"{bore * 1e3:.4g} mm stator bore of {motor.name}; it may be "
-                f"{1e3 * (bore - 2.0 * unit):.4g} mm with a wall of {unit * 1e3:.3g} mm"
-            ),
+        missing = (
+            f"a ring of {ring} does not go into the {stator} of {motor.name}; it may be "
+            f"{1e3 * (bore - 2.0 * unit):.4g} mm with a wall of {unit * 1e3:.3g} mm"
         )
-    if wall > _MOST_TUBE_WALL * unit:
-        return (
-            own,
-            None,
-            (
-                f"the {bore * 1e3:.4g} mm stator bore of {motor.name} is far larger than a "
-                f"ring of {2e3 * pack.ring_radius:.4g} mm"
-            ),
-        )
-    return 0.5 * bore, drawn, missing
+    elif wall > _MOST_TUBE_WALL * unit:
+        missing = f"the {stator} of {motor.name} is far larger than a ring of {ring}"
+    else:
+        return 0.5 * bore, drawn, missing
+    return own, None, missing
 
 
 def lay_out_motor(

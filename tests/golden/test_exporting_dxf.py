@@ -16,6 +16,7 @@ from cqdd_design.design import load_design
 from cqdd_design.exporting.edm.dxf import write_flat_part
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.readback import read_back
+from cqdd_design.geometry.contours import Circle
 from cqdd_design.machine import resolve
 
 DESIGN = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
@@ -36,16 +37,17 @@ def numbers() -> dict[str, tuple[float, ...]]:
         for flat in flat_parts(resolve(design)):
             path = Path(folder) / f"{flat.label}.dxf"
             write_flat_part(flat, design, path)
-            back = read_back(path, flat, design.edm)
-            fit = back.fit
+            fit = read_back(path, flat, design.edm)
+            rounds = [one for one in flat.contours if isinstance(one, Circle)]
+            inner = [one.radius for one in rounds if one is not flat.shape.outer]
             found[flat.label] = (
                 fit.segments,
                 round(fit.largest_deviation * 1e6, 4),
                 round(fit.rms_deviation * 1e6, 4),
                 round((fit.perimeter - fit.perimeter_error) * 1e3, 8),
                 round((fit.area - fit.area_error) * 1e6, 8),
-                round(back.least_concave_radius * 1e3, 8),
-                back.loops,
+                round(min([fit.least_concave_radius, *inner]) * 1e3, 8),
+                len(flat.contours),
             )
     return found
 

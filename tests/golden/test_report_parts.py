@@ -201,14 +201,14 @@ def test_text_is_escaped_and_lowered() -> None:
 @given(st.lists(st.floats(0.0, 400.0), min_size=1, max_size=7))
 def test_leader_labels_keep_apart_and_in_order(heights: list[float]) -> None:
     leaders = [Leader((300.0, y), f"v{i}", f"n{i}") for i, y in enumerate(heights)]
-    markup = leader_column(leaders, 100.0, "left", 20.0, 420.0, pitch=40.0)
+    markup = leader_column(leaders, 100.0, "left", 20.0, 420.0)
     placed = [
         (int(name), float(y))
         for y, name in re.findall(r'y="([-\d.]+)" class="value"[^>]*>v(\d+)<', markup)
     ]
     assert len(placed) == len(heights)
     ys = [y for _, y in placed]
-    assert all(b - a >= 40.0 - 0.011 for a, b in itertools.pairwise(ys))
+    assert all(b - a >= 46.0 - 0.011 for a, b in itertools.pairwise(ys))
     assert min(ys) >= 20.0 - 0.011
     assert max(ys) <= 420.011
     targets = [heights[i] for i, _ in placed]

@@ -90,13 +90,13 @@ def test_deviation_agrees_with_a_search_over_the_whole_curve(paper, disc, writte
     chord = exact[(around + 1) % len(exact)] - exact[around]
     local = (on_file[:, None] - exact[around]) / chord
     beside = np.abs(local - np.clip(local.real, 0.0, 1.0)) * np.abs(chord)
-    found = read_back(written, disc, paper.edm).fit
+    found = read_back(written, disc, paper.edm)
     assert found.largest_deviation <= 0.5e-6
     assert math.isclose(beside.min(axis=1).max(), found.largest_deviation, rel_tol=0.01)
 
 
 def test_numbers_of_the_paper_disc(paper, disc, written):
-    fit = read_back(written, disc, paper.edm).fit
+    fit = read_back(written, disc, paper.edm)
     assert fit.segments <= 300
     assert abs(fit.area_error) < 5e-6 * fit.area
     assert abs(fit.perimeter_error) < 1e-5 * fit.perimeter

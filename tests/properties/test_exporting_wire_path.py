@@ -204,7 +204,7 @@ def _long_lead(space):
     ],
 )
 def test_a_spoilt_path_is_refused(paper, disc, written, edit, said):
-    assert len(read_back(written, disc, paper.edm, wire_paths=True).paths) == 7
+    read_back(written, disc, paper.edm, wire_paths=True)
     drawing = ezdxf.readfile(written)
     edit(drawing.modelspace())
     drawing.saveas(written)

@@ -138,10 +138,8 @@ def test_the_machine_comes_apart_in_an_order_that_frees_every_piece(name: str) -
     assert max(discs) < rank["carrier plate"] < rank["output bearing"] < rank["output cover"]
     assert rank["output cover"] < rank["cover screw"]
     # Nothing overlaps along the axis any more.
-    apart = take_apart(found, math.radians(60.0))
-    ends = [
-        (found[i].bottom + apart.shifts[i], found[i].top + apart.shifts[i]) for i in apart.order
-    ]
+    order, shifts = take_apart(found, math.radians(60.0))
+    ends = [(found[i].bottom + shifts[i], found[i].top + shifts[i]) for i in order]
     assert all(below[1] < above[0] for below, above in pairwise(ends))
 
 

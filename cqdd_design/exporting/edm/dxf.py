@@ -97,7 +97,7 @@ def write_flat_part(
         with reproducible():
             draw(flat, design, fit, options, wire=wire).saveas(temporary)
         back = read_back(temporary, flat, design.edm, options, wire_paths=bool(wire))
-        found = back.fit.largest_deviation
+        found = back.largest_deviation
         if not math.isclose(found, fit.largest_deviation, rel_tol=1e-6, abs_tol=1e-12):
             raise ReadBackError(
                 f"{flat.label}: the file measures {found * 1e6:.4g} um where its notes say "

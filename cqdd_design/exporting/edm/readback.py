@@ -17,7 +17,7 @@ import numpy as np
 from cqdd_design.errors import ReadBackError
 from cqdd_design.exporting.edm.dxf_reader import DxfContents, circles_of, loops_of, read_dxf
 from cqdd_design.exporting.edm.loops import Loop, LoopFit, fit_of
-from cqdd_design.exporting.edm.wire_check import PathFit, measure_paths
+from cqdd_design.exporting.edm.wire_check import measure_paths
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 from cqdd_design.geometry.contours import Circle
 
@@ -42,28 +42,6 @@ PERIMETER_SLACK = 0.05
 fit that a design may ask for, 50 um on a 6 mm gearbox, is within 0.01."""
 
 
-@dataclass(frozen=True)
-class ReadBack:
-    """What a file holds, measured.
-
-    Attributes
-    ----------
-    fit : LoopFit
-        The fitted contour against its exact curve.
-    loops : int
-        Closed loops on the cut layers.
-    least_concave_radius : float
-        Over all loops, m; infinite when nothing is concave.
-    paths : tuple of PathFit
-        Of the wire, in the order of the start holes; empty where the file has none.
-    """
-
-    fit: LoopFit
-    loops: int
-    least_concave_radius: float
-    paths: tuple[PathFit, ...] = ()
-
-
 def read_back(
     path: Path,
     flat: FlatPart,
@@ -71,8 +49,8 @@ def read_back(
     options: ExportOptions = DEFAULTS,
     *,
     wire_paths: bool = False,
-) -> ReadBack:
-    """Read a DXF from disk and compare it with the part it stands for.
+) -> LoopFit:
+    """Read a DXF from disk, compare it with the part it stands for, and measure its contour.
 
     Parameters
     ----------
@@ -111,10 +89,8 @@ def read_back(
     _refuse_bad_starts(label, starts, outer, inner)
     concave = min([fit.least_concave_radius, *(circle.radius for circle in inner.circles)])
     _refuse_thick_wire(label, concave, edm)
-    count = len(loops) + len(outer.circles) + len(inner.circles)
-    paths: tuple[PathFit, ...] = ()
     if wire_paths:
-        paths = measure_paths(
+        measure_paths(
             label,
             loops_of(contents, WIRE_PATH, label, options),
             [entity.ends for entity in contents.on_layer(LEAD_IN)],
@@ -122,7 +98,7 @@ def read_back(
             (outer.all_loops, inner.all_loops),
             edm,
         )
-    return ReadBack(fit, count, concave, paths)
+    return fit
 
 
 def _refuse_other_units(label: str, contents: DxfContents) -> None:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,23 +26,6 @@ PERPENDICULAR = 1e-6
 """A lead-in meets its path square within this, rad."""
 STEINER = 1e-9
 """Relative error of a path's length and area."""
-
-
-@dataclass(frozen=True)
-class PathFit:
-    """How the path of the wire about one contour was found to run.
-
-    Attributes
-    ----------
-    offset : float
-        Wanted distance from the contour, m.
-    least, largest : float
-        Distance from the contour, m.
-    """
-
-    offset: float
-    least: float
-    largest: float
 
 
 def nearest_distances(path: Loop, contour: Loop) -> FloatArray:
@@ -70,7 +52,7 @@ def nearest_distances(path: Loop, contour: Loop) -> FloatArray:
     return found
 
 
-def measure_path(label: str, path: Loop, contour: Loop, offset: float, *, outer: bool) -> PathFit:
+def measure_path(label: str, path: Loop, contour: Loop, offset: float, *, outer: bool) -> None:
     """Measure one path against its contour.
 
     Raises
@@ -98,7 +80,6 @@ def measure_path(label: str, path: Loop, contour: Loop, offset: float, *, outer:
             f"{path.area * 1e6:.5f} mm^2, not {length * 1e3:.5f} mm round {area * 1e6:.5f} mm^2: "
             "it crosses itself or leaves a stretch out."
         )
-    return PathFit(offset, least, largest)
 
 
 def measure_paths(
@@ -108,7 +89,7 @@ def measure_paths(
     starts: Sequence[Circle],
     contours: tuple[Sequence[Loop], Sequence[Loop]],
     edm: Edm,
-) -> tuple[PathFit, ...]:
+) -> None:
     """Measure all paths of a part, each with its lead-in from its start hole.
 
     Parameters
@@ -138,15 +119,14 @@ def measure_paths(
             f"{label}: {len(paths)} wire paths and {len(leads)} lead-ins for {len(every)} "
             "contours; each has one."
         )
-    left, fits = list(every), []
+    left = list(every)
     for number, (path, lead, start) in enumerate(zip(paths, leads, starts, strict=True)):
         name = f"{label}, wire path {number + 1}"
         begin = path.start[:1]
         own = min(left, key=lambda one: _distance(one[0], begin))
         left.remove(own)
-        fits.append(measure_path(name, path, own[0], offset, outer=own[1]))
+        measure_path(name, path, own[0], offset, outer=own[1])
         _refuse_bad_lead(name, path, lead, start, every, offset)
-    return tuple(fits)
 
 
 def _distance(loop: Loop, points: ComplexArray) -> float:

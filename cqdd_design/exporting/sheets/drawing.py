@@ -124,9 +124,9 @@ class SheetDrawing:
         )
         return text_width(words, size)
 
-    def triangle(self, tip: complex, toward: complex, size: float = 2.5) -> None:
+    def triangle(self, tip: complex, toward: complex) -> None:
         """Draw a filled arrowhead that points along `toward`."""
-        along = toward / abs(toward) * size
+        along = toward / abs(toward) * 2.5
         foot = tip - along
         corners = [tip, foot + 1j * along / 5.0, foot - 1j * along / 5.0]
         self._space.add_solid([_xy(c) for c in corners], dxfattribs={"layer": THIN})

@@ -24,34 +24,32 @@ def numbers(*values: float) -> str:
     return " ".join(map(number, values))
 
 
-def element(name: str, attributes: Mapping[str, object], *children: str, indent: int = 0) -> str:
+def element(name: str, attributes: Mapping[str, object], *children: str) -> str:
     """An element on one line, or with its children on lines of their own, two spaces deeper.
 
     Attributes that are None are left out, floats written by `number`.
     """
-    space = " " * indent
     written = "".join(
         f" {key}={quoteattr(number(value) if isinstance(value, float) else str(value))}"
         for key, value in attributes.items()
         if value is not None
     )
     if not children:
-        return f"{space}<{name}{written}/>"
-    inner = "\n".join(textwrap.indent(child, "  " + space) for child in children)
-    return f"{space}<{name}{written}>\n{inner}\n{space}</{name}>"
+        return f"<{name}{written}/>"
+    inner = "\n".join(textwrap.indent(child, "  ") for child in children)
+    return f"<{name}{written}>\n{inner}\n</{name}>"
 
 
-def comment(paragraphs: Iterable[str], indent: int = 0, width: int = 96) -> str:
+def comment(paragraphs: Iterable[str]) -> str:
     """Paragraphs as one comment; a line that begins with a space is kept as it is."""
-    space = " " * indent
     lines: list[str] = []
     for paragraph in paragraphs:
         if paragraph.startswith(" ") or not paragraph:
             lines.append(paragraph)
         else:
-            lines += textwrap.wrap(paragraph, width - indent, break_long_words=False)
-    body = "\n".join(f"{space}  {line}".rstrip() for line in lines)
+            lines += textwrap.wrap(paragraph, 96, break_long_words=False)
+    body = "\n".join(f"  {line}".rstrip() for line in lines)
     # Two hyphens end a comment in XML.
     while "--" in body:
         body = body.replace("--", "- -")
-    return f"{space}<!--\n{body}\n{space}-->"
+    return f"<!--\n{body}\n-->"

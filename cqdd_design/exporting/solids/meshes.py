@@ -179,10 +179,8 @@ def _lowest_corner(design: Design, parts: Sequence[Part]) -> FloatArray:
     return np.asarray(np.floor(np.min(lowest, axis=0)))
 
 
-def write_glb(
-    design: Design, parts: Sequence[Part], path: Path, crank_angle: float = 0.0
-) -> WrittenFile:
-    """Write the machine as binary glTF 2.0: metres, Y up, names and colours.
+def write_glb(design: Design, parts: Sequence[Part], path: Path) -> WrittenFile:
+    """Write the machine at crank angle 0 as binary glTF 2.0: metres, Y up, names and colours.
 
     One mesh a part, one node a piece. A node's ``extras`` name the body it moves with, so that a
     viewer can turn the mechanism. Errors as `write_stl`.
@@ -199,7 +197,7 @@ def write_glb(
             body: dict[str, Any] = {"part": part.name, "body": piece.body.kind}
             if piece.body.kind == "disc":
                 body["disc"] = piece.body.disc
-            matrix = np.round(piece.pose(design, crank_angle), 15) + 0.0
+            matrix = np.round(piece.pose(design), 15) + 0.0
             nodes.append(
                 {
                     "name": piece.name,

@@ -41,16 +41,15 @@ class RootSection:
     height: float
 
 
-def equivalent_fillet_radius(
-    rack: BasicRack, internal: bool, cutter_teeth: int, cutter_shift: float = 0.0
-) -> float:
+def equivalent_fillet_radius(rack: BasicRack, internal: bool, cutter_teeth: int) -> float:
     """rho_fPv in modules, eq. 11: the rack's own for external gears, the cutter's for rings.
 
-    rho_fP + (x0 + h_fP - rho_fP)^1.95/(3.156 1.036^z0) for a ring cut by a pinion of z0 teeth.
+    rho_fP + (x0 + h_fP - rho_fP)^1.95/(3.156 1.036^z0) for a ring cut by a pinion of z0 teeth
+    without profile shift x0.
     """
     if not internal:
         return rack.fillet_radius
-    excess = (cutter_shift + rack.dedendum - rack.fillet_radius) ** 1.95
+    excess = (rack.dedendum - rack.fillet_radius) ** 1.95
     return float(rack.fillet_radius + excess / (3.156 * 1.036**cutter_teeth))
 
 
@@ -234,7 +233,7 @@ def tooth_form(
     )
 
 
-def pair_tooth_forms(pair: GearPair, cutter_teeth: int = 20) -> tuple[ToothForm, ToothForm]:
+def pair_tooth_forms(pair: GearPair) -> tuple[ToothForm, ToothForm]:
     """Tooth form of pinion and wheel, each loaded at its outer point of single pair contact."""
     ratio = pair.transverse_contact_ratio / math.cos(pair.base_helix_angle) ** 2
     forms = []
@@ -246,5 +245,5 @@ def pair_tooth_forms(pair: GearPair, cutter_teeth: int = 20) -> tuple[ToothForm,
         strict=True,
     ):
         diameter = load_diameter(teeth, virtual, tip, ratio, pair)
-        forms.append(tooth_form(virtual, shift, pair.rack, diameter, cutter_teeth))
+        forms.append(tooth_form(virtual, shift, pair.rack, diameter))
     return forms[0], forms[1]

@@ -21,6 +21,7 @@ from cqdd_design.report.ink.svg import Figure, Words, line, rectangle, text
 
 NAME_PITCH, TICK_PITCH = 6.7, 6.4
 """px per character of names and numbers, a little generous."""
+_MOST_BINS = 30
 
 
 def bar_chart(
@@ -64,7 +65,6 @@ def histogram(
     values: FloatArray,
     marks: Sequence[tuple[str, float]],
     x_label: str,
-    bins: int = 30,
 ) -> Figure:
     """A histogram of gearboxes with named percentiles.
 
@@ -75,12 +75,10 @@ def histogram(
         Drawn as vertical lines with their names, in rising order.
     x_label : str
         With the unit.
-    bins : int
-        At most this many.
     """
     height, top, base = 252.0, 52.0, 208.0
     low, high = float(values.min()), float(values.max())
-    step = nice_step(max(high - low, 1e-9), bins)
+    step = nice_step(max(high - low, 1e-9), _MOST_BINS)
     first, last = np.floor(low / step), np.ceil(high / step) + (high == low)
     edges = step * np.arange(first, max(last, first + 1.0) + 0.5)
     counts, edges = np.histogram(values, edges)

@@ -10,6 +10,7 @@ from cqdd_design.report.ink.svg import Point, arrow_head, group, line, polyline,
 
 _CHARACTER = 6.6  # px of one character of a dimension's text, a little generous
 _GAP, _OVERSHOOT = 3.0, 6.0
+_PITCH = 46.0  # px between two leaders
 _OUTSIDE = 26.0  # px: shorter dimensions have their arrows outside
 
 
@@ -106,11 +107,10 @@ def leader_column(
     side: Literal["left", "right"],
     top: float,
     bottom: float,
-    pitch: float = 46.0,
 ) -> str:
     """Labels one above the other at the edge of a drawing, each with its leader.
 
-    They keep the order of their targets, so leaders do not cross, and at least `pitch` between
+    They keep the order of their targets, so leaders do not cross, and at least `_PITCH` between
     each other inside ``top..bottom``.
 
     Parameters
@@ -119,11 +119,11 @@ def leader_column(
         Edge of the column towards the drawing.
     side : {"left", "right"}
         On which side of the drawing the column stands.
-    top, bottom, pitch : float
+    top, bottom : float
         px.
     """
     ordered = sorted(leaders, key=lambda one: one.target[1])
-    heights = _spread([one.target[1] for one in ordered], top, bottom, pitch)
+    heights = _spread([one.target[1] for one in ordered], top, bottom)
     sign, anchor = (1.0, "end") if side == "left" else (-1.0, "start")
     parts = []
     for one, y in zip(ordered, heights, strict=True):
@@ -136,11 +136,11 @@ def leader_column(
     return group(parts, class_="dim")
 
 
-def _spread(wanted: Sequence[float], top: float, bottom: float, pitch: float) -> list[float]:
-    """Heights near the wanted ones, in order, at least `pitch` apart where there is room."""
+def _spread(wanted: Sequence[float], top: float, bottom: float) -> list[float]:
+    """Heights near the wanted ones, in order, at least `_PITCH` apart where there is room."""
     if not wanted:
         return []
-    pitch = min(pitch, (bottom - top) / max(len(wanted) - 1, 1))
+    pitch = min(_PITCH, (bottom - top) / max(len(wanted) - 1, 1))
     heights: list[float] = []
     for height in wanted:
         least = heights[-1] + pitch if heights else top

@@ -5,29 +5,12 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from cqdd_design.solids.disassembly import disassembly_order
 from cqdd_design.solids.stations import Station
 
 
-@dataclass(frozen=True)
-class Exploded:
-    """The machine taken apart.
-
-    Attributes
-    ----------
-    order : tuple of int
-        Indices of the stations from the lowest to the highest.
-    shifts : tuple of float
-        How far each station has moved along the axis, m, in the stations' own order.
-    """
-
-    order: tuple[int, ...]
-    shifts: tuple[float, ...]
-
-
-def take_apart(stations: Sequence[Station], tilt: float) -> Exploded:
+def take_apart(stations: Sequence[Station], tilt: float) -> tuple[list[int], list[float]]:
     """Order and shifts of the stations.
 
     Parameters
@@ -35,6 +18,13 @@ def take_apart(stations: Sequence[Station], tilt: float) -> Exploded:
     tilt : float
         Angle between the axis and the line of sight of the picture, rad: the flatter the look,
         the more room a plate needs so as not to hide the piece behind it.
+
+    Returns
+    -------
+    order : list of int
+        Indices of the stations from the lowest to the highest.
+    shifts : list of float
+        How far each station has moved along the axis, m, in the stations' own order.
     """
     order = disassembly_order(stations)
     gaps = [_gap(stations[a], stations[b], tilt) for a, b in itertools.pairwise(order)]
@@ -47,7 +37,7 @@ def take_apart(stations: Sequence[Station], tilt: float) -> Exploded:
         shifts[index] = place - station.bottom
         place += station.top - station.bottom
     centre = _rest(stations, shifts)
-    return Exploded(tuple(order), tuple(shifts[i] - centre for i in range(len(stations))))
+    return order, [shifts[i] - centre for i in range(len(stations))]
 
 
 def _rest(stations: Sequence[Station], shifts: Mapping[int, float]) -> float:

@@ -63,30 +63,15 @@ class ViewerData:
 
 
 def viewer_data(design: Design, parts: Sequence[Part]) -> ViewerData:
-    """The machine at crank angle 0 with its law of motion.
+    """The machine at crank angle 0 with its law of motion; the same parts give the same bytes.
 
-    Parameters
-    ----------
-    parts : sequence of Part
-        From `build_parts`.
-
-    Returns
-    -------
-    ViewerData
-        The same parts give the same bytes.
-
-    Raises
-    ------
-    GeometryError
-        When a part's mesh is not closed.
-    DependencyError
-        When CadQuery is not usable.
+    Errors are those of `hidden_line_views`, and a GeometryError where a part's mesh is not closed.
     """
     found = stations(parts)
-    apart = take_apart(found, EXPLODED_TILT)
+    _, moved = take_apart(found, EXPLODED_TILT)
     shifts = {
         piece.name: shift
-        for station, shift in zip(found, apart.shifts, strict=True)
+        for station, shift in zip(found, moved, strict=True)
         for piece in station.pieces
     }
     buffer = gltf.Buffer()

@@ -100,10 +100,10 @@ def assembled_figure(design: Design, found: Sequence[Station]) -> Figure:
 def exploded_figure(design: Design, parts: Sequence[Part], found: Sequence[Station]) -> Figure:
     """The machine taken apart along its axis, with numbers and the list they point to."""
     camera = Camera.oblique(EXPLODED_TILT, math.radians(9.0))
-    apart = take_apart(found, EXPLODED_TILT)
-    looks = [_looks(found[index], apart.shifts[index], design, camera) for index in apart.order]
+    order, shifts = take_apart(found, EXPLODED_TILT)
+    looks = [_looks(found[index], shifts[index], design, camera) for index in order]
     outlines = [tuple(loop for look in group for loop in look.outline) for group in looks]
-    in_order = [found[index] for index in apart.order]
+    in_order = [found[index] for index in order]
     low, high = bounds(loop for loops in outlines for loop in loops)
     scale = (WIDTH - 2.0 * _MARGIN) / (high[0] - low[0])
     room = 62.0
@@ -119,7 +119,7 @@ def exploded_figure(design: Design, parts: Sequence[Part], found: Sequence[Stati
             for look in group
         )
         groups.append(titled(title, *inside))
-    axis = _axis(found, apart.shifts, camera, sheet)
+    axis = _axis(found, shifts, camera, sheet)
     numbers = [station.number for station in in_order]
     seen = list(zip(numbers, visible_parts(outlines), strict=True))
     marks = ballooned(seen, outlines, sheet, WIDTH, height)
