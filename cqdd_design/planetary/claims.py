@@ -96,7 +96,7 @@ def paper_claims(
         _ratio_claim(),
         _planets_claim(own, grid, given, gears, peak, material),
         _fit_claim(gears, bore),
-        _surface_claim(own, grid, given, gears, settings),
+        _surface_claim(own, grid, given, gears),
         _pins_claim(cycloid),
     )
     return claims, grid
@@ -187,7 +187,6 @@ def _surface_claim(
     grid: Sequence[ClaimSetting],
     given: str,
     gears: PlanetaryGearSet,
-    settings: RatingSettings,
 ) -> Claim:
     fitting = most_planets_that_fit(gears.centre_distance, gears.largest_tip_diameter)
     fitting_fails = sum(
@@ -205,7 +204,7 @@ def _surface_claim(
         ),
         holds=own.surface_failure,
         under=(
-            f"{settings.life_hours:g} h at full input speed. {given}. "
+            f"{gears.settings.life_hours:g} h at full input speed. {given}. "
             + _examples([setting for setting in grid if setting.surface_failure], len(grid))
             + f" With the {fitting} planets that fit, the flanks fail in {fitting_fails} of them."
         ),

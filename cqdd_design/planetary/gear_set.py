@@ -188,12 +188,12 @@ def _warnings(
                 "share the load, which is not credited beyond Z_eps."
             )
         for index in (0, 1):
-            count = abs((pair.pinion_teeth, pair.wheel_teeth)[index])
+            count = abs(pair.teeth[index])
             if pair.tip_thickness(index) <= 0.0:
-                shift = (pair.pinion_shift, pair.wheel_shift)[index]
                 raise GeometryError(
                     f"the teeth of the gear of {count} teeth come to a point below their full "
-                    f"height at profile shift {shift:g}; give it more teeth or a smaller shift."
+                    f"height at profile shift {pair.shifts[index]:g}; give it more teeth or a "
+                    "smaller shift."
                 )
             if pair.tip_thickness(index) < 0.2 * pair.module:
                 found.append(

@@ -112,7 +112,7 @@ def load_factors(
     sharing = influence.mesh_load_factor(load.planets, settings.mesh_load_table)
     line_load = load.tangential * settings.application_factor * sharing / pair.face_width
     grade = settings.accuracy_class
-    diameters = [pair.reference_diameter(teeth) for teeth in (pair.pinion_teeth, pair.wheel_teeth)]
+    diameters = [pair.reference_diameter(teeth) for teeth in pair.teeth]
     base_pitch = max(deviations.single_pitch(pair.module, d, grade) for d in diameters)
     base_pitch *= math.cos(pair.transverse_pressure_angle)
     profile = deviations.profile_form(pair.module, grade)
@@ -191,12 +191,7 @@ def reduced_mass(mesh: PlanetaryMesh, planets: int, density: float) -> float:
     """
     pair = mesh.pair
     masses = []
-    for teeth, tip, root in zip(
-        (pair.pinion_teeth, pair.wheel_teeth),
-        pair.tip_diameters,
-        pair.root_diameters,
-        strict=True,
-    ):
+    for teeth, tip, root in zip(pair.teeth, pair.tip_diameters, pair.root_diameters, strict=True):
         masses.append(influence.blank_mass(0.5 * (tip + root), pair.base_diameter(teeth), density))
     if not mesh.pinion_is_sun:
         return masses[0]
@@ -218,7 +213,7 @@ def _face_load_factor(
         deviations.helix_slope(
             pair.reference_diameter(teeth), pair.face_width, settings.accuracy_class
         )
-        for teeth in (pair.pinion_teeth, pair.wheel_teeth)
+        for teeth in pair.teeth
     ]
     meshes = load.planets if mesh.pinion_is_sun else 1
     wind_up = influence.torsional_misalignment(

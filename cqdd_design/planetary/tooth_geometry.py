@@ -133,9 +133,8 @@ class GearPair:
                 f"a ring of {-self.wheel_teeth} teeth cannot surround a gear of "
                 f"{self.pinion_teeth}; give it at least {self.pinion_teeth + 10}."
             )
-        for name, teeth, tip in (
-            ("pinion", self.pinion_teeth, self.tip_diameters[0]),
-            ("wheel", self.wheel_teeth, self.tip_diameters[1]),
+        for name, teeth, tip in zip(
+            ("pinion", "wheel"), self.teeth, self.tip_diameters, strict=True
         ):
             if abs(tip) <= abs(self.base_diameter(teeth)):
                 raise GeometryError(
@@ -155,6 +154,16 @@ class GearPair:
                 f"{self.transverse_contact_ratio:.3f}, below 1, so a tooth lets go before the next "
                 "takes over; lower the profile shifts or raise the tooth counts."
             )
+
+    @property
+    def teeth(self) -> tuple[int, int]:
+        """z1 and z2."""
+        return self.pinion_teeth, self.wheel_teeth
+
+    @property
+    def shifts(self) -> tuple[float, float]:
+        """x1 and x2."""
+        return self.pinion_shift, self.wheel_shift
 
     @property
     def internal(self) -> bool:
@@ -197,10 +206,8 @@ class GearPair:
     def tip_diameters(self) -> tuple[float, float]:
         """d_a = d + 2 m (h_aP* + x) of pinion and wheel, m, unless given."""
         found = []
-        for teeth, shift, given in (
-            (self.pinion_teeth, self.pinion_shift, self.pinion_tip_diameter),
-            (self.wheel_teeth, self.wheel_shift, self.wheel_tip_diameter),
-        ):
+        made = (self.pinion_tip_diameter, self.wheel_tip_diameter)
+        for teeth, shift, given in zip(self.teeth, self.shifts, made, strict=True):
             nominal = self.reference_diameter(teeth)
             nominal += 2.0 * self.module * (self.rack.addendum + shift)
             found.append(nominal if given is None else given)
@@ -209,13 +216,11 @@ class GearPair:
     @functools.cached_property
     def root_diameters(self) -> tuple[float, float]:
         """d_f = d - 2 m (h_fP* - x) of pinion and wheel, m; a ring's is its largest, negative."""
-        depth = self.rack.dedendum
-        return (
-            self.reference_diameter(self.pinion_teeth)
-            - 2.0 * self.module * (depth - self.pinion_shift),
-            self.reference_diameter(self.wheel_teeth)
-            - 2.0 * self.module * (depth - self.wheel_shift),
+        pinion, wheel = (
+            self.reference_diameter(teeth) - 2.0 * self.module * (self.rack.dedendum - shift)
+            for teeth, shift in zip(self.teeth, self.shifts, strict=True)
         )
+        return pinion, wheel
 
     @property
     def tooth_depths(self) -> tuple[float, float]:
@@ -284,7 +289,7 @@ class GearPair:
 
     def _roll_length(self, index: int) -> float:
         """Length of the tangent from the base circle to the tips, m, signed like the teeth."""
-        teeth = (self.pinion_teeth, self.wheel_teeth)[index]
+        teeth = self.teeth[index]
         tip, base = self.tip_diameters[index], self.base_diameter(teeth)
         return math.copysign(0.5 * math.sqrt(tip * tip - base * base), teeth)
 
@@ -329,8 +334,7 @@ class GearPair:
         s_a = |d_a| ((pi/2 + 2 x tan(alpha_n))/|z| +- (inv(alpha_t) - inv(alpha_a))), the upper
         sign for an external gear (ISO 21771 eq. 44): a ring's teeth grow narrower inward.
         """
-        teeth = (self.pinion_teeth, self.wheel_teeth)[index]
-        shift = (self.pinion_shift, self.wheel_shift)[index]
+        teeth, shift = self.teeth[index], self.shifts[index]
         tip = self.tip_diameters[index]
         alpha_tip = math.acos(self.base_diameter(teeth) / tip)
         half = 0.5 * math.pi + 2.0 * shift * math.tan(self.rack.pressure_angle)

@@ -5,7 +5,8 @@ A `Part` needs no CAD kernel until its `solid` is asked for.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
@@ -154,3 +155,17 @@ def around(
 ) -> tuple[Instance, ...]:
     """Pieces of a part that stand upright at centres (2,), m."""
     return placed(name, body, *(transform(x=x, y=y, z=z) for x, y in centres))
+
+
+def overall_size(parts: Sequence[Part]) -> tuple[float, float]:
+    """Largest diameter and length over all pieces where they are placed, m."""
+    pieces = [(part, piece) for part in parts for piece in part.instances]
+    ends = [
+        piece.placement[2, 3] + (end if piece.placement[2, 2] > 0.0 else -end)
+        for part, piece in pieces
+        for end in (part.shape.bottom, part.shape.top)
+    ]
+    reach = max(
+        math.hypot(*piece.placement[:2, 3]) + part.shape.outside_radius for part, piece in pieces
+    )
+    return 2.0 * reach, max(ends) - min(ends)

@@ -205,8 +205,8 @@ def test_notch_sensitivity_goes_with_the_fourth_root_of_strength():
 def test_solid_gears_resonate_with_the_mass_at_their_mean_diameter():
     """ISO 6336-1, eq. 30 to 32 and 6.4.7.2, of a sun of 12 mm between 14 and 9.5 mm in a planet."""
     pair = SimpleNamespace(
-        pinion_teeth=12,
-        wheel_teeth=36,
+        teeth=(12, 36),
+        internal=False,
         tip_diameters=(14e-3, 38e-3),
         root_diameters=(9.5e-3, 33.5e-3),
         base_diameter=lambda teeth: teeth * 1e-3 * math.cos(math.radians(20.0)),

@@ -7,6 +7,7 @@ KOYO CAT. B2001 for deep-groove bearings, ISO 7379 f9 shoulders, efunda.com for 
 import re
 
 import pytest
+from needle_ratings import dynamic_rating, static_rating
 
 from cqdd_design.catalog import (
     bearings,
@@ -19,7 +20,7 @@ from cqdd_design.catalog import (
     motors,
     shoulder_screws,
 )
-from cqdd_design.catalog.needles import dynamic_rating, needle_set, static_rating
+from cqdd_design.catalog.needles import needle_set
 from cqdd_design.gearbox.contact.laws import ball_complement, cam_spring
 from cqdd_design.gearbox.losses.rolling import DRAG_FACTOR
 

@@ -92,12 +92,9 @@ def write_step(
     ReadBackError
         When the kernel did not write every part.
     """
-    from cqdd_design.solids.assembly import build_assembly
+    from cqdd_design.solids.cad import build_assembly
 
-    assembly = build_assembly(design, parts, crank_angle)
-    return write_with(
-        path, "step", lambda place: _write(assembly, design, path.name, parts, place, schema)
-    )
+    return _write(build_assembly(design, parts, crank_angle), design, parts, path, schema)
 
 
 def write_part_step(design: Design, part: Part, path: Path, schema: str = "AP214") -> WrittenFile:
@@ -107,31 +104,27 @@ def write_part_step(design: Design, part: Part, path: Path, schema: str = "AP214
     cadquery = import_cadquery()
     assembly = cadquery.Assembly(name=design.name)
     assembly.add(part.solid, name=part.name, color=cadquery.Color(*part.colour, 1.0))
-    return write_with(
-        path, "step", lambda place: _write(assembly, design, path.name, [part], place, schema)
-    )
+    return _write(assembly, design, [part], path, schema)
 
 
 def _write(
-    assembly: Assembly,
-    design: Design,
-    file_name: str,
-    parts: Sequence[Part],
-    place: Path,
-    schema: str,
-) -> None:
+    assembly: Assembly, design: Design, parts: Sequence[Part], path: Path, schema: str
+) -> WrittenFile:
     from cadquery.occ_impl.exporters.assembly import exportAssembly
 
-    with _schema(schema):
-        done = exportAssembly(assembly, str(place), write_pcurves=False)
-    content = place.read_bytes() if done else b""
-    written = len(_SOLID.findall(content))
-    if written != len(parts) or not _HEADER.search(content):
-        raise ReadBackError(
-            f"{file_name} holds {written} solids instead of {len(parts)}; nothing was kept."
-        )
-    content = _coloured(content, [part.colour for part in parts])
-    place.write_bytes(_reproducible(content, design, file_name))
+    def write(place: Path) -> None:
+        with _schema(schema):
+            done = exportAssembly(assembly, str(place), write_pcurves=False)
+        content = place.read_bytes() if done else b""
+        written = len(_SOLID.findall(content))
+        if written != len(parts) or not _HEADER.search(content):
+            raise ReadBackError(
+                f"{path.name} holds {written} solids instead of {len(parts)}; nothing was kept."
+            )
+        content = _coloured(content, [part.colour for part in parts])
+        place.write_bytes(_reproducible(content, design, path.name))
+
+    return write_with(path, "step", write)
 
 
 @contextlib.contextmanager

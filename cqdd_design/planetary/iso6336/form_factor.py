@@ -238,11 +238,7 @@ def pair_tooth_forms(pair: GearPair) -> tuple[ToothForm, ToothForm]:
     ratio = pair.transverse_contact_ratio / math.cos(pair.base_helix_angle) ** 2
     forms = []
     for teeth, virtual, shift, tip in zip(
-        (pair.pinion_teeth, pair.wheel_teeth),
-        pair.virtual_teeth,
-        (pair.pinion_shift, pair.wheel_shift),
-        pair.tip_diameters,
-        strict=True,
+        pair.teeth, pair.virtual_teeth, pair.shifts, pair.tip_diameters, strict=True
     ):
         diameter = load_diameter(teeth, virtual, tip, ratio, pair)
         forms.append(tooth_form(virtual, shift, pair.rack, diameter))

@@ -68,7 +68,7 @@ def single_pair_factors(pair: GearPair) -> tuple[float, float]:
     """
     ratio = pair.transverse_contact_ratio
     rolls = []
-    for teeth, tip in zip((pair.pinion_teeth, pair.wheel_teeth), pair.tip_diameters, strict=True):
+    for teeth, tip in zip(pair.teeth, pair.tip_diameters, strict=True):
         base = pair.base_diameter(teeth)
         rolls.append((math.sqrt((tip / base) ** 2 - 1.0), 2.0 * math.pi / teeth))
     (roll_1, pitch_1), (roll_2, pitch_2) = rolls

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cqdd_design.report.ink.numbers import TIMES, millimetres, significant, with_unit
 from cqdd_design.report.input import ReportInput
-from cqdd_design.solids.extent import overall_size
+from cqdd_design.solids.part import overall_size
 
 
 def head_facts(results: ReportInput, least_margin: str) -> tuple[tuple[str, str, str], ...]:
