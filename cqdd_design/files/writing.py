@@ -134,9 +134,7 @@ def write_atomically(path: Path, content: bytes | str, kind: str) -> WrittenFile
         When the place is not writable or the disk is full; nothing half-written stays.
     """
     data = content.encode("utf-8") if isinstance(content, str) else content
-    with atomic_path(path) as temporary:
-        temporary.write_bytes(data)
-    return describe_file(path, kind)
+    return write_with(path, kind, lambda temporary: temporary.write_bytes(data))
 
 
 def write_with(path: Path, kind: str, writer: Callable[[Path], object]) -> WrittenFile:

@@ -104,20 +104,16 @@ def pin_shape(carrier: CarrierLayout) -> Stack:
 
 def cap_screw_shape(screw: CapScrew) -> Stack:
     """A hexagon socket head cap screw, head upward, bearing face on z = 0."""
-    head = Layer(
-        PlanarPart("head", circle(0.5 * screw.head_diameter)), 0.0, 0.5 * screw.head_height
+    head = PlanarPart("head", circle(0.5 * screw.head_diameter))
+    middle, top = 0.5 * screw.head_height, screw.head_height
+    socketed = pierced(Layer(head, middle, top), [hexagon(screw.socket)])
+    return Stack(
+        (cylinder(0.5 * screw.thread, -screw.length, 0.0), Layer(head, 0.0, middle), socketed)
     )
-    socketed = pierced(
-        Layer(head.shape, 0.5 * screw.head_height, screw.head_height), [hexagon(screw.socket)]
-    )
-    return Stack((cylinder(0.5 * screw.thread, -screw.length, 0.0), head, socketed))
 
 
 def _socket_head(pin: OutputPin, top: float) -> tuple[Layer, Layer]:
     """Two layers of a head whose socket opens downward, half the head deep."""
     bottom, middle = top - pin.head_height, top - 0.5 * pin.head_height
     full = PlanarPart("head", circle(0.5 * pin.head_diameter))
-    return (
-        pierced(Layer(full, bottom, middle), [hexagon(pin.socket)]),
-        Layer(full, middle, top),
-    )
+    return pierced(Layer(full, bottom, middle), [hexagon(pin.socket)]), Layer(full, middle, top)

@@ -6,11 +6,12 @@ import math
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.solids import motor_shapes
 from cqdd_design.solids.carrier import cap_screw_shape
 from cqdd_design.solids.layers import Stack, on_circle
 from cqdd_design.solids.layout import Layout, MotorLayout
-from cqdd_design.solids.part import Colour, Instance, Part, Source, around, on_axis, placed
+from cqdd_design.solids.part import Colour, Part, Source, around, on_axis, placed
 from cqdd_design.solids.poses import HOUSING, SHAFT, transform
 from cqdd_design.solids.selection import CapScrew
 
@@ -46,6 +47,8 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
     bell = motor_shapes.bell(motor, stub, unit)
     cover = motor_shapes.motor_cover(motor, layout.housing.flange_bottom, unit)
     magnet = motor_shapes.encoder_magnet(motor)
+    on_board = on_circle(3, motor_shapes.board_screw_circle(motor), 0.0)
+    on_ears = on_circle(motor.ear_count, motor.ear_circle, float(motor.ear_angles[0]))
     size = f"{2e3 * motor.magnet_radius:g} x {motor.magnet_height * 1e3:g} mm"
 
     def one(
@@ -88,8 +91,8 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
             f"magnetic encoder, {design.drive.encoder_bits} bits, on a "
             f"{2e3 * motor.board_radius:g} mm board",
         ),
-        _screws(motor, fastener),
-        _cover_screws(motor, fastener),
+        _screws("encoder screw", motor.board_screw, fastener, on_board, motor.board_top),
+        _screws("motor cover screw", motor.cover_screw, fastener, on_ears, motor.flange_top),
     ]  # fmt: skip
 
 
@@ -103,19 +106,9 @@ def _rotor_mass(row: Motor, motor: MotorLayout) -> float:
     return row.rotor_inertia / (0.5 * (motor.rotor_inner**2 + motor.rotor_outer**2))
 
 
-def _screws(motor: MotorLayout, material: str) -> Part:
-    places = on_circle(3, motor_shapes.board_screw_circle(motor), 0.0)
-    pieces = around("encoder screw", HOUSING, places, motor.board_top)
-    return _screw("encoder screw", motor.board_screw, material, pieces)
-
-
-def _cover_screws(motor: MotorLayout, material: str) -> Part:
-    places = on_circle(motor.ear_count, motor.ear_circle, float(motor.ear_angles[0]))
-    pieces = around("motor cover screw", HOUSING, places, motor.flange_top)
-    return _screw("motor cover screw", motor.cover_screw, material, pieces)
-
-
-def _screw(name: str, screw: CapScrew, material: str, pieces: tuple[Instance, ...]) -> Part:
+def _screws(name: str, screw: CapScrew, material: str, places: FloatArray, height: float) -> Part:
+    """Cap screws of the housing at places (k, 2), their heads on a height, m."""
+    pieces = around(name, HOUSING, places, height)
     shape = cap_screw_shape(screw)
     return Part(name, shape, material, _SCREW, "buy", screw.designation, pieces)
 

@@ -126,8 +126,7 @@ def support_bearing(
     outer = min(1.3 * bore + 1e-3, most_outer_diameter)
     width = 0.6 * bore
     name = f"bush {bore * 1e3:.3g} x {outer * 1e3:.3g} x {width * 1e3:.3g} mm"
-    made = Bearing(name, "ball", bore, outer, width, None, None, None, "proportions of the layout")
-    return ChosenBearing(made, "bush")
+    return _made(name, bore, outer, width, "bush")
 
 
 def output_bearing(
@@ -167,8 +166,13 @@ def output_bearing(
     section = max(2.5 * unit, 0.055 * bore)
     outer, width = bore + 2.0 * section, 1.1 * section
     name = f"thin section {bore * 1e3:.4g} x {outer * 1e3:.4g} x {width * 1e3:.3g} mm, to order"
-    made = Bearing(name, "ball", bore, outer, width, None, None, None, "proportions of the layout")
-    return ChosenBearing(made, "to order")
+    return _made(name, bore, outer, width, "to order")
+
+
+def _made(name: str, bore: float, outer: float, width: float, source: str) -> ChosenBearing:
+    """A bearing that the catalogue does not have."""
+    said = "proportions of the layout"
+    return ChosenBearing(Bearing(name, "ball", bore, outer, width, None, None, None, said), source)
 
 
 def _bulk(row: Bearing) -> tuple[float, str]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from cqdd_design.units.expression import parse_expression
+
 
 @dataclass(frozen=True)
 class Dimension:
@@ -16,23 +18,31 @@ class Dimension:
         As in error messages ("torque").
     unit : str
         The unit written to files and shown to people ("N*m").
-    si_factor : float
-        SI value of one `unit`.
-    signatures : tuple of tuple
-        Accepted products of unit kinds, each a sorted tuple of (kind, exponent).
+    kinds : str
+        Accepted products of unit kinds, such as ``force*length``, with ``or`` between.
     common : tuple of (str, float)
-        Frequent spellings with their SI factors. They spare the import of pint on the everyday
-        road; a test compares every row with pint.
+        Frequent spellings with their SI factors, that of `unit` among them. They spare the import
+        of pint on the everyday road; a test compares every row with pint.
     refuses : str
         What people type by mistake, and why it is refused; empty when there is nothing to say.
     """
 
     name: str
     unit: str
-    si_factor: float
-    signatures: tuple[tuple[tuple[str, int], ...], ...]
+    kinds: str
     common: tuple[tuple[str, float], ...]
     refuses: str = ""
+
+    @property
+    def si_factor(self) -> float:
+        """SI value of one `unit`."""
+        return dict(self.common)[self.unit]
+
+    @property
+    def signatures(self) -> tuple[tuple[tuple[str, int], ...], ...]:
+        """Accepted products of unit kinds, each a sorted tuple of (kind, exponent)."""
+        products = map(parse_expression, self.kinds.split(" or "))
+        return tuple(tuple(sorted(powers.items())) for powers in products)
 
     def example(self, value: float = 1.0) -> str:
         """A correct spelling, for messages: ``"1 mm"``."""
@@ -43,119 +53,85 @@ _DEG = math.pi / 180.0
 _TURN = 2.0 * math.pi
 
 LENGTH = Dimension(
-    "length",
-    "mm",
-    1e-3,
-    ((("length", 1),),),
-    (("mm", 1e-3), ("um", 1e-6), ("m", 1.0), ("cm", 1e-2), ("in", 0.0254)),
+    "length", "mm", "length", (("mm", 1e-3), ("um", 1e-6), ("m", 1.0), ("cm", 1e-2), ("in", 0.0254))
 )
-SMALL_LENGTH = Dimension("length", "um", 1e-6, LENGTH.signatures, LENGTH.common)
+SMALL_LENGTH = Dimension("length", "um", LENGTH.kinds, LENGTH.common)
 TORQUE = Dimension(
     "torque",
     "N*m",
-    1.0,
-    ((("force", 1), ("length", 1)),),
+    "force*length",
     (("N*m", 1.0), ("mN*m", 1e-3), ("N*mm", 1e-3), ("N*cm", 1e-2), ("kN*m", 1e3)),
     "J is a unit of energy; write a torque as N*m",
 )
 ANGLE = Dimension(
     "angle",
     "deg",
-    _DEG,
-    ((("angle", 1),),),
+    "angle",
     (("deg", _DEG), ("rad", 1.0), ("mrad", 1e-3), ("arcmin", _DEG / 60.0)),
     "an angle needs its unit, deg, rad or arcmin",
 )
-SMALL_ANGLE = Dimension("angle", "arcmin", _DEG / 60.0, ANGLE.signatures, ANGLE.common)
+SMALL_ANGLE = Dimension("angle", "arcmin", ANGLE.kinds, ANGLE.common)
 SPEED = Dimension(
     "speed",
     "rpm",
-    _TURN / 60.0,
-    ((("rotational speed", 1),), (("angle", 1), ("time", -1))),
+    "rotational_speed or angle/time",
     (("rpm", _TURN / 60.0), ("rad/s", 1.0), ("deg/s", _DEG)),
     "Hz does not say turns or radians; write rpm or rad/s",
 )
-LOAD_SPEED = Dimension("speed", "rad/s", 1.0, SPEED.signatures, SPEED.common, SPEED.refuses)
+LOAD_SPEED = Dimension("speed", "rad/s", SPEED.kinds, SPEED.common, SPEED.refuses)
 FREQUENCY = Dimension(
     "frequency",
     "Hz",
-    1.0,
-    ((("frequency", 1),),),
+    "frequency",
     (("Hz", 1.0), ("kHz", 1e3), ("MHz", 1e6)),
     "a rate is in Hz here, not rpm or rad/s",
 )
-BANDWIDTH = Dimension(
-    "frequency", "kHz", 1e3, FREQUENCY.signatures, FREQUENCY.common, FREQUENCY.refuses
-)
-VOLTAGE = Dimension("voltage", "V", 1.0, ((("voltage", 1),),), (("V", 1.0), ("mV", 1e-3)))
-CURRENT = Dimension("current", "A", 1.0, ((("current", 1),),), (("A", 1.0), ("mA", 1e-3)))
+BANDWIDTH = Dimension("frequency", "kHz", FREQUENCY.kinds, FREQUENCY.common, FREQUENCY.refuses)
+VOLTAGE = Dimension("voltage", "V", "voltage", (("V", 1.0), ("mV", 1e-3)))
+CURRENT = Dimension("current", "A", "current", (("A", 1.0), ("mA", 1e-3)))
 RADIAL_STIFFNESS = Dimension(
     "stiffness",
     "N/um",
-    1e6,
-    ((("force", 1), ("length", -1)),),
+    "force/length",
     (("N/um", 1e6), ("N/mm", 1e3), ("N/m", 1.0), ("kN/mm", 1e6)),
 )
 STIFFNESS_GAIN = Dimension(
     "rotational stiffness",
     "N*m/rad",
-    1.0,
-    ((("angle", -1), ("force", 1), ("length", 1)),),
+    "force*length/angle",
     (("N*m/rad", 1.0),),
     "a gain on an angle is torque per angle, N*m/rad",
 )
 DAMPING_GAIN = Dimension(
     "rotational damping",
     "N*m*s/rad",
-    1.0,
-    ((("angle", -1), ("force", 1), ("length", 1), ("time", 1)),),
+    "force*length*time/angle",
     (("N*m*s/rad", 1.0),),
     "a gain on a speed is torque times time per angle, N*m*s/rad",
 )
-THERMAL_RESISTANCE = Dimension(
-    "thermal resistance",
-    "K/W",
-    1.0,
-    ((("power", -1), ("temperature", 1)),),
-    (("K/W", 1.0),),
-)
-TIME = Dimension(
-    "time", "s", 1.0, ((("time", 1),),), (("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("min", 60.0))
-)
-MASS = Dimension("mass", "kg", 1.0, ((("mass", 1),),), (("kg", 1.0), ("g", 1e-3)))
+THERMAL_RESISTANCE = Dimension("thermal resistance", "K/W", "temperature/power", (("K/W", 1.0),))
+TIME = Dimension("time", "s", "time", (("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("min", 60.0)))
+MASS = Dimension("mass", "kg", "mass", (("kg", 1.0), ("g", 1e-3)))
 INERTIA = Dimension(
     "moment of inertia",
     "kg*m^2",
-    1.0,
-    ((("length", 2), ("mass", 1)),),
+    "length^2*mass",
     (("kg*m^2", 1.0), ("g*cm^2", 1e-7), ("kg*mm^2", 1e-6)),
 )
-POWER = Dimension("power", "W", 1.0, ((("power", 1),),), (("W", 1.0), ("kW", 1e3)))
+POWER = Dimension("power", "W", "power", (("W", 1.0), ("kW", 1e3)))
 TORQUE_CONSTANT = Dimension(
     "torque constant",
     "N*m/A",
-    1.0,
-    ((("current", -1), ("force", 1), ("length", 1)),),
+    "force*length/current",
     (("N*m/A", 1.0), ("mN*m/A", 1e-3)),
     "volts over speed are the same number as N*m/A in SI",
 )
 SPEED_CONSTANT = Dimension(
     "speed constant",
     "rpm/V",
-    _TURN / 60.0,
-    ((("rotational speed", 1), ("voltage", -1)), (("angle", 1), ("time", -1), ("voltage", -1))),
+    "rotational_speed/voltage or angle/time/voltage",
     (("rpm/V", _TURN / 60.0), ("rad/s/V", 1.0)),
 )
-RESISTANCE = Dimension(
-    "resistance", "ohm", 1.0, ((("resistance", 1),),), (("ohm", 1.0), ("mohm", 1e-3))
-)
-INDUCTANCE = Dimension(
-    "inductance", "uH", 1e-6, ((("inductance", 1),),), (("uH", 1e-6), ("mH", 1e-3), ("H", 1.0))
-)
-TORQUE_DENSITY = Dimension(
-    "torque density",
-    "N*m/kg",
-    1.0,
-    ((("force", 1), ("length", 1), ("mass", -1)),),
-    (("N*m/kg", 1.0),),
-)
+RESISTANCE = Dimension("resistance", "ohm", "resistance", (("ohm", 1.0), ("mohm", 1e-3)))
+INDUCTANCE = Dimension("inductance", "uH", "inductance", (("uH", 1e-6), ("mH", 1e-3), ("H", 1.0)))
+TORQUE_DENSITY = Dimension("torque density", "N*m/kg", "force*length/mass", (("N*m/kg", 1.0),))

@@ -59,7 +59,7 @@ def _kind(unit: str, registry: UnitRegistry[Any]) -> str:
     if quantity.dimensionless:
         return "angle" if unit in angles or unit in {"revolution", "grade"} else "number"
     if unit in {"revolutions_per_minute", "revolutions_per_second"}:
-        return "rotational speed"
+        return "rotational_speed"
     kinds = {
         "[length]": "length",
         "[time]": "time",

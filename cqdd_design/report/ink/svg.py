@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cqdd_design.geometry.contours import ArcContour, Circle, Contour, FloatArray, PlanarPart
+from cqdd_design.geometry.contours import Circle, Contour, FloatArray, PlanarPart
 
 Point = tuple[float, float]
 
@@ -166,16 +166,11 @@ def contour_path(contour: Contour, view: View) -> str:
         r = fixed(view.length(contour.radius), 3)
         left, right = fixed(x - view.length(contour.radius), 3), fixed(2.0 * float(r), 3)
         return f"M{left} {fixed(y, 3)}a{r} {r} 0 1 0 {right} 0a{r} {r} 0 1 0 -{right} 0Z"
-    return _arc_path(contour, view)
-
-
-def _arc_path(contour: ArcContour, view: View) -> str:
     arcs = contour.arcs()
-    places: Sequence[Point] = [view.point(p) for p in contour.points]
+    places = [view.point(p) for p in contour.points]
     pieces = [f"M{fixed(places[0][0], 3)} {fixed(places[0][1], 3)}"]
-    count = len(places)
-    for i in range(count):
-        x, y = places[(i + 1) % count]
+    for i in range(len(places)):
+        x, y = places[(i + 1) % len(places)]
         end = f"{fixed(x, 3)} {fixed(y, 3)}"
         if contour.bulges[i] == 0.0:
             pieces.append(f"L{end}")

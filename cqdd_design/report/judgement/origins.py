@@ -78,17 +78,9 @@ def read_comments(path: Path) -> dict[str, str]:
     """
     import tomlkit
 
-    return dict(_comments(tomlkit.parse(read_text_file(path, LARGEST_FILE)), ""))
-
-
-def _comments(table: Mapping[str, Any], prefix: str) -> Iterator[tuple[str, str]]:
-    for key, item in table.items():
-        if isinstance(item, Mapping):
-            yield from _comments(item, f"{prefix}{key}.")
-            continue
-        comment = getattr(getattr(item, "trivia", None), "comment", "")
-        if comment:
-            yield f"{prefix}{key}", comment.lstrip("# ").strip()
+    values = _flat(tomlkit.parse(read_text_file(path, LARGEST_FILE)), "")
+    comments = {key: getattr(getattr(item, "trivia", None), "comment", "") for key, item in values}
+    return {key: comment.lstrip("# ").strip() for key, comment in comments.items() if comment}
 
 
 def values_by_group(
