@@ -29,7 +29,8 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 from outputs_blanks import blanked
-from outputs_jobs import INPUTS, SIZED, WARMING, Job, design_names, job_list, written_design
+from outputs_inputs import INPUTS
+from outputs_jobs import SIZED, WARMING, Job, design_names, job_list, written_design
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 NETWORKS = REPOSITORY / "designs" / "cqdd-10-torque"
