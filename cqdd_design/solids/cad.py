@@ -1,13 +1,12 @@
 """The door to CadQuery: from stacks in metres to solids in millimetres.
 
-CadQuery is imported only here and in the exporters, inside functions, so that
+CadQuery is imported only here, in `assembly` and in the exporters, inside functions, so that
 commands without CAD neither pay for it nor need its system libraries.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,10 +17,7 @@ from cqdd_design.geometry.contours import ArcContour, Circle, Contour, FloatArra
 from cqdd_design.solids.layers import Layer, Stack
 
 if TYPE_CHECKING:
-    from cadquery import Assembly, Face, Location, Solid, Wire
-
-    from cqdd_design.design import Design
-    from cqdd_design.solids.part import Part
+    from cadquery import Face, Location, Solid, Wire
 
 MM = 1e3
 """Millimetres in a metre: the solids' unit."""
@@ -155,33 +151,3 @@ def location(pose: FloatArray) -> Location:
     trsf.SetValues(*(float(v) for v in rows.ravel()))
     result: Location = cadquery.Location(trsf)
     return result
-
-
-def build_assembly(design: Design, parts: Sequence[Part], crank_angle: float = 0.0) -> Assembly:
-    """Put all pieces in place.
-
-    Parameters
-    ----------
-    parts : sequence of Part
-        From `build_parts`.
-    crank_angle : float
-        rad; the discs orbit with it, the carrier follows at -1/n.
-
-    Returns
-    -------
-    cadquery.Assembly
-        In mm, the ring's frame, output upward. Pieces of one part share one solid; every piece
-        has its own name, so a viewer lists ``shoulder screw 3``.
-    """
-    cadquery = import_cadquery()
-    assembly: Assembly = cadquery.Assembly(name=design.name)
-    for part in parts:
-        colour = cadquery.Color(*part.colour, 1.0)
-        for piece in part.instances:
-            assembly.add(
-                part.solid,
-                name=piece.name,
-                loc=location(piece.pose(design, crank_angle)),
-                color=colour,
-            )
-    return assembly

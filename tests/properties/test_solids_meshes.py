@@ -190,7 +190,7 @@ def test_shared_volume_is_that_of_the_lens() -> None:
 
 
 def test_pieces_of_the_assembly_stand_where_they_are_posed() -> None:
-    from cqdd_design.solids.cad import build_assembly
+    from cqdd_design.solids.assembly import build_assembly
 
     design, parts = known_design("paper"), known_parts("paper")
     angle = 1.3

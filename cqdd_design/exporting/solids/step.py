@@ -92,7 +92,7 @@ def write_step(
     ReadBackError
         When the kernel did not write every part.
     """
-    from cqdd_design.solids.cad import build_assembly
+    from cqdd_design.solids.assembly import build_assembly
 
     return _write(build_assembly(design, parts, crank_angle), design, parts, path, schema)
 
