@@ -137,7 +137,7 @@ def test_a_file_that_lost_a_solid_is_not_kept(
             assembly.add(part.solid, name=part.name)
         return assembly
 
-    monkeypatch.setattr("cqdd_design.solids.cad.build_assembly", without_last)
+    monkeypatch.setattr("cqdd_design.solids.assembly.build_assembly", without_last)
     with pytest.raises(ReadBackError, match="holds 22 solids instead of 23"):
         write_step(known_design("paper"), known_parts("paper"), tmp_path / "short.step")
     assert list(tmp_path.iterdir()) == []
