@@ -219,19 +219,6 @@ CHECKPOINT = table(
     {"format": text},
     closed=True,
 )
-_EPISODE = {"name": name, "group": table_of(either(number, text))}
-#: A packed data set; the folder's manifest has other keys for the same.
-DATA = table(
-    {
-        "dt": positive,
-        "position_gain": not_negative,
-        "velocity_gain": not_negative,
-        "torque_range": list_of(number, 2, 2),
-        "facts": FACTS,
-        "episodes": list_of(table({**_EPISODE, "columns": list_of(name)}), 1),
-        "actuator": maybe(table_of(anything)),
-    }
-)
 MANIFEST = table(
     {
         "dt_s": positive,
@@ -239,7 +226,7 @@ MANIFEST = table(
         "velocity_gain_Nms_per_rad": not_negative,
         "torque_range_Nm": list_of(number, 2, 2),
         "facts": FACTS,
-        "episodes": list_of(table(_EPISODE), 1),
+        "episodes": list_of(table({"name": name, "group": table_of(either(number, text))}), 1),
     }
 )
 
@@ -250,7 +237,7 @@ def require(rule: Rule, content: object, source: str, advice: str) -> None:
     Parameters
     ----------
     rule : callable
-        `NETWORK`, `CHECKPOINT`, `DATA` or `MANIFEST`.
+        `NETWORK`, `CHECKPOINT` or `MANIFEST`.
     content : object
         As parsed.
     source, advice : str
