@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from cqdd_design.actuator.scenario import Wall
+from cqdd_design.catalog import paper
 from cqdd_design.errors import UsageError
 from cqdd_design.report.torque.page import torque_page
 from cqdd_design.torque.data.episodes import DataSet, Episode
@@ -20,7 +21,6 @@ from cqdd_design.torque.evaluation.estimator import Estimator, network_estimator
 from cqdd_design.torque.evaluation.evaluate import evaluate
 from cqdd_design.torque.evaluation.lineup import split_of, trained_on
 from cqdd_design.torque.evaluation.markdown import ends_shown, markdown, shown
-from cqdd_design.torque.evaluation.paper import PAPER
 from cqdd_design.torque.evaluation.ripple import (
     BAND,
     mean_amplitudes,
@@ -690,7 +690,7 @@ def test_slow_samples_show_no_ripple(data):
 
 def test_the_papers_own_numbers_hold_together():
     """RMSE^2 - variance = bias^2 recomputed from Table II (arXiv:2410.16591): hardware."""
-    rows = {row.model: row for row in PAPER}
+    rows = {row.model: row for row in paper.NETWORKS}
     assert rows["pva-gru"].bias == pytest.approx(0.145, abs=0.005)
     assert rows["mlp-baseline"].bias == pytest.approx(1.56, abs=0.005)
     assert 1.0 - rows["pva-gru"].rmse / rows["mlp"].rmse == pytest.approx(0.433, abs=0.001)
