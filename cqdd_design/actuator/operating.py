@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cqdd_design.actuator.motor import envelope, iron_drag, resistance_at, torque_constant_at
+from cqdd_design.actuator.motor import greatest_torque, iron_drag, resistance_at, torque_constant_at
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.thermal import response
 
@@ -164,11 +164,9 @@ def envelope_torque(
 ) -> FloatArray:
     """Greatest torque that drive and voltage give at output speeds, rad/s, one warm winding."""
     turning = np.asarray(speed, dtype=float)
-    n = abs(parameters.gear.ratio)
-    found = envelope(
-        parameters.motor, parameters.drive, n * turning, winding_temperature=temperature
-    )
-    return output_torque(parameters, found.high, turning)
+    motor_speed = abs(parameters.gear.ratio) * turning
+    most = greatest_torque(parameters.motor, parameters.drive, motor_speed, temperature)
+    return output_torque(parameters, most, turning)
 
 
 def held_torque(

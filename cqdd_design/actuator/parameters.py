@@ -139,6 +139,11 @@ class DriveParameters:
         if not 0 <= self.encoder_bits <= 32:
             _refuse("drive", "encoder_bits", self.encoder_bits, "within 0 to 32", "0 is ideal")
 
+    @property
+    def encoder_step(self) -> float:
+        """One count of the encoder, rad at the motor; 0 of an ideal one."""
+        return 2.0 * math.pi / 2.0**self.encoder_bits if self.encoder_bits else 0.0
+
 
 @dataclass(frozen=True)
 class ThermalParameters:
@@ -298,6 +303,11 @@ class GearParameters:
         swing = float(np.sum(np.hypot(self.stiffness_cosine, self.stiffness_sine)))
         if swing >= 1.0 and self._least_share() <= 0.0:
             _refuse("gear", "stiffness_cosine", swing, "below 1 in sum", "lower the variation")
+
+    @property
+    def error_rms(self) -> float:
+        """R.m.s. of the kinematic error, rad at the output."""
+        return math.sqrt(0.5 * float(np.sum(self.error_cosine**2 + self.error_sine**2)))
 
     def _least_share(self) -> float:
         """Least stiffness over its mean."""
