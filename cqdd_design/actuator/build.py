@@ -281,7 +281,6 @@ def friction_parameters(losses: LossModel, torque: float, input_speed: float) ->
 
     Parameters
     ----------
-    losses : LossModel
     torque : float
         At which efficiency is kept in both directions, N m.
     input_speed : float

@@ -23,8 +23,6 @@ class ComparedActuator:
 
     Attributes
     ----------
-    name, gearing, source : str
-    ratio : float or None
     peak_torque, mass : float
         N m at the output, kg.
     torque_density_printed : float or None

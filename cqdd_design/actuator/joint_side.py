@@ -198,7 +198,6 @@ def ripple_harmonics(
 
     Parameters
     ----------
-    parameters : ActuatorParameters
     torque : float, optional
         T, N m, of the sign of the joint; default the torque at which the error was solved.
 

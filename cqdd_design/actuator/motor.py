@@ -109,7 +109,6 @@ def no_load_speed(
 
     Parameters
     ----------
-    motor : MotorParameters
     voltage : float
         V; its sign is that of the speed.
     temperature : float

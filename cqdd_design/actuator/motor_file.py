@@ -84,7 +84,6 @@ class MotorFile:
 
     Attributes
     ----------
-    name : str
     values : mapping of str to float
         SI, in the conventions inside: K of the DC machine under ``speed_constant`` as 1/K, line to
         line.

@@ -51,7 +51,6 @@ class Judgement:
 
     Attributes
     ----------
-    need : Need
     binding : tuple of str
         Of `DRIVER`, `VOLTAGE`, `PEAK` and `HEAT`; empty inside.
     most : float
@@ -89,7 +88,6 @@ def motor_torque(parameters: ActuatorParameters, torque: ArrayLike, speed: Array
 
     Parameters
     ----------
-    parameters : ActuatorParameters
     torque : array_like
         At the output, N m: positive where the motor drives, negative where the output does.
     speed : array_like
@@ -179,7 +177,6 @@ def held_torque(
 
     Parameters
     ----------
-    parameters : ActuatorParameters
     speed : array_like (S,)
         Of the output, rad/s.
     seconds : float
@@ -247,7 +244,6 @@ def judge(
 
     Parameters
     ----------
-    parameters : ActuatorParameters
     torque : float
         At the output, N m, positive where the motor drives.
     speed : float

@@ -55,7 +55,6 @@ class MotorParameters:
         Line to line at `reference_temperature`, ohm and H.
     rotor_inertia : float
         Of the motor's own rotor, kg m^2.
-    pole_pairs : int
     rated_torque, peak_torque : float
         Of the motor by its catalogue, N m; nan where it gives none.
     cogging_amplitude, cogging_order : float, int
@@ -323,8 +322,6 @@ class ActuatorParameters:
 
     Attributes
     ----------
-    name : str
-    motor, drive, thermal, friction, gear
     mass : float
         kg.
     origins : mapping of str to str

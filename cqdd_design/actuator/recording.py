@@ -61,7 +61,6 @@ def plan(
 
     Parameters
     ----------
-    parameters : sequence of ActuatorParameters
     scenario : Scenario
         Of all of them.
     duration : float
@@ -149,14 +148,12 @@ class Recording:
         One a set.
     scenario : Scenario
         Of all sets.
-    simulation : Simulation
     rate : float
         Of the record, Hz.
     seeds : tuple of int
         Of the drawn gearboxes; empty for perfect parts.
     numbered : bool
         Whether there is a column ``set``.
-    design_sha256, version : str
     options : mapping of str to str
         What was asked for, defaults included, as unit strings.
     """

@@ -30,10 +30,8 @@ class Row:
 
     Attributes
     ----------
-    name, unit : str
     measured : float or None
         None where it was not measured.
-    before, after : float
     relation : str
         "calibrated", "predicted", "given" or "not comparable".
     """
@@ -152,7 +150,6 @@ def calibrate(
 
     Parameters
     ----------
-    parameters : ActuatorParameters
     measured : mapping of str to float
         Measurements of the bench in its units.
     to : collection of str

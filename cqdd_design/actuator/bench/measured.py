@@ -55,10 +55,6 @@ def read_measured(path: Path) -> dict[str, float]:
     path : Path
         Names are those of `METRICS`; lines that begin with # and further columns are passed over.
 
-    Returns
-    -------
-    dict of str to float
-
     Raises
     ------
     UsageError

@@ -81,14 +81,12 @@ class BenchResult:
     ----------
     name : str
         Of the actuator.
-    metrics : tuple of Metric
     beside_paper : bool
         Whether it is the paper's own, so that the paper's values stand beside.
     voltage : float
         Of the dynamic rows, V.
     seconds : float
         Time taken.
-    warnings : tuple of str
     """
 
     name: str

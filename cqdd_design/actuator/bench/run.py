@@ -43,7 +43,6 @@ def run_bench(
 
     Parameters
     ----------
-    parameters : ActuatorParameters
     rated_current : float, optional
         Of the motor by its catalogue, A.
     voltage : float

@@ -120,13 +120,7 @@ def refuse_unknown(name: str) -> None:
 
 @dataclass(frozen=True)
 class Fit(Mapping[str, float]):
-    """Factors of unknowns, and the measurements that they were fitted to.
-
-    Attributes
-    ----------
-    factors : mapping of str to float
-    rows : tuple of str
-    """
+    """Factors of unknowns, and the measurements that they were fitted to."""
 
     factors: Mapping[str, float]
     rows: tuple[str, ...]

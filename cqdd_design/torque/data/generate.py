@@ -111,7 +111,6 @@ def generate(
     ----------
     machine : Machine
         Of the specimen's motor.
-    request : Request, optional
     specimen : Specimen
         Its motor and its factors; gearboxes are those of the request. The factor of the
         tolerances is left out: the ripple is what the contact equilibrium of the drawn gearbox
@@ -297,10 +296,6 @@ def _gearbox_ripple(
 
 def describe(data: DataSet) -> dict[str, Any]:
     """Size of a data set, its torque, and how often limits bind.
-
-    Parameters
-    ----------
-    data : DataSet
 
     Returns
     -------

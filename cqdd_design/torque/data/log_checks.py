@@ -71,12 +71,10 @@ def check_signals(
 
     Parameters
     ----------
-    name : str
     columns : mapping
         Position, target, velocity, torque of one uninterrupted piece.
     dt : float
         s.
-    position_gain, velocity_gain : float
 
     Returns
     -------

@@ -109,7 +109,6 @@ def read_map(path: Path, over: Mapping[str, Mapping[str, Any]] | None = None) ->
 
     Parameters
     ----------
-    path : Path
     over : mapping of tables, optional
         Entries that go before those of the file.
 

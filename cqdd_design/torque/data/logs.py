@@ -38,7 +38,6 @@ class Gap:
 
     Attributes
     ----------
-    log : str
     begin, seconds : float
         s.
     """
@@ -54,11 +53,8 @@ class Imported:
 
     Attributes
     ----------
-    data : DataSet
-    gaps : tuple of Gap
     dropped : int
         Pieces too short to keep.
-    warnings : tuple of str
     """
 
     data: DataSet
@@ -103,7 +99,6 @@ def import_logs(
     ----------
     paths : sequence of Path
         Each log is one configuration, unless it is cut.
-    mapped : LogMap
     position_gain, velocity_gain : float
         Of the joint's controller, N m/rad and N m s/rad.
     rate : float
@@ -115,10 +110,6 @@ def import_logs(
     cut : float, optional
         Cut records into pieces of this length, s, each a configuration of its own, with
         `PURGE_SECONDS` left out between them.
-
-    Returns
-    -------
-    Imported
 
     Raises
     ------

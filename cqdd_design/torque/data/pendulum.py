@@ -24,7 +24,7 @@ from cqdd_design.actuator.joint_side import joint_side
 from cqdd_design.actuator.packing import largest_step
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.recording import LONGEST_STEP
-from cqdd_design.actuator.scenario import Command, Load, Scenario, Sine, Start, Wall
+from cqdd_design.actuator.scenario import GRAVITY, Command, Load, Scenario, Sine, Start, Wall
 from cqdd_design.actuator.simulate import Simulation, simulate
 from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.errors import UsageError
@@ -37,7 +37,6 @@ MASSES, ARMS = (1.14, 2.28), (0.25, 0.6)
 """kg, m; paper."""
 BAR_LENGTH, BAR_WIDTH, BAR_THICKNESS, BAR_DENSITY = 0.65, 0.040, 0.008, 2700.0
 """A flat aluminium bar from the axis outwards, m and kg/m^3; assumed, the paper gives none."""
-GRAVITY = 9.80665
 WALL_STIFFNESS, WALL_EXPONENT, WALL_DAMPING = 300.0, 1.5, 0.3
 """Of the wall, N m/rad^1.5 and s/rad: foam rubber, some 0.1 rad deep at 10 N m; assumed."""
 WALL_SHARE = 0.5
@@ -144,12 +143,10 @@ def draw(
 
     Parameters
     ----------
-    count : int
     seed, kind : int
         Kinds differ in what they draw for the same seed.
     masses : sequence of float
         To choose from, kg.
-    gearbox : int
     """
     found = []
     for i in range(count):
@@ -208,7 +205,6 @@ def record(
         All with the same drive.
     seconds : float
         Of each episode.
-    chain : SensorChain
     seed : int
         Of the sensor's noise.
     progress : callable, optional

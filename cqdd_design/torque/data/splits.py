@@ -36,10 +36,8 @@ class Split:
 
     Attributes
     ----------
-    train, validation, test : tuple of str
     protocol : str
         One of `PROTOCOLS`, or "random-window".
-    seed : int
     """
 
     train: tuple[str, ...]
@@ -75,7 +73,6 @@ def split(data: DataSet, protocol: str, seed: int = 0) -> Split:
         training may see.
     protocol : str
         One of `PROTOCOLS`.
-    seed : int
 
     Returns
     -------
@@ -157,8 +154,6 @@ def audit(data: DataSet, split: Split, history: int) -> None:
 
     Parameters
     ----------
-    data : DataSet
-    split : Split
     history : int
         Samples that a network looks back; pieces of one record on different sides must lie that
         far apart.
@@ -327,8 +322,6 @@ def random_window_split(
 
     Parameters
     ----------
-    data : DataSet
-    seed : int
     history : int
         Samples of a window.
     lead : int

@@ -79,7 +79,6 @@ class FrictionFit:
         Of `TERMS`.
     stribeck_speed, sign_speed : float
         rad/s.
-    differentiator : Differentiator
     training_rmse : float
         N m.
     """
@@ -142,7 +141,6 @@ def fit_friction(
         Gains and torque range.
     names : tuple of str
         Training episodes; no other is looked at.
-    differentiator : Differentiator
 
     Raises
     ------

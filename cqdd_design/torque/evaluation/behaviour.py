@@ -83,12 +83,8 @@ class Behaviour:
     ----------
     name, model, kind, parameters, history
         Of the `Estimator`.
-    latency : Latency or None
-    rollouts : tuple of Rollout
     position_rms : Interval or None
         Mean over the rollouts that did not run away, rad.
-    drift : Drift or None
-    modes : Modes or None
     leaked_rmse : float or None
         Of the same model scored on random windows of its own training episodes, N m.
     missing : str

@@ -29,7 +29,6 @@ class Interval:
 
     Attributes
     ----------
-    value : float
     low, high : float or None
         None where there are too few episodes to say.
     """
@@ -50,7 +49,6 @@ class Paired:
 
     Attributes
     ----------
-    model, reference : str
     metric : str
         ``rmse``, ``variance`` or ``ripple_error``.
     difference : Interval

@@ -24,12 +24,10 @@ class Lineup:
 
     Attributes
     ----------
-    estimators : tuple of Estimator
     sets : mapping of str to tuple of str
         Test episodes of each protocol.
     seen : mapping of str to frozenset of str
         Episodes that each estimator was trained, validated or fitted on.
-    warnings : tuple of str
     """
 
     estimators: tuple[Estimator, ...]
@@ -125,8 +123,6 @@ def line_up(
 
     Parameters
     ----------
-    data : DataSet
-    networks : mapping of str to Artefact
     protocols : sequence of str
         Of `splits.PROTOCOLS`; default that of the first network.
     split_seed : int, optional

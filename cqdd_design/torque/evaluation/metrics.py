@@ -38,7 +38,6 @@ class Scores:
 
     Attributes
     ----------
-    samples : int
     rmse, bias : float
         N m.
     variance : float

@@ -83,7 +83,6 @@ class Ripple:
         Of the error within the band, N m.
     share : Interval or None
         Of the error's variance that lies in the band; None where there is no error.
-    segments : int
     """
 
     amplitude_label: float
@@ -112,7 +111,6 @@ class OrderSpectrum:
     phase : array (K,)
         Of the estimate against the label over the angle, degrees of the ripple's own period;
         positive: at a smaller angle.
-    strokes : int
     """
 
     orders: FloatArray
@@ -216,7 +214,6 @@ def ripple(found: Spectra, weights: FloatArray) -> Ripple | None:
 
     Parameters
     ----------
-    found : Spectra
     weights : array (B, E)
         Of `bootstrap.draws`.
     """

@@ -46,7 +46,6 @@ class Pendulum:
         Joint angle at which it hangs, rad.
     viscous : float
         N m s/rad.
-    wall : Wall or None
     """
 
     inertia: float
@@ -94,14 +93,12 @@ class Rollout:
 
     Attributes
     ----------
-    episode : str
     position_rms : float or None
         Difference from the plant's position, rad; None when the joint ran away.
     work, plant_work : float
         By the estimator, and by the recorded torque, over the same time, J.
     injects : bool
         Whether, with the target held, the joint's kinetic energy grew instead of dying out.
-    diverged : bool
     position : array (N,)
         rad; the plant's own up to where the loop closes.
     """
@@ -121,12 +118,10 @@ class Drift:
 
     Attributes
     ----------
-    steps : int
     growth : float
         r.m.s. of the last period over that of the first after the burn-in, less 1.
     wander : float
         Largest difference of the two periods, N m.
-    finite : bool
     """
 
     steps: int
@@ -176,7 +171,6 @@ def rollout(
 
     Parameters
     ----------
-    pendulum : Pendulum
     episode : Episode
         Its target is followed; its first `begin` samples warm the estimator up.
     stepper : Stepper

@@ -144,7 +144,6 @@ def physical_estimate(
     ----------
     parameters : ActuatorParameters
         Gains of its drive are those of the impedance law.
-    episode : Episode
     differentiator : Differentiator
         Of the velocity.
 

@@ -65,7 +65,6 @@ class FoldedMlp:
         Of the hidden layers; the first takes the window newest sample first.
     biases : tuple of array (out,)
     head : array (H,)
-    head_bias : float
     """
 
     weights: tuple[Float32Array, ...]

@@ -28,11 +28,9 @@ class Model:
 
     Attributes
     ----------
-    name : str
     family : {"gru", "mlp"}
     inputs : tuple of str
         Features but the gearbox's phases.
-    layers, hidden, history : int
     activation : str
         Of an MLP; empty for a GRU.
     phase : bool
@@ -118,14 +116,12 @@ class Network:
 
     Parameters
     ----------
-    model : Model
     features : int
         Inputs of one sample, phases included.
     seed : int
         Of the weights; torch's own initialisation, its global generator left as it was.
     activation : str, optional
         Of an MLP, instead of the model's.
-    device : str
     """
 
     def __init__(

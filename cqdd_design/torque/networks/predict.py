@@ -34,7 +34,6 @@ def predict(
 
     Parameters
     ----------
-    artefact : Artefact
     features : array (N, F)
         Raw, unscaled features in the order of ``artefact.inputs``.
     engine : {"compiled", "plain"}
@@ -99,7 +98,6 @@ class Streaming:
 
     Parameters
     ----------
-    artefact : Artefact
     mode : {"window", "streaming"}, optional
         Default the one the network was trained for. An MLP knows windows only.
     """

@@ -34,13 +34,8 @@ class Task:
 
     Attributes
     ----------
-    model : Model
     inputs : tuple of str
         Phases included.
-    scale : Scaling
-    train, validation : Prepared
-    differentiator : Differentiator or None
-    device : str
     """
 
     model: Model
@@ -71,15 +66,7 @@ class Progression:
 
 
 class Trainer:
-    """One training of one network, epoch by epoch.
-
-    Parameters
-    ----------
-    task : Task
-    recipe : Recipe
-    choice : Choice
-    seed : int
-    """
+    """One training of one network, epoch by epoch."""
 
     def __init__(self, task: Task, recipe: Recipe, choice: Choice, seed: int) -> None:
         torch = require_torch()

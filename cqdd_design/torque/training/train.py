@@ -112,7 +112,6 @@ def train(
 
     Parameters
     ----------
-    data : DataSet
     split : Split
         Its test episodes are never looked at.
     order : Order
@@ -127,10 +126,6 @@ def train(
         Stored.
     progress : callable, optional
         Told after every epoch.
-
-    Returns
-    -------
-    Artefact
 
     Raises
     ------
