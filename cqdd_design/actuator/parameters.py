@@ -299,21 +299,23 @@ class GearParameters:
                 )
         if np.any(np.asarray(self.error_orders) < 1):
             raise DesignError("gear.error_orders count periods of an output turn: 1 or more.")
-        swing = float(np.sum(np.hypot(self.stiffness_cosine, self.stiffness_sine)))
-        if swing >= 1.0 and self._least_share() <= 0.0:
-            _refuse("gear", "stiffness_cosine", swing, "below 1 in sum", "lower the variation")
+        refuse_variation(self.error_orders, self.stiffness_cosine, self.stiffness_sine)
 
     @property
     def error_rms(self) -> float:
         """R.m.s. of the kinematic error, rad at the output."""
         return math.sqrt(0.5 * float(np.sum(self.error_cosine**2 + self.error_sine**2)))
 
-    def _least_share(self) -> float:
-        """Least stiffness over its mean."""
-        turn = np.linspace(0.0, 2.0 * math.pi, 8 * int(np.max(self.error_orders)) + 1)
-        angle = np.multiply.outer(turn, self.error_orders)
-        varying = np.cos(angle) @ self.stiffness_cosine + np.sin(angle) @ self.stiffness_sine
-        return 1.0 + float(varying.min())
+
+def refuse_variation(orders: IntArray, cosine: FloatArray, sine: FloatArray) -> None:
+    """Raise a `DesignError` where a stiffness of these relative harmonics (H,) falls to zero."""
+    swing = float(np.sum(np.hypot(cosine, sine)))
+    if swing < 1.0:
+        return
+    turn = np.linspace(0.0, 2.0 * math.pi, 8 * int(np.max(orders)) + 1)
+    angle = np.multiply.outer(turn, orders)
+    if 1.0 + float((np.cos(angle) @ cosine + np.sin(angle) @ sine).min()) <= 0.0:
+        _refuse("gear", "stiffness_cosine", swing, "below 1 in sum", "lower the variation")
 
 
 @dataclass(frozen=True, eq=False)

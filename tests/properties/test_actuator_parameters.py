@@ -19,7 +19,12 @@ from cqdd_design.actuator import thermal as thermals
 from cqdd_design.actuator import transmission as transmissions
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.packing import gear_table, kinematic_error, stiffness_share
-from cqdd_design.actuator.parameters import ActuatorParameters, MotorParameters, ThermalParameters
+from cqdd_design.actuator.parameters import (
+    ActuatorParameters,
+    MotorParameters,
+    ThermalParameters,
+    refuse_variation,
+)
 from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Start
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.actuator.specimen import Specimen
@@ -136,6 +141,37 @@ def test_continuous_current_ends_at_the_limit() -> None:
         assert late == pytest.approx(thermals.steady_state(MOTOR, THERMAL, current, heat))
     with pytest.raises(DesignError, match="without end"):
         thermals.steady_state(MOTOR, THERMAL, thermals.runaway_current(MOTOR, THERMAL))
+
+
+VARIES = r"gear\.stiffness_cosine [\d.]+ is not below 1 in sum; lower the variation"
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_stiffness_that_varies_too_much_is_refused_before_the_backlash_is_solved(
+    monkeypatch: pytest.MonkeyPatch, seed: int
+) -> None:
+    """Backlash is nine tenths of the work; what its few angles refuse, the whole turn refuses."""
+    solved: list[int] = []
+
+    def counted(model: object, *, errors: object, states: object) -> object:
+        solved.append(len(states.crank_angle))
+        return solve(model, errors=errors, states=states)
+
+    solve = transmissions.backlash
+    monkeypatch.setattr(transmissions, "backlash", counted)
+    model = resolve(PAPER).contact
+    with pytest.raises(DesignError, match=VARIES):
+        transmissions.transmission(model, PAPER, 1.0, seed=seed)
+    assert solved == [24]
+    monkeypatch.setattr(transmissions, "_refuse_varying", lambda *args: None)
+    whole = transmissions.transmission(model, PAPER, 1.0, seed=seed)
+    with pytest.raises(DesignError, match=VARIES):
+        refuse_variation(whole.error_orders, whole.stiffness_cosine, whole.stiffness_sine)
+
+
+def test_a_stiffness_that_varies_much_but_keeps_above_zero_is_not_refused() -> None:
+    found = transmissions.transmission(resolve(PAPER).contact, PAPER, 4.0, seed=1)
+    assert np.sum(np.hypot(found.stiffness_cosine, found.stiffness_sine)) > 3.0
 
 
 def test_friction_keeps_efficiencies_and_backdrive_torques() -> None:
