@@ -158,9 +158,7 @@ def train(
             require_same(former, identity, checkpoint)
             facts = {key: value for key, value in former.facts.items() if key != "updates"}
         elif chosen.searched and choice is None:
-            found = search(task, recipe)
-            facts["search"] = found.to_dict()
-            choice = found.choice
+            choice, facts["search"] = search(task, recipe)
         if "choice" not in facts:
             own = Choice(chosen.activation, peak_rate(recipe.reading))
             facts["choice"] = asdict(choice or own)
@@ -199,8 +197,8 @@ def train(
         },
     }
     if task.differentiator is not None and data.dt * RIPPLE_FREQUENCY < 0.5:
-        told = differentiator_error(task.differentiator, data.dt, RIPPLE_FREQUENCY)
-        facts["differentiator"] = asdict(told)
+        slope = task.differentiator
+        facts["differentiator"] = differentiator_error(slope, data.dt, RIPPLE_FREQUENCY)
     if known is not None:
         facts["actuator"] = actuator_to_dict(known)
     model = task.model
