@@ -153,7 +153,9 @@ LEDGER: tuple[str, ...] = (
     "stored_after",
     "unsettled",
 )
-"""Energies in J of one run, and last the number of steps whose equations did not settle."""
+"""Energies in J of one run: put in by the drive, lost in six ways, put in from outside at the
+output; the integral of the absolute powers of drive and outside; stored in inductance, masses,
+springs and gravity. Last the number of steps whose equations did not settle."""
 
 Ledger: Any = _values("Ledger", LEDGER)
 """An array (S,) of each, or the sums of one run."""

@@ -12,7 +12,7 @@ from typing import Literal, Protocol
 
 import numpy as np
 
-from cqdd_design.actuator.parameters import FloatArray
+from cqdd_design.actuator.parameters import DriveParameters, FloatArray
 from cqdd_design.errors import UsageError
 
 CommandMode = Literal["open", "voltage", "current", "torque", "impedance", "position"]
@@ -181,6 +181,14 @@ class Command:
     position_gain: float | None = None
     velocity_gain: float | None = None
     integral_gain: float = 0.0
+
+    def gains(self, drive: DriveParameters) -> tuple[float, float]:
+        """Position and velocity gain at the output, N m/rad and N m s/rad."""
+        stiff, damped = self.position_gain, self.velocity_gain
+        return (
+            drive.position_gain if stiff is None else stiff,
+            drive.velocity_gain if damped is None else damped,
+        )
 
 
 @dataclass(frozen=True)

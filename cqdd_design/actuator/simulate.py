@@ -30,31 +30,10 @@ _SHARES = 16
 _LOSSES = ("copper", "iron", "motor_friction", "output_friction", "gear_damping", "load_damping")
 
 
-@dataclass(frozen=True, eq=False)
-class EnergyLedger:
-    """Where the energy of every run went, J, arrays (S,).
+class EnergyLedger(Ledger):  # type: ignore[misc]
+    """Where the energy of every run went, J, arrays (S,); see `columns.LEDGER`."""
 
-    Attributes
-    ----------
-    electrical, external : array
-        Put in by the drive, and from outside at the output; the next six are lost.
-    stored_before, stored_after : array
-        In inductance, masses, springs, gravity.
-    throughput : array
-        Integral of the absolute powers of drive and outside.
-    """
-
-    electrical: FloatArray
-    copper: FloatArray
-    iron: FloatArray
-    motor_friction: FloatArray
-    output_friction: FloatArray
-    gear_damping: FloatArray
-    load_damping: FloatArray
-    external: FloatArray
-    throughput: FloatArray
-    stored_before: FloatArray
-    stored_after: FloatArray
+    __slots__ = ()
 
     @property
     def lost(self) -> FloatArray:
@@ -171,14 +150,13 @@ def simulate(
             f"the simulation left the finite numbers at a step of {step:g} s; look for forces far "
             "beyond what the gearbox stands, or shorten the step."
         )
-    entries = ledger._asdict()
-    unsettled = int(entries.pop("unsettled").sum())
+    unsettled = int(ledger.unsettled.sum())
     return Simulation(
         names=tuple(one.name for one in sets),
         time=ends[every::every],
         **traces._asdict(),
         step=step,
-        ledger=EnergyLedger(**entries),
+        ledger=EnergyLedger(*ledger),
         warnings=()
         if not unsettled
         else (f"the equations of {unsettled} of {steps * len(sets)} steps did not settle.",),

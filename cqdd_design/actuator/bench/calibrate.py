@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cqdd_design.actuator.bench.metric import METRICS, BenchResult
+from cqdd_design.actuator.bench.metric import BenchResult, refuse_unmeasured
 from cqdd_design.actuator.bench.run import VOLTAGE, run_bench
 from cqdd_design.actuator.bench.unknowns import (
     TELLS,
@@ -173,11 +173,7 @@ def calibrate(
         that does not come within reach.
     """
     for name, value in measured.items():
-        if name not in METRICS:
-            raise UsageError(
-                f"'{name}' is not a measurement{did_you_mean(name, METRICS) or '.'} "
-                f"The bench knows {', '.join(METRICS)}."
-            )
+        refuse_unmeasured(name)
         if not (math.isfinite(value) and value > 0.0):
             raise UsageError(f"{name} {value:g} must be above 0 to calibrate with.")
     rows, names = _chosen(measured, to, unknowns)

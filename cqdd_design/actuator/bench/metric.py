@@ -9,6 +9,7 @@ from typing import Literal
 
 from cqdd_design.actuator.parameters import FloatArray
 from cqdd_design.catalog import paper
+from cqdd_design.errors import UsageError, did_you_mean
 
 Relation = Literal["given", "calibrated", "predicted", "not comparable"]
 
@@ -34,6 +35,15 @@ METRICS: Mapping[str, str] = MappingProxyType(
     }
 )
 """Names of all measurements and their units."""
+
+
+def refuse_unmeasured(name: str, place: str = "") -> None:
+    """Raise a `UsageError` where a name, read at a place, is none of `METRICS`."""
+    if name not in METRICS:
+        raise UsageError(
+            f"{place}'{name}' is not a measurement{did_you_mean(name, METRICS) or '.'} "
+            f"The bench knows {', '.join(METRICS)}."
+        )
 
 
 @dataclass(frozen=True, eq=False)

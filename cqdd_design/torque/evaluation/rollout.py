@@ -64,16 +64,6 @@ class Pendulum:
                 found += self.wall.side * self.wall.stiffness * depth**self.wall.exponent * rub
         return found
 
-    def energy(self, angle: float, speed: float) -> float:
-        """Of motion, weight and wall, J."""
-        found = 0.5 * self.inertia * speed**2
-        found -= self.gravity_moment * math.cos(angle - self.hanging_angle)
-        if self.wall is not None:
-            depth = max(self.wall.side * (angle - self.wall.angle), 0.0)
-            more = self.wall.exponent + 1.0
-            found += self.wall.stiffness * depth**more / more
-        return found
-
     def advance(self, angle: float, speed: float, torque: float, duration: float) -> Any:
         """Angle, speed and work of a torque held for a duration; semi-implicit Euler."""
         steps = max(round(duration / PHYSICS_STEP), 1)

@@ -127,12 +127,6 @@ class Streaming:
             weights = folded_mlp(artefact).flat
             self._torque = partial(mlp_kernel.window, weights, flat, layers, width, kind, scratch)
 
-    def reset(self) -> None:
-        """Forget all samples."""
-        self._state[:] = 0.0
-        self._past[:] = 0.0
-        self._seen = 0
-
     def step(self, features: Sequence[float] | NDArray[Any]) -> float:
         """Torque at this sample, N m; `features` (F,) raw, in the order of ``artefact.inputs``."""
         if self._rows > 1:
