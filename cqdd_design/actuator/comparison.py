@@ -129,14 +129,6 @@ def present_actuator(
 def compare_actuators(
     own: ComparedActuator | None = None, more: Sequence[str] = ()
 ) -> tuple[ComparedActuator, ...]:
-    """The paper's columns, then the present design, then catalogue rows by name.
-
-    Parameters
-    ----------
-    own : ComparedActuator, optional
-        Peak torque and efficiency as the virtual test bench finds them, mass from the solids.
-    more : sequence of str
-        Catalogue names of geared actuators.
-    """
+    """The paper's columns, then the present design, then geared actuators of the catalogue."""
     present = () if own is None else (own,)
     return (*published_actuators(), *present, *(catalogue_actuator(name) for name in more))

@@ -93,13 +93,6 @@ def joint_side(parameters: ActuatorParameters) -> JointSide:
     stall_current = volts / motor.resistance
     peak_current = min(stall_current, drive.current_limit)
     held = float(torque_constant_at(motor, thermal.most)) * continuous_current(motor, thermal)
-    idle = no_load_speed(
-        motor,
-        volts,
-        temperature=motor.reference_temperature,
-        drag=friction.motor_coulomb + friction.output_coulomb / n,
-        viscous=friction.motor_viscous + friction.output_viscous / n**2,
-    )
     return JointSide(
         reduction=n,
         crank_sense=int(math.copysign(1.0, parameters.gear.ratio)),
@@ -108,7 +101,7 @@ def joint_side(parameters: ActuatorParameters) -> JointSide:
         peak_torque=constant * peak_current,
         continuous_torque=n * held,
         ideal_speed=volts / constant,
-        no_load_speed=idle / n,
+        no_load_speed=idle_speed(parameters, motor.reference_temperature),
         corner_speed=(volts - peak_current * motor.resistance) / constant,
         motor_inertia=n**2 * parameters.motor_side_inertia,
         output_inertia=parameters.gear.output_inertia,
@@ -119,6 +112,19 @@ def joint_side(parameters: ActuatorParameters) -> JointSide:
         viscous=n**2 * motor_viscous(parameters) + friction.output_viscous,
         stribeck_speed=friction.stribeck_speed / n,
     )
+
+
+def idle_speed(parameters: ActuatorParameters, temperature: float) -> float:
+    """No-load speed of the output at a winding temperature (deg C), all friction on it, rad/s."""
+    friction, n = parameters.friction, abs(parameters.gear.ratio)
+    motor_speed = no_load_speed(
+        parameters.motor,
+        parameters.drive.supply_voltage,
+        temperature=temperature,
+        drag=friction.motor_coulomb + friction.output_coulomb / n,
+        viscous=friction.motor_viscous + friction.output_viscous / n**2,
+    )
+    return motor_speed / n
 
 
 def motor_coulomb(parameters: ActuatorParameters) -> float:

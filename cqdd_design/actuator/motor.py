@@ -50,14 +50,7 @@ def motor_constants(torque_constant: float) -> dict[str, float]:
 
 
 def torque_constant_from(value: float, convention: str) -> float:
-    """K of the DC machine from a constant in another convention.
-
-    Parameters
-    ----------
-    value : float
-        N m/A or V s/rad.
-    convention : str
-        One of `CONVENTIONS`.
+    """K of the DC machine from a constant (N m/A or V s/rad) in another one of `CONVENTIONS`.
 
     Raises
     ------
@@ -105,21 +98,11 @@ def no_load_speed(
     drag: float = 0.0,
     viscous: float = 0.0,
 ) -> float:
-    """Speed at which the motor's torque just overcomes its own drag and what else is given.
+    """Speed at which the motor's torque just overcomes its own drag and what else is given, rad/s.
 
-    Parameters
-    ----------
-    voltage : float
-        V; its sign is that of the speed.
-    temperature : float
-        deg C.
-    drag, viscous : float
-        Further drag torque and drag torque over speed at the motor, N m and N m s/rad.
-
-    Returns
-    -------
-    float
-        rad/s; 0 where the drag holds the motor.
+    0 where the drag holds the motor. The sign of the voltage (V) is that of the speed; winding and
+    magnets are at one temperature (deg C); further drag torque and drag torque over speed count at
+    the motor, N m and N m s/rad.
     """
     resistance = float(resistance_at(motor, temperature))
     constant = float(torque_constant_at(motor, temperature))

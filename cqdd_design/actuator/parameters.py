@@ -352,6 +352,11 @@ class ActuatorParameters:
             )
 
     @property
+    def torque_limit(self) -> float:
+        """What the driver's current gives at the joint if nothing rubs, N m."""
+        return self.motor.torque_constant * self.drive.current_limit * abs(self.gear.ratio)
+
+    @property
     def motor_side_inertia(self) -> float:
         """Inertia at the motor: rotor, and what turns or orbits with the crank, kg m^2."""
         return self.motor.rotor_inertia + self.gear.input_inertia

@@ -52,27 +52,13 @@ _LEAST_WINDUP = 0.25
 
 @dataclass(frozen=True, eq=False)
 class Transmission:
-    """What the contact engine says of one gearbox at one torque.
+    """What the contact engine says of one gearbox at one torque, as in `GearParameters`.
 
-    Attributes
-    ----------
-    torque : float
-        N m.
-    error_orders : array (H,) of int
-        Periods in an output turn.
-    error_cosine, error_sine : array (H,)
-        Of the kinematic error, rad.
-    stiffness_cosine, stiffness_sine : array (H,)
-        Relative.
-    stiffness : float
-        Secant from the end of the dead zone, N m/rad.
-    stiffening : float
-        Exponent of torque over deflection, from half of the torque to it.
-    backlash : float
-        Mean over the turn, rad.
+    The stiffness is the secant from the end of the dead zone, the stiffening counts from half of
+    the torque to it, the backlash is the mean over the turn.
     """
 
-    torque: float
+    error_torque: float
     error_orders: IntArray
     error_cosine: FloatArray
     error_sine: FloatArray
@@ -169,7 +155,7 @@ def _felt(whole: _Loaded, half: _Loaded, free: float, per_turn: int) -> Transmis
     share = (mean / np.maximum(windup, _LEAST_WINDUP * mean)) ** power
     orders, series = _harmonics(error, share / share.mean(), per_turn, mean)
     return Transmission(
-        torque=torque,
+        error_torque=torque,
         error_orders=orders,
         error_cosine=series[0],
         error_sine=series[1],

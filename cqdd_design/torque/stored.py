@@ -232,20 +232,9 @@ MANIFEST = table(
 
 
 def require(rule: Rule, content: object, source: str, advice: str) -> None:
-    """Refuse a document that does not meet a rule, naming the first field that is wrong.
+    """Raise a `UsageError` where a document does not meet a rule, naming the first wrong field.
 
-    Parameters
-    ----------
-    rule : callable
-        `NETWORK`, `CHECKPOINT` or `MANIFEST`.
-    content : object
-        As parsed.
-    source, advice : str
-        Begin and end of the sentence: the file, and what to do.
-
-    Raises
-    ------
-    UsageError
+    The sentence begins with its source, the file, and ends with an advice.
     """
     problem = rule(content)
     if problem is not None:

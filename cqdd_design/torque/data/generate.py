@@ -174,7 +174,7 @@ def generate(
             f"the winding reaches {found['winding_degC']:.4g} deg C; the drive lowers its current "
             f"from {own.thermal.derating_begins:g} deg C on."
         )
-    drive, limit = own.drive, pendulum.torque_limit(own)
+    drive, limit = own.drive, own.torque_limit
     facts: dict[str, Any] = {
         "source": "simulated",
         "design": design.name,

@@ -141,12 +141,7 @@ def draw(
 ) -> tuple[Configuration, ...]:
     """Draw experiments, each from its own number: more of them leave the first ones as they are.
 
-    Parameters
-    ----------
-    seed, kind : int
-        Kinds differ in what they draw for the same seed.
-    masses : sequence of float
-        To choose from, kg.
+    Kinds differ in what they draw for the same seed; masses (kg) are those to choose from.
     """
     found = []
     for i in range(count):
@@ -161,12 +156,6 @@ def draw(
     return tuple(found)
 
 
-def torque_limit(parameters: ActuatorParameters) -> float:
-    """What the drive can ask for at the joint by its current limit, N m."""
-    most = parameters.drive.current_limit * parameters.motor.torque_constant
-    return most * abs(parameters.gear.ratio)
-
-
 def shortfalls(configuration: Configuration, parameters: ActuatorParameters) -> tuple[str, ...]:
     """Why the target cannot be followed exactly by this actuator; empty where it can."""
     pulse = 2.0 * math.pi * configuration.frequency
@@ -176,7 +165,7 @@ def shortfalls(configuration: Configuration, parameters: ActuatorParameters) -> 
     inertia = load.inertia + parameters.reflected_inertia
     needed = -inertia * pulse**2 * swing
     needed += load.gravity_moment * np.sin(configuration.start + swing)
-    most, limit = float(np.max(np.abs(needed))), torque_limit(parameters)
+    most, limit = float(np.max(np.abs(needed))), parameters.torque_limit
     speed, top = configuration.amplitude * pulse, joint_side(parameters).no_load_speed
     found = []
     if speed > top:

@@ -127,14 +127,7 @@ def _terms(
 def fit_friction(
     data: DataSet, names: tuple[str, ...], differentiator: Differentiator
 ) -> FrictionFit:
-    """Fit friction and inertia on the named episodes by least squares.
-
-    Parameters
-    ----------
-    data : DataSet
-        Gains and torque range.
-    names : tuple of str
-        Training episodes; no other is looked at.
+    """Fit friction and inertia on the named episodes by least squares; no other is looked at.
 
     Raises
     ------

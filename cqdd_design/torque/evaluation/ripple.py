@@ -212,10 +212,7 @@ def error_rms(found: Spectra, weights: FloatArray) -> FloatArray:
 def ripple(found: Spectra, weights: FloatArray) -> Ripple | None:
     """The band's quantities with intervals; None where no segment swings freely or all is still.
 
-    Parameters
-    ----------
-    weights : array (B, E)
-        Of `bootstrap.draws`.
+    Weights (B, E) are those of `bootstrap.draws`.
     """
     episodes = int(np.sum(found.segments > 0.0))
     if not episodes:

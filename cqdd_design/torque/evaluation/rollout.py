@@ -226,16 +226,9 @@ def rollout(
 
 
 def drift(step: Callable[[FloatArray], float], rows: FloatArray, *, steps: int = 100_000) -> Drift:
-    """Stream periodic features for many steps.
+    """Stream one period of features (P, F) over and over, six times at least.
 
-    Parameters
-    ----------
-    step : callable
-        From the features of one sample (F,) to torque, state kept.
-    rows : array (P, F)
-        One period.
-    steps : int
-        At least six periods.
+    `step` goes from the features of one sample (F,) to torque, its state kept.
     """
     period = len(rows)
     if steps < 6 * period:

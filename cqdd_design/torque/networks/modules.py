@@ -225,18 +225,9 @@ class Network:
                 tensor.copy_(torch.from_numpy(np.array(weights[name], np.float32)))
 
 
-def network_of(artefact: Artefact, device: str = "cpu") -> Network:
+def network_of(artefact: Artefact) -> Network:
     """The torch network of an artefact: scaled features in, scaled torque out."""
-    model = Model(
-        artefact.name,
-        artefact.family,
-        artefact.inputs,
-        artefact.layers,
-        artefact.hidden,
-        artefact.history,
-        artefact.activation,
-        residual=artefact.residual,
-    )
-    network = Network(model, len(artefact.inputs), 0, device=device)
+    same = {key: value for key, value in vars(artefact).items() if key in Model.__annotations__}
+    network = Network(Model(**same), len(artefact.inputs), 0)
     network.load(artefact.weights)
     return network

@@ -96,10 +96,7 @@ class Streaming:
     In window mode the last ``history`` samples are kept and run from a zero state; before there
     are as many the torque is nan.
 
-    Parameters
-    ----------
-    mode : {"window", "streaming"}, optional
-        Default the one the network was trained for. An MLP knows windows only.
+    The mode is by default the one the network was trained for; an MLP knows windows only.
     """
 
     def __init__(self, artefact: Artefact, mode: Mode | None = None) -> None:

@@ -30,13 +30,7 @@ _VALIDATION_BATCH = 2048
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """All that a training needs, ready on the device.
-
-    Attributes
-    ----------
-    inputs : tuple of str
-        Phases included.
-    """
+    """All that a training needs, ready on the device; inputs with the gearbox's phases."""
 
     model: Model
     inputs: tuple[str, ...]
