@@ -79,15 +79,10 @@ def published_actuators() -> tuple[ComparedActuator, ...]:
     """The columns of the paper's table, in its order."""
     return tuple(
         ComparedActuator(
-            name=row.name,
-            gearing=row.gearing,
             source="Zhu et al., arXiv:2410.16591, comparison table",
-            ratio=row.ratio,
-            peak_torque=row.peak_torque,
-            mass=row.mass,
             torque_density_printed=float(row.torque_density),
             printed_digits=len(row.torque_density.partition(".")[2]),
-            efficiency=row.efficiency,
+            **{key: value for key, value in row._asdict().items() if key != "torque_density"},
         )
         for row in paper.COMPARISON
     )

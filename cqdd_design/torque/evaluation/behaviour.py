@@ -124,11 +124,8 @@ def behaviour(
         wandering = drift(_for_ever(one.artefact).step, rows, steps=effort.drift_steps)
     leaked = None if one.artefact is None else one.artefact.facts.get("leaked_rmse_Nm")
     return Behaviour(
-        name=one.name,
         model=one.model or one.name,
-        kind=one.kind,
-        parameters=one.parameters,
-        history=one.history,
+        **{key: getattr(one, key) for key in ("name", "kind", "parameters", "history")},
         latency=latency(one, usable[0]) if effort.timed and usable else None,
         rollouts=runs,
         position_rms=mean,

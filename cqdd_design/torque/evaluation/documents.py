@@ -168,13 +168,9 @@ def set_dict(found: SetResult) -> dict[str, Any]:
 
 def behaviour_dict(own: Behaviour) -> dict[str, Any]:
     """JSON form of what a model does beyond single errors."""
-    times = own.latency
     return {
-        "model": own.model,
-        "kind": own.kind,
-        "parameters": own.parameters,
-        "history": own.history,
-        "latency_us": None if times is None else asdict(times),
+        **{key: getattr(own, key) for key in ("model", "kind", "parameters", "history")},
+        "latency_us": None if own.latency is None else asdict(own.latency),
         "rollout": None
         if not own.rollouts
         else {

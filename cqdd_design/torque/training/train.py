@@ -27,6 +27,8 @@ from cqdd_design.torque.training.schedule import peak_rate
 from cqdd_design.torque.training.search import search
 from cqdd_design.torque.training.tensors import Prepared, Scaling, raw, scaling
 
+_OF_MODEL = ("name", "family", "history", "layers", "hidden", "residual")
+"""What a trained network takes from its model as it is."""
 RIPPLE_FREQUENCY = 17.0
 """Of the paper's ripple, Hz, at which the differentiator's gain and delay are reported."""
 
@@ -203,16 +205,11 @@ def train(
         facts["actuator"] = actuator_to_dict(known)
     model = task.model
     return Artefact(
-        name=model.name,
-        family=model.family,
+        **{key: getattr(model, key) for key in _OF_MODEL},
         inputs=task.inputs,
-        history=model.history,
         mode=recipe.mode,
-        layers=model.layers,
-        hidden=model.hidden,
         activation=choice.activation,
         **asdict(task.scale),
-        residual=model.residual,
         validity=Validity(data.dt, data.position_gain, data.velocity_gain, data.torque_range),
         differentiator=task.differentiator,
         weights=state.best,
