@@ -478,7 +478,7 @@ def test_the_table_stands_beside_the_paper_s(
         assert row.protocol.endswith(".")
         assert (row.off == "\u2013") == (row.relation == "not comparable" or row.paper == "\u2013")
     predicted = [m for m in measured.metrics if m.relation == "predicted" and m.name in PAPER]
-    near = [m for m in predicted if is_near(m, PAPER[m.name].value)]
+    near = [m for m in predicted if is_near(m.unit, m.value, PAPER[m.name].value)]
     assert f"Of {len(predicted)} predicted rows {len(near)} lie within" in view.summary
 
 

@@ -140,8 +140,8 @@ NEAR_EFFICIENCY = 0.05
 """The same for efficiencies, as a difference."""
 
 
-def is_near(metric: Metric, measured: float) -> bool:
-    """Whether a value is near the measured one."""
-    if metric.unit == "":
-        return abs(metric.value - measured) <= NEAR_EFFICIENCY
-    return abs(metric.value / measured - 1.0) <= NEAR
+def is_near(unit: str, value: float, measured: float) -> bool:
+    """Whether a value of one of the units of `METRICS` is near the measured one."""
+    if unit == "":
+        return abs(value - measured) <= NEAR_EFFICIENCY
+    return abs(value / measured - 1.0) <= NEAR
