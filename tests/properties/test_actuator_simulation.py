@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 from actuator_machines import COLD, NO_FRICTION, machine
 from actuator_twin import in_plain_numpy
+from examples import examples
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.actuator.columns import TRACES
-from cqdd_design.actuator.compiled import is_compiled
 from cqdd_design.actuator.packing import largest_step
 from cqdd_design.actuator.parameters import (
     FrictionParameters,
@@ -34,7 +34,7 @@ from cqdd_design.actuator.scenario import (
     Start,
     Wall,
 )
-from cqdd_design.actuator.simulate import simulate
+from cqdd_design.actuator.simulate import is_compiled, simulate
 from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.errors import DesignError, UsageError
 from cqdd_design.gearbox.compiled import in_cache
@@ -130,7 +130,7 @@ def test_no_machine_is_given_energy(**contact: Any) -> None:
     keeps_energy(**contact)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(**CONTACTS)
 @bounced(2.875, 1.0, 6.5, 37.0, 0.015625, 2.665e-5)
 @bounced(1.0, 1.0, 6.5, 36.0, 0.0234375, 2.665e-5)

@@ -11,6 +11,7 @@ import math
 import ezdxf
 import numpy as np
 import pytest
+from examples import examples
 from geometry_designs import design_of, discs
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
@@ -26,7 +27,9 @@ from cqdd_design.geometry import ArcContour, CycloidDisc, lobed_outline, ring_co
 from cqdd_design.geometry.contours import as_complex
 from cqdd_design.machine import resolve
 
-FEW = settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
+FEW = settings(
+    max_examples=examples(15), deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
+)
 
 
 @pytest.fixture(scope="module")
