@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
@@ -22,8 +21,6 @@ from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.results import Check
 
-FloatArray = NDArray[np.float64]
-
 DEFAULT_ANGLES = 360
 """Points of the curves over one crank turn."""
 
@@ -34,16 +31,12 @@ class GearboxAnalysis:
 
     Attributes
     ----------
-    design : Design
-    motor : Motor
-    geometry : GeometrySummary
     rigid, rigid_continuous : RigidMaxima
         Raw maxima at the peak (or the asked-for) and at the continuous torque.
     series : RigidSeries
         Curves over one crank turn at the torque of `rigid`, acting on the carrier.
     output_pins : PinStrength
         At the peak and continuous torques of the requirements.
-    cam_bearing : BearingResult
     balance : StackBalance
         Discs with their bearings, from exact planar areas, at the required input speed.
     checks : tuple of Check
@@ -93,10 +86,6 @@ def analyse_gearbox(
         Pins, bearing and checks always use the torques of the requirements.
     angles : int
         Points of the curves over one crank turn, at least 8. Maxima do not depend on it.
-
-    Returns
-    -------
-    GearboxAnalysis
 
     Raises
     ------

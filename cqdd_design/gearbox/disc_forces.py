@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.stages import Stages
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +42,6 @@ def disc_forces(stages: Stages, torque: float, crank_angle: float, disc: int = 0
 
     Parameters
     ----------
-    stages : Stages
     torque : float
         Output torque, N m, shared equally by the discs.
     crank_angle : float

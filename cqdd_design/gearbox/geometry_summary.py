@@ -105,7 +105,6 @@ def summarise_geometry(design: Design, cam_bearing: Bearing) -> GeometrySummary:
 
     Parameters
     ----------
-    design : Design
     cam_bearing : Bearing
         Its outside diameter is the bore of the disc.
     """

@@ -21,12 +21,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.trochoid import locus_curvature, shortening_coefficient
-
-FloatArray = NDArray[np.float64]
 
 
 def _columns(*values: ArrayLike, extra: int) -> list[FloatArray]:

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
@@ -14,9 +11,8 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox import hertz, rigid
 from cqdd_design.gearbox.checks.allowables import SLEEVE_WALL
 from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import hole_diameter
-
-FloatArray = NDArray[np.float64]
 
 
 def pin_mean_diameter(design: Design) -> float:

@@ -66,7 +66,6 @@ def hole_diameter(design: Design, pin_mean_diameter: float) -> float:
 
     Parameters
     ----------
-    design : Design
     pin_mean_diameter : float
         Mean of the pin's limits of size, m: a 4 mm shoulder screw to f9 has 3.975 mm. Ignored
         where the design has sleeves, whose diameter counts.
@@ -126,7 +125,6 @@ def disc_contour(
 
     Parameters
     ----------
-    design : Design
     disc_index : int
         From 0; decides how the holes stand against the lobes.
     bore_diameter : float
@@ -158,7 +156,6 @@ def ligaments(
 
     Parameters
     ----------
-    design : Design
     bore_diameter, pin_mean_diameter : float
         m, as for `disc_contour`.
 

@@ -64,7 +64,6 @@ def project(disc: CycloidDisc, points: ArrayLike) -> Projection:
 
     Parameters
     ----------
-    disc : CycloidDisc
     points : array (..., 2)
         m, anywhere but the disc's centre.
 

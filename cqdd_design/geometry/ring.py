@@ -89,7 +89,6 @@ def ring_contour(design: Design, tolerance: float | None = None) -> PlanarPart:
 
     Parameters
     ----------
-    design : Design
     tolerance : float, optional
         Most distance of a conjugate contour from the exact curve, m; the design's
         ``edm.profile_tolerance`` where left out. The other types are exact arcs.

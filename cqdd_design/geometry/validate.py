@@ -22,7 +22,6 @@ def validate_geometry(design: Design, *, bore_diameter: float, pin_mean_diameter
 
     Parameters
     ----------
-    design : Design
     bore_diameter : float
         Outside diameter of the cam bearing, m.
     pin_mean_diameter : float

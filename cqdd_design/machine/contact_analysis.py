@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.gearbox.contact.laws import LineModel
 from cqdd_design.gearbox.contact.model import ContactModel
@@ -18,8 +17,6 @@ from cqdd_design.gearbox.life import LifeResult, life
 from cqdd_design.gearbox.losses import EfficiencyMap, Losses, LossModel, loss_model
 from cqdd_design.gearbox.precision.precision import Precision, precision
 from cqdd_design.machine.machine import Machine
-
-FloatArray = NDArray[np.float64]
 
 _MAP_STEPS = 8
 _PICTURE_ANGLES = 180
@@ -31,14 +28,12 @@ class ContactAnalysis:
 
     Attributes
     ----------
-    model : ContactModel
     sweep, reversed : ContactSweep
         Over the period, at the torque and at its negative.
     preload : ContactSweep or None
         Without load, where the fits are of interference.
     precision : Precision
         At the continuous torque, or at the one asked for.
-    loss_model : LossModel
     losses : Losses
         At the torque of `precision` and the input speed.
     map : EfficiencyMap
@@ -111,7 +106,6 @@ def analyse_contact(
 
     Parameters
     ----------
-    machine : Machine
     torque : float, optional
         Output torque, N m. Where left out, the forces are at the peak torque of the requirements,
         precision and losses at the continuous one.

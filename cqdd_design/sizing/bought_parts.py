@@ -16,8 +16,7 @@ from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox import bearing_life as rating
 from cqdd_design.gearbox.cam_bearing import carries_raceways, rolling_element
 from cqdd_design.gearbox.checks import allowables
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 PIN_FIT_ALLOWANCE = 1e-6
 """Least play left between the largest pin of its tolerance band and its hole, m."""
@@ -123,7 +122,6 @@ def cam_bearings(
 
     Parameters
     ----------
-    requirements : Requirements
     most_thickness, spacing : float
         Of the discs and between them, m.
     thinnest_pin : float
@@ -210,7 +208,6 @@ def bearing_table(
 
     Parameters
     ----------
-    rows : tuple of Bearing
     cam_speed : float
         Of the eccentric relative to a disc, rad/s.
     continuous_share : float

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing import masses
 from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.frame import Frame
 from cqdd_design.sizing.screen import Screened
 from cqdd_design.sizing.space import SearchSpace
 
-FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
 _MUCH_THICKER = 1.6

@@ -62,7 +62,6 @@ class Frame:
 
     Attributes
     ----------
-    requirements : Requirements
     lobe_count, disc_count : int
         n and D.
     spacing, equidistant, radial, relief_clearance, wire_radius : float
@@ -76,12 +75,10 @@ class Frame:
         Of one disc in the required length.
     cam_speed : float
         Of the eccentric relative to a disc, rad/s.
-    limits : LoadLimits
     ring_modulus, pin_modulus : float
         E* of tooth on disc and of pin on disc.
     disc_density, ring_density, pin_density : float
         kg/m^3.
-    motor : Motor
     pin_sizes : tuple of PinSize
         Ascending.
     bearings : tuple of Bearing
@@ -150,13 +147,8 @@ def search_frame(requirements: Requirements, motor: Motor | None = None) -> Fram
 
     Parameters
     ----------
-    requirements : Requirements
     motor : Motor, optional
         Default the catalogue's row of the motor that the requirements name.
-
-    Returns
-    -------
-    Frame
 
     Raises
     ------

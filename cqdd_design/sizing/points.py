@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.checks import allowables
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import ligament_hole_to_hole
 from cqdd_design.geometry.trochoid import shortening_coefficient
 from cqdd_design.sizing import masses, reserves
@@ -25,7 +26,6 @@ from cqdd_design.sizing.bought_parts import BearingTable
 from cqdd_design.sizing.frame import THICKNESS_STEP, Frame
 from cqdd_design.sizing.stage_tables import StageTables
 
-FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
 

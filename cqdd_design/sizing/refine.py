@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.choose import Picks
 from cqdd_design.sizing.points import Evaluator, Pins, Points
 
-FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
 _MOST_ROUNDS = 60

@@ -60,12 +60,10 @@ class SizedDesign:
 
     Attributes
     ----------
-    design : Design
     checks : tuple of Check
         Of the finished design; none fails.
     warnings : tuple of str
         What could not be checked, or is not known, and why.
-    objective : Objective
     """
 
     design: Design

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.checks import allowables
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import ligament_hole_to_hole
 from cqdd_design.sizing import reserves
 from cqdd_design.sizing import shape_limits as shapes
@@ -32,7 +33,6 @@ from cqdd_design.sizing.frame import Frame
 from cqdd_design.sizing.space import SearchSpace, largest_pitch_radius
 from cqdd_design.sizing.stage_tables import StageTables
 
-FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
 

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.conjugate import SecondEnvelope
+from cqdd_design.geometry.contours import ComplexArray, FloatArray
 from cqdd_design.geometry.trochoid import (
     GeneratedFlank,
     locus_valley_radius,
@@ -24,8 +25,6 @@ from cqdd_design.geometry.trochoid import (
 )
 from cqdd_design.sizing.frame import Frame
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 BoolArray = NDArray[np.bool_]
 
 _PROFILE_POINTS = 24
@@ -93,7 +92,6 @@ def largest_pin_circle(
 
     Parameters
     ----------
-    frame : Frame
     pitch_radius, eccentricity, tooth_radius : array (G,)
         m.
     hole_radius, offset : array (G, ...)

@@ -34,10 +34,6 @@ def size(
     motor : Motor, optional
         Default the catalogue's row of the motor that the requirements name.
 
-    Returns
-    -------
-    SizingResult
-
     Raises
     ------
     SizingInfeasibleError

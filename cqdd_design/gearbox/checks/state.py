@@ -23,17 +23,10 @@ class GearboxState:
 
     Attributes
     ----------
-    design : Design
-    motor : Motor
-    stages : Stages
-    geometry : GeometrySummary
     peak, continuous : RigidMaxima
         Raw maxima at the peak and at the continuous torque.
-    pins : PinStrength
-    cam : BearingResult
     orbiting_mass : float
         Mass of one disc with its cam bearing, kg.
-    balance : StackBalance
     """
 
     design: Design

@@ -9,12 +9,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.files.kernel_cache import numba
 from cqdd_design.gearbox.contact.kernel_values import Errors, Nominal, Toleranced
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 _POINTS_PER_HARMONIC = 16
 

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.catalog.needles import needle_set
 from cqdd_design.errors import DesignError
+from cqdd_design.geometry.contours import FloatArray
 
-FloatArray = NDArray[np.float64]
 LineModel = Literal["palmgren", "johnson", "linear"]
 
 PALMGREN, JOHNSON, LINEAR = 0, 1, 2
@@ -124,7 +124,6 @@ def approach(
 
     Parameters
     ----------
-    law : LineLaw
     coefficient : array_like
         c or a of every contact.
     series : array_like

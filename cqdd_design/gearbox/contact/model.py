@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.materials import Material, find_material
@@ -15,10 +14,9 @@ from cqdd_design.gearbox.contact.laws import CamSpring, LineLaw, LineModel
 from cqdd_design.gearbox.contact.pin_compliance import pin_compliance
 from cqdd_design.gearbox.hertz import conformal_equivalent_radius
 from cqdd_design.gearbox.stages import Stages
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.kinematics import crank_phases
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +76,6 @@ class ContactModel:
 
         Parameters
         ----------
-        design : Design
         line_model : {"palmgren", "johnson", "linear"}
             Approach of teeth and pins. ``linear`` takes the secant of Palmgren's law at 50 N/mm.
 

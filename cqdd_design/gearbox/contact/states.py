@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.tables import PinTable, RingTable, pin_table, ring_table
 from cqdd_design.geometry import kinematics
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 _ANGLES_AT_ONCE = 256
 
@@ -25,7 +23,6 @@ class NominalStates:
     ----------
     crank_angle : array (A,)
         rad, rising.
-    ring, pins : RingTable, PinTable
     rows : array (A, D, C, 3)
         n_x, n_y and h/length, ring teeth first.
     gaps, coefficient : array (A, D, C)
@@ -57,7 +54,6 @@ def nominal_states(model: ContactModel, crank_angle: FloatArray) -> NominalState
 
     Parameters
     ----------
-    model : ContactModel
     crank_angle : array (A,)
         rad.
     """

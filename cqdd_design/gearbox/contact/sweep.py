@@ -22,8 +22,8 @@ from cqdd_design.gearbox.contact.states import (
 )
 from cqdd_design.gearbox.hertz import line_contact_pressure
 from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.contours import FloatArray
 
-FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 ANGLES = 360
@@ -58,7 +58,6 @@ class ContactSweep:
 
     Attributes
     ----------
-    model : ContactModel
     torque : float
         On the carrier, counter-clockwise positive, N m.
     crank_angle : array (A,)
@@ -208,7 +207,6 @@ def contact_sweep(
 
     Parameters
     ----------
-    model : ContactModel
     torque : float
         On the carrier, counter-clockwise positive, N m; any finite number, zero included.
     crank_angle : array (A,), optional

@@ -12,15 +12,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.geometry.contours import as_complex, as_points
+from cqdd_design.geometry.contours import FloatArray, as_complex, as_points
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.kinematics import carrier_angle, disc_pose
 from cqdd_design.geometry.meshing import project, tooth_centres
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +111,6 @@ def ring_table(model: ContactModel, crank_angle: FloatArray) -> RingTable:
 
     Parameters
     ----------
-    model : ContactModel
     crank_angle : array (A,)
         rad.
     """
@@ -158,7 +154,6 @@ def pin_table(model: ContactModel, crank_angle: FloatArray) -> PinTable:
 
     Parameters
     ----------
-    model : ContactModel
     crank_angle : array (A,)
         rad.
     """

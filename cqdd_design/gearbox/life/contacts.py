@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import ContactSweep
 from cqdd_design.gearbox.life import cycles, fatigue
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 
 @dataclass(frozen=True, eq=False)

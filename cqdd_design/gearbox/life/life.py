@@ -24,8 +24,7 @@ from cqdd_design.gearbox.life.result import CaseLoads, DutyCase, LifeResult, Par
 from cqdd_design.gearbox.loads import rigid_maxima
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import kinematics
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 _ENDLESS_HOURS = 1e9
 """Lives beyond this, a hundred thousand years, are given as none: the curves mean nothing there."""
@@ -60,7 +59,6 @@ def life(design: Design, model: ContactModel) -> LifeResult:
 
     Parameters
     ----------
-    design : Design
     model : ContactModel
         Of the same design.
 

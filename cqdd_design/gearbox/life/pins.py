@@ -16,15 +16,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.gearbox import output_pins
 from cqdd_design.gearbox.contact.sweep import ContactSweep
 from cqdd_design.gearbox.life import fatigue
 from cqdd_design.gearbox.output_pins import PinSupport
+from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 Cycle = tuple[float, float, float]
 """Lowest and highest stress, Pa, and how many of them an hour."""
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.design import Design
@@ -26,9 +26,8 @@ from cqdd_design.gearbox.losses.sliding import (
     sleeve_share,
 )
 from cqdd_design.gearbox.stages import pin_mean_diameter
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_moments
-
-FloatArray = NDArray[np.float64]
 
 SOURCES = (
     "ring_teeth",
@@ -102,10 +101,8 @@ class FrictionMachine:
         Between the carrier plates.
     cam, support, output : BearingFriction
         Of every disc; at both ends of the shaft; of the carrier.
-    lubricant : Lubricant
     face_area, face_gap : float
         One face of a disc, and the gap filled with grease in front of it.
-    warnings : tuple of str
     """
 
     lobe_count: int
@@ -204,10 +201,6 @@ class FrictionMachine:
         a = (c - C).(c - P)/|c - P|; q is its ratio to the moment of the normal forces. With the
         pattern of forces unchanged and the output torque kept, the teeth press 1/(1 - q) times
         as hard while the motor drives and 1/(1 + q) times while the output drives.
-
-        Parameters
-        ----------
-        forces : ContactForces
 
         Returns
         -------

@@ -12,17 +12,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cqdd_design.errors import UsageError
 from cqdd_design.gearbox.losses.backdrive import STATIC_RATIO, Backdrive, balance_torque
 from cqdd_design.gearbox.losses.machine import SOURCES, ContactForces, FrictionMachine, total
 from cqdd_design.gearbox.losses.result import Losses
+from cqdd_design.geometry.contours import FloatArray
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.model import ContactModel
 
-FloatArray = NDArray[np.float64]
 
 TORQUE_SHARES = (0.0, *(10.0 ** (0.125 * k) for k in range(-24, 1)))
 """Torques of the sweeps of :func:`loss_model`, as shares of the largest: zero, then eight to a
@@ -83,7 +83,6 @@ class LossModel:
 
     Attributes
     ----------
-    machine : FrictionMachine
     torque : array (K,)
         Of the sweeps, rising from zero, N m (sizes; both senses lose alike within the asymmetry
         of the hole clocking).
@@ -106,7 +105,6 @@ class LossModel:
 
         Parameters
         ----------
-        machine : FrictionMachine
         sweeps : ContactForces or sequence of them
             At torques of one sense and different sizes. Without one at zero torque the work is
             taken to vanish there, as it does without preload.
@@ -290,7 +288,6 @@ def loss_model(model: ContactModel, machine: FrictionMachine, peak_torque: float
 
     Parameters
     ----------
-    model : ContactModel
     machine : FrictionMachine
         Of the same design.
     peak_torque : float

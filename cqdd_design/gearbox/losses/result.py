@@ -38,7 +38,6 @@ class Losses:
         Names of the bearings that were counted: cam, support, output.
     lubricant : str
         Name of the lubricant whose drag was counted.
-    warnings : tuple of str
     """
 
     torque: float

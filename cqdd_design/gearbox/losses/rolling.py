@@ -9,11 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import Bearing, BearingKind
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 FRICTION_COEFFICIENT: dict[BearingKind, float] = {
     "ball": 0.0015,
@@ -104,7 +103,6 @@ class BearingFriction:
 
     Attributes
     ----------
-    name : str
     coefficient, drag_factor : float
         mu on the bore and f0.
     bore_diameter, mean_diameter, width : float

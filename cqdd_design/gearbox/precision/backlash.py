@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.contact.kernel_values import Extremes, RigidParts
@@ -21,11 +20,9 @@ from cqdd_design.gearbox.contact.states import (
 )
 from cqdd_design.gearbox.contact.sweep import output_turn_angles, perfect_angles
 from cqdd_design.gearbox.contact.tables import nearest_parameter
-from cqdd_design.geometry.contours import as_complex, as_points
+from cqdd_design.geometry.contours import FloatArray, as_complex, as_points
 from cqdd_design.geometry.kinematics import disc_pose, turned_with_carrier
 from cqdd_design.geometry.meshing import tooth_centres
-
-FloatArray = NDArray[np.float64]
 
 _CORRECTIONS = 2
 """Rounds of correction to the exact profile; each leaves a small share of the one before."""
@@ -91,10 +88,8 @@ def backlash(
 
     Parameters
     ----------
-    model : ContactModel
     crank_angle : array (A,), optional
         rad, rising; default the period of a perfect gearbox, an output turn with errors.
-    errors : GearboxErrors, optional
     states : NominalStates, optional
         Of the same model and angles.
 

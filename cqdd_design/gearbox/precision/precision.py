@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.contact.model import ContactModel
@@ -21,8 +20,7 @@ from cqdd_design.gearbox.contact.sweep import (
 from cqdd_design.gearbox.precision.backlash import Backlash, backlash
 from cqdd_design.gearbox.precision.orders import Order, order_spectrum
 from cqdd_design.geometry import kinematics
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 LOST_MOTION_SHARE = 0.03
 """Lost motion is read between plus and minus 3 % of the torque, as makers' data sheets do."""
@@ -165,7 +163,6 @@ def precision(
 
     Parameters
     ----------
-    model : ContactModel
     torque : float
         N m, not zero; its sign is the sense.
     angles : int

@@ -10,13 +10,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.design.actuator import Tolerances
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import ErrorBatch
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 GROUPS: tuple[str, ...] = (
     "tooth_position",
@@ -95,18 +93,12 @@ def draw_errors(
 
     Parameters
     ----------
-    model : ContactModel
-    tolerances : Tolerances
     seed : int
         0 to 2^64 - 1.
     first, count : int
         Gearboxes by number.
     matrices : mapping, optional
         Tolerances to take from a second, independent draw (1) instead of the first (0).
-
-    Returns
-    -------
-    ErrorBatch
     """
     drawn = {}
     for number, (name, shape) in enumerate(_shapes(model).items()):

@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.design import Design
 from cqdd_design.errors import UsageError
@@ -22,8 +21,7 @@ from cqdd_design.gearbox.tolerance.evaluate import (
     evaluate_gearboxes,
 )
 from cqdd_design.gearbox.tolerance.sobol import SobolIndices, sobol_indices
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 BLOCK = 125
 """Gearboxes worked at a time: about a third of a second on four cores."""
@@ -129,7 +127,6 @@ class ToleranceResult:
 
     Attributes
     ----------
-    ensemble : Ensemble
     asked : int
         Gearboxes asked for.
     values : array (S, 5)

@@ -22,9 +22,8 @@ from cqdd_design.gearbox.contact.sweep import (
     stiffness_scale,
 )
 from cqdd_design.gearbox.precision.backlash import backlash
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.meshing import tooth_centres
-
-FloatArray = NDArray[np.float64]
 
 OUTPUTS: tuple[str, ...] = (
     "backlash_arcmin",
@@ -46,7 +45,6 @@ class EnsembleTables:
 
     Attributes
     ----------
-    model : ContactModel
     torque : float
         N m, positive.
     states : NominalStates
@@ -115,7 +113,6 @@ def ensemble_tables(
 
     Parameters
     ----------
-    model : ContactModel
     torque : float
         N m, positive; transmission error, ring force and ripple are at it, the stiffness is the
         secant between half of it and it.
@@ -162,7 +159,6 @@ def evaluate_gearboxes(
 
     Parameters
     ----------
-    tables : EnsembleTables
     batch : ErrorBatch
         S gearboxes.
     threads : int, optional
