@@ -16,7 +16,7 @@ from cqdd_design.gearbox.checks.state import GearboxState
 from cqdd_design.gearbox.geometry_summary import GeometrySummary, summarise_geometry
 from cqdd_design.gearbox.loads import RigidMaxima, RigidSeries, rigid_maxima, rigid_series
 from cqdd_design.gearbox.pin_strength import PinStrength, pin_strength
-from cqdd_design.gearbox.stages import Stages, pin_mean_diameter
+from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.results import Check
@@ -99,11 +99,7 @@ def analyse_gearbox(
     continuous = peak.at(requirements.continuous_torque)
     cam = cam_bearing(design, peak.cam_bearing_load)
     bearing = cam.bearing
-    validate_geometry(
-        design,
-        bore_diameter=bearing.outer_diameter,
-        pin_mean_diameter=pin_mean_diameter(design),
-    )
+    validate_geometry(design, bore_diameter=bearing.outer_diameter)
     geometry = summarise_geometry(design, bearing)
     density = find_material(reducer.disc_material).density
     # Both rings of the bearing stand on the eccentric, so all of it orbits with the disc.

@@ -58,15 +58,6 @@ def line_contact_pressure(
     return np.asarray(np.sqrt(load / (np.pi * width)))
 
 
-def line_contact_half_width(
-    force: ArrayLike, length: ArrayLike, equivalent_radius: ArrayLike, modulus: ArrayLike
-) -> FloatArray:
-    """Half width a = sqrt(4 F R_eq/(pi b E*)) of a line contact, m (Johnson 1985, eq. 4.43)."""
-    load = 4.0 * np.asarray(force, dtype=float) * np.asarray(equivalent_radius, dtype=float)
-    stiff = np.pi * np.asarray(length, dtype=float) * np.asarray(modulus, dtype=float)
-    return np.asarray(np.sqrt(load / stiff))
-
-
 def ring_equivalent_radius(tooth_radius: ArrayLike, curvature_of_locus: ArrayLike) -> FloatArray:
     """Equivalent radius of ring tooth and disc flank, m.
 

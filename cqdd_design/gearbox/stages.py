@@ -15,11 +15,6 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import hole_diameter
 
 
-def pin_mean_diameter(design: Design) -> float:
-    """Mean real diameter of the output pins of a design, to which the hole clearance counts, m."""
-    return mean_pin_diameter(design.reducer.output_pins.diameter)
-
-
 @dataclass(frozen=True)
 class Stages:
     """What the rigid law needs of a design, SI.
@@ -58,9 +53,8 @@ class Stages:
     def from_design(cls, design: Design) -> Stages:
         """Read a design; a sleeve is taken to be of the pin's material."""
         reducer, pins = design.reducer, design.reducer.output_pins
-        mean = pin_mean_diameter(design)
-        contact_diameter = pins.sleeve_diameter if pins.sleeve_diameter > 0.0 else mean
-        hole = hole_diameter(design, mean)
+        contact_diameter = pins.sleeve_diameter or mean_pin_diameter(pins.diameter)
+        hole = hole_diameter(design)
         _refuse_tight_hole(design, contact_diameter, hole)
         disc = find_material(reducer.disc_material)
         return cls(

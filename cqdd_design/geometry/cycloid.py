@@ -27,22 +27,12 @@ from cqdd_design.geometry.limits import refuse_impossible_flank
 from cqdd_design.geometry.tip import TipArc, fit_tip_arc
 from cqdd_design.geometry.trochoid import (
     GeneratedFlank,
-    locus_curvature,
     locus_valley_radius,
-    shortening_coefficient,
     undercut_radius_limit,
 )
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
-
-__all__ = [
-    "CycloidDisc",
-    "locus_curvature",
-    "locus_valley_radius",
-    "shortening_coefficient",
-    "undercut_radius_limit",
-]
 
 # Below this the arcs of tip and valley are as short as the rounding of their coordinates.
 _LEAST_ROTATION = 1e-7

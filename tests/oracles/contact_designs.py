@@ -15,7 +15,7 @@ from cqdd_design.catalog.bearings import bearings
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
-from cqdd_design.geometry import undercut_radius_limit
+from cqdd_design.geometry.trochoid import undercut_radius_limit
 
 PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 PIN_DIAMETERS = (2e-3, 3e-3, 4e-3, 5e-3, 6e-3, 8e-3, 10e-3)

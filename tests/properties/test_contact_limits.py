@@ -95,7 +95,8 @@ def test_discs_of_an_ideal_stack_share_by_their_stiffness() -> None:
     stiff = []
     for phase in model.phases:
         own = angle + phase
-        arms = rigid.ring_lever_arms(n, model.disc.ring_pitch_radius, model.eccentricity, own)
+        k1 = model.disc.shortening_coefficient
+        arms = n * model.eccentricity * rigid.ring_directions(n, k1, own)[1]
         beta = kinematics.output_pin_angles(n, 5, model.hole_clocking + phase / n, own)
         pins = model.pin_circle_radius * np.sin(own[:, None] - beta)
         ring_side = (np.minimum(arms, 0.0) ** 2).sum(axis=1)

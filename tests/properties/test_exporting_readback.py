@@ -22,8 +22,10 @@ from cqdd_design.exporting.edm.exact_curves import disc_curve, ring_curve
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.loops import Loop, fit_of
 from cqdd_design.exporting.edm.readback import read_back
-from cqdd_design.geometry import ArcContour, CycloidDisc, lobed_outline, ring_contour, ring_moments
-from cqdd_design.geometry.contours import as_complex
+from cqdd_design.geometry.contours import ArcContour, as_complex
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.disc import lobed_outline
+from cqdd_design.geometry.ring import ring_contour, ring_moments
 from cqdd_design.machine import resolve
 
 FEW = settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])

@@ -26,8 +26,8 @@ from cqdd_design.exporting.edm.wire_path import (
     split_for_tab,
     wire_paths,
 )
-from cqdd_design.geometry import ArcContour, CycloidDisc
-from cqdd_design.geometry.contours import Circle, as_complex
+from cqdd_design.geometry.contours import ArcContour, Circle, as_complex
+from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
 

@@ -28,7 +28,7 @@ from cqdd_design.gearbox.balance import paper_disc_count, stack_balance
 from cqdd_design.gearbox.bearing_life import basic_rating_life_hours, load_for_life
 from cqdd_design.gearbox.cam_bearing import choose
 from cqdd_design.gearbox.checks import allowables
-from cqdd_design.geometry import CycloidDisc
+from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.machine import resolve
 from cqdd_design.results import Check, MassProperties, worst_status
 

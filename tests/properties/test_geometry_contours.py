@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.errors import GeometryError
-from cqdd_design.geometry import ArcContour, Circle, PlanarPart, lobed_outline
+from cqdd_design.geometry.contours import ArcContour, Circle, PlanarPart
+from cqdd_design.geometry.disc import lobed_outline
 
 
 def _slot(length: float, radius: float) -> ArcContour:

@@ -11,24 +11,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.errors import GeometryError
-from cqdd_design.geometry import (
-    ArcContour,
-    CycloidDisc,
-    SecondEnvelope,
-    active_angle,
-    disc_pose,
-    lobed_outline,
-    project,
+from cqdd_design.geometry.conjugate import SecondEnvelope, active_angle, swept_radius
+from cqdd_design.geometry.contours import ArcContour
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.disc import lobed_outline
+from cqdd_design.geometry.kinematics import disc_pose
+from cqdd_design.geometry.meshing import project
+from cqdd_design.geometry.relief import solid_relief
+from cqdd_design.geometry.ring import (
     ring_contour,
     ring_min_concave_radius,
     ring_moments,
     ring_pins,
     ring_root_radius,
     ring_wall_thickness,
-    solid_relief,
-    swept_radius,
-    undercut_radius_limit,
 )
+from cqdd_design.geometry.trochoid import undercut_radius_limit
 
 UNIT = np.array([1.0, 1j])
 

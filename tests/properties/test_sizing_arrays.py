@@ -13,16 +13,13 @@ from cqdd_design.catalog.screws import pin_diameter_limits
 from cqdd_design.design import Requirements
 from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox.loads import rigid_maxima
-from cqdd_design.gearbox.stages import Stages, pin_mean_diameter
-from cqdd_design.geometry import (
-    CycloidDisc,
-    disc_moments,
-    profile_moments,
-    project,
-    ring_moments,
-    undercut_radius_limit,
-)
+from cqdd_design.gearbox.stages import Stages
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.disc import disc_moments, profile_moments
+from cqdd_design.geometry.meshing import project
 from cqdd_design.geometry.relief import solid_relief
+from cqdd_design.geometry.ring import ring_moments
+from cqdd_design.geometry.trochoid import undercut_radius_limit
 from cqdd_design.machine import resolve
 from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.bought_parts import bearing_table
@@ -179,7 +176,6 @@ def test_the_mass_is_that_of_the_parts():
             design,
             index,
             bore_diameter=bearing.outer_diameter,
-            pin_mean_diameter=pin_mean_diameter(design),
         ).area
         for index in range(2)
     )
@@ -209,7 +205,6 @@ def test_the_inertia_is_that_of_the_parts():
         design,
         0,
         bore_diameter=bearing.outer_diameter,
-        pin_mean_diameter=pin_mean_diameter(design),
     )
     disc, disc_spin = steel * b * moments.area, steel * b * (moments.xx + moments.yy)
     bore, seat = 0.5 * bearing.bore_diameter, 0.5 * bearing.outer_diameter
@@ -250,9 +245,7 @@ def test_every_part_weighs_by_its_own_material():
     design = design_of(evaluator, points, 0)
     reducer = design.reducer
     bearing = find_bearing(reducer.cam_bearing.designation)
-    disc = disc_moments(
-        design, 0, bore_diameter=bearing.outer_diameter, pin_mean_diameter=pin_mean_diameter(design)
-    ).area
+    disc = disc_moments(design, 0, bore_diameter=bearing.outer_diameter).area
     pin = math.pi / 4.0 * 0.004**2 * (2 * reducer.disc_thickness + 3 * reducer.disc_spacing)
     for key, volume, close in (
         ("disc_density", 2.0 * reducer.disc_thickness * disc, 1e-6),

@@ -24,7 +24,6 @@ from cqdd_design.solids.part import Part
 from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.poses import HOUSING, body_pose
 from cqdd_design.solids.proportions import lay_out
-from cqdd_design.solids.selection import output_pin
 
 TOUCH = 1e-9
 
@@ -182,14 +181,11 @@ def test_placed_discs_are_the_discs_of_the_drawing(name: str) -> None:
     """Turning a part over and round gives the outline and the holes of the disc it stands for."""
     design = known_design(name)
     bore = find_bearing(design.reducer.cam_bearing.designation).outer_diameter
-    mean = output_pin(design.reducer.output_pins.diameter).mean_diameter
     for part in known_parts(name):
         for piece in part.instances:
             if piece.body.kind != "disc" or not part.name.startswith("disc"):
                 continue
-            wanted = disc_contour(
-                design, piece.body.disc, bore_diameter=bore, pin_mean_diameter=mean
-            )
+            wanted = disc_contour(design, piece.body.disc, bore_diameter=bore)
             shape = part.shape.layers[0].shape
             turn = piece.placement[:2, :2]
             assert wanted.outer.distances(shape.outer.points @ turn.T).max() < 2e-12

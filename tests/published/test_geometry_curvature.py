@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cqdd_design.geometry.cycloid import (
+from cqdd_design.geometry.trochoid import (
     CycloidDisc,
     locus_curvature,
     locus_valley_radius,

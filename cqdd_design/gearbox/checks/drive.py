@@ -105,18 +105,12 @@ def _known_data(known: int, wanted: int, words: str) -> Check:
     )
 
 
-def _named(state: GearboxState) -> bool:
-    """Whether the design names its motor, so that a shortfall is a failure."""
-    return "motor.name" not in state.design.assumed
-
-
 def _make(
     state: GearboxState, check_id: str, value: float, limit: float, numbers: str, remedy: str
 ) -> Check:
-    severity = "fail" if _named(state) else "warn"
-    if severity == "fail":
-        return build_check(check_id, value, limit, numbers, remedy, severity="fail")
-    return build_check(check_id, value, limit, numbers, remedy)
+    """A check of the motor: a shortfall is a failure where the design names its motor."""
+    severity = None if "motor.name" in state.design.assumed else "fail"
+    return build_check(check_id, value, limit, numbers, remedy, severity=severity)
 
 
 def _torque_check(

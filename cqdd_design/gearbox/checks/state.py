@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from cqdd_design.catalog.motors import Motor
@@ -85,4 +85,4 @@ def build_check(
     )
     if not check.satisfied:
         return check
-    return Check(**{**check.__dict__, "remedy": "met; nothing to change"})
+    return replace(check, remedy="met; nothing to change")

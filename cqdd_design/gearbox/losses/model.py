@@ -16,12 +16,13 @@ from numpy.typing import ArrayLike
 
 from cqdd_design.errors import UsageError
 from cqdd_design.gearbox.losses.backdrive import STATIC_RATIO, Backdrive, balance_torque
-from cqdd_design.gearbox.losses.machine import SOURCES, ContactForces, FrictionMachine, total
+from cqdd_design.gearbox.losses.machine import SOURCES, FrictionMachine, total
 from cqdd_design.gearbox.losses.result import Losses
 from cqdd_design.geometry.contours import FloatArray
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.model import ContactModel
+    from cqdd_design.gearbox.contact.sweep import ContactSweep
 
 
 TORQUE_SHARES = (0.0, *(10.0 ** (0.125 * k) for k in range(-24, 1)))
@@ -99,13 +100,13 @@ class LossModel:
 
     @classmethod
     def from_sweeps(
-        cls, machine: FrictionMachine, sweeps: ContactForces | Sequence[ContactForces]
+        cls, machine: FrictionMachine, sweeps: ContactSweep | Sequence[ContactSweep]
     ) -> LossModel:
         """Read the friction work of one or more sweeps of the same gearbox.
 
         Parameters
         ----------
-        sweeps : ContactForces or sequence of them
+        sweeps : ContactSweep or sequence of them
             At torques of one sense and different sizes. Without one at zero torque the work is
             taken to vanish there, as it does without preload.
 
@@ -220,7 +221,7 @@ class LossModel:
             torque=float(torque),
             input_speed=float(input_speed),
             output_speed=size / self.machine.lobe_count,
-            **power,
+            by_source=power,
             load_independent=size * float(drag[0]),
             loss_torque=loss,
             tooth_force_change=float(np.interp(abs(torque), self.torque, self.force_change)),

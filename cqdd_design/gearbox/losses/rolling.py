@@ -39,26 +39,6 @@ _LOW_SPEED_PRODUCT = 2000.0
 """nu n in mm^2/s rpm below which the drag no longer depends on speed."""
 
 
-def load_torque(coefficient: ArrayLike, load: ArrayLike, bore_diameter: ArrayLike) -> FloatArray:
-    """Load-dependent friction torque M1 = mu F d/2 of a bearing, N m.
-
-    Parameters
-    ----------
-    coefficient : array_like
-        mu on the bore, :data:`FRICTION_COEFFICIENT`.
-    load : array_like
-        Equivalent radial load, N, not negative.
-    bore_diameter : array_like
-        d, m.
-
-    Notes
-    -----
-    SKF and JTEKT catalogues, for about a tenth of the dynamic rating and good lubrication.
-    """
-    force = np.asarray(load, dtype=float) * np.asarray(bore_diameter, dtype=float)
-    return np.asarray(0.5 * np.asarray(coefficient, dtype=float) * force)
-
-
 def drag_torque(
     drag_factor: ArrayLike, viscosity: ArrayLike, speed: ArrayLike, mean_diameter: ArrayLike
 ) -> FloatArray:
@@ -135,8 +115,11 @@ class BearingFriction:
         return cls(name, coefficient, 0.0, bore_diameter, bore_diameter, width)
 
     def load_torque(self, load: ArrayLike) -> FloatArray:
-        """M1 under a radial load (N), N m."""
-        return load_torque(self.coefficient, load, self.bore_diameter)
+        """Load-dependent M1 = mu F d/2 under an equivalent radial load F (N), N m.
+
+        SKF and JTEKT catalogues, for about a tenth of the dynamic rating and good lubrication.
+        """
+        return np.asarray(0.5 * self.coefficient * (np.asarray(load) * self.bore_diameter))
 
     def drag_torque(self, viscosity: float, speed: ArrayLike) -> FloatArray:
         """M0 at a relative speed (rad/s), N m."""

@@ -54,11 +54,6 @@ class Ensemble:
     angles: int
     seed: int
 
-    @property
-    def key(self) -> tuple[str, float, int, int]:
-        """What tells two ensembles apart."""
-        return self.design.sha256, self.torque, self.angles, self.seed
-
 
 @dataclass(frozen=True)
 class Block:
@@ -83,27 +78,14 @@ Progress = Callable[[int, int], None]
 
 
 @functools.lru_cache(maxsize=2)
-def _tables(key: tuple[str, float, int, int], ensemble: _Held) -> EnsembleTables:
-    one = ensemble.ensemble
-    return ensemble_tables(ContactModel.from_design(one.design), one.torque, one.angles)
-
-
-class _Held:
-    """Carries an ensemble past the cache, which goes by the key alone."""
-
-    def __init__(self, ensemble: Ensemble) -> None:
-        self.ensemble = ensemble
-
-    def __hash__(self) -> int:
-        return 0
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Held)
+def _tables(ensemble: Ensemble) -> EnsembleTables:
+    model = ContactModel.from_design(ensemble.design)
+    return ensemble_tables(model, ensemble.torque, ensemble.angles)
 
 
 def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
     """Values (count, 5) of a block of gearboxes, in the order and units of `OUTPUTS`."""
-    tables = _tables(ensemble.key, _Held(ensemble))
+    tables = _tables(ensemble)
     errors = draw_errors(
         tables.model,
         ensemble.design.tolerances,
@@ -112,7 +94,7 @@ def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
         block.count,
         dict.fromkeys(block.exchanged, 1),
     )
-    return evaluate_gearboxes(tables, errors).values
+    return evaluate_gearboxes(tables, errors)
 
 
 def work_here(ensemble: Ensemble, blocks: list[Block]) -> Iterator[tuple[int, FloatArray]]:

@@ -45,45 +45,15 @@ class EnsembleTables:
 
     Attributes
     ----------
-    torque : float
-        N m, positive.
     states : NominalStates
         Over one output turn.
-    marked : array (A,) of bool
-        Angles that serve backlash and stiffness.
-    perfect : array (A, 3 + 3 D)
-        States of the perfect gearbox under the torque, from which the others start.
-    free_poses : array (2, A, 3 + 3 D)
-        Its poses at both ends of its backlash, likewise.
+    start : Start
+        The perfect gearbox, from which the others start.
     """
 
     model: ContactModel
-    torque: float
     states: NominalStates
-    marked: NDArray[np.bool_]
-    perfect: FloatArray
-    free_poses: FloatArray
-
-    @property
-    def solves_per_gearbox(self) -> int:
-        """Equilibria under load per gearbox; the rigid solutions of the backlash not counted."""
-        return len(self.marked) + int(self.marked.sum())
-
-
-@dataclass(frozen=True, eq=False)
-class Outcome:
-    """Results of S gearboxes.
-
-    Attributes
-    ----------
-    values : array (S, 5)
-        In the units and order of `OUTPUTS`.
-    solves : int
-        Equilibria under load that were solved.
-    """
-
-    values: FloatArray
-    solves: int
+    start: Start
 
 
 def _stride(lobe_count: int) -> int:
@@ -122,9 +92,8 @@ def ensemble_tables(
     states = nominal_states(model, output_turn_angles(model, angles))
     marked = marked_angles(model.lobe_count, len(states.crank_angle))
     perfect = contact_sweep(model, torque, states=states).state_vectors
-    return EnsembleTables(
-        model, torque, states, marked, perfect, backlash(model, states=states).poses
-    )
+    free_poses = backlash(model, states=states).poses
+    return EnsembleTables(model, states, Start(marked, perfect, free_poses, torque))
 
 
 def _nominal(tables: EnsembleTables, harmonics: int) -> Nominal:
@@ -154,8 +123,8 @@ def _nominal(tables: EnsembleTables, harmonics: int) -> Nominal:
 
 def evaluate_gearboxes(
     tables: EnsembleTables, batch: ErrorBatch, threads: int | None = None
-) -> Outcome:
-    """Solve every gearbox of a batch over its output turn.
+) -> FloatArray:
+    """Results (S, 5) of every gearbox of a batch, in the units and order of `OUTPUTS`.
 
     Parameters
     ----------
@@ -173,7 +142,7 @@ def evaluate_gearboxes(
 
     from cqdd_design.gearbox.tolerance.ensemble_kernel import solve_gearboxes
 
-    model, states = tables.model, tables.states
+    model, states, torque = tables.model, tables.states, tables.start.torque
     values, failed = np.empty((len(batch), 5)), np.empty(len(batch), dtype=np.int64)
     former = numba.get_num_threads()
     numba.set_num_threads(min(threads or former, former))
@@ -182,8 +151,8 @@ def evaluate_gearboxes(
         solve(
             _nominal(tables, batch.disc_profile.shape[-1]),
             springs_of(model),
-            Load(tables.torque / states.length, stiffness_scale(model, tables.torque)),
-            Start(tables.marked, tables.perfect, tables.free_poses, tables.torque),
+            Load(torque / states.length, stiffness_scale(model, torque)),
+            tables.start,
             Errors(**vars(batch)),
             values,
             failed,
@@ -195,8 +164,8 @@ def evaluate_gearboxes(
         angle = math.degrees(states.crank_angle[failed[which]])
         raise ContactError(
             f"gearbox {which} of the batch has no contact equilibrium at crank angle {angle:.6g} "
-            f"deg and {tables.torque:g} N*m; its errors are too large for these clearances: "
+            f"deg and {torque:g} N*m; its errors are too large for these clearances: "
             "lower [tolerances], or the clearances."
         )
     scale = np.array([_ARCMIN, _ARCMIN, 1.0, 1.0 / _ARCMIN, float(model.lobe_count)])
-    return Outcome(values * scale, len(batch) * tables.solves_per_gearbox)
+    return np.asarray(values * scale)
