@@ -15,7 +15,7 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import hole_diameter
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Stages:
     """What the rigid law needs of a design, SI.
 

@@ -87,7 +87,7 @@ def test_energy_slope_is_the_derivative(validated: Callable[..., None]) -> None:
 
 def _rigid_limit(model: ContactModel) -> ContactModel:
     """The same gearbox on equal linear springs, without clearance, on rigid bearings."""
-    pins_touch = model.pin_radius + model.eccentricity
+    pins_touch = model.pin_contact_radius + model.eccentricity
     return replace(
         model,
         disc=replace(model.disc, equidistant=0.0),

@@ -94,6 +94,7 @@ def test_every_disc_is_in_equilibrium(
     s = given_stages
     disc %= s.disc_count
     phase = float(s.phases[disc])
+    disc_torque = torque / s.disc_count
     forces = disc_forces(s, torque, crank, disc)
     cam = rigid_series(s, torque, np.array([crank])).cam_force[0, disc]
     centre = kinematics.disc_centre(s.eccentricity, crank, phase)

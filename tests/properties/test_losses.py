@@ -24,7 +24,8 @@ from cqdd_design.errors import UsageError
 from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.contact.laws import CamSpring
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.sweep import ContactSweep, contact_sweep, perfect_angles
+from cqdd_design.gearbox.contact.solved import ContactSweep
+from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.disc_forces import DiscForces, disc_forces
 from cqdd_design.gearbox.losses import LossModel
 from cqdd_design.gearbox.losses.backdrive import balance_torque

@@ -15,8 +15,9 @@ from cqdd_design.design import Design
 from cqdd_design.gearbox.cam_bearing import cam_bearing
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
-from cqdd_design.gearbox.contact.sweep import ContactSweep, contact_sweep
+from cqdd_design.gearbox.contact.sweep import contact_sweep
 from cqdd_design.gearbox.life import contacts, cycles, fatigue, pins
 from cqdd_design.gearbox.life.cam import CamLife, cam_life
 from cqdd_design.gearbox.life.contacts import Pressures

@@ -30,7 +30,7 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_moments
 
 if TYPE_CHECKING:
-    from cqdd_design.gearbox.contact.sweep import ContactSweep
+    from cqdd_design.gearbox.contact.solved import ContactSweep
 
 SOURCES = (
     "ring_teeth",

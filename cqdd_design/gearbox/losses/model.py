@@ -22,7 +22,7 @@ from cqdd_design.geometry.contours import FloatArray
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.model import ContactModel
-    from cqdd_design.gearbox.contact.sweep import ContactSweep
+    from cqdd_design.gearbox.contact.solved import ContactSweep
 
 
 TORQUE_SHARES = (0.0, *(10.0 ** (0.125 * k) for k in range(-24, 1)))

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.contact.kernel_values import Extremes, RigidParts
+from cqdd_design.gearbox.contact.kernel_values import Extremes, RigidParts, Toleranced
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.states import (
-    ErrorStates,
     NominalStates,
     error_states,
     nominal_states,
@@ -105,16 +104,15 @@ def backlash(
             crank_angle = perfect_angles(model) if errors is None else output_turn_angles(model)
         states = nominal_states(model, np.asarray(crank_angle, dtype=float))
     changed = error_states(model, states, errors)
-    nominal = states.gaps + changed.gaps
     ends, overlaps, extremes = [], [], []
     for sense in (-1.0, 1.0):
-        gaps = nominal
+        gaps = changed.gaps
         for _ in range(_CORRECTIONS + 1):
             end, overlap, poses = _push(model, states, changed, gaps, errors, sense)
             # The model of each gap is right where it was linearised but for its third order;
             # what it misses of the exact gap at this pose is put into it.
-            exact, modelled = _exact_and_modelled(model, states, nominal, errors, poses)
-            gaps = nominal.copy()
+            exact, modelled = _exact_and_modelled(model, states, changed.gaps, errors, poses)
+            gaps = changed.gaps.copy()
             gaps[:, :, : model.tooth_count] += exact - modelled
         ends.append(end)
         overlaps.append(overlap)
@@ -144,7 +142,7 @@ def _apart(model: ContactModel, states: NominalStates, errors: GearboxErrors | N
 def _push(
     model: ContactModel,
     states: NominalStates,
-    changed: ErrorStates,
+    changed: Toleranced,
     gaps: FloatArray,
     errors: GearboxErrors | None,
     sense: float,
@@ -158,7 +156,7 @@ def _push(
         gaps=gaps,
         curvature=states.ring.centre_curvature,
         tooth_centre=tooth_centres(model.disc),
-        pin_angle=states.pins.pin_angle,
+        pin_angle=states.pin_angle,
         crank_angle=states.crank_angle,
         own_angle=states.crank_angle[:, None] + model.phases,
         apart=_apart(model, states, errors),

@@ -10,13 +10,9 @@ import numpy as np
 from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
-from cqdd_design.gearbox.contact.sweep import (
-    ContactSweep,
-    contact_sweep,
-    output_turn_angles,
-    perfect_angles,
-)
+from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles, perfect_angles
 from cqdd_design.gearbox.precision.backlash import Backlash, backlash
 from cqdd_design.gearbox.precision.orders import Order, order_spectrum
 from cqdd_design.geometry import kinematics

@@ -13,7 +13,7 @@ import numpy as np
 
 from cqdd_design.design.actuator import Tolerances
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.part_errors import ErrorBatch
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.geometry.contours import FloatArray
 
 GROUPS: tuple[str, ...] = (
@@ -88,7 +88,7 @@ def draw_errors(
     first: int,
     count: int,
     matrices: Mapping[str, int] | None = None,
-) -> ErrorBatch:
+) -> GearboxErrors:
     """Draw gearboxes `first` to `first + count` of an ensemble.
 
     Parameters
@@ -107,7 +107,7 @@ def draw_errors(
             seed, number, matrix, first, count, int(np.prod(shape)), tolerances.distribution
         )
         drawn[name] = getattr(tolerances, name) * values.reshape(count, *shape)
-    return ErrorBatch(
+    return GearboxErrors(
         tooth_position=drawn["tooth_position"],
         tooth_radius=drawn["tooth_radius"],
         disc_profile=drawn["disc_profile"] * profile_amplitudes(model.lobe_count),

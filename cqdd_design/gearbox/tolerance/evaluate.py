@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.contact.kernel_values import Errors, Load, Nominal, Start
+from cqdd_design.gearbox.contact.kernel_values import Load, Nominal, Start
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.part_errors import ErrorBatch
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
 from cqdd_design.gearbox.contact.sweep import (
     contact_sweep,
@@ -110,7 +110,7 @@ def _nominal(tables: EnsembleTables, harmonics: int) -> Nominal:
         parameter_rate=states.ring.parameter_rate,
         curvature=states.ring.centre_curvature,
         tooth_centre=tooth_centres(model.disc),
-        pin_angle=states.pins.pin_angle,
+        pin_angle=states.pin_angle,
         crank_angle=states.crank_angle,
         phases=model.phases,
         basis=harmonic_basis(table_size(len(states.crank_angle), harmonics), harmonics),
@@ -122,13 +122,13 @@ def _nominal(tables: EnsembleTables, harmonics: int) -> Nominal:
 
 
 def evaluate_gearboxes(
-    tables: EnsembleTables, batch: ErrorBatch, threads: int | None = None
+    tables: EnsembleTables, batch: GearboxErrors, threads: int | None = None
 ) -> FloatArray:
     """Results (S, 5) of every gearbox of a batch, in the units and order of `OUTPUTS`.
 
     Parameters
     ----------
-    batch : ErrorBatch
+    batch : GearboxErrors
         S gearboxes.
     threads : int, optional
         Default all; the numbers do not depend on it.
@@ -143,7 +143,8 @@ def evaluate_gearboxes(
     from cqdd_design.gearbox.tolerance.ensemble_kernel import solve_gearboxes
 
     model, states, torque = tables.model, tables.states, tables.start.torque
-    values, failed = np.empty((len(batch), 5)), np.empty(len(batch), dtype=np.int64)
+    count = len(batch.tooth_radius)
+    values, failed = np.empty((count, 5)), np.empty(count, dtype=np.int64)
     former = numba.get_num_threads()
     numba.set_num_threads(min(threads or former, former))
     try:
@@ -153,7 +154,7 @@ def evaluate_gearboxes(
             springs_of(model),
             Load(torque / states.length, stiffness_scale(model, torque)),
             tables.start,
-            Errors(**vars(batch)),
+            batch,
             values,
             failed,
         )
