@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.gearbox.balance import paper_disc_count
@@ -109,7 +110,8 @@ def _make(
     state: GearboxState, check_id: str, value: float, limit: float, numbers: str, remedy: str
 ) -> Check:
     """A check of the motor: a shortfall is a failure where the design names its motor."""
-    severity = None if "motor.name" in state.design.assumed else "fail"
+    assumed = "motor.name" in state.design.assumed
+    severity: Literal["fail"] | None = None if assumed else "fail"
     return build_check(check_id, value, limit, numbers, remedy, severity=severity)
 
 
