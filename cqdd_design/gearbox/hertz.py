@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from cqdd_design.catalog.materials import Material
 from cqdd_design.geometry.contours import FloatArray
 
 
@@ -24,6 +25,12 @@ def effective_modulus(
     e1, e2 = np.asarray(youngs_modulus_1, dtype=float), np.asarray(youngs_modulus_2, dtype=float)
     nu1, nu2 = np.asarray(poisson_ratio_1, dtype=float), np.asarray(poisson_ratio_2, dtype=float)
     return np.asarray(1.0 / ((1.0 - nu1 * nu1) / e1 + (1.0 - nu2 * nu2) / e2))
+
+
+def pair_modulus(first: Material, second: Material) -> float:
+    """E* of two materials in contact, Pa."""
+    moduli = (first.youngs_modulus, first.poisson_ratio)
+    return float(effective_modulus(*moduli, second.youngs_modulus, second.poisson_ratio))
 
 
 def line_contact_pressure(

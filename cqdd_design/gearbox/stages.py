@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cqdd_design.catalog.materials import Material, find_material
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
@@ -69,8 +69,8 @@ class Stages:
             pin_contact_radius=0.5 * contact_diameter,
             hole_radius=0.5 * hole,
             contact_length=reducer.disc_thickness,
-            ring_modulus=_pair_modulus(disc, find_material(reducer.ring_material)),
-            pin_modulus=_pair_modulus(disc, find_material(pins.material)),
+            ring_modulus=hertz.pair_modulus(disc, find_material(reducer.ring_material)),
+            pin_modulus=hertz.pair_modulus(disc, find_material(pins.material)),
         )
 
     @property
@@ -144,11 +144,3 @@ def _refuse_tight_hole(design: Design, contact_diameter: float, hole: float) -> 
             f"larger than the {contact_diameter * 1e3:g} mm pins in them; raise it above "
             f"{-2e6 * design.reducer.eccentricity:g} um."
         )
-
-
-def _pair_modulus(first: Material, second: Material) -> float:
-    return float(
-        hertz.effective_modulus(
-            first.youngs_modulus, first.poisson_ratio, second.youngs_modulus, second.poisson_ratio
-        )
-    )

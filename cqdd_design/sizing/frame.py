@@ -181,8 +181,8 @@ def search_frame(requirements: Requirements, motor: Motor | None = None) -> Fram
             kinematics.cam_bearing_speed_ring_fixed(requirements.ratio, requirements.input_speed)
         ),
         limits=_load_limits(requirements, disc, ring, pin),
-        ring_modulus=_modulus(disc, ring),
-        pin_modulus=_modulus(disc, pin),
+        ring_modulus=hertz.pair_modulus(disc, ring),
+        pin_modulus=hertz.pair_modulus(disc, pin),
         disc_density=disc.density,
         ring_density=ring.density,
         pin_density=pin.density,
@@ -217,14 +217,6 @@ def _template(requirements: Requirements) -> Design:
             },
         },
         si=True,
-    )
-
-
-def _modulus(first: Material, second: Material) -> float:
-    return float(
-        hertz.effective_modulus(
-            first.youngs_modulus, first.poisson_ratio, second.youngs_modulus, second.poisson_ratio
-        )
     )
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.gearbox import rigid
+from cqdd_design.gearbox.cam_bearing import least_bore
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import ligament_hole_to_hole
@@ -23,6 +24,7 @@ from cqdd_design.geometry.trochoid import shortening_coefficient
 from cqdd_design.sizing import masses, reserves
 from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.bought_parts import BearingTable
+from cqdd_design.sizing.columns import Columns
 from cqdd_design.sizing.frame import THICKNESS_STEP, Frame
 from cqdd_design.sizing.stage_tables import StageTables
 
@@ -61,7 +63,7 @@ def manufacturing_grid(frame: Frame) -> Grid:
 
 
 @dataclass(frozen=True)
-class Points:
+class Points(Columns):
     """Grid points with what follows from them; every field (M,), SI.
 
     Attributes
@@ -90,30 +92,16 @@ class Points:
     reflected_inertia: FloatArray
     objective: FloatArray
 
-    def rows(self, which: IntArray) -> Points:
-        """Some of the points."""
-        return Points(*(getattr(self, name)[which] for name in self.__dataclass_fields__))
-
     def replaced(self, which: IntArray, others: Points) -> Points:
         """These points with others in some places."""
-        changed = {}
-        for name in self.__dataclass_fields__:
-            changed[name] = getattr(self, name).copy()
-            changed[name][which] = getattr(others, name)
+        changed = {name: column.copy() for name, column in vars(self).items()}
+        for name, column in vars(others).items():
+            changed[name][which] = column
         return Points(**changed)
-
-    def joined(self, other: Points) -> Points:
-        """These points and others."""
-        return Points(
-            *(
-                np.concatenate([getattr(self, name), getattr(other, name)])
-                for name in self.__dataclass_fields__
-            )
-        )
 
 
 @dataclass(frozen=True)
-class Pins:
+class Pins(Columns):
     """Output pins of candidates, every field (M,)."""
 
     count: IntArray
@@ -140,10 +128,6 @@ class Pins:
             offset=np.array([offset[int(c)] for c in count]),
             peak_factor=np.array([factor[int(c)] for c in count]),
         )
-
-    def rows(self, which: IntArray) -> Pins:
-        """Some of the entries."""
-        return Pins(*(getattr(self, name)[which] for name in self.__dataclass_fields__))
 
 
 @dataclass(frozen=True)
@@ -304,7 +288,7 @@ class Evaluator:
         )
         inside = np.minimum(shape.pin_circle - shape.hole_radius, valley)
         seat = inside - allowables.LIGAMENT + _SLACK
-        bore = shapes.least_bore(shape.eccentricity) - _SLACK
+        bore = least_bore(shape.eccentricity) - _SLACK
         fits = (0.5 * table.outer <= seat[:, None]) & (table.bore >= bore[:, None])
         carried = np.where(fits, table.allowed_load / load[:, None], 0.0)
         return np.where(table.width <= b[..., None] + _SLACK, carried[:, None, :], 0.0)

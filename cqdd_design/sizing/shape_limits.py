@@ -172,14 +172,6 @@ def valley_distance(
     return np.asarray(R - e - r)
 
 
-def least_bore(eccentricity: FloatArray) -> FloatArray:
-    """Smallest bearing bore whose eccentrics share the least shaft core, m.
-
-    The array form of :func:`cqdd_design.gearbox.cam_bearing.least_bore`.
-    """
-    return np.asarray(eccentricity / (0.5 - allowables.SHAFT_CORE_SHARE))
-
-
 def profile_checks(
     frame: Frame, pitch_radius: FloatArray, eccentricity: FloatArray, tooth_radius: FloatArray
 ) -> dict[str, BoolArray]:
