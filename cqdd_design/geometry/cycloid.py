@@ -78,15 +78,7 @@ class CycloidDisc:
 
     def __post_init__(self) -> None:
         """Refuse a disc that cannot exist."""
-        refuse_impossible_flank(
-            self.lobe_count,
-            self.ring_pitch_radius,
-            self.eccentricity,
-            self.tooth_radius,
-            equidistant=self.equidistant,
-            radial=self.radial,
-            rotation=self.rotation,
-        )
+        refuse_impossible_flank(self)
         if self.is_turned:
             _ = self.tip_arc
 

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.tip import largest_rotation
 from cqdd_design.geometry.trochoid import undercut_radius_limit
+
+if TYPE_CHECKING:
+    from cqdd_design.geometry.cycloid import CycloidDisc
 
 FEWEST_LOBES = 3
 # Limits are not allowed values themselves: a round one is told as the next number inside.
@@ -85,56 +89,40 @@ def smallest_pitch_radius(lobe_count: int, eccentricity: float, tooth_radius: fl
     )
 
 
-def refuse_impossible_flank(
-    lobe_count: int,
-    ring_pitch_radius: float,
-    eccentricity: float,
-    tooth_radius: float,
-    *,
-    equidistant: float = 0.0,
-    radial: float = 0.0,
-    rotation: float = 0.0,
-) -> None:
-    """Raise where no disc outline of these numbers exists.
-
-    Parameters
-    ----------
-    lobe_count : int
-    ring_pitch_radius, eccentricity, tooth_radius, equidistant, radial : float
-        m.
-    rotation : float
-        rad.
+def refuse_impossible_flank(disc: CycloidDisc) -> None:
+    """Raise where no disc outline of these numbers exists; they need not make sense.
 
     Raises
     ------
     GeometryError
         Naming the value, the limit and the nearest fix, in the keys of the design file.
     """
+    lobe_count, tooth_radius = disc.lobe_count, disc.tooth_radius
     if not (math.isfinite(lobe_count) and lobe_count >= FEWEST_LOBES and lobe_count % 1 == 0):
         raise GeometryError(
             f"ratio {lobe_count} gives no disc; it is the number of lobes, a whole number of "
             f"{FEWEST_LOBES} or more."
         )
     lengths = {
-        "ring_pitch_radius": ring_pitch_radius,
-        "eccentricity": eccentricity,
+        "ring_pitch_radius": disc.ring_pitch_radius,
+        "eccentricity": disc.eccentricity,
         "ring_pin_diameter": 2.0 * tooth_radius,
     }
     for key, value in lengths.items():
         if not (math.isfinite(value) and value > 0.0):
             raise GeometryError(f"{key} is {millimetres(value)}; it must be above 0 mm.")
-    for key, value in {"equidistant": equidistant, "radial": radial}.items():
+    for key, value in {"equidistant": disc.equidistant, "radial": disc.radial}.items():
         if not math.isfinite(value):
             raise GeometryError(f"modification.{key} is {millimetres(value)}; it must be finite.")
-    refuse_overlapping_teeth(lobe_count, ring_pitch_radius, tooth_radius)
-    _refuse_modification(lobe_count, tooth_radius, equidistant, rotation)
-    _refuse_undercut(lobe_count, ring_pitch_radius, eccentricity, tooth_radius, equidistant, radial)
+    _refuse_overlapping_teeth(lobe_count, disc.ring_pitch_radius, tooth_radius)
+    _refuse_modification(disc)
+    _refuse_undercut(disc)
 
 
-def refuse_overlapping_teeth(
+def _refuse_overlapping_teeth(
     lobe_count: int, ring_pitch_radius: float, tooth_radius: float
 ) -> None:
-    """Raise a `GeometryError` where neighbouring ring teeth touch: r >= R sin(pi/(n+1))."""
+    """Raise where neighbouring ring teeth touch: r >= R sin(pi/(n+1))."""
     step = math.sin(math.pi / (lobe_count + 1))
     if tooth_radius >= ring_pitch_radius * step:
         raise GeometryError(
@@ -145,34 +133,28 @@ def refuse_overlapping_teeth(
         )
 
 
-def _refuse_modification(
-    lobe_count: int, tooth_radius: float, equidistant: float, rotation: float
-) -> None:
-    if tooth_radius + equidistant <= 0.0:
+def _refuse_modification(disc: CycloidDisc) -> None:
+    tooth_radius = disc.tooth_radius
+    if tooth_radius + disc.equidistant <= 0.0:
         raise GeometryError(
-            f"modification.equidistant {millimetres(equidistant)} takes away the whole tooth "
+            f"modification.equidistant {millimetres(disc.equidistant)} takes away the whole tooth "
             f"radius of {millimetres(tooth_radius)}; raise it above {millimetres(-tooth_radius)}."
         )
-    largest = largest_rotation(lobe_count)
-    if not 0.0 <= rotation <= largest:
+    largest = largest_rotation(disc.lobe_count)
+    if not 0.0 <= disc.rotation <= largest:
         arcmin = 60.0 * math.degrees(1.0)
         raise GeometryError(
-            f"modification.rotation {rotation * arcmin:.6g} arcmin is outside 0 to "
+            f"modification.rotation {disc.rotation * arcmin:.6g} arcmin is outside 0 to "
             f"{rounded_down(largest * arcmin):.6g} arcmin, an eighth of half a lobe pitch on "
-            f"{lobe_count} lobes; choose a value between."
+            f"{disc.lobe_count} lobes; choose a value between."
         )
 
 
-def _refuse_undercut(
-    lobe_count: int,
-    ring_pitch_radius: float,
-    eccentricity: float,
-    tooth_radius: float,
-    equidistant: float,
-    radial: float,
-) -> None:
+def _refuse_undercut(disc: CycloidDisc) -> None:
+    lobe_count, eccentricity, radial = disc.lobe_count, disc.eccentricity, disc.radial
     # A modification that grows the disc leaves the ring's own teeth as large as they are.
-    pitch, tooth = ring_pitch_radius - max(radial, 0.0), tooth_radius + max(equidistant, 0.0)
+    pitch = disc.ring_pitch_radius - max(radial, 0.0)
+    tooth = disc.tooth_radius + max(disc.equidistant, 0.0)
     limit = 0.0
     if pitch > 0.0:
         limit = float(undercut_radius_limit(lobe_count, pitch, eccentricity))
@@ -183,11 +165,12 @@ def _refuse_undercut(
     allowed = largest_eccentricity(lobe_count, pitch, tooth) if pitch > tooth else 0.0
     if allowed <= 0.0:
         raise GeometryError(
-            f"ring_pitch_radius {millimetres(ring_pitch_radius)} with modification.radial "
-            f"{millimetres(radial)} and modification.equidistant {millimetres(equidistant)} "
+            f"ring_pitch_radius {millimetres(disc.ring_pitch_radius)} with modification.radial "
+            f"{millimetres(radial)} and modification.equidistant {millimetres(disc.equidistant)} "
             f"leaves no disc at any eccentricity; reduce the modification, or {fix}."
         )
     raise GeometryError(
         f"eccentricity {millimetres(eccentricity)} is above {_at_most(allowed)}, where the disc "
-        f"undercuts at ring_pin_diameter {millimetres(2.0 * tooth_radius)}; lower it, or {fix}."
+        f"undercuts at ring_pin_diameter {millimetres(2.0 * disc.tooth_radius)}; lower it, or "
+        f"{fix}."
     )

@@ -232,13 +232,11 @@ def _load_limits(
         pin_static=weaker(static(disc), static(pin)),
         pin_fatigue=weaker(fatigue(disc), fatigue(pin)),
         shear=allowables.pin_shear_limit_peak(pin),
-        bending_peak=allowables.pin_bending_limit_peak(pin),
+        bending_peak=allowables.pin_limit_peak(pin),
         bending_continuous=allowables.pin_bending_limit_continuous(
             pin, duty_reverses=min(senses, default=0.0) < 0.0 < max(senses, default=0.0)
         ),
-        bearing=weaker(
-            allowables.pin_bearing_limit_peak(pin), allowables.pin_bearing_limit_peak(disc)
-        ),
+        bearing=weaker(allowables.pin_limit_peak(pin), allowables.pin_limit_peak(disc)),
         pin_ultimate=pin.ultimate_strength or 0.0,
     )
     for key, given, names in (

@@ -27,7 +27,6 @@ from cqdd_design.geometry.ring import (
     ring_min_concave_radius,
     ring_moments,
     ring_root_radius,
-    ring_wall_thickness,
 )
 
 FILE = Path(__file__).with_suffix(".json")
@@ -76,7 +75,8 @@ def measure(reducer: dict[str, object]) -> dict[str, float]:
         "hole_diameter_mm": 1e3 * hole_diameter(design),
         "thinnest_ligament_mm": 1e3 * thin[0].thickness,
         "ring_root_radius_mm": 1e3 * ring_root_radius(design),
-        "ring_wall_thickness_mm": 1e3 * ring_wall_thickness(design),
+        "ring_wall_thickness_mm": 1e3
+        * (design.reducer.ring.outer_diameter / 2.0 - ring_root_radius(design)),
         "ring_min_concave_radius_mm": 1e3 * ring_min_concave_radius(design),
         "ring_area_mm2": 1e6 * ring_moments(design).area,
         "ring_polar_mm4": 1e12 * ring_moments(design).polar,

@@ -368,8 +368,7 @@ def test_moving_the_whole_ring_moves_the_whole_mechanism(design: Design, seed: i
     u = np.stack([np.cos(own), np.sin(own)], axis=-1)
     v = np.stack([-u[:, 1], u[:, 0]], axis=-1)
     back = np.exp(1j * angle[0] / model.lobe_count) * complex(*shift)
-    together = replace(
-        errors,
+    together = errors._replace(
         tooth_position=errors.tooth_position + shift,
         cam_centre=np.stack([u @ shift, v @ shift], axis=-1),
         pin_position=errors.pin_position + np.array([back.real, back.imag]),

@@ -212,19 +212,14 @@ def contact_limit_fatigue(material: Material) -> Allowable:
     )
 
 
-def pin_bending_limit_peak(material: Material) -> Allowable:
-    """Bending stress of an output pin at the peak torque, S_y/1.2."""
+def pin_limit_peak(material: Material) -> Allowable:
+    """Bending stress, and mean pressure on the projected area, at the peak torque: S_y/1.2."""
     return _yield_share(material, 1.0, "S_y")
 
 
 def pin_shear_limit_peak(material: Material) -> Allowable:
     """Mean shear stress of an output pin at the peak torque, 0.58 S_y/1.2."""
     return _yield_share(material, SHEAR_YIELD_SHARE, f"{SHEAR_YIELD_SHARE:g} S_y")
-
-
-def pin_bearing_limit_peak(material: Material) -> Allowable:
-    """Mean bearing pressure on the projected pin area at the peak torque, S_y/1.2."""
-    return _yield_share(material, 1.0, "S_y")
 
 
 def _yield_share(material: Material, share: float, symbol: str) -> Allowable:

@@ -100,9 +100,10 @@ def _pins(state: GearboxState) -> tuple[Check, ...]:
     pins, reducer = state.design.reducer.output_pins, state.design.reducer
     strength, peak, continuous = state.pins, state.peak, state.continuous
     material = find_material(pins.material)
+    bending_limit = allowables.pin_limit_peak(material)
+    shear_limit = allowables.pin_shear_limit_peak(material)
     bearing_limit = allowables.weaker(
-        allowables.pin_bearing_limit_peak(material),
-        allowables.pin_bearing_limit_peak(find_material(reducer.disc_material)),
+        bending_limit, allowables.pin_limit_peak(find_material(reducer.disc_material))
     )
     d = pins.diameter * 1e3
     # What bears on the hole is the sleeve where there is one; bent and sheared is the pin.
@@ -156,26 +157,10 @@ def _pins(state: GearboxState) -> tuple[Check, ...]:
             f"{reducer.disc_count} x {strength.paper_torque_total:.2f} N*m/{factor:.3f} "
             f"= {strength.shared_torque_capacity:.2f} N*m",
         ),
+        stress("PIN-SHEAR-PEAK", strength.shear_stress_peak, shear_limit, peak, 2),
+        stress("PIN-BENDING-PEAK", strength.bending_stress_peak, bending_limit, peak, 3),
         stress(
-            "PIN-SHEAR-PEAK",
-            strength.shear_stress_peak,
-            allowables.pin_shear_limit_peak(material),
-            peak,
-            2,
-        ),
-        stress(
-            "PIN-BENDING-PEAK",
-            strength.bending_stress_peak,
-            allowables.pin_bending_limit_peak(material),
-            peak,
-            3,
-        ),
-        stress(
-            "PIN-BENDING-CONTINUOUS",
-            strength.bending_stress_continuous,
-            fatigue,
-            continuous,
-            3,
+            "PIN-BENDING-CONTINUOUS", strength.bending_stress_continuous, fatigue, continuous, 3
         ),
         stress("PIN-BEARING-PEAK", strength.bearing_pressure_peak, bearing_limit, peak, 1),
     )

@@ -151,36 +151,13 @@ def _contacts(duty: _Duty) -> list[PartLife]:
     tooth = contacts.tooth_contact(sweeps)
     once, again = cycles.ring_tooth_cycles(n), cycles.disc_cycles(n)
     first, model = sweeps[0], sweeps[0].model
-    teeth = tooth.values.shape[2]
+    flank_at, hole_at = partial(contacts.flank_place, first), partial(contacts.hole_place, first)
+    tooth_at = partial(contacts.tooth_place, model, tooth.values.shape[2])
     rows: tuple[tuple[str, Pressures, int, str, Callable[[int], str]], ...] = (
-        (
-            "ring teeth",
-            tooth,
-            once,
-            reducer.ring_material,
-            lambda at: contacts.tooth_place(model, teeth, at),
-        ),
-        (
-            "disc flanks",
-            flank,
-            again,
-            reducer.disc_material,
-            lambda at: contacts.flank_place(first, at),
-        ),
-        (
-            "disc holes",
-            hole,
-            again,
-            reducer.disc_material,
-            lambda at: contacts.hole_place(first, at),
-        ),
-        (
-            "output pins, contact",
-            hole,
-            again,
-            reducer.output_pins.material,
-            lambda at: contacts.hole_place(first, at),
-        ),
+        ("ring teeth", tooth, once, reducer.ring_material, tooth_at),
+        ("disc flanks", flank, again, reducer.disc_material, flank_at),
+        ("disc holes", hole, again, reducer.disc_material, hole_at),
+        ("output pins, contact", hole, again, reducer.output_pins.material, hole_at),
     )
     return [_contact(duty.turns, *row) for row in rows]
 

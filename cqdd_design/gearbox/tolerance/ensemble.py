@@ -19,6 +19,7 @@ from cqdd_design.gearbox.tolerance.evaluate import (
     EnsembleTables,
     ensemble_tables,
     evaluate_gearboxes,
+    marked_angles,
 )
 from cqdd_design.gearbox.tolerance.sobol import SobolIndices, sobol_indices
 from cqdd_design.geometry.contours import FloatArray
@@ -165,10 +166,12 @@ class ToleranceResult:
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form (``results`` of ``tolerance``)."""
         body: dict[str, object] = dict(self.statistics()) if len(self.values) else {}
-        for key in ("first", "total", "first_half_width", "total_half_width"):
-            name = {"first": "sensitivity", "total": "sensitivity_total"}.get(
-                key, f"sensitivity_{key}"
-            )
+        for name, key in (
+            ("sensitivity", "first"),
+            ("sensitivity_total", "total"),
+            ("sensitivity_first_half_width", "first_half_width"),
+            ("sensitivity_total_half_width", "total_half_width"),
+        ):
             body[name] = self._by_output(key)
         return body | {
             "samples": len(self.values),
@@ -273,7 +276,7 @@ def run_ensemble(
     indices = None
     if base and not interrupted:
         indices = _sensitivity(values[:base], found[main:], base)
-    coarse = int(_coarse_count(ensemble))
+    coarse = int(marked_angles(ensemble.design.reducer.ratio, ensemble.angles).sum())
     return ToleranceResult(
         ensemble=ensemble,
         asked=samples,
@@ -284,12 +287,6 @@ def run_ensemble(
         seconds=time.perf_counter() - began,
         interrupted=interrupted,
     )
-
-
-def _coarse_count(ensemble: Ensemble) -> int:
-    from cqdd_design.gearbox.tolerance.evaluate import marked_angles
-
-    return int(marked_angles(ensemble.design.reducer.ratio, ensemble.angles).sum())
 
 
 def _blocks(count: int, exchanged: tuple[str, ...]) -> list[Block]:
