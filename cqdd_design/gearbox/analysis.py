@@ -9,13 +9,13 @@ import numpy as np
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
-from cqdd_design.gearbox.balance import StackBalance, stack_balance
-from cqdd_design.gearbox.cam_bearing import BearingResult, cam_bearing
+from cqdd_design.gearbox.balance import stack_balance
+from cqdd_design.gearbox.cam_bearing import cam_bearing
 from cqdd_design.gearbox.checks.every import gearbox_checks
 from cqdd_design.gearbox.checks.state import GearboxState
-from cqdd_design.gearbox.geometry_summary import GeometrySummary, summarise_geometry
+from cqdd_design.gearbox.geometry_summary import summarise_geometry
 from cqdd_design.gearbox.loads import RigidMaxima, RigidSeries, rigid_maxima, rigid_series
-from cqdd_design.gearbox.pin_strength import PinStrength, pin_strength
+from cqdd_design.gearbox.pin_strength import pin_strength
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.validate import validate_geometry
@@ -26,34 +26,23 @@ DEFAULT_ANGLES = 360
 
 
 @dataclass(frozen=True)
-class GearboxAnalysis:
+class GearboxAnalysis(GearboxState):
     """What closed forms say about a gearbox; complete when it exists.
 
     Attributes
     ----------
-    rigid, rigid_continuous : RigidMaxima
-        Raw maxima at the peak (or the asked-for) and at the continuous torque.
+    rigid : RigidMaxima
+        Raw maxima at the peak torque, or at the one asked for.
     series : RigidSeries
         Curves over one crank turn at the torque of `rigid`, acting on the carrier.
-    output_pins : PinStrength
-        At the peak and continuous torques of the requirements.
-    balance : StackBalance
-        Discs with their bearings, from exact planar areas, at the required input speed.
     checks : tuple of Check
         At the torques of the requirements.
     warnings : tuple of str
         What could not be checked, and why.
     """
 
-    design: Design
-    motor: Motor
-    geometry: GeometrySummary
     rigid: RigidMaxima
-    rigid_continuous: RigidMaxima
     series: RigidSeries
-    output_pins: PinStrength
-    cam_bearing: BearingResult
-    balance: StackBalance
     checks: tuple[Check, ...]
     warnings: tuple[str, ...]
 
@@ -112,16 +101,15 @@ def analyse_gearbox(
         reducer.disc_count,
         requirements.input_speed,
     )
-    pins = pin_strength(design, peak, continuous)
     state = GearboxState(
         design=design,
         motor=motor,
         stages=stages,
         geometry=geometry,
-        peak=peak,
-        continuous=continuous,
-        pins=pins,
-        cam=cam,
+        rigid_peak=peak,
+        rigid_continuous=continuous,
+        output_pins=pin_strength(design, peak, continuous),
+        cam_bearing=cam,
         orbiting_mass=orbiting,
         balance=balance,
     )
@@ -129,16 +117,10 @@ def analyse_gearbox(
     shown = peak if torque is None else peak.at(torque)
     crank = 2.0 * np.pi * np.arange(max(angles, 8)) / max(angles, 8)
     return GearboxAnalysis(
-        design=design,
-        motor=motor,
-        geometry=geometry,
+        **vars(state),
         rigid=shown,
-        rigid_continuous=continuous,
         # The rigid law's sense is the drive's; a torque on the carrier loads the other flanks.
         series=replace(rigid_series(stages, -shown.torque, crank), torque=shown.torque),
-        output_pins=pins,
-        cam_bearing=cam,
-        balance=balance,
         checks=checks,
         warnings=warnings,
     )

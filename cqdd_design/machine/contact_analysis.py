@@ -15,7 +15,7 @@ from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.contact.sweep import ANGLES, contact_sweep, perfect_angles
 from cqdd_design.gearbox.life import LifeResult, life
-from cqdd_design.gearbox.losses import EfficiencyMap, Losses, LossModel, loss_model
+from cqdd_design.gearbox.losses import EfficiencyMap, Losses, loss_model
 from cqdd_design.gearbox.precision.precision import Precision, precision
 from cqdd_design.machine.machine import Machine
 
@@ -48,7 +48,6 @@ class ContactAnalysis:
     reversed: ContactSweep
     preload: ContactSweep | None
     precision: Precision
-    loss_model: LossModel
     losses: Losses
     map: EfficiencyMap
     life: LifeResult
@@ -119,7 +118,6 @@ def analyse_contact(
         reversed=contact_sweep(model, -peak, states=states),
         preload=contact_sweep(model, 0.0, states=states) if tight else None,
         precision=precision(model, steady, angles=angles),
-        loss_model=friction,
         losses=friction.at(asked.input_speed, steady),
         map=friction.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),
         life=life(design, model),

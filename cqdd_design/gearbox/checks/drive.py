@@ -31,7 +31,7 @@ def _balance(state: GearboxState) -> tuple[Check, ...]:
     static = 0.0 if cancelled else balance.static_unbalance
     couple = 0.0 if cancelled else balance.shaking_moment
     reaction = couple / (reducer.disc_count * reducer.disc_thickness)
-    most = allowables.SHAKING_SHARE * state.cam.continuous_load
+    most = allowables.SHAKING_SHARE * state.cam_bearing.continuous_load
     moment = mass * reducer.eccentricity
     return (
         build_check(

@@ -36,7 +36,7 @@ def _valley_warning(state: GearboxState) -> tuple[str, ...]:
 
 def _raceway_warning(state: GearboxState) -> tuple[str, ...]:
     """Needles run on the eccentric itself, whose material the design file does not name."""
-    bearing = state.cam.bearing
+    bearing = state.cam_bearing.bearing
     if bearing.kind not in {"needle", "needle cage"}:
         return ()
     return (

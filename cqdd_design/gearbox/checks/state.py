@@ -23,20 +23,24 @@ class GearboxState:
 
     Attributes
     ----------
-    peak, continuous : RigidMaxima
-        Raw maxima at the peak and at the continuous torque.
+    rigid_peak, rigid_continuous : RigidMaxima
+        Raw maxima at the peak and at the continuous torque of the requirements.
+    output_pins : PinStrength
+        At the same torques.
     orbiting_mass : float
         Mass of one disc with its cam bearing, kg.
+    balance : StackBalance
+        Discs with their bearings, from exact planar areas, at the required input speed.
     """
 
     design: Design
     motor: Motor
     stages: Stages
     geometry: GeometrySummary
-    peak: RigidMaxima
-    continuous: RigidMaxima
-    pins: PinStrength
-    cam: BearingResult
+    rigid_peak: RigidMaxima
+    rigid_continuous: RigidMaxima
+    output_pins: PinStrength
+    cam_bearing: BearingResult
     orbiting_mass: float
     balance: StackBalance
 

@@ -106,17 +106,7 @@ def cam_life(
     speeds: FloatArray,
     hours_of_check: float | None,
 ) -> CamLife:
-    """Rate one bearing per disc on a spectrum.
-
-    Parameters
-    ----------
-    loads : array (C, A, D)
-        Of C cases at A even angles on D bearings, N.
-    shares, speeds : array (C,)
-        Share of time and relative speed (rad/s) of every case.
-    hours_of_check : float or None
-        Passed on.
-    """
+    """Rate one bearing per disc on a spectrum, given as to `equivalent_load`, speeds in rad/s."""
     element = rolling_element(bearing)
     exponent = life_exponent(element)
     equal = equivalent_load(loads, shares, speeds, exponent)
