@@ -96,14 +96,14 @@ def lightest(
         ready &= space.thickness[thinnest] <= _MUCH_THICKER * least
     row, bearing = np.nonzero(ready)
     thickness = thinnest[row, bearing]
-    integrals = shapes.profile_integrals(frame, *found.rings.profile)
-    opening = shapes.ring_opening_area(frame, *found.rings.profile)
+    area, polar = shapes.profile_integrals(frame, found.rings)
+    opening = shapes.ring_opening_area(frame, found.rings)
     ring = rows.ring[row]
     diameters = np.array([frame.pin_sizes[size].diameter for size in space.pin_sizes])
     weights = masses.weigh(
         frame,
-        profile_area=integrals.area[ring],
-        profile_polar=integrals.polar[ring],
+        profile_area=area[ring],
+        profile_polar=polar[ring],
         ring_opening=opening[ring],
         eccentricity=found.rings.eccentricity[ring],
         thickness=space.thickness[thickness],

@@ -131,12 +131,9 @@ class Pins(Columns):
 
 
 @dataclass(frozen=True)
-class _Shapes:
+class _Shapes(shapes.RingSizes):
     """Sizes of candidates (M,) that do not depend on thickness or bearing, m."""
 
-    pitch_radius: FloatArray
-    eccentricity: FloatArray
-    tooth_radius: FloatArray
     hole_radius: FloatArray
     pin_circle: FloatArray
     possible: BoolArray
@@ -230,11 +227,12 @@ class Evaluator:
         pitch = (room - steps[:, 2]) * RADIUS_STEP
         possible &= r + e < pitch
         R = np.where(possible, pitch, frame.outer_radius).astype(np.float64)
-        for met in shapes.profile_checks(frame, R, e, r).values():
+        ring = shapes.RingSizes(R, e, r)
+        for met in shapes.profile_checks(frame, ring).values():
             possible &= met
-        possible[possible] = shapes.relief_passes_wire(frame, R[possible], e[possible], r[possible])
+        possible[possible] = shapes.relief_passes_wire(frame, ring.rows(possible))
         hole = pins.play_radius + e
-        circle = shapes.largest_pin_circle(frame, R, e, r, hole, pins.offset)
+        circle = shapes.largest_pin_circle(frame, ring, hole, pins.offset)
         circle = np.floor(circle / RADIUS_STEP) * RADIUS_STEP
         web = ligament_hole_to_hole(circle, pins.count, 2.0 * hole)
         possible &= (circle > hole) & (web >= allowables.LIGAMENT - _SLACK)
@@ -283,9 +281,7 @@ class Evaluator:
     def _carried(self, shape: _Shapes, b: FloatArray, load: FloatArray) -> FloatArray:
         """Torque reserve (M, T, B) of every cam bearing; zero where it does not fit."""
         table = self.bearings
-        valley = shapes.valley_distance(
-            self.frame, shape.pitch_radius, shape.eccentricity, shape.tooth_radius
-        )
+        valley = shapes.valley_distance(self.frame, shape)
         inside = np.minimum(shape.pin_circle - shape.hole_radius, valley)
         seat = inside - allowables.LIGAMENT + _SLACK
         bore = least_bore(shape.eccentricity) - _SLACK
@@ -296,14 +292,13 @@ class Evaluator:
     def _weights(self, shape: _Shapes, b: FloatArray, pins: Pins) -> masses.Weights:
         """Mass and inertia (M, T, B) with every cam bearing."""
         table = self.bearings
-        ring = (shape.pitch_radius, shape.eccentricity, shape.tooth_radius)
-        profile = shapes.profile_integrals(self.frame, *ring)
+        area, polar = shapes.profile_integrals(self.frame, shape)
         own = (slice(None), None, None)
         return masses.weigh(
             self.frame,
-            profile_area=profile.area[own],
-            profile_polar=profile.polar[own],
-            ring_opening=shapes.ring_opening_area(self.frame, *ring)[own],
+            profile_area=area[own],
+            profile_polar=polar[own],
+            ring_opening=shapes.ring_opening_area(self.frame, shape)[own],
             eccentricity=shape.eccentricity[own],
             thickness=b[..., None],
             pin_count=pins.count[own],

@@ -57,19 +57,11 @@ class Tally:
 
 
 @dataclass(frozen=True)
-class Rings(Columns):
-    """Ring stages, every field (G,), SI."""
+class Rings(shapes.RingSizes):
+    """Ring stages with what the tables say of them, every field (G,), SI."""
 
-    pitch_radius: FloatArray
-    eccentricity: FloatArray
-    tooth_radius: FloatArray
     shortening_row: IntArray
     pressure_number: FloatArray
-
-    @property
-    def profile(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """R, e, r."""
-        return self.pitch_radius, self.eccentricity, self.tooth_radius
 
 
 @dataclass(frozen=True)
@@ -213,11 +205,11 @@ def _sound_rings(
         pressure_number=tables.pressure_at(shortening, share),
     )
     keep = np.ones(radius.size, dtype=bool)
-    for check, met in shapes.profile_checks(frame, *rings.profile).items():
+    for check, met in shapes.profile_checks(frame, rings).items():
         keep &= met
         tally.after(check, int(keep.sum()) * candidates)
     rings = rings.rows(keep)
-    rings = rings.rows(shapes.relief_passes_wire(frame, *rings.profile))
+    rings = rings.rows(shapes.relief_passes_wire(frame, rings))
     tally.after("EDM-RING", rings.eccentricity.size * candidates)
     return rings
 
@@ -234,7 +226,7 @@ def _seats(
     seats = bearings.bore >= least_bore(rings.eccentricity)[:, None] - _SLACK
     per_bearing = pairs.sum(axis=1) * pins
     tally.after("BEARING-CORE", int((seats.sum(axis=0) * per_bearing).sum()))
-    valley = shapes.valley_distance(frame, *rings.profile)
+    valley = shapes.valley_distance(frame, rings)
     seats &= valley[:, None] - 0.5 * bearings.outer >= allowables.LIGAMENT - _SLACK
     tally.after("GEO-LIGAMENT-RIM", int((seats.sum(axis=0) * per_bearing).sum()))
     return np.asarray(seats)
@@ -273,9 +265,7 @@ def _pin_rows(
     hole = 0.5 * width + rings.eccentricity[:, None]
     offset = np.array([shapes.valley_offset(frame, count) for count in space.pin_counts])
     # Axes: ring, pin count, pin size, inset.
-    outermost = shapes.largest_pin_circle(
-        frame, *rings.profile, hole[:, None, :], offset[None, :, None]
-    )
+    outermost = shapes.largest_pin_circle(frame, rings, hole[:, None, :], offset[None, :, None])
     circle = outermost[..., None] - space.inset * rings.pitch_radius[:, None, None, None]
     holes = np.broadcast_to(hole[:, None, :, None], circle.shape)
     keep = circle > holes

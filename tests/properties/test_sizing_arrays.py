@@ -84,9 +84,8 @@ def test_the_pin_circle_leaves_the_least_ligament_exactly(stage, pins, play):
     hole = e + play
     frame = search_frame(Requirements(ratio=n))
     offset = shapes.valley_offset(frame, pins)
-    circle = shapes.largest_pin_circle(
-        frame, column(R), column(e), column(r), column(hole), column(offset)
-    )[0]
+    ring = shapes.RingSizes(column(R), column(e), column(r))
+    circle = shapes.largest_pin_circle(frame, ring, column(hole), column(offset))[0]
     assume(circle > hole)
     disc = CycloidDisc(n, R, e, r, frame.equidistant)
     first = math.pi / (2 * n) + np.array([0.0, math.pi / n])
@@ -102,10 +101,11 @@ def test_the_pin_circle_leaves_the_least_ligament_exactly(stage, pins, play):
 def test_area_and_polar_moment_are_those_of_the_exact_curve(stage):
     n, R, e, r = stage
     frame = search_frame(Requirements(ratio=n))
-    found = shapes.profile_integrals(frame, column(R), column(e), column(r))
+    ring = shapes.RingSizes(column(R), column(e), column(r))
+    area, polar = shapes.profile_integrals(frame, ring)
     exact = profile_moments(CycloidDisc(n, R, e, r, frame.equidistant))
-    assert found.area[0] == pytest.approx(exact.area, rel=1e-4)
-    assert found.polar[0] == pytest.approx(exact.xx + exact.yy, rel=1e-4)
+    assert area[0] == pytest.approx(exact.area, rel=1e-4)
+    assert polar[0] == pytest.approx(exact.xx + exact.yy, rel=1e-4)
 
 
 @settings(deadline=None, max_examples=30)
@@ -113,7 +113,7 @@ def test_area_and_polar_moment_are_those_of_the_exact_curve(stage):
 def test_the_wire_passes_where_the_largest_fillet_is_wide_enough(stage):
     n, R, e, r = stage
     frame = search_frame(Requirements(ratio=n))
-    passes = shapes.relief_passes_wire(frame, column(R), column(e), column(r))[0]
+    passes = shapes.relief_passes_wire(frame, shapes.RingSizes(column(R), column(e), column(r)))[0]
     try:
         fillet = solid_relief(CycloidDisc(n, R, e, r), frame.relief_clearance).fillet_radius
     except GeometryError:
