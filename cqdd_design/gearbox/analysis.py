@@ -11,7 +11,10 @@ from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.gearbox.balance import stack_balance
 from cqdd_design.gearbox.cam_bearing import cam_bearing
-from cqdd_design.gearbox.checks.every import gearbox_checks
+from cqdd_design.gearbox.checks.allowables import HARDENED_HRC
+from cqdd_design.gearbox.checks.drive import drive_checks
+from cqdd_design.gearbox.checks.loads import load_checks
+from cqdd_design.gearbox.checks.shape import shape_checks
 from cqdd_design.gearbox.checks.state import GearboxState
 from cqdd_design.gearbox.geometry_summary import summarise_geometry
 from cqdd_design.gearbox.loads import RigidMaxima, RigidSeries, rigid_maxima, rigid_series
@@ -113,7 +116,7 @@ def analyse_gearbox(
         orbiting_mass=orbiting,
         balance=balance,
     )
-    checks, warnings = gearbox_checks(state)
+    drive, warnings = drive_checks(state)
     shown = peak if torque is None else peak.at(torque)
     crank = 2.0 * np.pi * np.arange(max(angles, 8)) / max(angles, 8)
     return GearboxAnalysis(
@@ -121,6 +124,26 @@ def analyse_gearbox(
         rigid=shown,
         # The rigid law's sense is the drive's; a torque on the carrier loads the other flanks.
         series=replace(rigid_series(stages, -shown.torque, crank), torque=shown.torque),
-        checks=checks,
-        warnings=warnings,
+        checks=(*shape_checks(state), *load_checks(state), *drive),
+        warnings=(*_valley_warning(state), *_raceway_warning(state), *warnings),
+    )
+
+
+def _valley_warning(state: GearboxState) -> tuple[str, ...]:
+    if state.geometry.has_concave_valleys:
+        return ()
+    return (
+        "the disc has no concave valley (eccentricity too small for its lobes), so it has no "
+        "least concave radius and its wire was not checked.",
+    )
+
+
+def _raceway_warning(state: GearboxState) -> tuple[str, ...]:
+    """Needles run on the eccentric itself, whose material the design file does not name."""
+    bearing = state.cam_bearing.bearing
+    if bearing.kind not in {"needle", "needle cage"}:
+        return ()
+    return (
+        f"cam bearing '{bearing.designation}' runs on the eccentric itself: harden the shaft to "
+        f"{HARDENED_HRC:g} HRC and grind it, or the ratings do not hold.",
     )

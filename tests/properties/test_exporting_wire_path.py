@@ -80,7 +80,7 @@ def test_any_path_keeps_its_distance_and_does_not_cross(disc, ring_type, wire):
             assert np.abs(away - offset).max() < 1e-10
             assert _crossings(path.contour) == 0
             # On the waste side: outside the outer contour, inside the inner ones.
-            assert (path.contour.area() > segmented(contour).area()) == path.outer
+            assert (path.contour.moments().area > segmented(contour).moments().area) == path.outer
             lead = path.start - path.joint
             _, slopes = path.contour.evaluate(np.zeros(1))
             slope = complex(*slopes[0, 0])

@@ -175,7 +175,7 @@ def test_ring_parts_are_closed_symmetric_and_clear(disc: CycloidDisc, kind: str)
     points = _half_gap(disc, inner, 1e-5)
     assert _nearest_ever(disc, points, 400).min() > -tolerance
     exact = ring_moments(design)
-    assert part.area() == pytest.approx(exact.area, rel=1e-4)
+    assert part.moments().area == pytest.approx(exact.area, rel=1e-4)
     assert part.moments().polar == pytest.approx(exact.polar, rel=1e-4)
 
 
@@ -226,7 +226,7 @@ def test_pinwheel_has_a_pin_in_every_pocket() -> None:
 def test_impossible_rings_say_what_would_work() -> None:
     with pytest.raises(GeometryError, match=r"raise it to 68.7 mm"):
         ring_contour(design_of(PAPER, ring={"outer_diameter": 0.060}))
-    assert ring_contour(design_of(PAPER, ring={"outer_diameter": 0.0687})).area() > 0.0
+    assert ring_contour(design_of(PAPER, ring={"outer_diameter": 0.0687})).moments().area > 0.0
     with pytest.raises(GeometryError, match="relief_clearance 6 mm is above") as caught:
         solid_relief(PAPER, 6e-3)
     allowed = float(str(caught.value).split("is above ")[1].split(" mm")[0]) * 1e-3

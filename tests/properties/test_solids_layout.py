@@ -224,7 +224,9 @@ def test_notches_take_their_area_from_the_circle() -> None:
     edge = radius * math.cos(half)
     segment = 0.5 * radius**2 * (2.0 * half - math.sin(2.0 * half))
     slot = width * (edge - (radius - depth))
-    assert outline.area() == pytest.approx(math.pi * radius**2 - 4.0 * (segment + slot), rel=1e-12)
+    assert outline.moments().area == pytest.approx(
+        math.pi * radius**2 - 4.0 * (segment + slot), rel=1e-12
+    )
 
 
 def test_fits_are_named_and_have_limits() -> None:
