@@ -1,18 +1,18 @@
 """Open a page in a real Chromium and bring back what it drew.
 
 A probe script goes into a copy of the page: it collects errors, measures every figure, moves the
-slider, presses play, and leaves its findings in the document, which Chromium then prints. It also
-draws the page's frames itself, at times of its own: nothing waits for a busy machine.
+slider, presses play, and posts its findings to the test, which waits for them as long as it takes.
+It also draws the page's frames itself, at times of its own: nothing hangs on a busy machine.
 """
 
 from __future__ import annotations
 
-import html
 import json
 import os
-import re
 import shutil
 import subprocess
+import threading
+from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +33,15 @@ FLAGS = (
     "--v=0",
 )
 
+#: Seconds until a page that posts nothing is given up.
+LONGEST_WAIT = 300.0
+
+_SENDER = """<script>
+window.postFindings = function (found) {
+  fetch("http://127.0.0.1:PORT/", { method: "POST", mode: "no-cors",
+    body: JSON.stringify(found) });
+};
+</script>"""
 _COLLECTOR = """<script>
 window.probeErrors = [];
 window.addEventListener("error", function (event) {
@@ -97,10 +106,7 @@ window.addEventListener("load", function () {
   });
   function finish() {
     found.errors = window.probeErrors;
-    var place = document.createElement("pre");
-    place.id = "probe-result";
-    place.textContent = JSON.stringify(found);
-    document.body.appendChild(place);
+    postFindings(found);
   }
   if (!document.getElementById("mesh-slider")) { finish(); return; }
   found.start = mesh();
@@ -160,6 +166,64 @@ def run_browser(folder: Path, *arguments: str, page: Path) -> subprocess.Complet
     return done
 
 
+def findings(page: str, folder: Path, *flags: str) -> dict[str, Any]:
+    """What a page's own script posts with `postFindings`, and the browser's console.
+
+    The page is opened as a file, as its reader opens it, and is given as long as it needs.
+
+    Parameters
+    ----------
+    page : str
+        HTML with a script that calls ``postFindings(object)`` once.
+    folder : Path
+        For the copy and the browser's profile.
+    *flags : str
+        For Chromium.
+
+    Returns
+    -------
+    dict
+        The object, and under `console` what the page said there.
+    """
+    posted: list[bytes] = []
+    arrived = threading.Event()
+
+    class Receiver(BaseHTTPRequestHandler):
+        def do_POST(self) -> None:
+            posted.append(self.rfile.read(int(self.headers["Content-Length"])))
+            self.send_response(204)
+            self.end_headers()
+            arrived.set()
+
+        def log_message(self, *_: object) -> None:
+            pass
+
+    server = HTTPServer(("127.0.0.1", 0), Receiver)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    path = folder / "page.html"
+    sender = _SENDER.replace("PORT", str(server.server_port))
+    path.write_text(page.replace("<head>", f"<head>{sender}", 1), encoding="utf-8")
+    log = folder / "browser.log"
+    with log.open("wb") as stderr:
+        process = subprocess.Popen(
+            [browser(), *FLAGS, f"--user-data-dir={folder / 'profile'}", *flags, path.as_uri()],
+            stdout=subprocess.DEVNULL,
+            stderr=stderr,
+        )
+        try:
+            arrived.wait(LONGEST_WAIT)
+        finally:
+            process.terminate()
+            process.wait(60)
+            server.shutdown()
+            server.server_close()
+    said = log.read_text(encoding="utf-8", errors="replace")
+    assert posted, f"the page posted nothing: {said[-2000:]}"
+    found: dict[str, Any] = json.loads(posted[0])
+    found["console"] = [line for line in said.splitlines() if "CONSOLE" in line]
+    return found
+
+
 def probe(
     page: str, folder: Path, *, angle: float = 100.0, start: float = 30.0, size: str = "1100,1400"
 ) -> dict[str, Any]:
@@ -187,16 +251,7 @@ def probe(
     watched = watched.replace("</body>", f"{probe_script}</body>", 1)
     assert _COLLECTOR in watched
     assert probe_script in watched
-    path = folder / "page.html"
-    path.write_text(watched, encoding="utf-8")
-    done = run_browser(
-        folder, "--dump-dom", f"--window-size={size}", "--virtual-time-budget=20000", page=path
-    )
-    result = re.search(r'<pre id="probe-result">(.*?)</pre>', done.stdout, re.S)
-    assert result is not None, f"the probe left nothing behind: {done.stderr}"
-    found: dict[str, Any] = json.loads(html.unescape(result.group(1)))
-    found["console"] = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
-    return found
+    return findings(watched, folder, f"--window-size={size}")
 
 
 def overlapping(figure: dict[str, Any]) -> list[str]:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import html
 import importlib.util
-import json
 import math
-import re
 from pathlib import Path
 from typing import Any
 
 import pytest
-from report_browser import clipped, overlapping, run_browser
+from report_browser import clipped, findings, overlapping
 
 from cqdd_design.design import Design, load_design
 from cqdd_design.machine import resolve
@@ -70,10 +67,16 @@ _PROBE = """<script>
           bottom: at.bottom };
       }) };
   }
-  var waits = 0, timer = setInterval(function () {
-    waits += 1;
+  // The page starts the view when its stage comes into sight; observers are told in their order.
+  var begun = false, able = cqddMachine.canDraw();
+  new IntersectionObserver(function (entries) {
+    begun = begun || entries.some(function (entry) { return entry.isIntersecting; });
+  }, { rootMargin: "200px" }).observe(document.getElementById("machine-stage"));
+  var timer = setInterval(function () {
     var view = document.getElementById("machine-view");
-    if (!window.cqddMachineHandle && waits < 2000 && !view.hasAttribute("data-failed")) { return; }
+    if (!begun || (able && !window.cqddMachineHandle && !view.hasAttribute("data-failed"))) {
+      return;
+    }
     clearInterval(timer);
     var found = { failed: view.getAttribute("data-failed"), poster: getComputedStyle(
       document.getElementById("machine-poster")).display };
@@ -94,10 +97,7 @@ _PROBE = """<script>
       found.cut = colours();
     }
     found.errors = window.probeErrors;
-    var place = document.createElement("pre");
-    place.id = "probe-result";
-    place.textContent = JSON.stringify(found);
-    document.body.appendChild(place);
+    postFindings(found);
   }, 100);
 }());
 </script>"""
@@ -133,21 +133,7 @@ def page_of(views: MachineViews, machine: tuple[Design, tuple[Part, ...]]) -> st
 
 
 def seen_by(page: str, folder: Path, *flags: str) -> dict[str, Any]:
-    path = folder / "page.html"
-    path.write_text(page, encoding="utf-8")
-    done = run_browser(
-        folder,
-        *flags,
-        "--dump-dom",
-        "--window-size=1100,900",
-        "--virtual-time-budget=30000",
-        page=path,
-    )
-    result = re.search(r'<pre id="probe-result">(.*?)</pre>', done.stdout, re.S)
-    assert result is not None, f"the probe left nothing behind: {done.stderr[-2000:]}"
-    found: dict[str, Any] = json.loads(html.unescape(result.group(1)))
-    found["console"] = [line for line in done.stderr.splitlines() if "Uncaught" in line]
-    return found
+    return findings(page, folder, *flags, "--window-size=1100,900")
 
 
 def test_the_model_draws_turns_comes_apart_and_is_cut(
