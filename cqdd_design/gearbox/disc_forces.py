@@ -65,7 +65,7 @@ def disc_forces(stages: Stages, torque: float, crank_angle: ArrayLike, disc: int
     angle = kinematics.output_pin_angles(n, stages.pin_count, clocking, own)
     pin = stages.pin_circle_radius * kinematics.crank_direction(angle)
     ring_force, pin_force = stages.ring_forces(share, own), stages.pin_forces(share, own, clocking)
-    on_ring = np.stack([force @ n_ for force, n_ in zip(ring_force, normal, strict=True)])
+    on_ring = np.stack([force @ push for force, push in zip(ring_force, normal, strict=True)])
     found = DiscForces(
         ring_force=ring_force,
         ring_normal=normal,
