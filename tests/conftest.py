@@ -23,10 +23,40 @@ import cqdd_design
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 
+#: Files that take longest, which the workers begin with: then they end together.
+SLOW = (
+    *("test_cli_docs", "test_cli_torque_docs", "test_machine_in_browser", "test_cli_json"),
+    *("test_sizing_requirements", "test_precision", "test_machine_view", "test_solids_clearances"),
+    *("test_fuzz", "test_cli_simulate", "test_cli_tolerance", "test_solids_meshes"),
+    *("test_torque_runtime", "test_cli_process", "test_exporting_dialects", "test_exporting_step"),
+    *("test_cli_bench", "test_cli_size", "test_cli_bad_input", "test_torque_c_header"),
+    *("test_sizing_screen", "test_geometry_ring", "test_report_bench", "test_cli_torque_data"),
+)
+
 # The same examples every time; `python -m tools.fuzz --properties` draws others.
 settings.register_profile("steady", derandomize=True)
 settings.register_profile("random", print_blob=True)
 settings.load_profile("steady")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Tell `examples.py` how many examples a property test draws in this run."""
+    os.environ["CQDD_TEST_DEPTH"] = "deep" if _is_deep(config) else "daily"
+    config.option.loadscopereorder = False
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Property tests belong to the deep run too, with more examples; slow files start first."""
+    if _is_deep(config):
+        for item in items:
+            if getattr(getattr(item, "obj", None), "is_hypothesis_test", False):
+                item.add_marker("deep")
+    items.sort(key=lambda item: SLOW.index(item.path.stem) if item.path.stem in SLOW else len(SLOW))
+
+
+def _is_deep(config: pytest.Config) -> bool:
+    return config.option.markexpr == "deep"
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -43,7 +43,9 @@ NO_FORMULAS = ("__main__.py", "cli/", "environment.py", "errors.py", "exporting/
 ROOM_TESTS = {
     "actuator": ("test_actuator_*", "test_bench*", "test_recording*", "test_calibration*"),
     "catalog": ("test_catalog_*", "test_cli_lookups*", "test_gearbox_*", "test_actuator_param*"),
+    "design": ("test_design_*", "test_motor_file*", "test_cli_bad_input*"),
     "exporting": ("test_exporting_*", "test_torque_c_header*"),
+    "files": ("test_files_*",),
     "gearbox": (
         "test_gearbox_*",
         "test_contact_*",
@@ -57,7 +59,7 @@ ROOM_TESTS = {
     "sizing": ("test_sizing_*",),
     "solids": ("test_solids_*", "test_exporting_step*", "test_exporting_meshes*"),
     "torque": ("test_torque_*",),
-    "units.py": ("test_units*", "test_design_files*"),
+    "units": ("test_units*", "test_design_files*"),
 }
 #: Constants up to this guard against rounding and division by zero; they are no factors.
 GUARD = 1e-8

@@ -36,7 +36,7 @@ ON_DESIGN = [
     ("compare",),
     ("inertia",),
     ("export", "--to", "dxf"),
-    ("report",),
+    pytest.param(("report",), marks=pytest.mark.deep),
 ]
 OTHERS = [("catalog",), ("catalog", "6902"), ("schema",), ("explain",), ("explain", "BEARING-LIFE")]
 
@@ -44,7 +44,7 @@ OTHERS = [("catalog",), ("catalog", "6902"), ("schema",), ("explain",), ("explai
 @pytest.mark.parametrize("arguments", ON_DESIGN + OTHERS, ids=" ".join)
 def test_one_document_with_the_envelope(cqdd, paper_design_file, arguments):
     command, *options = arguments
-    on_design = arguments in ON_DESIGN
+    on_design = arguments not in OTHERS
     done = cqdd(command, *([paper_design_file] if on_design else []), *options, "--json")
     assert done.code == (4 if command == "check" else 0), done.err
     document = done.document

@@ -50,6 +50,7 @@ def test_size_designs_for_the_motor_of_the_file(cqdd, tmp_path, motor_file):
     assert "motor 'rewound' does not meet" in weak.err
 
 
+@pytest.mark.deep
 def test_inertia_weighs_the_motor_of_the_file(cqdd, paper_design_file, motor_file):
     done = cqdd("inertia", paper_design_file, "--motor-file", motor_file, "--json")
     results = done.document["results"]

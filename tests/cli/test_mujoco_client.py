@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from examples import examples
 from hypothesis import HealthCheck, assume, given, settings
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "oracles"))
@@ -326,7 +327,7 @@ def test_sense_of_the_other_commands_in_a_robot(
     assert np.all(sense * data.qpos > 0.1)
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(25), deadline=None, suppress_health_check=list(HealthCheck))
 @given(p=random_actuators())
 def test_random_actuators(p: ActuatorParameters) -> None:
     model, data = load(model_text(MjcfActuator(p, "drawn")))
@@ -347,7 +348,7 @@ def test_random_actuators(p: ActuatorParameters) -> None:
         assert found[-1, 0] > 0.0
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(25), deadline=None, suppress_health_check=list(HealthCheck))
 @given(p=random_actuators())
 def test_random_actuators_in_a_robot_at_its_own_step(
     tmp_path_factory: pytest.TempPathFactory, p: ActuatorParameters

@@ -187,6 +187,7 @@ def test_it_is_complete_without_scripts(paper_page: str) -> None:
     assert ".controls { display: none;" in still
 
 
+@pytest.mark.deep
 def test_it_prints(paper_page: str, tmp_path: Path) -> None:
     page = tmp_path / "page.html"
     page.write_text(paper_page, encoding="utf-8")

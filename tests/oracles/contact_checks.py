@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 from hypothesis import reject
 
@@ -15,11 +13,6 @@ from cqdd_design.gearbox.contact.sweep import contact_sweep
 from cqdd_design.geometry import kinematics
 
 BALANCE = 1e-9
-
-
-def examples(count: int) -> int:
-    """Examples of a property test: a few by default, CQDD_TEST_DEPTH times as many if it is set."""
-    return count * int(os.environ.get("CQDD_TEST_DEPTH", "1"))
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:

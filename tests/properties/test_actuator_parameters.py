@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -101,7 +102,7 @@ def test_iron_drags_against_the_motion_and_the_envelope_pays_it() -> None:
 
 
 @given(st.floats(0.0, 30.0), st.floats(0.0, 20.0))
-@settings(max_examples=30)
+@settings(max_examples=examples(30))
 def test_thermal_response_obeys_its_equations(current: float, heat: float) -> None:
     t = np.linspace(0.0, 3000.0, 31)
     found = thermals.response(MOTOR, THERMAL, current, t, housing_heat=heat)

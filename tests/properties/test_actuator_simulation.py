@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from actuator_machines import COLD, NO_FRICTION, machine
 from actuator_twin import in_plain_numpy
+from examples import examples
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -130,7 +131,7 @@ def test_no_machine_is_given_energy(**contact: Any) -> None:
     keeps_energy(**contact)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(**CONTACTS)
 @bounced(2.875, 1.0, 6.5, 37.0, 0.015625, 2.665e-5)
 @bounced(1.0, 1.0, 6.5, 36.0, 0.0234375, 2.665e-5)

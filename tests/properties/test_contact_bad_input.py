@@ -9,7 +9,7 @@ import sys
 
 import numpy as np
 import pytest
-from contact_checks import assert_sound, examples, some_angles, swept
+from contact_checks import assert_sound, some_angles, swept
 from contact_designs import (
     contact_designs,
     machine_of,
@@ -17,6 +17,7 @@ from contact_designs import (
     usual_torque,
 )
 from contact_oracle import solve
+from examples import examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -136,7 +137,7 @@ def test_interference_is_a_balanced_preload(line_model: str) -> None:
     )
 
 
-@settings(max_examples=examples(8), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(32), deadline=None, suppress_health_check=SLOW)
 @given(
     contact_designs(modified=False),
     st.floats(-8e-6, 2e-6),

@@ -7,6 +7,7 @@ import math
 
 import pytest
 from actuator_samples import paper_actuator, random_actuators
+from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -65,7 +66,7 @@ def ours(p: ActuatorParameters, speed: float, carried: float, coefficient: float
     return n * motor_side + friction.output_coulomb * rise + viscous * speed
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150), deadline=None)
 @given(p=random_actuators(), speed=st.floats(0.0, 20.0), carried=st.floats(0.0, 200.0))
 def test_the_same_friction_budget_under_load(
     p: ActuatorParameters, speed: float, carried: float

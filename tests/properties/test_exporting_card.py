@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 from actuator_samples import paper_actuator, random_actuators
+from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -42,7 +43,7 @@ def isaac_dc_motor(settings: dict[str, float], error: float, speed: float) -> fl
     return float(np.clip(asked, lowest, highest))
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50), deadline=None)
 @given(p=random_actuators())
 def test_reflection(p: ActuatorParameters) -> None:
     rows = {row.key: row for row in actuator_card(p, "drawn").rows}
@@ -56,7 +57,7 @@ def test_reflection(p: ActuatorParameters) -> None:
     assert rows["reflected_inertia"].joint == pytest.approx(whole)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50), deadline=None)
 @given(p=random_actuators(), error=st.floats(1e-3, 1.0))
 def test_positive_error_gives_positive_torque_in_every_client(
     p: ActuatorParameters, error: float
@@ -154,7 +155,7 @@ def test_names_belong_to_rows_and_clients() -> None:
     assert set(list(card_table()[0])[6:]) == {client.key for client in clients()}
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(
     document=st.recursive(
         st.none()
@@ -186,7 +187,7 @@ def test_yaml_of_any_plain_data(document: dict[str, object]) -> None:
     assert same(yaml.safe_load(yaml_text(document)) if document else {}, document)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(p=random_actuators())
 def test_values_stand_on_the_side_they_are_given_on(p: ActuatorParameters) -> None:
     """Not only the factor between the columns: the columns themselves."""

@@ -38,7 +38,13 @@ def paper(paper_design_file):
     return load_design(paper_design_file)
 
 
-@pytest.fixture(scope="module", params=["solid", "conjugate", "pinwheel"])
+@pytest.fixture(
+    scope="module",
+    params=[
+        "solid",
+        *(pytest.param(name, marks=pytest.mark.deep) for name in ("conjugate", "pinwheel")),
+    ],
+)
 def parts(request, paper):
     design = paper.replacing({"reducer.ring_type": request.param})
     return design, flat_parts(resolve(design))

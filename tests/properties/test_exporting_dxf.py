@@ -12,6 +12,7 @@ from pathlib import Path
 import ezdxf
 import numpy as np
 import pytest
+from examples import examples
 from ezdxf.document import Drawing
 from geometry_designs import PAPER, design_of, discs
 from hypothesis import HealthCheck, given, settings
@@ -32,7 +33,7 @@ from cqdd_design.solids.clocking import disc_groups
 
 FLIPPED = "TURNED OVER ABOUT THE X AXIS"
 SEVERAL = settings(
-    max_examples=12, deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
+    max_examples=examples(12), deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
 )
 
 

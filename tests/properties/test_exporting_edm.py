@@ -8,6 +8,7 @@ import re
 
 import numpy as np
 import pytest
+from examples import examples
 from hypothesis import HealthCheck, given, settings
 from lxml import etree
 from solids_designs import machines
@@ -28,7 +29,7 @@ from cqdd_design.roads.export import export
 from cqdd_design.solids.fits import seat_fits
 
 SEVERAL = settings(
-    max_examples=8, deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
+    max_examples=examples(8), deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
 )
 
 
@@ -213,6 +214,7 @@ def test_a_date_is_that_of_source_date_epoch_or_none(paper, monkeypatch):
     assert "1970-01-02" in [label.text for label in canvas.labels]
 
 
+@pytest.mark.deep
 def test_bytes_are_the_same_in_every_process(in_two_processes):
     code = (
         "import sys; from pathlib import Path; from cqdd_design.design import load_design\n"

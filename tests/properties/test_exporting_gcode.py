@@ -11,6 +11,7 @@ import re
 
 import numpy as np
 import pytest
+from examples import examples
 from geometry_designs import design_of, discs
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -26,7 +27,7 @@ from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
 
 SEVERAL = settings(
-    max_examples=8, deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
+    max_examples=examples(8), deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
 )
 NUMBER = r"([XYIJ])(-?\d+\.\d{4})(?!\d)"
 

@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from actuator_samples import frictionless, paper_actuator, random_actuators
+from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
@@ -36,7 +37,7 @@ def motor_of(text: str, name: str) -> dict[str, str]:
     return dict(found.attrib)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(p=random_actuators())
 def test_numbers_of_the_motor_arrive(p: ActuatorParameters) -> None:
     for text in (model_text(MjcfActuator(p, "a")), fragment_text(MjcfActuator(p, "a"))):
@@ -53,7 +54,7 @@ def test_numbers_of_the_motor_arrive(p: ActuatorParameters) -> None:
         )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(p=random_actuators())
 def test_friction_generates_no_energy(p: ActuatorParameters) -> None:
     """LuGre's condition sigma2 >= sigma1 (static - coulomb)/coulomb, at both sides."""
@@ -70,7 +71,7 @@ def test_friction_generates_no_energy(p: ActuatorParameters) -> None:
             assert damping <= most * (1.0 + 1e-6) + 1e-12
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(p=random_actuators())
 def test_bristles_suit_the_step(p: ActuatorParameters) -> None:
     """As stiff as breakaway over deflection, or as a step of a robot bears."""
@@ -100,7 +101,7 @@ def told(p: ActuatorParameters, torque: float, joint: float) -> float:
     return sum(one.amplitude * math.sin(one.order * joint + one.phase) for one in found)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(
     p=random_actuators(),
     cosine=st.floats(-0.05, 0.05),

@@ -11,6 +11,7 @@ import math
 import ezdxf
 import numpy as np
 import pytest
+from examples import examples
 from geometry_designs import design_of, discs
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
@@ -28,7 +29,9 @@ from cqdd_design.geometry.disc import lobed_outline
 from cqdd_design.geometry.ring import ring_contour, ring_moments
 from cqdd_design.machine import resolve
 
-FEW = settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
+FEW = settings(
+    max_examples=examples(15), deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
+)
 
 
 @pytest.fixture(scope="module")

@@ -51,6 +51,7 @@ def test_reimport_gives_valid_solids_of_the_exact_volumes(assembly_file: Path) -
         assert child.color.toTuple()[:3] == pytest.approx(part.colour, abs=1e-6)
 
 
+@pytest.mark.deep
 def test_pieces_stand_where_the_mechanism_puts_them(tmp_path: Path) -> None:
     design, parts, angle = known_design("three discs"), known_parts("three discs"), 2.2
     path = tmp_path / "turned.step"

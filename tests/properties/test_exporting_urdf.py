@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from actuator_samples import paper_actuator, random_actuators
+from examples import examples
 from hypothesis import given, settings
 
 from cqdd_design import __version__
@@ -37,7 +38,7 @@ def written(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[str, dict[s
     return str(path), expected(p)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(p=random_actuators())
 def test_values_in_the_text(p: ActuatorParameters) -> None:
     root = ElementTree.fromstring(urdf_text(p, "drawn"))

@@ -11,6 +11,7 @@ import math
 import ezdxf
 import numpy as np
 import pytest
+from examples import examples
 from geometry_designs import design_of, discs
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
@@ -32,7 +33,7 @@ from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
 
 SEVERAL = settings(
-    max_examples=8, deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
+    max_examples=examples(8), deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
 )
 
 

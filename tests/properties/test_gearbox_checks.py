@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from examples import examples
 from geometry_designs import design_of, discs
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -492,7 +493,7 @@ def judged(design: Design) -> tuple[GearboxAnalysis | None, CqddError | None]:
     st.sampled_from(["solid", "conjugate", "pinwheel"]),
     st.floats(2e-3, 12e-3),
 )
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 def test_random_designs_are_judged_or_refused_in_words(
     disc: CycloidDisc,
     count: int,

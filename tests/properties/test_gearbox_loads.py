@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from examples import examples
 from geometry_designs import discs, tooth_gaps
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -63,7 +64,7 @@ def stages(draw: st.DrawFn) -> Stages:
 
 
 @given(discs(), ANGLES)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 def test_ring_contacts_are_where_the_geometry_room_finds_them(
     disc: CycloidDisc, crank: float
 ) -> None:
@@ -86,7 +87,7 @@ def test_ring_contacts_are_where_the_geometry_room_finds_them(
 
 
 @given(stages(), TORQUES, ANGLES, st.sampled_from([0, 1, 2]))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 def test_every_disc_is_in_equilibrium(
     given_stages: Stages, torque: float, crank: float, disc: int
 ) -> None:
@@ -114,7 +115,7 @@ def test_every_disc_is_in_equilibrium(
 
 
 @given(stages(), ANGLES)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 def test_forces_repeat_with_the_stated_periods(given_stages: Stages, crank: float) -> None:
     s = given_stages
     n, pins = s.lobe_count, s.pin_count
@@ -140,7 +141,7 @@ def test_forces_repeat_with_the_stated_periods(given_stages: Stages, crank: floa
 
 
 @given(stages(), ANGLES, st.integers(1, 2))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 def test_a_phased_disc_is_disc_0_clocked_further(
     given_stages: Stages, crank: float, index: int
 ) -> None:
@@ -157,7 +158,7 @@ def test_a_phased_disc_is_disc_0_clocked_further(
 
 
 @given(stages(), ANGLES)
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 def test_the_other_sense_of_torque_is_the_mirror_image(given_stages: Stages, crank: float) -> None:
     s = given_stages
     one = s.cam_loads(1.0, np.array([crank]), s.hole_clocking)[0]
@@ -166,7 +167,7 @@ def test_the_other_sense_of_torque_is_the_mirror_image(given_stages: Stages, cra
 
 
 @given(stages(), st.floats(1.0, 300.0), st.floats(0.5, 3.0))
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 def test_scaling_laws(given_stages: Stages, torque: float, size: float) -> None:
     """Forces fall with the size of a similar gearbox, pressures with its power 3/2 by 1/b."""
     s = given_stages
@@ -193,7 +194,7 @@ def test_scaling_laws(given_stages: Stages, torque: float, size: float) -> None:
 
 
 @given(stages())
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=examples(10), deadline=None)
 def test_maxima_are_those_of_brute_force(given_stages: Stages) -> None:
     """20,000 angles over a whole common period, every disc, both senses; good to 1e-5."""
     s = given_stages

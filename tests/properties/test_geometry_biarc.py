@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from examples import examples
 from geometry_designs import PAPER, design_of, discs, joint_angles
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -24,7 +25,7 @@ from cqdd_design.geometry.disc import (
 from cqdd_design.geometry.meshing import project
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(discs(modified=True), st.sampled_from([2e-8, 0.5e-6, 5e-6, 1e-4]))
 def test_outline_is_within_its_bound_and_tangent_continuous(
     disc: CycloidDisc, tolerance: float
@@ -40,7 +41,7 @@ def test_outline_is_within_its_bound_and_tangent_continuous(
     assert outline.points[0] == pytest.approx([disc.valley_distance, 0.0], abs=1e-12)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(discs(modified=True))
 def test_outline_has_the_symmetry_of_the_lobes(disc: CycloidDisc) -> None:
     outline = lobed_outline(disc, 0.5e-6)
@@ -54,7 +55,7 @@ def test_outline_has_the_symmetry_of_the_lobes(disc: CycloidDisc) -> None:
     assert np.allclose(outline.bulges, outline.bulges[::-1], rtol=0, atol=0)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(discs(modified=True))
 def test_area_and_inertia_of_arcs_match_the_exact_integrals(disc: CycloidDisc) -> None:
     tolerance = 0.2e-6
@@ -69,7 +70,7 @@ def test_area_and_inertia_of_arcs_match_the_exact_integrals(disc: CycloidDisc) -
     assert outline.length() == pytest.approx(profile_perimeter(disc), rel=1e-4)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(discs())
 def test_exact_area_by_the_parallel_curve_theorem(disc: CycloidDisc) -> None:
     """Steiner: A(r) = A(locus) - r L(locus) + pi r^2; L is a complete elliptic integral."""
@@ -100,7 +101,7 @@ def test_paper_disc_needs_at_most_300_arcs_for_half_a_micrometre(rotation: float
     assert len(lobed_outline(disc, 0.5e-6)) <= 300
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 @given(discs(least_lobes=4, most_lobes=20), st.integers(3, 8), st.integers(1, 3))
 def test_disc_part_against_exact_moments(disc: CycloidDisc, pins: int, discs_in: int) -> None:
     room = disc.valley_distance

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from examples import examples
 from geometry_designs import discs, joint_angles
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -49,7 +50,7 @@ def test_slot_has_its_textbook_moments(length: float, radius: float) -> None:
     assert moments.centroid == pytest.approx([0.0, 0.0], abs=1e-12 * (length + radius))
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(discs(modified=True), st.floats(-4.0, 4.0), st.floats(-0.1, 0.1), st.booleans())
 def test_moments_follow_a_moved_contour_and_a_fine_polygon(
     disc: object, rotation: float, shift: float, mirror: bool

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from examples import examples
 from geometry_designs import PAPER, design_of, discs
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -40,7 +41,7 @@ def test_hole_is_measured_to_the_mean_pin_or_to_the_sleeve() -> None:
     assert hole_diameter(sleeved) == pytest.approx(0.006 + 0.0032 + 16e-6)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(
     discs(least_lobes=4, most_lobes=30),
     st.integers(1, 3),
@@ -102,7 +103,7 @@ def test_paper_ligaments_by_hand() -> None:
     assert [one.thickness for one in found] == sorted(by_kind.values())
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(
     discs(least_lobes=4, most_lobes=30), st.integers(3, 9), st.integers(1, 3), st.floats(-0.5, 0.5)
 )

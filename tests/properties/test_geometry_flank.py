@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from examples import examples
 from geometry_designs import CYCLOIDGEN, PAPER, discs, tooth_gaps
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -17,7 +18,7 @@ EXACT = 1e-12
 UNIT = np.array([1.0, 1j])
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(discs())
 def test_flank_is_the_parallel_of_the_locus(disc: CycloidDisc) -> None:
     t = np.linspace(0.0, 2.0 * math.pi / disc.lobe_count, 101)
@@ -34,7 +35,7 @@ def test_flank_is_the_parallel_of_the_locus(disc: CycloidDisc) -> None:
     assert others.min() >= disc.tooth_radius - EXACT
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(discs(modified=True))
 def test_tangent_speed_and_curvature_are_derivatives(disc: CycloidDisc) -> None:
     for begin, end in zip(disc.breaks[:-1], disc.breaks[1:], strict=True):
@@ -51,7 +52,7 @@ def test_tangent_speed_and_curvature_are_derivatives(disc: CycloidDisc) -> None:
     assert np.allclose(disc.tangent(t) @ UNIT, 1j * (disc.normal(t) @ UNIT), atol=1e-15)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(discs(modified=True))
 def test_finished_profile_is_smooth_symmetric_and_star_shaped(disc: CycloidDisc) -> None:
     pitch = 2.0 * math.pi / disc.lobe_count
@@ -70,7 +71,7 @@ def test_finished_profile_is_smooth_symmetric_and_star_shaped(disc: CycloidDisc)
     assert np.abs(profile).min() == pytest.approx(disc.valley_distance, rel=1e-12)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(discs(modified=True))
 def test_least_radii_are_those_of_the_finished_profile(disc: CycloidDisc) -> None:
     bend = disc.curvature(np.linspace(0.0, disc.half_pitch, 20_001))
@@ -146,7 +147,7 @@ def _worst_interference(disc: CycloidDisc, n: int, phi: np.ndarray) -> float:
     return float(disc.tooth_radius - distance.min())
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(discs(), st.floats(0.0, 100.0))
 def test_every_tooth_touches_where_the_closed_form_says(disc: CycloidDisc, phi: float) -> None:
     found = tooth_gaps(disc, phi)

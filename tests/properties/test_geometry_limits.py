@@ -7,6 +7,7 @@ import re
 from typing import Any
 
 import pytest
+from examples import examples
 from geometry_designs import PAPER, design_of, discs, joint_angles, tooth_gaps
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -37,7 +38,7 @@ def test_largest_eccentricity_is_the_undercut_limit(n: int, R: float, share: flo
     assert smallest_pitch_radius(n, e, r) == pytest.approx(R, rel=1e-6)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @given(discs(), st.floats(1.001, 5.0))
 def test_undercut_message_is_true_and_both_fixes_work(disc: CycloidDisc, factor: float) -> None:
     n, R, r = disc.lobe_count, disc.ring_pitch_radius, disc.tooth_radius
@@ -59,7 +60,7 @@ def test_undercut_sentence_in_full() -> None:
     )
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(discs(), st.floats(1.001, 3.0))
 def test_overlapping_teeth(disc: CycloidDisc, factor: float) -> None:
     n, R = disc.lobe_count, disc.ring_pitch_radius
@@ -151,7 +152,7 @@ def test_no_room_for_holes_at_all() -> None:
         )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150), deadline=None)
 @given(
     st.integers(4, 119),
     st.floats(0.002, 1.0),

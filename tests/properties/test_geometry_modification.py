@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from examples import examples
 from geometry_designs import PAPER, discs, tooth_gaps
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -31,7 +32,7 @@ def _arm(disc: CycloidDisc) -> np.ndarray:
     return np.abs((np.conj(point) * normal).imag)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(discs(), st.floats(-1e-4, 1e-4))
 def test_equidistant_leaves_exactly_its_gap_at_every_tooth(disc: CycloidDisc, c: float) -> None:
     c *= 100.0 * min(1e-2, 0.05 * disc.tooth_radius)
@@ -39,7 +40,7 @@ def test_equidistant_leaves_exactly_its_gap_at_every_tooth(disc: CycloidDisc, c:
     assert np.abs(tooth_gaps(finished, PHI).gap - c).max() < 1e-9
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(discs(), st.floats(0.05, 1.0))
 def test_radial_leaves_its_projection_on_the_normal(disc: CycloidDisc, share: float) -> None:
     """gap = dR cos(beta), cos(beta) = (1 - K1 cos nt) / D: positive at every tooth."""
@@ -84,7 +85,7 @@ def test_published_initial_gap_of_a_modified_pair() -> None:
     assert published.max() > 5e-6
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(discs(), st.floats(0.05, 1.0))
 def test_rotation_gap_grows_with_the_lever_arm(disc: CycloidDisc, share: float) -> None:
     delta = share * 1e-4
@@ -104,7 +105,7 @@ def test_rotation_gap_grows_with_the_lever_arm(disc: CycloidDisc, share: float) 
     assert np.corrcoef(gap[on_flank], arm[on_flank])[0, 1] > 0.9
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(discs(), st.floats(0.05, 1.0))
 def test_rotated_profile_stays_inside_both_turned_profiles(disc: CycloidDisc, share: float) -> None:
     delta = share * 0.2 * math.pi / (8 * disc.lobe_count)

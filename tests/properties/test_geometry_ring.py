@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from examples import examples
 from geometry_designs import PAPER, design_of, discs, joint_angles
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -52,7 +53,7 @@ def _half_gap(disc: CycloidDisc, contour: ArcContour, tolerance: float) -> np.nd
     return points[(angle >= 0.0) & (angle <= math.pi / disc.ring_tooth_count + 1e-9)]
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(discs(most_lobes=40), st.floats(0.02, 0.3))
 def test_solid_relief_clears_the_disc_over_the_whole_period(
     disc: CycloidDisc, share: float
@@ -108,7 +109,7 @@ def test_a_larger_fillet_would_not_clear() -> None:
     assert _nearest_ever(PAPER, np.array([start]), 7200).min() < 1e-4 - 1e-7
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(discs())
 def test_second_envelope_is_touched_and_never_cut(disc: CycloidDisc) -> None:
     envelope = SecondEnvelope.of(disc)
@@ -126,7 +127,7 @@ def test_second_envelope_is_touched_and_never_cut(disc: CycloidDisc) -> None:
     assert np.abs(normal - envelope.normal(t)).max() < 1e-6
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 @given(discs())
 def test_second_envelope_joins_the_teeth_smoothly(disc: CycloidDisc) -> None:
     envelope = SecondEnvelope.of(disc)
@@ -150,7 +151,7 @@ def test_second_envelope_joins_the_teeth_smoothly(disc: CycloidDisc) -> None:
     assert np.allclose(bend, envelope.curvature(inside), rtol=1e-3, atol=1e-3 * np.abs(bend).max())
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(discs(least_lobes=4, most_lobes=40), st.sampled_from(["solid", "conjugate", "pinwheel"]))
 def test_ring_parts_are_closed_symmetric_and_clear(disc: CycloidDisc, kind: str) -> None:
     design = design_of(disc, ring_type=kind, ring={"outer_diameter": 3.0 * disc.ring_pitch_radius})
@@ -233,7 +234,7 @@ def test_impossible_rings_say_what_would_work() -> None:
     assert solid_relief(PAPER, allowed).fillet_radius > 0.0
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=examples(10), deadline=None)
 @given(discs(least_lobes=4, most_lobes=30))
 def test_conjugate_ring_and_finished_disc_arcs_do_not_cut_each_other(disc: CycloidDisc) -> None:
     """The two cut contours themselves, in contact, overlap by no more than their tolerances."""

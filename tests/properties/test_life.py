@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -348,7 +349,7 @@ CYCLES = st.lists(
 
 
 @given(CYCLES, CYCLES)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 def test_pairing_keeps_every_pulse_once(
     one: list[tuple[float, float, float]], other: list[tuple[float, float, float]]
 ) -> None:
@@ -360,7 +361,7 @@ def test_pairing_keeps_every_pulse_once(
 
 
 @given(st.lists(st.integers(-20, 20), min_size=3, max_size=30), st.integers(0, 29))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 def test_a_history_that_repeats_counts_alike_from_either_end(values: list[int], cut: int) -> None:
     """Begun and ended at its greatest value: half of all travel is the sum of ranges counted."""
     history = np.roll(np.array(values, dtype=float), cut)
@@ -443,7 +444,7 @@ TORQUES = st.one_of(st.just(0.0), st.floats(1e-6, 80.0), st.floats(-80.0, -1e-6)
 
 
 @given(TORQUES, TORQUES, st.floats(0.0, 30.0), st.floats(0.01, 0.99))
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 def test_any_duty_gives_finite_numbers(
     one: float, other: float, speed: float, share: float
 ) -> None:

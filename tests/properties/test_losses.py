@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from examples import examples
 from geometry_designs import discs
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -101,7 +102,7 @@ def turned(angle: np.ndarray | float, points: np.ndarray) -> np.ndarray:
 
 
 @given(discs(), st.floats(0.0, 6.0))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 def test_sliding_at_teeth_is_the_speed_of_the_discs_material(disc: CycloidDisc, phi: float) -> None:
     n, R, e = disc.lobe_count, disc.ring_pitch_radius, disc.eccentricity
     stage = lone_disc(n, R, e, disc.tooth_radius, 1.0, [phi])
@@ -120,7 +121,7 @@ def test_sliding_at_teeth_is_the_speed_of_the_discs_material(disc: CycloidDisc, 
 
 
 @given(discs(), st.floats(0.0, 6.0), st.floats(0.01, 0.05), st.floats(1.2, 3.0))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 def test_sliding_at_pins_and_under_sleeves(
     disc: CycloidDisc, phi: float, circle: float, ratio: float
 ) -> None:
@@ -157,7 +158,7 @@ def test_sleeves_lower_pin_losses_by_the_ratio_of_diameters() -> None:
 
 
 @given(discs(most_lobes=30), st.floats(1.0, 200.0))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 def test_work_at_teeth_equals_the_integral_of_path_differences(
     disc: CycloidDisc, torque: float
 ) -> None:
@@ -203,7 +204,7 @@ def test_friction_power_at_contact_teeth_is_what_virtual_work_gives() -> None:
 
 
 @given(discs(most_lobes=30), st.floats(0.01, 0.2))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 def test_tooth_force_change_is_the_moment_of_friction_on_the_disc(
     disc: CycloidDisc, mu: float
 ) -> None:
@@ -486,7 +487,7 @@ def test_map_holds_the_single_points() -> None:
 
 
 @given(st.floats(0.2, 120.0))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 def test_torques_between_the_sweeps_are_good_to_three_per_mille(torque: float) -> None:
     sweep = contact_sweep(ContactModel.from_design(PAPER), torque)
     exact = sum(model_of().machine.coulomb_work(sweep).values())
@@ -602,7 +603,7 @@ def test_friction_coefficients_act_in_proportion() -> None:
 
 
 @given(machines(), st.floats(0.1, 100.0))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 def test_random_machines_have_sound_losses(machine: tuple[Design, object], torque: float) -> None:
     design, _ = machine
     friction = resolve(design).friction

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -44,7 +45,7 @@ def test_losses_and_bill_name_the_same_bearings() -> None:
     assert machine.friction.output.name == bought(machine, "output bearing")
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(
     ratio=st.integers(6, 30),
     discs=st.integers(1, 3),

@@ -79,7 +79,8 @@ def texts(markup: str) -> list[str]:
     return ["".join(item.itertext()) for item in root.iter("text", f"{SVG}text")]
 
 
-@pytest.mark.parametrize("name", [pytest.param("paper", marks=pytest.mark.deep), BOTH])
+@pytest.mark.deep
+@pytest.mark.parametrize("name", ["paper", BOTH])
 def test_pictures_are_well_formed_light_and_name_every_part(name: str) -> None:
     found, (design, parts) = views(name), machine(name)
     for figure in (found.assembled, found.exploded, found.section):
@@ -281,6 +282,7 @@ def test_the_viewer_moves_bodies_by_the_same_law(tmp_path: Path) -> None:
         assert turned_by == pytest.approx(expected[:2, 0].tolist(), abs=1e-12)
 
 
+@pytest.mark.deep
 def test_the_fragment_needs_no_network() -> None:
     fragment = (
         environment()

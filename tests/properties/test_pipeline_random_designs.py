@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from examples import examples
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
@@ -91,7 +92,7 @@ def designs(draw: st.DrawFn) -> dict[str, object]:
     return {"requirements": requirements, "reducer": reducer, "motor": motor}
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=examples(150), deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(designs())
 def test_a_random_design_is_analysed_or_refused(mapping: dict[str, object]) -> None:
     outcome = analysed(mapping)
@@ -128,7 +129,7 @@ def test_teeth_that_only_a_grown_disc_would_clear() -> None:
     assert isinstance(analysed({"reducer": reducer}), CqddError)
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(150), deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.text(max_size=200))
 @example("[reducer]\nratio = 10")
 @example("a = [[[[[")
@@ -139,7 +140,7 @@ def test_random_text_is_refused(tmp_path: Path, text: str) -> None:
         load_design(path)
 
 
-@settings(max_examples=200, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=examples(200), deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_a_damaged_design_file_is_read_or_refused(tmp_path: Path, data: st.DataObject) -> None:
     """A piece of the paper's design file replaced by something else."""

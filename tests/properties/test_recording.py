@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -71,7 +72,7 @@ def swinging() -> Recording:
 # The plan ---------------------------------------------------------------------------------------
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(rate=st.floats(1.0, 2e5), frequency=st.floats(0.1, 2000.0), locked=st.booleans())
 def test_default_steps_are_safe_and_fill_every_record(rate, frequency, locked):
     load = Load.locked() if locked else Load.free()

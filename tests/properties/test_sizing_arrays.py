@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from examples import examples
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -47,7 +48,7 @@ def ring_stages(draw):
     return n, R, e, r
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(
     stage=ring_stages(),
     pins=st.integers(4, 20),
@@ -76,7 +77,7 @@ def test_tables_give_the_maxima_of_the_rigid_law(stage, pins, share, discs):
     assert load == pytest.approx(exact.cam_bearing_load, rel=1e-3)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=examples(60))
 @given(stage=ring_stages(), pins=st.integers(4, 20), play=st.floats(2e-3, 8e-3))
 def test_the_pin_circle_leaves_the_least_ligament_exactly(stage, pins, play):
     """Over all holes of both discs; the guard of 3 um is the only thing lost."""
@@ -96,7 +97,7 @@ def test_the_pin_circle_leaves_the_least_ligament_exactly(stage, pins, play):
     assert ligament <= 1.5e-3 + 1e-5
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=examples(40))
 @given(stage=ring_stages())
 def test_area_and_polar_moment_are_those_of_the_exact_curve(stage):
     n, R, e, r = stage
@@ -108,7 +109,7 @@ def test_area_and_polar_moment_are_those_of_the_exact_curve(stage):
     assert polar[0] == pytest.approx(exact.xx + exact.yy, rel=1e-4)
 
 
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=examples(30))
 @given(stage=ring_stages())
 def test_the_wire_passes_where_the_largest_fillet_is_wide_enough(stage):
     n, R, e, r = stage
@@ -133,7 +134,7 @@ def points_near(ratio, steps, count, size):
     return evaluator, points
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=examples(25))
 @given(
     ratio=st.sampled_from([6, 10, 15, 28]),
     throw=st.floats(0.35, 0.85),

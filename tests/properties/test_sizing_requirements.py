@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import pytest
+from examples import examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -54,7 +55,13 @@ def assert_sound(result, requirements):
     assert result.candidates_screened >= 200_000
 
 
-@pytest.mark.parametrize("ratio", range(6, 31))
+@pytest.mark.parametrize(
+    "ratio",
+    [
+        pytest.param(ratio, marks=() if ratio % 5 == 0 else pytest.mark.deep)
+        for ratio in range(6, 31)
+    ],
+)
 def test_the_defaults_give_a_design_that_passes_every_check(ratio):
     requirements = Requirements(ratio=ratio)
     result = size(requirements)
@@ -85,7 +92,10 @@ REQUIREMENTS = st.fixed_dictionaries(
 
 
 @settings(
-    deadline=None, max_examples=10, suppress_health_check=[HealthCheck.too_slow], derandomize=True
+    deadline=None,
+    max_examples=examples(10),
+    suppress_health_check=[HealthCheck.too_slow],
+    derandomize=True,
 )
 @given(given=REQUIREMENTS)
 def test_any_requirements_give_a_design_or_a_reason(given):
@@ -110,6 +120,7 @@ def assert_reasoned(error, requirements):
         assert 0.0 < error.most_torque < requirements.peak_torque
 
 
+@pytest.mark.deep
 def test_the_same_answer_every_time_in_every_process():
     result = sized(ratio=13, peak_torque="40 N*m", continuous_torque="20 N*m")
     program = (
@@ -130,6 +141,7 @@ def test_the_same_answer_every_time_in_every_process():
         assert printed[4].strip() == str(result.rejected)
 
 
+@pytest.mark.deep
 def test_a_bigger_ring_never_carries_less():
     most = []
     for diameter in (36, 42, 52, 64):

@@ -84,7 +84,9 @@ def design_of(frame, tables, one):
 @pytest.mark.parametrize(
     ("ratio", "peak", "bearings", "counts", "thickness"),
     [
-        (10, "75 N*m", ("6904", "16002"), (10, 14), (8e-3, 9e-3)),
+        pytest.param(
+            *(10, "75 N*m", ("6904", "16002"), (10, 14), (8e-3, 9e-3)), marks=pytest.mark.deep
+        ),
         (21, "95 N*m", ("16004", "6804"), (7, 16), (8e-3,)),
     ],
 )

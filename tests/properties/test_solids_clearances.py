@@ -50,6 +50,7 @@ def test_gaps_are_those_of_the_design(motion: AssemblyMotion) -> None:
     assert {"eccentric shaft", "cam bearing"} in [set(pair) for pair in motion.seats]
 
 
+@pytest.mark.deep
 def test_a_sound_machine_passes_its_check(motion: AssemblyMotion) -> None:
     check = assembly_check(motion)
     assert (check.id, check.status, check.value) == ("ASSEMBLY-CLEAR", "pass", 0.0)

@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 import pytest
+from examples import examples
 from hypothesis import HealthCheck, given, settings
 from solids_designs import CHANGES, known_design, known_parts, machines, part_named
 
@@ -64,7 +65,7 @@ def assert_turned_parts_apart(design: Design, parts: tuple[Part, ...]) -> None:
 
 @given(machines())
 @settings(
-    max_examples=60,
+    max_examples=examples(60),
     deadline=None,
     suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow],
 )

@@ -103,7 +103,7 @@ def test_display_meshes_are_closed_and_small() -> None:
     [
         pytest.param("paper", [2.3], FINE, marks=pytest.mark.deep),
         pytest.param("three discs", [1.1], DISPLAY, marks=pytest.mark.deep),
-        ("pinwheel", [4.0], DISPLAY),
+        pytest.param("pinwheel", [4.0], DISPLAY, marks=pytest.mark.deep),
         pytest.param("conjugate", [7.7], DISPLAY, marks=pytest.mark.deep),
         ("one disc", [30.0], DISPLAY),
     ],

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from examples import examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from solids_designs import known_design, known_parts, part_named
@@ -40,7 +41,9 @@ def built(changes: dict[str, object]) -> tuple[Design, tuple[Part, ...]]:
     st.floats(0.02, 0.12),
     st.booleans(),
 )
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
+@settings(
+    max_examples=examples(60), deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
+)
 def test_scallops_add_and_take_their_lunes(
     radius: float, count: int, far: float, share: float, inward: bool
 ) -> None:

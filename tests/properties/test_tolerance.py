@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -53,7 +54,7 @@ def part(batch: GearboxErrors, rows: slice) -> GearboxErrors:
 
 
 @given(st.integers(0, 400), st.integers(1, 30), st.integers(0, 2**64 - 1))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=examples(25), deadline=None)
 def test_a_gearbox_depends_on_seed_and_number_only(first: int, count: int, seed: int) -> None:
     model, tolerances = ContactModel.from_design(paper()), paper().tolerances
     alone = draw_errors(model, tolerances, seed, first + count - 1, 1)
@@ -249,6 +250,7 @@ def test_an_output_that_does_not_vary_has_no_indices() -> None:
     assert np.array_equal(found.total, np.zeros(4))
 
 
+@pytest.mark.deep
 def test_the_only_tolerance_has_all_of_the_variance() -> None:
     none = dict.fromkeys(GROUPS, 0.0)
     design = paper(**(none | {"pin_diameter": 9e-6}))

@@ -204,7 +204,7 @@ def test_the_swing_meets_the_supply_and_the_current_limit():
 
 @compiled
 @pytest.mark.parametrize("way", [-1.0, 1.0], ids=["against the motor", "with the motor"])
-@pytest.mark.parametrize("mode", ["streaming", "window"])
+@pytest.mark.parametrize("mode", ["streaming", pytest.param("window", marks=pytest.mark.deep)])
 def test_balance_friction_and_ripple_are_made_inside(tmp_path, mode, way):
     parameters, episode = small_drive(way), swing()
     artefact = physical(parameters, mode=mode, residual=True)

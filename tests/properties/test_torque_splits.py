@@ -7,6 +7,7 @@ import zlib
 
 import numpy as np
 import pytest
+from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -78,7 +79,7 @@ def test_the_default_size_leaves_sixty_tests_and_a_seventh_to_stop_by():
     assert len(found.train) + len(found.validation) + len(found.test) == 320
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=examples(10), deadline=None)
 @given(st.integers(5, 60), st.integers(1, 4), st.integers(0, 1000))
 def test_episodes_of_one_configuration_stay_together(count, repeats, seed):
     episodes = [
