@@ -263,16 +263,8 @@ def _gear(
         ratio=-float(design.reducer.ratio),
         input_inertia=split.input,
         output_inertia=split.output,
-        error_orders=found.error_orders,
-        error_cosine=found.error_cosine,
-        error_sine=found.error_sine,
-        error_torque=found.torque,
-        stiffness=found.stiffness,
-        stiffness_cosine=found.stiffness_cosine,
-        stiffness_sine=found.stiffness_sine,
-        stiffening=found.stiffening,
         damping=2.0 * DAMPING_RATIO * math.sqrt(found.stiffness * swinging),
-        backlash=found.backlash,
+        **vars(found),
     )
 
 
@@ -281,7 +273,6 @@ def friction_parameters(losses: LossModel, torque: float, input_speed: float) ->
 
     Parameters
     ----------
-    losses : LossModel
     torque : float
         At which efficiency is kept in both directions, N m.
     input_speed : float

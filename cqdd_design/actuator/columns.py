@@ -131,7 +131,10 @@ TRACES: dict[str, str] = {
     "housing_temperature": "degC",
 }
 """What is recorded, with its unit. States are those at the end of a step, torques and voltage its
-means. `output_torque` is what the flange gives the load."""
+means; current and voltage are those of the DC machine, 0 V with open phases. `deflection` is
+theta/ratio + eps(theta) - q, `gear_torque` acts on the output, `output_torque` is what the flange
+gives the load, as a sensor reads it. Iron losses are left out of the viscous part of the frictions;
+the command stands in its own unit: V, A or N m."""
 
 Traces: Any = _values("Traces", list(TRACES))
 """An array (S, N) of each."""
@@ -150,7 +153,9 @@ LEDGER: tuple[str, ...] = (
     "stored_after",
     "unsettled",
 )
-"""Energies in J of one run, and last the number of steps whose equations did not settle."""
+"""Energies in J of one run: put in by the drive, lost in six ways, put in from outside at the
+output; the integral of the absolute powers of drive and outside; stored in inductance, masses,
+springs and gravity. Last the number of steps whose equations did not settle."""
 
 Ledger: Any = _values("Ledger", LEDGER)
 """An array (S,) of each, or the sums of one run."""

@@ -23,8 +23,6 @@ class ComparedActuator:
 
     Attributes
     ----------
-    name, gearing, source : str
-    ratio : float or None
     peak_torque, mass : float
         N m at the output, kg.
     torque_density_printed : float or None
@@ -81,15 +79,10 @@ def published_actuators() -> tuple[ComparedActuator, ...]:
     """The columns of the paper's table, in its order."""
     return tuple(
         ComparedActuator(
-            name=row.name,
-            gearing=row.gearing,
             source="Zhu et al., arXiv:2410.16591, comparison table",
-            ratio=row.ratio,
-            peak_torque=row.peak_torque,
-            mass=row.mass,
             torque_density_printed=float(row.torque_density),
             printed_digits=len(row.torque_density.partition(".")[2]),
-            efficiency=row.efficiency,
+            **{key: value for key, value in row._asdict().items() if key != "torque_density"},
         )
         for row in paper.COMPARISON
     )
@@ -131,14 +124,6 @@ def present_actuator(
 def compare_actuators(
     own: ComparedActuator | None = None, more: Sequence[str] = ()
 ) -> tuple[ComparedActuator, ...]:
-    """The paper's columns, then the present design, then catalogue rows by name.
-
-    Parameters
-    ----------
-    own : ComparedActuator, optional
-        Peak torque and efficiency as the virtual test bench finds them, mass from the solids.
-    more : sequence of str
-        Catalogue names of geared actuators.
-    """
+    """The paper's columns, then the present design, then geared actuators of the catalogue."""
     present = () if own is None else (own,)
     return (*published_actuators(), *present, *(catalogue_actuator(name) for name in more))

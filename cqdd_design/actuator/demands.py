@@ -18,14 +18,12 @@ class Demand:
 
     Attributes
     ----------
-    name : str
     torque, speed : float
         At the output, sizes, N m and rad/s.
     generating : bool
         Whether the output drives the motor there.
     lasting : bool
         Whether the point has to be held for ever.
-    found : Judgement
     """
 
     name: str

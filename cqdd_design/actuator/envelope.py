@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cqdd_design.actuator.motor import no_load_speed
 from cqdd_design.actuator.operating import (
     envelope_torque,
     held_torque,
@@ -44,25 +43,6 @@ def driver_torque(parameters: ActuatorParameters, speed: float) -> float:
     """Torque of the driver's current at an output speed (rad/s), the winding at ambient, N m."""
     limit, ambient = parameters.drive.current_limit, parameters.thermal.ambient
     return float(torque_from_current(parameters, limit, speed, ambient)[0])
-
-
-def frictionless_torque(parameters: ActuatorParameters) -> float:
-    """Torque of the driver's current at the output if nothing rubbed, N m."""
-    constant, ratio = parameters.motor.torque_constant, abs(parameters.gear.ratio)
-    return constant * parameters.drive.current_limit * ratio
-
-
-def fastest_speed(parameters: ActuatorParameters) -> float:
-    """No-load speed of the output with the winding at its limit, rad/s."""
-    friction, n = parameters.friction, abs(parameters.gear.ratio)
-    motor_speed = no_load_speed(
-        parameters.motor,
-        parameters.drive.supply_voltage,
-        temperature=parameters.thermal.most,
-        drag=friction.motor_coulomb + friction.output_coulomb / n,
-        viscous=friction.motor_viscous + friction.output_viscous / n**2,
-    )
-    return motor_speed / n
 
 
 def limit_curves(parameters: ActuatorParameters, top: float) -> tuple[LimitCurve, ...]:

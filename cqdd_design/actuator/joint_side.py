@@ -13,18 +13,15 @@ Friction of both sides is independent of load here; what depends on load is in `
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cqdd_design.actuator.motor import no_load_speed, torque_constant_at
-from cqdd_design.actuator.parameters import FloatArray
+from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.errors import DesignError
-
-if TYPE_CHECKING:
-    from cqdd_design.actuator.parameters import ActuatorParameters
 
 _NEGLIGIBLE = 1e-4
 """Harmonics of ripple below this share of the largest are not told."""
@@ -96,13 +93,6 @@ def joint_side(parameters: ActuatorParameters) -> JointSide:
     stall_current = volts / motor.resistance
     peak_current = min(stall_current, drive.current_limit)
     held = float(torque_constant_at(motor, thermal.most)) * continuous_current(motor, thermal)
-    idle = no_load_speed(
-        motor,
-        volts,
-        temperature=motor.reference_temperature,
-        drag=friction.motor_coulomb + friction.output_coulomb / n,
-        viscous=friction.motor_viscous + friction.output_viscous / n**2,
-    )
     return JointSide(
         reduction=n,
         crank_sense=int(math.copysign(1.0, parameters.gear.ratio)),
@@ -111,7 +101,7 @@ def joint_side(parameters: ActuatorParameters) -> JointSide:
         peak_torque=constant * peak_current,
         continuous_torque=n * held,
         ideal_speed=volts / constant,
-        no_load_speed=idle / n,
+        no_load_speed=idle_speed(parameters, motor.reference_temperature),
         corner_speed=(volts - peak_current * motor.resistance) / constant,
         motor_inertia=n**2 * parameters.motor_side_inertia,
         output_inertia=parameters.gear.output_inertia,
@@ -122,6 +112,19 @@ def joint_side(parameters: ActuatorParameters) -> JointSide:
         viscous=n**2 * motor_viscous(parameters) + friction.output_viscous,
         stribeck_speed=friction.stribeck_speed / n,
     )
+
+
+def idle_speed(parameters: ActuatorParameters, temperature: float) -> float:
+    """No-load speed of the output at a winding temperature (deg C), all friction on it, rad/s."""
+    friction, n = parameters.friction, abs(parameters.gear.ratio)
+    motor_speed = no_load_speed(
+        parameters.motor,
+        parameters.drive.supply_voltage,
+        temperature=temperature,
+        drag=friction.motor_coulomb + friction.output_coulomb / n,
+        viscous=friction.motor_viscous + friction.output_viscous / n**2,
+    )
+    return motor_speed / n
 
 
 def motor_coulomb(parameters: ActuatorParameters) -> float:
@@ -138,6 +141,30 @@ def motor_breakaway(parameters: ActuatorParameters) -> float:
 def motor_viscous(parameters: ActuatorParameters) -> float:
     """Drag over speed at the motor, eddy currents included, N m s/rad."""
     return parameters.friction.motor_viscous + parameters.motor.iron_loss
+
+
+def delivered_peak_torque(parameters: ActuatorParameters, side: JointSide) -> float:
+    """Peak torque at the joint in slow motion, N m; 0 where friction holds the motor.
+
+    Of the motor's torque at the current limit its Coulomb friction is taken off; of the rest the
+    gear passes on T where T (1 + f) comes in, and the output side's Coulomb friction takes the
+    last part.
+    """
+    friction = parameters.friction
+    carried = side.peak_torque - side.reduction * motor_coulomb(parameters)
+    carried /= 1.0 + friction.load_forward
+    return max(carried - friction.output_coulomb, 0.0)
+
+
+def held_back_torque(parameters: ActuatorParameters, side: JointSide) -> float:
+    """Friction under load on a locked output at the current limit, N m at the joint.
+
+    With the coefficient F at rest, which exceeds that in motion by the Stribeck share, T (1 + F)
+    of the motor holds T at the output: F/(1 + F) of the peak torque is lost.
+    """
+    friction = parameters.friction
+    load = friction.load_forward * (1.0 + friction.stribeck_extra)
+    return side.peak_torque * load / (1.0 + load)
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,7 +204,6 @@ def ripple_harmonics(
 
     Parameters
     ----------
-    parameters : ActuatorParameters
     torque : float, optional
         T, N m, of the sign of the joint; default the torque at which the error was solved.
 
@@ -205,6 +231,11 @@ def ripple_harmonics(
         RippleHarmonic(int(k), float(size[k]), math.atan2(spectrum[k].real, -spectrum[k].imag))
         for k in kept
     )
+
+
+def ripple_rms(harmonics: Iterable[RippleHarmonic]) -> float:
+    """R.m.s. of some harmonics together, N m."""
+    return math.sqrt(0.5 * sum(one.amplitude**2 for one in harmonics))
 
 
 def _carried(parameters: ActuatorParameters, torque: float) -> FloatArray:

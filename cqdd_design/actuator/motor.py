@@ -12,7 +12,6 @@ current is sqrt(3)/2 of the peak of the phase current, so that v i is the whole 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,51 +25,6 @@ MAGNET_COEFFICIENT = 0.0011
 """Fall of the flux of NdFeB per kelvin (remanence of common grades: 0.09 to 0.12 % a kelvin)."""
 
 
-@dataclass(frozen=True)
-class MotorConstants:
-    """The same motor in the usual conventions.
-
-    Attributes
-    ----------
-    dc : float
-        K: N m per DC (six-step) ampere, V s/rad of line-to-line peak EMF.
-    torque_per_peak, torque_per_rms : float
-        N m per ampere of sinusoidal phase current (q axis), peak and r.m.s.
-    emf_line_peak, emf_line_rms, emf_phase_peak, emf_phase_rms : float
-        V s/rad.
-    resistance_line, resistance_phase : float
-        Line to line, and of one phase in wye, ohm.
-    speed_constant : float
-        KV, rad/s/V.
-    """
-
-    dc: float
-    torque_per_peak: float
-    torque_per_rms: float
-    emf_line_peak: float
-    emf_line_rms: float
-    emf_phase_peak: float
-    emf_phase_rms: float
-    resistance_line: float
-    resistance_phase: float
-    speed_constant: float
-
-    def to_dict(self) -> dict[str, float]:
-        """Return the JSON form."""
-        return {
-            "torque_per_dc_ampere_Nm_per_A": self.dc,
-            "torque_per_peak_ampere_Nm_per_A": self.torque_per_peak,
-            "torque_per_rms_ampere_Nm_per_A": self.torque_per_rms,
-            "emf_line_peak_Vs_per_rad": self.emf_line_peak,
-            "emf_line_rms_Vs_per_rad": self.emf_line_rms,
-            "emf_phase_peak_Vs_per_rad": self.emf_phase_peak,
-            "emf_phase_rms_Vs_per_rad": self.emf_phase_rms,
-            "resistance_line_ohm": self.resistance_line,
-            "resistance_phase_ohm": self.resistance_phase,
-            "speed_constant_rpm_per_V": self.speed_constant * 30.0 / math.pi,
-        }
-
-
 CONVENTIONS: dict[str, float] = {
     "dc": 1.0,
     "torque_per_peak": 0.5 * math.sqrt(3.0),
@@ -80,42 +34,23 @@ CONVENTIONS: dict[str, float] = {
     "emf_phase_peak": math.sqrt(1.0 / 3.0),
     "emf_phase_rms": math.sqrt(1.0 / 6.0),
 }
-"""Every convention's constant over K."""
+"""The constant of every convention over K: six-step DC or sinusoidal current, peak or r.m.s."""
 
 
-def motor_constants(torque_constant: float, resistance: float) -> MotorConstants:
-    """Constants of a motor in every convention.
-
-    Parameters
-    ----------
-    torque_constant : float
-        K of the DC machine, N m/A.
-    resistance : float
-        Line to line, ohm.
+def motor_constants(torque_constant: float) -> dict[str, float]:
+    """K of the DC machine, N m/A, in each of `CONVENTIONS`, N m/A or V s/rad.
 
     Examples
     --------
-    >>> constants = motor_constants(9.549 / 55.0, 0.143)
-    >>> round(constants.torque_per_peak, 4), round(constants.torque_per_rms, 4)
+    >>> constants = motor_constants(9.549 / 55.0)
+    >>> round(constants["torque_per_peak"], 4), round(constants["torque_per_rms"], 4)
     (0.1504, 0.2126)
     """
-    return MotorConstants(
-        **{name: share * torque_constant for name, share in CONVENTIONS.items()},
-        resistance_line=resistance,
-        resistance_phase=0.5 * resistance,
-        speed_constant=1.0 / torque_constant,
-    )
+    return {name: share * torque_constant for name, share in CONVENTIONS.items()}
 
 
 def torque_constant_from(value: float, convention: str) -> float:
-    """K of the DC machine from a constant in another convention.
-
-    Parameters
-    ----------
-    value : float
-        N m/A or V s/rad.
-    convention : str
-        One of `CONVENTIONS`.
+    """K of the DC machine from a constant (N m/A or V s/rad) in another one of `CONVENTIONS`.
 
     Raises
     ------
@@ -155,12 +90,6 @@ def iron_drag(motor: MotorParameters, speed: ArrayLike) -> FloatArray:
     return np.asarray(motor.iron_loss * w + motor.hysteresis * np.sign(w))
 
 
-def stall_torque(motor: MotorParameters, drive: DriveParameters, temperature: float) -> float:
-    """Greatest torque at rest by the supply and by the driver, N m at the motor."""
-    most = drive.supply_voltage / float(resistance_at(motor, temperature))
-    return float(torque_constant_at(motor, temperature)) * min(most, drive.current_limit)
-
-
 def no_load_speed(
     motor: MotorParameters,
     voltage: float,
@@ -169,22 +98,11 @@ def no_load_speed(
     drag: float = 0.0,
     viscous: float = 0.0,
 ) -> float:
-    """Speed at which the motor's torque just overcomes its own drag and what else is given.
+    """Speed at which the motor's torque just overcomes its own drag and what else is given, rad/s.
 
-    Parameters
-    ----------
-    motor : MotorParameters
-    voltage : float
-        V; its sign is that of the speed.
-    temperature : float
-        deg C.
-    drag, viscous : float
-        Further drag torque and drag torque over speed at the motor, N m and N m s/rad.
-
-    Returns
-    -------
-    float
-        rad/s; 0 where the drag holds the motor.
+    0 where the drag holds the motor. The sign of the voltage (V) is that of the speed; winding and
+    magnets are at one temperature (deg C); further drag torque and drag torque over speed count at
+    the motor, N m and N m s/rad.
     """
     resistance = float(resistance_at(motor, temperature))
     constant = float(torque_constant_at(motor, temperature))
@@ -193,60 +111,19 @@ def no_load_speed(
     return math.copysign(max(speed, 0.0), voltage)
 
 
-@dataclass(frozen=True, eq=False)
-class Envelope:
-    """Shaft torque the motor can be asked for over speed, all four quadrants.
+def greatest_torque(
+    motor: MotorParameters, drive: DriveParameters, speed: ArrayLike, temperature: float
+) -> FloatArray:
+    """Greatest shaft torque (S,) at motor speeds (S,), rad/s, N m; iron losses are taken off.
 
-    Attributes
-    ----------
-    speed : array (S,)
-        rad/s at the motor.
-    low, high : array (S,)
-        N m at the motor's shaft, iron losses taken off.
-    current_low, current_high : array (S,)
-        A.
+    Winding and magnets are equally warm (deg C). The current lies within the driver's limit and
+    what the supply drives against the EMF. Where the EMF drives more than the limit through the
+    winding whatever the drive does, it is what the circuit gives.
     """
-
-    speed: FloatArray
-    low: FloatArray
-    high: FloatArray
-    current_low: FloatArray
-    current_high: FloatArray
-
-
-def envelope(
-    motor: MotorParameters,
-    drive: DriveParameters,
-    speed: ArrayLike,
-    *,
-    winding_temperature: float = 25.0,
-    current_limit: float | None = None,
-) -> Envelope:
-    """Torque envelope of motor and drive.
-
-    Parameters
-    ----------
-    motor, drive
-    speed : array_like (S,)
-        rad/s, either sense.
-    winding_temperature : float
-        deg C; the magnets are taken to be as warm.
-    current_limit : float, optional
-        A, where derating lowers that of the drive.
-
-    Returns
-    -------
-    Envelope
-        The current lies within both limits. Where the EMF drives more than the current limit
-        through the winding whatever the drive does, it is what the circuit gives.
-    """
-    w = np.atleast_1d(np.asarray(speed, dtype=float))
-    limit = drive.current_limit if current_limit is None else current_limit
-    resistance = float(resistance_at(motor, winding_temperature))
-    constant = float(torque_constant_at(motor, winding_temperature))
+    w, limit = np.atleast_1d(np.asarray(speed, dtype=float)), drive.current_limit
+    resistance = float(resistance_at(motor, temperature))
+    constant = float(torque_constant_at(motor, temperature))
     upper = (drive.supply_voltage - constant * w) / resistance
     lower = (-drive.supply_voltage - constant * w) / resistance
-    high = np.where(lower > limit, lower, np.minimum(upper, limit))
-    low = np.where(upper < -limit, upper, np.maximum(lower, -limit))
-    drag = iron_drag(motor, w)
-    return Envelope(w, constant * low - drag, constant * high - drag, low, high)
+    current = np.where(lower > limit, lower, np.minimum(upper, limit))
+    return np.asarray(constant * current - iron_drag(motor, w))

@@ -84,7 +84,6 @@ class MotorFile:
 
     Attributes
     ----------
-    name : str
     values : mapping of str to float
         SI, in the conventions inside: K of the DC machine under ``speed_constant`` as 1/K, line to
         line.
@@ -98,9 +97,11 @@ class MotorFile:
 
     def row(self, catalogue: Motor) -> Motor:
         """The catalogue's motor with what the file says instead."""
-        told = {_OF_ROW[key]: value for key, value in self.values.items() if key in _OF_ROW}
-        if "pole_pairs" in told:
-            told["pole_pairs"] = int(told["pole_pairs"])
+        told = {
+            _OF_ROW[key]: int(value) if key in WHOLE else value
+            for key, value in self.values.items()
+            if key in _OF_ROW
+        }
         source = f"motor file {self.place}, over the catalogue's {catalogue.name}"
         given: dict[str, Any] = {**told, "name": self.name, "source": source}
         if "rotor_inertia" in told:
@@ -114,10 +115,10 @@ class MotorFile:
     def parameters(self, motor: MotorParameters) -> MotorParameters:
         """The motor with what no catalogue has."""
         told: dict[str, Any] = {
-            key: value for key, value in self.values.items() if key in _OF_PARAMETERS
+            key: int(value) if key in WHOLE else value
+            for key, value in self.values.items()
+            if key in _OF_PARAMETERS
         }
-        if "cogging_order" in told:
-            told["cogging_order"] = int(told["cogging_order"])
         return dataclasses.replace(motor, **told)
 
     def origins(self) -> dict[str, str]:

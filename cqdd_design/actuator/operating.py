@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cqdd_design.actuator.motor import envelope, iron_drag, resistance_at, torque_constant_at
+from cqdd_design.actuator.motor import greatest_torque, iron_drag, resistance_at, torque_constant_at
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.thermal import response
 
@@ -51,7 +51,6 @@ class Judgement:
 
     Attributes
     ----------
-    need : Need
     binding : tuple of str
         Of `DRIVER`, `VOLTAGE`, `PEAK` and `HEAT`; empty inside.
     most : float
@@ -85,20 +84,10 @@ def holds_itself(parameters: ActuatorParameters) -> bool:
 
 
 def motor_torque(parameters: ActuatorParameters, torque: ArrayLike, speed: ArrayLike) -> FloatArray:
-    """Shaft torque of the motor for a torque at the output.
+    """Shaft torque of the motor, N m, iron losses still to be added, for one at the output.
 
-    Parameters
-    ----------
-    parameters : ActuatorParameters
-    torque : array_like
-        At the output, N m: positive where the motor drives, negative where the output does.
-    speed : array_like
-        Of the output, rad/s, zero or more.
-
-    Returns
-    -------
-    array
-        N m, its iron losses still to be added.
+    That is positive where the motor drives and negative where the output does, N m; the output's
+    speed is zero or more, rad/s.
     """
     friction, n = parameters.friction, abs(parameters.gear.ratio)
     turning = np.asarray(speed, dtype=float)
@@ -164,33 +153,19 @@ def envelope_torque(
 ) -> FloatArray:
     """Greatest torque that drive and voltage give at output speeds, rad/s, one warm winding."""
     turning = np.asarray(speed, dtype=float)
-    n = abs(parameters.gear.ratio)
-    found = envelope(
-        parameters.motor, parameters.drive, n * turning, winding_temperature=temperature
-    )
-    return output_torque(parameters, found.high, turning)
+    motor_speed = abs(parameters.gear.ratio) * turning
+    most = greatest_torque(parameters.motor, parameters.drive, motor_speed, temperature)
+    return output_torque(parameters, most, turning)
 
 
 def held_torque(
     parameters: ActuatorParameters, speed: ArrayLike, seconds: float = math.inf
 ) -> FloatArray:
-    """Torque whose heat the winding stands for a time from cold; for ever without one.
+    """Torque (S,), N m, whose heat the winding stands for a time from cold, s; default for ever.
 
-    Copper is as warm as the winding, friction and iron losses go to the housing, and the magnets
-    are taken to be as warm as the winding's limit. No other limit counts here.
-
-    Parameters
-    ----------
-    parameters : ActuatorParameters
-    speed : array_like (S,)
-        Of the output, rad/s.
-    seconds : float
-        From both nodes at ambient.
-
-    Returns
-    -------
-    array (S,)
-        N m; 0 where friction alone is too much.
+    At output speeds (S,), rad/s; 0 where friction alone is too much. Copper is as warm as the
+    winding, friction and iron losses go to the housing, and the magnets are taken to be as warm as
+    the winding's limit. No other limit counts here.
     """
     turning = np.atleast_1d(np.asarray(speed, dtype=float))
     motor, thermal = parameters.motor, parameters.thermal
@@ -245,19 +220,11 @@ def time_to_limit(parameters: ActuatorParameters, current: float, heat: float) -
 def judge(
     parameters: ActuatorParameters, torque: float, speed: float, *, lasting: bool, hot: bool
 ) -> Judgement:
-    """Judge one point against voltage, driver, motor and heat.
+    """Judge one point at the output against voltage, driver, motor and heat.
 
-    Parameters
-    ----------
-    parameters : ActuatorParameters
-    torque : float
-        At the output, N m, positive where the motor drives.
-    speed : float
-        Of the output, rad/s, zero or more.
-    lasting : bool
-        Whether the point has to be held for ever, so that heat counts.
-    hot : bool
-        Winding and magnets at the winding's limit instead of at ambient.
+    Its torque (N m) is positive where the motor drives, its speed (rad/s) zero or more. Heat counts
+    where it is `lasting`: held for ever. `hot` is with winding and magnets at the winding's limit
+    instead of at ambient.
     """
     motor, drive, thermal = parameters.motor, parameters.drive, parameters.thermal
     temperature = thermal.most if hot else thermal.ambient

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -86,77 +87,60 @@ def pack(parameters: ActuatorParameters, scenario: Scenario, step: float) -> Con
         first_speed = float(load.speed.values(np.zeros(1))[0])
     dry = friction.motor_coulomb + motor.hysteresis + friction.load_forward * gear.error_torque / n
     rise = 1.0 + friction.stribeck_extra
-    gains = (command.position_gain, command.velocity_gain)
+    gains = command.gains(drive)
+    # What has the same name here and there is taken as it is.
+    taken: dict[str, Any] = {
+        name: getattr(part, name)
+        for part in (motor, drive, thermal, friction, gear, load)
+        for name in set(Constants._fields) & set(vars(part))
+    }
     found = Constants(
-        ratio=gear.ratio,
-        torque_constant=motor.torque_constant,
-        resistance=motor.resistance,
-        inductance=motor.inductance,
-        motor_inertia=parameters.motor_side_inertia,
-        cogging_amplitude=motor.cogging_amplitude,
-        cogging_order=motor.cogging_order,
-        iron_viscous=motor.iron_loss,
-        hysteresis=motor.hysteresis,
-        reference_temperature=motor.reference_temperature,
-        supply_voltage=drive.supply_voltage,
-        current_limit=drive.current_limit,
-        current_decay=math.exp(-2.0 * math.pi * drive.current_bandwidth * step),
-        control_step=1.0 / drive.control_rate,
-        encoder_count=2.0**drive.encoder_bits if drive.encoder_bits else 0.0,
-        position_gain=drive.position_gain if gains[0] is None else gains[0],
-        velocity_gain=drive.velocity_gain if gains[1] is None else gains[1],
-        integral_gain=command.integral_gain,
-        held_current=continuous_current(motor, thermal),
-        derating_begins=thermal.derating_begins,
-        derating_span=max(thermal.most - thermal.derating_begins, 1e-9),
-        motor_coulomb=friction.motor_coulomb,
-        output_coulomb=friction.output_coulomb,
-        motor_viscous=friction.motor_viscous,
-        output_viscous=friction.output_viscous,
-        stribeck_extra=friction.stribeck_extra,
-        stribeck_speed=friction.stribeck_speed,
-        load_forward=friction.load_forward,
-        load_backward=friction.load_backward,
-        motor_bristle=rise * dry / friction.bristle_deflection,
-        motor_bristle_damping=friction.bristle_damping,
-        output_bristle=rise * friction.output_coulomb * n / friction.bristle_deflection,
-        output_inertia=gear.output_inertia,
-        carried_inertia=gear.output_inertia + load.inertia,
-        load_viscous=load.viscous,
-        sensor_stiffness=load.sensor_stiffness,
-        sensor_damping=load.sensor_damping,
-        gravity_moment=load.gravity_moment,
-        wall_angle=wall.angle if wall else 0.0,
-        wall_stiffness=wall.stiffness if wall else 0.0,
-        wall_exponent=wall.exponent if wall else 1.0,
-        wall_damping=wall.damping if wall else 0.0,
-        wall_side=float(wall.side) if wall else 1.0,
-        error_torque=gear.error_torque,
-        stiffness=gear.stiffness,
-        stiffening=gear.stiffening,
-        gear_damping=gear.damping,
-        half_backlash=0.5 * gear.backlash,
-        per_turn=1.0 / (2.0 * math.pi * n),
-        winding_kept=stepping[0, 0],
-        winding_from_housing=stepping[0, 1],
-        housing_from_winding=stepping[1, 0],
-        housing_kept=stepping[1, 1],
-        winding_heated=adding[0, 0] / thermal.winding_capacity,
-        winding_by_housing_heat=adding[0, 1] / thermal.housing_capacity,
-        housing_by_winding_heat=adding[1, 0] / thermal.winding_capacity,
-        housing_heated=adding[1, 1] / thermal.housing_capacity,
-        cooling=thermal.ambient / thermal.housing_to_ambient,
-        delay_steps=float(round(drive.delay / step)),
-        mode=float(MODES.index(command.mode)),
-        lugre=float(FRICTIONS.index(scenario.friction)),
-        driven=float(load.speed is not None),
-        motor_angle=motor_angle,
-        motor_speed=gear.ratio * first_speed if start.motor_speed is None else start.motor_speed,
-        output_angle=start.output_angle,
-        output_speed=first_speed,
-        current=start.current,
-        winding_temperature=_or(start.winding_temperature, thermal.ambient),
-        housing_temperature=_or(start.housing_temperature, thermal.ambient),
+        **taken
+        | {
+            "motor_inertia": parameters.motor_side_inertia,
+            "iron_viscous": motor.iron_loss,
+            "current_decay": math.exp(-2.0 * math.pi * drive.current_bandwidth * step),
+            "control_step": 1.0 / drive.control_rate,
+            "encoder_count": 2.0**drive.encoder_bits if drive.encoder_bits else 0.0,
+            "position_gain": gains[0],
+            "velocity_gain": gains[1],
+            "integral_gain": command.integral_gain,
+            "held_current": continuous_current(motor, thermal),
+            "derating_span": max(thermal.most - thermal.derating_begins, 1e-9),
+            "motor_bristle": rise * dry / friction.bristle_deflection,
+            "motor_bristle_damping": friction.bristle_damping,
+            "output_bristle": rise * friction.output_coulomb * n / friction.bristle_deflection,
+            "carried_inertia": gear.output_inertia + load.inertia,
+            "load_viscous": load.viscous,
+            "wall_angle": wall.angle if wall else 0.0,
+            "wall_stiffness": wall.stiffness if wall else 0.0,
+            "wall_exponent": wall.exponent if wall else 1.0,
+            "wall_damping": wall.damping if wall else 0.0,
+            "wall_side": float(wall.side) if wall else 1.0,
+            "gear_damping": gear.damping,
+            "half_backlash": 0.5 * gear.backlash,
+            "per_turn": 1.0 / (2.0 * math.pi * n),
+            "winding_kept": stepping[0, 0],
+            "winding_from_housing": stepping[0, 1],
+            "housing_from_winding": stepping[1, 0],
+            "housing_kept": stepping[1, 1],
+            "winding_heated": adding[0, 0] / thermal.winding_capacity,
+            "winding_by_housing_heat": adding[0, 1] / thermal.housing_capacity,
+            "housing_by_winding_heat": adding[1, 0] / thermal.winding_capacity,
+            "housing_heated": adding[1, 1] / thermal.housing_capacity,
+            "cooling": thermal.ambient / thermal.housing_to_ambient,
+            "delay_steps": float(round(drive.delay / step)),
+            "mode": float(MODES.index(command.mode)),
+            "lugre": float(FRICTIONS.index(scenario.friction)),
+            "driven": float(load.speed is not None),
+            "motor_angle": motor_angle,
+            "motor_speed": _or(start.motor_speed, gear.ratio * first_speed),
+            "output_angle": start.output_angle,
+            "output_speed": first_speed,
+            "current": start.current,
+            "winding_temperature": _or(start.winding_temperature, thermal.ambient),
+            "housing_temperature": _or(start.housing_temperature, thermal.ambient),
+        }
     )
     wrong = [
         f"{name} {value:g}" for name, value in found._asdict().items() if not math.isfinite(value)

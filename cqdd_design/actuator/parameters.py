@@ -55,7 +55,6 @@ class MotorParameters:
         Line to line at `reference_temperature`, ohm and H.
     rotor_inertia : float
         Of the motor's own rotor, kg m^2.
-    pole_pairs : int
     rated_torque, peak_torque : float
         Of the motor by its catalogue, N m; nan where it gives none.
     cogging_amplitude, cogging_order : float, int
@@ -138,6 +137,11 @@ class DriveParameters:
         _not_negative(self, "drive", "delay", "position_gain", "velocity_gain")
         if not 0 <= self.encoder_bits <= 32:
             _refuse("drive", "encoder_bits", self.encoder_bits, "within 0 to 32", "0 is ideal")
+
+    @property
+    def encoder_step(self) -> float:
+        """One count of the encoder, rad at the motor; 0 of an ideal one."""
+        return 2.0 * math.pi / 2.0**self.encoder_bits if self.encoder_bits else 0.0
 
 
 @dataclass(frozen=True)
@@ -295,16 +299,23 @@ class GearParameters:
                 )
         if np.any(np.asarray(self.error_orders) < 1):
             raise DesignError("gear.error_orders count periods of an output turn: 1 or more.")
-        swing = float(np.sum(np.hypot(self.stiffness_cosine, self.stiffness_sine)))
-        if swing >= 1.0 and self._least_share() <= 0.0:
-            _refuse("gear", "stiffness_cosine", swing, "below 1 in sum", "lower the variation")
+        refuse_variation(self.error_orders, self.stiffness_cosine, self.stiffness_sine)
 
-    def _least_share(self) -> float:
-        """Least stiffness over its mean."""
-        turn = np.linspace(0.0, 2.0 * math.pi, 8 * int(np.max(self.error_orders)) + 1)
-        angle = np.multiply.outer(turn, self.error_orders)
-        varying = np.cos(angle) @ self.stiffness_cosine + np.sin(angle) @ self.stiffness_sine
-        return 1.0 + float(varying.min())
+    @property
+    def error_rms(self) -> float:
+        """R.m.s. of the kinematic error, rad at the output."""
+        return math.sqrt(0.5 * float(np.sum(self.error_cosine**2 + self.error_sine**2)))
+
+
+def refuse_variation(orders: IntArray, cosine: FloatArray, sine: FloatArray) -> None:
+    """Raise a `DesignError` where a stiffness of these relative harmonics (H,) falls to zero."""
+    swing = float(np.sum(np.hypot(cosine, sine)))
+    if swing < 1.0:
+        return
+    turn = np.linspace(0.0, 2.0 * math.pi, 8 * int(np.max(orders)) + 1)
+    angle = np.multiply.outer(turn, orders)
+    if 1.0 + float((np.cos(angle) @ cosine + np.sin(angle) @ sine).min()) <= 0.0:
+        _refuse("gear", "stiffness_cosine", swing, "below 1 in sum", "lower the variation")
 
 
 @dataclass(frozen=True, eq=False)
@@ -313,8 +324,6 @@ class ActuatorParameters:
 
     Attributes
     ----------
-    name : str
-    motor, drive, thermal, friction, gear
     mass : float
         kg.
     origins : mapping of str to str
@@ -341,6 +350,11 @@ class ActuatorParameters:
             raise DesignError(
                 "motor.rotor_inertia and gear.input_inertia add up to 0; give the rotor's inertia."
             )
+
+    @property
+    def torque_limit(self) -> float:
+        """What the driver's current gives at the joint if nothing rubs, N m."""
+        return self.motor.torque_constant * self.drive.current_limit * abs(self.gear.ratio)
 
     @property
     def motor_side_inertia(self) -> float:

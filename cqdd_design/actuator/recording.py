@@ -61,7 +61,6 @@ def plan(
 
     Parameters
     ----------
-    parameters : sequence of ActuatorParameters
     scenario : Scenario
         Of all of them.
     duration : float
@@ -149,14 +148,12 @@ class Recording:
         One a set.
     scenario : Scenario
         Of all sets.
-    simulation : Simulation
     rate : float
         Of the record, Hz.
     seeds : tuple of int
         Of the drawn gearboxes; empty for perfect parts.
     numbered : bool
         Whether there is a column ``set``.
-    design_sha256, version : str
     options : mapping of str to str
         What was asked for, defaults included, as unit strings.
     """
@@ -316,11 +313,9 @@ def _described_command(command: Command, parameters: ActuatorParameters) -> dict
         return found
     found["reference"] = _described_signal(command.reference, units.get(command.mode, "rad"))
     if command.mode in ("impedance", "position"):
-        gains = (command.position_gain, command.velocity_gain)
-        drive = parameters.drive
+        stiff, damped = command.gains(parameters.drive)
         found["feedforward"] = _described_signal(command.feedforward, "N m")
-        found["position_gain_Nm_per_rad"] = drive.position_gain if gains[0] is None else gains[0]
-        found["velocity_gain_Nms_per_rad"] = drive.velocity_gain if gains[1] is None else gains[1]
+        found["position_gain_Nm_per_rad"], found["velocity_gain_Nms_per_rad"] = stiff, damped
         found["integral_gain_Nm_per_rad_s"] = command.integral_gain
     return found
 

@@ -12,11 +12,13 @@ from typing import Literal, Protocol
 
 import numpy as np
 
-from cqdd_design.actuator.parameters import FloatArray
+from cqdd_design.actuator.parameters import DriveParameters, FloatArray
 from cqdd_design.errors import UsageError
 
 CommandMode = Literal["open", "voltage", "current", "torque", "impedance", "position"]
 FrictionModel = Literal["clip", "lugre"]
+GRAVITY = 9.80665
+"""Standard gravity, m/s^2."""
 
 
 class Signal(Protocol):
@@ -29,23 +31,23 @@ class Signal(Protocol):
         """Time derivatives (N,)."""
 
 
-def _finite(owner: object) -> None:
-    for name, value in vars(owner).items():
-        if not np.all(np.isfinite(np.asarray(value, dtype=float))):
-            raise UsageError(
-                f"{type(owner).__name__}.{name} is {value}; signals need finite numbers."
-            )
-
-
-@dataclass(frozen=True)
-class Constant:
-    """The same value always."""
-
-    value: float = 0.0
+class _Finite:
+    """A signal of finite numbers."""
 
     def __post_init__(self) -> None:
         """Refuse what is not finite."""
-        _finite(self)
+        for name, value in vars(self).items():
+            if not np.all(np.isfinite(np.asarray(value, dtype=float))):
+                raise UsageError(
+                    f"{type(self).__name__}.{name} is {value}; signals need finite numbers."
+                )
+
+
+@dataclass(frozen=True)
+class Constant(_Finite):
+    """The same value always."""
+
+    value: float = 0.0
 
     def values(self, times: FloatArray) -> FloatArray:
         """The value at all times."""
@@ -57,15 +59,11 @@ class Constant:
 
 
 @dataclass(frozen=True)
-class Ramp:
+class Ramp(_Finite):
     """``start + slope t``."""
 
     start: float
     slope: float
-
-    def __post_init__(self) -> None:
-        """Refuse what is not finite."""
-        _finite(self)
 
     def values(self, times: FloatArray) -> FloatArray:
         """Values at times, s."""
@@ -77,17 +75,13 @@ class Ramp:
 
 
 @dataclass(frozen=True)
-class Sine:
+class Sine(_Finite):
     """``offset + amplitude sin(2 pi frequency t + phase)``; Hz and rad."""
 
     amplitude: float
     frequency: float
     offset: float = 0.0
     phase: float = 0.0
-
-    def __post_init__(self) -> None:
-        """Refuse what is not finite."""
-        _finite(self)
 
     def values(self, times: FloatArray) -> FloatArray:
         """Values at times, s."""
@@ -101,7 +95,7 @@ class Sine:
 
 
 @dataclass(frozen=True)
-class Chirp:
+class Chirp(_Finite):
     """A sine whose frequency rises from `first` to `last` (Hz) by a constant factor a second."""
 
     amplitude: float
@@ -112,7 +106,7 @@ class Chirp:
 
     def __post_init__(self) -> None:
         """Refuse a sweep that does not move."""
-        _finite(self)
+        super().__post_init__()
         if not (self.first > 0.0 and self.last > self.first and self.duration > 0.0):
             raise UsageError(
                 f"a chirp rises from above 0 Hz over some time, not from {self.first:g} to "
@@ -135,7 +129,7 @@ class Chirp:
 
 
 @dataclass(frozen=True, eq=False)
-class Sampled:
+class Sampled(_Finite):
     """Straight lines between samples, the first and last value held beyond them."""
 
     times: FloatArray
@@ -143,7 +137,7 @@ class Sampled:
 
     def __post_init__(self) -> None:
         """Refuse samples that do not follow each other."""
-        _finite(self)
+        super().__post_init__()
         shape = np.shape(self.times)
         if len(shape) != 1 or not shape[0] or shape != np.shape(self.samples):
             raise UsageError("a sampled signal needs as many samples as times, one or more.")
@@ -173,7 +167,6 @@ class Command:
         "torque" (N m at the output, by the nominal constant and ratio), "impedance" (rad at the
         output, the signal's rate fed forward) and "position" (rad, against the speed itself, with
         an integral).
-    reference : Signal
     feedforward : Signal
         Torque added by impedance and position control, N m.
     position_gain, velocity_gain : float, optional
@@ -188,6 +181,14 @@ class Command:
     position_gain: float | None = None
     velocity_gain: float | None = None
     integral_gain: float = 0.0
+
+    def gains(self, drive: DriveParameters) -> tuple[float, float]:
+        """Position and velocity gain at the output, N m/rad and N m s/rad."""
+        stiff, damped = self.position_gain, self.velocity_gain
+        return (
+            drive.position_gain if stiff is None else stiff,
+            drive.velocity_gain if damped is None else damped,
+        )
 
 
 @dataclass(frozen=True)
@@ -244,7 +245,6 @@ class Load:
         Of a torque sensor to ground, N m/rad and N m s/rad; 0 is none.
     gravity_moment : float
         m g r of a pendulum that hangs at output angle 0, N m.
-    wall : Wall, optional
     torque : Signal
         From outside on the output, N m.
     speed : Signal, optional
@@ -275,11 +275,9 @@ class Load:
         return cls(torque=torque or Constant())
 
     @classmethod
-    def locked(
-        cls, stiffness: float = 5e4, damping: float = 0.0, torque: Signal | None = None
-    ) -> Load:
+    def locked(cls, stiffness: float = 5e4, damping: float = 0.0) -> Load:
         """Held to ground through a torque sensor (N m/rad, N m s/rad)."""
-        return cls(sensor_stiffness=stiffness, sensor_damping=damping, torque=torque or Constant())
+        return cls(sensor_stiffness=stiffness, sensor_damping=damping)
 
     @classmethod
     def flywheel(cls, inertia: float, viscous: float = 0.0, torque: Signal | None = None) -> Load:
@@ -299,9 +297,7 @@ class Load:
         *,
         bar_inertia: float = 0.0,
         viscous: float = 0.0,
-        gravity: float = 9.80665,
         wall: Wall | None = None,
-        torque: Signal | None = None,
     ) -> Load:
         """A mass (kg) at a radius (m) that hangs at output angle 0, perhaps before a wall."""
         for name, value in (("mass", mass), ("radius", radius)):
@@ -310,9 +306,8 @@ class Load:
         return cls(
             inertia=mass * radius**2 + bar_inertia,
             viscous=viscous,
-            gravity_moment=mass * gravity * radius,
+            gravity_moment=mass * GRAVITY * radius,
             wall=wall,
-            torque=torque or Constant(),
         )
 
 
@@ -339,9 +334,6 @@ class Scenario:
 
     Attributes
     ----------
-    command : Command
-    load : Load
-    start : Start
     friction : {"clip", "lugre"}
         Coulomb friction as the torque that stops the body within the step, as far as there is
         friction, or by LuGre's bristles.

@@ -30,33 +30,10 @@ _SHARES = 16
 _LOSSES = ("copper", "iron", "motor_friction", "output_friction", "gear_damping", "load_damping")
 
 
-@dataclass(frozen=True, eq=False)
-class EnergyLedger:
-    """Where the energy of every run went, J, arrays (S,).
+class EnergyLedger(Ledger):  # type: ignore[misc]
+    """Where the energy of every run went, J, arrays (S,); see `columns.LEDGER`."""
 
-    Attributes
-    ----------
-    electrical, external : array
-        Put in by the drive, and from outside at the output.
-    copper, iron, motor_friction, output_friction, gear_damping, load_damping : array
-        Lost.
-    stored_before, stored_after : array
-        In inductance, masses, springs, gravity.
-    throughput : array
-        Integral of the absolute powers of drive and outside.
-    """
-
-    electrical: FloatArray
-    copper: FloatArray
-    iron: FloatArray
-    motor_friction: FloatArray
-    output_friction: FloatArray
-    gear_damping: FloatArray
-    load_damping: FloatArray
-    external: FloatArray
-    throughput: FloatArray
-    stored_before: FloatArray
-    stored_after: FloatArray
+    __slots__ = ()
 
     @property
     def lost(self) -> FloatArray:
@@ -75,42 +52,12 @@ class EnergyLedger:
         scale = np.maximum(self.throughput, np.abs(self.stored_before))
         return np.asarray(np.abs(self.residual) / np.where(scale > 0.0, scale, 1.0))
 
-    def to_dict(self) -> dict[str, list[float]]:
-        """Return the JSON form, one list an entry."""
-        found = {f"{name}_J": getattr(self, name).tolist() for name in self.__dataclass_fields__}
-        return found | {"residual_J": self.residual.tolist()}
-
 
 @dataclass(frozen=True, eq=False)
 class Simulation:
-    """Traces of S actuators at N instants.
+    """Traces of S actuators (names) at N instants: the ends of the steps recorded, s.
 
-    Attributes
-    ----------
-    names : tuple of str
-        Of the actuators.
-    time : array (N,)
-        s, the ends of the steps recorded.
-    motor_angle, motor_speed, output_angle, output_speed : array (S, N)
-        rad and rad/s.
-    current, voltage : array (S, N)
-        A and V of the DC machine; the voltage is the mean of the step, 0 with open phases.
-    deflection : array (S, N)
-        theta/ratio + eps(theta) - q, rad.
-    gear_torque : array (S, N)
-        On the output, N m, mean of the step.
-    output_torque : array (S, N)
-        What the flange gives to the load, N m, mean of the step; a sensor reads it.
-    motor_friction, output_friction : array (S, N)
-        N m, mean of the step; iron losses left out of the viscous part.
-    commanded_torque : array (S, N)
-        The command in its own unit: V, A or N m.
-    winding_temperature, housing_temperature : array (S, N)
-        deg C.
-    step : float
-        s.
-    ledger : EnergyLedger
-    warnings : tuple of str
+    Every trace is an array (S, N); see `columns.TRACES` for what it is, and in which unit.
     """
 
     names: tuple[str, ...]
@@ -167,10 +114,6 @@ def simulate(
     threads : int, optional
         Default all; the numbers do not depend on it.
 
-    Returns
-    -------
-    Simulation
-
     Raises
     ------
     UsageError
@@ -207,18 +150,25 @@ def simulate(
             f"the simulation left the finite numbers at a step of {step:g} s; look for forces far "
             "beyond what the gearbox stands, or shorten the step."
         )
-    entries = ledger._asdict()
-    unsettled = int(entries.pop("unsettled").sum())
+    unsettled = int(ledger.unsettled.sum())
     return Simulation(
         names=tuple(one.name for one in sets),
         time=ends[every::every],
         **traces._asdict(),
         step=step,
-        ledger=EnergyLedger(**entries),
+        ledger=EnergyLedger(*ledger),
         warnings=()
         if not unsettled
         else (f"the equations of {unsettled} of {steps * len(sets)} steps did not settle.",),
     )
+
+
+def is_compiled() -> bool:
+    """Whether the kernel need not be compiled now; see `gearbox.compiled.in_cache`."""
+    from cqdd_design.actuator.kernels import stepping as kernel
+    from cqdd_design.gearbox.compiled import in_cache
+
+    return in_cache(kernel.run_sets)
 
 
 def run_compiled(work: Work, threads: int | None = None) -> None:

@@ -29,43 +29,14 @@ def runaway_current(motor: MotorParameters, thermal: ThermalParameters) -> float
     return math.sqrt(1.0 / (COPPER_COEFFICIENT * motor.resistance * total))
 
 
-def continuous_current(
-    motor: MotorParameters,
-    thermal: ThermalParameters,
-    *,
-    most: float | None = None,
-    housing_heat: float = 0.0,
-) -> float:
-    """Current whose heat the network carries off for ever at the winding's limit.
+def continuous_current(motor: MotorParameters, thermal: ThermalParameters) -> float:
+    """Current whose heat the network carries off for ever at the winding's limit, A.
 
-    Parameters
-    ----------
-    motor, thermal
-    most : float, optional
-        deg C; default that of `thermal`.
-    housing_heat : float
-        Further heat in the housing (iron, gear friction), W.
-
-    Returns
-    -------
-    float
-        A; i^2 R(T_max) (R_wh + R_ha) + P_h R_ha = T_max - T_ambient.
-
-    Raises
-    ------
-    DesignError
-        When the ambient or the housing's own heat already reaches the limit.
+    i^2 R(T_max) (R_wh + R_ha) = T_max - T_ambient, nothing else heating the housing.
     """
-    hottest = thermal.most if most is None else most
-    rise = hottest - thermal.ambient - housing_heat * thermal.housing_to_ambient
-    if not rise > 0.0:
-        raise DesignError(
-            f"a winding limit of {hottest:g} deg C leaves nothing for copper at an ambient of "
-            f"{thermal.ambient:g} deg C and {housing_heat:g} W in the housing; raise thermal.most, "
-            "or lower housing_to_ambient."
-        )
     total = thermal.winding_to_housing + thermal.housing_to_ambient
-    return math.sqrt(rise / (total * float(resistance_at(motor, hottest))))
+    rise = thermal.most - thermal.ambient
+    return math.sqrt(rise / (total * float(resistance_at(motor, thermal.most))))
 
 
 def system(
@@ -129,30 +100,14 @@ def response(
     current: float,
     times: ArrayLike,
     *,
-    start: tuple[float, float] | None = None,
     housing_heat: float = 0.0,
 ) -> FloatArray:
-    """Exact temperatures under a constant current from a given start.
+    """Exact temperatures (N, 2) of winding and housing, deg C, after times (N,), s, from ambient.
 
-    Parameters
-    ----------
-    motor, thermal
-    current : float
-        A, switched on at time 0.
-    times : array_like (N,)
-        s.
-    start : tuple of float, optional
-        Winding and housing, deg C; default both at ambient.
-    housing_heat : float
-        W.
-
-    Returns
-    -------
-    array (N, 2)
-        Winding and housing, deg C.
+    The current (A) and the further heat in the housing (W) stay the same all the time.
     """
     t = np.atleast_1d(np.asarray(times, dtype=float))
-    first = np.array(start if start is not None else (thermal.ambient, thermal.ambient))
+    first = np.array((thermal.ambient, thermal.ambient))
     matrix, forcing = system(motor, thermal, current, housing_heat)
     stepping, adding = transition(matrix, t)
     return np.asarray(stepping @ first + adding @ forcing)

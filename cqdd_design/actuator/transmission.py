@@ -19,10 +19,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cqdd_design.actuator.parameters import FloatArray, IntArray
+from cqdd_design.actuator.parameters import FloatArray, IntArray, refuse_variation
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import (
@@ -42,34 +43,22 @@ _PERFECT_ANGLES = 120
 _MOST_CONTACTS = 4_000_000
 """Of a drawn gearbox over its output turn: what a gigabyte of memory holds."""
 _PROBES = 24
-"""Angles of that turn solved first: a gearbox that cannot carry its load is soon refused."""
+"""Angles of that turn solved first: a gearbox that cannot be is soon refused."""
+_UNSURE = 0.1
+"""Of the backlash and of the windup: how far off the mean of those few angles is taken to be."""
 _LEAST_WINDUP = 0.25
 """Share of the mean that no spot falls below, where backlash varies much."""
 
 
 @dataclass(frozen=True, eq=False)
 class Transmission:
-    """What the contact engine says of one gearbox at one torque.
+    """What the contact engine says of one gearbox at one torque, as in `GearParameters`.
 
-    Attributes
-    ----------
-    torque : float
-        N m.
-    error_orders : array (H,) of int
-        Periods in an output turn.
-    error_cosine, error_sine : array (H,)
-        Of the kinematic error, rad.
-    stiffness_cosine, stiffness_sine : array (H,)
-        Relative.
-    stiffness : float
-        Secant from the end of the dead zone, N m/rad.
-    stiffening : float
-        Exponent of torque over deflection, from half of the torque to it.
-    backlash : float
-        Mean over the turn, rad.
+    The stiffness is the secant from the end of the dead zone, the stiffening counts from half of
+    the torque to it, the backlash is the mean over the turn.
     """
 
-    torque: float
+    error_torque: float
     error_orders: IntArray
     error_cosine: FloatArray
     error_sine: FloatArray
@@ -101,7 +90,8 @@ def transmission(
     ContactError
         When the gearbox has no equilibrium at the torque.
     DesignError
-        When its springs do not wind up under load, or a drawn gearbox has too many contacts.
+        When its springs do not wind up under load, or a drawn gearbox has too many contacts or a
+        stiffness that varies too much.
     """
     n = model.lobe_count
     if seed is None:
@@ -117,16 +107,42 @@ def transmission(
             contact_sweep(model, load, output_turn_angles(model, _PROBES), errors=errors)
         angle, per_turn = output_turn_angles(model), 1
     states = nominal_states(model, angle)
-
     changed = error_states(model, states, errors)
-
-    def loaded(load: float) -> ContactSweep:
-        return contact_sweep(model, load, errors=errors, states=states, changed=changed)
-
+    whole, half = (
+        _Loaded(
+            load,
+            *(
+                contact_sweep(model, sense * load, errors=errors, states=states, changed=changed)
+                for sense in (1.0, -1.0)
+            ),
+        )
+        for load in (torque, 0.5 * torque)
+    )
+    if errors is not None:
+        _refuse_varying(model, errors, whole, half)
     free = float(backlash(model, errors=errors, states=states).free.mean())
-    ahead, behind = loaded(torque), loaded(-torque)
-    mean = _opening(ahead, behind) - 0.5 * free
-    half_mean = _opening(loaded(0.5 * torque), loaded(-0.5 * torque)) - 0.5 * free
+    return _felt(whole, half, free, per_turn)
+
+
+@dataclass(frozen=True, eq=False)
+class _Loaded:
+    """A gearbox under a torque, N m, of either sense."""
+
+    torque: float
+    ahead: ContactSweep
+    behind: ContactSweep
+
+    @property
+    def opening(self) -> float:
+        """Half of the mean angle between the carrier's places under both, rad."""
+        apart = self.ahead.carrier_angle_error - self.behind.carrier_angle_error
+        return 0.5 * float(np.mean(apart))
+
+
+def _felt(whole: _Loaded, half: _Loaded, free: float, per_turn: int) -> Transmission:
+    """The gearbox from its sweeps under the torque and half of it, and its mean backlash, rad."""
+    torque, ahead, behind = whole.torque, whole.ahead, whole.behind
+    mean, half_mean = whole.opening - 0.5 * free, half.opening - 0.5 * free
     if not 0.0 < half_mean < mean:
         raise DesignError(
             f"the gearbox does not wind up beyond its backlash at {torque:g} N*m; raise "
@@ -139,7 +155,7 @@ def transmission(
     share = (mean / np.maximum(windup, _LEAST_WINDUP * mean)) ** power
     orders, series = _harmonics(error, share / share.mean(), per_turn, mean)
     return Transmission(
-        torque=torque,
+        error_torque=torque,
         error_orders=orders,
         error_cosine=series[0],
         error_sine=series[1],
@@ -149,6 +165,33 @@ def transmission(
         stiffening=power,
         backlash=free,
     )
+
+
+def _refuse_varying(
+    model: ContactModel, errors: GearboxErrors, whole: _Loaded, half: _Loaded
+) -> None:
+    """Refuse a drawn gearbox whose stiffness varies too much, before its backlash is solved.
+
+    Backlash takes by far the longest, and the stiffness over angle needs no more of it than its
+    mean, which a few angles of the turn tell to a hundredth. Only what would be refused with much
+    less and much more backlash too is refused here.
+    """
+    some = nominal_states(model, output_turn_angles(model, _PROBES))
+    free = float(backlash(model, errors=errors, states=some).free.mean())
+    margin = _UNSURE * (free + half.opening)
+    refused = [_refusal(whole, half, max(at, 0.0)) for at in (free, free - margin, free + margin)]
+    if all(refused):
+        raise refused[0]  # type: ignore[misc]
+
+
+def _refusal(whole: _Loaded, half: _Loaded, free: float) -> DesignError | None:
+    """Why a gearbox of some backlash would be refused."""
+    try:
+        found = _felt(whole, half, free, 1)
+        refuse_variation(found.error_orders, found.stiffness_cosine, found.stiffness_sine)
+    except DesignError as error:
+        return error
+    return None
 
 
 def _refuse_too_many(model: ContactModel) -> None:
@@ -161,11 +204,6 @@ def _refuse_too_many(model: ContactModel) -> None:
             f"an output turn at ratio {model.lobe_count}, more than {_MOST_CONTACTS / 1e6:g} "
             "million; use perfect parts (without a seed or samples)."
         )
-
-
-def _opening(ahead: ContactSweep, behind: ContactSweep) -> float:
-    """Half of the mean angle between the carrier's places under opposite loads, rad."""
-    return 0.5 * float(np.mean(ahead.carrier_angle_error - behind.carrier_angle_error))
 
 
 def _harmonics(

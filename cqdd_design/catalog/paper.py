@@ -99,6 +99,40 @@ PLANETARY_TEETH = (12, 36, 22, 70)
 PLANETARY_MODULE, PLANETARY_FACE_WIDTH, PLANETARY_PLANETS = 1e-3, 12e-3, 6
 """m, m, and how many it is said to need (section III-A)."""
 
+
+class Estimated(NamedTuple):
+    """A torque network as measured on the paper's hardware: N m, N^2 m^2 and us.
+
+    `model` is our name of it. The variance is printed in N m; by its meaning it is a square.
+    """
+
+    model: str
+    title: str
+    rmse: float
+    variance: float
+    cycle_time: float
+
+    @property
+    def bias(self) -> float | None:
+        """Size of the bias that the other two imply, N m; None where they contradict."""
+        square = self.rmse**2 - self.variance
+        return square**0.5 if square >= 0.0 else None
+
+    def cells(self, none: str) -> list[str]:
+        """Title, RMSE, bias, variance and cycle time as text; `none` where there is no bias."""
+        numbers = (self.rmse, self.bias, self.variance, self.cycle_time)
+        return [self.title, *(none if one is None else f"{one:.2f}" for one in numbers)]
+
+
+NETWORKS_SOURCE = "C-QDD paper, Table II and section IV-A (hardware)"
+NETWORKS: tuple[Estimated, ...] = (
+    Estimated("pva-gru", "PVA-GRU", 0.97, 0.92, 1.49),
+    Estimated("pv-gru", "PV-GRU", 1.00, 0.85, 3.10),
+    Estimated("mlp", "MLP (tuned)", 1.71, 2.90, 0.72),
+    Estimated("mlp-baseline", "MLP (baseline)", 2.46, 3.62, 0.22),
+)
+"""To stand beside ours, never to be read against them: of hardware that nobody here has."""
+
 ACTUATOR: Mapping[str, float | str] = MappingProxyType(
     {
         "reducer.ratio": RATIO,

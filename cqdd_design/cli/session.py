@@ -151,7 +151,7 @@ class Output:
         if not is_compiled():
             self.note("compiling the contact solver; this takes half a minute, once")
         if simulation:
-            from cqdd_design.actuator.compiled import is_compiled as is_simulation_compiled
+            from cqdd_design.actuator.simulate import is_compiled as is_simulation_compiled
 
             if not is_simulation_compiled():
                 self.note("compiling the actuator's simulation; this takes some ten seconds, once")

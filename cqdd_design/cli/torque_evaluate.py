@@ -171,8 +171,8 @@ def _ends(value: Interval) -> str:
 
 
 def _paper() -> list[str]:
-    from cqdd_design.torque.evaluation.paper import PAPER
+    from cqdd_design.catalog import paper
 
-    rows = [row.cells("") for row in PAPER]
+    rows = [row.cells("") for row in paper.NETWORKS]
     head = ["paper (hardware)", "RMSE N*m", "size of bias", "variance N^2*m^2", "cycle us"]
     return [table(rows, head=head, right=(1, 2, 3, 4)), "not to be read against ours"]

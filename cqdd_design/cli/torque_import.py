@@ -87,7 +87,7 @@ def import_log(
     require_pyarrow()
     if folder is not None:
         refuse_overwrite(folder / "manifest.json", force=force)
-    found = import_logs(
+    data, found = import_logs(
         logs,
         _mapped(map_file, columns, units, group, current_to_torque),
         position_gain=parse_option("--position-gain", position_gain, STIFFNESS_GAIN) or 0.0,
@@ -98,7 +98,7 @@ def import_log(
         cut=parse_positive("--cut", cut, TIME),
     )
     target = folder or Path("exports") / "torque-logs"
-    files = write_data(found.data, target, force=force or folder is None)
+    files = write_data(data, target, force=force or folder is None)
     for gap in found.gaps:
         out.warn(
             f"{gap.log}: nothing for {gap.seconds:.4g} s from {gap.begin:.4g} s on; the record is "
@@ -108,7 +108,7 @@ def import_log(
         out.warn(f"{found.dropped} pieces are too short, and are left out.")
     for sentence in found.warnings:
         out.warn(sentence)
-    told = describe(found.data)
+    told = describe(data)
     out.say(*summary_lines(told))
     out.say(*folder_line(target, files))
     out.document({**told, **found.to_dict()}, files=[files[-1]])

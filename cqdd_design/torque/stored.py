@@ -219,19 +219,6 @@ CHECKPOINT = table(
     {"format": text},
     closed=True,
 )
-_EPISODE = {"name": name, "group": table_of(either(number, text))}
-#: A packed data set; the folder's manifest has other keys for the same.
-DATA = table(
-    {
-        "dt": positive,
-        "position_gain": not_negative,
-        "velocity_gain": not_negative,
-        "torque_range": list_of(number, 2, 2),
-        "facts": FACTS,
-        "episodes": list_of(table({**_EPISODE, "columns": list_of(name)}), 1),
-        "actuator": maybe(table_of(anything)),
-    }
-)
 MANIFEST = table(
     {
         "dt_s": positive,
@@ -239,26 +226,15 @@ MANIFEST = table(
         "velocity_gain_Nms_per_rad": not_negative,
         "torque_range_Nm": list_of(number, 2, 2),
         "facts": FACTS,
-        "episodes": list_of(table(_EPISODE), 1),
+        "episodes": list_of(table({"name": name, "group": table_of(either(number, text))}), 1),
     }
 )
 
 
 def require(rule: Rule, content: object, source: str, advice: str) -> None:
-    """Refuse a document that does not meet a rule, naming the first field that is wrong.
+    """Raise a `UsageError` where a document does not meet a rule, naming the first wrong field.
 
-    Parameters
-    ----------
-    rule : callable
-        `NETWORK`, `CHECKPOINT`, `DATA` or `MANIFEST`.
-    content : object
-        As parsed.
-    source, advice : str
-        Begin and end of the sentence: the file, and what to do.
-
-    Raises
-    ------
-    UsageError
+    The sentence begins with its source, the file, and ends with an advice.
     """
     problem = rule(content)
     if problem is not None:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import io
 import json
 import sys
+import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 import typer
 
@@ -14,10 +16,13 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "oracles"))
 
 from torque_networks import PVA, network
 
+import cqdd_design
 from cqdd_design.cli import session
 from cqdd_design.cli.torque_export import export_network
 from cqdd_design.errors import CqddError, DependencyError, UsageError
-from cqdd_design.torque.networks.artefact import write_artefact
+from cqdd_design.exporting.estimators.torchscript import client_history
+from cqdd_design.torque.networks.artefact import read_artefact, write_artefact
+from cqdd_design.torque.networks.predict import predict
 
 
 @pytest.fixture
@@ -54,6 +59,30 @@ def test_every_form_is_written_and_listed(printed, model, tmp_path):
     assert document["results"]["inputs"] == list(PVA)
     assert document["results"]["sample_dt_s"] == 0.005
     assert any("acceleration" in sentence for sentence in document["warnings"])
+
+
+def test_torchscript_tells_nothing_of_the_place_it_was_made_at(printed, model, tmp_path):
+    """Neither the package's folder nor torch's; what is left still loads and gives the torque."""
+    torch = pytest.importorskip("torch")
+    export(model, "torchscript-isaaclab,mjlab", tmp_path)
+    written = sorted(tmp_path.glob("*.pt"))
+    assert len(written) == 4
+    places = [str(Path(module.__file__).parents[1]).encode() for module in (cqdd_design, torch)]
+    for path in written:
+        with zipfile.ZipFile(path) as archive:
+            parts = [archive.read(name) for name in archive.namelist()]
+        assert not any(place in part for place in places for part in (path.read_bytes(), *parts))
+    artefact = read_artefact(model)
+    window = np.random.default_rng(3).uniform(-0.1, 0.1, (client_history(artefact), 2))
+    asked = torch.tensor(window[::-1].T.reshape(1, -1).copy(), dtype=torch.float32)
+    velocity = window[:, 1]
+    taps = len(artefact.differentiator.taps)
+    rate = np.convolve(velocity, artefact.differentiator.taps, mode="valid")
+    features = np.column_stack([window[taps - 1 :, 0], velocity[taps - 1 :], rate])
+    wanted = predict(artefact, features, engine="plain")[-1]
+    for name in ("pva-gru-isaaclab-mlp.pt", "pva-gru-mjlab.pt"):
+        found = torch.jit.load(str(tmp_path / name))(asked)
+        assert float(found) == pytest.approx(wanted, abs=1e-4)
 
 
 def test_the_same_network_gives_the_same_bytes(printed, model, tmp_path):

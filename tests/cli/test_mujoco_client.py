@@ -18,7 +18,7 @@ from hypothesis import HealthCheck, assume, given, settings
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "oracles"))
 
-from actuator_samples import frictionless, paper_actuator, random_actuators
+from actuator_samples import frictionless, paper_actuator, random_actuators, without_ripple
 
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.exporting.simulators.mjcf import (
@@ -28,9 +28,7 @@ from cqdd_design.exporting.simulators.mjcf import (
     model_text,
     tendon_lines,
 )
-from cqdd_design.exporting.simulators.mjcf_classes import MjcfActuator, MjcfOptions
-
-RIGID = MjcfOptions(backlash=False)
+from cqdd_design.exporting.simulators.mjcf_classes import MjcfActuator
 
 mujoco = pytest.importorskip("mujoco", minversion="4.0.0", reason="MuJoCo 4 is not installed")
 
@@ -84,8 +82,7 @@ def test_loads_from_files(tmp_path: Path) -> None:
 @pytest.mark.parametrize("backlash", [True, False])
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_positive_command_gives_positive_motion(ratio: float, backlash: bool, sense: float) -> None:
-    options = MjcfOptions(backlash=backlash)
-    model, data = load(model_text(MjcfActuator(paper_actuator(ratio), "paper", options=options)))
+    model, data = load(model_text(MjcfActuator(paper_actuator(ratio), "paper", backlash=backlash)))
     data.ctrl[0] = 6.0 * sense
     moved = run(model, data, 1000)[-1]
     assert sense * moved[0] > 0.01
@@ -111,7 +108,7 @@ def test_sense_of_the_other_commands(kind: str) -> None:
 @pytest.mark.parametrize("backlash", [True, False])
 def test_no_load_speed(ratio: float, backlash: bool) -> None:
     p = paper_actuator(ratio)
-    model, data = load(model_text(MjcfActuator(p, "paper", options=MjcfOptions(backlash=backlash))))
+    model, data = load(model_text(MjcfActuator(p, "paper", backlash=backlash)))
     data.ctrl[0] = p.drive.supply_voltage
     speeds = run(model, data, 4000)[2000:, 1]
     motor, friction, n = p.motor, p.friction, abs(ratio)
@@ -131,7 +128,7 @@ def test_no_load_speed(ratio: float, backlash: bool) -> None:
 )
 def test_stall_torque(voltage: float, current: float) -> None:
     p = paper_actuator(voltage=voltage, current=current)
-    model, data = load(model_text(MjcfActuator(p, "paper", RIGID)))
+    model, data = load(model_text(MjcfActuator(p, "paper", backlash=False)))
     model.dof_damping[:] = HELD
     data.ctrl[0] = voltage
     steps = math.ceil(12.0 * p.motor.inductance / p.motor.resistance / model.opt.timestep)
@@ -147,33 +144,31 @@ def test_reflected_inertia(ratio: float) -> None:
     p = paper_actuator(ratio)
     outer = p.gear.output_inertia
     whole = ratio**2 * (p.motor.rotor_inertia + p.gear.input_inertia) + outer
-    rigid = mass_matrix(*load(model_text(MjcfActuator(p, "paper", RIGID))))
+    rigid = mass_matrix(*load(model_text(MjcfActuator(p, "paper", backlash=False))))
     assert rigid == pytest.approx(np.array([[whole]]), rel=CLOSE)
     loose = mass_matrix(*load(model_text(MjcfActuator(p, "paper"))))
     assert loose == pytest.approx(np.array([[whole, outer], [outer, outer]]), rel=CLOSE)
 
 
 @pytest.mark.parametrize("ratio", [-10.0, 10.0])
-@pytest.mark.parametrize("torque", [None, -20.0])
-def test_ripple_is_the_work_of_the_kinematic_error(ratio: float, torque: float | None) -> None:
+@pytest.mark.parametrize("torque", [5.0, 20.0])
+def test_ripple_is_the_work_of_the_kinematic_error(ratio: float, torque: float) -> None:
     p = frictionless(paper_actuator(ratio))
-    model, data = load(
-        model_text(MjcfActuator(p, "paper", options=MjcfOptions(ripple_torque=torque)))
-    )
+    p = dataclasses.replace(p, gear=dataclasses.replace(p.gear, error_torque=torque))
+    model, data = load(model_text(MjcfActuator(p, "paper")))
     angles = 2.0 * math.pi * np.arange(512) / 512
     felt = np.empty(angles.size)
     for at, angle in enumerate(angles):
         data.qpos[0] = angle
         mujoco.mj_forward(model, data)
         felt[at] = data.qfrc_actuator[0]
-    carried = p.gear.error_torque if torque is None else torque
     nudge = 1e-5
     slope = kinematic_error(p, angles + nudge) - kinematic_error(p, angles - nudge)
-    expected = -carried * slope / (2.0 * nudge)
+    expected = -torque * slope / (2.0 * nudge)
     assert felt == pytest.approx(expected, abs=CLOSE * np.abs(expected).max())
     spectrum = np.abs(np.fft.rfft(felt)) / 256.0
     orders = p.gear.error_orders
-    amplitudes = np.abs(carried) * orders * np.hypot(p.gear.error_cosine, p.gear.error_sine)
+    amplitudes = torque * orders * np.hypot(p.gear.error_cosine, p.gear.error_sine)
     kept = amplitudes > 0.01 * amplitudes.max()
     assert kept.sum() == 4
     assert set(np.flatnonzero(spectrum > 1e-6)) == set(orders[kept])
@@ -186,7 +181,7 @@ def test_cogging_pulls_into_its_rest_positions(ratio: float) -> None:
     p = paper_actuator(ratio)
     p = dataclasses.replace(p, friction=frictionless(p).friction)
     p = dataclasses.replace(p, motor=dataclasses.replace(p.motor, hysteresis=0.0))
-    model, data = load(model_text(MjcfActuator(p, "paper", options=MjcfOptions(False, False))))
+    model, data = load(model_text(MjcfActuator(without_ripple(p), "paper", backlash=False)))
     for crank in (0.01, 0.04, -0.02):
         data.qpos[0] = crank / ratio
         mujoco.mj_forward(model, data)
@@ -196,7 +191,7 @@ def test_cogging_pulls_into_its_rest_positions(ratio: float) -> None:
 
 def test_backlash_range_and_stiffness_of_its_ends() -> None:
     p = frictionless(paper_actuator())
-    model, data = load(model_text(MjcfActuator(p, "paper", options=MjcfOptions(ripple=False))))
+    model, data = load(model_text(MjcfActuator(without_ripple(p), "paper")))
     model.dof_damping[0] = HELD
     model.dof_damping[1] = 0.05
 
@@ -257,7 +252,7 @@ def test_fragment_in_a_robot_by_the_lines_of_its_own_comment(tmp_path: Path, ang
     p = paper_actuator()
     comment = fragment_text(MjcfActuator(p, "paper"))
     (tmp_path / "paper.xml").write_text(comment)
-    hip = actuator_lines(MjcfActuator(p, "paper", RIGID), "hip")
+    hip = actuator_lines(MjcfActuator(p, "paper", backlash=False), "hip")
     loose = joint_lines("paper", "hip", play=True)
     ties = tendon_lines("hip")
     for text in (*hip, *joint_lines("paper", "hip", play=False), *loose, *ties):
@@ -272,7 +267,7 @@ def test_fragment_in_a_robot_by_the_lines_of_its_own_comment(tmp_path: Path, ang
         actuators="".join(
             (
                 *actuator_lines(MjcfActuator(p, "paper"), "hip"),
-                *actuator_lines(MjcfActuator(p, "paper", RIGID), "knee"),
+                *actuator_lines(MjcfActuator(p, "paper", backlash=False), "knee"),
             )
         ),
     )
@@ -304,11 +299,10 @@ def test_sense_of_the_other_commands_in_a_robot(
     """1 N m, or 3 rad, of the motor moves the rigid joints of a robot the same way."""
     p = paper_actuator(ratio)
     (tmp_path / "paper.xml").write_text(fragment_text(MjcfActuator(p, "paper")))
-    rigid = MjcfOptions(backlash=False)
     lines = [
         line
         for joint in ("hip", "knee")
-        for line in actuator_lines(MjcfActuator(p, "paper", rigid), joint)
+        for line in actuator_lines(MjcfActuator(p, "paper", backlash=False), joint)
     ]
     robot = HOST.format(
         angle="radian",
@@ -370,7 +364,7 @@ def test_random_actuators_in_a_robot_at_its_own_step(
         actuators="".join(
             (
                 *actuator_lines(MjcfActuator(p, "paper"), "hip"),
-                *actuator_lines(MjcfActuator(p, "paper", RIGID), "knee"),
+                *actuator_lines(MjcfActuator(p, "paper", backlash=False), "knee"),
             )
         ),
     )
@@ -391,7 +385,7 @@ def test_random_actuators_in_a_robot_at_its_own_step(
 def test_without_friction_and_play_nothing_of_them_is_written() -> None:
     p = frictionless(paper_actuator())
     p = dataclasses.replace(p, gear=dataclasses.replace(p.gear, backlash=0.0))
-    text = model_text(MjcfActuator(p, "bare", options=MjcfOptions(ripple=False)))
+    text = model_text(MjcfActuator(without_ripple(p), "bare"))
     model, _ = load(text)
     assert (model.nq, model.nu) == (1, 1)
     assert "lugre=" not in text

@@ -17,7 +17,7 @@ from cqdd_design.actuator.bench.gear import ARCMIN, DIAL, DIAL_RADIUS, dead_zone
 from cqdd_design.actuator.bench.metric import is_near
 from cqdd_design.actuator.demands import demands
 from cqdd_design.actuator.envelope import limit_curves
-from cqdd_design.actuator.motor import envelope
+from cqdd_design.actuator.motor import iron_drag, resistance_at, torque_constant_at
 from cqdd_design.actuator.operating import (
     DRIVER,
     HEAT,
@@ -136,7 +136,7 @@ def test_friction_is_taken_off_and_put_back(actuator: ActuatorParameters) -> Non
     assert np.all(shaft > torque / abs(actuator.gear.ratio))
 
 
-def test_inside_and_outside_agree_with_the_motor_s_envelope(actuator: ActuatorParameters) -> None:
+def test_inside_and_outside_agree_with_the_motor_s_circuit(actuator: ActuatorParameters) -> None:
     rng = np.random.default_rng(5)
     n, thermal = abs(actuator.gear.ratio), actuator.thermal
     seen = set()
@@ -146,10 +146,15 @@ def test_inside_and_outside_agree_with_the_motor_s_envelope(actuator: ActuatorPa
     ):  # fmt: skip
         found = judge(actuator, float(torque), float(speed), lasting=False, hot=bool(hot))
         temperature = thermal.most if hot else thermal.ambient
-        bounds = envelope(
-            actuator.motor, actuator.drive, [n * speed], winding_temperature=temperature
+        current = (found.need.motor_torque + float(iron_drag(actuator.motor, n * speed))) / float(
+            torque_constant_at(actuator.motor, temperature)
         )
-        inside = bounds.low[0] <= found.need.motor_torque <= bounds.high[0]
+        volts = float(resistance_at(actuator.motor, temperature)) * current
+        volts += float(torque_constant_at(actuator.motor, temperature)) * n * speed
+        inside = (
+            abs(current) <= actuator.drive.current_limit
+            and abs(volts) <= actuator.drive.supply_voltage
+        )
         assert inside == (not {DRIVER, VOLTAGE} & set(found.binding))
         if torque > 0.0 and PEAK not in found.binding:
             assert found.inside == (torque <= found.most * (1.0 + 1e-9))
@@ -473,7 +478,7 @@ def test_the_table_stands_beside_the_paper_s(
         assert row.protocol.endswith(".")
         assert (row.off == "\u2013") == (row.relation == "not comparable" or row.paper == "\u2013")
     predicted = [m for m in measured.metrics if m.relation == "predicted" and m.name in PAPER]
-    near = [m for m in predicted if is_near(m, PAPER[m.name].value)]
+    near = [m for m in predicted if is_near(m.unit, m.value, PAPER[m.name].value)]
     assert f"Of {len(predicted)} predicted rows {len(near)} lie within" in view.summary
 
 

@@ -101,6 +101,14 @@ def frictionless(parameters: ActuatorParameters) -> ActuatorParameters:
     )
 
 
+def without_ripple(parameters: ActuatorParameters) -> ActuatorParameters:
+    """The same with a perfect profile."""
+    gear = parameters.gear
+    names = ("error_cosine", "error_sine", "stiffness_cosine", "stiffness_sine")
+    none = {name: np.zeros(len(gear.error_orders)) for name in names}
+    return dataclasses.replace(parameters, gear=dataclasses.replace(gear, **none))
+
+
 def _between(low: float, high: float) -> st.SearchStrategy[float]:
     return st.floats(np.log(low), np.log(high)).map(lambda x: float(np.exp(x)))
 

@@ -20,7 +20,12 @@ from cqdd_design.actuator import thermal as thermals
 from cqdd_design.actuator import transmission as transmissions
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.packing import gear_table, kinematic_error, stiffness_share
-from cqdd_design.actuator.parameters import ActuatorParameters, MotorParameters, ThermalParameters
+from cqdd_design.actuator.parameters import (
+    ActuatorParameters,
+    MotorParameters,
+    ThermalParameters,
+    refuse_variation,
+)
 from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Start
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.actuator.specimen import Specimen
@@ -49,50 +54,60 @@ def loss_of_paper() -> LossModel:
 
 @given(st.floats(1e-3, 10.0), st.floats(1e-3, 10.0), st.floats(0.1, 100.0))
 def test_conventions_carry_the_same_power_and_heat(k: float, r: float, dc: float) -> None:
-    found = motors.motor_constants(k, r)
+    found = motors.motor_constants(k)
     peak = 2.0 / math.sqrt(3.0) * dc
-    assert found.torque_per_peak * peak == pytest.approx(k * dc)
-    assert found.torque_per_rms * peak / math.sqrt(2.0) == pytest.approx(k * dc)
+    assert found["torque_per_peak"] * peak == pytest.approx(k * dc)
+    assert found["torque_per_rms"] * peak / math.sqrt(2.0) == pytest.approx(k * dc)
     # Three phases at an EMF and a current in phase give torque times speed.
-    assert 1.5 * found.emf_phase_peak * peak == pytest.approx(k * dc)
-    assert 3.0 * found.emf_phase_rms * peak / math.sqrt(2.0) == pytest.approx(k * dc)
-    assert 1.5 * found.resistance_phase * peak**2 == pytest.approx(r * dc**2)
-    assert found.emf_line_rms == pytest.approx(math.sqrt(3.0) * found.emf_phase_rms)
-    for name in motors.CONVENTIONS:
-        assert motors.torque_constant_from(getattr(found, name), name) == pytest.approx(k)
+    assert 1.5 * found["emf_phase_peak"] * peak == pytest.approx(k * dc)
+    assert 3.0 * found["emf_phase_rms"] * peak / math.sqrt(2.0) == pytest.approx(k * dc)
+    # Line to line is twice a phase in wye: the same copper loss.
+    assert 1.5 * 0.5 * r * peak**2 == pytest.approx(r * dc**2)
+    assert found["emf_line_rms"] == pytest.approx(math.sqrt(3.0) * found["emf_phase_rms"])
+    for name, value in found.items():
+        assert motors.torque_constant_from(value, name) == pytest.approx(k)
 
 
-def test_envelope_is_point_symmetric_and_bound_by_both_limits() -> None:
+def test_greatest_torque_is_bound_by_both_limits() -> None:
     drive = built().drive
     speed = np.linspace(-600.0, 600.0, 241)
-    found = motors.envelope(MOTOR, drive, speed)
-    np.testing.assert_allclose(found.low, -found.high[::-1], atol=1e-12)
-    rest = motors.envelope(MOTOR, drive, 0.0)
-    assert rest.high[0] == pytest.approx(motors.stall_torque(MOTOR, drive, 25.0))
-    terminal = MOTOR.resistance * found.current_high + MOTOR.torque_constant * speed
+    found = motors.greatest_torque(MOTOR, drive, speed, 25.0)
+    rest = motors.greatest_torque(MOTOR, drive, 0.0, 25.0)
+    stall = min(drive.supply_voltage / MOTOR.resistance, drive.current_limit)
+    assert rest[0] == pytest.approx(MOTOR.torque_constant * stall)
+    current = (found + motors.iron_drag(MOTOR, speed)) / MOTOR.torque_constant
+    terminal = MOTOR.resistance * current + MOTOR.torque_constant * speed
     assert np.all(terminal <= drive.supply_voltage + 1e-9)
     driving = np.abs(speed) < drive.supply_voltage / MOTOR.torque_constant
-    assert np.all(np.abs(found.current_high[driving]) <= drive.current_limit + 1e-9)
+    assert np.all(np.abs(current[driving]) <= drive.current_limit + 1e-9)
+    # One of the two always binds, and backwards beyond both the EMF drives what it will.
+    over = speed < -(drive.supply_voltage + drive.current_limit * MOTOR.resistance) / (
+        MOTOR.torque_constant
+    )
+    assert over.any()
+    np.testing.assert_allclose(terminal[over], -drive.supply_voltage)
+    bound = (terminal > drive.supply_voltage - 1e-9) | (current > drive.current_limit - 1e-9)
+    assert np.all(bound)
     # The torque vanishes at the no-load speed.
     free = motors.no_load_speed(MOTOR, drive.supply_voltage)
-    at = motors.envelope(replace(MOTOR, hysteresis=0.0), drive, free)
-    assert at.high[0] == pytest.approx(0.0, abs=1e-9)
-    hot = motors.envelope(MOTOR, drive, speed, winding_temperature=120.0)
+    at = motors.greatest_torque(replace(MOTOR, hysteresis=0.0), drive, free, 25.0)
+    assert at[0] == pytest.approx(0.0, abs=1e-9)
+    hot = motors.greatest_torque(MOTOR, drive, speed, 120.0)
     fast = np.argmax(speed > 200.0)
-    assert hot.high[fast] != found.high[fast]
+    assert hot[fast] != found[fast]
     assert motors.no_load_speed(MOTOR, 24.0, temperature=100.0) > motors.no_load_speed(MOTOR, 24.0)
     assert motors.no_load_speed(MOTOR, 24.0, drag=50.0) == 0.0
 
 
-def test_iron_drags_against_the_motion_and_the_envelope_pays_it() -> None:
+def test_iron_drags_against_the_motion_and_the_motor_pays_it() -> None:
     one = replace(MOTOR, hysteresis=0.02)
     np.testing.assert_allclose(motors.iron_drag(one, [-50.0, 0.0, 50.0]), [-0.025, 0.0, 0.025])
     speed = np.array([-50.0, 50.0])
     with_drag, without = (
-        motors.envelope(motor, built().drive, speed)
+        motors.greatest_torque(motor, built().drive, speed, 25.0)
         for motor in (one, replace(one, hysteresis=0.0, iron_loss=0.0))
     )
-    np.testing.assert_allclose(without.high - with_drag.high, [-0.025, 0.025])
+    np.testing.assert_allclose(without - with_drag, [-0.025, 0.025])
     needs = operating.needed(replace(built(), motor=one), 10.0, 5.0, 25.0)
     freely = operating.needed(
         replace(built(), motor=replace(one, hysteresis=0.0, iron_loss=0.0)), 10.0, 5.0, 25.0
@@ -119,15 +134,45 @@ def test_thermal_response_obeys_its_equations(current: float, heat: float) -> No
 
 
 def test_continuous_current_ends_at_the_limit() -> None:
-    current = thermals.continuous_current(MOTOR, THERMAL, housing_heat=10.0)
-    ends = thermals.steady_state(MOTOR, THERMAL, current, 10.0)
+    current = thermals.continuous_current(MOTOR, THERMAL)
+    ends = thermals.steady_state(MOTOR, THERMAL, current)
     assert ends[0] == pytest.approx(THERMAL.most)
-    late = thermals.response(MOTOR, THERMAL, current, [1e6], housing_heat=10.0)[0]
-    assert late == pytest.approx(ends)
+    for heat in (0.0, 10.0):
+        late = thermals.response(MOTOR, THERMAL, current, [1e6], housing_heat=heat)[0]
+        assert late == pytest.approx(thermals.steady_state(MOTOR, THERMAL, current, heat))
     with pytest.raises(DesignError, match="without end"):
         thermals.steady_state(MOTOR, THERMAL, thermals.runaway_current(MOTOR, THERMAL))
-    with pytest.raises(DesignError, match="leaves nothing"):
-        thermals.continuous_current(MOTOR, THERMAL, most=30.0, housing_heat=50.0)
+
+
+VARIES = r"gear\.stiffness_cosine [\d.]+ is not below 1 in sum; lower the variation"
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_stiffness_that_varies_too_much_is_refused_before_the_backlash_is_solved(
+    monkeypatch: pytest.MonkeyPatch, seed: int
+) -> None:
+    """Backlash is nine tenths of the work; what its few angles refuse, the whole turn refuses."""
+    solved: list[int] = []
+
+    def counted(model: object, *, errors: object, states: object) -> object:
+        solved.append(len(states.crank_angle))
+        return solve(model, errors=errors, states=states)
+
+    solve = transmissions.backlash
+    monkeypatch.setattr(transmissions, "backlash", counted)
+    model = resolve(PAPER).contact
+    with pytest.raises(DesignError, match=VARIES):
+        transmissions.transmission(model, PAPER, 1.0, seed=seed)
+    assert solved == [24]
+    monkeypatch.setattr(transmissions, "_refuse_varying", lambda *args: None)
+    whole = transmissions.transmission(model, PAPER, 1.0, seed=seed)
+    with pytest.raises(DesignError, match=VARIES):
+        refuse_variation(whole.error_orders, whole.stiffness_cosine, whole.stiffness_sine)
+
+
+def test_a_stiffness_that_varies_much_but_keeps_above_zero_is_not_refused() -> None:
+    found = transmissions.transmission(resolve(PAPER).contact, PAPER, 4.0, seed=1)
+    assert np.sum(np.hypot(found.stiffness_cosine, found.stiffness_sine)) > 3.0
 
 
 def test_friction_keeps_efficiencies_and_backdrive_torques() -> None:

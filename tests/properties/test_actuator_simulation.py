@@ -17,7 +17,6 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.actuator.columns import TRACES
-from cqdd_design.actuator.compiled import is_compiled
 from cqdd_design.actuator.packing import largest_step
 from cqdd_design.actuator.parameters import (
     FrictionParameters,
@@ -35,7 +34,7 @@ from cqdd_design.actuator.scenario import (
     Start,
     Wall,
 )
-from cqdd_design.actuator.simulate import simulate
+from cqdd_design.actuator.simulate import is_compiled, simulate
 from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.errors import DesignError, UsageError
 from cqdd_design.gearbox.compiled import in_cache

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from actuator_samples import frictionless, paper_actuator, random_actuators
+from actuator_samples import frictionless, paper_actuator, random_actuators, without_ripple
 from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -24,7 +24,6 @@ from cqdd_design.exporting.simulators.mjcf import fragment_text, model_text
 from cqdd_design.exporting.simulators.mjcf_classes import (
     HOST_STEP,
     MjcfActuator,
-    MjcfOptions,
     time_step,
 )
 from cqdd_design.exporting.simulators.xml_text import comment, identifier, number
@@ -245,7 +244,7 @@ def test_small_harmonics_are_left_out_and_said_to_be() -> None:
     assert 20 in [one.order for one in small]
     assert all(f'a-ripple-{one.order}"' not in text for one in small)
     assert f"Left out as small: {len(small)} harmonics" in " ".join(text.split())
-    assert "ripple-" not in model_text(MjcfActuator(p, "a", options=MjcfOptions(ripple=False)))
+    assert "ripple-" not in model_text(MjcfActuator(without_ripple(p), "a"))
 
 
 def test_the_step_suits_the_stiffest_friction() -> None:

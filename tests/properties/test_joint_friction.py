@@ -12,8 +12,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "oracles"))
 
 from actuator_samples import paper_actuator
 
-from cqdd_design.actuator.joint_friction import delivered_peak_torque, held_back_torque
-from cqdd_design.actuator.joint_side import joint_side
+from cqdd_design.actuator.joint_side import delivered_peak_torque, held_back_torque, joint_side
 
 HYSTERESIS, COULOMB, OUTER, FORWARD, EXTRA = 0.01, 0.03, 0.8, 0.07, 0.4
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
 
 import numpy as np
 import pytest
-from torque_samples import DT, actuator, data_set, episode
+from torque_samples import DT, actuator, episode
 
 from cqdd_design.errors import UsageError
 from cqdd_design.torque.features.acceleration import (
@@ -21,7 +22,7 @@ from cqdd_design.torque.features.matrix import (
     phase_inputs,
     strongest_orders,
 )
-from cqdd_design.torque.training.packing import pack_data, unpack_data
+from cqdd_design.torque.features.physics import actuator_from_dict, actuator_to_dict
 
 ALL = ("position_error", "velocity", "acceleration", "sin_10", "cos_11", *PHYSICAL)
 
@@ -78,15 +79,15 @@ def test_phase_at_17_hz_is_that_of_a_sine():
     wave = np.exp(-1j * pulse * time[10:])
     true = pulse * np.cos(pulse * time)[10:]
     ratio = np.mean(found * wave) / np.mean(true * wave)
-    assert told.gain == pytest.approx(abs(ratio), rel=1e-3)
-    assert told.phase == pytest.approx(np.angle(ratio), abs=1e-3)
-    assert told.delay == pytest.approx(-told.phase / pulse)
+    assert told["gain"] == pytest.approx(abs(ratio), rel=1e-3)
+    assert told["phase"] == pytest.approx(np.angle(ratio), abs=1e-3)
+    assert told["delay"] == pytest.approx(-told["phase"] / pulse)
 
 
 def test_noise_is_the_root_of_the_taps_squares():
     slope = savitzky_golay(DT)
     noise = np.random.default_rng(0).normal(0.0, 1e-3, 200_000)
-    told = differentiator_error(slope, DT, 17.0).noise
+    told = differentiator_error(slope, DT, 17.0)["noise"]
     assert np.std(acceleration(noise, slope)) == pytest.approx(1e-3 * told, rel=0.02)
 
 
@@ -141,19 +142,9 @@ def test_differentiators_that_cannot_be(bad):
         savitzky_golay(*bad)
 
 
-def test_a_packed_data_set_is_the_same(tmp_path):
-    data, parameters = data_set(3), actuator()
-    pack_data(data, tmp_path / "p.npz", parameters)
-    found, back = unpack_data(tmp_path / "p.npz")
-    assert found.sha256 == data.sha256
-    assert found.facts == data.facts
-    assert found.torque_range == data.torque_range
-    assert back is not None
+def test_an_actuator_kept_in_a_network_is_the_same():
+    parameters = actuator()
+    back = actuator_from_dict(json.loads(json.dumps(actuator_to_dict(parameters))))
     np.testing.assert_array_equal(back.gear.error_orders, parameters.gear.error_orders)
     assert back.friction == parameters.friction
     assert math.isnan(back.motor.peak_torque)
-    (tmp_path / "bad.npz").write_bytes(b"\x80\x04pickle")
-    with pytest.raises(UsageError, match="not a packed data set"):
-        unpack_data(tmp_path / "bad.npz")
-    with pytest.raises(UsageError, match="there is no"):
-        unpack_data(tmp_path / "none.npz")

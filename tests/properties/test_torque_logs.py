@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -35,7 +36,8 @@ def write(path, columns, delimiter=","):
 
 
 def imported(path, mapped=SI, **options):
-    return import_logs([path], mapped, **{**GAINS, **options})
+    data, tally = import_logs([path], mapped, **{**GAINS, **options})
+    return SimpleNamespace(data=data, **vars(tally))
 
 
 # What is right ----------------------------------------------------------------------------------
@@ -198,10 +200,10 @@ def test_groups_and_facts_of_the_map_file_reach_the_splits(tmp_path):
         paths.append(write(tmp_path / f"run {i}.csv", motion(1.0, phase=0.3 * i)))
         lines += [f'[groups."run {i}"]', f"mass = {1.71 if i == 0 else 1.14}"]
     (tmp_path / "map.toml").write_text("\n".join(lines), "utf-8")
-    found = import_logs(paths, read_map(tmp_path / "map.toml"), **GAINS)
-    assert [one.name for one in found.data.episodes] == [f"run-{i}-000" for i in range(6)]
-    chosen = split(found.data, "mass", 0)
-    audit(found.data, chosen, 30)
+    data, _ = import_logs(paths, read_map(tmp_path / "map.toml"), **GAINS)
+    assert [one.name for one in data.episodes] == [f"run-{i}-000" for i in range(6)]
+    chosen = split(data, "mass", 0)
+    audit(data, chosen, 30)
     assert chosen.test == ("run-0-000",)
 
 

@@ -18,10 +18,9 @@ from cqdd_design.torque.data.episodes import read_data
 from cqdd_design.torque.features.physics import actuator_from_dict
 from cqdd_design.torque.networks.artefact import read_artefact
 from cqdd_design.torque.training.checkpoint import read_checkpoint
-from cqdd_design.torque.training.packing import unpack_data
 
 NETWORK = Path(__file__).parents[2] / "designs" / "cqdd-10-torque" / "phase-gru-0.npz"
-READERS = (read_artefact, read_checkpoint, unpack_data)
+READERS = (read_artefact, read_checkpoint)
 
 
 def npy(header: str, body: bytes = b"") -> bytes:

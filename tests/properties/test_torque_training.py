@@ -16,12 +16,13 @@ from torque_samples import DT, actuator, data_set
 torch = pytest.importorskip("torch")
 
 from cqdd_design.errors import UsageError  # noqa: E402
+from cqdd_design.torque.data.episodes import write_data  # noqa: E402
 from cqdd_design.torque.data.splits import Split  # noqa: E402
 from cqdd_design.torque.features.matrix import feature_matrix  # noqa: E402
+from cqdd_design.torque.features.physics import actuator_to_dict  # noqa: E402
 from cqdd_design.torque.networks.artefact import read_artefact, write_artefact  # noqa: E402
 from cqdd_design.torque.networks.modules import MODELS, Network, find_model, network_of  # noqa: E402
 from cqdd_design.torque.networks.wavefront import last_state  # noqa: E402
-from cqdd_design.torque.training.packing import pack_data  # noqa: E402
 from cqdd_design.torque.training.recipe import Choice, Order, Recipe  # noqa: E402
 from cqdd_design.torque.training.schedule import OneCycle, peak_rate  # noqa: E402
 from cqdd_design.torque.training.tensors import Prepared, raw, scaling  # noqa: E402
@@ -323,31 +324,35 @@ def test_unknown_models_short_and_still_data_are_refused():
     assert DATA.dt == DT
 
 
-def test_a_machine_with_numpy_and_torch_alone_can_train(tmp_path):
-    pack_data(DATA, tmp_path / "p.npz", actuator())
+def test_a_machine_without_the_design_tools_can_train(tmp_path):
+    pytest.importorskip("pyarrow")
+    write_data(DATA, tmp_path / "data")
+    (tmp_path / "actuator.json").write_text(json.dumps(actuator_to_dict(actuator())))
     program = """
 import sys
 from importlib.abc import MetaPathFinder
 
 class Missing(MetaPathFinder):
     def find_spec(self, name, path=None, target=None):
-        if name.split(".")[0] in {
-            "cadquery", "numba", "pint", "pyarrow", "pydantic", "typer"
-        }:
+        if name.split(".")[0] in {"cadquery", "numba", "pint", "pydantic", "typer"}:
             raise ModuleNotFoundError(name)
 
 sys.meta_path.insert(0, Missing())
+import json
 from pathlib import Path
-from cqdd_design.torque.training.packing import unpack_data
-from cqdd_design.torque.training.recipe import Order, Recipe
+from cqdd_design.torque.data.episodes import read_data
 from cqdd_design.torque.data.splits import split
+from cqdd_design.torque.features.physics import actuator_from_dict
+from cqdd_design.torque.training.recipe import Order, Recipe
 from cqdd_design.torque.training.train import train
-data, actuator = unpack_data(Path(sys.argv[1]))
+place = Path(sys.argv[1])
+data = read_data(place / "data")
+actuator = actuator_from_dict(json.loads((place / "actuator.json").read_text()))
 parts, recipe = split(data, "trajectory"), Recipe(epochs=2, stride=16, batch=16)
 print(train(data, parts, Order("physics-gru", 0, recipe, actuator)).name)
 """
     done = subprocess.run(
-        [sys.executable, "-c", program, str(tmp_path / "p.npz")],
+        [sys.executable, "-c", program, str(tmp_path)],
         env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
         capture_output=True,
         text=True,

@@ -148,12 +148,10 @@ def _network(place: Path) -> tuple[dict[str, Any], Any]:
 def _archive(draw: random.Random) -> Case:
     from cqdd_design.torque.networks.artefact import read_artefact
     from cqdd_design.torque.training.checkpoint import read_checkpoint
-    from cqdd_design.torque.training.packing import unpack_data
 
     arrays, content = _network(draw.choice(files.NETWORKS[:6]))
-    kind = draw.randrange(3)
-    reader: Callable[[Path], object] = (read_artefact, read_checkpoint, unpack_data)[kind]
-    if kind == 1:
+    reader: Callable[[Path], object] = draw.choice((read_artefact, read_checkpoint))
+    if reader is read_checkpoint:
         groups = ("weights", "first_moment", "second_moment", "best")
         arrays = {f"{group}:{name}": one for group in groups for name, one in arrays.items()}
         row = {"epoch": 1, "training_rmse_Nm": 1.0, "validation_rmse_Nm": 1.0, "seconds": 1.0}
@@ -161,15 +159,6 @@ def _archive(draw: random.Random) -> Case:
             **{"format": "cqdd-design torque checkpoint 1", "identity": {"model": "a"}},
             **{"epoch": 1, "step": 1, "best_rmse": 1.0, "log": [row], "facts": {"updates": 1}},
             "random_state": {"seed": 0, "epoch": 1},
-        }
-    elif kind == 2:
-        arrays = {"0": np.zeros((4, 9), np.float32)}
-        columns = ["position", "target", "velocity", "torque"]
-        content = {
-            **{"format": "cqdd-design packed torque data 1", "dt": 0.01, "position_gain": 60.0},
-            **{"velocity_gain": 2.0, "torque_range": [-9.0, 9.0], "facts": {}},
-            "episodes": [{"name": "a", "group": {"mass": 1}, "columns": columns}],
-            "actuator": draw.choice([None, content["facts"].get("actuator")]),
         }
     made = files.archive(draw, arrays, content)
     return Case({"a.npz": made}, call=lambda: reader(Path("a.npz")))

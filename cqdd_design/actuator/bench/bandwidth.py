@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -28,10 +27,9 @@ _SENSOR_DAMPING = 0.01
 
 def sensor(parameters: ActuatorParameters) -> Load:
     """The output held through a torque sensor rated for what the driver's limit gives."""
-    ratio = parameters.gear.ratio
-    rated = parameters.motor.torque_constant * parameters.drive.current_limit * abs(ratio)
-    stiffness = rated / SENSOR_TWIST
-    swinging = parameters.motor_side_inertia * ratio**2 + parameters.gear.output_inertia
+    gear = parameters.gear
+    stiffness = parameters.torque_limit / SENSOR_TWIST
+    swinging = parameters.motor_side_inertia * gear.ratio**2 + gear.output_inertia
     return Load.locked(stiffness, 2.0 * _SENSOR_DAMPING * math.sqrt(stiffness * swinging))
 
 
@@ -92,11 +90,10 @@ def torque_bandwidth(parameters: ActuatorParameters, amplitude: float = 5.0) -> 
     step = safe_step(parameters, *scenes)
     every = max(1, round(5e-4 / step))
     run = simulate(cold(parameters), scenes, duration, step, every=every)
-    found = frequency_response(
+    frequency, response, coherence = frequency_response(
         run.commanded_torque, run.output_torque, step * every, 2.0 * first, 0.9 * last
     )
-    frequency, gain, coherence = found.frequency, np.abs(found.response), found.coherence
-    phase = np.unwrap(np.angle(found.response))
+    gain, phase = np.abs(response), np.unwrap(np.angle(response))
     low = float(gain[frequency <= 4.0].mean())
     return Metric(
         "torque_bandwidth",
@@ -120,38 +117,13 @@ def torque_bandwidth(parameters: ActuatorParameters, amplitude: float = 5.0) -> 
     )
 
 
-@dataclass(frozen=True, eq=False)
-class FrequencyResponse:
-    """H1 and coherence on a grid of frequencies.
-
-    Attributes
-    ----------
-    frequency : array (F,)
-        Hz, even in logarithm.
-    response : array (F,) of complex
-        Output over input.
-    coherence : array (F,)
-        0 to 1.
-    """
-
-    frequency: FloatArray
-    response: NDArray[np.complex128]
-    coherence: FloatArray
-
-
 def frequency_response(
     given: FloatArray, got: FloatArray, spacing: float, lowest: float, highest: float
-) -> FrequencyResponse:
+) -> tuple[FloatArray, NDArray[np.complex128], FloatArray]:
     """H1 = Sxy/Sxx of whole records, averaged over them and over twelfths of an octave.
 
-    Parameters
-    ----------
-    given, got : array (R, N)
-        Input and output, at rest at both ends of each record.
-    spacing : float
-        Of the samples, s.
-    lowest, highest : float
-        Hz.
+    Input and output (R, N) are at rest at both ends of each record; samples are `spacing` s apart.
+    Frequencies (F,), Hz, even in logarithm, the response and its coherence, 0 to 1, come back.
     """
     x, y = np.fft.rfft(given, axis=1), np.fft.rfft(got, axis=1)
     line = np.fft.rfftfreq(given.shape[1], spacing)
@@ -167,11 +139,8 @@ def frequency_response(
         return np.asarray(total[end] - total[begin])
 
     cross, into, out = banded(cross), banded(into), banded(out)
-    return FrequencyResponse(
-        frequency=grid,
-        response=cross / np.maximum(into, 1e-300),
-        coherence=np.abs(cross) ** 2 / np.maximum(into * out, 1e-300),
-    )
+    coherence = np.abs(cross) ** 2 / np.maximum(into * out, 1e-300)
+    return grid, cross / np.maximum(into, 1e-300), coherence
 
 
 def crossing(frequency: FloatArray, values: FloatArray, level: float) -> float:
@@ -212,10 +181,10 @@ def position_bandwidth(
         gains.append(abs(out / asked))
         delays.append(float(np.angle(out / asked)))
     gain = np.array(gains)
-    motor, ratio = parameters.motor, abs(parameters.gear.ratio)
+    full_speed = voltage / parameters.motor.torque_constant / abs(parameters.gear.ratio)
     by_speed, by_torque = saturation_limits(
-        voltage / motor.torque_constant / ratio,
-        parameters.drive.current_limit * motor.torque_constant * ratio,
+        full_speed,
+        parameters.torque_limit,
         parameters.reflected_inertia,
         amplitude,
     )

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cqdd_design.actuator.bench.metric import METRICS, BenchResult
+from cqdd_design.actuator.bench.metric import BenchResult, is_near, refuse_unmeasured
 from cqdd_design.actuator.bench.run import VOLTAGE, run_bench
 from cqdd_design.actuator.bench.unknowns import (
     TELLS,
@@ -21,7 +21,6 @@ from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.errors import UsageError, did_you_mean
 
 _MOST_FACTOR = 200.0
-_GOOD, _EFFICIENCY_POINTS = 0.2, 5.0
 
 
 @dataclass(frozen=True)
@@ -30,10 +29,8 @@ class Row:
 
     Attributes
     ----------
-    name, unit : str
     measured : float or None
         None where it was not measured.
-    before, after : float
     relation : str
         "calibrated", "predicted", "given" or "not comparable".
     """
@@ -98,18 +95,12 @@ class Calibration:
 
     @property
     def within(self) -> tuple[Row, ...]:
-        """Of the predicted rows those within 20 %, efficiency within 5 points."""
-        found = []
-        for row in self.predicted:
-            assert row.measured is not None
-            assert row.off is not None
-            if row.name == "efficiency_peak":
-                good = 100.0 * abs(row.after - row.measured) <= _EFFICIENCY_POINTS
-            else:
-                good = abs(row.off) <= _GOOD
-            if good:
-                found.append(row)
-        return tuple(found)
+        """Those of the predicted rows that are near what was measured; see `metric.is_near`."""
+        return tuple(
+            row
+            for row in self.predicted
+            if row.measured is not None and is_near(row.unit, row.after, row.measured)
+        )
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form (``results`` of ``calibrate``)."""
@@ -152,7 +143,6 @@ def calibrate(
 
     Parameters
     ----------
-    parameters : ActuatorParameters
     measured : mapping of str to float
         Measurements of the bench in its units.
     to : collection of str
@@ -176,11 +166,7 @@ def calibrate(
         that does not come within reach.
     """
     for name, value in measured.items():
-        if name not in METRICS:
-            raise UsageError(
-                f"'{name}' is not a measurement{did_you_mean(name, METRICS) or '.'} "
-                f"The bench knows {', '.join(METRICS)}."
-            )
+        refuse_unmeasured(name)
         if not (math.isfinite(value) and value > 0.0):
             raise UsageError(f"{name} {value:g} must be above 0 to calibrate with.")
     rows, names = _chosen(measured, to, unknowns)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -88,15 +88,8 @@ def backlash(parameters: ActuatorParameters, positions: int = 6) -> Metric:
 def dead_zone(motor: FloatArray, output: FloatArray) -> tuple[float, float, float] | None:
     """Where the motor turns back and where the output follows, and the output's angle between.
 
-    Parameters
-    ----------
-    motor, output : array (T,)
-        Angles of one reading in the order of time, rad, the motor's over the ratio.
-
-    Returns
-    -------
-    (begin, end, output angle) or None
-        rad, the dial's own threshold taken off; None where the output never follows.
+    From the angles (T,) of one reading in the order of time, the motor's over the ratio; all rad,
+    the dial's own threshold taken off. None where the output never follows.
     """
     # The flank gone to first; the motor rests there until it turns back.
     first, last = sorted((int(motor.argmax()), int(motor.argmin())))
@@ -221,8 +214,7 @@ def torque_ripple(
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Ripple:
+class _Ripple(NamedTuple):
     """Half of the peak-to-peak of each motor turn, N m, and the spectrum in orders."""
 
     halves: FloatArray

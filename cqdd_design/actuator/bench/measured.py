@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 
-from cqdd_design.actuator.bench.metric import METRICS
-from cqdd_design.errors import CqddError, UsageError, did_you_mean
+from cqdd_design.actuator.bench.metric import METRICS, refuse_unmeasured
+from cqdd_design.errors import CqddError, UsageError
 from cqdd_design.files import read_text_file
 from cqdd_design.units import (
     ANGLE,
@@ -55,10 +55,6 @@ def read_measured(path: Path) -> dict[str, float]:
     path : Path
         Names are those of `METRICS`; lines that begin with # and further columns are passed over.
 
-    Returns
-    -------
-    dict of str to float
-
     Raises
     ------
     UsageError
@@ -100,11 +96,7 @@ def read_measured(path: Path) -> dict[str, float]:
 def _value(row: dict[str, str], place: str) -> float:
     """The value of one row in the unit of the bench."""
     name, text, unit = row["name"], row["value"], row["unit"]
-    if name not in METRICS:
-        raise UsageError(
-            f"{place}: '{name}' is not a measurement{did_you_mean(name, METRICS) or '.'} "
-            f"The bench knows {', '.join(METRICS)}."
-        )
+    refuse_unmeasured(name, f"{place}: ")
     wanted = METRICS[name]
     if not text:
         raise UsageError(f"{place}: {name} has no value; leave the line out, or fill it in.")

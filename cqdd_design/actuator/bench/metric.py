@@ -9,6 +9,7 @@ from typing import Literal
 
 from cqdd_design.actuator.parameters import FloatArray
 from cqdd_design.catalog import paper
+from cqdd_design.errors import UsageError, did_you_mean
 
 Relation = Literal["given", "calibrated", "predicted", "not comparable"]
 
@@ -34,6 +35,15 @@ METRICS: Mapping[str, str] = MappingProxyType(
     }
 )
 """Names of all measurements and their units."""
+
+
+def refuse_unmeasured(name: str, place: str = "") -> None:
+    """Raise a `UsageError` where a name, read at a place, is none of `METRICS`."""
+    if name not in METRICS:
+        raise UsageError(
+            f"{place}'{name}' is not a measurement{did_you_mean(name, METRICS) or '.'} "
+            f"The bench knows {', '.join(METRICS)}."
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,14 +91,12 @@ class BenchResult:
     ----------
     name : str
         Of the actuator.
-    metrics : tuple of Metric
     beside_paper : bool
         Whether it is the paper's own, so that the paper's values stand beside.
     voltage : float
         Of the dynamic rows, V.
     seconds : float
         Time taken.
-    warnings : tuple of str
     """
 
     name: str
@@ -132,8 +140,8 @@ NEAR_EFFICIENCY = 0.05
 """The same for efficiencies, as a difference."""
 
 
-def is_near(metric: Metric, measured: float) -> bool:
-    """Whether a value is near the measured one."""
-    if metric.unit == "":
-        return abs(metric.value - measured) <= NEAR_EFFICIENCY
-    return abs(metric.value / measured - 1.0) <= NEAR
+def is_near(unit: str, value: float, measured: float) -> bool:
+    """Whether a value of one of the units of `METRICS` is near the measured one."""
+    if unit == "":
+        return abs(value - measured) <= NEAR_EFFICIENCY
+    return abs(value / measured - 1.0) <= NEAR

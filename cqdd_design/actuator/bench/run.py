@@ -8,10 +8,10 @@ from collections.abc import Callable, Collection, Mapping
 from types import MappingProxyType
 
 from cqdd_design.actuator.bench import bandwidth, gear, steady
-from cqdd_design.actuator.bench.metric import METRICS, BenchResult, Metric
+from cqdd_design.actuator.bench.metric import BenchResult, Metric, refuse_unmeasured
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.catalog import paper
-from cqdd_design.errors import UsageError, did_you_mean
+from cqdd_design.errors import UsageError
 
 VOLTAGE = paper.SUPPLY_VOLTAGE
 """Of the dynamic rows, V: what the paper measured at."""
@@ -43,7 +43,6 @@ def run_bench(
 
     Parameters
     ----------
-    parameters : ActuatorParameters
     rated_current : float, optional
         Of the motor by its catalogue, A.
     voltage : float
@@ -64,11 +63,7 @@ def run_bench(
         For an unknown name, or a voltage that is not above zero.
     """
     for name in only:
-        if name not in METRICS:
-            raise UsageError(
-                f"'{name}' is not a measurement{did_you_mean(name, METRICS) or '.'} "
-                f"The bench knows {', '.join(METRICS)}."
-            )
+        refuse_unmeasured(name)
     if not voltage > 0.0:
         raise UsageError(f"--voltage {voltage:g} V must be above 0; the paper's is {VOLTAGE:g} V.")
     began = time.perf_counter()

@@ -98,10 +98,8 @@ def _locked_torque(
 
 def peak_torque(parameters: ActuatorParameters) -> Metric:
     """Torque constant times current times ratio, at the driver's limit or the motor's peak."""
-    motor, ratio = parameters.motor, abs(parameters.gear.ratio)
-    by_driver = motor.torque_constant * parameters.drive.current_limit * ratio
-    by_motor = motor.peak_torque * ratio
-    details = {"driver_limited_Nm": by_driver}
+    by_motor = parameters.motor.peak_torque * abs(parameters.gear.ratio)
+    details = {"driver_limited_Nm": parameters.torque_limit}
     if math.isfinite(by_motor):
         details["motor_limited_Nm"] = by_motor
     return Metric(

@@ -4,46 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import Any
 
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.errors import UsageError, did_you_mean
-
-Change = Callable[[ActuatorParameters, float], ActuatorParameters]
-
-
-def _friction(*names: str) -> Change:
-    def change(parameters: ActuatorParameters, factor: float) -> ActuatorParameters:
-        own = parameters.friction
-        scaled = {name: factor * getattr(own, name) for name in names}
-        return dataclasses.replace(parameters, friction=dataclasses.replace(own, **scaled))
-
-    return change
-
-
-def _thermal(parameters: ActuatorParameters, factor: float) -> ActuatorParameters:
-    own = parameters.thermal
-    scaled = dataclasses.replace(
-        own,
-        winding_to_housing=factor * own.winding_to_housing,
-        housing_to_ambient=factor * own.housing_to_ambient,
-    )
-    return dataclasses.replace(parameters, thermal=scaled)
-
-
-def _current_loop(parameters: ActuatorParameters, factor: float) -> ActuatorParameters:
-    own = parameters.drive
-    slower = dataclasses.replace(own, current_bandwidth=factor * own.current_bandwidth)
-    return dataclasses.replace(parameters, drive=slower)
-
-
-def _tolerances(parameters: ActuatorParameters, factor: float) -> ActuatorParameters:
-    own = parameters.gear
-    names = ("error_cosine", "error_sine", "stiffness_cosine", "stiffness_sine")
-    scaled = {name: factor * getattr(own, name) for name in names}
-    return dataclasses.replace(parameters, gear=dataclasses.replace(own, **scaled))
 
 
 @dataclass(frozen=True)
@@ -52,52 +19,45 @@ class Unknown:
 
     Attributes
     ----------
-    values : tuple of str
-        Dotted names of the values that one factor multiplies.
+    part : str
+        Of the actuator's parameters.
+    names : tuple of str
+        Values of that part that one factor multiplies.
     told_by : str
         The measurement that decides it.
-    change : callable
-        Parameters and factor to parameters.
     """
 
-    values: tuple[str, ...]
+    part: str
+    names: tuple[str, ...]
     told_by: str
-    change: Change
+
+    @property
+    def values(self) -> tuple[str, ...]:
+        """Dotted names of what is multiplied."""
+        return tuple(f"{self.part}.{name}" for name in self.names)
+
+    def change(self, parameters: ActuatorParameters, factor: float) -> ActuatorParameters:
+        """The actuator with these values multiplied."""
+        own = getattr(parameters, self.part)
+        scaled = {name: factor * getattr(own, name) for name in self.names}
+        changed: Any = {self.part: dataclasses.replace(own, **scaled)}
+        return dataclasses.replace(parameters, **changed)
 
 
+_BOTH_RESISTANCES = ("winding_to_housing", "housing_to_ambient")
+_COULOMB, _VISCOUS = ("motor_coulomb", "output_coulomb"), ("motor_viscous", "output_viscous")
+_HARMONICS = ("error_cosine", "error_sine", "stiffness_cosine", "stiffness_sine")
 UNKNOWNS: Mapping[str, Unknown] = MappingProxyType(
     {
-        "thermal_resistance": Unknown(
-            ("thermal.winding_to_housing", "thermal.housing_to_ambient"),
-            "continuous_torque",
-            _thermal,
-        ),
-        "friction_level": Unknown(
-            ("friction.motor_coulomb", "friction.output_coulomb"),
-            "backdrive_static",
-            _friction("motor_coulomb", "output_coulomb"),
-        ),
-        "friction_viscous": Unknown(
-            ("friction.motor_viscous", "friction.output_viscous"),
-            "backdrive_dynamic",
-            _friction("motor_viscous", "output_viscous"),
-        ),
-        "friction_load": Unknown(
-            ("friction.load_forward", "friction.load_backward"),
-            "efficiency_peak",
-            _friction("load_forward", "load_backward"),
-        ),
-        "current_loop": Unknown(("drive.current_bandwidth",), "torque_bandwidth", _current_loop),
-        "tolerance_scale": Unknown(
-            (
-                "gear.error_cosine",
-                "gear.error_sine",
-                "gear.stiffness_cosine",
-                "gear.stiffness_sine",
-            ),
-            "torque_ripple",
-            _tolerances,
-        ),
+        name: Unknown(part, names, told_by)
+        for name, part, names, told_by in (
+            ("thermal_resistance", "thermal", _BOTH_RESISTANCES, "continuous_torque"),
+            ("friction_level", "friction", _COULOMB, "backdrive_static"),
+            ("friction_viscous", "friction", _VISCOUS, "backdrive_dynamic"),
+            ("friction_load", "friction", ("load_forward", "load_backward"), "efficiency_peak"),
+            ("current_loop", "drive", ("current_bandwidth",), "torque_bandwidth"),
+            ("tolerance_scale", "gear", _HARMONICS, "torque_ripple"),
+        )
     }
 )
 """What can be fitted. The scale of the tolerances is that of one drawn gearbox's error and
@@ -120,13 +80,7 @@ def refuse_unknown(name: str) -> None:
 
 @dataclass(frozen=True)
 class Fit(Mapping[str, float]):
-    """Factors of unknowns, and the measurements that they were fitted to.
-
-    Attributes
-    ----------
-    factors : mapping of str to float
-    rows : tuple of str
-    """
+    """Factors of unknowns, and the measurements that they were fitted to."""
 
     factors: Mapping[str, float]
     rows: tuple[str, ...]

@@ -160,11 +160,12 @@ def ended_current(p: Any, electric: Any, h: float, current: float, x: float) -> 
 
 
 @part
-def warmed(p: Any, winding: float, housing: float, heat_winding: float, heat_housing: float) -> Any:
+def warmed(p: Any, warmth: Any, heat_winding: float, heat_housing: float) -> Any:
     """Temperatures of winding and housing a step on, deg C; heats in W.
 
     Exact for heats that stay the same over the step: T' = exp(A h) T + (A^-1 (exp(A h) - 1)) q.
     """
+    winding, housing = warmth
     heat_housing += p.cooling
     warmer = (
         p.winding_kept * winding

@@ -6,7 +6,7 @@ iteration leaves, whatever the step, through backlash, stops and varying stiffne
 acts as the torque that would stop the body within the step, as far as there is friction: it takes
 energy or none, never gives any. Equations in docs/actuator-model.md;
 `tests/oracles/actuator_twin` is the same in numpy. The parts: :mod:`.drive`, :mod:`.friction`,
-:mod:`.gear`, :mod:`.loads`; what goes from one to the other by name: :mod:`..columns`.
+:mod:`.gear`, :mod:`.loads`, :mod:`.accounts`; what goes between them by name: :mod:`..columns`.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import numpy as np
 from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from cqdd_design.actuator.columns import Constants, Ledger, Signals
+from cqdd_design.actuator.kernels.accounts import Outcome, closed, heated, recorded, tallied
 from cqdd_design.actuator.kernels.drive import (
     Control,
     Wanted,
@@ -275,145 +276,118 @@ def driven_torque(p: Any, h: float, begin: Any, found: Any) -> Any:
     )
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=FAST)
-def run_one(
-    row: Any, table: Any, signals: Any, steps: Any, traces: Any, ledger: Any, place: int
-) -> None:
-    """Step one actuator.
+class State(NamedTuple):
+    """What one step leaves to the next.
 
-    Parameters
-    ----------
-    row : array
-        `columns.Constants`.
-    table : array (M, 4)
-        See `laws.look_up`.
-    signals : Signals
-        Of one row each.
-    steps : Steps
-    traces, ledger : Traces, Ledger
-        Whose row `place` is filled.
+    `warmth` holds the temperatures of winding and housing, `rises` the accelerations of motor and
+    output in the step and `former` those in the one before it; `torque` is the mesh's, and `way`
+    the motor's last dry friction.
     """
-    p = Constants(*_tuple_of(row, COUNT))
-    h, i = steps.length, place
-    # Taken apart here: in the loop every reach into a tuple of arrays would count its references.
-    reference, reference_rate, feedforward, external_torque, driven_speed = signals
+
+    motion: Any
+    mesh: Any
+    wall: Any
+    current: float
+    warmth: Any
+    bristles: Any
+    mode: int
+    output_mode: int
+    rises: Any
+    former: Any
+    torque: float
+    way: float
+
+
+@part
+def at_start(p: Any, table: Any, driven_speed: Any) -> Any:
+    """State at the beginning of a run."""
     motion = Motion(p.motor_angle, p.motor_speed, p.output_angle, p.output_speed)
     mode, output_mode = begun(STICK, motion.speed), begun(STICK, motion.out_speed)
     if p.driven != 0.0:
         motion = Motion(motion.angle, motion.speed, motion.out_angle, driven_speed[0])
-    current, winding, housing = p.current, p.winding_temperature, p.housing_temperature
+    mesh, wall = mesh_at(p, table, motion.angle, motion.out_angle), wall_at(p, motion.out_angle)
+    none, warmth = (0.0, 0.0), (p.winding_temperature, p.housing_temperature)
+    return State(
+        motion, mesh, wall, p.current, warmth, none, mode, output_mode, none, none, 0.0, 0.0
+    )
+
+
+@part
+def step_begun(
+    p: Any, h: float, state: Any, asked: float, external: float, next_speed: float
+) -> Any:
+    """What a step begins with; mean speeds are guessed from the last two accelerations."""
+    motion = state.motion
+    guess = motion.speed + 0.5 * h * (2.0 * state.rises[0] - state.former[0])
+    out_guess = motion.out_speed + 0.5 * h * (2.0 * state.rises[1] - state.former[1])
+    winding, housing = state.warmth
+    electric = driven_current(p, h, asked, state.current, winding, housing, guess)
+    toward = state.way if motion.speed == 0.0 else motion.speed
+    rub = rubbing(p, state.bristles, h, toward, state.torque, guess, out_guess)
+    mode, output_mode = state.mode, state.output_mode
+    if p.lugre == 0.0:
+        mode, output_mode = begun(mode, motion.speed), begun(output_mode, motion.out_speed)
+    return Begin(
+        motion, state.mesh, state.wall, electric, rub, mode, output_mode, external, guess,
+        out_guess, next_speed,
+    )  # fmt: skip
+
+
+@numba.njit(cache=True, error_model="numpy", fastmath=FAST)
+def run_one(
+    row: Any, table: Any, signals: Any, steps: Any, traces: Any, ledger: Any, i: int
+) -> None:
+    """Step one actuator: a row of `columns.Constants`, its table (M, 4), signals of one row each.
+
+    Row `i` of every array of `traces` and `ledger` is filled; see `laws.look_up` for the table.
+    """
+    p, h = Constants(*_tuple_of(row, COUNT)), steps.length
+    # Taken apart here: in the loop every reach into a tuple of arrays would count its references.
+    reference, reference_rate, feedforward, external_torque, driven_speed = signals
     delay = int(p.delay_steps)
     line, slot = np.zeros(delay + 1), 0
-    control, bristles = Control(0.0, 0.0, 0.0, -1.0), (0.0, 0.0)
-    # Accelerations of the last step and of the one before it.
-    rise, output_rise, former, output_former = 0.0, 0.0, 0.0, 0.0
-    transmitted, way = 0.0, 0.0
-    mesh, wall = mesh_at(p, table, motion.angle, motion.out_angle), wall_at(p, motion.out_angle)
-    before = stored_energy(p, motion, current, mesh, wall.energy, 0.0)
-    sums = Ledger(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, before, 0.0, 0.0)
-
+    control, state = Control(0.0, 0.0, 0.0, -1.0), at_start(p, table, driven_speed)
+    stored = stored_energy(p, state.motion, state.current, state.mesh, state.wall.energy, 0.0)
+    sums = Ledger(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, stored, 0.0, 0.0)
     for k in range(steps.number):
         wanted = Wanted(at(reference, k), at(reference_rate, k), at(feedforward, k))
-        control = commanded(p, control, wanted, h, motion.angle, motion.speed)
+        control = commanded(p, control, wanted, h, state.motion.angle, state.motion.speed)
         line[slot] = asked_of_winding(p, control.command)
         slot = slot + 1 if slot < delay else 0
-        guess = motion.speed + 0.5 * h * (2.0 * rise - former)
-        out_guess = motion.out_speed + 0.5 * h * (2.0 * output_rise - output_former)
-        electric = driven_current(p, h, line[slot], current, winding, housing, guess)
-        toward = way if motion.speed == 0.0 else motion.speed
-        rub = rubbing(p, bristles, h, toward, transmitted, guess, out_guess)
-        if p.lugre == 0.0:
-            mode, output_mode = begun(mode, motion.speed), begun(output_mode, motion.out_speed)
         next_speed = at(driven_speed, k + 1) if p.driven != 0.0 else 0.0
-        external = at(external_torque, k)
-        begin = Begin(
-            motion, mesh, wall, electric, rub, mode, output_mode, external, guess, out_guess,
-            next_speed,
-        )  # fmt: skip
+        begin = step_begun(p, h, state, line[slot], at(external_torque, k), next_speed)
         found = solved(p, table, h, begin)
-        mode, output_mode = found.mode, found.output_mode
-        # --- new state -----------------------------------------------------------------------
-        ended = moved(p, h, begin, found)
+        motion = moved(p, h, begin, found)
         turn, out_turn = h * found.x, h * found.y
-        end, change = mesh_ended(p, table, mesh, found.last, ended.angle, turn, out_turn)
-        friction, output_friction, bristles = rubbed(p, h, begin, found, bristles)
-        if p.driven != 0.0:
-            external = driven_torque(p, h, begin, found)
-        current, mean_current, voltage = ended_current(p, electric, h, current, found.x)
-        # --- ledger and heat -----------------------------------------------------------------
-        x, y = found.x, found.y
-        power_in, power_copper = (
-            voltage * mean_current,
-            electric.resistance * mean_current * mean_current,
+        mesh, change = mesh_ended(p, table, begin.mesh, found.last, motion.angle, turn, out_turn)
+        friction, output_friction, bristles = rubbed(p, h, begin, found, state.bristles)
+        external = driven_torque(p, h, begin, found) if p.driven != 0.0 else begin.external
+        current, mean_current, voltage = ended_current(p, begin.electric, h, state.current, found.x)
+        out = Outcome(friction, output_friction, external, mean_current, voltage)
+        heat = heated(p, h, begin, found, out)
+        damped = damped_in_mesh(p, begin.mesh, mesh, change, found.cut, h, sums.gear_damping)
+        sums = tallied(p, h, sums, begin, found, out, heat, damped)
+        rubbing_heat = (heat.iron + heat.rubbed + heat.output_rubbed) / h
+        gained = motion.speed - begin.motion.speed, motion.out_speed - begin.motion.out_speed
+        state = State(
+            motion,
+            mesh,
+            wall_at(p, motion.out_angle) if p.wall_stiffness > 0.0 else state.wall,
+            current,
+            warmed(p, state.warmth, heat.copper, rubbing_heat),
+            bristles,
+            found.mode,
+            found.output_mode,
+            (gained[0] / h, gained[1] / h),
+            state.rises,
+            found.torque,
+            friction if friction != 0.0 else state.way,
         )
-        rubbed_dry = friction * x * h
-        share_iron = 0.0
-        if rub.level > 0.0:
-            share_iron = p.hysteresis / rub.level
-        iron = p.iron_viscous * x * x * h + share_iron * rubbed_dry
-        own_viscous = p.motor_viscous + p.iron_viscous - p.iron_viscous
-        rub_now = own_viscous * x * x * h + (1.0 - share_iron) * rubbed_dry
-        out_rub = p.output_viscous * y * y * h + output_friction * y * h
-        on_load = (p.sensor_damping + p.load_viscous) * y * y * h
-        sums = Ledger(
-            sums.electrical + power_in * h,
-            sums.copper + power_copper * h,
-            sums.iron + iron,
-            sums.motor_friction + rub_now,
-            sums.output_friction + out_rub,
-            damped_in_mesh(p, mesh, end, change, found.cut, h, sums.gear_damping),
-            sums.load_damping + (on_load + found.wall_rub * p.wall_side * y * h),
-            sums.external + external * y * h,
-            sums.throughput + (abs(power_in) + abs(external * y)) * h,
-            before,
-            0.0,
-            sums.unsettled + (0.0 if found.last.settled else 1.0),
-        )
-        winding, housing = warmed(p, winding, housing, power_copper, (iron + rub_now + out_rub) / h)
-        former, output_former = rise, output_rise
-        rise = (ended.speed - motion.speed) / h
-        output_rise = (ended.out_speed - motion.out_speed) / h
-        way = friction if friction != 0.0 else way
-        transmitted = found.torque
-        flange = found.torque - output_friction - p.output_viscous * y
-        flange -= p.output_inertia * (ended.out_speed - motion.out_speed) / h
-        motion, mesh = ended, end
-        if p.wall_stiffness > 0.0:
-            wall = wall_at(p, motion.out_angle)
         if (k + 1) % steps.every == 0:
             record = (k + 1) // steps.every - 1
-            traces.motor_angle[i, record] = motion.angle
-            traces.motor_speed[i, record] = motion.speed
-            traces.output_angle[i, record] = motion.out_angle
-            traces.output_speed[i, record] = motion.out_speed
-            traces.current[i, record] = current
-            traces.voltage[i, record] = voltage
-            traces.deflection[i, record] = mesh.closing
-            traces.gear_torque[i, record] = found.torque
-            traces.output_torque[i, record] = flange
-            traces.motor_friction[i, record] = friction + own_viscous * x
-            traces.output_friction[i, record] = output_friction + p.output_viscous * y
             traces.commanded_torque[i, record] = control.command
-            traces.winding_temperature[i, record] = winding
-            traces.housing_temperature[i, record] = housing
-
-    z, output_z = bristles
-    kept = 0.5 * p.motor_bristle * z * z
-    output_kept = 0.5 * p.output_bristle * output_z * output_z
-    ledger.electrical[i] = sums.electrical
-    ledger.copper[i] = sums.copper
-    ledger.iron[i] = sums.iron
-    ledger.motor_friction[i] = sums.motor_friction - kept
-    ledger.output_friction[i] = sums.output_friction - output_kept
-    ledger.gear_damping[i] = sums.gear_damping
-    ledger.load_damping[i] = sums.load_damping
-    ledger.external[i] = sums.external
-    ledger.throughput[i] = sums.throughput
-    ledger.stored_before[i] = before
-    ledger.stored_after[i] = stored_energy(
-        p, motion, current, mesh, wall.energy, kept + output_kept
-    )
-    ledger.unsettled[i] = sums.unsettled
+            recorded(p, h, state, begin, found, out, traces, i, record)
+    closed(p, state, sums, ledger, i)
 
 
 @numba.njit(cache=True, error_model="numpy", nogil=True)

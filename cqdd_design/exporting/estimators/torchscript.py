@@ -56,7 +56,24 @@ def torchscript(artefact: Artefact, shape: Shape) -> bytes:
         mode: Mode = "window" if shape == "history" else "streaming"
         told = json.dumps(metadata(artefact, mode), allow_nan=False)
         torch.jit.save(traced, buffer, _extra_files={"metadata.json": told})
-    return buffer.getvalue()
+        return _without_sources(torch, buffer)
+
+
+def _without_sources(torch: Any, file: io.BytesIO) -> bytes:
+    """The file without its debug entries, which hold places of source files on this machine.
+
+    By torch's own archive, which puts tensors where they can be mapped; it writes what it needs of
+    itself, version and identity, anew.
+    """
+    file.seek(0)
+    found, reader = io.BytesIO(), torch._C.PyTorchFileReader(file)
+    writer = torch._C.PyTorchFileWriter(found)
+    for name in reader.get_all_records():
+        if not name.endswith(".debug_pkl") and name not in ("version", ".data/serialization_id"):
+            content = reader.get_record(name)
+            writer.write_record(name, content, len(content))
+    writer.write_end_of_file()
+    return found.getvalue()
 
 
 def _module(torch: Any, artefact: Artefact, shape: Shape) -> Any:

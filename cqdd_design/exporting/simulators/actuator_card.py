@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.joint_side import JointSide, joint_side
-from cqdd_design.actuator.motor import MotorConstants, motor_constants
+from cqdd_design.actuator.motor import motor_constants
 from cqdd_design.exporting.simulators.card_clients import client_settings, clients
 from cqdd_design.exporting.simulators.card_rows import Quantity, quantities
 from cqdd_design.exporting.simulators.stated import provenance
@@ -39,7 +39,8 @@ class Card:
     side : JointSide
     ratio : float
         Signed.
-    constants : MotorConstants
+    constants : mapping of str to float
+        See `motor_constants`.
     rows : tuple of Quantity
     harmonics : mapping
         Of kinematic error and stiffness: orders in a turn of the output, and coefficients.
@@ -51,7 +52,7 @@ class Card:
     design_sha256: str
     side: JointSide
     ratio: float
-    constants: MotorConstants
+    constants: Mapping[str, float]
     rows: tuple[Quantity, ...]
     harmonics: Mapping[str, object]
     settings: Mapping[str, Mapping[str, Mapping[str, object]]]
@@ -76,7 +77,7 @@ def actuator_card(
         design_sha256=design_sha256,
         side=side,
         ratio=parameters.gear.ratio,
-        constants=motor_constants(parameters.motor.torque_constant, parameters.motor.resistance),
+        constants=motor_constants(parameters.motor.torque_constant),
         rows=quantities(parameters, side),
         harmonics=_harmonics(parameters),
         settings=client_settings(parameters, side),
@@ -173,9 +174,9 @@ def _conventions(card: Card) -> tuple[tuple[str, str], ...]:
             "K is that of the equivalent DC machine, v = R i + L di/dt + K w and torque = K i with "
             "one K in N m/A = V s/rad; R and L are line to line, the current that of a line in "
             "six-step operation. Of the same motor, with sinusoidal back-EMF, over the q-axis "
-            f"current of field-oriented control: {card.constants.torque_per_peak:.6g} N m/A with "
-            f"its peak, {card.constants.torque_per_rms:.6g} with its r.m.s. value. Convert before "
-            "comparing.",
+            f"current of field-oriented control: {card.constants['torque_per_peak']:.6g} N m/A "
+            f"with its peak, {card.constants['torque_per_rms']:.6g} with its r.m.s. value. Convert "
+            "before comparing.",
         ),
         (
             "reflection",

@@ -9,15 +9,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from cqdd_design.actuator.joint_friction import delivered_peak_torque
 from cqdd_design.actuator.joint_side import (
     JointSide,
+    delivered_peak_torque,
     motor_breakaway,
     motor_coulomb,
     motor_viscous,
     ripple_harmonics,
+    ripple_rms,
 )
 from cqdd_design.catalog.reader import read_rows
 from cqdd_design.exporting.simulators.stated import origin_of, value_of
@@ -103,17 +102,13 @@ def quantities(parameters: ActuatorParameters, side: JointSide) -> tuple[Quantit
 
 def _worked_out(parameters: ActuatorParameters, side: JointSide) -> dict[str, float]:
     """Values of rows that are no attribute of anything."""
-    gear = parameters.gear
-    ripple = sum(one.amplitude**2 for one in ripple_harmonics(parameters))
     return {
         "motor_coulomb": motor_coulomb(parameters),
         "motor_breakaway": motor_breakaway(parameters),
         "motor_viscous": motor_viscous(parameters),
         "motor_side_inertia": parameters.motor_side_inertia,
-        "kinematic_error": math.sqrt(
-            0.5 * float(np.sum(gear.error_cosine**2 + gear.error_sine**2))
-        ),
-        "ripple": math.sqrt(0.5 * ripple),
+        "kinematic_error": parameters.gear.error_rms,
+        "ripple": ripple_rms(ripple_harmonics(parameters)),
         "delivered_peak_torque": delivered_peak_torque(parameters, side),
-        "encoder_step": 2.0 * math.pi / 2.0**parameters.drive.encoder_bits,
+        "encoder_step": parameters.drive.encoder_step,
     }

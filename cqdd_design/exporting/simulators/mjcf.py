@@ -114,7 +114,7 @@ def fragment_text(model: MjcfActuator) -> str:
     """Return the classes to be included, with the lines that each joint needs in the head."""
     name = model.name
     head = [f"{name}: classes of an actuator for MuJoCo 4, to be included into a robot.", ""]
-    rigid = replace(model, options=replace(model.options, backlash=False))
+    rigid = replace(model, backlash=False)
     how = [
         "How to include it, for a joint named hip. In the robot's file:",
         "",

@@ -8,15 +8,16 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from cqdd_design.actuator.joint_friction import held_back_torque
 from cqdd_design.actuator.joint_side import (
     JointSide,
     RippleHarmonic,
+    held_back_torque,
     joint_side,
     motor_breakaway,
     motor_coulomb,
     motor_viscous,
     ripple_harmonics,
+    ripple_rms,
 )
 from cqdd_design.actuator.motor import COPPER_COEFFICIENT
 from cqdd_design.actuator.thermal import single_node
@@ -36,41 +37,23 @@ STEP_FRACTION = 0.5
 """Most that the fastest oscillation of a model may turn in a step, rad."""
 
 
-@dataclass(frozen=True)
-class MjcfOptions:
-    """How an actuator is written as MJCF.
-
-    Attributes
-    ----------
-    backlash : bool
-        As a second hinge in the test model; without it the joint is rigid.
-    ripple : bool
-        As passive motors.
-    ripple_torque : float or None
-        Torque at the joint at which ripple is stated, N m; None is the one at which the kinematic
-        error was solved.
-    """
-
-    backlash: bool = True
-    ripple: bool = True
-    ripple_torque: float | None = None
-
-
 @dataclass(frozen=True, eq=False)
 class MjcfActuator:
     """An actuator with all that its files need.
 
     Attributes
     ----------
-    parameters, options, design_sha256
+    parameters, design_sha256
     name : str
         As given, made fit for an attribute.
+    backlash : bool
+        Whether a second hinge stands for it; without it the joint is rigid.
     """
 
     parameters: ActuatorParameters
     name: str
-    options: MjcfOptions = MjcfOptions()
     design_sha256: str = "not given"
+    backlash: bool = True
 
     def __post_init__(self) -> None:
         """Make the name fit for an attribute."""
@@ -84,9 +67,7 @@ class MjcfActuator:
     @cached_property
     def _ripple(self) -> tuple[tuple[RippleHarmonic, ...], float]:
         """All harmonics, and the least amplitude to be written."""
-        found: tuple[RippleHarmonic, ...] = ()
-        if self.options.ripple:
-            found = ripple_harmonics(self.parameters, self.options.ripple_torque)
+        found = ripple_harmonics(self.parameters)
         return found, LEAST_RIPPLE * max((one.amplitude for one in found), default=0.0)
 
     @property
@@ -104,7 +85,7 @@ class MjcfActuator:
     @property
     def play(self) -> bool:
         """Whether the model has a hinge for the backlash."""
-        return self.options.backlash and self.parameters.gear.backlash > 0.0
+        return self.backlash and self.parameters.gear.backlash > 0.0
 
     @property
     def output_friction(self) -> bool:
@@ -352,13 +333,12 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
 
 
 def _ripple_remark(model: MjcfActuator) -> str:
-    gear, torque = model.parameters.gear, model.options.ripple_torque
-    carried = gear.error_torque if torque is None else torque
-    lost = math.sqrt(0.5 * sum(one.amplitude**2 for one in model.left_out))
+    gear, lost = model.parameters.gear, ripple_rms(model.left_out)
     return (
         f"Ripple: {len(model.harmonics)} harmonics of the torque that kinematic error and varying "
-        f"stiffness add at a steady {number(carried)} N m. The part of the error scales with the "
-        "torque and changes sign with it, that of the stiffness keeps its sign and grows as power "
+        f"stiffness add at a steady {number(gear.error_torque)} N m. The part of the error scales "
+        "with the torque and changes sign with it, that of the stiffness keeps its sign and grows "
+        "as power "
         f"{number(1.0 + 1.0 / gear.stiffening)} of the torque; a passive motor can follow neither. "
         "The gearbox's friction under load, which is not here, divides it by "
         f"{number(1.0 + model.parameters.friction.load_forward)} where the motor drives. "

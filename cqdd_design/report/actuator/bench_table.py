@@ -182,8 +182,8 @@ def _summary(bench: BenchResult) -> str:
     told = [(m, p) for m, p in beside if m.relation == "predicted" and math.isfinite(m.value)]
     if not told:
         return ""
-    near = [words_of(m.name) for m, p in told if is_near(m, p)]
-    far = [words_of(m.name) for m, p in told if not is_near(m, p)]
+    near = [words_of(m.name) for m, p in told if is_near(m.unit, m.value, p)]
+    far = [words_of(m.name) for m, p in told if not is_near(m.unit, m.value, p)]
     listed = f": {'; '.join(near)}." if near else "."
     parts = [
         f"Of {len(told)} predicted rows {len(near)} lie within {per_cent(NEAR)} of the paper's "

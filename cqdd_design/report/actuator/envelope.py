@@ -10,10 +10,9 @@ from cqdd_design.actuator.demands import Demand, demands, duty_heat
 from cqdd_design.actuator.envelope import (
     LimitCurve,
     driver_torque,
-    fastest_speed,
-    frictionless_torque,
     limit_curves,
 )
+from cqdd_design.actuator.joint_side import idle_speed
 from cqdd_design.actuator.operating import (
     DRIVER,
     HEAT,
@@ -65,7 +64,7 @@ def actuator_view(
         f"Torque at the output with the gearbox's friction taken off, on "
         f"{with_unit(drive.supply_voltage, 'V')} with at most "
         f"{with_unit(drive.current_limit, 'A')}: without friction the driver's limit would be "
-        f"{with_unit(frictionless_torque(parameters), 'N*m', 3)}. Heat by two thermal nodes in "
+        f"{with_unit(parameters.torque_limit, 'N*m', 3)}. Heat by two thermal nodes in "
         f"{with_unit(thermal.ambient, 'deg')}C, the winding at most at "
         f"{with_unit(thermal.most, 'deg')}C, copper in the winding, friction and iron in the "
         "housing."
@@ -164,7 +163,8 @@ def _named(parameters: ActuatorParameters, curve: LimitCurve) -> tuple[str, str]
 
 def envelope_figure(parameters: ActuatorParameters, points: tuple[Demand, ...]) -> Figure:
     """Torque over speed at the output with every limit and the points asked for."""
-    top = 1.04 * max(fastest_speed(parameters), *(point.speed for point in points))
+    fastest = idle_speed(parameters, parameters.thermal.most)
+    top = 1.04 * max(fastest, *(point.speed for point in points))
     curves = limit_curves(parameters, top)
     named = [_named(parameters, curve) for curve in curves]
     driver = driver_torque(parameters, 0.5 * top)

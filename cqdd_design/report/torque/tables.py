@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
+from cqdd_design.catalog import paper
 from cqdd_design.report.ink.numbers import MINUS, NONE, grouped, maybe, per_cent, significant
 from cqdd_design.torque.evaluation.behaviour import BATCH, Behaviour
 from cqdd_design.torque.evaluation.evaluate import EvaluationResult
 from cqdd_design.torque.evaluation.markdown import ends_shown
 from cqdd_design.torque.evaluation.metrics import REGIMES
-from cqdd_design.torque.evaluation.paper import PAPER
 from cqdd_design.torque.evaluation.ripple import BAND, FLANK_SEGMENT
 from cqdd_design.torque.evaluation.rollout import HOLD
 
@@ -117,7 +117,7 @@ def paper_table() -> Table:
     """The paper's hardware."""
     return _table(
         "Paper (hardware)",
-        PAPER,
+        paper.NETWORKS,
         (
             ("Model", lambda row: row.title),
             ("RMSE, N·m", lambda row: f"{row.rmse:.2f}"),
@@ -127,9 +127,9 @@ def paper_table() -> Table:
         ),
         "Table II of the paper, measured on its own actuator. Its variances are printed in N·m and "
         "can only be N²·m²; the bias is recomputed from RMSE² less variance. "
-        f"{PAPER[0].cycle_time:.2f} µs cannot be a window of 30 steps alone (1.30 MFLOP); it fits "
-        "one recurrent step, or a share of a large batch. No number here is to be read against "
-        "one of ours: other machine, other data.",
+        f"{paper.NETWORKS[0].cycle_time:.2f} µs cannot be a window of 30 steps alone (1.30 "
+        "MFLOP); it fits one recurrent step, or a share of a large batch. No number here is to be "
+        "read against one of ours: other machine, other data.",
     )
 
 

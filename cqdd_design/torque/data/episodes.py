@@ -128,7 +128,6 @@ class DataSet:
 
     Attributes
     ----------
-    episodes : tuple of Episode
     position_gain, velocity_gain : float
         Of the joint's controller, N m/rad and N m s/rad: a network is valid for these only.
     torque_range : tuple of float
@@ -269,7 +268,6 @@ def read_parquet(
 
     Parameters
     ----------
-    path : Path
     choose : callable
         Gets the names of all columns and returns those to read.
 

@@ -111,7 +111,6 @@ def generate(
     ----------
     machine : Machine
         Of the specimen's motor.
-    request : Request, optional
     specimen : Specimen
         Its motor and its factors; gearboxes are those of the request. The factor of the
         tolerances is left out: the ripple is what the contact equilibrium of the drawn gearbox
@@ -175,7 +174,7 @@ def generate(
             f"the winding reaches {found['winding_degC']:.4g} deg C; the drive lowers its current "
             f"from {own.thermal.derating_begins:g} deg C on."
         )
-    drive, limit = own.drive, pendulum.torque_limit(own)
+    drive, limit = own.drive, own.torque_limit
     facts: dict[str, Any] = {
         "source": "simulated",
         "design": design.name,
@@ -297,10 +296,6 @@ def _gearbox_ripple(
 
 def describe(data: DataSet) -> dict[str, Any]:
     """Size of a data set, its torque, and how often limits bind.
-
-    Parameters
-    ----------
-    data : DataSet
 
     Returns
     -------

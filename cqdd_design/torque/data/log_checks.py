@@ -29,7 +29,7 @@ _REFUSED = 2.0
 """Factor, or its inverse, from which a log is refused."""
 
 
-def check_time(name: str, times: FloatArray, *, first_line: int = 2) -> float:
+def check_time(name: str, times: FloatArray) -> float:
     """Median sample time (s) of a log's time column, s.
 
     Raises
@@ -44,7 +44,7 @@ def check_time(name: str, times: FloatArray, *, first_line: int = 2) -> float:
     if len(bad):
         place = int(bad[0]) + 1
         raise UsageError(
-            f"{name}, line {place + first_line}: time {times[place]:g} s does not rise after "
+            f"{name}, line {place + 2}: time {times[place]:g} s does not rise after "
             f"{times[place - 1]:g} s; sort the log, or remove doubled lines."
         )
     dt = float(np.median(steps))
@@ -71,12 +71,10 @@ def check_signals(
 
     Parameters
     ----------
-    name : str
     columns : mapping
         Position, target, velocity, torque of one uninterrupted piece.
     dt : float
         s.
-    position_gain, velocity_gain : float
 
     Returns
     -------

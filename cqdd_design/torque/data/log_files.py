@@ -109,7 +109,6 @@ def read_map(path: Path, over: Mapping[str, Mapping[str, Any]] | None = None) ->
 
     Parameters
     ----------
-    path : Path
     over : mapping of tables, optional
         Entries that go before those of the file.
 
@@ -181,7 +180,10 @@ def read_columns(path: Path, wanted: Sequence[str]) -> dict[str, FloatArray]:
         )
     if kind not in (".csv", ".tsv", ".txt", ".parquet"):
         raise UsageError(f"{path} is no log that can be read; there are .csv, .tsv and .parquet.")
-    found = _parquet(path, wanted) if kind == ".parquet" else _text(path, wanted)
+    if kind == ".parquet":
+        found = read_parquet(path, lambda names: _present(path, wanted, names))
+    else:
+        found = _text(path, wanted)
     lengths = {len(values) for values in found.values()}
     if lengths == {0}:
         raise UsageError(f"{path} has no samples.")
@@ -197,7 +199,8 @@ def read_columns(path: Path, wanted: Sequence[str]) -> dict[str, FloatArray]:
     return found
 
 
-def _missing(path: Path, wanted: Sequence[str], there: Sequence[str]) -> None:
+def _present(path: Path, wanted: Sequence[str], there: Sequence[str]) -> Sequence[str]:
+    """The columns wanted, each there once."""
     for name in wanted:
         if name not in there:
             raise UsageError(
@@ -206,14 +209,7 @@ def _missing(path: Path, wanted: Sequence[str], there: Sequence[str]) -> None:
             )
         if list(there).count(name) > 1:
             raise UsageError(f"{path} has two columns '{name}'; rename one.")
-
-
-def _parquet(path: Path, wanted: Sequence[str]) -> dict[str, FloatArray]:
-    def choose(names: Sequence[str]) -> Sequence[str]:
-        _missing(path, wanted, names)
-        return wanted
-
-    return read_parquet(path, choose)
+    return wanted
 
 
 def _text(path: Path, wanted: Sequence[str]) -> dict[str, FloatArray]:
@@ -233,8 +229,7 @@ def _columns(path: Path, rows: Iterator[list[str]], wanted: Sequence[str]) -> di
     head = [name.strip() for name in next(rows, [])]
     if not head:
         raise UsageError(f"{path} is empty.")
-    _missing(path, wanted, head)
-    places = [head.index(name) for name in wanted]
+    places = [head.index(name) for name in _present(path, wanted, head)]
     values = [array("d") for _ in wanted]
     blank = 0
     for line, row in enumerate(rows, start=2):

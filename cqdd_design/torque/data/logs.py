@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -32,39 +32,22 @@ PURGE_SECONDS = 0.5
 _FLAGS = ("wall", "saturated")
 
 
-@dataclass(frozen=True)
-class Gap:
-    """Missing time in a log.
-
-    Attributes
-    ----------
-    log : str
-    begin, seconds : float
-        s.
-    """
+class Gap(NamedTuple):
+    """Missing time in a log, s."""
 
     log: str
     begin: float
     seconds: float
 
 
-@dataclass(frozen=True)
-class Imported:
-    """A data set and what became of the logs.
+@dataclass
+class Tally:
+    """What becomes of logs: gaps, pieces too short to keep, warnings, logs that were filtered."""
 
-    Attributes
-    ----------
-    data : DataSet
-    gaps : tuple of Gap
-    dropped : int
-        Pieces too short to keep.
-    warnings : tuple of str
-    """
-
-    data: DataSet
-    gaps: tuple[Gap, ...] = ()
+    gaps: list[Gap] = field(default_factory=list)
     dropped: int = 0
-    warnings: tuple[str, ...] = ()
+    warnings: list[str] = field(default_factory=list)
+    filtered: set[str] = field(default_factory=set)
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON form."""
@@ -74,16 +57,6 @@ class Imported:
             ],
             "dropped": self.dropped,
         }
-
-
-@dataclass
-class _Tally:
-    """What happens along the way."""
-
-    gaps: list[Gap] = field(default_factory=list)
-    dropped: int = 0
-    warnings: list[str] = field(default_factory=list)
-    filtered: set[str] = field(default_factory=set)
 
 
 def import_logs(
@@ -96,14 +69,13 @@ def import_logs(
     dt: float | None = None,
     torque_limit: float | None = None,
     cut: float | None = None,
-) -> Imported:
+) -> tuple[DataSet, Tally]:
     """Import logs of one joint under one controller.
 
     Parameters
     ----------
     paths : sequence of Path
         Each log is one configuration, unless it is cut.
-    mapped : LogMap
     position_gain, velocity_gain : float
         Of the joint's controller, N m/rad and N m s/rad.
     rate : float
@@ -115,10 +87,6 @@ def import_logs(
     cut : float, optional
         Cut records into pieces of this length, s, each a configuration of its own, with
         `PURGE_SECONDS` left out between them.
-
-    Returns
-    -------
-    Imported
 
     Raises
     ------
@@ -149,7 +117,7 @@ def import_logs(
     unknown = [name for name in mapped.groups if name not in {path.stem for path in paths}]
     if unknown:
         raise UsageError(f"the map has a group for '{unknown[0]}', and no log is named so.")
-    tally = _Tally()
+    tally = Tally()
     episodes: list[Episode] = []
     for path, stem in zip(paths, stems, strict=True):
         group = {"log": stem, **mapped.group, **mapped.groups.get(path.stem, {})}
@@ -184,13 +152,13 @@ def import_logs(
         "torque_range_from": "the greatest recorded" if torque_limit is None else "given",
         **Filter(FILTER_SHARE * rate).to_dict(),
         "filtered_logs": sorted(tally.filtered),
-        "gaps": [[gap.log, gap.begin, gap.seconds] for gap in tally.gaps],
+        "gaps": [list(gap) for gap in tally.gaps],
         "dropped_pieces": tally.dropped,
         "cut_s": cut,
         **mapped.facts,
     }
     data = DataSet(tuple(episodes), position_gain, velocity_gain, (-limit, limit), facts)
-    return Imported(data, tuple(tally.gaps), tally.dropped, tuple(tally.warnings))
+    return data, tally
 
 
 def _safe(stem: str) -> str:
@@ -234,7 +202,7 @@ def _read(
     return columns, times, own
 
 
-def _pieces(path: Path, times: FloatArray, dt: float, tally: _Tally) -> Iterator[slice]:
+def _pieces(path: Path, times: FloatArray, dt: float, tally: Tally) -> Iterator[slice]:
     """Uninterrupted pieces of a log."""
     jumps = np.flatnonzero(np.diff(times) > GAP * dt)
     for jump in jumps:
@@ -251,7 +219,7 @@ def _sampled(
     times: FloatArray,
     dt: float,
     rate: float,
-    tally: _Tally,
+    tally: Tally,
 ) -> dict[str, FloatArray]:
     """A piece at the rate wanted, all signals through one causal filter where it is lowered."""
     own = 1.0 / dt
@@ -302,7 +270,7 @@ def _cut(
     begin: int,
     rate: float,
     cut: float | None,
-    tally: _Tally,
+    tally: Tally,
 ) -> Iterator[Episode]:
     """Episodes of one piece, with their place in the record."""
     record = str(group["log"])

@@ -24,7 +24,7 @@ from cqdd_design.actuator.joint_side import joint_side
 from cqdd_design.actuator.packing import largest_step
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.recording import LONGEST_STEP
-from cqdd_design.actuator.scenario import Command, Load, Scenario, Sine, Start, Wall
+from cqdd_design.actuator.scenario import GRAVITY, Command, Load, Scenario, Sine, Start, Wall
 from cqdd_design.actuator.simulate import Simulation, simulate
 from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.errors import UsageError
@@ -37,7 +37,6 @@ MASSES, ARMS = (1.14, 2.28), (0.25, 0.6)
 """kg, m; paper."""
 BAR_LENGTH, BAR_WIDTH, BAR_THICKNESS, BAR_DENSITY = 0.65, 0.040, 0.008, 2700.0
 """A flat aluminium bar from the axis outwards, m and kg/m^3; assumed, the paper gives none."""
-GRAVITY = 9.80665
 WALL_STIFFNESS, WALL_EXPONENT, WALL_DAMPING = 300.0, 1.5, 0.3
 """Of the wall, N m/rad^1.5 and s/rad: foam rubber, some 0.1 rad deep at 10 N m; assumed."""
 WALL_SHARE = 0.5
@@ -142,14 +141,7 @@ def draw(
 ) -> tuple[Configuration, ...]:
     """Draw experiments, each from its own number: more of them leave the first ones as they are.
 
-    Parameters
-    ----------
-    count : int
-    seed, kind : int
-        Kinds differ in what they draw for the same seed.
-    masses : sequence of float
-        To choose from, kg.
-    gearbox : int
+    Kinds differ in what they draw for the same seed; masses (kg) are those to choose from.
     """
     found = []
     for i in range(count):
@@ -164,12 +156,6 @@ def draw(
     return tuple(found)
 
 
-def torque_limit(parameters: ActuatorParameters) -> float:
-    """What the drive can ask for at the joint by its current limit, N m."""
-    most = parameters.drive.current_limit * parameters.motor.torque_constant
-    return most * abs(parameters.gear.ratio)
-
-
 def shortfalls(configuration: Configuration, parameters: ActuatorParameters) -> tuple[str, ...]:
     """Why the target cannot be followed exactly by this actuator; empty where it can."""
     pulse = 2.0 * math.pi * configuration.frequency
@@ -179,7 +165,7 @@ def shortfalls(configuration: Configuration, parameters: ActuatorParameters) -> 
     inertia = load.inertia + parameters.reflected_inertia
     needed = -inertia * pulse**2 * swing
     needed += load.gravity_moment * np.sin(configuration.start + swing)
-    most, limit = float(np.max(np.abs(needed))), torque_limit(parameters)
+    most, limit = float(np.max(np.abs(needed))), parameters.torque_limit
     speed, top = configuration.amplitude * pulse, joint_side(parameters).no_load_speed
     found = []
     if speed > top:
@@ -208,7 +194,6 @@ def record(
         All with the same drive.
     seconds : float
         Of each episode.
-    chain : SensorChain
     seed : int
         Of the sensor's noise.
     progress : callable, optional

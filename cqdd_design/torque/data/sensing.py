@@ -207,8 +207,6 @@ def measured(
 
     Parameters
     ----------
-    truth : Truth
-    chain : SensorChain
     ratio : float
         Signed, motor over joint.
     encoder_bits : int

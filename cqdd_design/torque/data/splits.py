@@ -36,10 +36,8 @@ class Split:
 
     Attributes
     ----------
-    train, validation, test : tuple of str
     protocol : str
         One of `PROTOCOLS`, or "random-window".
-    seed : int
     """
 
     train: tuple[str, ...]
@@ -75,7 +73,6 @@ def split(data: DataSet, protocol: str, seed: int = 0) -> Split:
         training may see.
     protocol : str
         One of `PROTOCOLS`.
-    seed : int
 
     Returns
     -------
@@ -155,13 +152,8 @@ def _shares(count: int) -> tuple[int, int]:
 def audit(data: DataSet, split: Split, history: int) -> None:
     """Fail a split that leaks.
 
-    Parameters
-    ----------
-    data : DataSet
-    split : Split
-    history : int
-        Samples that a network looks back; pieces of one record on different sides must lie that
-        far apart.
+    A network looks back over `history` samples; pieces of one record on different sides must lie
+    that far apart.
 
     Raises
     ------
@@ -325,23 +317,8 @@ def random_window_split(
     twin in training. Published actuator networks are often scored so; nothing but the comparison
     with an honest split may use this, and `audit` refuses it.
 
-    Parameters
-    ----------
-    data : DataSet
-    seed : int
-    history : int
-        Samples of a window.
-    lead : int
-        Samples before it, for the acceleration's differentiator.
-    most : int
-        Windows drawn.
-
-    Returns
-    -------
-    data : DataSet
-        Every window as an episode of ``history + lead`` samples, of training's gearbox and masses.
-    split : Split
-        Of protocol "random-window".
+    Every window is an episode of ``history + lead`` samples, of training's gearbox and masses; the
+    lead is for the acceleration's differentiator. The split is of protocol "random-window".
     """
     if history < 1 or lead < 0 or most < LEAST_CONFIGURATIONS:
         raise UsageError(

@@ -30,15 +30,10 @@ TERMS = (
 """Coefficients of the friction model, in order; kg m^2, N m s/rad, N m, N m, then 1."""
 
 
-def current_estimate(
-    parameters: ActuatorParameters, episode: Episode, efficiency: float | None = None
-) -> FloatArray:
+def current_estimate(parameters: ActuatorParameters, episode: Episode) -> FloatArray:
     """Current times torque constant times ratio times efficiency (N,), N m.
 
-    Parameters
-    ----------
-    efficiency : float, optional
-        Default that of the gearbox driving: 1/(1 + load_forward).
+    The efficiency is that of the gearbox driving: 1/(1 + load_forward).
 
     Raises
     ------
@@ -51,8 +46,7 @@ def current_estimate(
             f"episode {episode.name} has no current; name its column in the map, or leave the "
             "estimate from the current out."
         )
-    if efficiency is None:
-        efficiency = 1.0 / (1.0 + parameters.friction.load_forward)
+    efficiency = 1.0 / (1.0 + parameters.friction.load_forward)
     ratio = abs(parameters.gear.ratio)
     return np.asarray(current * (parameters.motor.torque_constant * ratio * efficiency))
 
@@ -79,7 +73,6 @@ class FrictionFit:
         Of `TERMS`.
     stribeck_speed, sign_speed : float
         rad/s.
-    differentiator : Differentiator
     training_rmse : float
         N m.
     """
@@ -134,15 +127,7 @@ def _terms(
 def fit_friction(
     data: DataSet, names: tuple[str, ...], differentiator: Differentiator
 ) -> FrictionFit:
-    """Fit friction and inertia on the named episodes by least squares.
-
-    Parameters
-    ----------
-    data : DataSet
-        Gains and torque range.
-    names : tuple of str
-        Training episodes; no other is looked at.
-    differentiator : Differentiator
+    """Fit friction and inertia on the named episodes by least squares; no other is looked at.
 
     Raises
     ------

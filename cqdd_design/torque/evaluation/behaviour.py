@@ -83,12 +83,8 @@ class Behaviour:
     ----------
     name, model, kind, parameters, history
         Of the `Estimator`.
-    latency : Latency or None
-    rollouts : tuple of Rollout
     position_rms : Interval or None
         Mean over the rollouts that did not run away, rad.
-    drift : Drift or None
-    modes : Modes or None
     leaked_rmse : float or None
         Of the same model scored on random windows of its own training episodes, N m.
     missing : str
@@ -128,11 +124,8 @@ def behaviour(
         wandering = drift(_for_ever(one.artefact).step, rows, steps=effort.drift_steps)
     leaked = None if one.artefact is None else one.artefact.facts.get("leaked_rmse_Nm")
     return Behaviour(
-        name=one.name,
         model=one.model or one.name,
-        kind=one.kind,
-        parameters=one.parameters,
-        history=one.history,
+        **{key: getattr(one, key) for key in ("name", "kind", "parameters", "history")},
         latency=latency(one, usable[0]) if effort.timed and usable else None,
         rollouts=runs,
         position_rms=mean,

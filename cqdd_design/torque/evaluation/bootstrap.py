@@ -29,7 +29,6 @@ class Interval:
 
     Attributes
     ----------
-    value : float
     low, high : float or None
         None where there are too few episodes to say.
     """
@@ -50,7 +49,6 @@ class Paired:
 
     Attributes
     ----------
-    model, reference : str
     metric : str
         ``rmse``, ``variance`` or ``ripple_error``.
     difference : Interval
@@ -114,13 +112,7 @@ def paired(
     *,
     episodes: int,
 ) -> Paired:
-    """Difference and ratio of two models, by the same resamples.
-
-    Parameters
-    ----------
-    values, resampled : mapping of str to float, and to array (B,)
-        Of every model by name.
-    """
+    """Difference and ratio of two models, by the same resamples (B,); values of every model."""
     own, other = values[model], values[reference]
     with np.errstate(divide="ignore", invalid="ignore"):
         ratios = resampled[model] / resampled[reference]

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
+from cqdd_design.catalog import paper
 from cqdd_design.torque.evaluation import bootstrap
 from cqdd_design.torque.evaluation.behaviour import Behaviour
 from cqdd_design.torque.evaluation.bootstrap import Interval
 from cqdd_design.torque.evaluation.evaluate import EvaluationResult
-from cqdd_design.torque.evaluation.paper import PAPER, PAPER_SOURCE
 from cqdd_design.torque.evaluation.ripple import Ripple
 from cqdd_design.torque.evaluation.scoring import SetResult
 from cqdd_design.torque.evaluation.seeds import ModelScore, RegimeScores
@@ -36,9 +36,9 @@ def result_dict(result: EvaluationResult) -> dict[str, Any]:
                 "variance_N2m2": row.variance,
                 "bias_Nm": row.bias,
                 "cycle_time_us": row.cycle_time,
-                "source": PAPER_SOURCE,
+                "source": paper.NETWORKS_SOURCE,
             }
-            for row in PAPER
+            for row in paper.NETWORKS
         ],
         "data": {
             "sha256": data.sha256,
@@ -168,13 +168,9 @@ def set_dict(found: SetResult) -> dict[str, Any]:
 
 def behaviour_dict(own: Behaviour) -> dict[str, Any]:
     """JSON form of what a model does beyond single errors."""
-    times = own.latency
     return {
-        "model": own.model,
-        "kind": own.kind,
-        "parameters": own.parameters,
-        "history": own.history,
-        "latency_us": None if times is None else asdict(times),
+        **{key: getattr(own, key) for key in ("model", "kind", "parameters", "history")},
+        "latency_us": None if own.latency is None else asdict(own.latency),
         "rollout": None
         if not own.rollouts
         else {

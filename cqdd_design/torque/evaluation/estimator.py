@@ -39,7 +39,6 @@ class Estimator:
         The name that several seeds share.
     needs : tuple of str
         Columns beyond the required ones.
-    artefact : Artefact or None
     features : callable or None
         From an `Episode` to the network's raw inputs (N, F).
     """
@@ -80,7 +79,6 @@ def network_estimator(
 
     Parameters
     ----------
-    artefact : Artefact
     name : str
         Default the artefact's.
     actuator : ActuatorParameters, optional

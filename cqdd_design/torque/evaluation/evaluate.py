@@ -19,13 +19,8 @@ class EvaluationResult:
 
     Attributes
     ----------
-    data : DataSet
     sets : tuple of SetResult
         The first is the headline.
-    models : tuple of Behaviour
-    effort : Effort
-    seconds : float
-    warnings : tuple of str
     """
 
     data: DataSet
@@ -53,14 +48,12 @@ def evaluate(
 
     Parameters
     ----------
-    data : DataSet
     sets : mapping of str to sequence of str
         Names of the test episodes of each set; the first set is the headline.
     estimators : sequence of Estimator
         Names must differ.
     seen : mapping of str to set of str, optional
         Episodes that each estimator was trained on; it is not scored on a set that holds one.
-    effort : Effort, optional
     progress : callable, optional
         Told what begins.
 

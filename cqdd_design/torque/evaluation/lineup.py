@@ -24,12 +24,10 @@ class Lineup:
 
     Attributes
     ----------
-    estimators : tuple of Estimator
     sets : mapping of str to tuple of str
         Test episodes of each protocol.
     seen : mapping of str to frozenset of str
         Episodes that each estimator was trained, validated or fitted on.
-    warnings : tuple of str
     """
 
     estimators: tuple[Estimator, ...]
@@ -121,19 +119,10 @@ def line_up(
     split_seed: int | None = None,
     actuator: ActuatorParameters | None = None,
 ) -> Lineup:
-    """Networks and baselines, and the test sets of some protocols.
+    """Networks and baselines, and the test sets of some of `splits.PROTOCOLS`.
 
-    Parameters
-    ----------
-    data : DataSet
-    networks : mapping of str to Artefact
-    protocols : sequence of str
-        Of `splits.PROTOCOLS`; default that of the first network.
-    split_seed : int, optional
-        Default that of the networks.
-    actuator : ActuatorParameters, optional
-        For the physical baselines; default the one in a network's file. Its gains become those of
-        the data.
+    Protocol and seed of the split are by default those of the networks, the actuator of the
+    physical baselines the one in a network's file; its gains become those of the data.
 
     Raises
     ------

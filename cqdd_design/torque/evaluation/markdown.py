@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import floor, log10
 
+from cqdd_design.catalog import paper
 from cqdd_design.torque.evaluation.bootstrap import Interval
 from cqdd_design.torque.evaluation.evaluate import EvaluationResult
-from cqdd_design.torque.evaluation.paper import PAPER
 from cqdd_design.torque.evaluation.scoring import SetResult
 
 OURS = "ours (simulated twin)"
@@ -38,7 +38,7 @@ def markdown(result: EvaluationResult) -> str:
 
 def paper_table() -> str:
     """The paper's Table II with the bias that its numbers imply."""
-    rows = [row.cells(NONE) for row in PAPER]
+    rows = [row.cells(NONE) for row in paper.NETWORKS]
     head = ["model", "RMSE, N·m", "size of bias, N·m ¹", "variance, N²·m² ²", "cycle time, µs"]
     notes = (
         "¹ Recomputed: RMSE² less variance. ² Printed there in N·m. Measured on hardware that "

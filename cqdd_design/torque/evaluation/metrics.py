@@ -27,8 +27,6 @@ REVERSAL_SAMPLES = 2
 FLANK_TIME = 0.04
 """To either side of a change of sign, s."""
 
-SUMS = ("count", "error", "error_squared", "label", "label_squared")
-"""What an episode adds to a resample's scores."""
 _BINS = 4000
 
 
@@ -38,7 +36,6 @@ class Scores:
 
     Attributes
     ----------
-    samples : int
     rmse, bias : float
         N m.
     variance : float
@@ -111,7 +108,10 @@ def scores(prediction: FloatArray, label: FloatArray) -> Scores | None:
 
 
 def sums(error: FloatArray, label: FloatArray, mask: Mask) -> FloatArray:
-    """`SUMS` of one episode over the samples of a mask (5,)."""
+    """What an episode adds to a resample's scores over the samples of a mask (5,).
+
+    Count, error and its square, label and its square.
+    """
     e, y = error[mask], label[mask]
     return np.array([len(e), e.sum(), np.sum(e * e), y.sum(), np.sum(y * y)], np.float64)
 

@@ -83,7 +83,6 @@ class Ripple:
         Of the error within the band, N m.
     share : Interval or None
         Of the error's variance that lies in the band; None where there is no error.
-    segments : int
     """
 
     amplitude_label: float
@@ -112,7 +111,6 @@ class OrderSpectrum:
     phase : array (K,)
         Of the estimate against the label over the angle, degrees of the ripple's own period;
         positive: at a smaller angle.
-    strokes : int
     """
 
     orders: FloatArray
@@ -214,11 +212,7 @@ def error_rms(found: Spectra, weights: FloatArray) -> FloatArray:
 def ripple(found: Spectra, weights: FloatArray) -> Ripple | None:
     """The band's quantities with intervals; None where no segment swings freely or all is still.
 
-    Parameters
-    ----------
-    found : Spectra
-    weights : array (B, E)
-        Of `bootstrap.draws`.
+    Weights (B, E) are those of `bootstrap.draws`.
     """
     episodes = int(np.sum(found.segments > 0.0))
     if not episodes:

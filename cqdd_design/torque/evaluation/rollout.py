@@ -46,7 +46,6 @@ class Pendulum:
         Joint angle at which it hangs, rad.
     viscous : float
         N m s/rad.
-    wall : Wall or None
     """
 
     inertia: float
@@ -63,16 +62,6 @@ class Pendulum:
             if depth > 0.0:
                 rub = max(1.0 + self.wall.damping * self.wall.side * speed, 0.0)
                 found += self.wall.side * self.wall.stiffness * depth**self.wall.exponent * rub
-        return found
-
-    def energy(self, angle: float, speed: float) -> float:
-        """Of motion, weight and wall, J."""
-        found = 0.5 * self.inertia * speed**2
-        found -= self.gravity_moment * math.cos(angle - self.hanging_angle)
-        if self.wall is not None:
-            depth = max(self.wall.side * (angle - self.wall.angle), 0.0)
-            more = self.wall.exponent + 1.0
-            found += self.wall.stiffness * depth**more / more
         return found
 
     def advance(self, angle: float, speed: float, torque: float, duration: float) -> Any:
@@ -94,14 +83,12 @@ class Rollout:
 
     Attributes
     ----------
-    episode : str
     position_rms : float or None
         Difference from the plant's position, rad; None when the joint ran away.
     work, plant_work : float
         By the estimator, and by the recorded torque, over the same time, J.
     injects : bool
         Whether, with the target held, the joint's kinetic energy grew instead of dying out.
-    diverged : bool
     position : array (N,)
         rad; the plant's own up to where the loop closes.
     """
@@ -121,12 +108,10 @@ class Drift:
 
     Attributes
     ----------
-    steps : int
     growth : float
         r.m.s. of the last period over that of the first after the burn-in, less 1.
     wander : float
         Largest difference of the two periods, N m.
-    finite : bool
     """
 
     steps: int
@@ -176,7 +161,6 @@ def rollout(
 
     Parameters
     ----------
-    pendulum : Pendulum
     episode : Episode
         Its target is followed; its first `begin` samples warm the estimator up.
     stepper : Stepper
@@ -242,16 +226,9 @@ def rollout(
 
 
 def drift(step: Callable[[FloatArray], float], rows: FloatArray, *, steps: int = 100_000) -> Drift:
-    """Stream periodic features for many steps.
+    """Stream one period of features (P, F) over and over, six times at least.
 
-    Parameters
-    ----------
-    step : callable
-        From the features of one sample (F,) to torque, state kept.
-    rows : array (P, F)
-        One period.
-    steps : int
-        At least six periods.
+    `step` goes from the features of one sample (F,) to torque, its state kept.
     """
     period = len(rows)
     if steps < 6 * period:

@@ -43,12 +43,8 @@ class SetResult:
 
     Attributes
     ----------
-    name : str
-    episodes : tuple of str
     samples : int
         Scored, the same of every estimator.
-    models : tuple of ModelScore
-    seeds : tuple of SeedSummary
     paired : tuple of Paired
         Means over seeds against those of `seeds.REFERENCES`.
     error_edges : array (K + 1,)
@@ -57,7 +53,6 @@ class SetResult:
     trace, zoom : Trace
         The episode of median r.m.s. label, and where the label's ripple is strongest: chosen by
         labels alone.
-    warnings : tuple of str
     """
 
     name: str

@@ -23,12 +23,10 @@ class RegimeScores:
 
     Attributes
     ----------
-    scores : Scores
     episodes : int
         That have such samples.
     rmse, bias, variance : Interval
         N m and N^2 m^2.
-    r_squared : Interval or None
     p95 : Interval
         Ends only over all samples, N m.
     """
@@ -48,21 +46,17 @@ class ModelScore:
 
     Attributes
     ----------
-    name, model : str
     regimes : mapping of str to RegimeScores or None
         None where no sample belongs to the regime.
-    ripple : Ripple or None
     flank_ripple : Ripple or None
         Of segments that stay on one flank of the gear; see `metrics.on_one_flank`.
     unknown_phase : RegimeScores or None
         With every angle off by a constant that differs between episodes; of models that use the
         homed position.
-    unknown_phase_ripple : Ripple or None
     error_counts : array (K,)
         Of the set's `error_edges`.
     spectrum : array (F,)
         Amplitude density of the estimate in free swing, N m/sqrt(Hz).
-    orders : OrderSpectrum or None
     """
 
     name: str
@@ -90,8 +84,6 @@ class SeedSummary:
 
     Attributes
     ----------
-    model : str
-    seeds : int
     rmse : Interval
         N m.
     rmse_std : float

@@ -74,35 +74,18 @@ def acceleration(velocity: FloatArray, differentiator: Differentiator) -> FloatA
     return np.convolve(past, taps, mode="valid")
 
 
-@dataclass(frozen=True)
-class DifferentiatorError:
-    """What a differentiator does to one frequency.
-
-    Attributes
-    ----------
-    frequency : float
-        Hz.
-    gain : float
-        Over that of a true derivative.
-    phase : float
-        Ahead of a true derivative, rad.
-    delay : float
-        The lag that this phase is, s; negative where the filter leads.
-    noise : float
-        Standard deviation of the acceleration, over that of white noise of the velocity, 1/s.
-    """
-
-    frequency: float
-    gain: float
-    phase: float
-    delay: float
-    noise: float
-
-
 def differentiator_error(
     differentiator: Differentiator, dt: float, frequency: float
-) -> DifferentiatorError:
-    """Gain and phase of a differentiator against a true derivative at a frequency (Hz)."""
+) -> dict[str, float]:
+    """What a differentiator does to one frequency, Hz.
+
+    Returns
+    -------
+    dict of str to float
+        ``frequency`` (Hz), ``gain`` over that of a true derivative, ``phase`` ahead of it (rad),
+        the ``delay`` (s) that this phase is, negative where the filter leads, and ``noise``:
+        standard deviation of the acceleration over that of white noise of the velocity, 1/s.
+    """
     if not 0.0 < frequency < 0.5 / dt:
         raise UsageError(
             f"{frequency:g} Hz is not between 0 and {0.5 / dt:g} Hz, half of the sample rate."
@@ -113,10 +96,10 @@ def differentiator_error(
     )
     ratio = response / (1j * pulse)
     phase = cmath.phase(ratio)
-    return DifferentiatorError(
-        frequency=frequency,
-        gain=abs(ratio),
-        phase=phase,
-        delay=-phase / pulse,
-        noise=math.sqrt(sum(tap**2 for tap in differentiator.taps)),
-    )
+    return {
+        "frequency": frequency,
+        "gain": abs(ratio),
+        "phase": phase,
+        "delay": -phase / pulse,
+        "noise": math.sqrt(sum(tap**2 for tap in differentiator.taps)),
+    }

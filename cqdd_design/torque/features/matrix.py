@@ -66,7 +66,6 @@ def feature_matrix(
 
     Parameters
     ----------
-    episode : Episode
     inputs : tuple of str
         Names as in `Artefact.inputs`.
     differentiator : Differentiator, optional

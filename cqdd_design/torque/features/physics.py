@@ -23,6 +23,7 @@ from typing import Any
 
 import numpy as np
 
+from cqdd_design.actuator.joint_side import motor_coulomb, motor_viscous
 from cqdd_design.actuator.packing import gear_table, table_points
 from cqdd_design.actuator.parameters import (
     ActuatorParameters,
@@ -65,11 +66,9 @@ def motion_balance(
     J is the reflected inertia and b all viscous drag. Dry friction is left out because it is not
     known at rest: whatever stands for its switch there, a network would have to take back.
     """
-    friction, motor = parameters.friction, parameters.motor
     velocity = np.asarray(episode.columns["velocity"], np.float64)
     rate = acceleration(velocity, differentiator)
-    drag = parameters.gear.ratio**2 * (friction.motor_viscous + motor.iron_loss)
-    drag += friction.output_viscous
+    drag = parameters.gear.ratio**2 * motor_viscous(parameters) + parameters.friction.output_viscous
     return np.asarray(
         driven_torque(parameters, episode) - parameters.reflected_inertia * rate - drag * velocity
     )
@@ -87,9 +86,7 @@ def friction_sign(parameters: ActuatorParameters, velocity: FloatArray) -> Float
 
 def dry_friction(parameters: ActuatorParameters) -> float:
     """Coulomb friction and hysteresis of the motor's side at the joint, N m."""
-    return abs(parameters.gear.ratio) * (
-        parameters.friction.motor_coulomb + parameters.motor.hysteresis
-    )
+    return abs(parameters.gear.ratio) * motor_coulomb(parameters)
 
 
 @functools.lru_cache(maxsize=8)
@@ -140,17 +137,8 @@ def physical_estimate(
 ) -> FloatArray:
     """Output torque (N,), N m, of one episode, from its motion and the actuator's card alone.
 
-    Parameters
-    ----------
-    parameters : ActuatorParameters
-        Gains of its drive are those of the impedance law.
-    episode : Episode
-    differentiator : Differentiator
-        Of the velocity.
-
-    Notes
-    -----
-    Windup, backlash, ripple and the winding's heat are left out.
+    The drive's gains are those of the impedance law. Windup, backlash, ripple and the winding's
+    heat are left out.
     """
     friction, motor, gear = parameters.friction, parameters.motor, parameters.gear
     ratio = abs(gear.ratio)
@@ -163,7 +151,7 @@ def physical_estimate(
     left = (
         driven_torque(parameters, episode)
         - ratio**2 * parameters.motor_side_inertia * rate
-        - ratio * (friction.motor_viscous + motor.iron_loss) * speed
+        - ratio * motor_viscous(parameters) * speed
         - ratio * sign * (friction.motor_coulomb * rise + motor.hysteresis)
     )
     forward = np.sign(left) * sign

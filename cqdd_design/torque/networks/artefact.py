@@ -76,7 +76,6 @@ class Artefact:
     mode : {"window", "streaming"}
         How it was trained and is to be run: from a zero state over each window, or one step at a
         time with the state kept.
-    layers, hidden : int
     activation : str
         Of an MLP: ``relu``, ``tanh``, ``softsign`` or ``elu``; empty for a GRU.
     input_mean, input_std : tuple of float
@@ -85,7 +84,6 @@ class Artefact:
         The network's output times std plus mean is N m.
     residual : bool
         Whether the feature ``balance`` (N m) is added to the network's torque.
-    validity : Validity
     differentiator : Differentiator or None
         Where ``acceleration`` is an input.
     weights : mapping of str to array

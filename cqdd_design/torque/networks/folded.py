@@ -23,16 +23,9 @@ Float32Array = NDArray[np.float32]
 
 @dataclass(frozen=True, eq=False)
 class FoldedLayer:
-    """One GRU layer.
+    """One GRU layer: input (I, 3H) for new, reset, update, state (H, 3H) for reset, update, new.
 
-    Attributes
-    ----------
-    input : array (I, 3H)
-        Columns new, reset, update.
-    state : array (H, 3H)
-        Columns reset, update, new.
-    bias : array (4H,)
-        Of the four sums.
+    The bias (4H,) is that of the four sums.
     """
 
     input: Float32Array
@@ -57,15 +50,9 @@ class FoldedGru:
 
 @dataclass(frozen=True, eq=False)
 class FoldedMlp:
-    """An MLP of raw features to N m.
+    """An MLP of raw features to N m: weights (in, out) and biases (out,) of the hidden layers.
 
-    Attributes
-    ----------
-    weights : tuple of array (in, out)
-        Of the hidden layers; the first takes the window newest sample first.
-    biases : tuple of array (out,)
-    head : array (H,)
-    head_bias : float
+    The first takes the window newest sample first.
     """
 
     weights: tuple[Float32Array, ...]

@@ -28,11 +28,9 @@ class Model:
 
     Attributes
     ----------
-    name : str
     family : {"gru", "mlp"}
     inputs : tuple of str
         Features but the gearbox's phases.
-    layers, hidden, history : int
     activation : str
         Of an MLP; empty for a GRU.
     phase : bool
@@ -118,14 +116,12 @@ class Network:
 
     Parameters
     ----------
-    model : Model
     features : int
         Inputs of one sample, phases included.
     seed : int
         Of the weights; torch's own initialisation, its global generator left as it was.
     activation : str, optional
         Of an MLP, instead of the model's.
-    device : str
     """
 
     def __init__(
@@ -229,18 +225,9 @@ class Network:
                 tensor.copy_(torch.from_numpy(np.array(weights[name], np.float32)))
 
 
-def network_of(artefact: Artefact, device: str = "cpu") -> Network:
+def network_of(artefact: Artefact) -> Network:
     """The torch network of an artefact: scaled features in, scaled torque out."""
-    model = Model(
-        artefact.name,
-        artefact.family,
-        artefact.inputs,
-        artefact.layers,
-        artefact.hidden,
-        artefact.history,
-        artefact.activation,
-        residual=artefact.residual,
-    )
-    network = Network(model, len(artefact.inputs), 0, device=device)
+    same = {key: value for key, value in vars(artefact).items() if key in Model.__annotations__}
+    network = Network(Model(**same), len(artefact.inputs), 0)
     network.load(artefact.weights)
     return network

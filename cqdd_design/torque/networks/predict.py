@@ -34,7 +34,6 @@ def predict(
 
     Parameters
     ----------
-    artefact : Artefact
     features : array (N, F)
         Raw, unscaled features in the order of ``artefact.inputs``.
     engine : {"compiled", "plain"}
@@ -97,11 +96,7 @@ class Streaming:
     In window mode the last ``history`` samples are kept and run from a zero state; before there
     are as many the torque is nan.
 
-    Parameters
-    ----------
-    artefact : Artefact
-    mode : {"window", "streaming"}, optional
-        Default the one the network was trained for. An MLP knows windows only.
+    The mode is by default the one the network was trained for; an MLP knows windows only.
     """
 
     def __init__(self, artefact: Artefact, mode: Mode | None = None) -> None:
@@ -128,12 +123,6 @@ class Streaming:
             kind, scratch = ACTIVATIONS.index(artefact.activation), np.zeros((2, width), np.float32)
             weights = folded_mlp(artefact).flat
             self._torque = partial(mlp_kernel.window, weights, flat, layers, width, kind, scratch)
-
-    def reset(self) -> None:
-        """Forget all samples."""
-        self._state[:] = 0.0
-        self._past[:] = 0.0
-        self._seen = 0
 
     def step(self, features: Sequence[float] | NDArray[Any]) -> float:
         """Torque at this sample, N m; `features` (F,) raw, in the order of ``artefact.inputs``."""

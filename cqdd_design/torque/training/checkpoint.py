@@ -61,16 +61,8 @@ class Checkpoint:
 
 def write_checkpoint(checkpoint: Checkpoint, path: Path) -> WrittenFile:
     """Write where a training stands."""
-    content = {
-        "format": FORMAT,
-        "identity": dict(checkpoint.identity),
-        "epoch": checkpoint.epoch,
-        "step": checkpoint.step,
-        "best_rmse": checkpoint.best_rmse,
-        "log": [dict(row) for row in checkpoint.log],
-        "random_state": dict(checkpoint.random_state),
-        "facts": dict(checkpoint.facts),
-    }
+    told = {key: value for key, value in vars(checkpoint).items() if key not in _GROUPS}
+    content = {"format": FORMAT, **told}
     arrays = {
         f"{group}:{name}": values
         for group in _GROUPS

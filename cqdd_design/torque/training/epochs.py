@@ -30,18 +30,7 @@ _VALIDATION_BATCH = 2048
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """All that a training needs, ready on the device.
-
-    Attributes
-    ----------
-    model : Model
-    inputs : tuple of str
-        Phases included.
-    scale : Scaling
-    train, validation : Prepared
-    differentiator : Differentiator or None
-    device : str
-    """
+    """All that a training needs, ready on the device; inputs with the gearbox's phases."""
 
     model: Model
     inputs: tuple[str, ...]
@@ -71,15 +60,7 @@ class Progression:
 
 
 class Trainer:
-    """One training of one network, epoch by epoch.
-
-    Parameters
-    ----------
-    task : Task
-    recipe : Recipe
-    choice : Choice
-    seed : int
-    """
+    """One training of one network, epoch by epoch."""
 
     def __init__(self, task: Task, recipe: Recipe, choice: Choice, seed: int) -> None:
         torch = require_torch()

@@ -102,7 +102,6 @@ class Order:
     seed : int
         Of weights and order; on one CPU with one number of threads the result is the same to the
         last bit.
-    recipe : Recipe
     actuator : ActuatorParameters or None
         For models that need one; stored in the artefact's facts under the data's gains.
     choice : Choice or None

@@ -7,8 +7,7 @@ stay those of the model. The seed is always 0, so that trainings of several seed
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from itertools import product
 from typing import Any
 
@@ -22,61 +21,29 @@ FIRST_EPOCHS, FINALISTS = 2, 4
 STRIDE_FACTOR = 4
 
 
-@dataclass(frozen=True)
-class Trial:
-    """A choice and how it did; RMSE in N m."""
+def search(task: Task, recipe: Recipe) -> tuple[Choice, dict[str, Any]]:
+    """The choice with the least validation RMSE of an MLP; see the module.
 
-    choice: Choice
-    epochs: int
-    validation_rmse: float
-
-
-@dataclass(frozen=True)
-class Search:
-    """What was searched, and what was found."""
-
-    choice: Choice
-    trials: tuple[Trial, ...]
-
-    def to_dict(self) -> dict[str, Any]:
-        """For the artefact's facts."""
-        return {
-            "choice": asdict(self.choice),
-            "trials": [
-                {
-                    **asdict(one.choice),
-                    "epochs": one.epochs,
-                    "validation_rmse_Nm": one.validation_rmse,
-                }
-                for one in self.trials
-            ],
-        }
-
-
-def search(task: Task, recipe: Recipe, choices: Sequence[Choice] = ()) -> Search:
-    """The choice with the least validation RMSE; see the module.
-
-    Parameters
-    ----------
-    task : Task
-        Of an MLP.
-    recipe : Recipe
-        Batch, stride and threads; its stride times `STRIDE_FACTOR` is the search's.
-    choices : sequence of Choice, optional
-        Instead of all.
+    Batch, stride and threads are the recipe's, but its stride counts `STRIDE_FACTOR` times. All
+    trials go with the choice, for the artefact's facts.
     """
-    choices = choices or [Choice(a, r, d) for a, r, d in product(ACTIVATIONS, RATES, DECAYS)]
+    choices = [Choice(a, r, d) for a, r, d in product(ACTIVATIONS, RATES, DECAYS)]
     brief = replace(recipe, epochs=FIRST_EPOCHS, stride=recipe.stride * STRIDE_FACTOR, patience=0)
-    trials = [_try(task, brief, choice) for choice in choices]
-    order = sorted(trials, key=lambda one: one.validation_rmse)
+    trials = [(choice, brief, _rmse(task, brief, choice)) for choice in choices]
+    order = sorted(trials, key=lambda one: one[2])
     longer = replace(brief, epochs=3 * FIRST_EPOCHS)
-    finals = [_try(task, longer, one.choice) for one in order[:FINALISTS]]
-    best = min(finals, key=lambda one: one.validation_rmse)
-    return Search(best.choice, (*trials, *finals))
+    finals = [(one, longer, _rmse(task, longer, one)) for one, _, _ in order[:FINALISTS]]
+    best, _, _ = min(finals, key=lambda one: one[2])
+    told = [
+        asdict(choice) | {"epochs": run.epochs, "validation_rmse_Nm": rmse}
+        for choice, run, rmse in (*trials, *finals)
+    ]
+    return best, {"choice": asdict(best), "trials": told}
 
 
-def _try(task: Task, recipe: Recipe, choice: Choice) -> Trial:
+def _rmse(task: Task, recipe: Recipe, choice: Choice) -> float:
+    """Least validation RMSE of a choice, N m."""
     trainer = Trainer(task, recipe, choice, 0)
     while not trainer.finished:
         trainer.run_epoch()
-    return Trial(choice, recipe.epochs, float(trainer.state.best_rmse or 0.0))
+    return float(trainer.state.best_rmse or 0.0)

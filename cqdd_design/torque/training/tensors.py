@@ -106,14 +106,7 @@ def scaling(train: Raw, inputs: tuple[str, ...]) -> Scaling:
 
 
 class Prepared:
-    """Scaled features (S, F) and torque (S,) on a device, float32.
-
-    Parameters
-    ----------
-    data : Raw
-    scale : Scaling
-    device : str
-    """
+    """Scaled features (S, F) and torque (S,) on a device, float32."""
 
     def __init__(self, data: Raw, scale: Scaling, device: str) -> None:
         torch = require_torch()

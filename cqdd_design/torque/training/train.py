@@ -27,6 +27,8 @@ from cqdd_design.torque.training.schedule import peak_rate
 from cqdd_design.torque.training.search import search
 from cqdd_design.torque.training.tensors import Prepared, Scaling, raw, scaling
 
+_OF_MODEL = ("name", "family", "history", "layers", "hidden", "residual")
+"""What a trained network takes from its model as it is."""
 RIPPLE_FREQUENCY = 17.0
 """Of the paper's ripple, Hz, at which the differentiator's gain and delay are reported."""
 
@@ -112,7 +114,6 @@ def train(
 
     Parameters
     ----------
-    data : DataSet
     split : Split
         Its test episodes are never looked at.
     order : Order
@@ -127,10 +128,6 @@ def train(
         Stored.
     progress : callable, optional
         Told after every epoch.
-
-    Returns
-    -------
-    Artefact
 
     Raises
     ------
@@ -163,9 +160,7 @@ def train(
             require_same(former, identity, checkpoint)
             facts = {key: value for key, value in former.facts.items() if key != "updates"}
         elif chosen.searched and choice is None:
-            found = search(task, recipe)
-            facts["search"] = found.to_dict()
-            choice = found.choice
+            choice, facts["search"] = search(task, recipe)
         if "choice" not in facts:
             own = Choice(chosen.activation, peak_rate(recipe.reading))
             facts["choice"] = asdict(choice or own)
@@ -204,22 +199,17 @@ def train(
         },
     }
     if task.differentiator is not None and data.dt * RIPPLE_FREQUENCY < 0.5:
-        told = differentiator_error(task.differentiator, data.dt, RIPPLE_FREQUENCY)
-        facts["differentiator"] = asdict(told)
+        slope = task.differentiator
+        facts["differentiator"] = differentiator_error(slope, data.dt, RIPPLE_FREQUENCY)
     if known is not None:
         facts["actuator"] = actuator_to_dict(known)
     model = task.model
     return Artefact(
-        name=model.name,
-        family=model.family,
+        **{key: getattr(model, key) for key in _OF_MODEL},
         inputs=task.inputs,
-        history=model.history,
         mode=recipe.mode,
-        layers=model.layers,
-        hidden=model.hidden,
         activation=choice.activation,
         **asdict(task.scale),
-        residual=model.residual,
         validity=Validity(data.dt, data.position_gain, data.velocity_gain, data.torque_range),
         differentiator=task.differentiator,
         weights=state.best,
