@@ -146,9 +146,8 @@ def fit_times(runs: int = 20) -> list[str]:
     from cqdd_design.geometry.disc import disc_contour
     from cqdd_design.geometry.ring import ring_contour
 
-    sized = {"bore_diameter": 28e-3, "pin_mean_diameter": 3.975e-3}
     kinds = {
-        "disc": ("solid", lambda design: disc_contour(design, 0, **sized)),
+        "disc": ("solid", lambda design: disc_contour(design, 0, bore_diameter=28e-3)),
         "solid ring": ("solid", ring_contour),
         "conjugate ring": ("conjugate", ring_contour),
     }

@@ -24,9 +24,9 @@ from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import (
-    ContactSweep,
     contact_sweep,
     output_turn_angles,
     output_turn_count,

@@ -59,6 +59,9 @@ class Housing(FrozenModel):
     material: MaterialName = "7075-T6"
 
 
+_Deviation = Annotated[float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")]
+
+
 class Tolerances(FrozenModel):
     """Manufacturing tolerances as standard deviations, and how they scatter.
 
@@ -70,33 +73,15 @@ class Tolerances(FrozenModel):
     """
 
     distribution: Literal["normal", "uniform"] = "normal"
-    tooth_position: Annotated[
-        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
-    ] = default("2 um")
-    tooth_radius: Annotated[
-        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
-    ] = default("1 um")
-    disc_profile: Annotated[
-        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
-    ] = default("1 um")
-    hole_position: Annotated[
-        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
-    ] = default("3 um")
-    hole_diameter: Annotated[
-        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
-    ] = default("1 um")
-    pin_position: Annotated[
-        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
-    ] = default("3 um")
-    pin_diameter: Annotated[
-        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
-    ] = default("9 um")
-    eccentricity: Annotated[
-        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
-    ] = default("2 um")
-    bearing_clearance: Annotated[
-        float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")
-    ] = default("2 um")
+    tooth_position: _Deviation = default("2 um")
+    tooth_radius: _Deviation = default("1 um")
+    disc_profile: _Deviation = default("1 um")
+    hole_position: _Deviation = default("3 um")
+    hole_diameter: _Deviation = default("1 um")
+    pin_position: _Deviation = default("3 um")
+    pin_diameter: _Deviation = default("9 um")
+    eccentricity: _Deviation = default("2 um")
+    bearing_clearance: _Deviation = default("2 um")
 
 
 THINNEST_WIRE = "0.02 mm"

@@ -10,15 +10,17 @@ from cqdd_design.errors import DesignError, did_you_mean, shown
 
 _MOST_SHOWN, _LONGEST_KEY = 8, 80
 
-#: Keys with a default that follows from others; they are missing only when those are wrong.
-_DERIVED = {
-    "peak_torque",
-    "continuous_torque",
-    "hole_clocking",
-    "circle_radius",
-    "outer_diameter",
-    "output_pins",
-    "ring",
+#: What a key is when a file leaves it out, where that follows from other keys; these are missing
+#: only when those are wrong.
+DERIVED_DEFAULTS = {
+    "peak_torque": "9 N*m times the ratio, at most 90 N*m",
+    "continuous_torque": "0.38 of the peak torque",
+    "circle_radius": "0.61 of the ring pitch radius",
+    "hole_clocking": "a quarter lobe pitch",
+    "outer_diameter": "3 mm of wall outside the teeth",
+    "output_pins": "every key at its default",
+    "ring": "every key at its default",
+    "requirements": "every key at its default",
 }
 
 
@@ -49,10 +51,9 @@ def _without_consequences(found: list[Any]) -> list[Any]:
     kept = []
     for item in found:
         key = tuple(item["loc"])
-        derived = item["type"] == "missing" and key[-1] in _DERIVED
+        derived = item["type"] == "missing" and key[-1] in DERIVED_DEFAULTS
         repeated = key == ("requirements", "ratio") and ("reducer", "ratio") in keys
-        table_of_missing = key == ("requirements",) and item["type"] == "missing"
-        if not (derived or repeated or table_of_missing):
+        if not (derived or repeated):
             kept.append(item)
     return kept or found
 

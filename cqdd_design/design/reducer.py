@@ -25,7 +25,7 @@ from cqdd_design.design.fields import (
     Whole,
     default,
 )
-from cqdd_design.design.requirements import LEAST_RATIO, MOST_RATIO
+from cqdd_design.design.requirements import DiscCount, Ratio
 from cqdd_design.units import (
     ANGLE,
     LENGTH,
@@ -44,15 +44,17 @@ RING_WALL = 3e-3
 """Default wall outside the ring's root, m."""
 
 
+_Shift = Annotated[
+    float, QuantityIn(SMALL_LENGTH, "-500 um", "500 um", "a profile shift, not a new profile")
+]
+_Friction = Annotated[float, Share(0.0, 1.0, "a coefficient of friction")]
+
+
 class Modification(FrozenModel):
     """Profile modification of the disc; positive values shrink it."""
 
-    equidistant: Annotated[
-        float, QuantityIn(SMALL_LENGTH, "-500 um", "500 um", "a profile shift, not a new profile")
-    ] = default("6 um")
-    radial: Annotated[
-        float, QuantityIn(SMALL_LENGTH, "-500 um", "500 um", "a profile shift, not a new profile")
-    ] = default("0 um")
+    equidistant: _Shift = default("6 um")
+    radial: _Shift = default("0 um")
     rotation: Annotated[
         float, QuantityIn(SMALL_ANGLE, "0 arcmin", "60 arcmin", "each flank turns to its lobe")
     ] = default("0 arcmin")
@@ -115,8 +117,8 @@ class Ring(FrozenModel):
 class ReducerFriction(FrozenModel):
     """Coulomb friction at teeth and pins."""
 
-    tooth: Annotated[float, Share(0.0, 1.0, "a coefficient of friction")] = 0.08
-    pin: Annotated[float, Share(0.0, 1.0, "a coefficient of friction")] = 0.08
+    tooth: _Friction = 0.08
+    pin: _Friction = 0.08
     lubricant: FreeText = "NLGI 2 grease"
 
 
@@ -133,9 +135,7 @@ class Reducer(FrozenModel):
     teeth), `ring_pitch_radius` Z_r, `eccentricity` Z_e, `ring_pin_diameter` Z_p.
     """
 
-    ratio: Annotated[
-        int, Whole(LEAST_RATIO, MOST_RATIO, "the ratio is the number of lobes of one disc")
-    ]
+    ratio: Ratio
     ring_pitch_radius: Annotated[
         float, QuantityIn(LENGTH, "2 mm", "1000 mm", "circle through the ring's teeth")
     ]
@@ -146,7 +146,7 @@ class Reducer(FrozenModel):
         float, QuantityIn(LENGTH, "0.1 mm", "500 mm", "diameter of a ring tooth or pin")
     ]
     ring_type: RingType = "solid"
-    disc_count: Annotated[int, Whole(1, 3, "discs share one eccentric shaft")] = 2
+    disc_count: DiscCount = 2
     disc_thickness: Annotated[float, QuantityIn(LENGTH, "0.5 mm", "200 mm", "one disc")] = default(
         "8 mm"
     )

@@ -18,6 +18,11 @@ from cqdd_design.units import LENGTH, LOAD_SPEED, SPEED, TORQUE, QuantityIn, for
 
 LEAST_RATIO, MOST_RATIO = 4, 119
 
+Ratio = Annotated[
+    int, Whole(LEAST_RATIO, MOST_RATIO, "the ratio is the number of lobes of one disc")
+]
+DiscCount = Annotated[int, Whole(1, 3, "discs share one eccentric shaft")]
+
 #: Default peak torque: min(9 N*m x ratio, 90 N*m), what a 72 mm ring with catalogue ball
 #: bearings carries.
 DEFAULT_PEAK_PER_RATIO = 9.0
@@ -46,9 +51,7 @@ class Requirements(FrozenModel):
     Only `ratio` has no default. Torques are at the output, speed at the input.
     """
 
-    ratio: Annotated[
-        int, Whole(LEAST_RATIO, MOST_RATIO, "the ratio is the number of lobes of one disc")
-    ]
+    ratio: Ratio
     peak_torque: Annotated[
         float, QuantityIn(TORQUE, "0.001 N*m", "100000 N*m", "a robot joint, not a mill")
     ]
@@ -66,7 +69,7 @@ class Requirements(FrozenModel):
         float, QuantityIn(LENGTH, "3 mm", "500 mm", "length of the pack of discs")
     ] = default("20 mm")
     motor: MotorName = "CubeMars RO100 KV55"
-    disc_count: Annotated[int, Whole(1, 3, "discs share one eccentric shaft")] = 2
+    disc_count: DiscCount = 2
     disc_material: MaterialName = "AISI 4140 Q&T 540C"
     ring_material: MaterialName = "AISI 4140 Q&T 540C"
     pin_material: MaterialName = "Alloy steel 12.9 (ISO 7379)"

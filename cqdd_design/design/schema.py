@@ -5,20 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from cqdd_design.design.model import Design
+from cqdd_design.design.problems import DERIVED_DEFAULTS
 
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
-
-#: What a key is when a file leaves it out, where that follows from other keys.
-DERIVED_DEFAULTS = {
-    "peak_torque": "9 N*m times the ratio, at most 90 N*m",
-    "continuous_torque": "0.38 of the peak torque",
-    "circle_radius": "0.61 of the ring pitch radius",
-    "hole_clocking": "a quarter lobe pitch",
-    "outer_diameter": "3 mm of wall outside the teeth",
-    "output_pins": "every key at its default",
-    "ring": "every key at its default",
-    "requirements": "every key at its default",
-}
 
 
 def design_schema() -> dict[str, Any]:

@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from cqdd_design.design.model import SCHEMA_VERSION, Design, dump
+from cqdd_design.design.model import SCHEMA_VERSION, Design
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.requirements import Requirements
 from cqdd_design.errors import DesignError, UsageError, nearest_names
@@ -36,8 +36,7 @@ def load_design(path: Path) -> Design:
     """
     data = _read(path)
     data.setdefault("name", path.stem)
-    design = Design.from_mapping(_migrated(data, path), source=str(path))
-    return design
+    return Design.from_mapping(_migrated(data, path), source=str(path))
 
 
 def load_requirements(path: Path, changes: Mapping[str, Any] | None = None) -> Requirements:
@@ -97,11 +96,6 @@ def save_design(
         document = tomlkit.document()
         _fill(document, design.to_mapping(), set(design.assumed), comments or {})
     return write_atomically(path, tomlkit.dumps(document), "design")
-
-
-def dump_requirements(requirements: Requirements) -> dict[str, Any]:
-    """Requirements as a table of unit strings."""
-    return dump(requirements)
 
 
 def _read(path: Path) -> dict[str, Any]:

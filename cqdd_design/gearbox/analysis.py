@@ -5,62 +5,47 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
-from cqdd_design.gearbox.balance import StackBalance, stack_balance
-from cqdd_design.gearbox.cam_bearing import BearingResult, cam_bearing
-from cqdd_design.gearbox.checks.every import gearbox_checks
+from cqdd_design.gearbox.balance import stack_balance
+from cqdd_design.gearbox.cam_bearing import cam_bearing
+from cqdd_design.gearbox.checks.allowables import HARDENED_HRC
+from cqdd_design.gearbox.checks.drive import drive_checks
+from cqdd_design.gearbox.checks.loads import load_checks
+from cqdd_design.gearbox.checks.shape import shape_checks
 from cqdd_design.gearbox.checks.state import GearboxState
-from cqdd_design.gearbox.geometry_summary import GeometrySummary, summarise_geometry
+from cqdd_design.gearbox.geometry_summary import summarise_geometry
 from cqdd_design.gearbox.loads import RigidMaxima, RigidSeries, rigid_maxima, rigid_series
-from cqdd_design.gearbox.pin_strength import PinStrength, pin_strength
-from cqdd_design.gearbox.stages import Stages, pin_mean_diameter
+from cqdd_design.gearbox.pin_strength import pin_strength
+from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.results import Check
-
-FloatArray = NDArray[np.float64]
 
 DEFAULT_ANGLES = 360
 """Points of the curves over one crank turn."""
 
 
 @dataclass(frozen=True)
-class GearboxAnalysis:
+class GearboxAnalysis(GearboxState):
     """What closed forms say about a gearbox; complete when it exists.
 
     Attributes
     ----------
-    design : Design
-    motor : Motor
-    geometry : GeometrySummary
-    rigid, rigid_continuous : RigidMaxima
-        Raw maxima at the peak (or the asked-for) and at the continuous torque.
+    rigid : RigidMaxima
+        Raw maxima at the peak torque, or at the one asked for.
     series : RigidSeries
         Curves over one crank turn at the torque of `rigid`, acting on the carrier.
-    output_pins : PinStrength
-        At the peak and continuous torques of the requirements.
-    cam_bearing : BearingResult
-    balance : StackBalance
-        Discs with their bearings, from exact planar areas, at the required input speed.
     checks : tuple of Check
         At the torques of the requirements.
     warnings : tuple of str
         What could not be checked, and why.
     """
 
-    design: Design
-    motor: Motor
-    geometry: GeometrySummary
     rigid: RigidMaxima
-    rigid_continuous: RigidMaxima
     series: RigidSeries
-    output_pins: PinStrength
-    cam_bearing: BearingResult
-    balance: StackBalance
     checks: tuple[Check, ...]
     warnings: tuple[str, ...]
 
@@ -94,10 +79,6 @@ def analyse_gearbox(
     angles : int
         Points of the curves over one crank turn, at least 8. Maxima do not depend on it.
 
-    Returns
-    -------
-    GearboxAnalysis
-
     Raises
     ------
     GeometryError
@@ -110,11 +91,7 @@ def analyse_gearbox(
     continuous = peak.at(requirements.continuous_torque)
     cam = cam_bearing(design, peak.cam_bearing_load)
     bearing = cam.bearing
-    validate_geometry(
-        design,
-        bore_diameter=bearing.outer_diameter,
-        pin_mean_diameter=pin_mean_diameter(design),
-    )
+    validate_geometry(design, bore_diameter=bearing.outer_diameter)
     geometry = summarise_geometry(design, bearing)
     density = find_material(reducer.disc_material).density
     # Both rings of the bearing stand on the eccentric, so all of it orbits with the disc.
@@ -127,33 +104,46 @@ def analyse_gearbox(
         reducer.disc_count,
         requirements.input_speed,
     )
-    pins = pin_strength(design, peak, continuous)
     state = GearboxState(
         design=design,
         motor=motor,
         stages=stages,
         geometry=geometry,
-        peak=peak,
-        continuous=continuous,
-        pins=pins,
-        cam=cam,
+        rigid_peak=peak,
+        rigid_continuous=continuous,
+        output_pins=pin_strength(design, peak, continuous),
+        cam_bearing=cam,
         orbiting_mass=orbiting,
         balance=balance,
     )
-    checks, warnings = gearbox_checks(state)
+    drive, warnings = drive_checks(state)
     shown = peak if torque is None else peak.at(torque)
     crank = 2.0 * np.pi * np.arange(max(angles, 8)) / max(angles, 8)
     return GearboxAnalysis(
-        design=design,
-        motor=motor,
-        geometry=geometry,
+        **vars(state),
         rigid=shown,
-        rigid_continuous=continuous,
         # The rigid law's sense is the drive's; a torque on the carrier loads the other flanks.
         series=replace(rigid_series(stages, -shown.torque, crank), torque=shown.torque),
-        output_pins=pins,
-        cam_bearing=cam,
-        balance=balance,
-        checks=checks,
-        warnings=warnings,
+        checks=(*shape_checks(state), *load_checks(state), *drive),
+        warnings=(*_valley_warning(state), *_raceway_warning(state), *warnings),
+    )
+
+
+def _valley_warning(state: GearboxState) -> tuple[str, ...]:
+    if state.geometry.has_concave_valleys:
+        return ()
+    return (
+        "the disc has no concave valley (eccentricity too small for its lobes), so it has no "
+        "least concave radius and its wire was not checked.",
+    )
+
+
+def _raceway_warning(state: GearboxState) -> tuple[str, ...]:
+    """Needles run on the eccentric itself, whose material the design file does not name."""
+    bearing = state.cam_bearing.bearing
+    if bearing.kind not in {"needle", "needle cage"}:
+        return ()
+    return (
+        f"cam bearing '{bearing.designation}' runs on the eccentric itself: harden the shaft to "
+        f"{HARDENED_HRC:g} HRC and grind it, or the ratings do not hold.",
     )

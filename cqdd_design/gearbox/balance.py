@@ -18,13 +18,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.errors import UsageError
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.kinematics import crank_phases
 from cqdd_design.results import MassProperties
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -88,10 +86,6 @@ def stack_balance(
         Input speed, rad/s.
     crank_parts : iterable of MassProperties
         Bodies fixed to the crank in the frame above, such as counterweights.
-
-    Returns
-    -------
-    StackBalance
 
     Examples
     --------

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
+
 RollingElement = Literal["ball", "roller"]
 
 LIFE_EXPONENT_BALL = 3.0

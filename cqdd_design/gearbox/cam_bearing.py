@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TypeVar
 
 from cqdd_design.catalog.bearings import Bearing, bearings, find_bearing
 from cqdd_design.catalog.materials import find_material
@@ -16,6 +17,9 @@ from cqdd_design.gearbox.bearing_life import (
 )
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.contours import FloatArray
+
+_Lengths = TypeVar("_Lengths", float, FloatArray)
 
 
 def rolling_element(bearing: Bearing) -> RollingElement:
@@ -30,8 +34,7 @@ def carries_raceways(bearing: Bearing, disc_material: str) -> bool:
     """
     if bearing.kind != "needle cage":
         return True
-    hardness = find_material(disc_material).rockwell_hardness
-    return hardness is not None and hardness >= allowables.HARDENED_HRC
+    return allowables.is_hardened(find_material(disc_material))
 
 
 def largest_outer_diameter(design: Design, hole_diameter: float, valley_distance: float) -> float:
@@ -40,8 +43,8 @@ def largest_outer_diameter(design: Design, hole_diameter: float, valley_distance
     return 2.0 * (min(to_holes, valley_distance) - allowables.LIGAMENT)
 
 
-def least_bore(eccentricity: float) -> float:
-    """Smallest bore whose eccentrics still share the least shaft core, m.
+def least_bore(eccentricity: _Lengths) -> _Lengths:
+    """Smallest bore whose eccentrics (m) still share the least shaft core, m.
 
     Neighbouring cams of radius d/2 stand e to either side of the axis, so a core of radius
     d/2 - e runs through; it must be at least a quarter of the bore.

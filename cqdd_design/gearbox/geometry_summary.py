@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.design import Design
 from cqdd_design.gearbox.cam_bearing import largest_outer_diameter
-from cqdd_design.gearbox.stages import pin_mean_diameter
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.disc import (
     Ligament,
@@ -105,13 +104,11 @@ def summarise_geometry(design: Design, cam_bearing: Bearing) -> GeometrySummary:
 
     Parameters
     ----------
-    design : Design
     cam_bearing : Bearing
         Its outside diameter is the bore of the disc.
     """
     disc = CycloidDisc.from_design(design)
-    mean, bore = pin_mean_diameter(design), cam_bearing.outer_diameter
-    hole = hole_diameter(design, mean)
+    bore, hole = cam_bearing.outer_diameter, hole_diameter(design)
     return GeometrySummary(
         lobe_count=disc.lobe_count,
         ring_tooth_count=disc.ring_tooth_count,
@@ -124,8 +121,8 @@ def summarise_geometry(design: Design, cam_bearing: Bearing) -> GeometrySummary:
         ring_root_radius=ring_root_radius(design),
         profile_area=profile_moments(disc).area,
         profile_perimeter=profile_perimeter(disc),
-        disc_area=disc_moments(design, 0, bore_diameter=bore, pin_mean_diameter=mean).area,
+        disc_area=disc_moments(design, 0, bore_diameter=bore).area,
         hole_diameter=hole,
-        ligaments=ligaments(design, bore_diameter=bore, pin_mean_diameter=mean),
+        ligaments=ligaments(design, bore_diameter=bore),
         largest_cam_bearing=largest_outer_diameter(design, hole, disc.valley_distance),
     )

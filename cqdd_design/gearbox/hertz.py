@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from cqdd_design.catalog.materials import Material
+from cqdd_design.geometry.contours import FloatArray
 
 
 def effective_modulus(
@@ -24,6 +25,12 @@ def effective_modulus(
     e1, e2 = np.asarray(youngs_modulus_1, dtype=float), np.asarray(youngs_modulus_2, dtype=float)
     nu1, nu2 = np.asarray(poisson_ratio_1, dtype=float), np.asarray(poisson_ratio_2, dtype=float)
     return np.asarray(1.0 / ((1.0 - nu1 * nu1) / e1 + (1.0 - nu2 * nu2) / e2))
+
+
+def pair_modulus(first: Material, second: Material) -> float:
+    """E* of two materials in contact, Pa."""
+    moduli = (first.youngs_modulus, first.poisson_ratio)
+    return float(effective_modulus(*moduli, second.youngs_modulus, second.poisson_ratio))
 
 
 def line_contact_pressure(
@@ -56,15 +63,6 @@ def line_contact_pressure(
     load = np.asarray(force, dtype=float) * np.asarray(modulus, dtype=float)
     width = np.asarray(length, dtype=float) * np.asarray(equivalent_radius, dtype=float)
     return np.asarray(np.sqrt(load / (np.pi * width)))
-
-
-def line_contact_half_width(
-    force: ArrayLike, length: ArrayLike, equivalent_radius: ArrayLike, modulus: ArrayLike
-) -> FloatArray:
-    """Half width a = sqrt(4 F R_eq/(pi b E*)) of a line contact, m (Johnson 1985, eq. 4.43)."""
-    load = 4.0 * np.asarray(force, dtype=float) * np.asarray(equivalent_radius, dtype=float)
-    stiff = np.pi * np.asarray(length, dtype=float) * np.asarray(modulus, dtype=float)
-    return np.asarray(np.sqrt(load / stiff))
 
 
 def ring_equivalent_radius(tooth_radius: ArrayLike, curvature_of_locus: ArrayLike) -> FloatArray:

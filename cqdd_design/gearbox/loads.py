@@ -11,13 +11,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import kinematics
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 _SAMPLES_PER_RING_PERIOD = 96
 _ZOOM_POINTS, _ZOOMS = 33, 3

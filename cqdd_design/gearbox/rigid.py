@@ -18,15 +18,12 @@ stages.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.trochoid import locus_curvature, shortening_coefficient
-
-FloatArray = NDArray[np.float64]
 
 
 def _columns(*values: ArrayLike, extra: int) -> list[FloatArray]:
@@ -45,7 +42,7 @@ def ring_flank_parameters(lobe_count: int, crank_angle: ArrayLike) -> FloatArray
     return np.asarray(angle / lobe_count + ring_tooth_angles(lobe_count))
 
 
-def _ring_directions(
+def ring_directions(
     lobe_count: int, shortening: FloatArray, crank_angle: ArrayLike
 ) -> tuple[FloatArray, FloatArray]:
     """Radial and tangential parts of the ring normals in the crank's frame.
@@ -66,31 +63,6 @@ def _shared(torque: FloatArray, arms: FloatArray) -> FloatArray:
     loaded = np.maximum(arms * np.where(torque < 0.0, -1.0, 1.0), 0.0)
     result: FloatArray = np.abs(torque) * loaded / np.sum(loaded * loaded, axis=-1, keepdims=True)
     return result
-
-
-def ring_lever_arms(
-    lobe_count: int, ring_pitch_radius: ArrayLike, eccentricity: ArrayLike, crank_angle: ArrayLike
-) -> FloatArray:
-    """Signed arms of the ring-tooth forces about the disc centre.
-
-    Parameters
-    ----------
-    lobe_count : int
-        n.
-    ring_pitch_radius, eccentricity : array_like (...)
-        R and e in m.
-    crank_angle : array_like (A,)
-        Crank angle of this disc, rad.
-
-    Returns
-    -------
-    array (..., A, n+1)
-        h_i = n e sin(theta_i)/D_i in m; positive arms carry a positive torque.
-    """
-    k1 = shortening_coefficient(lobe_count, ring_pitch_radius, eccentricity)
-    (e,) = _columns(eccentricity, extra=2)
-    _, tangential = _ring_directions(lobe_count, k1, crank_angle)
-    return np.asarray(lobe_count * e * tangential)
 
 
 def ring_forces(
@@ -127,9 +99,11 @@ def ring_forces(
     >>> print(round(float(ring_forces(11, 0.05, 0.0015, 2.5, [0.0]).max()), 3))
     49.859
     """
-    arms = ring_lever_arms(lobe_count, ring_pitch_radius, eccentricity, crank_angle)
-    (torque,) = _columns(disc_torque, extra=2)
-    return _shared(torque, arms)
+    k1 = shortening_coefficient(lobe_count, ring_pitch_radius, eccentricity)
+    e, torque = _columns(eccentricity, disc_torque, extra=2)
+    _, tangential = ring_directions(lobe_count, k1, crank_angle)
+    # h_i = n e sin(theta_i)/D_i; positive arms carry a positive torque.
+    return _shared(torque, lobe_count * e * tangential)
 
 
 def ring_contact_curvature(
@@ -158,7 +132,7 @@ def ring_radial_force(
     """
     force = ring_forces(lobe_count, ring_pitch_radius, eccentricity, disc_torque, crank_angle)
     k1 = shortening_coefficient(lobe_count, ring_pitch_radius, eccentricity)
-    radial, _ = _ring_directions(lobe_count, k1, crank_angle)
+    radial, _ = ring_directions(lobe_count, k1, crank_angle)
     return np.asarray(np.sum(force * radial, axis=-1))
 
 
@@ -252,112 +226,3 @@ def cam_load(
     along = -(ring_radial - pin_force_sum)
     across = np.broadcast_to(-torque / (lobe_count * e), along.shape)
     return np.stack([along, across], axis=-1)
-
-
-@dataclass(frozen=True)
-class RingStage:
-    """Ring tooth forces on one disc with their geometry, axes [..., angle, tooth].
-
-    Attributes
-    ----------
-    force : array (..., A, n+1)
-        N, not negative.
-    normal, point : array (..., A, n+1, 2)
-        Unit direction of the force on the disc, and where it acts (m, ring's frame).
-    flank_parameter : array (A, n+1)
-        Parameter t of the disc flank that touches each tooth, rad.
-    """
-
-    force: FloatArray
-    normal: FloatArray
-    point: FloatArray
-    flank_parameter: FloatArray
-
-
-def ring_stage(
-    lobe_count: int,
-    ring_pitch_radius: ArrayLike,
-    eccentricity: ArrayLike,
-    tooth_radius: ArrayLike,
-    disc_torque: ArrayLike,
-    crank_angle: ArrayLike,
-) -> RingStage:
-    """Ring stage of one disc: forces, normals, contact points and arms (rigid law).
-
-    Parameters
-    ----------
-    lobe_count : int
-        n.
-    ring_pitch_radius, eccentricity, tooth_radius, disc_torque : array_like (...)
-        R, e, r in m and the disc's torque in N m.
-    crank_angle : array_like (A,)
-        Crank angle of this disc, rad.
-    """
-    angle = np.asarray(crank_angle, dtype=float)
-    k1 = shortening_coefficient(lobe_count, ring_pitch_radius, eccentricity)
-    radial, tangential = _ring_directions(lobe_count, k1, angle)
-    along = np.stack([np.cos(angle), np.sin(angle)], axis=-1)[:, None, :]
-    across = np.stack([-np.sin(angle), np.cos(angle)], axis=-1)[:, None, :]
-    normal = radial[..., None] * along + tangential[..., None] * across
-    teeth = ring_tooth_angles(lobe_count)
-    unit = np.stack([np.cos(teeth), np.sin(teeth)], axis=-1)
-    radius, tooth = _columns(ring_pitch_radius, tooth_radius, extra=3)
-    return RingStage(
-        force=ring_forces(lobe_count, ring_pitch_radius, eccentricity, disc_torque, angle),
-        normal=normal,
-        point=radius * unit + tooth * normal,
-        flank_parameter=ring_flank_parameters(lobe_count, angle),
-    )
-
-
-@dataclass(frozen=True)
-class OutputStage:
-    """Output pin forces on one disc with their geometry, axes [..., angle, pin].
-
-    Attributes
-    ----------
-    force : array (..., A, N_w)
-        N, not negative.
-    normal : array (A, 2)
-        -u, the direction of every pin force on the disc.
-    point : array (..., A, N_w, 2)
-        Where it acts, m, ring's frame.
-    """
-
-    force: FloatArray
-    normal: FloatArray
-    point: FloatArray
-
-
-def output_stage(
-    lobe_count: int,
-    pin_count: int,
-    pin_circle_radius: ArrayLike,
-    contact_radius: ArrayLike,
-    disc_torque: ArrayLike,
-    crank_angle: ArrayLike,
-    hole_clocking: ArrayLike = 0.0,
-) -> OutputStage:
-    """Output stage of one disc: forces, normals, contact points and arms (rigid law).
-
-    Parameters
-    ----------
-    lobe_count, pin_count : int
-        n and N_w.
-    pin_circle_radius, contact_radius, disc_torque, hole_clocking : array_like (...)
-        R_w and the pin's (or sleeve's) radius in m, the disc's torque in N m, clocking in rad.
-    crank_angle : array_like (A,)
-        Crank angle of this disc, rad.
-    """
-    angle = np.asarray(crank_angle, dtype=float)
-    pins = kinematics.output_pin_angles(lobe_count, pin_count, hole_clocking, angle)
-    towards = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    radius, contact = _columns(pin_circle_radius, contact_radius, extra=3)
-    place = radius * np.stack([np.cos(pins), np.sin(pins)], axis=-1)
-    return OutputStage(
-        force=output_pin_forces(
-            lobe_count, pin_count, pin_circle_radius, disc_torque, angle, hole_clocking
-        ),
-        normal=-towards,
-        point=place - contact * towards[:, None, :],
-    )

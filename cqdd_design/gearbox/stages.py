@@ -4,27 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
-from cqdd_design.catalog.materials import Material, find_material
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox import hertz, rigid
 from cqdd_design.gearbox.checks.allowables import SLEEVE_WALL
 from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import hole_diameter
 
-FloatArray = NDArray[np.float64]
 
-
-def pin_mean_diameter(design: Design) -> float:
-    """Mean real diameter of the output pins of a design, to which the hole clearance counts, m."""
-    return mean_pin_diameter(design.reducer.output_pins.diameter)
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Stages:
     """What the rigid law needs of a design, SI.
 
@@ -62,9 +53,8 @@ class Stages:
     def from_design(cls, design: Design) -> Stages:
         """Read a design; a sleeve is taken to be of the pin's material."""
         reducer, pins = design.reducer, design.reducer.output_pins
-        mean = pin_mean_diameter(design)
-        contact_diameter = pins.sleeve_diameter if pins.sleeve_diameter > 0.0 else mean
-        hole = hole_diameter(design, mean)
+        contact_diameter = pins.sleeve_diameter or mean_pin_diameter(pins.diameter)
+        hole = hole_diameter(design)
         _refuse_tight_hole(design, contact_diameter, hole)
         disc = find_material(reducer.disc_material)
         return cls(
@@ -79,8 +69,8 @@ class Stages:
             pin_contact_radius=0.5 * contact_diameter,
             hole_radius=0.5 * hole,
             contact_length=reducer.disc_thickness,
-            ring_modulus=_pair_modulus(disc, find_material(reducer.ring_material)),
-            pin_modulus=_pair_modulus(disc, find_material(pins.material)),
+            ring_modulus=hertz.pair_modulus(disc, find_material(reducer.ring_material)),
+            pin_modulus=hertz.pair_modulus(disc, find_material(pins.material)),
         )
 
     @property
@@ -154,11 +144,3 @@ def _refuse_tight_hole(design: Design, contact_diameter: float, hole: float) -> 
             f"larger than the {contact_diameter * 1e3:g} mm pins in them; raise it above "
             f"{-2e6 * design.reducer.eccentricity:g} um."
         )
-
-
-def _pair_modulus(first: Material, second: Material) -> float:
-    return float(
-        hertz.effective_modulus(
-            first.youngs_modulus, first.poisson_ratio, second.youngs_modulus, second.poisson_ratio
-        )
-    )

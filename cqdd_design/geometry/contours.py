@@ -16,7 +16,7 @@ of the arcs, not of a polygon.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -76,14 +76,11 @@ class Moments:
 
     def __add__(self, other: Moments) -> Moments:
         """Both regions together."""
-        return Moments(*(a + b for a, b in zip(self._values(), other._values(), strict=True)))
+        return Moments(*(a + b for a, b in zip(astuple(self), astuple(other), strict=True)))
 
     def __sub__(self, other: Moments) -> Moments:
         """Return the region without the other."""
-        return Moments(*(a - b for a, b in zip(self._values(), other._values(), strict=True)))
-
-    def _values(self) -> tuple[float, ...]:
-        return (self.area, self.x, self.y, self.xx, self.yy, self.xy)
+        return Moments(*(a - b for a, b in zip(astuple(self), astuple(other), strict=True)))
 
     @property
     def centroid(self) -> FloatArray:
@@ -106,31 +103,6 @@ class Moments:
             self.yy - self.area * cy * cy,
             self.xy - self.area * cx * cy,
         )
-
-
-def green_moments(points: ComplexArray, steps: ComplexArray) -> Moments:
-    """Moments of the region left of a closed curve, by Green's theorem.
-
-    Parameters
-    ----------
-    points, steps : complex arrays of one shape
-        Quadrature points on the curve and, for each, its derivative times the quadrature weight.
-
-    Returns
-    -------
-    Moments
-        Positive for a counter-clockwise curve.
-    """
-    x, y, dx, dy = points.real, points.imag, steps.real, steps.imag
-    turn = x * dy - y * dx
-    return Moments(
-        float(np.sum(turn)) / 2.0,
-        float(np.sum(x * turn)) / 3.0,
-        float(np.sum(y * turn)) / 3.0,
-        float(np.sum(x * x * turn)) / 4.0,
-        float(np.sum(y * y * turn)) / 4.0,
-        float(np.sum(x * y * turn)) / 4.0,
-    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,7 +144,7 @@ class ArcContour:
 
     Examples
     --------
-    >>> ArcContour(np.array([[1.0, 0.0], [-1.0, 0.0]]), np.ones(2)).area()  # a unit circle
+    >>> ArcContour(np.array([[1.0, 0.0], [-1.0, 0.0]]), np.ones(2)).moments().area
     3.14159265358979...
     """
 
@@ -244,11 +216,18 @@ class ArcContour:
         """Area, first and second moments of the region inside, exact for the arcs."""
         nodes, weights = gauss_rule(_GAUSS_POINTS)
         point, slope = self._evaluate(np.arange(len(self))[:, None], nodes)
-        return green_moments(point, slope * weights)
-
-    def area(self) -> float:
-        """Area inside, m^2; positive because the contour runs counter-clockwise."""
-        return self.moments().area
+        # Green's theorem: positive, because the contour runs counter-clockwise.
+        steps = slope * weights
+        x, y, dx, dy = point.real, point.imag, steps.real, steps.imag
+        turn = x * dy - y * dx
+        return Moments(
+            float(np.sum(turn)) / 2.0,
+            float(np.sum(x * turn)) / 3.0,
+            float(np.sum(y * turn)) / 3.0,
+            float(np.sum(x * x * turn)) / 4.0,
+            float(np.sum(y * y * turn)) / 4.0,
+            float(np.sum(x * y * turn)) / 4.0,
+        )
 
     def arcs(self) -> Arcs:
         """Centre, radius, start angle and sweep of every segment."""
@@ -356,10 +335,6 @@ class Circle:
             area, area * x, area * y, own + area * x * x, own + area * y * y, area * x * y
         )
 
-    def area(self) -> float:
-        """Area inside, m^2."""
-        return math.pi * self.radius**2
-
     def sample(self, tolerance: float) -> FloatArray:
         """Points (m, 2) of an inscribed polygon within `tolerance` (m) of the circle."""
         step = 2.0 * math.acos(min(max(1.0 - tolerance / self.radius, 0.0), 1.0))
@@ -410,10 +385,6 @@ class PlanarPart:
     def area(self) -> float:
         """Area of material, m^2."""
         return self.moments().area
-
-    def centroid(self) -> FloatArray:
-        """Centre of area (2,), m."""
-        return self.moments().centroid
 
     def transformed(
         self, rotation: float = 0.0, shift: ArrayLike = (0.0, 0.0), mirror: bool = False

@@ -22,28 +22,27 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.contours import ComplexArray, FloatArray, as_points
-from cqdd_design.geometry.limits import refuse_impossible_flank
-from cqdd_design.geometry.tip import TipArc, fit_tip_arc
+from cqdd_design.geometry.limits import (
+    at_least,
+    at_most,
+    largest_eccentricity,
+    millimetres,
+    rounded_down,
+    smallest_pitch_radius,
+)
+from cqdd_design.geometry.tip import TipArc, fit_tip_arc, largest_rotation
 from cqdd_design.geometry.trochoid import (
     GeneratedFlank,
-    locus_curvature,
     locus_valley_radius,
-    shortening_coefficient,
     undercut_radius_limit,
 )
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
 
-__all__ = [
-    "CycloidDisc",
-    "locus_curvature",
-    "locus_valley_radius",
-    "shortening_coefficient",
-    "undercut_radius_limit",
-]
-
+FEWEST_LOBES = 3
 # Below this the arcs of tip and valley are as short as the rounding of their coordinates.
 _LEAST_ROTATION = 1e-7
 
@@ -88,15 +87,7 @@ class CycloidDisc:
 
     def __post_init__(self) -> None:
         """Refuse a disc that cannot exist."""
-        refuse_impossible_flank(
-            self.lobe_count,
-            self.ring_pitch_radius,
-            self.eccentricity,
-            self.tooth_radius,
-            equidistant=self.equidistant,
-            radial=self.radial,
-            rotation=self.rotation,
-        )
+        _refuse_impossible(self)
         if self.is_turned:
             _ = self.tip_arc
 
@@ -298,3 +289,84 @@ class CycloidDisc:
 def _disc_of(*numbers: float) -> CycloidDisc:
     lobe_count, *lengths = numbers
     return CycloidDisc(int(lobe_count), *lengths)
+
+
+def _refuse_impossible(disc: CycloidDisc) -> None:
+    """Raise where no disc outline of these numbers exists, with the nearest fix in file keys."""
+    lobe_count, tooth_radius = disc.lobe_count, disc.tooth_radius
+    if not (math.isfinite(lobe_count) and lobe_count >= FEWEST_LOBES and lobe_count % 1 == 0):
+        raise GeometryError(
+            f"ratio {lobe_count} gives no disc; it is the number of lobes, a whole number of "
+            f"{FEWEST_LOBES} or more."
+        )
+    lengths = {
+        "ring_pitch_radius": disc.ring_pitch_radius,
+        "eccentricity": disc.eccentricity,
+        "ring_pin_diameter": 2.0 * tooth_radius,
+    }
+    for key, value in lengths.items():
+        if not (math.isfinite(value) and value > 0.0):
+            raise GeometryError(f"{key} is {millimetres(value)}; it must be above 0 mm.")
+    for key, value in {"equidistant": disc.equidistant, "radial": disc.radial}.items():
+        if not math.isfinite(value):
+            raise GeometryError(f"modification.{key} is {millimetres(value)}; it must be finite.")
+    _refuse_overlapping_teeth(lobe_count, disc.ring_pitch_radius, tooth_radius)
+    _refuse_modification(disc)
+    _refuse_undercut(disc)
+
+
+def _refuse_overlapping_teeth(
+    lobe_count: int, ring_pitch_radius: float, tooth_radius: float
+) -> None:
+    """Raise where neighbouring ring teeth touch: r >= R sin(pi/(n+1))."""
+    step = math.sin(math.pi / (lobe_count + 1))
+    if tooth_radius >= ring_pitch_radius * step:
+        raise GeometryError(
+            f"ring_pin_diameter {millimetres(2.0 * tooth_radius)} is above "
+            f"{at_most(2.0 * ring_pitch_radius * step)}, where the {lobe_count + 1} ring teeth "
+            f"overlap on ring_pitch_radius {millimetres(ring_pitch_radius)}; lower it, or raise "
+            f"ring_pitch_radius to {at_least(tooth_radius / step)}."
+        )
+
+
+def _refuse_modification(disc: CycloidDisc) -> None:
+    tooth_radius = disc.tooth_radius
+    if tooth_radius + disc.equidistant <= 0.0:
+        raise GeometryError(
+            f"modification.equidistant {millimetres(disc.equidistant)} takes away the whole tooth "
+            f"radius of {millimetres(tooth_radius)}; raise it above {millimetres(-tooth_radius)}."
+        )
+    largest = largest_rotation(disc.lobe_count)
+    if not 0.0 <= disc.rotation <= largest:
+        arcmin = 60.0 * math.degrees(1.0)
+        raise GeometryError(
+            f"modification.rotation {disc.rotation * arcmin:.6g} arcmin is outside 0 to "
+            f"{rounded_down(largest * arcmin):.6g} arcmin, an eighth of half a lobe pitch on "
+            f"{disc.lobe_count} lobes; choose a value between."
+        )
+
+
+def _refuse_undercut(disc: CycloidDisc) -> None:
+    lobe_count, eccentricity, radial = disc.lobe_count, disc.eccentricity, disc.radial
+    # A modification that grows the disc leaves the ring's own teeth as large as they are.
+    pitch = disc.ring_pitch_radius - max(radial, 0.0)
+    tooth = disc.tooth_radius + max(disc.equidistant, 0.0)
+    limit = 0.0
+    if pitch > 0.0:
+        limit = float(undercut_radius_limit(lobe_count, pitch, eccentricity))
+    if tooth < limit:
+        return
+    enough = smallest_pitch_radius(lobe_count, eccentricity, tooth) + max(radial, 0.0)
+    fix = f"raise ring_pitch_radius to {at_least(enough)}"
+    allowed = largest_eccentricity(lobe_count, pitch, tooth) if pitch > tooth else 0.0
+    if allowed <= 0.0:
+        raise GeometryError(
+            f"ring_pitch_radius {millimetres(disc.ring_pitch_radius)} with modification.radial "
+            f"{millimetres(radial)} and modification.equidistant {millimetres(disc.equidistant)} "
+            f"leaves no disc at any eccentricity; reduce the modification, or {fix}."
+        )
+    raise GeometryError(
+        f"eccentricity {millimetres(eccentricity)} is above {at_most(allowed)}, where the disc "
+        f"undercuts at ring_pin_diameter {millimetres(2.0 * disc.tooth_radius)}; lower it, or "
+        f"{fix}."
+    )

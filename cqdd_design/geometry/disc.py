@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.errors import UsageError
 from cqdd_design.geometry.biarc import fit_biarcs, mirrored_contour
 from cqdd_design.geometry.contours import (
@@ -61,20 +62,14 @@ class Ligament:
     where: str
 
 
-def hole_diameter(design: Design, pin_mean_diameter: float) -> float:
+def hole_diameter(design: Design) -> float:
     """Diameter of the output holes: pin (or sleeve) + 2 e + clearance, m.
 
-    Parameters
-    ----------
-    design : Design
-    pin_mean_diameter : float
-        Mean of the pin's limits of size, m: a 4 mm shoulder screw to f9 has 3.975 mm. Ignored
-        where the design has sleeves, whose diameter counts.
+    A pin counts with the mean of its limits of size: a 4 mm shoulder screw to f9 has 3.975 mm.
     """
-    reducer = design.reducer
-    sleeve = reducer.output_pins.sleeve_diameter
-    runner = sleeve if sleeve > 0.0 else pin_mean_diameter
-    return float(runner + 2.0 * reducer.eccentricity + reducer.output_pins.hole_clearance)
+    reducer, pins = design.reducer, design.reducer.output_pins
+    runner = pins.sleeve_diameter or mean_pin_diameter(pins.diameter)
+    return float(runner + 2.0 * reducer.eccentricity + pins.hole_clearance)
 
 
 def crank_phase(design: Design, disc_index: int) -> float:
@@ -115,24 +110,16 @@ def lobed_outline(disc: CycloidDisc, tolerance: float) -> ArcContour:
 
 
 def disc_contour(
-    design: Design,
-    disc_index: int,
-    *,
-    bore_diameter: float,
-    pin_mean_diameter: float,
-    tolerance: float | None = None,
+    design: Design, disc_index: int, *, bore_diameter: float, tolerance: float | None = None
 ) -> PlanarPart:
     """One disc as it is cut: lobed outline, bore, output holes.
 
     Parameters
     ----------
-    design : Design
     disc_index : int
         From 0; decides how the holes stand against the lobes.
     bore_diameter : float
         Outside diameter of the cam bearing, m.
-    pin_mean_diameter : float
-        m, see `hole_diameter`.
     tolerance : float, optional
         Most distance of the outline from the exact profile, m; the design's
         ``edm.profile_tolerance`` where left out.
@@ -145,21 +132,18 @@ def disc_contour(
     """
     allowed = design.edm.profile_tolerance if tolerance is None else tolerance
     outline = lobed_outline(CycloidDisc.from_design(design), allowed)
-    radius = hole_diameter(design, pin_mean_diameter) / 2.0
+    radius = hole_diameter(design) / 2.0
     bore = Circle(np.zeros(2), bore_diameter / 2.0)
     holes = tuple(Circle(centre, radius) for centre in hole_centres(design, disc_index))
     return PlanarPart(f"disc {disc_index + 1}", outline, (bore, *holes))
 
 
-def ligaments(
-    design: Design, *, bore_diameter: float, pin_mean_diameter: float
-) -> tuple[Ligament, ...]:
+def ligaments(design: Design, *, bore_diameter: float) -> tuple[Ligament, ...]:
     """Thinnest material of each kind over all discs, thinnest first.
 
     Parameters
     ----------
-    design : Design
-    bore_diameter, pin_mean_diameter : float
+    bore_diameter : float
         m, as for `disc_contour`.
 
     Returns
@@ -169,7 +153,7 @@ def ligaments(
     """
     disc = CycloidDisc.from_design(design)
     pins = design.reducer.output_pins
-    hole = hole_diameter(design, pin_mean_diameter)
+    hole = hole_diameter(design)
     found = [
         Ligament(
             "hole to hole",
@@ -212,17 +196,6 @@ def ligament_hole_to_bore(
     """Material between a hole and the bore, m; arguments broadcast."""
     R, d, bore = (np.asarray(v, dtype=float) for v in (circle_radius, hole, bore_diameter))
     return np.asarray(R - (d + bore) / 2.0)
-
-
-def ligament_hole_to_valley(
-    circle_radius: ArrayLike, hole: ArrayLike, valley_distance: ArrayLike
-) -> FloatArray:
-    """Material between a hole and the circle through the valleys, m; arguments broadcast.
-
-    The least any clocking can give; `ligaments` measures to the profile itself.
-    """
-    R, d, valley = (np.asarray(v, dtype=float) for v in (circle_radius, hole, valley_distance))
-    return np.asarray(valley - R - d / 2.0)
 
 
 def _half_lobe_integrals(disc: CycloidDisc, panels: int) -> FloatArray:
@@ -268,24 +241,15 @@ def profile_perimeter(disc: CycloidDisc) -> float:
     return _profile_integrals(disc)[2]
 
 
-def disc_moments(
-    design: Design, disc_index: int, *, bore_diameter: float, pin_mean_diameter: float
-) -> Moments:
+def disc_moments(design: Design, disc_index: int, *, bore_diameter: float) -> Moments:
     """Exact area and second moments of one disc with its bore and output holes.
 
-    Parameters
-    ----------
-    design, disc_index, bore_diameter, pin_mean_diameter
-        As for `disc_contour`.
-
-    Returns
-    -------
-    Moments
-        About the disc's centre; times thickness and density they are mass and inertia.
+    About the disc's centre; times thickness and density they are mass and inertia. Arguments as
+    for `disc_contour`.
     """
     total = profile_moments(CycloidDisc.from_design(design))
     total = total - Circle(np.zeros(2), bore_diameter / 2.0).moments()
-    radius = hole_diameter(design, pin_mean_diameter) / 2.0
+    radius = hole_diameter(design) / 2.0
     for centre in hole_centres(design, disc_index):
         total = total - Circle(centre, radius).moments()
     return total

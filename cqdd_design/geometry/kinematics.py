@@ -14,13 +14,12 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 if TYPE_CHECKING:
     from cqdd_design.geometry.cycloid import CycloidDisc
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 def ratio_ring_fixed(lobe_count: int) -> int:

@@ -1,15 +1,12 @@
-"""Where a disc stops existing, and the sentences that say so with the nearest fix."""
+"""Where a disc undercuts, and lengths as sentences quote them: rounded to the allowed side."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 
-from cqdd_design.errors import GeometryError
-from cqdd_design.geometry.tip import largest_rotation
 from cqdd_design.geometry.trochoid import undercut_radius_limit
 
-FEWEST_LOBES = 3
 # Limits are not allowed values themselves: a round one is told as the next number inside.
 _STRICT = 1e-9
 
@@ -41,11 +38,13 @@ def millimetres(value: float) -> str:
     return f"{value * 1e3:.6g} mm"
 
 
-def _at_most(limit: float) -> str:
+def at_most(limit: float) -> str:
+    """A limit in m as the next length in mm below it."""
     return f"{rounded_down(limit * 1e3):.6g} mm"
 
 
-def _at_least(limit: float) -> str:
+def at_least(limit: float) -> str:
+    """A limit in m as the next length in mm above it."""
     return f"{rounded_up(limit * 1e3):.6g} mm"
 
 
@@ -82,112 +81,4 @@ def smallest_pitch_radius(lobe_count: int, eccentricity: float, tooth_radius: fl
         lambda R: float(undercut_radius_limit(lobe_count, R, eccentricity)) > tooth_radius,
         high,
         low,
-    )
-
-
-def refuse_impossible_flank(
-    lobe_count: int,
-    ring_pitch_radius: float,
-    eccentricity: float,
-    tooth_radius: float,
-    *,
-    equidistant: float = 0.0,
-    radial: float = 0.0,
-    rotation: float = 0.0,
-) -> None:
-    """Raise where no disc outline of these numbers exists.
-
-    Parameters
-    ----------
-    lobe_count : int
-    ring_pitch_radius, eccentricity, tooth_radius, equidistant, radial : float
-        m.
-    rotation : float
-        rad.
-
-    Raises
-    ------
-    GeometryError
-        Naming the value, the limit and the nearest fix, in the keys of the design file.
-    """
-    if not (math.isfinite(lobe_count) and lobe_count >= FEWEST_LOBES and lobe_count % 1 == 0):
-        raise GeometryError(
-            f"ratio {lobe_count} gives no disc; it is the number of lobes, a whole number of "
-            f"{FEWEST_LOBES} or more."
-        )
-    lengths = {
-        "ring_pitch_radius": ring_pitch_radius,
-        "eccentricity": eccentricity,
-        "ring_pin_diameter": 2.0 * tooth_radius,
-    }
-    for key, value in lengths.items():
-        if not (math.isfinite(value) and value > 0.0):
-            raise GeometryError(f"{key} is {millimetres(value)}; it must be above 0 mm.")
-    for key, value in {"equidistant": equidistant, "radial": radial}.items():
-        if not math.isfinite(value):
-            raise GeometryError(f"modification.{key} is {millimetres(value)}; it must be finite.")
-    refuse_overlapping_teeth(lobe_count, ring_pitch_radius, tooth_radius)
-    _refuse_modification(lobe_count, tooth_radius, equidistant, rotation)
-    _refuse_undercut(lobe_count, ring_pitch_radius, eccentricity, tooth_radius, equidistant, radial)
-
-
-def refuse_overlapping_teeth(
-    lobe_count: int, ring_pitch_radius: float, tooth_radius: float
-) -> None:
-    """Raise a `GeometryError` where neighbouring ring teeth touch: r >= R sin(pi/(n+1))."""
-    step = math.sin(math.pi / (lobe_count + 1))
-    if tooth_radius >= ring_pitch_radius * step:
-        raise GeometryError(
-            f"ring_pin_diameter {millimetres(2.0 * tooth_radius)} is above "
-            f"{_at_most(2.0 * ring_pitch_radius * step)}, where the {lobe_count + 1} ring teeth "
-            f"overlap on ring_pitch_radius {millimetres(ring_pitch_radius)}; lower it, or raise "
-            f"ring_pitch_radius to {_at_least(tooth_radius / step)}."
-        )
-
-
-def _refuse_modification(
-    lobe_count: int, tooth_radius: float, equidistant: float, rotation: float
-) -> None:
-    if tooth_radius + equidistant <= 0.0:
-        raise GeometryError(
-            f"modification.equidistant {millimetres(equidistant)} takes away the whole tooth "
-            f"radius of {millimetres(tooth_radius)}; raise it above {millimetres(-tooth_radius)}."
-        )
-    largest = largest_rotation(lobe_count)
-    if not 0.0 <= rotation <= largest:
-        arcmin = 60.0 * math.degrees(1.0)
-        raise GeometryError(
-            f"modification.rotation {rotation * arcmin:.6g} arcmin is outside 0 to "
-            f"{rounded_down(largest * arcmin):.6g} arcmin, an eighth of half a lobe pitch on "
-            f"{lobe_count} lobes; choose a value between."
-        )
-
-
-def _refuse_undercut(
-    lobe_count: int,
-    ring_pitch_radius: float,
-    eccentricity: float,
-    tooth_radius: float,
-    equidistant: float,
-    radial: float,
-) -> None:
-    # A modification that grows the disc leaves the ring's own teeth as large as they are.
-    pitch, tooth = ring_pitch_radius - max(radial, 0.0), tooth_radius + max(equidistant, 0.0)
-    limit = 0.0
-    if pitch > 0.0:
-        limit = float(undercut_radius_limit(lobe_count, pitch, eccentricity))
-    if tooth < limit:
-        return
-    enough = smallest_pitch_radius(lobe_count, eccentricity, tooth) + max(radial, 0.0)
-    fix = f"raise ring_pitch_radius to {_at_least(enough)}"
-    allowed = largest_eccentricity(lobe_count, pitch, tooth) if pitch > tooth else 0.0
-    if allowed <= 0.0:
-        raise GeometryError(
-            f"ring_pitch_radius {millimetres(ring_pitch_radius)} with modification.radial "
-            f"{millimetres(radial)} and modification.equidistant {millimetres(equidistant)} "
-            f"leaves no disc at any eccentricity; reduce the modification, or {fix}."
-        )
-    raise GeometryError(
-        f"eccentricity {millimetres(eccentricity)} is above {_at_most(allowed)}, where the disc "
-        f"undercuts at ring_pin_diameter {millimetres(2.0 * tooth_radius)}; lower it, or {fix}."
     )

@@ -1,4 +1,4 @@
-"""Where the ring teeth stand against the finished disc: nearest points, gaps, contact points."""
+"""Where the ring teeth stand, and the nearest points of the finished disc."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike
 
 from cqdd_design.geometry.contours import ComplexArray, FloatArray, as_complex, as_points
 from cqdd_design.geometry.cycloid import CycloidDisc
-from cqdd_design.geometry.kinematics import disc_pose
 
 # Coarse search before the Newton iteration: the distance to a half lobe has at most a few valleys.
 _GRID = 48
@@ -39,32 +38,11 @@ class Projection:
     normal: FloatArray
 
 
-@dataclass(frozen=True, eq=False)
-class ToothGaps:
-    """Clearance of every ring tooth at the nominal pose, A crank angles by n + 1 teeth.
-
-    Attributes
-    ----------
-    gap : array (A, n+1)
-        Along the common normal, m; negative is interference.
-    parameter : array (A, n+1)
-        Where on the profile the nearest point lies, rad.
-    point, normal : array (A, n+1, 2)
-        That point (m) and the unit normal from the disc to the tooth, in the ring's frame.
-    """
-
-    gap: FloatArray
-    parameter: FloatArray
-    point: FloatArray
-    normal: FloatArray
-
-
 def project(disc: CycloidDisc, points: ArrayLike) -> Projection:
     """Nearest points of the finished profile to points in the disc's frame.
 
     Parameters
     ----------
-    disc : CycloidDisc
     points : array (..., 2)
         m, anywhere but the disc's centre.
 
@@ -137,30 +115,3 @@ def tooth_centres(disc: CycloidDisc) -> FloatArray:
     """Nominal tooth centres (n+1, 2) in the ring's frame, the first on +x, m."""
     count = disc.ring_tooth_count
     return as_points(disc.ring_pitch_radius * np.exp(2j * np.pi * np.arange(count) / count))
-
-
-def tooth_gaps(disc: CycloidDisc, crank_angle: ArrayLike) -> ToothGaps:
-    """Clearance along the normal from the finished disc to every nominal ring tooth.
-
-    Parameters
-    ----------
-    disc : CycloidDisc
-        With its modification; the teeth stand on the nominal pitch circle with the nominal radius.
-    crank_angle : array_like (A,) or scalar
-        rad; for the disc at crank phase p, the crank angle plus p.
-
-    Returns
-    -------
-    ToothGaps
-        With A = 1 for a scalar angle.
-    """
-    turn, shift = disc_pose(disc, np.atleast_1d(np.asarray(crank_angle, dtype=float)))
-    turn, shift = turn[:, None], shift[:, None]
-    centres = as_complex(tooth_centres(disc))
-    found = project(disc, as_points((centres - shift) / turn))
-    return ToothGaps(
-        found.distance - disc.tooth_radius,
-        found.parameter,
-        as_points(as_complex(found.point) * turn + shift),
-        as_points(as_complex(found.normal) * turn),
-    )

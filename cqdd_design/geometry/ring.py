@@ -57,11 +57,6 @@ def ring_root_radius(design: Design) -> float:
     return swept_radius(disc) + design.reducer.ring.relief_clearance
 
 
-def ring_wall_thickness(design: Design) -> float:
-    """Material between the deepest place of the inner contour and the outside, m."""
-    return float(design.reducer.ring.outer_diameter) / 2.0 - ring_root_radius(design)
-
-
 def ring_min_concave_radius(design: Design) -> float:
     """Least concave radius of the inner contour, m: the wire and its gap must be finer.
 
@@ -89,7 +84,6 @@ def ring_contour(design: Design, tolerance: float | None = None) -> PlanarPart:
 
     Parameters
     ----------
-    design : Design
     tolerance : float, optional
         Most distance of a conjugate contour from the exact curve, m; the design's
         ``edm.profile_tolerance`` where left out. The other types are exact arcs.
@@ -106,7 +100,7 @@ def ring_contour(design: Design, tolerance: float | None = None) -> PlanarPart:
         When there is no wall, no relief, or no pocket that holds a pin.
     """
     allowed = design.edm.profile_tolerance if tolerance is None else tolerance
-    refuse_thin_ring(design)
+    _refuse_thin_ring(design)
     disc = CycloidDisc.from_design(design).unmodified
     inner = _inner_contour(
         disc, design.reducer.ring_type, design.reducer.ring.relief_clearance, allowed
@@ -123,12 +117,11 @@ def ring_pins(design: Design) -> tuple[Circle, ...]:
     return tuple(Circle(centre, disc.tooth_radius) for centre in tooth_centres(disc))
 
 
-def refuse_thin_ring(design: Design) -> None:
-    """Raise a `GeometryError` where the inner contour breaks through the outside."""
-    wall = ring_wall_thickness(design)
-    if wall <= 0.0:
-        outer = design.reducer.ring.outer_diameter
-        least = 2.0 * ring_root_radius(design)
+def _refuse_thin_ring(design: Design) -> None:
+    """Raise where the inner contour breaks through the outside."""
+    outer = design.reducer.ring.outer_diameter
+    least = 2.0 * ring_root_radius(design)
+    if outer <= least:
         raise GeometryError(
             f"ring.outer_diameter {millimetres(outer)} leaves no wall outside the inner contour "
             f"of a {design.reducer.ring_type} ring, which reaches {millimetres(least)}; raise it "

@@ -17,16 +17,13 @@ if TYPE_CHECKING:
 _FEWEST_PINS = 3
 
 
-def validate_geometry(design: Design, *, bore_diameter: float, pin_mean_diameter: float) -> None:
+def validate_geometry(design: Design, *, bore_diameter: float) -> None:
     """Raise unless disc, ring and holes of a design can be cut.
 
     Parameters
     ----------
-    design : Design
     bore_diameter : float
         Outside diameter of the cam bearing, m.
-    pin_mean_diameter : float
-        Mean diameter of the output pins, m; ignored where there are sleeves.
 
     Raises
     ------
@@ -36,13 +33,13 @@ def validate_geometry(design: Design, *, bore_diameter: float, pin_mean_diameter
     """
     CycloidDisc.from_design(design)
     ring_contour(design)
-    hole = hole_diameter(design, pin_mean_diameter)
+    hole = hole_diameter(design)
     if hole <= 0.0:
         raise GeometryError(
             f"output_pins.hole_clearance {millimetres(design.reducer.output_pins.hole_clearance)} "
             "leaves no output hole; raise it."
         )
-    found = ligaments(design, bore_diameter=bore_diameter, pin_mean_diameter=pin_mean_diameter)
+    found = ligaments(design, bore_diameter=bore_diameter)
     broken = [one for one in found if one.thickness <= 0.0]
     if broken:
         # A bore outside the disc is the plainest of them, whatever else it cuts on the way.

@@ -8,18 +8,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.gearbox.contact.laws import LineModel
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
-from cqdd_design.gearbox.contact.sweep import ANGLES, ContactSweep, contact_sweep, perfect_angles
+from cqdd_design.gearbox.contact.sweep import ANGLES, contact_sweep, perfect_angles
 from cqdd_design.gearbox.life import LifeResult, life
-from cqdd_design.gearbox.losses import EfficiencyMap, Losses, LossModel, loss_model
+from cqdd_design.gearbox.losses import EfficiencyMap, Losses, loss_model
 from cqdd_design.gearbox.precision.precision import Precision, precision
 from cqdd_design.machine.machine import Machine
-
-FloatArray = NDArray[np.float64]
 
 _MAP_STEPS = 8
 _PICTURE_ANGLES = 180
@@ -31,14 +29,12 @@ class ContactAnalysis:
 
     Attributes
     ----------
-    model : ContactModel
     sweep, reversed : ContactSweep
         Over the period, at the torque and at its negative.
     preload : ContactSweep or None
         Without load, where the fits are of interference.
     precision : Precision
         At the continuous torque, or at the one asked for.
-    loss_model : LossModel
     losses : Losses
         At the torque of `precision` and the input speed.
     map : EfficiencyMap
@@ -52,7 +48,6 @@ class ContactAnalysis:
     reversed: ContactSweep
     preload: ContactSweep | None
     precision: Precision
-    loss_model: LossModel
     losses: Losses
     map: EfficiencyMap
     life: LifeResult
@@ -70,34 +65,17 @@ class ContactAnalysis:
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form: ``contact``, ``precision``, ``losses``, ``life``."""
-        contact = self.sweep.to_dict()
-        back = self.reversed
-        for key, here, there in (
-            ("ring_force_max_N", self.sweep.ring_force, back.ring_force),
-            ("output_pin_force_max_N", self.sweep.pin_force, back.pin_force),
-            ("cam_bearing_load_max_N", self.sweep.cam_load, back.cam_load),
-            ("ring_pressure_max_MPa", self.sweep.ring_pressure / 1e6, back.ring_pressure / 1e6),
-            ("output_pressure_max_MPa", self.sweep.pin_pressure / 1e6, back.pin_pressure / 1e6),
-        ):
-            contact[key] = max(float(here.max()), float(there.max()))
+        back = self.reversed.maxima
+        greatest = {key: max(here, back[key]) for key, here in self.sweep.maxima.items()}
+        contact = self.sweep.to_dict() | greatest
         contact["contact_law"] = self.model.ring_law.model
-        contact["preload"] = None if self.preload is None else _preload(self.preload)
+        contact["preload"] = self.preload.maxima if self.preload else None
         return {
             "contact": contact,
             "precision": self.precision.to_dict(),
             "losses": self.losses.to_dict() | {"efficiency_map": self.map.to_dict()},
             "life": self.life.to_dict(),
         }
-
-
-def _preload(sweep: ContactSweep) -> dict[str, float]:
-    return {
-        "ring_force_max_N": float(sweep.ring_force.max()),
-        "output_pin_force_max_N": float(sweep.pin_force.max()),
-        "cam_bearing_load_max_N": float(sweep.cam_load.max()),
-        "ring_pressure_max_MPa": float(sweep.ring_pressure.max()) / 1e6,
-        "output_pressure_max_MPa": float(sweep.pin_pressure.max()) / 1e6,
-    }
 
 
 def analyse_contact(
@@ -111,7 +89,6 @@ def analyse_contact(
 
     Parameters
     ----------
-    machine : Machine
     torque : float, optional
         Output torque, N m. Where left out, the forces are at the peak torque of the requirements,
         precision and losses at the continuous one.
@@ -141,7 +118,6 @@ def analyse_contact(
         reversed=contact_sweep(model, -peak, states=states),
         preload=contact_sweep(model, 0.0, states=states) if tight else None,
         precision=precision(model, steady, angles=angles),
-        loss_model=friction,
         losses=friction.at(asked.input_speed, steady),
         map=friction.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),
         life=life(design, model),

@@ -126,7 +126,6 @@ def resolve(design: Design, motor: Motor | None = None) -> Machine:
 
     Parameters
     ----------
-    design : Design
     motor : Motor, optional
         Default the catalogue's row of the design's motor.
 

@@ -30,7 +30,6 @@ class Bodies:
 
     Attributes
     ----------
-    parts : tuple of Part
     inertia : GearboxInertia
         Mass properties of `parts`, in their order.
     balance : mapping of int to StackBalance
@@ -49,7 +48,6 @@ def weigh(machine: Machine, source: MassSource = closed_form) -> Bodies:
 
     Parameters
     ----------
-    machine : Machine
     source : callable
         Mass properties of one piece; those of the other numbers of discs are closed forms.
 

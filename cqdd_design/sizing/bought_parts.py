@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.catalog.bearings import Bearing, bearings
 from cqdd_design.catalog.materials import find_material
@@ -16,8 +15,8 @@ from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox import bearing_life as rating
 from cqdd_design.gearbox.cam_bearing import carries_raceways, rolling_element
 from cqdd_design.gearbox.checks import allowables
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.sizing.columns import Columns
 
 PIN_FIT_ALLOWANCE = 1e-6
 """Least play left between the largest pin of its tolerance band and its hole, m."""
@@ -46,7 +45,7 @@ class PinSize:
 
 
 @dataclass(frozen=True)
-class BearingTable:
+class BearingTable(Columns):
     """Cam bearings as arrays (nB,), SI.
 
     Attributes
@@ -68,17 +67,6 @@ class BearingTable:
     def allowed_load(self) -> FloatArray:
         """The lower of both loads, N."""
         return np.minimum(self.static_load, self.life_load)
-
-    def rows(self, which: NDArray[np.intp]) -> BearingTable:
-        """The table of some of the bearings."""
-        return BearingTable(
-            self.outer[which],
-            self.bore[which],
-            self.width[which],
-            self.mass[which],
-            self.static_load[which],
-            self.life_load[which],
-        )
 
 
 def pin_sizes(requirements: Requirements, default_clearance: float) -> tuple[PinSize, ...]:
@@ -123,7 +111,6 @@ def cam_bearings(
 
     Parameters
     ----------
-    requirements : Requirements
     most_thickness, spacing : float
         Of the discs and between them, m.
     thinnest_pin : float
@@ -134,8 +121,7 @@ def cam_bearings(
     InfeasibleError
         When the length or the ring is too small for any.
     """
-    hardness = find_material(requirements.disc_material).rockwell_hardness
-    hard = hardness is not None and hardness >= allowables.HARDENED_HRC
+    hard = allowables.is_hardened(find_material(requirements.disc_material))
     # Needles run on the eccentric itself, so they are searched only where the parts are hard.
     usable = [
         bearing
@@ -210,7 +196,6 @@ def bearing_table(
 
     Parameters
     ----------
-    rows : tuple of Bearing
     cam_speed : float
         Of the eccentric relative to a disc, rad/s.
     continuous_share : float

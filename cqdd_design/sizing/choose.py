@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing import masses
 from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.frame import Frame
 from cqdd_design.sizing.screen import Screened
 from cqdd_design.sizing.space import SearchSpace
 
-FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
 _MUCH_THICKER = 1.6
@@ -96,14 +96,14 @@ def lightest(
         ready &= space.thickness[thinnest] <= _MUCH_THICKER * least
     row, bearing = np.nonzero(ready)
     thickness = thinnest[row, bearing]
-    integrals = shapes.profile_integrals(frame, *found.rings.profile)
-    opening = shapes.ring_opening_area(frame, *found.rings.profile)
+    area, polar = shapes.profile_integrals(frame, found.rings)
+    opening = shapes.ring_opening_area(frame, found.rings)
     ring = rows.ring[row]
     diameters = np.array([frame.pin_sizes[size].diameter for size in space.pin_sizes])
     weights = masses.weigh(
         frame,
-        profile_area=integrals.area[ring],
-        profile_polar=integrals.polar[ring],
+        profile_area=area[ring],
+        profile_polar=polar[ring],
         ring_opening=opening[ring],
         eccentricity=found.rings.eccentricity[ring],
         thickness=space.thickness[thickness],

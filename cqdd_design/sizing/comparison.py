@@ -12,7 +12,7 @@ from cqdd_design.gearbox.bearing_life import load_for_life
 from cqdd_design.gearbox.checks.allowables import LIFE_HOURS, STATIC_SAFETY
 from cqdd_design.machine import Machine
 from cqdd_design.planetary.compare import PlanetaryComparison, compare_planetary
-from cqdd_design.planetary.cycloid import CycloidLimit
+from cqdd_design.planetary.cycloid import CycloidLimit, LoadName
 from cqdd_design.planetary.gear_material import GearMaterial, gear_material
 from cqdd_design.planetary.kinematics import PlanetaryTeeth
 
@@ -73,7 +73,7 @@ def _gear_steel(discs: str, asked: str | None) -> tuple[GearMaterial, tuple[str,
 
 
 #: Strength checks that limit the torque of a cycloid: part, and how the value grows with torque.
-_TORQUE_LIMITS = {
+_TORQUE_LIMITS: dict[str, tuple[str, LoadName, float]] = {
     "CONTACT-RING-PEAK": ("ring teeth", "peak", 0.5),
     "CONTACT-RING-CONTINUOUS": ("ring teeth", "continuous", 0.5),
     "CONTACT-PIN-PEAK": ("output pins", "peak", 0.5),
@@ -92,40 +92,19 @@ def cycloid_limits(analysis: GearboxAnalysis) -> tuple[CycloidLimit, ...]:
     found = []
     for check in analysis.checks:
         if check.id in _TORQUE_LIMITS and check.limit > 0.0:
-            part, load, exponent = _TORQUE_LIMITS[check.id]
-            found.append(
-                CycloidLimit(
-                    part=part,
-                    title=check.title,
-                    load=load,  # type: ignore[arg-type]
-                    torque=torque[load],
-                    value=check.value,
-                    limit=check.limit,
-                    unit=check.unit,
-                    torque_exponent=exponent,
-                )
-            )
+            part, at, exponent = _TORQUE_LIMITS[check.id]
+            numbers = (torque[at], check.value, check.limit, check.unit, exponent)
+            found.append(CycloidLimit(part, check.title, at, *numbers))
     cam = analysis.cam_bearing
     if cam.bearing.static_rating and cam.bearing.dynamic_rating:
         bearable = load_for_life(cam.bearing.dynamic_rating, LIFE_HOURS, cam.speed, cam.exponent)
+        static = cam.bearing.static_rating / STATIC_SAFETY
+        rows: tuple[tuple[LoadName, str, float, float], ...] = (
+            ("peak", f"C0/P = {STATIC_SAFETY:g}", cam.peak_load, static),
+            ("continuous", f"L10h = {LIFE_HOURS:g} h", cam.continuous_load, float(bearable)),
+        )
         found += [
-            CycloidLimit(
-                part="cam bearing",
-                title=f"load for C0/P = {STATIC_SAFETY:g}",
-                load="peak",
-                torque=torque["peak"],
-                value=cam.peak_load,
-                limit=cam.bearing.static_rating / STATIC_SAFETY,
-                unit="N",
-            ),
-            CycloidLimit(
-                part="cam bearing",
-                title=f"load for L10h = {LIFE_HOURS:g} h",
-                load="continuous",
-                torque=torque["continuous"],
-                value=cam.continuous_load,
-                limit=float(bearable),
-                unit="N",
-            ),
+            CycloidLimit("cam bearing", f"load for {words}", load, torque[load], value, limit, "N")
+            for load, words, value, limit in rows
         ]
     return tuple(found)

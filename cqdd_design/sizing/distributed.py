@@ -9,13 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from cqdd_design.errors import DependencyError, UsageError
 from cqdd_design.gearbox.tolerance.ensemble import Block, Ensemble, Mapper, work_block
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 _CONNECT_SECONDS = 5
 _RETRIES = 3

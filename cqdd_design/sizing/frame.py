@@ -62,7 +62,6 @@ class Frame:
 
     Attributes
     ----------
-    requirements : Requirements
     lobe_count, disc_count : int
         n and D.
     spacing, equidistant, radial, relief_clearance, wire_radius : float
@@ -76,12 +75,10 @@ class Frame:
         Of one disc in the required length.
     cam_speed : float
         Of the eccentric relative to a disc, rad/s.
-    limits : LoadLimits
     ring_modulus, pin_modulus : float
         E* of tooth on disc and of pin on disc.
     disc_density, ring_density, pin_density : float
         kg/m^3.
-    motor : Motor
     pin_sizes : tuple of PinSize
         Ascending.
     bearings : tuple of Bearing
@@ -150,13 +147,8 @@ def search_frame(requirements: Requirements, motor: Motor | None = None) -> Fram
 
     Parameters
     ----------
-    requirements : Requirements
     motor : Motor, optional
         Default the catalogue's row of the motor that the requirements name.
-
-    Returns
-    -------
-    Frame
 
     Raises
     ------
@@ -189,8 +181,8 @@ def search_frame(requirements: Requirements, motor: Motor | None = None) -> Fram
             kinematics.cam_bearing_speed_ring_fixed(requirements.ratio, requirements.input_speed)
         ),
         limits=_load_limits(requirements, disc, ring, pin),
-        ring_modulus=_modulus(disc, ring),
-        pin_modulus=_modulus(disc, pin),
+        ring_modulus=hertz.pair_modulus(disc, ring),
+        pin_modulus=hertz.pair_modulus(disc, pin),
         disc_density=disc.density,
         ring_density=ring.density,
         pin_density=pin.density,
@@ -228,14 +220,6 @@ def _template(requirements: Requirements) -> Design:
     )
 
 
-def _modulus(first: Material, second: Material) -> float:
-    return float(
-        hertz.effective_modulus(
-            first.youngs_modulus, first.poisson_ratio, second.youngs_modulus, second.poisson_ratio
-        )
-    )
-
-
 def _load_limits(
     requirements: Requirements, disc: Material, ring: Material, pin: Material
 ) -> LoadLimits:
@@ -248,13 +232,11 @@ def _load_limits(
         pin_static=weaker(static(disc), static(pin)),
         pin_fatigue=weaker(fatigue(disc), fatigue(pin)),
         shear=allowables.pin_shear_limit_peak(pin),
-        bending_peak=allowables.pin_bending_limit_peak(pin),
+        bending_peak=allowables.pin_limit_peak(pin),
         bending_continuous=allowables.pin_bending_limit_continuous(
             pin, duty_reverses=min(senses, default=0.0) < 0.0 < max(senses, default=0.0)
         ),
-        bearing=weaker(
-            allowables.pin_bearing_limit_peak(pin), allowables.pin_bearing_limit_peak(disc)
-        ),
+        bearing=weaker(allowables.pin_limit_peak(pin), allowables.pin_limit_peak(disc)),
         pin_ultimate=pin.ultimate_strength or 0.0,
     )
     for key, given, names in (

@@ -152,12 +152,7 @@ def _listed(words: list[str]) -> str:
 
 
 def refuse_motor(sized: SizedDesign, motor: Motor) -> None:
-    """Raise when the motor that was asked for falls short; no size of the gearbox helps.
-
-    Raises
-    ------
-    SizingInfeasibleError
-    """
+    """Raise when the motor that was asked for falls short; no size of the gearbox helps."""
     failed = [check for check in sized.checks if check.status == "fail"]
     if not failed:
         return
@@ -233,7 +228,6 @@ def _smallest(search: Search, best: SizedDesign | None, key: str, limit: int) ->
 
     Parameters
     ----------
-    search : Search
     best : SizedDesign or None
         What the present space carries, for the first guess.
     key : {"outer_diameter", "length"}

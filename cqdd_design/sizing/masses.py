@@ -12,12 +12,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cqdd_design.gearbox.output_pins import pin_span
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing.frame import Frame
-
-FloatArray = NDArray[np.float64]
 
 SHAFT_DENSITY = 7850.0
 """Steel eccentrics, kg/m^3."""

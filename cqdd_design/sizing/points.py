@@ -16,16 +16,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.gearbox import rigid
+from cqdd_design.gearbox.cam_bearing import least_bore
 from cqdd_design.gearbox.checks import allowables
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import ligament_hole_to_hole
 from cqdd_design.geometry.trochoid import shortening_coefficient
 from cqdd_design.sizing import masses, reserves
 from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.bought_parts import BearingTable
+from cqdd_design.sizing.columns import Columns
 from cqdd_design.sizing.frame import THICKNESS_STEP, Frame
 from cqdd_design.sizing.stage_tables import StageTables
 
-FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
 
@@ -61,7 +63,7 @@ def manufacturing_grid(frame: Frame) -> Grid:
 
 
 @dataclass(frozen=True)
-class Points:
+class Points(Columns):
     """Grid points with what follows from them; every field (M,), SI.
 
     Attributes
@@ -90,30 +92,16 @@ class Points:
     reflected_inertia: FloatArray
     objective: FloatArray
 
-    def rows(self, which: IntArray) -> Points:
-        """Some of the points."""
-        return Points(*(getattr(self, name)[which] for name in self.__dataclass_fields__))
-
     def replaced(self, which: IntArray, others: Points) -> Points:
         """These points with others in some places."""
-        changed = {}
-        for name in self.__dataclass_fields__:
-            changed[name] = getattr(self, name).copy()
-            changed[name][which] = getattr(others, name)
+        changed = {name: column.copy() for name, column in vars(self).items()}
+        for name, column in vars(others).items():
+            changed[name][which] = column
         return Points(**changed)
-
-    def joined(self, other: Points) -> Points:
-        """These points and others."""
-        return Points(
-            *(
-                np.concatenate([getattr(self, name), getattr(other, name)])
-                for name in self.__dataclass_fields__
-            )
-        )
 
 
 @dataclass(frozen=True)
-class Pins:
+class Pins(Columns):
     """Output pins of candidates, every field (M,)."""
 
     count: IntArray
@@ -141,18 +129,11 @@ class Pins:
             peak_factor=np.array([factor[int(c)] for c in count]),
         )
 
-    def rows(self, which: IntArray) -> Pins:
-        """Some of the entries."""
-        return Pins(*(getattr(self, name)[which] for name in self.__dataclass_fields__))
-
 
 @dataclass(frozen=True)
-class _Shapes:
+class _Shapes(shapes.RingSizes):
     """Sizes of candidates (M,) that do not depend on thickness or bearing, m."""
 
-    pitch_radius: FloatArray
-    eccentricity: FloatArray
-    tooth_radius: FloatArray
     hole_radius: FloatArray
     pin_circle: FloatArray
     possible: BoolArray
@@ -246,11 +227,12 @@ class Evaluator:
         pitch = (room - steps[:, 2]) * RADIUS_STEP
         possible &= r + e < pitch
         R = np.where(possible, pitch, frame.outer_radius).astype(np.float64)
-        for met in shapes.profile_checks(frame, R, e, r).values():
+        ring = shapes.RingSizes(R, e, r)
+        for met in shapes.profile_checks(frame, ring).values():
             possible &= met
-        possible[possible] = shapes.relief_passes_wire(frame, R[possible], e[possible], r[possible])
+        possible[possible] = shapes.relief_passes_wire(frame, ring.rows(possible))
         hole = pins.play_radius + e
-        circle = shapes.largest_pin_circle(frame, R, e, r, hole, pins.offset)
+        circle = shapes.largest_pin_circle(frame, ring, hole, pins.offset)
         circle = np.floor(circle / RADIUS_STEP) * RADIUS_STEP
         web = ligament_hole_to_hole(circle, pins.count, 2.0 * hole)
         possible &= (circle > hole) & (web >= allowables.LIGAMENT - _SLACK)
@@ -299,12 +281,10 @@ class Evaluator:
     def _carried(self, shape: _Shapes, b: FloatArray, load: FloatArray) -> FloatArray:
         """Torque reserve (M, T, B) of every cam bearing; zero where it does not fit."""
         table = self.bearings
-        valley = shapes.valley_distance(
-            self.frame, shape.pitch_radius, shape.eccentricity, shape.tooth_radius
-        )
+        valley = shapes.valley_distance(self.frame, shape)
         inside = np.minimum(shape.pin_circle - shape.hole_radius, valley)
         seat = inside - allowables.LIGAMENT + _SLACK
-        bore = shapes.least_bore(shape.eccentricity) - _SLACK
+        bore = least_bore(shape.eccentricity) - _SLACK
         fits = (0.5 * table.outer <= seat[:, None]) & (table.bore >= bore[:, None])
         carried = np.where(fits, table.allowed_load / load[:, None], 0.0)
         return np.where(table.width <= b[..., None] + _SLACK, carried[:, None, :], 0.0)
@@ -312,14 +292,13 @@ class Evaluator:
     def _weights(self, shape: _Shapes, b: FloatArray, pins: Pins) -> masses.Weights:
         """Mass and inertia (M, T, B) with every cam bearing."""
         table = self.bearings
-        ring = (shape.pitch_radius, shape.eccentricity, shape.tooth_radius)
-        profile = shapes.profile_integrals(self.frame, *ring)
+        area, polar = shapes.profile_integrals(self.frame, shape)
         own = (slice(None), None, None)
         return masses.weigh(
             self.frame,
-            profile_area=profile.area[own],
-            profile_polar=profile.polar[own],
-            ring_opening=shapes.ring_opening_area(self.frame, *ring)[own],
+            profile_area=area[own],
+            profile_polar=polar[own],
+            ring_opening=shapes.ring_opening_area(self.frame, shape)[own],
             eccentricity=shape.eccentricity[own],
             thickness=b[..., None],
             pin_count=pins.count[own],

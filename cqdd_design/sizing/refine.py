@@ -7,16 +7,17 @@ always give the same design.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.choose import Picks
+from cqdd_design.sizing.columns import Columns
 from cqdd_design.sizing.points import Evaluator, Pins, Points
 
-FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
 _MOST_ROUNDS = 60
@@ -32,7 +33,7 @@ _SHORT = 1e9
 
 
 @dataclass(frozen=True)
-class Starts:
+class Starts(Columns):
     """Where local searches begin, and what each has to reach.
 
     Attributes
@@ -80,16 +81,7 @@ class Starts:
 
     def wanting(self, wanted: float) -> Starts:
         """The same starts with another aim."""
-        return Starts(self.steps, self.pin_count, self.pin_size, np.full(self.wanted.size, wanted))
-
-    def joined(self, other: Starts) -> Starts:
-        """These starts and others."""
-        return Starts(
-            np.concatenate([self.steps, other.steps]),
-            np.concatenate([self.pin_count, other.pin_count]),
-            np.concatenate([self.pin_size, other.pin_size]),
-            np.concatenate([self.wanted, other.wanted]),
-        )
+        return replace(self, wanted=np.full(self.wanted.size, wanted))
 
 
 def climb(evaluator: Evaluator, starts: Starts) -> Points:

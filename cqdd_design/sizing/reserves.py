@@ -10,14 +10,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cqdd_design.gearbox import hertz, output_pins
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing.frame import Frame
-
-FloatArray = NDArray[np.float64]
 
 RING_CHECKS = ("CONTACT-RING-PEAK", "CONTACT-RING-CONTINUOUS")
 PIN_CHECKS = (
@@ -40,7 +39,6 @@ def ring_reserves(
 
     Parameters
     ----------
-    frame : Frame
     pressure_number : array_like
         p^ of :class:`~cqdd_design.sizing.stage_tables.StageTables`.
     pitch_radius, thickness : array_like
@@ -72,7 +70,6 @@ def pin_reserves_per_radius(
 
     Parameters
     ----------
-    frame : Frame
     peak_factor : array_like
         k of F = k T/(D N_w R_w), from :func:`~cqdd_design.gearbox.rigid.peak_pin_force_factor`.
     pin_count : array_like
@@ -119,7 +116,6 @@ def cam_load(
 
     Parameters
     ----------
-    frame : Frame
     pitch_radius, eccentricity : array_like
         R and e in m.
     radial_number : array_like

@@ -60,12 +60,10 @@ class SizedDesign:
 
     Attributes
     ----------
-    design : Design
     checks : tuple of Check
         Of the finished design; none fails.
     warnings : tuple of str
         What could not be checked, or is not known, and why.
-    objective : Objective
     """
 
     design: Design
@@ -92,20 +90,14 @@ class SizedDesign:
 
 
 @dataclass(frozen=True)
-class SizingResult:
-    """A gearbox sized for its requirements.
+class SizingResult(SizedDesign):
+    """A gearbox sized for its requirements, and how it was found.
+
+    It meets every check; only a motor's shortfall (where the motor was not asked for) and the
+    reported rules of thumb may warn.
 
     Attributes
     ----------
-    design : Design
-        Meets every check; only a motor's shortfall (where the motor was not asked for) and the
-        reported rules of thumb may warn.
-    checks : tuple of Check
-        Of the design.
-    warnings : tuple of str
-        What of the design could not be checked, or is not known, and why.
-    objective : Objective
-        Of the design.
     alternatives : tuple of SizedDesign
         Up to three other designs, fewer only where several aims lead to one design: the lightest
         of all, and two with more torque reserve, each as light as that allows.
@@ -118,10 +110,6 @@ class SizingResult:
         Wall time; not compared.
     """
 
-    design: Design
-    checks: tuple[Check, ...]
-    warnings: tuple[str, ...]
-    objective: Objective
     alternatives: tuple[SizedDesign, ...]
     candidates_screened: int
     survivors: int

@@ -23,16 +23,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.gearbox import rigid
+from cqdd_design.gearbox.cam_bearing import least_bore
 from cqdd_design.gearbox.checks import allowables
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import ligament_hole_to_hole
 from cqdd_design.sizing import reserves
 from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.bought_parts import BearingTable
+from cqdd_design.sizing.columns import Columns
 from cqdd_design.sizing.frame import Frame
 from cqdd_design.sizing.space import SearchSpace, largest_pitch_radius
 from cqdd_design.sizing.stage_tables import StageTables
 
-FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
 
@@ -55,33 +57,15 @@ class Tally:
 
 
 @dataclass(frozen=True)
-class Rings:
-    """Ring stages, every field (G,), SI."""
+class Rings(shapes.RingSizes):
+    """Ring stages with what the tables say of them, every field (G,), SI."""
 
-    pitch_radius: FloatArray
-    eccentricity: FloatArray
-    tooth_radius: FloatArray
     shortening_row: IntArray
     pressure_number: FloatArray
 
-    def kept(self, keep: BoolArray | IntArray) -> Rings:
-        """The stages selected by a mask or by rows."""
-        return Rings(
-            self.pitch_radius[keep],
-            self.eccentricity[keep],
-            self.tooth_radius[keep],
-            self.shortening_row[keep],
-            self.pressure_number[keep],
-        )
-
-    @property
-    def profile(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """R, e, r."""
-        return self.pitch_radius, self.eccentricity, self.tooth_radius
-
 
 @dataclass(frozen=True)
-class Rows:
+class Rows(Columns):
     """Pairs of a ring stage and a set of output pins, every field (Q,), SI.
 
     `ring` is a row of `Rings`, `count` and `size` are places on the axes of the search space.
@@ -92,16 +76,6 @@ class Rows:
     size: IntArray
     circle: FloatArray
     hole_radius: FloatArray
-
-    def kept(self, keep: BoolArray | IntArray) -> Rows:
-        """The pairs selected by a mask or by rows."""
-        return Rows(
-            self.ring[keep],
-            self.count[keep],
-            self.size[keep],
-            self.circle[keep],
-            self.hole_radius[keep],
-        )
 
 
 @dataclass(frozen=True)
@@ -169,7 +143,7 @@ def screen(frame: Frame, tables: StageTables, space: SearchSpace) -> Screened:
     contact = _ring_contact(frame, rings, space, seats, pairs, tally, pins)
     both = np.sum(_pair_counts(seats, pairs), axis=1, where=contact >= 1.0)
     alive = np.flatnonzero(both)
-    rings, seats, contact, both = rings.kept(alive), seats[alive], contact[alive], both[alive]
+    rings, seats, contact, both = rings.rows(alive), seats[alive], contact[alive], both[alive]
 
     rows = _pin_rows(frame, rings, space, tally, both)
     seat = rows.circle - rows.hole_radius - allowables.LIGAMENT + _SLACK
@@ -177,7 +151,7 @@ def screen(frame: Frame, tables: StageTables, space: SearchSpace) -> Screened:
     allowed = contact[rows.ring] >= 1.0
     tally.after("GEO-LIGAMENT-BORE", _count(fits, pairs, allowed))
     alive = np.flatnonzero(np.sum(_pair_counts(fits, pairs), axis=1, where=allowed))
-    rows, fits, allowed = rows.kept(alive), fits[alive], allowed[alive]
+    rows, fits, allowed = rows.rows(alive), fits[alive], allowed[alive]
 
     reserve = _pin_stresses(frame, rings, rows, space, fits, pairs, allowed, tally)
     np.minimum(reserve, contact[rows.ring], out=reserve)
@@ -231,11 +205,11 @@ def _sound_rings(
         pressure_number=tables.pressure_at(shortening, share),
     )
     keep = np.ones(radius.size, dtype=bool)
-    for check, met in shapes.profile_checks(frame, *rings.profile).items():
+    for check, met in shapes.profile_checks(frame, rings).items():
         keep &= met
         tally.after(check, int(keep.sum()) * candidates)
-    rings = rings.kept(keep)
-    rings = rings.kept(shapes.relief_passes_wire(frame, *rings.profile))
+    rings = rings.rows(keep)
+    rings = rings.rows(shapes.relief_passes_wire(frame, rings))
     tally.after("EDM-RING", rings.eccentricity.size * candidates)
     return rings
 
@@ -249,10 +223,10 @@ def _seats(
     pins: int,
 ) -> BoolArray:
     """Bearings (G, B) that fit the eccentric and leave a rim to the valleys."""
-    seats = bearings.bore >= shapes.least_bore(rings.eccentricity)[:, None] - _SLACK
+    seats = bearings.bore >= least_bore(rings.eccentricity)[:, None] - _SLACK
     per_bearing = pairs.sum(axis=1) * pins
     tally.after("BEARING-CORE", int((seats.sum(axis=0) * per_bearing).sum()))
-    valley = shapes.valley_distance(frame, *rings.profile)
+    valley = shapes.valley_distance(frame, rings)
     seats &= valley[:, None] - 0.5 * bearings.outer >= allowables.LIGAMENT - _SLACK
     tally.after("GEO-LIGAMENT-RIM", int((seats.sum(axis=0) * per_bearing).sum()))
     return np.asarray(seats)
@@ -291,9 +265,7 @@ def _pin_rows(
     hole = 0.5 * width + rings.eccentricity[:, None]
     offset = np.array([shapes.valley_offset(frame, count) for count in space.pin_counts])
     # Axes: ring, pin count, pin size, inset.
-    outermost = shapes.largest_pin_circle(
-        frame, *rings.profile, hole[:, None, :], offset[None, :, None]
-    )
+    outermost = shapes.largest_pin_circle(frame, rings, hole[:, None, :], offset[None, :, None])
     circle = outermost[..., None] - space.inset * rings.pitch_radius[:, None, None, None]
     holes = np.broadcast_to(hole[:, None, :, None], circle.shape)
     keep = circle > holes

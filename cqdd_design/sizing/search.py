@@ -38,8 +38,6 @@ class Search:
     ----------
     evaluator : Evaluator
         Holds the frame and the tables.
-    space : SearchSpace
-    found : Screened
     """
 
     evaluator: Evaluator

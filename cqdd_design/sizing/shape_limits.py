@@ -11,21 +11,21 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.conjugate import SecondEnvelope
+from cqdd_design.geometry.contours import ComplexArray, FloatArray
 from cqdd_design.geometry.trochoid import (
     GeneratedFlank,
     locus_valley_radius,
     shortening_coefficient,
     undercut_radius_limit,
 )
+from cqdd_design.sizing.columns import Columns
 from cqdd_design.sizing.frame import Frame
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 BoolArray = NDArray[np.bool_]
 
 _PROFILE_POINTS = 24
@@ -48,15 +48,27 @@ def valley_offset(frame: Frame, pin_count: int) -> float:
     return float(np.minimum(inside, pitch - inside).min())
 
 
-def _flank(
-    frame: Frame, pitch_radius: FloatArray, throw: FloatArray, tooth: FloatArray, spare: int = 1
-) -> Any:
+@dataclass(frozen=True)
+class RingSizes(Columns):
+    """R, e and r of ring stages, every field (G,), m."""
+
+    pitch_radius: FloatArray
+    eccentricity: FloatArray
+    tooth_radius: FloatArray
+
+    def root_radius(self, frame: Frame) -> FloatArray:
+        """Of a solid ring's relief, R + 2 e - r + clearance, m."""
+        reach = self.pitch_radius + 2.0 * self.eccentricity - self.tooth_radius
+        return np.asarray(reach + frame.relief_clearance)
+
+
+def _flank(frame: Frame, ring: RingSizes, spare: int = 1) -> Any:
     """Generated flank of many discs, designs on the first axis and `spare` more to come."""
     own = (slice(None),) + (None,) * spare
     columns: tuple[Any, ...] = (
-        (pitch_radius - frame.radial)[own],
-        throw[own],
-        (tooth + frame.equidistant)[own],
+        (ring.pitch_radius - frame.radial)[own],
+        ring.eccentricity[own],
+        (ring.tooth_radius + frame.equidistant)[own],
     )
     return GeneratedFlank(frame.lobe_count, *columns)
 
@@ -78,12 +90,7 @@ def _even_parameter(
 
 
 def largest_pin_circle(
-    frame: Frame,
-    pitch_radius: FloatArray,
-    eccentricity: FloatArray,
-    tooth_radius: FloatArray,
-    hole_radius: FloatArray,
-    offset: FloatArray,
+    frame: Frame, ring: RingSizes, hole_radius: FloatArray, offset: FloatArray
 ) -> FloatArray:
     """Largest pin circle whose holes keep the least ligament to the lobed profile.
 
@@ -93,9 +100,7 @@ def largest_pin_circle(
 
     Parameters
     ----------
-    frame : Frame
-    pitch_radius, eccentricity, tooth_radius : array (G,)
-        m.
+    ring : RingSizes (G,)
     hole_radius, offset : array (G, ...)
         m, and angles from `valley_offset` in rad; they broadcast with each other.
 
@@ -104,7 +109,6 @@ def largest_pin_circle(
     array (G, ...)
         m; negative where no hole fits at all.
     """
-    ring = (pitch_radius, eccentricity, tooth_radius)
     clear = hole_radius + allowables.LIGAMENT + SAMPLING_GUARD
     spare = len(np.broadcast_shapes(clear.shape, offset.shape)) - 1
     own = (slice(None),) + (None,) * spare
@@ -117,20 +121,20 @@ def largest_pin_circle(
         return np.where(reach > 0.0, here, np.inf)
 
     places, step = np.linspace(-0.3 * np.pi, 0.9 * np.pi, _PROFILE_POINTS, retstep=True)
-    coarse = _flank(frame, *ring)
+    coarse = _flank(frame, ring)
     profile = coarse.point(_even_parameter(coarse, places, 1.0)[0])
     sampled = np.stack([limits(point[own]) for point in profile.T])
     at = np.clip(sampled.argmin(axis=0), 1, _PROFILE_POINTS - 2)
     shift, _ = _parabola(*(np.take_along_axis(sampled, (at + k)[None], 0)[0] for k in (-1, 0, 1)))
     nearest = places[at] + step * shift
-    flank = _flank(frame, *ring, spare)
+    flank = _flank(frame, ring, spare)
     refined = [
         limits(flank.point(_even_parameter(flank, nearest + k * step, 1.0)[0]))
         for k in (-0.25, 0.0, 0.25)
     ]
     least = np.minimum(_parabola(*refined)[1], sampled.min(axis=0))
     # Without a profile point in reach of the hole the valley circle decides.
-    valley = valley_distance(frame, *ring)[own]
+    valley = valley_distance(frame, ring)[own]
     return np.where(np.isinf(least), valley - clear, least)
 
 
@@ -150,14 +154,6 @@ def _parabola(
     return shift, np.where(inside, middle + 0.5 * slope * shift, least)
 
 
-def ring_wall(
-    frame: Frame, pitch_radius: ArrayLike, eccentricity: ArrayLike, tooth_radius: ArrayLike
-) -> FloatArray:
-    """Wall of a solid ring outside its relief, D/2 - (R + 2 e - r + clearance), m."""
-    R, e, r = (np.asarray(v, dtype=float) for v in (pitch_radius, eccentricity, tooth_radius))
-    return np.asarray(frame.outer_radius - (R + 2.0 * e - r + frame.relief_clearance))
-
-
 def largest_pitch_for_wall(
     frame: Frame, eccentricity: FloatArray, tooth_radius: FloatArray
 ) -> FloatArray:
@@ -166,27 +162,15 @@ def largest_pitch_for_wall(
     return np.asarray(room - 2.0 * eccentricity + tooth_radius)
 
 
-def valley_distance(
-    frame: Frame, pitch_radius: FloatArray, eccentricity: FloatArray, tooth_radius: FloatArray
-) -> FloatArray:
+def valley_distance(frame: Frame, ring: RingSizes) -> FloatArray:
     """Distance of the finished disc's valleys from its centre, m."""
-    R, e, r = pitch_radius - frame.radial, eccentricity, tooth_radius + frame.equidistant
-    return np.asarray(R - e - r)
+    tooth = ring.tooth_radius + frame.equidistant
+    return np.asarray(ring.pitch_radius - frame.radial - ring.eccentricity - tooth)
 
 
-def least_bore(eccentricity: FloatArray) -> FloatArray:
-    """Smallest bearing bore whose eccentrics share the least shaft core, m.
-
-    The array form of :func:`cqdd_design.gearbox.cam_bearing.least_bore`.
-    """
-    return np.asarray(eccentricity / (0.5 - allowables.SHAFT_CORE_SHARE))
-
-
-def profile_checks(
-    frame: Frame, pitch_radius: FloatArray, eccentricity: FloatArray, tooth_radius: FloatArray
-) -> dict[str, BoolArray]:
+def profile_checks(frame: Frame, ring: RingSizes) -> dict[str, BoolArray]:
     """Whether each ring stage (G,) meets the shape checks that depend on it alone, by check."""
-    R, e, r = pitch_radius, eccentricity, tooth_radius
+    R, e, r = ring.pitch_radius, ring.eccentricity, ring.tooth_radius
     n = frame.lobe_count
     k1 = shortening_coefficient(n, R, e)
     slack = 1.0 + 1e-9
@@ -198,22 +182,21 @@ def profile_checks(
         & (r + frame.equidistant < undercut_radius_limit(n, R - frame.radial, e)),
         "GEO-TOOTH-OVERLAP": r
         <= allowables.TOOTH_OVERLAP_SHARE * R * math.sin(math.pi / (n + 1)) * slack,
-        "GEO-RING-WALL": ring_wall(frame, R, e, r) * slack >= allowables.RING_WALL,
+        "GEO-RING-WALL": (frame.outer_radius - ring.root_radius(frame)) * slack
+        >= allowables.RING_WALL,
         "EDM-DISC": concave >= frame.wire_radius,
     }
 
 
-def relief_passes_wire(
-    frame: Frame, pitch_radius: FloatArray, eccentricity: FloatArray, tooth_radius: FloatArray
-) -> BoolArray:
+def relief_passes_wire(frame: Frame, ring: RingSizes) -> BoolArray:
     """Whether a solid ring (G,) has a relief whose fillets the wire can follow.
 
     A fillet between tooth and root circle must clear everything the disc sweeps and leave the
     tooth a neck. Fillets up from the wire's own radius are tried; finer ones would not help.
     """
-    R, e, r = pitch_radius, eccentricity, tooth_radius
+    R, e, r = ring.pitch_radius, ring.eccentricity, ring.tooth_radius
     n, half = frame.lobe_count, math.pi / (frame.lobe_count + 1)
-    root = R + 2.0 * e - r + frame.relief_clearance
+    root = ring.root_radius(frame)
     across = R * math.cos(half)
     groove = (root * root + R * R - 2.0 * root * across - r * r) / (2.0 * (root + r - across))
     least = np.maximum(frame.wire_radius, 0.5 * (root - R - r))
@@ -260,27 +243,12 @@ def _fillet_fits(
     return clear, slim
 
 
-@dataclass(frozen=True)
-class ProfileIntegrals:
-    """Lobed outlines without holes.
+def profile_integrals(frame: Frame, ring: RingSizes) -> tuple[FloatArray, FloatArray]:
+    """Areas (G,), m^2, and polar moments about the centre (G,), m^4, of lobed outlines.
 
-    Attributes
-    ----------
-    area : array (G,)
-        m^2.
-    polar : array (G,)
-        Polar second moment about the disc's centre, m^4.
+    By Green's theorem, without holes; the trapezoidal rule is spectral here.
     """
-
-    area: FloatArray
-    polar: FloatArray
-
-
-def profile_integrals(
-    frame: Frame, pitch_radius: FloatArray, eccentricity: FloatArray, tooth_radius: FloatArray
-) -> ProfileIntegrals:
-    """Areas and polar moments by Green's theorem; the trapezoidal rule is spectral here."""
-    flank = _flank(frame, pitch_radius, eccentricity, tooth_radius)
+    flank = _flank(frame, ring)
     step = 2.0 * np.pi / _AREA_POINTS
     place = np.asarray(step * (np.arange(_AREA_POINTS) + 0.5) - np.pi, dtype=np.float64)
     t, rate = _even_parameter(flank, place, 0.5)
@@ -289,20 +257,15 @@ def profile_integrals(
     speed = flank.locus_speed(t) * (1.0 - flank.tooth_radius * flank.locus_bend(t))
     swept = (point * np.conj(normal)).real * speed * rate * (frame.lobe_count * step)
     squared = point.real**2 + point.imag**2
-    return ProfileIntegrals(
-        area=0.5 * swept.sum(axis=-1), polar=0.25 * (squared * swept).sum(axis=-1)
-    )
+    return 0.5 * swept.sum(axis=-1), 0.25 * (squared * swept).sum(axis=-1)
 
 
-def ring_opening_area(
-    frame: Frame, pitch_radius: FloatArray, eccentricity: FloatArray, tooth_radius: FloatArray
-) -> FloatArray:
+def ring_opening_area(frame: Frame, ring: RingSizes) -> FloatArray:
     """Area inside a solid ring: root circle less n+1 teeth, each a lens of two circles, m^2.
 
     The fillets beside the teeth are left out.
     """
-    R, r = pitch_radius, tooth_radius
-    root = R + 2.0 * eccentricity - r + frame.relief_clearance
+    R, r, root = ring.pitch_radius, ring.tooth_radius, ring.root_radius(frame)
     toward_tooth = np.clip((R * R + r * r - root * root) / (2.0 * R * r), -1.0, 1.0)
     toward_centre = np.clip((R * R + root * root - r * r) / (2.0 * R * root), -1.0, 1.0)
     half_tooth, half_root = np.arccos(toward_tooth), np.arccos(toward_centre)

@@ -34,10 +34,6 @@ def size(
     motor : Motor, optional
         Default the catalogue's row of the motor that the requirements name.
 
-    Returns
-    -------
-    SizingResult
-
     Raises
     ------
     SizingInfeasibleError
@@ -66,10 +62,7 @@ def size(
     refuse_motor(design, frame.motor)
     alternatives = search.alternatives(design, point, most)
     return SizingResult(
-        design=design.design,
-        checks=design.checks,
-        warnings=design.warnings,
-        objective=design.objective,
+        **vars(design),
         alternatives=alternatives,
         candidates_screened=found.screened,
         survivors=found.survivors,

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.gearbox.checks import allowables
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing.frame import THICKNESS_STEP, Frame
 from cqdd_design.sizing.stage_tables import StageTables
 
-FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
 PIN_COUNTS = (4, 5, 6, 8, 10, 12, 14, 16)
@@ -34,7 +34,6 @@ class SearchSpace:
         Nodes of the stage tables: K1, and tooth radius over R sin(pi/(n+1)).
     pitch_scale : array
         Ring pitch radius over the largest that leaves the least ring wall, at most 1.
-    pin_counts : tuple of int
     pin_sizes : array of int
         Rows of ``frame.pin_sizes``.
     inset : array

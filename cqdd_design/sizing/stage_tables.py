@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 from cqdd_design.gearbox import hertz, rigid
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.contours import FloatArray
 
-FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.intp]
 
 _SHORTENING_NODES = 45

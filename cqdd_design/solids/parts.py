@@ -89,9 +89,9 @@ def _disc_parts(design: Design, layout: Layout) -> list[Part]:
 
 def _disc_part(design: Design, layout: Layout, group: DiscGroup, *, alone: bool) -> Part:
     pack, thickness = layout.pack, layout.pack.disc_thickness
-    bore, pin_diameter = pack.cam.bearing.outer_diameter, layout.carrier.pin.mean_diameter
+    bore = pack.cam.bearing.outer_diameter
     drawn = group.placements[0].disc
-    contour = disc_contour(design, drawn, bore_diameter=bore, pin_mean_diameter=pin_diameter)
+    contour = disc_contour(design, drawn, bore_diameter=bore)
     instances = []
     for one in group.placements:
         z = pack.disc_bottom(one.disc) + (thickness if one.turned_over else 0.0)
@@ -105,9 +105,7 @@ def _disc_part(design: Design, layout: Layout, group: DiscGroup, *, alone: bool)
         "make",
         f"wire EDM, {thickness * 1e3:g} mm plate",
         tuple(instances),
-        exact_section=disc_moments(
-            design, drawn, bore_diameter=bore, pin_mean_diameter=pin_diameter
-        ),
+        exact_section=disc_moments(design, drawn, bore_diameter=bore),
         fitted_section=contour.moments(),
     )
 

@@ -53,11 +53,7 @@ def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
     """
     pin = output_pin(design.reducer.output_pins.diameter)
     _refuse_small_sleeve(design)
-    validate_geometry(
-        design,
-        bore_diameter=cam_bearing.outer_diameter,
-        pin_mean_diameter=pin.mean_diameter,
-    )
+    validate_geometry(design, bore_diameter=cam_bearing.outer_diameter)
     unit = millimetre_unit(design.reducer.ring.outer_diameter)
     pack = _pack(design, cam_bearing, unit)
     _refuse_wide_cam(design, cam_bearing)

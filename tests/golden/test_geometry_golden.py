@@ -15,21 +15,22 @@ from pathlib import Path
 import pytest
 
 from cqdd_design.design import Design
-from cqdd_design.geometry import (
-    CycloidDisc,
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.disc import (
     disc_moments,
     hole_diameter,
     ligaments,
     profile_moments,
     profile_perimeter,
+)
+from cqdd_design.geometry.ring import (
     ring_min_concave_radius,
     ring_moments,
     ring_root_radius,
-    ring_wall_thickness,
 )
 
 FILE = Path(__file__).with_suffix(".json")
-BORE, PIN = 0.024, 0.003975
+BORE = 0.024
 PAPER = {
     "ratio": 10,
     "ring_pitch_radius": "32 mm",
@@ -59,9 +60,8 @@ def measure(reducer: dict[str, object]) -> dict[str, float]:
     """Return the numbers of one design, in millimetres and powers of it."""
     design = Design.from_mapping({"reducer": reducer})
     disc = CycloidDisc.from_design(design)
-    sizes = {"bore_diameter": BORE, "pin_mean_diameter": PIN}
-    part = disc_moments(design, 1, **sizes)
-    thin = ligaments(design, **sizes)
+    part = disc_moments(design, 1, bore_diameter=BORE)
+    thin = ligaments(design, bore_diameter=BORE)
     return {
         "shortening_coefficient": disc.shortening_coefficient,
         "undercut_radius_limit_mm": 1e3 * disc.undercut_radius_limit,
@@ -72,10 +72,11 @@ def measure(reducer: dict[str, object]) -> dict[str, float]:
         "disc_profile_perimeter_mm": 1e3 * profile_perimeter(disc),
         "disc_area_mm2": 1e6 * part.area,
         "disc_polar_mm4": 1e12 * part.polar,
-        "hole_diameter_mm": 1e3 * hole_diameter(design, PIN),
+        "hole_diameter_mm": 1e3 * hole_diameter(design),
         "thinnest_ligament_mm": 1e3 * thin[0].thickness,
         "ring_root_radius_mm": 1e3 * ring_root_radius(design),
-        "ring_wall_thickness_mm": 1e3 * ring_wall_thickness(design),
+        "ring_wall_thickness_mm": 1e3
+        * (design.reducer.ring.outer_diameter / 2.0 - ring_root_radius(design)),
         "ring_min_concave_radius_mm": 1e3 * ring_min_concave_radius(design),
         "ring_area_mm2": 1e6 * ring_moments(design).area,
         "ring_polar_mm4": 1e12 * ring_moments(design).polar,

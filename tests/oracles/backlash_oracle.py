@@ -13,7 +13,8 @@ import numpy as np
 from contact_oracle import Faults
 from scipy import optimize
 
-from cqdd_design.geometry import CycloidDisc, project
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.meshing import project
 
 UNIT = np.array([1.0, 1j])
 MICRON = 1e-6

@@ -8,7 +8,8 @@ from hypothesis import reject
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
-from cqdd_design.gearbox.contact.sweep import ContactSweep, contact_sweep
+from cqdd_design.gearbox.contact.solved import ContactSweep
+from cqdd_design.gearbox.contact.sweep import contact_sweep
 from cqdd_design.geometry import kinematics
 
 BALANCE = 1e-9

@@ -15,7 +15,7 @@ from cqdd_design.catalog.bearings import bearings
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
-from cqdd_design.geometry import undercut_radius_limit
+from cqdd_design.geometry.trochoid import undercut_radius_limit
 
 PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 PIN_DIAMETERS = (2e-3, 3e-3, 4e-3, 5e-3, 6e-3, 8e-3, 10e-3)
@@ -177,7 +177,7 @@ def machine_of(model: ContactModel, errors: GearboxErrors | None = None) -> Mach
         load = 50.0 * 1e3 * b
         return linear(load**0.1 / (3.84e-8 / (1e3 * b) ** 0.8 * softness), series)
 
-    between = 1.0 / (1.0 / model.pin_radius - 1.0 / model.hole_radius)
+    between = 1.0 / (1.0 / model.pin_contact_radius - 1.0 / model.hole_radius)
     return Machine(
         disc=model.disc,
         disc_count=model.disc_count,
@@ -185,7 +185,7 @@ def machine_of(model: ContactModel, errors: GearboxErrors | None = None) -> Mach
         pin_circle_radius=model.pin_circle_radius,
         clocking=model.hole_clocking,
         hole_radius=model.hole_radius,
-        pin_radius=model.pin_radius,
+        pin_radius=model.pin_contact_radius,
         ring_spring=lambda radius: spring(model.ring_law.model, model.ring_bodies, radius, 0.0),
         pin_springs=tuple(
             spring(model.pin_law.model, model.pin_bodies, np.asarray(between), float(c))
@@ -217,7 +217,7 @@ def rigid_of(model: ContactModel, errors: GearboxErrors | None = None) -> Rigid:
         pin_circle_radius=model.pin_circle_radius,
         clocking=model.hole_clocking,
         hole_radius=model.hole_radius,
-        pin_radius=model.pin_radius,
+        pin_radius=model.pin_contact_radius,
         cam_play=model.cam.play,
         faults=faults_of(errors),
     )

@@ -15,7 +15,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy import optimize
 
-from cqdd_design.geometry import CycloidDisc, project
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.meshing import project
 
 Law = Callable[[np.ndarray], np.ndarray]
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from cqdd_design.catalog.bearings import Bearing, bearings
 from cqdd_design.design import Design, load_design
-from cqdd_design.geometry.cycloid import undercut_radius_limit
+from cqdd_design.geometry.trochoid import undercut_radius_limit
 from cqdd_design.machine import resolve
 from cqdd_design.solids.part import Part
 

@@ -25,11 +25,8 @@ from cqdd_design.gearbox.contact.laws import CamSpring, LineLaw
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.pin_compliance import pin_compliance
-from cqdd_design.gearbox.contact.sweep import (
-    ContactSweep,
-    contact_sweep,
-    perfect_angles,
-)
+from cqdd_design.gearbox.contact.solved import ContactSweep
+from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.geometry import kinematics
 
 SEEDS = st.integers(0, 2**32 - 1)
@@ -42,7 +39,7 @@ def ideal(model: ContactModel, cam_stiffness: float = 1e17) -> ContactModel:
     return replace(
         model,
         disc=model.disc.unmodified,
-        hole_radius=model.pin_radius + model.eccentricity,
+        hole_radius=model.pin_contact_radius + model.eccentricity,
         ring_law=LINEAR,
         pin_law=LINEAR,
         pin_series=np.zeros(model.disc_count),
@@ -96,7 +93,8 @@ def test_discs_of_an_ideal_stack_share_by_their_stiffness() -> None:
     stiff = []
     for phase in model.phases:
         own = angle + phase
-        arms = rigid.ring_lever_arms(n, model.disc.ring_pitch_radius, model.eccentricity, own)
+        k1 = model.disc.shortening_coefficient
+        arms = n * model.eccentricity * rigid.ring_directions(n, k1, own)[1]
         beta = kinematics.output_pin_angles(n, 5, model.hole_clocking + phase / n, own)
         pins = model.pin_circle_radius * np.sin(own[:, None] - beta)
         ring_side = (np.minimum(arms, 0.0) ** 2).sum(axis=1)
@@ -132,7 +130,10 @@ def test_linear_springs_scale_with_all_lengths(
         ),
         pin_circle_radius=factor * model.pin_circle_radius,
         hole_radius=factor * model.hole_radius,
-        pin_radius=factor * model.pin_radius,
+        pin_contact_radius=factor * model.pin_contact_radius,
+        ring_pitch_radius=factor * model.ring_pitch_radius,
+        eccentricity=factor * model.eccentricity,
+        tooth_radius=factor * model.tooth_radius,
         cam=CamSpring(1e8, 1.0, factor * model.cam.play),
     )
     angle = some_angles(seed, model, 3)
@@ -218,13 +219,13 @@ def test_more_torque_turns_the_carrier_further(design: Design, faulty: bool, see
 # ------------------------------------------------------------------ part errors
 
 
-FIELDS = tuple(GearboxErrors.__dataclass_fields__)
+FIELDS = GearboxErrors._fields
 
 
 def only(model: ContactModel, errors: GearboxErrors, name: str, factor: float) -> GearboxErrors:
     """The errors with everything but one field taken away, times a factor."""
     none = GearboxErrors.none(model, errors.disc_profile.shape[-1])
-    return replace(none, **{name: factor * getattr(errors, name)})
+    return none._replace(**{name: factor * getattr(errors, name)})
 
 
 def work_rate(sweep: ContactSweep, errors: GearboxErrors) -> float:
@@ -277,7 +278,7 @@ def test_every_part_error_does_its_work(
     model = ContactModel.from_design(design)
     torque, angle = sense * usual_torque(model), np.array([crank])
     errors = random_errors(model, np.random.default_rng(seed), 2e-6)
-    errors = replace(errors, cam_play=np.abs(errors.cam_play))
+    errors = errors._replace(cam_play=np.abs(errors.cam_play))
     base = swept(model, torque, angle)
     # The work of two microns at the greatest force: what a wrong sign would be out by.
     scale = 2e-6 * max(base.ring_force.max(), base.pin_force.max())
@@ -311,7 +312,7 @@ def test_part_errors_of_the_papers_gearbox_act_as_a_machinist_expects() -> None:
     def run(name: str, at: tuple[int, ...], value: object) -> ContactSweep:
         changed = getattr(none, name).copy()
         changed[at] = value
-        return contact_sweep(model, 40.0, angle, errors=replace(none, **{name: changed}))
+        return contact_sweep(model, 40.0, angle, errors=none._replace(**{name: changed}))
 
     tooth, pin = base.ring_force[0, d, i], base.pin_force[0, p, j]
     toward = 2e-6 * base.ring_normal[0, d, i]
@@ -344,11 +345,11 @@ def test_errors_of_no_size_are_no_errors(design: Design, crank: float, seed: int
     assert np.array_equal(perfect.ring_force, none.ring_force)
     # A change of all parts alike is a change of the design.
     errors = GearboxErrors.none(model)
-    grown = replace(errors, pin_radius=errors.pin_radius + 2e-6)
+    grown = errors._replace(pin_radius=errors.pin_radius + 2e-6)
     by_error = swept(model, torque, angle, grown)
     by_design = swept(replace(model, hole_radius=model.hole_radius - 2e-6), torque, angle)
     assert np.abs(by_error.pin_force - by_design.pin_force).max() < 1e-4 * perfect.pin_force.max()
-    played = replace(errors, cam_play=errors.cam_play + 4e-6)
+    played = errors._replace(cam_play=errors.cam_play + 4e-6)
     looser = replace(model, cam=replace(model.cam, play=model.cam.play + 4e-6))
     one, two = swept(model, torque, angle, played), swept(looser, torque, angle)
     assert np.abs(one.ring_force - two.ring_force).max() < 1e-7 * perfect.ring_force.max()
@@ -368,8 +369,7 @@ def test_moving_the_whole_ring_moves_the_whole_mechanism(design: Design, seed: i
     u = np.stack([np.cos(own), np.sin(own)], axis=-1)
     v = np.stack([-u[:, 1], u[:, 0]], axis=-1)
     back = np.exp(1j * angle[0] / model.lobe_count) * complex(*shift)
-    together = replace(
-        errors,
+    together = errors._replace(
         tooth_position=errors.tooth_position + shift,
         cam_centre=np.stack([u @ shift, v @ shift], axis=-1),
         pin_position=errors.pin_position + np.array([back.real, back.imag]),

@@ -87,7 +87,7 @@ def test_energy_slope_is_the_derivative(validated: Callable[..., None]) -> None:
 
 def _rigid_limit(model: ContactModel) -> ContactModel:
     """The same gearbox on equal linear springs, without clearance, on rigid bearings."""
-    pins_touch = model.pin_radius + model.eccentricity
+    pins_touch = model.pin_contact_radius + model.eccentricity
     return replace(
         model,
         disc=replace(model.disc, equidistant=0.0),
@@ -199,7 +199,7 @@ def test_friction_of_the_ring(validated: Callable[..., None]) -> None:
         / (math.pi * model.lobe_count * model.eccentricity)
     )
     # Loss torque over output torque; the closed form takes sums over teeth as integrals.
-    found = losses.ring_teeth / (40.0 * 100.0 / model.lobe_count)
+    found = losses.by_source["ring_teeth"] / (40.0 * 100.0 / model.lobe_count)
     validated(
         "power lost at the teeth in the rigid limit, relative",
         "4 μ (R - r)/(π n e)",

@@ -19,14 +19,14 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.catalog import find_bearing
+from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, GeometryError, ReadBackError, UsageError
 from cqdd_design.exporting import KINDS, read_kinds
 from cqdd_design.exporting.edm import dxf, flat_parts
 from cqdd_design.exporting.edm.start_holes import start_holes
-from cqdd_design.gearbox.stages import pin_mean_diameter
-from cqdd_design.geometry import CycloidDisc, lobed_outline
-from cqdd_design.geometry.disc import hole_centres
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.disc import hole_centres, lobed_outline
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
 from cqdd_design.solids.clocking import disc_groups
@@ -163,7 +163,8 @@ def test_programs_of_a_stack(paper, clocking, count, discs_, programs):
 @pytest.mark.parametrize("diameter", ["4 mm", "5 mm", "2 mm", "7.3 mm"])
 def test_holes_are_made_for_the_pins_that_the_loads_are_computed_with(paper, diameter):
     design = paper.replacing({"reducer.output_pins.diameter": diameter})
-    assert flat_parts.pin_diameter(design) == pytest.approx(pin_mean_diameter(design), abs=1e-12)
+    mean = mean_pin_diameter(design.reducer.output_pins.diameter)
+    assert flat_parts.pin_diameter(design) == pytest.approx(mean, abs=1e-12)
 
 
 def test_an_automatic_bearing_is_that_of_the_checks(paper):

@@ -12,7 +12,7 @@ import pytest
 from cqdd_design.design import load_design
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.sheets.svg import front_view, part_view, path_data
-from cqdd_design.geometry import ArcContour, Circle
+from cqdd_design.geometry.contours import ArcContour, Circle
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
 

@@ -27,8 +27,8 @@ from cqdd_design.exporting.edm.wire_path import (
     split_for_tab,
     wire_paths,
 )
-from cqdd_design.geometry import ArcContour, CycloidDisc
-from cqdd_design.geometry.contours import Circle, as_complex
+from cqdd_design.geometry.contours import ArcContour, Circle, as_complex
+from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
 
@@ -81,7 +81,7 @@ def test_any_path_keeps_its_distance_and_does_not_cross(disc, ring_type, wire):
             assert np.abs(away - offset).max() < 1e-10
             assert _crossings(path.contour) == 0
             # On the waste side: outside the outer contour, inside the inner ones.
-            assert (path.contour.area() > segmented(contour).area()) == path.outer
+            assert (path.contour.moments().area > segmented(contour).moments().area) == path.outer
             lead = path.start - path.joint
             _, slopes = path.contour.evaluate(np.zeros(1))
             slope = complex(*slopes[0, 0])

@@ -29,7 +29,7 @@ from cqdd_design.gearbox.balance import paper_disc_count, stack_balance
 from cqdd_design.gearbox.bearing_life import basic_rating_life_hours, load_for_life
 from cqdd_design.gearbox.cam_bearing import choose
 from cqdd_design.gearbox.checks import allowables
-from cqdd_design.geometry import CycloidDisc
+from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.machine import resolve
 from cqdd_design.results import Check, MassProperties, worst_status
 
@@ -82,7 +82,7 @@ def test_limits_are_those_of_the_table() -> None:
     assert [mpa(allowables.contact_limit_fatigue(m)) for m in (steel, hard)] == [944, 1081]
     assert mpa(allowables.contact_limit_static(bearing_steel)) == 2500
     assert mpa(allowables.contact_limit_fatigue(bearing_steel)) == 1500
-    peak = [allowables.pin_bending_limit_peak(m) for m in (screw, stainless)]
+    peak = [allowables.pin_limit_peak(m) for m in (screw, stainless)]
     shear = [allowables.pin_shear_limit_peak(m) for m in (screw, stainless)]
     fatigue = [
         allowables.pin_bending_limit_continuous(m, duty_reverses=False) for m in (screw, stainless)
@@ -118,7 +118,7 @@ def test_every_material_has_a_stated_basis(name: str) -> None:
     limits = (
         allowables.contact_limit_static(material),
         allowables.contact_limit_fatigue(material),
-        allowables.pin_bending_limit_peak(material),
+        allowables.pin_limit_peak(material),
         allowables.pin_bending_limit_continuous(material, duty_reverses=False),
     )
     for allowed in limits:

@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.errors import GeometryError
-from cqdd_design.geometry import ArcContour, Circle, PlanarPart, lobed_outline
+from cqdd_design.geometry.contours import ArcContour, Circle, PlanarPart
+from cqdd_design.geometry.disc import lobed_outline
 
 
 def _slot(length: float, radius: float) -> ArcContour:
@@ -56,17 +57,19 @@ def test_moments_follow_a_moved_contour_and_a_fine_polygon(
 ) -> None:
     outline = lobed_outline(disc, 1e-6)
     moved = outline.transformed(rotation, (shift, -shift / 2.0), mirror)
-    assert moved.area() == pytest.approx(outline.area(), rel=1e-12)
+    assert moved.moments().area == pytest.approx(outline.moments().area, rel=1e-12)
     assert moved.length() == pytest.approx(outline.length(), rel=1e-12)
     assert moved.moments().about_centroid().polar == pytest.approx(
         outline.moments().about_centroid().polar, rel=1e-9
     )
-    scale = outline.area() * 0.2**2
+    scale = outline.moments().area * 0.2**2
     found = moved.moments()
     values = (found.area, found.x, found.y, found.xx, found.yy, found.xy)
     for value, polygon in zip(values, _polygon_moments(moved.sample(1e-8)), strict=True):
         assert value == pytest.approx(polygon, rel=2e-5, abs=2e-5 * scale)
-    assert outline.scaled(1e3).area() == pytest.approx(1e6 * outline.area(), rel=1e-12)
+    assert outline.scaled(1e3).moments().area == pytest.approx(
+        1e6 * outline.moments().area, rel=1e-12
+    )
 
 
 @given(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0), st.floats(0.1, 2.0))
@@ -82,7 +85,7 @@ def test_circle_agrees_with_two_half_circles(x: float, y: float, radius: float) 
     assert circle.length() == pytest.approx(halves.length())
     sample = circle.sample(1e-3 * radius)
     assert np.abs(np.linalg.norm(sample - circle.centre, axis=1) - radius).max() < 1e-12
-    assert circle.scaled(2.0).area() == pytest.approx(4.0 * circle.area())
+    assert circle.scaled(2.0).moments().area == pytest.approx(4.0 * circle.moments().area)
 
 
 def test_sample_keeps_its_tolerance_and_every_joint() -> None:
@@ -128,9 +131,9 @@ def test_part_takes_its_holes_away() -> None:
     part = PlanarPart(
         "plate", _slot(0.04, 0.02), (Circle(np.array([0.02, 0.0]), 0.01), _slot(0.01, 0.002))
     )
-    area = _slot(0.04, 0.02).area() - math.pi * 1e-4 - _slot(0.01, 0.002).area()
-    assert part.area() == pytest.approx(area)
-    assert part.centroid()[0] == pytest.approx(-0.02 * math.pi * 1e-4 / area)
+    area = _slot(0.04, 0.02).moments().area - math.pi * 1e-4 - _slot(0.01, 0.002).moments().area
+    assert part.moments().area == pytest.approx(area)
+    assert part.moments().centroid[0] == pytest.approx(-0.02 * math.pi * 1e-4 / area)
     moved = part.transformed(1.0, (0.3, -0.2))
     own, turned = part.moments().about_centroid(), moved.moments().about_centroid()
     assert turned.polar == pytest.approx(own.polar)
@@ -164,6 +167,6 @@ def test_contours_are_immutable_and_leave_their_input_alone() -> None:
     points = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     contour = ArcContour(points, np.zeros(3))
     points[0] = 5.0
-    assert contour.area() == pytest.approx(0.5)
+    assert contour.moments().area == pytest.approx(0.5)
     with pytest.raises(ValueError, match="read-only"):
         contour.points[0] = 1.0

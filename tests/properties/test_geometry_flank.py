@@ -7,11 +7,12 @@ import math
 import numpy as np
 import pytest
 from examples import examples
-from geometry_designs import CYCLOIDGEN, PAPER, discs
+from geometry_designs import CYCLOIDGEN, PAPER, discs, tooth_gaps
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cqdd_design.geometry import CycloidDisc, locus_curvature, tooth_gaps, undercut_radius_limit
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.trochoid import locus_curvature, undercut_radius_limit
 
 EXACT = 1e-12
 UNIT = np.array([1.0, 1j])
@@ -138,7 +139,7 @@ def test_full_revolution_meshes_and_wrong_lobe_counts_jam(
 
 
 def _worst_interference(disc: CycloidDisc, n: int, phi: np.ndarray) -> float:
-    from cqdd_design.geometry import project
+    from cqdd_design.geometry.meshing import project
 
     teeth = disc.ring_pitch_radius * np.exp(2j * math.pi * np.arange(n + 1) / (n + 1))
     moved = (teeth - disc.eccentricity * np.exp(1j * phi[:, None])) * np.exp(1j * phi[:, None] / n)

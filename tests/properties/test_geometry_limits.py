@@ -8,25 +8,20 @@ from typing import Any
 
 import pytest
 from examples import examples
-from geometry_designs import PAPER, design_of, discs, joint_angles
+from geometry_designs import PAPER, design_of, discs, joint_angles, tooth_gaps
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError, GeometryError
-from cqdd_design.geometry import (
-    CycloidDisc,
-    disc_contour,
-    largest_eccentricity,
-    lobed_outline,
-    ring_contour,
-    smallest_pitch_radius,
-    tooth_gaps,
-    undercut_radius_limit,
-    validate_geometry,
-)
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.disc import disc_contour, lobed_outline
+from cqdd_design.geometry.limits import largest_eccentricity, smallest_pitch_radius
+from cqdd_design.geometry.ring import ring_contour
+from cqdd_design.geometry.trochoid import undercut_radius_limit
+from cqdd_design.geometry.validate import validate_geometry
 
-BORE, PIN = 0.028, 0.003975
+BORE = 0.028
 
 
 def _numbers(message: str, before: str) -> float:
@@ -111,8 +106,8 @@ def _paper(**pins: object) -> Design:
     return design_of(PAPER, output_pins={"count": 5, "diameter": 0.004, **pins})
 
 
-def _validate(design: Design, bore: float = BORE, pin: float = PIN) -> None:
-    validate_geometry(design, bore_diameter=bore, pin_mean_diameter=pin)
+def _validate(design: Design, bore: float = BORE) -> None:
+    validate_geometry(design, bore_diameter=bore)
 
 
 def test_the_paper_design_is_possible() -> None:
@@ -148,7 +143,13 @@ def test_no_room_for_holes_at_all() -> None:
     with pytest.raises(GeometryError, match=r"cuts through the valleys.*below 53.7 mm"):
         _validate(_paper(circle_radius=0.0195), bore=0.062)
     with pytest.raises(GeometryError, match="leaves no output hole"):
-        _validate(_paper(circle_radius=0.0195, hole_clearance=-1e-4), pin=-0.0040)
+        _validate(
+            design_of(
+                CycloidDisc(10, 0.032, 2e-5, 0.0035),
+                ring_type="conjugate",
+                output_pins={"sleeve_diameter": 1e-5, "hole_clearance": -1e-4},
+            )
+        )
 
 
 @settings(max_examples=examples(150), deadline=None)
@@ -201,6 +202,7 @@ def test_anything_the_design_file_allows_works_or_is_refused_as_geometry(
                     "ring": {"outer_diameter": outer, "relief_clearance": clearance},
                     "output_pins": {
                         "count": count,
+                        "diameter": 0.002,
                         "circle_radius": min(circle, 0.7 * pitch) if pitch > 0.0015 else circle,
                     },
                 }
@@ -210,7 +212,7 @@ def test_anything_the_design_file_allows_works_or_is_refused_as_geometry(
     except DesignError:
         return
     try:
-        validate_geometry(design, bore_diameter=bore, pin_mean_diameter=0.002)
+        validate_geometry(design, bore_diameter=bore)
     except GeometryError as error:
         refusal = str(error)
     else:
@@ -220,9 +222,9 @@ def test_anything_the_design_file_allows_works_or_is_refused_as_geometry(
         assert "nan" not in refusal
         return
     disc = CycloidDisc.from_design(design)
-    part = disc_contour(design, 0, bore_diameter=bore, pin_mean_diameter=0.002, tolerance=1e-6)
-    assert part.area() > 0.0
-    assert ring_contour(design).area() > 0.0
+    part = disc_contour(design, 0, bore_diameter=bore, tolerance=1e-6)
+    assert part.moments().area > 0.0
+    assert ring_contour(design).moments().area > 0.0
     assert abs(joint_angles(lobed_outline(disc, 1e-6))).max() < 1e-6
     if equidistant >= 0.0 and radial >= 0.0:
         assert tooth_gaps(disc, 0.3).gap.min() > -1e-9

@@ -8,12 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from examples import examples
-from geometry_designs import PAPER, discs
+from geometry_designs import PAPER, discs, tooth_gaps
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.errors import GeometryError
-from cqdd_design.geometry import CycloidDisc, project, tooth_gaps
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.meshing import project
 
 PHI = np.linspace(0.0, 2.0 * math.pi, 61)
 UNIT = np.array([1.0, 1j])

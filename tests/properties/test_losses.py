@@ -17,6 +17,7 @@ from examples import examples
 from geometry_designs import discs
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from lone_disc import lone_disc
 from solids_designs import machines
 
 from cqdd_design.design import Design, load_design
@@ -24,7 +25,9 @@ from cqdd_design.errors import UsageError
 from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.contact.laws import CamSpring
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.sweep import ContactSweep, contact_sweep, perfect_angles
+from cqdd_design.gearbox.contact.solved import ContactSweep
+from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.gearbox.disc_forces import DiscForces, disc_forces
 from cqdd_design.gearbox.losses import LossModel
 from cqdd_design.gearbox.losses.backdrive import balance_torque
 from cqdd_design.gearbox.losses.lubricant import find_lubricant
@@ -33,7 +36,8 @@ from cqdd_design.gearbox.losses.rolling import drag_torque
 from cqdd_design.gearbox.losses.shaft import equivalent_load, support_reactions
 from cqdd_design.gearbox.losses.sliding import friction_work, pin_sliding, ring_sliding
 from cqdd_design.gearbox.stages import Stages
-from cqdd_design.geometry import CycloidDisc, kinematics
+from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.machine import resolve
 
 PAPER = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
@@ -67,44 +71,24 @@ class RigidForces:
 
 
 def rigid_forces(stages: Stages, torque: float, count: int = 64) -> RigidForces:
-    n, share = stages.lobe_count, torque / stages.disc_count
-    angle = kinematics.mesh_period(n, stages.pin_count) / count * np.arange(count)
-    ring, pins, centre = [], [], []
-    for phase in stages.phases:
-        own = angle + phase
-        ring.append(
-            rigid.ring_stage(
-                n, stages.ring_pitch_radius, stages.eccentricity, stages.tooth_radius, share, own
-            )
-        )
-        pins.append(
-            rigid.output_stage(
-                n,
-                stages.pin_count,
-                stages.pin_circle_radius,
-                stages.pin_contact_radius,
-                share,
-                own,
-                stages.disc_clocking(float(phase)),
-            )
-        )
-        centre.append(kinematics.disc_centre(stages.eccentricity, own))
-    force = np.stack([r.force for r in ring], axis=1)
-    normal = np.stack([r.normal for r in ring], axis=1)
-    pin_force = np.stack([p.force for p in pins], axis=1)
+    angle = kinematics.mesh_period(stages.lobe_count, stages.pin_count) / count * np.arange(count)
+    found = [disc_forces(stages, torque, angle, disc) for disc in range(stages.disc_count)]
+    force = np.stack([one.ring_force for one in found], axis=1)
+    normal = np.stack([one.ring_normal for one in found], axis=1)
+    pin_force = np.stack([one.pin_force for one in found], axis=1)
     pin_normal = np.stack(
-        [np.repeat(p.normal[:, None], stages.pin_count, axis=1) for p in pins], axis=1
+        [np.repeat(one.pin_direction[:, None], stages.pin_count, axis=1) for one in found], axis=1
     )
     total = (force[..., None] * normal).sum(axis=2) + (pin_force[..., None] * pin_normal).sum(2)
     return RigidForces(
         torque=torque,
         ring_force=force,
-        ring_point=np.stack([r.point for r in ring], axis=1),
+        ring_point=np.stack([one.ring_point for one in found], axis=1),
         ring_normal=normal,
         pin_force=pin_force,
         pin_normal=pin_normal,
         cam_force=-total,
-        disc_centre=np.stack(centre, axis=1),
+        disc_centre=np.stack([one.centre for one in found], axis=1),
     )
 
 
@@ -121,8 +105,8 @@ def turned(angle: np.ndarray | float, points: np.ndarray) -> np.ndarray:
 @settings(max_examples=examples(40), deadline=None)
 def test_sliding_at_teeth_is_the_speed_of_the_discs_material(disc: CycloidDisc, phi: float) -> None:
     n, R, e = disc.lobe_count, disc.ring_pitch_radius, disc.eccentricity
-    stage = rigid.ring_stage(n, R, e, disc.tooth_radius, 1.0, [phi])
-    point, normal = stage.point[0], stage.normal[0]
+    stage = lone_disc(n, R, e, disc.tooth_radius, 1.0, [phi])
+    point, normal = stage.ring_point[0], stage.ring_normal[0]
     # The disc's material that touches at phi, carried along with the disc.
     own = turned(phi / n, point - kinematics.disc_centre(e, phi))
 
@@ -183,19 +167,19 @@ def test_work_at_teeth_equals_the_integral_of_path_differences(
     period = kinematics.ring_period(n)
     phi = period / 600 * (np.arange(600) + 0.5)
 
-    def ring(angle: np.ndarray) -> rigid.RingStage:
-        return rigid.ring_stage(n, R, e, r, torque, angle)
+    def ring(angle: np.ndarray) -> DiscForces:
+        return lone_disc(n, R, e, r, torque, angle)
 
     now, after, before = ring(phi), ring(phi + STEP), ring(phi - STEP)
-    along_tooth = (after.point - before.point) / (2.0 * STEP)
-    t = now.flank_parameter
+    along_tooth = (after.ring_point - before.ring_point) / (2.0 * STEP)
+    t = rigid.ring_flank_parameters(n, phi)
     along_flank = (disc.flank(t + STEP / n) - disc.flank(t - STEP / n)) / (2.0 * STEP)
     along_flank = turned(-phi[:, None] / n, along_flank)
     slip = np.linalg.norm(along_tooth - along_flank, axis=-1)
-    integral = float((0.08 * now.force * slip).sum(axis=-1).mean())
+    integral = float((0.08 * now.ring_force * slip).sum(axis=-1).mean())
     pitch = kinematics.pitch_point(n, e, phi)[:, None]
-    path = ring_sliding(n, now.point, now.normal, pitch)
-    ours = float(friction_work(0.08, now.force, path).mean())
+    path = ring_sliding(n, now.ring_point, now.ring_normal, pitch)
+    ours = float(friction_work(0.08, now.ring_force, path).mean())
     assert ours == pytest.approx(integral, rel=1e-6)
 
 
@@ -532,12 +516,16 @@ def test_losses_from_existing_sweeps() -> None:
     assert found.torque == 40.0
     assert found.total == pytest.approx(model_of().at(SPEED, 40.0).total, rel=3e-3)
     half = from_sweeps(paper_sweep(40.0)).at(SPEED, 20.0)
-    assert half.ring_teeth == pytest.approx(0.5 * found.ring_teeth, rel=1e-12)
+    assert half.by_source["ring_teeth"] == pytest.approx(
+        0.5 * found.by_source["ring_teeth"], rel=1e-12
+    )
     beyond = from_sweeps(paper_sweep(40.0)).at(SPEED, 80.0)
-    assert beyond.output_pins == pytest.approx(2.0 * found.output_pins, rel=1e-12)
+    assert beyond.by_source["output_pins"] == pytest.approx(
+        2.0 * found.by_source["output_pins"], rel=1e-12
+    )
     lone = from_sweeps(contact_sweep(ContactModel.from_design(PAPER), 0.0)).at(SPEED, 0.0)
     assert lone.efficiency_forward is None
-    assert lone.ring_teeth == 0.0 < lone.total
+    assert lone.by_source["ring_teeth"] == 0.0 < lone.total
 
 
 @pytest.mark.parametrize(
@@ -629,7 +617,7 @@ def test_random_machines_have_sound_losses(machine: tuple[Design, object], torqu
     reducer = design.reducer
     closed = 4.0 * reducer.friction.tooth * (reducer.ring_pitch_radius - friction_radius(design))
     closed *= torque / (math.pi * reducer.ratio * reducer.eccentricity)
-    assert reducer.ratio * found.ring_teeth / 100.0 == pytest.approx(closed, rel=0.02)
+    assert reducer.ratio * found.by_source["ring_teeth"] / 100.0 == pytest.approx(closed, rel=0.02)
     assert (found.efficiency_backward or 0.0) <= (found.efficiency_forward or 0.0)
 
 

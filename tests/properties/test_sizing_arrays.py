@@ -14,16 +14,13 @@ from cqdd_design.catalog.screws import pin_diameter_limits
 from cqdd_design.design import Requirements
 from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox.loads import rigid_maxima
-from cqdd_design.gearbox.stages import Stages, pin_mean_diameter
-from cqdd_design.geometry import (
-    CycloidDisc,
-    disc_moments,
-    profile_moments,
-    project,
-    ring_moments,
-    undercut_radius_limit,
-)
+from cqdd_design.gearbox.stages import Stages
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.disc import disc_moments, profile_moments
+from cqdd_design.geometry.meshing import project
 from cqdd_design.geometry.relief import solid_relief
+from cqdd_design.geometry.ring import ring_moments
+from cqdd_design.geometry.trochoid import undercut_radius_limit
 from cqdd_design.machine import resolve
 from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.bought_parts import bearing_table
@@ -88,9 +85,8 @@ def test_the_pin_circle_leaves_the_least_ligament_exactly(stage, pins, play):
     hole = e + play
     frame = search_frame(Requirements(ratio=n))
     offset = shapes.valley_offset(frame, pins)
-    circle = shapes.largest_pin_circle(
-        frame, column(R), column(e), column(r), column(hole), column(offset)
-    )[0]
+    ring = shapes.RingSizes(column(R), column(e), column(r))
+    circle = shapes.largest_pin_circle(frame, ring, column(hole), column(offset))[0]
     assume(circle > hole)
     disc = CycloidDisc(n, R, e, r, frame.equidistant)
     first = math.pi / (2 * n) + np.array([0.0, math.pi / n])
@@ -106,10 +102,11 @@ def test_the_pin_circle_leaves_the_least_ligament_exactly(stage, pins, play):
 def test_area_and_polar_moment_are_those_of_the_exact_curve(stage):
     n, R, e, r = stage
     frame = search_frame(Requirements(ratio=n))
-    found = shapes.profile_integrals(frame, column(R), column(e), column(r))
+    ring = shapes.RingSizes(column(R), column(e), column(r))
+    area, polar = shapes.profile_integrals(frame, ring)
     exact = profile_moments(CycloidDisc(n, R, e, r, frame.equidistant))
-    assert found.area[0] == pytest.approx(exact.area, rel=1e-4)
-    assert found.polar[0] == pytest.approx(exact.xx + exact.yy, rel=1e-4)
+    assert area[0] == pytest.approx(exact.area, rel=1e-4)
+    assert polar[0] == pytest.approx(exact.xx + exact.yy, rel=1e-4)
 
 
 @settings(deadline=None, max_examples=examples(30))
@@ -117,7 +114,7 @@ def test_area_and_polar_moment_are_those_of_the_exact_curve(stage):
 def test_the_wire_passes_where_the_largest_fillet_is_wide_enough(stage):
     n, R, e, r = stage
     frame = search_frame(Requirements(ratio=n))
-    passes = shapes.relief_passes_wire(frame, column(R), column(e), column(r))[0]
+    passes = shapes.relief_passes_wire(frame, shapes.RingSizes(column(R), column(e), column(r)))[0]
     try:
         fillet = solid_relief(CycloidDisc(n, R, e, r), frame.relief_clearance).fillet_radius
     except GeometryError:
@@ -180,7 +177,6 @@ def test_the_mass_is_that_of_the_parts():
             design,
             index,
             bore_diameter=bearing.outer_diameter,
-            pin_mean_diameter=pin_mean_diameter(design),
         ).area
         for index in range(2)
     )
@@ -210,7 +206,6 @@ def test_the_inertia_is_that_of_the_parts():
         design,
         0,
         bore_diameter=bearing.outer_diameter,
-        pin_mean_diameter=pin_mean_diameter(design),
     )
     disc, disc_spin = steel * b * moments.area, steel * b * (moments.xx + moments.yy)
     bore, seat = 0.5 * bearing.bore_diameter, 0.5 * bearing.outer_diameter
@@ -251,9 +246,7 @@ def test_every_part_weighs_by_its_own_material():
     design = design_of(evaluator, points, 0)
     reducer = design.reducer
     bearing = find_bearing(reducer.cam_bearing.designation)
-    disc = disc_moments(
-        design, 0, bore_diameter=bearing.outer_diameter, pin_mean_diameter=pin_mean_diameter(design)
-    ).area
+    disc = disc_moments(design, 0, bore_diameter=bearing.outer_diameter).area
     pin = math.pi / 4.0 * 0.004**2 * (2 * reducer.disc_thickness + 3 * reducer.disc_spacing)
     for key, volume, close in (
         ("disc_density", 2.0 * reducer.disc_thickness * disc, 1e-6),

@@ -12,7 +12,7 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.machine import resolve
 from cqdd_design.sizing.frame import search_frame
 from cqdd_design.sizing.screen import screen
-from cqdd_design.sizing.shape_limits import largest_pin_circle, valley_offset
+from cqdd_design.sizing.shape_limits import RingSizes, largest_pin_circle, valley_offset
 from cqdd_design.sizing.space import SearchSpace, largest_pitch_radius, search_space
 from cqdd_design.sizing.stage_tables import stage_tables
 
@@ -54,7 +54,7 @@ def design_of(frame, tables, one):
     (count,) = one.pin_counts
     hole = 0.5 * (size.mean_diameter + size.hole_clearance) + throw
     offset = np.array([valley_offset(frame, count)])
-    circle = largest_pin_circle(frame, radius, throw, tooth * radius, hole, offset)
+    circle = largest_pin_circle(frame, RingSizes(radius, throw, tooth * radius), hole, offset)
     circle = circle - one.inset * radius
     requirements = frame.requirements
     return Design.from_mapping(

@@ -25,7 +25,6 @@ from cqdd_design.solids.part import Part
 from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.poses import HOUSING, body_pose
 from cqdd_design.solids.proportions import lay_out
-from cqdd_design.solids.selection import output_pin
 
 TOUCH = 1e-9
 
@@ -183,14 +182,11 @@ def test_placed_discs_are_the_discs_of_the_drawing(name: str) -> None:
     """Turning a part over and round gives the outline and the holes of the disc it stands for."""
     design = known_design(name)
     bore = find_bearing(design.reducer.cam_bearing.designation).outer_diameter
-    mean = output_pin(design.reducer.output_pins.diameter).mean_diameter
     for part in known_parts(name):
         for piece in part.instances:
             if piece.body.kind != "disc" or not part.name.startswith("disc"):
                 continue
-            wanted = disc_contour(
-                design, piece.body.disc, bore_diameter=bore, pin_mean_diameter=mean
-            )
+            wanted = disc_contour(design, piece.body.disc, bore_diameter=bore)
             shape = part.shape.layers[0].shape
             turn = piece.placement[:2, :2]
             assert wanted.outer.distances(shape.outer.points @ turn.T).max() < 2e-12
@@ -229,7 +225,9 @@ def test_notches_take_their_area_from_the_circle() -> None:
     edge = radius * math.cos(half)
     segment = 0.5 * radius**2 * (2.0 * half - math.sin(2.0 * half))
     slot = width * (edge - (radius - depth))
-    assert outline.area() == pytest.approx(math.pi * radius**2 - 4.0 * (segment + slot), rel=1e-12)
+    assert outline.moments().area == pytest.approx(
+        math.pi * radius**2 - 4.0 * (segment + slot), rel=1e-12
+    )
 
 
 def test_fits_are_named_and_have_limits() -> None:

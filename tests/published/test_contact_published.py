@@ -33,7 +33,8 @@ from cqdd_design.gearbox import hertz
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import CamSpring, LineLaw
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.sweep import ContactSweep, contact_sweep
+from cqdd_design.gearbox.contact.solved import ContactSweep
+from cqdd_design.gearbox.contact.sweep import contact_sweep
 from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.geometry import kinematics
 
@@ -74,7 +75,7 @@ def ideal(model: ContactModel) -> ContactModel:
         model,
         disc_count=1,
         disc=model.disc.unmodified,
-        hole_radius=model.pin_radius + model.eccentricity,
+        hole_radius=model.pin_contact_radius + model.eccentricity,
         ring_law=LineLaw("linear"),
         pin_law=LineLaw("linear"),
         pin_series=np.zeros(1),
@@ -131,7 +132,7 @@ def krol(row: dict[str, str]) -> float:
         contact_length=1e-3 * g["h"],
         ring_modulus=modulus,
         pin_modulus=modulus,
-        pin_radius=1e-3 * g["Rs"],
+        pin_contact_radius=1e-3 * g["Rs"],
         hole_radius=1e-3 * g["Rh"],
     )
     tooth = 4.0 * g["Mh"] * g["zs"] / (e * g["zs"] * g["zk"])

@@ -19,8 +19,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from cqdd_design.geometry.cycloid import (
-    CycloidDisc,
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.trochoid import (
     locus_curvature,
     locus_valley_radius,
     undercut_radius_limit,

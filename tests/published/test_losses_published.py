@@ -20,6 +20,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from lone_disc import lone_disc
 
 from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.losses import sliding
@@ -50,10 +51,10 @@ class Reducer:
     @property
     def tooth_share(self) -> float:
         """Loss at the teeth over output power for mu = 1, from rigid forces and local sliding."""
-        stage = rigid.ring_stage(self.n, self.R, self.e, self.r, 1.0, self.angle)
+        stage = lone_disc(self.n, self.R, self.e, self.r, 1.0, self.angle)
         pitch = kinematics.pitch_point(self.n, self.e, self.angle)[:, None]
-        path = sliding.ring_sliding(self.n, stage.point, stage.normal, pitch)
-        return self.n * float(sliding.friction_work(1.0, stage.force, path).mean())
+        path = sliding.ring_sliding(self.n, stage.ring_point, stage.ring_normal, pitch)
+        return self.n * float(sliding.friction_work(1.0, stage.ring_force, path).mean())
 
     @property
     def pin_share(self) -> float:

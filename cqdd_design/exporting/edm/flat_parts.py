@@ -85,11 +85,7 @@ def flat_parts(machine: Machine) -> tuple[FlatPart, ...]:
         When a part cannot have its shape.
     """
     design = machine.design
-    validate_geometry(
-        design,
-        bore_diameter=machine.cam.outer_diameter,
-        pin_mean_diameter=pin_diameter(design),
-    )
+    validate_geometry(design, bore_diameter=machine.cam.outer_diameter)
     groups = disc_groups(design)
     discs = tuple(_disc(machine, group, alone=len(groups) == 1) for group in groups)
     return (*discs, _ring(design))
@@ -107,12 +103,7 @@ def reach_of(contour: Contour) -> float:
 
 def disc_shape(machine: Machine, disc_index: int) -> PlanarPart:
     """Return a disc in its own lobes' frame."""
-    return disc_contour(
-        machine.design,
-        disc_index,
-        bore_diameter=machine.cam.outer_diameter,
-        pin_mean_diameter=pin_diameter(machine.design),
-    )
+    return disc_contour(machine.design, disc_index, bore_diameter=machine.cam.outer_diameter)
 
 
 def _disc(machine: Machine, group: DiscGroup, *, alone: bool) -> FlatPart:

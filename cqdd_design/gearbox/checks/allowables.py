@@ -141,10 +141,9 @@ def brinell_estimate(material: Material) -> tuple[float, str] | None:
     return None
 
 
-def _through_hardened(material: Material) -> bool:
-    hardness = material.rockwell_hardness
-    through = material.treatment != "case-hardened"
-    return hardness is not None and hardness >= HARDENED_HRC and through
+def is_hardened(material: Material) -> bool:
+    """Whether the surface has 58 HRC or more."""
+    return material.rockwell_hardness is not None and material.rockwell_hardness >= HARDENED_HRC
 
 
 def contact_limit_static(material: Material) -> Allowable:
@@ -160,7 +159,7 @@ def contact_limit_static(material: Material) -> Allowable:
     >>> round(contact_limit_static(find_material("AISI 4140 Q&T 540C")).value / 1e6)
     1393
     """
-    if _through_hardened(material):
+    if is_hardened(material) and material.treatment != "case-hardened":
         return Allowable(
             HARDENED_STATIC_PRESSURE,
             f"{HARDENED_STATIC_PRESSURE / 1e6:.0f} MPa for steel hardened to {HARDENED_HRC:g} HRC "
@@ -191,8 +190,7 @@ def contact_limit_fatigue(material: Material) -> Allowable:
     """
     if not is_steel(material):
         return Allowable(0.0, f"no contact fatigue strength is known for {material.name}")
-    rockwell = material.rockwell_hardness
-    if rockwell is not None and rockwell >= HARDENED_HRC:
+    if is_hardened(material):
         return Allowable(
             HARDENED_FATIGUE_PRESSURE,
             f"{HARDENED_FATIGUE_PRESSURE / 1e6:.0f} MPa at {HARDENED_HRC:g} HRC ({material.name})",
@@ -214,19 +212,14 @@ def contact_limit_fatigue(material: Material) -> Allowable:
     )
 
 
-def pin_bending_limit_peak(material: Material) -> Allowable:
-    """Bending stress of an output pin at the peak torque, S_y/1.2."""
+def pin_limit_peak(material: Material) -> Allowable:
+    """Bending stress, and mean pressure on the projected area, at the peak torque: S_y/1.2."""
     return _yield_share(material, 1.0, "S_y")
 
 
 def pin_shear_limit_peak(material: Material) -> Allowable:
     """Mean shear stress of an output pin at the peak torque, 0.58 S_y/1.2."""
     return _yield_share(material, SHEAR_YIELD_SHARE, f"{SHEAR_YIELD_SHARE:g} S_y")
-
-
-def pin_bearing_limit_peak(material: Material) -> Allowable:
-    """Mean bearing pressure on the projected pin area at the peak torque, S_y/1.2."""
-    return _yield_share(material, 1.0, "S_y")
 
 
 def _yield_share(material: Material, share: float, symbol: str) -> Allowable:
@@ -259,10 +252,8 @@ def pin_bending_limit_continuous(material: Material, *, duty_reverses: bool) -> 
     if material.pulsating_strength is not None:
         value, words = material.pulsating_strength, material.pulsating_basis
     else:
-        value, words = (
-            PIN_FATIGUE_SHARE * ultimate,
-            f"S_u/{1.0 / PIN_FATIGUE_SHARE:g} of {material.name}",
-        )
+        value = PIN_FATIGUE_SHARE * ultimate
+        words = f"S_u/{1.0 / PIN_FATIGUE_SHARE:g} of {material.name}"
         if material.fatigue_strength is not None and material.fatigue_strength < value:
             value, words = material.fatigue_strength, f"endurance limit of {material.name}"
     if not duty_reverses:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.gearbox.balance import paper_disc_count
@@ -30,7 +31,7 @@ def _balance(state: GearboxState) -> tuple[Check, ...]:
     static = 0.0 if cancelled else balance.static_unbalance
     couple = 0.0 if cancelled else balance.shaking_moment
     reaction = couple / (reducer.disc_count * reducer.disc_thickness)
-    most = allowables.SHAKING_SHARE * state.cam.continuous_load
+    most = allowables.SHAKING_SHARE * state.cam_bearing.continuous_load
     moment = mass * reducer.eccentricity
     return (
         build_check(
@@ -105,18 +106,13 @@ def _known_data(known: int, wanted: int, words: str) -> Check:
     )
 
 
-def _named(state: GearboxState) -> bool:
-    """Whether the design names its motor, so that a shortfall is a failure."""
-    return "motor.name" not in state.design.assumed
-
-
 def _make(
     state: GearboxState, check_id: str, value: float, limit: float, numbers: str, remedy: str
 ) -> Check:
-    severity = "fail" if _named(state) else "warn"
-    if severity == "fail":
-        return build_check(check_id, value, limit, numbers, remedy, severity="fail")
-    return build_check(check_id, value, limit, numbers, remedy)
+    """A check of the motor: a shortfall is a failure where the design names its motor."""
+    assumed = "motor.name" in state.design.assumed
+    severity: Literal["fail"] | None = None if assumed else "fail"
+    return build_check(check_id, value, limit, numbers, remedy, severity=severity)
 
 
 def _torque_check(

@@ -17,8 +17,13 @@ _UNEVEN = f"{limits.UNEVEN_SHARING:g}"
 _YIELD = f"S_y/{limits.PIN_SAFETY_AT_PEAK:g}"
 _PAPER_SHEAR = f"S_u/{1.0 / limits.PAPER_SHEAR_SHARE:g}"
 _PRESSURE = f"p0 = sqrt({_UNEVEN} F E*/(pi b R_eq)) <= "
-_FIRST_YIELD = f"{limits.FIRST_YIELD_FACTOR:g} S_y"
-_PITTING_LIMIT = f"{limits.AGMA_SLOPE / 1e6:g} HB + {limits.AGMA_BASE / 1e6:g} MPa"
+_RING, _PIN = ("RING", "at the ring"), ("PIN", "of pins in holes")
+_PEAK = ("PEAK", f"{limits.FIRST_YIELD_FACTOR:g} S_y", JOHNSON)
+_CONTINUOUS = (
+    "CONTINUOUS",
+    f"{limits.AGMA_SLOPE / 1e6:g} HB + {limits.AGMA_BASE / 1e6:g} MPa",
+    PITTING,
+)
 
 _CONTACTS = tuple(
     CheckGuide(
@@ -30,39 +35,11 @@ _CONTACTS = tuple(
         f"Above it {what}.",
         source,
     )
-    for place, where, load, limit, what, source in (
-        (
-            "RING",
-            "at the ring",
-            "PEAK",
-            _FIRST_YIELD,
-            "the material yields below the surface and the flank dents",
-            JOHNSON,
-        ),
-        (
-            "RING",
-            "at the ring",
-            "CONTINUOUS",
-            _PITTING_LIMIT,
-            "the flank pits within some 1e7 load cycles",
-            PITTING,
-        ),
-        (
-            "PIN",
-            "of pins in holes",
-            "PEAK",
-            _FIRST_YIELD,
-            "pin or hole yields below the surface",
-            JOHNSON,
-        ),
-        (
-            "PIN",
-            "of pins in holes",
-            "CONTINUOUS",
-            _PITTING_LIMIT,
-            "pin or hole pits within some 1e7 load cycles",
-            PITTING,
-        ),
+    for (place, where), (load, limit, source), what in (
+        (_RING, _PEAK, "the material yields below the surface and the flank dents"),
+        (_RING, _CONTINUOUS, "the flank pits within some 1e7 load cycles"),
+        (_PIN, _PEAK, "pin or hole yields below the surface"),
+        (_PIN, _CONTINUOUS, "pin or hole pits within some 1e7 load cycles"),
     )
 )
 

@@ -59,10 +59,10 @@ def _contact(state: GearboxState) -> tuple[Check, ...]:
         )
 
     return (
-        one("CONTACT-RING-PEAK", state.peak, static, ring),
-        one("CONTACT-RING-CONTINUOUS", state.continuous, fatigue, ring),
-        one("CONTACT-PIN-PEAK", state.peak, static, pin),
-        one("CONTACT-PIN-CONTINUOUS", state.continuous, fatigue, pin),
+        one("CONTACT-RING-PEAK", state.rigid_peak, static, ring),
+        one("CONTACT-RING-CONTINUOUS", state.rigid_continuous, fatigue, ring),
+        one("CONTACT-PIN-PEAK", state.rigid_peak, static, pin),
+        one("CONTACT-PIN-CONTINUOUS", state.rigid_continuous, fatigue, pin),
     )
 
 
@@ -98,11 +98,12 @@ def _harder_parts(parts: dict[str, Material], rule: _MaterialRule, pressure: flo
 
 def _pins(state: GearboxState) -> tuple[Check, ...]:
     pins, reducer = state.design.reducer.output_pins, state.design.reducer
-    strength, peak, continuous = state.pins, state.peak, state.continuous
+    strength, peak, continuous = state.output_pins, state.rigid_peak, state.rigid_continuous
     material = find_material(pins.material)
+    bending_limit = allowables.pin_limit_peak(material)
+    shear_limit = allowables.pin_shear_limit_peak(material)
     bearing_limit = allowables.weaker(
-        allowables.pin_bearing_limit_peak(material),
-        allowables.pin_bearing_limit_peak(find_material(reducer.disc_material)),
+        bending_limit, allowables.pin_limit_peak(find_material(reducer.disc_material))
     )
     d = pins.diameter * 1e3
     # What bears on the hole is the sleeve where there is one; bent and sheared is the pin.
@@ -156,26 +157,10 @@ def _pins(state: GearboxState) -> tuple[Check, ...]:
             f"{reducer.disc_count} x {strength.paper_torque_total:.2f} N*m/{factor:.3f} "
             f"= {strength.shared_torque_capacity:.2f} N*m",
         ),
+        stress("PIN-SHEAR-PEAK", strength.shear_stress_peak, shear_limit, peak, 2),
+        stress("PIN-BENDING-PEAK", strength.bending_stress_peak, bending_limit, peak, 3),
         stress(
-            "PIN-SHEAR-PEAK",
-            strength.shear_stress_peak,
-            allowables.pin_shear_limit_peak(material),
-            peak,
-            2,
-        ),
-        stress(
-            "PIN-BENDING-PEAK",
-            strength.bending_stress_peak,
-            allowables.pin_bending_limit_peak(material),
-            peak,
-            3,
-        ),
-        stress(
-            "PIN-BENDING-CONTINUOUS",
-            strength.bending_stress_continuous,
-            fatigue,
-            continuous,
-            3,
+            "PIN-BENDING-CONTINUOUS", strength.bending_stress_continuous, fatigue, continuous, 3
         ),
         stress("PIN-BEARING-PEAK", strength.bearing_pressure_peak, bearing_limit, peak, 1),
     )
@@ -203,7 +188,7 @@ def _stronger_pins(
         return f"raise output_pins.sleeve_diameter to {wider:g} mm, or {lower}"
     thicker = pins.diameter * 1e3 * ratio ** (1.0 / power)
     # An even count, whose peak factor is exactly four.
-    count = 2 * math.ceil(0.5 * pins.count * ratio * 4.0 / state.pins.peak_force_factor)
+    count = 2 * math.ceil(0.5 * pins.count * ratio * 4.0 / state.output_pins.peak_force_factor)
     # Twice the count on the same circle needs room between the holes.
     reach = 2.0 * pins.circle_radius * math.sin(math.pi / count)
     room = reach - state.geometry.hole_diameter >= allowables.LIGAMENT
@@ -213,7 +198,7 @@ def _stronger_pins(
 
 
 def _bearing(state: GearboxState) -> tuple[Check, ...]:
-    cam, requirements = state.cam, state.design.requirements
+    cam, requirements = state.cam_bearing, state.design.requirements
     bearing, exponent = cam.bearing, cam.exponent
     rpm = cam.speed * 30.0 / math.pi
     safety, life = cam.static_safety or 0.0, cam.life_hours or 0.0
@@ -264,7 +249,7 @@ def _lower_torque(torque: float, share: float) -> str:
 def _other_bearing(state: GearboxState) -> str:
     """Say what the catalogue offers in the same space."""
     fitting = cam_bearing.fitting_bearings(state.design, state.geometry.largest_cam_bearing)
-    cam = state.cam
+    cam = state.cam_bearing
     best = cam_bearing.choose(fitting, cam.peak_load, cam.continuous_load, cam.speed)
     most = state.geometry.largest_cam_bearing * 1e3
     if best is None:

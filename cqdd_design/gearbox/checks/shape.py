@@ -96,7 +96,7 @@ def _ligaments(state: GearboxState) -> tuple[Check, ...]:
     geometry, stages = state.geometry, state.stages
     circle, hole = stages.pin_circle_radius, 2.0 * stages.hole_radius
     between = (hole + limit) / (2.0 * math.sin(math.pi / stages.pin_count))
-    bearing = state.cam.bearing
+    bearing = state.cam_bearing.bearing
 
     def one(check_id: str, kind: str, remedy: str) -> Check:
         found = geometry.ligament(kind)
@@ -142,7 +142,7 @@ def _ligaments(state: GearboxState) -> tuple[Check, ...]:
 
 
 def _fits(state: GearboxState) -> tuple[Check, ...]:
-    pins, bearing = state.design.reducer.output_pins, state.cam.bearing
+    pins, bearing = state.design.reducer.output_pins, state.cam_bearing.bearing
     reducer = state.design.reducer
     least, greatest = pin_diameter_limits(pins.diameter)
     sleeved = pins.sleeve_diameter > 0.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from cqdd_design.catalog.motors import Motor
@@ -23,27 +23,24 @@ class GearboxState:
 
     Attributes
     ----------
-    design : Design
-    motor : Motor
-    stages : Stages
-    geometry : GeometrySummary
-    peak, continuous : RigidMaxima
-        Raw maxima at the peak and at the continuous torque.
-    pins : PinStrength
-    cam : BearingResult
+    rigid_peak, rigid_continuous : RigidMaxima
+        Raw maxima at the peak and at the continuous torque of the requirements.
+    output_pins : PinStrength
+        At the same torques.
     orbiting_mass : float
         Mass of one disc with its cam bearing, kg.
     balance : StackBalance
+        Discs with their bearings, from exact planar areas, at the required input speed.
     """
 
     design: Design
     motor: Motor
     stages: Stages
     geometry: GeometrySummary
-    peak: RigidMaxima
-    continuous: RigidMaxima
-    pins: PinStrength
-    cam: BearingResult
+    rigid_peak: RigidMaxima
+    rigid_continuous: RigidMaxima
+    output_pins: PinStrength
+    cam_bearing: BearingResult
     orbiting_mass: float
     balance: StackBalance
 
@@ -92,4 +89,4 @@ def build_check(
     )
     if not check.satisfied:
         return check
-    return Check(**{**check.__dict__, "remedy": "met; nothing to change"})
+    return replace(check, remedy="met; nothing to change")

@@ -9,12 +9,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.files.kernel_cache import numba
-from cqdd_design.gearbox.contact.kernel_values import Errors, Nominal, Toleranced
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.gearbox.contact.kernel_values import Nominal, Toleranced
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.geometry.contours import FloatArray
 
 _POINTS_PER_HARMONIC = 16
 
@@ -32,11 +31,8 @@ def harmonic_basis(size: int, harmonics: int) -> FloatArray:
 
 
 @numba.njit(cache=True, error_model="numpy")
-def fill_errors(nominal: Nominal, errors: Errors, found: Toleranced) -> None:
-    """Gaps (nominal plus errors), gap rates by errors, cam offsets and play of one gearbox.
-
-    Shapes and signs are those of :class:`.states.ErrorStates`; the gaps include the nominal ones.
-    """
+def fill_errors(nominal: Nominal, errors: GearboxErrors, found: Toleranced) -> None:
+    """Gaps, gap rates by errors, cam offsets and play of one gearbox."""
     rows, rates, lobe_count = nominal.rows, nominal.rates, nominal.lobe_count
     basis, disc_profile = nominal.basis, errors.disc_profile
     gaps, gap_rates = found.gaps, found.gap_rates

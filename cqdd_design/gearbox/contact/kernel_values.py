@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 
 class Springs(NamedTuple):
@@ -100,20 +100,6 @@ class SweepResult(NamedTuple):
     """(A,) Newton steps."""
 
 
-class Errors(NamedTuple):
-    """Part errors as in :class:`.part_errors.GearboxErrors`; of a batch with a leading axis S."""
-
-    tooth_position: FloatArray
-    tooth_radius: FloatArray
-    disc_profile: FloatArray
-    hole_position: FloatArray
-    hole_radius: FloatArray
-    pin_position: FloatArray
-    pin_radius: FloatArray
-    cam_centre: FloatArray
-    cam_play: FloatArray
-
-
 class Nominal(NamedTuple):
     """The perfect gearbox over its crank angles: what toleranced ones differ from."""
 
@@ -147,16 +133,17 @@ class Nominal(NamedTuple):
 
 
 class Toleranced(NamedTuple):
-    """Gaps of one gearbox with its errors, filled by :func:`.gaps_kernel.fill_errors`."""
+    """A gearbox with its part errors, from :mod:`.states` or filled by :mod:`.gaps_kernel`."""
 
     gaps: FloatArray
+    """(A, D, C) Nominal gaps and what errors change in them, to first order, m."""
     gap_rates: FloatArray
-    """(A, D, C) m."""
+    """(A, D, C) Derivatives over crank angle of that change, m."""
     offset: FloatArray
     offset_rates: FloatArray
-    """(A, D, 2) m."""
+    """(A, D, 2) Displacement of the cams' centres in the ring's frame, and its derivative, m."""
     half_play: FloatArray
-    """(D,) m."""
+    """(D,) Half of the play of every cam bearing, not below zero, m."""
 
 
 class Start(NamedTuple):

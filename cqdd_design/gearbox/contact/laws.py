@@ -11,17 +11,20 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.catalog.needles import needle_set
 from cqdd_design.errors import DesignError
+from cqdd_design.geometry.contours import FloatArray
 
-FloatArray = NDArray[np.float64]
 LineModel = Literal["palmgren", "johnson", "linear"]
 
-PALMGREN, JOHNSON, LINEAR = 0, 1, 2
-LINE_MODELS: dict[str, int] = {"palmgren": PALMGREN, "johnson": JOHNSON, "linear": LINEAR}
+Bodies = tuple[tuple[float, float, float], tuple[float, float, float]]
+"""Of either body in contact: depth of the reference point behind the contact (m), Young's modulus
+(Pa), Poisson's ratio."""
+
+LINE_MODELS: dict[str, int] = {"palmgren": 0, "johnson": 1, "linear": 2}
 
 _STEEL_MODULUS = 206e9 / (2.0 * (1.0 - 0.3**2))
 """E* of steel on steel, for which Palmgren measured his coefficient, Pa."""
@@ -80,7 +83,7 @@ def johnson_coefficients(
     length: float,
     equivalent_radius: ArrayLike,
     modulus: float,
-    bodies: tuple[tuple[float, float, float], tuple[float, float, float]],
+    bodies: Bodies,
 ) -> tuple[FloatArray, float]:
     """Coefficients a and B of ``delta = F (a - B ln F)`` (Johnson 1985, eq. 5.57), N and m.
 
@@ -92,9 +95,6 @@ def johnson_coefficients(
         R_eq, m.
     modulus : float
         E* of the pair, Pa.
-    bodies : two tuples
-        Depth of the reference point behind the contact (m), Young's modulus (Pa), Poisson's
-        ratio of either body.
 
     Returns
     -------
@@ -124,7 +124,6 @@ def approach(
 
     Parameters
     ----------
-    law : LineLaw
     coefficient : array_like
         c or a of every contact.
     series : array_like

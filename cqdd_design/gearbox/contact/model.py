@@ -5,46 +5,31 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.design import Design
 from cqdd_design.gearbox.contact import laws
-from cqdd_design.gearbox.contact.laws import CamSpring, LineLaw, LineModel
+from cqdd_design.gearbox.contact.laws import Bodies, CamSpring, LineLaw, LineModel
 from cqdd_design.gearbox.contact.pin_compliance import pin_compliance
 from cqdd_design.gearbox.hertz import conformal_equivalent_radius
 from cqdd_design.gearbox.stages import Stages
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.cycloid import CycloidDisc
-from cqdd_design.geometry.kinematics import crank_phases
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class ContactModel:
-    """A gearbox as the contact equilibrium sees it, SI.
+class ContactModel(Stages):
+    """A gearbox as the contact equilibrium sees it: its stages and how they yield, SI.
 
     Attributes
     ----------
     disc : CycloidDisc
         Finished outline.
-    lobe_count, disc_count, pin_count : int
-        n, D, N_w.
-    pin_circle_radius, hole_clocking : float
-        R_w (m) and the angle of the first hole from the valley on +x (rad).
-    hole_radius, pin_radius : float
-        Radius of hole and of pin (mean) or sleeve, m; the clearance between them is
-        2 (hole_radius - pin_radius - e).
-    contact_length : float
-        Disc thickness, m.
-    ring_modulus, pin_modulus : float
-        E* of tooth on disc and of pin on hole, Pa.
     ring_law, pin_law : LineLaw
         Law of either line contact.
-    ring_bodies, pin_bodies : two tuples
-        Depth of the reference point (m), Young's modulus (Pa) and Poisson's ratio of tooth and
-        disc, and of pin and disc.
+    ring_bodies, pin_bodies : Bodies
+        Of tooth and disc, and of pin and disc.
     pin_series : array (D,)
         Compliance of a pin at every disc, m/N.
     cam : CamSpring
@@ -54,20 +39,10 @@ class ContactModel:
     """
 
     disc: CycloidDisc
-    lobe_count: int
-    disc_count: int
-    pin_count: int
-    pin_circle_radius: float
-    hole_clocking: float
-    hole_radius: float
-    pin_radius: float
-    contact_length: float
-    ring_modulus: float
-    pin_modulus: float
     ring_law: LineLaw
     pin_law: LineLaw
-    ring_bodies: tuple[tuple[float, float, float], tuple[float, float, float]]
-    pin_bodies: tuple[tuple[float, float, float], tuple[float, float, float]]
+    ring_bodies: Bodies
+    pin_bodies: Bodies
     pin_series: FloatArray
     cam: CamSpring
     carrier_stiffness: float | None = None
@@ -78,7 +53,6 @@ class ContactModel:
 
         Parameters
         ----------
-        design : Design
         line_model : {"palmgren", "johnson", "linear"}
             Approach of teeth and pins. ``linear`` takes the secant of Palmgren's law at 50 N/mm.
 
@@ -103,26 +77,14 @@ class ContactModel:
         pin_bodies = (_body(stages.pin_contact_radius, pin), _body(stages.hole_radius, steel))
         logarithms = (0.0, 0.0)
         if line_model == "johnson":
+            length = reducer.disc_thickness
             logarithms = (
-                laws.johnson_coefficients(
-                    reducer.disc_thickness, 1.0, stages.ring_modulus, ring_bodies
-                )[1],
-                laws.johnson_coefficients(
-                    reducer.disc_thickness, 1.0, stages.pin_modulus, pin_bodies
-                )[1],
+                laws.johnson_coefficients(length, 1.0, stages.ring_modulus, ring_bodies)[1],
+                laws.johnson_coefficients(length, 1.0, stages.pin_modulus, pin_bodies)[1],
             )
         return cls(
+            **vars(stages),
             disc=disc,
-            lobe_count=stages.lobe_count,
-            disc_count=stages.disc_count,
-            pin_count=stages.pin_count,
-            pin_circle_radius=stages.pin_circle_radius,
-            hole_clocking=stages.hole_clocking,
-            hole_radius=stages.hole_radius,
-            pin_radius=stages.pin_contact_radius,
-            contact_length=reducer.disc_thickness,
-            ring_modulus=stages.ring_modulus,
-            pin_modulus=stages.pin_modulus,
             ring_law=LineLaw(line_model, logarithms[0]),
             pin_law=LineLaw(line_model, logarithms[1]),
             ring_bodies=ring_bodies,
@@ -142,34 +104,19 @@ class ContactModel:
         )
 
     @property
-    def eccentricity(self) -> float:
-        """Throw e of the crank, m."""
-        return self.disc.eccentricity
-
-    @property
     def tooth_count(self) -> int:
         """Ring teeth n + 1."""
         return self.lobe_count + 1
 
     @property
-    def tooth_radius(self) -> float:
-        """Radius r of the ring teeth, m."""
-        return self.disc.tooth_radius
-
-    @property
-    def phases(self) -> FloatArray:
-        """Crank phases of the discs, (D,)."""
-        return crank_phases(self.disc_count)
-
-    @property
     def pin_gap(self) -> float:
         """Gap at an output pin in the nominal pose, half of the hole clearance, m."""
-        return self.hole_radius - self.pin_radius - self.eccentricity
+        return self.hole_radius - self.pin_contact_radius - self.eccentricity
 
     @property
     def pin_equivalent_radius(self) -> float:
         """R_eq of pin in hole, m."""
-        return float(conformal_equivalent_radius(self.pin_radius, self.hole_radius))
+        return float(conformal_equivalent_radius(self.pin_contact_radius, self.hole_radius))
 
     def ring_coefficient(self, equivalent_radius: FloatArray) -> FloatArray:
         """Coefficient of the ring's law for contacts of the given R_eq (m)."""
@@ -183,11 +130,7 @@ class ContactModel:
         return float(self._coefficient(self.pin_law, radius, self.pin_modulus, self.pin_bodies))
 
     def _coefficient(
-        self,
-        law: LineLaw,
-        equivalent_radius: FloatArray,
-        modulus: float,
-        bodies: tuple[tuple[float, float, float], tuple[float, float, float]],
+        self, law: LineLaw, equivalent_radius: FloatArray, modulus: float, bodies: Bodies
     ) -> FloatArray:
         if law.model == "johnson":
             return laws.johnson_coefficients(

@@ -14,6 +14,48 @@ from cqdd_design.gearbox.contact.kernel_values import Contacts, Forces, Springs,
 from cqdd_design.gearbox.contact.laws_kernel import line_force, radial_force
 
 
+@numba.njit(cache=True, inline="always", error_model="numpy")
+def _press(
+    contacts: Contacts, forces: Forces, work: Work, which: Any, displacement: Any, law: Any
+) -> Any:
+    """Some contacts of a disc: their largest force, and what they add to gradient and Hessian.
+
+    A contact closes by delta = -(n_x x + n_y y + h t) - gap; its force f adds -f (n_x, n_y, h)
+    to the gradient and f' n n^T to the Hessian. `which` are the disc and the first and last
+    contact, `law` code, logarithm and series compliance. Written into its two callers, so that
+    the ring's loop knows that nothing stands in series.
+    """
+    rows, gaps, coefficient = contacts.rows, contacts.gaps, contacts.coefficient
+    force, stiff, closed = forces.contact, work.stiff, work.closed
+    d, first, last = which
+    x, y, t = displacement
+    code, logarithm, series = law
+    largest = gx = gy = gt = 0.0
+    hxx = hxy = hxt = hyy = hyt = htt = 0.0
+    for k in range(first, last):
+        nx, ny, h = rows[d, k, 0], rows[d, k, 1], rows[d, k, 2]
+        delta = -(nx * x + ny * y + h * t) - gaps[d, k]
+        closed[d, k] = delta
+        if delta <= 0.0:
+            force[d, k] = 0.0
+            stiff[d, k] = 0.0
+            continue
+        f, s = line_force(code, coefficient[d, k], logarithm, series, delta)
+        force[d, k] = f
+        stiff[d, k] = s
+        largest = max(largest, f)
+        gx -= f * nx
+        gy -= f * ny
+        gt -= f * h
+        hxx += s * nx * nx
+        hxy += s * nx * ny
+        hxt += s * nx * h
+        hyy += s * ny * ny
+        hyt += s * ny * h
+        htt += s * h * h
+    return largest, (gx, gy, gt), (hxx, hxy, hxt, hyy, hyt, htt)
+
+
 @numba.njit(cache=True, error_model="numpy")
 def evaluate_state(
     contacts: Contacts, springs: Springs, pull: float, state: Any, forces: Forces, work: Work
@@ -25,74 +67,27 @@ def evaluate_state(
     """
     discs, count = contacts.gaps.shape
     # Arrays are taken out of their tuples before a loop: numba counts references at every access.
-    rows, gaps, coefficient = contacts.rows, contacts.gaps, contacts.coefficient
     offset, half_play, series = contacts.offset, contacts.half_play, springs.pin_series
-    force, cam, stiff, closed = forces.contact, forces.cam, work.stiff, work.closed
-    teeth, gradient, block, shared = springs.teeth, work.gradient, work.block, work.shared
+    cam, teeth, gradient = forces.cam, springs.teeth, work.gradient
+    block, shared = work.block, work.shared
     for i in range(gradient.size):
         gradient[i] = 0.0
     gradient[0] = springs.carrier_stiffness * state[0]
     gradient[1] = springs.carrier_stiffness * state[1]
     gradient[2] = -pull
     largest = 0.0
-    # A contact closes by delta = -(n_x x + n_y y + h t) - gap; its force f adds -f (n_x, n_y, h)
-    # to the gradient and f' n n^T to the Hessian. Ring and pins are written out, so
-    # that the ring's loop knows that nothing stands in series.
     for d in range(discs):
         x, y, t = state[3 + 3 * d], state[4 + 3 * d], state[5 + 3 * d]
-        hxx = hxy = hxt = hyy = hyt = htt = 0.0
-        gx = gy = gt = 0.0
-        for k in range(teeth):
-            nx, ny, h = rows[d, k, 0], rows[d, k, 1], rows[d, k, 2]
-            delta = -(nx * x + ny * y + h * t) - gaps[d, k]
-            closed[d, k] = delta
-            if delta <= 0.0:
-                force[d, k] = 0.0
-                stiff[d, k] = 0.0
-                continue
-            f, s = line_force(
-                springs.ring_law, coefficient[d, k], springs.ring_logarithm, 0.0, delta
-            )
-            force[d, k] = f
-            stiff[d, k] = s
-            largest = max(largest, f)
-            gx -= f * nx
-            gy -= f * ny
-            gt -= f * h
-            hxx += s * nx * nx
-            hxy += s * nx * ny
-            hxt += s * nx * h
-            hyy += s * ny * ny
-            hyt += s * ny * h
-            htt += s * h * h
-        x -= state[0]
-        y -= state[1]
-        t -= state[2]
-        sxx = sxy = sxt = syy = syt = stt = 0.0
-        px = py = pt = 0.0
-        for k in range(teeth, count):
-            nx, ny, h = rows[d, k, 0], rows[d, k, 1], rows[d, k, 2]
-            delta = -(nx * x + ny * y + h * t) - gaps[d, k]
-            closed[d, k] = delta
-            if delta <= 0.0:
-                force[d, k] = 0.0
-                stiff[d, k] = 0.0
-                continue
-            f, s = line_force(
-                springs.pin_law, coefficient[d, k], springs.pin_logarithm, series[d], delta
-            )
-            force[d, k] = f
-            stiff[d, k] = s
-            largest = max(largest, f)
-            px -= f * nx
-            py -= f * ny
-            pt -= f * h
-            sxx += s * nx * nx
-            sxy += s * nx * ny
-            sxt += s * nx * h
-            syy += s * ny * ny
-            syt += s * ny * h
-            stt += s * h * h
+        ring = (springs.ring_law, springs.ring_logarithm, 0.0)
+        on_ring, (gx, gy, gt), (hxx, hxy, hxt, hyy, hyt, htt) = _press(
+            contacts, forces, work, (d, 0, teeth), (x, y, t), ring
+        )
+        pins = (springs.pin_law, springs.pin_logarithm, series[d])
+        away = (x - state[0], y - state[1], t - state[2])
+        on_pins, (px, py, pt), (sxx, sxy, sxt, syy, syt, stt) = _press(
+            contacts, forces, work, (d, teeth, count), away, pins
+        )
+        largest = max(largest, on_ring, on_pins)
         gradient[0] -= px
         gradient[1] -= py
         gradient[2] -= pt

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.gearbox.output_pins import PinSupport, disc_positions, pin_span
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 SEAT_LENGTH = 1.0
 """Length of a pin's seat in its plate, in pin diameters."""

@@ -5,14 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cqdd_design.gearbox.contact.kernel_values import Toleranced
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
-from cqdd_design.gearbox.contact.tables import PinTable, RingTable, pin_table, ring_table
+from cqdd_design.gearbox.contact.tables import RingTable, pin_table, ring_table
 from cqdd_design.geometry import kinematics
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 _ANGLES_AT_ONCE = 256
 
@@ -25,7 +24,8 @@ class NominalStates:
     ----------
     crank_angle : array (A,)
         rad, rising.
-    ring, pins : RingTable, PinTable
+    pin_angle : array (A, P)
+        Angle of every pin in the ring's frame, rad.
     rows : array (A, D, C, 3)
         n_x, n_y and h/length, ring teeth first.
     gaps, coefficient : array (A, D, C)
@@ -39,7 +39,7 @@ class NominalStates:
 
     crank_angle: FloatArray
     ring: RingTable
-    pins: PinTable
+    pin_angle: FloatArray
     rows: FloatArray
     gaps: FloatArray
     coefficient: FloatArray
@@ -57,29 +57,29 @@ def nominal_states(model: ContactModel, crank_angle: FloatArray) -> NominalState
 
     Parameters
     ----------
-    model : ContactModel
     crank_angle : array (A,)
         rad.
     """
-    ring, pins = ring_table(model, crank_angle), pin_table(model, crank_angle)
+    ring = ring_table(model, crank_angle)
+    pin_rows, pin_rates, pin_angle = pin_table(model, crank_angle)
     length = model.pin_circle_radius
-    rows = np.concatenate([ring.rows, pins.rows], axis=2)
+    rows = np.concatenate([ring.rows, pin_rows], axis=2)
     rows[..., 2] /= length
-    still = np.zeros((*pins.rates.shape[:-1], 2))
+    still = np.zeros((*pin_rates.shape[:-1], 2))
     softening = -model.ring_law.logarithm * ring.radius_rate
     rates = np.concatenate(
         [
             np.concatenate([ring.rates, softening[..., None]], axis=-1),
-            np.concatenate([pins.rates, still], axis=-1),
+            np.concatenate([pin_rates, still], axis=-1),
         ],
         axis=2,
     )
     rates[..., 1] /= length
-    pin_shape = pins.rows.shape[:-1]
+    pin_shape = pin_rows.shape[:-1]
     return NominalStates(
         crank_angle=crank_angle,
         ring=ring,
-        pins=pins,
+        pin_angle=pin_angle,
         rows=rows,
         gaps=np.concatenate([ring.gap, np.full(pin_shape, model.pin_gap)], axis=2),
         coefficient=np.concatenate(
@@ -94,31 +94,10 @@ def nominal_states(model: ContactModel, crank_angle: FloatArray) -> NominalState
     )
 
 
-@dataclass(frozen=True, eq=False)
-class ErrorStates:
-    """What part errors change in the nominal states, to first order.
-
-    Attributes
-    ----------
-    gaps, gap_rates : array (A, D, C)
-        Added to gaps, and their derivatives over crank angle, m.
-    offset, offset_rates : array (A, D, 2)
-        Displacement of the cams' centres in the ring's frame, and its derivative, m.
-    half_play : array (D,)
-        Half of the play of every cam bearing, not below zero, m.
-    """
-
-    gaps: FloatArray
-    gap_rates: FloatArray
-    offset: FloatArray
-    offset_rates: FloatArray
-    half_play: FloatArray
-
-
 def error_states(
     model: ContactModel, states: NominalStates, errors: GearboxErrors | None
-) -> ErrorStates:
-    """Gap changes by part errors: plain twin of :func:`.gaps_kernel.fill_errors`.
+) -> Toleranced:
+    """What part errors change: plain twin of :func:`.gaps_kernel.fill_errors`.
 
     A tooth that moves toward the disc or grows, and material on the disc, close the gap; a hole
     that moves along the pin's force or grows opens it, a pin that does closes it.
@@ -126,11 +105,10 @@ def error_states(
     shape = states.gaps.shape
     offset = np.zeros((*shape[:2], 2))
     half_play = np.full(shape[1], 0.5 * model.cam.play)
-    zero = np.zeros(shape)
+    gaps, gap_rates = np.zeros(shape), np.zeros(shape)
     if errors is None:
-        return ErrorStates(zero, zero.copy(), offset, offset.copy(), half_play)
+        return Toleranced(states.gaps, gap_rates, offset, offset.copy(), half_play)
     teeth = model.tooth_count
-    gaps, gap_rates = zero, zero.copy()
     normal, spin = states.rows[..., :2], states.rates[..., 0]
     turned = np.stack([-normal[..., 1], normal[..., 0]], axis=-1) * spin[..., None]
     material, slope = profile_error(errors.disc_profile, states.ring.parameter)
@@ -155,8 +133,8 @@ def error_states(
     u = kinematics.crank_direction(states.crank_angle[:, None], model.phases)
     v = np.stack([-u[..., 1], u[..., 0]], axis=-1)
     along, across = errors.cam_centre[:, :1], errors.cam_centre[:, 1:]
-    return ErrorStates(
-        gaps=gaps,
+    return Toleranced(
+        gaps=states.gaps + gaps,
         gap_rates=gap_rates,
         offset=along * u + across * v,
         offset_rates=along * v - across * u,

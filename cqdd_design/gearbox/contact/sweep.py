@@ -1,30 +1,31 @@
-"""Contact equilibrium over crank angle: forces, pressures, displacements, energy."""
+"""Solve the contact equilibrium over crank angle."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.contact import laws
-from cqdd_design.gearbox.contact.kernel_values import Contacts, Load, Springs, SweepResult
+from cqdd_design.gearbox.contact.kernel_values import (
+    Contacts,
+    Load,
+    Springs,
+    SweepResult,
+    Toleranced,
+)
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import (
-    ErrorStates,
     NominalStates,
     error_states,
     nominal_states,
 )
-from cqdd_design.gearbox.hertz import line_contact_pressure
 from cqdd_design.geometry import kinematics
-
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+from cqdd_design.geometry.contours import FloatArray
 
 ANGLES = 360
 """Default number of crank angles over the period of a perfect gearbox."""
@@ -50,151 +51,6 @@ def output_turn_angles(model: ContactModel, count: int | None = None) -> FloatAr
     return np.asarray(kinematics.imperfect_period(model.lobe_count) * np.arange(wanted) / wanted)
 
 
-@dataclass(frozen=True, eq=False)
-class ContactSweep:
-    """Contact equilibria at A crank angles, D discs, T = n + 1 ring teeth, P output pins.
-
-    Points, normals and centres are those of the nominal pose, in which every disc balances.
-
-    Attributes
-    ----------
-    model : ContactModel
-    torque : float
-        On the carrier, counter-clockwise positive, N m.
-    crank_angle : array (A,)
-        rad.
-    ring_force : array (A, D, T)
-        N.
-    ring_normal, ring_point : array (A, D, T, 2)
-        Unit force on the disc; contact point, m.
-    ring_parameter, ring_equivalent_radius : array (A, D, T)
-        Place on the disc's profile (rad), R_eq (m).
-    pin_force : array (A, D, P)
-        N.
-    pin_normal, pin_point : array (A, D, P, 2)
-    cam_force : array (A, D, 2)
-        Force of the cam bearing on the disc, N.
-    disc_centre : array (A, D, 2)
-        Nominal, m.
-    disc_displacement : array (A, D, 3)
-        x, y (m) and angle (rad).
-    carrier_angle_error : array (A,)
-        Ahead of -phi/n positive, rad.
-    carrier_displacement : array (A, 2)
-        m; zero where the carrier's bearing is rigid.
-    energy : array (A,)
-        Pi = E - T gamma, J.
-    energy_slope : array (A,)
-        dPi/dphi at this load, N m; the input torque is T/n plus this.
-    stiffness : array (A,)
-        Tangent dT/dgamma, N m/rad; zero where nothing touches.
-    steps : array (A,)
-        Newton steps used.
-    """
-
-    model: ContactModel
-    torque: float
-    crank_angle: FloatArray
-    ring_force: FloatArray
-    ring_normal: FloatArray
-    ring_point: FloatArray
-    ring_parameter: FloatArray
-    ring_equivalent_radius: FloatArray
-    pin_force: FloatArray
-    pin_normal: FloatArray
-    pin_point: FloatArray
-    cam_force: FloatArray
-    disc_centre: FloatArray
-    disc_displacement: FloatArray
-    carrier_angle_error: FloatArray
-    carrier_displacement: FloatArray
-    energy: FloatArray
-    energy_slope: FloatArray
-    stiffness: FloatArray
-    steps: IntArray
-
-    @property
-    def state_vectors(self) -> FloatArray:
-        """Carrier and discs as the kernel holds them, angles times the pin circle, (A, 3 + 3 D)."""
-        length = self.model.pin_circle_radius
-        discs = self.disc_displacement * np.array([1.0, 1.0, length])
-        carrier = np.column_stack([self.carrier_displacement, length * self.carrier_angle_error])
-        return np.concatenate([carrier, discs.reshape(len(carrier), -1)], axis=1)
-
-    @property
-    def ring_pressure(self) -> FloatArray:
-        """Peak Hertz pressure at every tooth, (A, D, T), Pa."""
-        return line_contact_pressure(
-            self.ring_force,
-            self.model.contact_length,
-            self.ring_equivalent_radius,
-            self.model.ring_modulus,
-        )
-
-    @property
-    def pin_pressure(self) -> FloatArray:
-        """Peak Hertz pressure of every pin in its hole, (A, D, P), Pa."""
-        return line_contact_pressure(
-            self.pin_force,
-            self.model.contact_length,
-            self.model.pin_equivalent_radius,
-            self.model.pin_modulus,
-        )
-
-    @property
-    def cam_load(self) -> FloatArray:
-        """Size of the cam force, (A, D), N."""
-        return np.asarray(np.hypot(self.cam_force[..., 0], self.cam_force[..., 1]))
-
-    @property
-    def disc_torque(self) -> FloatArray:
-        """Torque every disc takes from the carrier, (A, D), N m; they add up to the torque."""
-        x, n = self.pin_point, self.pin_normal
-        moment = x[..., 0] * n[..., 1] - x[..., 1] * n[..., 0]
-        return np.asarray(np.sum(self.pin_force * moment, axis=-1))
-
-    @property
-    def uneven_sharing(self) -> float:
-        """Torque of the most loaded disc over the mean of the discs, greatest over the angles."""
-        share = np.abs(self.disc_torque)
-        return float((share.max(axis=1) / share.mean(axis=1)).max())
-
-    @property
-    def teeth_in_contact(self) -> IntArray:
-        """Loaded ring teeth, (A, D)."""
-        return np.asarray(np.sum(self.ring_force > 0.0, axis=-1), dtype=np.int64)
-
-    def to_dict(self) -> dict[str, object]:
-        """Return the JSON form (``contact``): the arrays, and their maxima over this sweep."""
-        share = np.abs(self.disc_torque).mean(axis=0)
-        shown = self.disc_displacement * 1e6
-        return {
-            "torque_Nm": self.torque,
-            "crank_angle_deg": np.degrees(self.crank_angle).tolist(),
-            "ring_force_N": self.ring_force.tolist(),
-            "ring_normal": self.ring_normal.tolist(),
-            "ring_point_mm": (1e3 * self.ring_point).tolist(),
-            "ring_pressure_MPa": (self.ring_pressure / 1e6).tolist(),
-            "ring_flank_parameter_deg": np.degrees(self.ring_parameter).tolist(),
-            "output_pin_force_N": self.pin_force.tolist(),
-            "output_pin_normal": self.pin_normal.tolist(),
-            "output_pin_point_mm": (1e3 * self.pin_point).tolist(),
-            "output_pressure_MPa": (self.pin_pressure / 1e6).tolist(),
-            "cam_force_N": self.cam_force.tolist(),
-            "disc_torque_Nm": self.disc_torque.tolist(),
-            "disc_centre_mm": (1e3 * self.disc_centre).tolist(),
-            "disc_displacement_um": shown.tolist(),
-            "carrier_angle_error_arcmin": (np.degrees(self.carrier_angle_error) * 60.0).tolist(),
-            "teeth_in_contact": self.teeth_in_contact.tolist(),
-            "ring_force_max_N": float(self.ring_force.max()),
-            "output_pin_force_max_N": float(self.pin_force.max()),
-            "cam_bearing_load_max_N": float(self.cam_load.max()),
-            "ring_pressure_max_MPa": float(self.ring_pressure.max()) / 1e6,
-            "output_pressure_max_MPa": float(self.pin_pressure.max()) / 1e6,
-            "disc_torque_share": (share / share.sum()).tolist() if share.sum() > 0.0 else None,
-        }
-
-
 def contact_sweep(
     model: ContactModel,
     torque: float,
@@ -202,13 +58,12 @@ def contact_sweep(
     *,
     errors: GearboxErrors | None = None,
     states: NominalStates | None = None,
-    changed: ErrorStates | None = None,
+    changed: Toleranced | None = None,
 ) -> ContactSweep:
     """Solve the contact equilibrium over crank angle.
 
     Parameters
     ----------
-    model : ContactModel
     torque : float
         On the carrier, counter-clockwise positive, N m; any finite number, zero included.
     crank_angle : array (A,), optional
@@ -219,7 +74,7 @@ def contact_sweep(
     states : NominalStates, optional
         From :func:`.states.nominal_states` for the same model and angles, where many sweeps share
         them.
-    changed : ErrorStates, optional
+    changed : Toleranced, optional
         From :func:`.states.error_states` for the same states and errors, likewise.
 
     Returns
@@ -269,20 +124,21 @@ def _refuse_misshapen(model: ContactModel, errors: GearboxErrors | None) -> None
     if errors is None:
         return
     wanted = GearboxErrors.none(model, errors.disc_profile.shape[-1])
-    for name in wanted.__dataclass_fields__:
-        given, shape = np.shape(getattr(errors, name)), getattr(wanted, name).shape
-        if given != shape:
-            raise UsageError(f"errors.{name} has the shape {given}; this gearbox needs {shape}.")
+    for name, given, right in zip(errors._fields, errors, wanted, strict=True):
+        if np.shape(given) != right.shape:
+            raise UsageError(
+                f"errors.{name} has the shape {np.shape(given)}; this gearbox needs {right.shape}."
+            )
 
 
 def sweep_problem(
-    model: ContactModel, torque: float, states: NominalStates, changed: ErrorStates
+    model: ContactModel, torque: float, states: NominalStates, changed: Toleranced
 ) -> tuple[Contacts, Springs, Load, FloatArray, SweepResult]:
     """Arguments of :func:`.sweep_kernel.solve_sweep`, the last of them still to be filled."""
     count, discs, each = states.gaps.shape
     contacts = Contacts(
         rows=states.rows,
-        gaps=states.gaps + changed.gaps,
+        gaps=changed.gaps,
         coefficient=states.coefficient,
         offset=changed.offset,
         half_play=changed.half_play,
@@ -356,7 +212,7 @@ def _assemble(
     model: ContactModel,
     torque: float,
     states: NominalStates,
-    changed: ErrorStates,
+    changed: Toleranced,
     result: SweepResult,
 ) -> ContactSweep:
     teeth, length = model.tooth_count, states.length
@@ -369,7 +225,7 @@ def _assemble(
     centre = kinematics.disc_centre(model.eccentricity, states.crank_angle[:, None], model.phases)
     pin_normal = states.rows[:, :, teeth:, :2]
     pin_at = model.pin_circle_radius * np.stack(
-        [np.cos(states.pins.pin_angle), np.sin(states.pins.pin_angle)], axis=-1
+        [np.cos(states.pin_angle), np.sin(states.pin_angle)], axis=-1
     )
     touching = np.any(force > 0.0, axis=(1, 2))
     displacement = discs.copy()
@@ -385,7 +241,7 @@ def _assemble(
         ring_equivalent_radius=states.ring.equivalent_radius,
         pin_force=force[:, :, teeth:],
         pin_normal=pin_normal,
-        pin_point=pin_at[:, None] + model.pin_radius * pin_normal,
+        pin_point=pin_at[:, None] + model.pin_contact_radius * pin_normal,
         cam_force=cam_force,
         disc_centre=centre,
         disc_displacement=displacement,
@@ -400,7 +256,7 @@ def _assemble(
 
 def energy_slope(
     states: NominalStates,
-    changed: ErrorStates,
+    changed: Toleranced,
     state: FloatArray,
     force: FloatArray,
     cam_force: FloatArray,

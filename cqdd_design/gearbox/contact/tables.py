@@ -12,15 +12,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.geometry.contours import as_complex, as_points
+from cqdd_design.geometry.contours import FloatArray, as_complex, as_points
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.kinematics import carrier_angle, disc_pose
 from cqdd_design.geometry.meshing import project, tooth_centres
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,26 +51,6 @@ class RingTable:
     equivalent_radius: FloatArray
     radius_rate: FloatArray
     centre_curvature: FloatArray
-
-
-@dataclass(frozen=True, eq=False)
-class PinTable:
-    """Output-pin contacts at A crank angles on D discs with P pins.
-
-    Attributes
-    ----------
-    rows : array (A, D, P, 3)
-        n_x, n_y, h: unit force on the disc (-u, u its crank direction) and its arm, which is the
-        same about the disc's centre and, for the pin, about the ring's.
-    rates : array (A, D, P, 2)
-        Derivatives over crank angle of the normal's angle (1) and of h (m).
-    pin_angle : array (A, P)
-        Angle of every pin in the ring's frame, rad.
-    """
-
-    rows: FloatArray
-    rates: FloatArray
-    pin_angle: FloatArray
 
 
 def nearest_parameter(disc: CycloidDisc, centres: FloatArray, guess: FloatArray) -> FloatArray:
@@ -114,7 +91,6 @@ def ring_table(model: ContactModel, crank_angle: FloatArray) -> RingTable:
 
     Parameters
     ----------
-    model : ContactModel
     crank_angle : array (A,)
         rad.
     """
@@ -153,14 +129,25 @@ def ring_table(model: ContactModel, crank_angle: FloatArray) -> RingTable:
     )
 
 
-def pin_table(model: ContactModel, crank_angle: FloatArray) -> PinTable:
+def pin_table(
+    model: ContactModel, crank_angle: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Output-pin contacts of every disc at the nominal pose.
 
     Parameters
     ----------
-    model : ContactModel
     crank_angle : array (A,)
         rad.
+
+    Returns
+    -------
+    rows : array (A, D, P, 3)
+        n_x, n_y, h: unit force on the disc (-u, u its crank direction) and its arm, which is the
+        same about the disc's centre and, for the pin, about the ring's.
+    rates : array (A, D, P, 2)
+        Derivatives over crank angle of the normal's angle (1) and of h (m).
+    pin_angle : array (A, P)
+        Angle of every pin in the ring's frame, rad.
     """
     n, count, radius = model.lobe_count, model.pin_count, model.pin_circle_radius
     own = crank_angle[:, None, None] + model.phases[:, None]
@@ -171,8 +158,5 @@ def pin_table(model: ContactModel, crank_angle: FloatArray) -> PinTable:
     ahead = own - pins[:, None, :]
     cosine, sine = (np.broadcast_to(f(own), ahead.shape) for f in (np.cos, np.sin))
     arm_rate = -radius * np.cos(ahead) * (1.0 + 1.0 / n)
-    return PinTable(
-        rows=np.stack([-cosine, -sine, -radius * np.sin(ahead)], axis=-1),
-        rates=np.stack([np.ones_like(ahead), arm_rate], axis=-1),
-        pin_angle=pins,
-    )
+    rows = np.stack([-cosine, -sine, -radius * np.sin(ahead)], axis=-1)
+    return rows, np.stack([np.ones_like(ahead), arm_rate], axis=-1), pins

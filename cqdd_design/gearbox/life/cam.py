@@ -7,13 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.gearbox.bearing_life import RollingElement, basic_rating_life_hours, life_exponent
 from cqdd_design.gearbox.cam_bearing import rolling_element
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 WEIBULL_BALL, WEIBULL_ROLLER = 10.0 / 9.0, 9.0 / 8.0
 """Slopes of the scatter of bearing lives (ISO 281:2007; Lundberg and Palmgren 1947, 1952)."""
@@ -25,7 +23,6 @@ class CamLife:
 
     Attributes
     ----------
-    designation : str
     speed : float
         Mean relative speed of crank and disc over the duty, rad/s.
     equivalent_load : tuple of float
@@ -109,18 +106,7 @@ def cam_life(
     speeds: FloatArray,
     hours_of_check: float | None,
 ) -> CamLife:
-    """Rate one bearing per disc on a spectrum.
-
-    Parameters
-    ----------
-    bearing : Bearing
-    loads : array (C, A, D)
-        Of C cases at A even angles on D bearings, N.
-    shares, speeds : array (C,)
-        Share of time and relative speed (rad/s) of every case.
-    hours_of_check : float or None
-        Passed on.
-    """
+    """Rate one bearing per disc on a spectrum, given as to `equivalent_load`, speeds in rad/s."""
     element = rolling_element(bearing)
     exponent = life_exponent(element)
     equal = equivalent_load(loads, shares, speeds, exponent)

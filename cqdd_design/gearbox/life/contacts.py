@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.sweep import ContactSweep
+from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.life import cycles, fatigue
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
+
 IntArray = NDArray[np.int64]
 
 _LEAST_ANGLES, _LEAST_PLACES = 120, 360

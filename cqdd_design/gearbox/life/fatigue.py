@@ -6,9 +6,9 @@ import itertools
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 _KNEE = 1e7
 _STEEP, _STEEP_EXPONENT = 2.466, 0.056

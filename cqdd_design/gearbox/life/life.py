@@ -15,8 +15,9 @@ from cqdd_design.design import Design
 from cqdd_design.gearbox.cam_bearing import cam_bearing
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
-from cqdd_design.gearbox.contact.sweep import ContactSweep, contact_sweep
+from cqdd_design.gearbox.contact.sweep import contact_sweep
 from cqdd_design.gearbox.life import contacts, cycles, fatigue, pins
 from cqdd_design.gearbox.life.cam import CamLife, cam_life
 from cqdd_design.gearbox.life.contacts import Pressures
@@ -24,8 +25,7 @@ from cqdd_design.gearbox.life.result import CaseLoads, DutyCase, LifeResult, Par
 from cqdd_design.gearbox.loads import rigid_maxima
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import kinematics
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 _ENDLESS_HOURS = 1e9
 """Lives beyond this, a hundred thousand years, are given as none: the curves mean nothing there."""
@@ -60,7 +60,6 @@ def life(design: Design, model: ContactModel) -> LifeResult:
 
     Parameters
     ----------
-    design : Design
     model : ContactModel
         Of the same design.
 
@@ -152,36 +151,13 @@ def _contacts(duty: _Duty) -> list[PartLife]:
     tooth = contacts.tooth_contact(sweeps)
     once, again = cycles.ring_tooth_cycles(n), cycles.disc_cycles(n)
     first, model = sweeps[0], sweeps[0].model
-    teeth = tooth.values.shape[2]
+    flank_at, hole_at = partial(contacts.flank_place, first), partial(contacts.hole_place, first)
+    tooth_at = partial(contacts.tooth_place, model, tooth.values.shape[2])
     rows: tuple[tuple[str, Pressures, int, str, Callable[[int], str]], ...] = (
-        (
-            "ring teeth",
-            tooth,
-            once,
-            reducer.ring_material,
-            lambda at: contacts.tooth_place(model, teeth, at),
-        ),
-        (
-            "disc flanks",
-            flank,
-            again,
-            reducer.disc_material,
-            lambda at: contacts.flank_place(first, at),
-        ),
-        (
-            "disc holes",
-            hole,
-            again,
-            reducer.disc_material,
-            lambda at: contacts.hole_place(first, at),
-        ),
-        (
-            "output pins, contact",
-            hole,
-            again,
-            reducer.output_pins.material,
-            lambda at: contacts.hole_place(first, at),
-        ),
+        ("ring teeth", tooth, once, reducer.ring_material, tooth_at),
+        ("disc flanks", flank, again, reducer.disc_material, flank_at),
+        ("disc holes", hole, again, reducer.disc_material, hole_at),
+        ("output pins, contact", hole, again, reducer.output_pins.material, hole_at),
     )
     return [_contact(duty.turns, *row) for row in rows]
 

@@ -16,15 +16,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.gearbox import output_pins
-from cqdd_design.gearbox.contact.sweep import ContactSweep
+from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.life import fatigue
 from cqdd_design.gearbox.output_pins import PinSupport
+from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 Cycle = tuple[float, float, float]
 """Lowest and highest stress, Pa, and how many of them an hour."""
 
@@ -95,7 +93,7 @@ def pin_force_histories(sweep: ContactSweep) -> ComplexArray:
     model = sweep.model
     shared = math.gcd(model.lobe_count, model.pin_count)
     different = model.pin_count // shared
-    middle = sweep.pin_point - model.pin_radius * sweep.pin_normal
+    middle = sweep.pin_point - model.pin_contact_radius * sweep.pin_normal
     outward = middle[..., 0] + 1j * middle[..., 1]
     on_disc = sweep.pin_normal[..., 0] + 1j * sweep.pin_normal[..., 1]
     force = -sweep.pin_force * on_disc * np.conj(outward) / np.abs(outward)

@@ -114,7 +114,6 @@ class LifeResult:
 
     Attributes
     ----------
-    duty : tuple of DutyCase
     loads : tuple of CaseLoads
         Of the same cases.
     assumed : bool
@@ -122,7 +121,6 @@ class LifeResult:
     required_hours : float
     parts : tuple of PartLife
         Contact fatigue of ring, discs, holes and pins, and bending of the pins.
-    cam : CamLife
     notes : tuple of str
         What of it stands outside its source.
     """

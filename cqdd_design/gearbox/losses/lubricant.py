@@ -38,7 +38,6 @@ class Lubricant:
 
     Attributes
     ----------
-    name : str
     viscosity : float
         Kinematic viscosity nu of the (base) oil at 40 C, m^2/s.
     density : float
@@ -92,10 +91,6 @@ def find_lubricant(name: str) -> tuple[Lubricant, str | None]:
     name : str
         ``NLGI 000 grease`` to ``NLGI 3 grease``, or ``ISO VG 100 oil`` with any grade from 2 to
         3200.
-
-    Returns
-    -------
-    tuple of (Lubricant, str or None)
 
     Examples
     --------

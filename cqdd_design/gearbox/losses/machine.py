@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.gearbox import output_pins
 from cqdd_design.gearbox.losses.lubricant import Lubricant, find_lubricant
@@ -25,10 +26,11 @@ from cqdd_design.gearbox.losses.sliding import (
     ring_sliding,
     sleeve_share,
 )
-from cqdd_design.gearbox.stages import pin_mean_diameter
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_moments
 
-FloatArray = NDArray[np.float64]
+if TYPE_CHECKING:
+    from cqdd_design.gearbox.contact.solved import ContactSweep
 
 SOURCES = (
     "ring_teeth",
@@ -44,42 +46,6 @@ _LEAST_FILM = 50e-6
 """Thinnest grease film between faces that a design sets without any gap, m."""
 _OUTPUT_HEIGHT = 0.75
 """Mid-plane of the output bearing beyond the second plate's face, in bearing widths."""
-
-
-class ContactForces(Protocol):
-    """The fields of a contact sweep that friction looks at; see `ContactSweep`."""
-
-    @property
-    def torque(self) -> float:
-        """On the carrier, N m."""
-
-    @property
-    def ring_force(self) -> FloatArray:
-        """(A, D, n+1), N."""
-
-    @property
-    def ring_point(self) -> FloatArray:
-        """(A, D, n+1, 2), m."""
-
-    @property
-    def ring_normal(self) -> FloatArray:
-        """(A, D, n+1, 2), unit force on the disc."""
-
-    @property
-    def pin_force(self) -> FloatArray:
-        """(A, D, N_w), N."""
-
-    @property
-    def pin_normal(self) -> FloatArray:
-        """(A, D, N_w, 2), unit force on the disc."""
-
-    @property
-    def cam_force(self) -> FloatArray:
-        """(A, D, 2), force on the disc, N."""
-
-    @property
-    def disc_centre(self) -> FloatArray:
-        """(A, D, 2), nominal, m."""
 
 
 @dataclass(frozen=True)
@@ -102,10 +68,8 @@ class FrictionMachine:
         Between the carrier plates.
     cam, support, output : BearingFriction
         Of every disc; at both ends of the shaft; of the carrier.
-    lubricant : Lubricant
     face_area, face_gap : float
         One face of a disc, and the gap filled with grease in front of it.
-    warnings : tuple of str
     """
 
     lobe_count: int
@@ -139,9 +103,7 @@ class FrictionMachine:
         """
         reducer, pins = design.reducer, design.reducer.output_pins
         cam = find_bearing(reducer.cam_bearing.designation)
-        mean = pin_mean_diameter(design)
         lubricant, warning = find_lubricant(reducer.friction.lubricant)
-        moments = disc_moments(design, 0, bore_diameter=cam.outer_diameter, pin_mean_diameter=mean)
         stack = (reducer.disc_count, reducer.disc_thickness, reducer.disc_spacing)
         return cls(
             lobe_count=reducer.ratio,
@@ -149,14 +111,14 @@ class FrictionMachine:
             eccentricity=reducer.eccentricity,
             tooth_coefficient=reducer.friction.tooth,
             pin_coefficient=reducer.friction.pin,
-            sleeve_share=sleeve_share(mean, pins.sleeve_diameter),
+            sleeve_share=sleeve_share(mean_pin_diameter(pins.diameter), pins.sleeve_diameter),
             disc_heights=tuple(float(z) for z in output_pins.disc_positions(*stack)),
             span=float(output_pins.pin_span(*stack)),
             cam=BearingFriction.of(cam),
             support=support,
             output=output,
             lubricant=lubricant,
-            face_area=moments.area,
+            face_area=disc_moments(design, 0, bore_diameter=cam.outer_diameter).area,
             face_gap=max(reducer.disc_spacing, _LEAST_FILM),
             warnings=() if warning is None else (warning,),
         )
@@ -166,12 +128,12 @@ class FrictionMachine:
         """Turn of the crank against disc and carrier per radian of crank, 1 + 1/n."""
         return 1.0 + 1.0 / self.lobe_count
 
-    def coulomb_work(self, forces: ContactForces) -> dict[str, float]:
+    def coulomb_work(self, forces: ContactSweep) -> dict[str, float]:
         """Mean Coulomb friction work per radian of crank over a sweep, by source, N m.
 
         Parameters
         ----------
-        forces : ContactForces
+        forces : ContactSweep
             Frictionless forces at evenly spaced crank angles over a whole period.
         """
         n = self.lobe_count
@@ -197,17 +159,13 @@ class FrictionMachine:
             "grease": 0.0,
         }
 
-    def tooth_force_change(self, forces: ContactForces) -> float:
+    def tooth_force_change(self, forces: ContactSweep) -> float:
         """Share q by which tooth friction changes the tooth forces, which the losses leave out.
 
         The friction on a disc has a moment about the disc's centre C, mu sum F a with the arm
         a = (c - C).(c - P)/|c - P|; q is its ratio to the moment of the normal forces. With the
         pattern of forces unchanged and the output torque kept, the teeth press 1/(1 - q) times
         as hard while the motor drives and 1/(1 + q) times while the output drives.
-
-        Parameters
-        ----------
-        forces : ContactForces
 
         Returns
         -------
@@ -224,7 +182,7 @@ class FrictionMachine:
         rubbed = abs(float(np.sum(forces.ring_force * lever)))
         return self.tooth_coefficient * rubbed / turned if turned > 0.0 else 0.0
 
-    def _seat_loads(self, forces: ContactForces) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def _seat_loads(self, forces: ContactSweep) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Loads (A,) of the first and second support and of the output bearing, N.
 
         The shaft carries the reactions of the cam forces and no other load: no rotor weight, no

@@ -12,17 +12,18 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cqdd_design.errors import UsageError
 from cqdd_design.gearbox.losses.backdrive import STATIC_RATIO, Backdrive, balance_torque
-from cqdd_design.gearbox.losses.machine import SOURCES, ContactForces, FrictionMachine, total
+from cqdd_design.gearbox.losses.machine import SOURCES, FrictionMachine, total
 from cqdd_design.gearbox.losses.result import Losses
+from cqdd_design.geometry.contours import FloatArray
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.model import ContactModel
+    from cqdd_design.gearbox.contact.solved import ContactSweep
 
-FloatArray = NDArray[np.float64]
 
 TORQUE_SHARES = (0.0, *(10.0 ** (0.125 * k) for k in range(-24, 1)))
 """Torques of the sweeps of :func:`loss_model`, as shares of the largest: zero, then eight to a
@@ -83,7 +84,6 @@ class LossModel:
 
     Attributes
     ----------
-    machine : FrictionMachine
     torque : array (K,)
         Of the sweeps, rising from zero, N m (sizes; both senses lose alike within the asymmetry
         of the hole clocking).
@@ -100,14 +100,13 @@ class LossModel:
 
     @classmethod
     def from_sweeps(
-        cls, machine: FrictionMachine, sweeps: ContactForces | Sequence[ContactForces]
+        cls, machine: FrictionMachine, sweeps: ContactSweep | Sequence[ContactSweep]
     ) -> LossModel:
         """Read the friction work of one or more sweeps of the same gearbox.
 
         Parameters
         ----------
-        machine : FrictionMachine
-        sweeps : ContactForces or sequence of them
+        sweeps : ContactSweep or sequence of them
             At torques of one sense and different sizes. Without one at zero torque the work is
             taken to vanish there, as it does without preload.
 
@@ -222,7 +221,7 @@ class LossModel:
             torque=float(torque),
             input_speed=float(input_speed),
             output_speed=size / self.machine.lobe_count,
-            **power,
+            by_source=power,
             load_independent=size * float(drag[0]),
             loss_torque=loss,
             tooth_force_change=float(np.interp(abs(torque), self.torque, self.force_change)),
@@ -290,7 +289,6 @@ def loss_model(model: ContactModel, machine: FrictionMachine, peak_torque: float
 
     Parameters
     ----------
-    model : ContactModel
     machine : FrictionMachine
         Of the same design.
     peak_torque : float

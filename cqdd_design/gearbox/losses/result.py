@@ -17,8 +17,8 @@ class Losses:
         On the carrier (N m) and of the crank (rad/s).
     output_speed : float
         rad/s, size only.
-    ring_teeth, output_pins, cam_bearings, support_bearings, output_bearing, grease : float
-        Mean power, W.
+    by_source : mapping
+        Mean power by the names of :data:`.machine.SOURCES`, in the order of the tables, W.
     load_independent : float
         Part of the total that does not depend on the load, W.
     loss_torque : float
@@ -38,18 +38,12 @@ class Losses:
         Names of the bearings that were counted: cam, support, output.
     lubricant : str
         Name of the lubricant whose drag was counted.
-    warnings : tuple of str
     """
 
     torque: float
     input_speed: float
     output_speed: float
-    ring_teeth: float
-    output_pins: float
-    cam_bearings: float
-    support_bearings: float
-    output_bearing: float
-    grease: float
+    by_source: dict[str, float]
     load_independent: float
     loss_torque: float
     tooth_force_change: float
@@ -60,18 +54,6 @@ class Losses:
     bearings: dict[str, str]
     lubricant: str
     warnings: tuple[str, ...]
-
-    @property
-    def by_source(self) -> dict[str, float]:
-        """Mean power by source, W, in the order of the tables."""
-        return {
-            "ring_teeth": self.ring_teeth,
-            "output_pins": self.output_pins,
-            "cam_bearings": self.cam_bearings,
-            "support_bearings": self.support_bearings,
-            "output_bearing": self.output_bearing,
-            "grease": self.grease,
-        }
 
     @property
     def total(self) -> float:

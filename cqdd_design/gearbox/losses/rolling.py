@@ -9,11 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import Bearing, BearingKind
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 FRICTION_COEFFICIENT: dict[BearingKind, float] = {
     "ball": 0.0015,
@@ -38,26 +37,6 @@ taken for crossed rollers."""
 
 _LOW_SPEED_PRODUCT = 2000.0
 """nu n in mm^2/s rpm below which the drag no longer depends on speed."""
-
-
-def load_torque(coefficient: ArrayLike, load: ArrayLike, bore_diameter: ArrayLike) -> FloatArray:
-    """Load-dependent friction torque M1 = mu F d/2 of a bearing, N m.
-
-    Parameters
-    ----------
-    coefficient : array_like
-        mu on the bore, :data:`FRICTION_COEFFICIENT`.
-    load : array_like
-        Equivalent radial load, N, not negative.
-    bore_diameter : array_like
-        d, m.
-
-    Notes
-    -----
-    SKF and JTEKT catalogues, for about a tenth of the dynamic rating and good lubrication.
-    """
-    force = np.asarray(load, dtype=float) * np.asarray(bore_diameter, dtype=float)
-    return np.asarray(0.5 * np.asarray(coefficient, dtype=float) * force)
 
 
 def drag_torque(
@@ -104,7 +83,6 @@ class BearingFriction:
 
     Attributes
     ----------
-    name : str
     coefficient, drag_factor : float
         mu on the bore and f0.
     bore_diameter, mean_diameter, width : float
@@ -137,8 +115,11 @@ class BearingFriction:
         return cls(name, coefficient, 0.0, bore_diameter, bore_diameter, width)
 
     def load_torque(self, load: ArrayLike) -> FloatArray:
-        """M1 under a radial load (N), N m."""
-        return load_torque(self.coefficient, load, self.bore_diameter)
+        """Load-dependent M1 = mu F d/2 under an equivalent radial load F (N), N m.
+
+        SKF and JTEKT catalogues, for about a tenth of the dynamic rating and good lubrication.
+        """
+        return np.asarray(0.5 * self.coefficient * (np.asarray(load) * self.bore_diameter))
 
     def drag_torque(self, viscosity: float, speed: ArrayLike) -> FloatArray:
         """M0 at a relative speed (rad/s), N m."""

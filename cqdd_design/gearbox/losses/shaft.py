@@ -9,9 +9,9 @@ Heights count from the first carrier plate, as those of the output pins do::
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 
 def support_reactions(

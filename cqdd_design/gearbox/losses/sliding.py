@@ -18,9 +18,9 @@ therefore counted like a solid one. Every function broadcasts.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 
 def ring_sliding(

@@ -6,14 +6,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.contact.kernel_values import Extremes, RigidParts
+from cqdd_design.gearbox.contact.kernel_values import Extremes, RigidParts, Toleranced
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.states import (
-    ErrorStates,
     NominalStates,
     error_states,
     nominal_states,
@@ -21,11 +19,9 @@ from cqdd_design.gearbox.contact.states import (
 )
 from cqdd_design.gearbox.contact.sweep import output_turn_angles, perfect_angles
 from cqdd_design.gearbox.contact.tables import nearest_parameter
-from cqdd_design.geometry.contours import as_complex, as_points
+from cqdd_design.geometry.contours import FloatArray, as_complex, as_points
 from cqdd_design.geometry.kinematics import disc_pose, turned_with_carrier
 from cqdd_design.geometry.meshing import tooth_centres
-
-FloatArray = NDArray[np.float64]
 
 _CORRECTIONS = 2
 """Rounds of correction to the exact profile; each leaves a small share of the one before."""
@@ -91,10 +87,8 @@ def backlash(
 
     Parameters
     ----------
-    model : ContactModel
     crank_angle : array (A,), optional
         rad, rising; default the period of a perfect gearbox, an output turn with errors.
-    errors : GearboxErrors, optional
     states : NominalStates, optional
         Of the same model and angles.
 
@@ -110,16 +104,15 @@ def backlash(
             crank_angle = perfect_angles(model) if errors is None else output_turn_angles(model)
         states = nominal_states(model, np.asarray(crank_angle, dtype=float))
     changed = error_states(model, states, errors)
-    nominal = states.gaps + changed.gaps
     ends, overlaps, extremes = [], [], []
     for sense in (-1.0, 1.0):
-        gaps = nominal
+        gaps = changed.gaps
         for _ in range(_CORRECTIONS + 1):
             end, overlap, poses = _push(model, states, changed, gaps, errors, sense)
             # The model of each gap is right where it was linearised but for its third order;
             # what it misses of the exact gap at this pose is put into it.
-            exact, modelled = _exact_and_modelled(model, states, nominal, errors, poses)
-            gaps = nominal.copy()
+            exact, modelled = _exact_and_modelled(model, states, changed.gaps, errors, poses)
+            gaps = changed.gaps.copy()
             gaps[:, :, : model.tooth_count] += exact - modelled
         ends.append(end)
         overlaps.append(overlap)
@@ -149,7 +142,7 @@ def _apart(model: ContactModel, states: NominalStates, errors: GearboxErrors | N
 def _push(
     model: ContactModel,
     states: NominalStates,
-    changed: ErrorStates,
+    changed: Toleranced,
     gaps: FloatArray,
     errors: GearboxErrors | None,
     sense: float,
@@ -163,7 +156,7 @@ def _push(
         gaps=gaps,
         curvature=states.ring.centre_curvature,
         tooth_centre=tooth_centres(model.disc),
-        pin_angle=states.pins.pin_angle,
+        pin_angle=states.pin_angle,
         crank_angle=states.crank_angle,
         own_angle=states.crank_angle[:, None] + model.phases,
         apart=_apart(model, states, errors),

@@ -6,9 +6,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 STRONGEST = 12
 
@@ -81,10 +80,6 @@ def order_spectrum(
     strongest : int
         How many to return, in falling order of amplitude; those below 1e-9 of the first are left
         out.
-
-    Returns
-    -------
-    tuple of Order
     """
     count = len(values)
     amplitude = 2.0 * np.abs(np.fft.rfft(values - values.mean())) / count

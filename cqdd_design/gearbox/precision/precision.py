@@ -6,23 +6,17 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
-from cqdd_design.gearbox.contact.sweep import (
-    ContactSweep,
-    contact_sweep,
-    output_turn_angles,
-    perfect_angles,
-)
+from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles, perfect_angles
 from cqdd_design.gearbox.precision.backlash import Backlash, backlash
 from cqdd_design.gearbox.precision.orders import Order, order_spectrum
 from cqdd_design.geometry import kinematics
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 LOST_MOTION_SHARE = 0.03
 """Lost motion is read between plus and minus 3 % of the torque, as makers' data sheets do."""
@@ -165,7 +159,6 @@ def precision(
 
     Parameters
     ----------
-    model : ContactModel
     torque : float
         N m, not zero; its sign is the sense.
     angles : int

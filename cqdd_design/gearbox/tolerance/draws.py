@@ -10,13 +10,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.design.actuator import Tolerances
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.part_errors import ErrorBatch
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.geometry.contours import FloatArray
 
 GROUPS: tuple[str, ...] = (
     "tooth_position",
@@ -29,7 +27,8 @@ GROUPS: tuple[str, ...] = (
     "eccentricity",
     "bearing_clearance",
 )
-"""The tolerances of a design file, each of which is drawn by itself."""
+"""The tolerances of a design file, each of which is drawn by itself, in the order of the part
+errors that they give."""
 
 _WORDS = 4
 """Raw numbers per step of Philox's counter."""
@@ -49,21 +48,6 @@ def profile_amplitudes(lobe_count: int) -> FloatArray:
     order = np.arange(1, harmonics(lobe_count) + 1)
     amplitude = 1.0 / order
     return np.asarray(amplitude / np.sqrt(np.sum(amplitude**2)))
-
-
-def _shapes(model: ContactModel) -> dict[str, tuple[int, ...]]:
-    teeth, discs, pins = model.lobe_count + 1, model.disc_count, model.pin_count
-    return {
-        "tooth_position": (teeth, 2),
-        "tooth_radius": (teeth,),
-        "disc_profile": (discs, 2, harmonics(model.lobe_count)),
-        "hole_position": (discs, pins, 2),
-        "hole_diameter": (discs, pins),
-        "pin_position": (pins, 2),
-        "pin_diameter": (pins,),
-        "eccentricity": (discs, 2),
-        "bearing_clearance": (discs,),
-    }
 
 
 def _standard(
@@ -90,39 +74,27 @@ def draw_errors(
     first: int,
     count: int,
     matrices: Mapping[str, int] | None = None,
-) -> ErrorBatch:
+) -> GearboxErrors:
     """Draw gearboxes `first` to `first + count` of an ensemble.
 
     Parameters
     ----------
-    model : ContactModel
-    tolerances : Tolerances
     seed : int
         0 to 2^64 - 1.
     first, count : int
         Gearboxes by number.
     matrices : mapping, optional
         Tolerances to take from a second, independent draw (1) instead of the first (0).
-
-    Returns
-    -------
-    ErrorBatch
     """
-    drawn = {}
-    for number, (name, shape) in enumerate(_shapes(model).items()):
+    perfect = GearboxErrors.none(model, harmonics(model.lobe_count))
+    drawn = []
+    for number, (name, none) in enumerate(zip(GROUPS, perfect, strict=True)):
         matrix = (matrices or {}).get(name, 0)
-        values = _standard(
-            seed, number, matrix, first, count, int(np.prod(shape)), tolerances.distribution
-        )
-        drawn[name] = getattr(tolerances, name) * values.reshape(count, *shape)
-    return ErrorBatch(
-        tooth_position=drawn["tooth_position"],
-        tooth_radius=drawn["tooth_radius"],
-        disc_profile=drawn["disc_profile"] * profile_amplitudes(model.lobe_count),
-        hole_position=drawn["hole_position"],
-        hole_radius=0.5 * drawn["hole_diameter"],
-        pin_position=drawn["pin_position"],
-        pin_radius=0.5 * drawn["pin_diameter"],
-        cam_centre=drawn["eccentricity"],
-        cam_play=drawn["bearing_clearance"],
+        values = _standard(seed, number, matrix, first, count, none.size, tolerances.distribution)
+        drawn.append(getattr(tolerances, name) * values.reshape(count, *none.shape))
+    found = GearboxErrors(*drawn)
+    return found._replace(
+        disc_profile=found.disc_profile * profile_amplitudes(model.lobe_count),
+        hole_radius=0.5 * found.hole_radius,
+        pin_radius=0.5 * found.pin_radius,
     )

@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.design import Design
 from cqdd_design.errors import UsageError
@@ -20,10 +19,10 @@ from cqdd_design.gearbox.tolerance.evaluate import (
     EnsembleTables,
     ensemble_tables,
     evaluate_gearboxes,
+    marked_angles,
 )
 from cqdd_design.gearbox.tolerance.sobol import SobolIndices, sobol_indices
-
-FloatArray = NDArray[np.float64]
+from cqdd_design.geometry.contours import FloatArray
 
 BLOCK = 125
 """Gearboxes worked at a time: about a third of a second on four cores."""
@@ -56,11 +55,6 @@ class Ensemble:
     angles: int
     seed: int
 
-    @property
-    def key(self) -> tuple[str, float, int, int]:
-        """What tells two ensembles apart."""
-        return self.design.sha256, self.torque, self.angles, self.seed
-
 
 @dataclass(frozen=True)
 class Block:
@@ -85,27 +79,14 @@ Progress = Callable[[int, int], None]
 
 
 @functools.lru_cache(maxsize=2)
-def _tables(key: tuple[str, float, int, int], ensemble: _Held) -> EnsembleTables:
-    one = ensemble.ensemble
-    return ensemble_tables(ContactModel.from_design(one.design), one.torque, one.angles)
-
-
-class _Held:
-    """Carries an ensemble past the cache, which goes by the key alone."""
-
-    def __init__(self, ensemble: Ensemble) -> None:
-        self.ensemble = ensemble
-
-    def __hash__(self) -> int:
-        return 0
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Held)
+def _tables(ensemble: Ensemble) -> EnsembleTables:
+    model = ContactModel.from_design(ensemble.design)
+    return ensemble_tables(model, ensemble.torque, ensemble.angles)
 
 
 def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
     """Values (count, 5) of a block of gearboxes, in the order and units of `OUTPUTS`."""
-    tables = _tables(ensemble.key, _Held(ensemble))
+    tables = _tables(ensemble)
     errors = draw_errors(
         tables.model,
         ensemble.design.tolerances,
@@ -114,7 +95,7 @@ def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
         block.count,
         dict.fromkeys(block.exchanged, 1),
     )
-    return evaluate_gearboxes(tables, errors).values
+    return evaluate_gearboxes(tables, errors)
 
 
 def work_here(ensemble: Ensemble, blocks: list[Block]) -> Iterator[tuple[int, FloatArray]]:
@@ -129,7 +110,6 @@ class ToleranceResult:
 
     Attributes
     ----------
-    ensemble : Ensemble
     asked : int
         Gearboxes asked for.
     values : array (S, 5)
@@ -186,10 +166,12 @@ class ToleranceResult:
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form (``results`` of ``tolerance``)."""
         body: dict[str, object] = dict(self.statistics()) if len(self.values) else {}
-        for key in ("first", "total", "first_half_width", "total_half_width"):
-            name = {"first": "sensitivity", "total": "sensitivity_total"}.get(
-                key, f"sensitivity_{key}"
-            )
+        for name, key in (
+            ("sensitivity", "first"),
+            ("sensitivity_total", "total"),
+            ("sensitivity_first_half_width", "first_half_width"),
+            ("sensitivity_total_half_width", "total_half_width"),
+        ):
             body[name] = self._by_output(key)
         return body | {
             "samples": len(self.values),
@@ -294,7 +276,7 @@ def run_ensemble(
     indices = None
     if base and not interrupted:
         indices = _sensitivity(values[:base], found[main:], base)
-    coarse = int(_coarse_count(ensemble))
+    coarse = int(marked_angles(ensemble.design.reducer.ratio, ensemble.angles).sum())
     return ToleranceResult(
         ensemble=ensemble,
         asked=samples,
@@ -305,12 +287,6 @@ def run_ensemble(
         seconds=time.perf_counter() - began,
         interrupted=interrupted,
     )
-
-
-def _coarse_count(ensemble: Ensemble) -> int:
-    from cqdd_design.gearbox.tolerance.evaluate import marked_angles
-
-    return int(marked_angles(ensemble.design.reducer.ratio, ensemble.angles).sum())
 
 
 def _blocks(count: int, exchanged: tuple[str, ...]) -> list[Block]:

@@ -16,7 +16,6 @@ from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, new_work
 from cqdd_design.gearbox.contact.gaps_kernel import fill_errors
 from cqdd_design.gearbox.contact.kernel_values import (
     Contacts,
-    Errors,
     Extremes,
     Forces,
     Load,
@@ -26,6 +25,7 @@ from cqdd_design.gearbox.contact.kernel_values import (
     Start,
     Toleranced,
 )
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.sweep_kernel import contacts_at, predict, solve_near
 from cqdd_design.gearbox.precision.backlash_kernel import OVERLAP, backlash_sweep
 
@@ -135,7 +135,7 @@ def _follow(
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _rigid_parts(nominal: Nominal, found: Toleranced, errors: Errors) -> RigidParts:
+def _rigid_parts(nominal: Nominal, found: Toleranced, errors: GearboxErrors) -> RigidParts:
     """One gearbox with its errors as the backlash sees it."""
     count, discs, contacts = found.gaps.shape
     pins = contacts - nominal.tooth_centre.shape[0]
@@ -170,7 +170,7 @@ def _rigid_parts(nominal: Nominal, found: Toleranced, errors: Errors) -> RigidPa
 
 @numba.njit(cache=True, error_model="numpy")
 def _solve_gearbox(
-    nominal: Nominal, springs: Springs, load: Load, start: Start, errors: Errors, values: Any
+    nominal: Nominal, springs: Springs, load: Load, start: Start, errors: GearboxErrors, values: Any
 ) -> int:
     """All five results of one gearbox; -1, or the angle that did not converge."""
     count, discs, contacts = nominal.gaps.shape
@@ -220,7 +220,7 @@ def solve_gearboxes(
     springs: Springs,
     load: Load,
     start: Start,
-    batch: Errors,
+    batch: GearboxErrors,
     values: Any,
     failed: Any,
 ) -> None:
@@ -230,7 +230,7 @@ def solve_gearboxes(
     ----------
     nominal, springs, load, start
         What all gearboxes share.
-    batch : Errors
+    batch : GearboxErrors
         With a leading axis S.
     values : array (S, 5)
         Out, in SI: backlash and transmission error in rad, the ripple without the factor n.
@@ -238,7 +238,7 @@ def solve_gearboxes(
         Out: -1, or the angle that did not converge.
     """
     for s in numba.prange(batch.tooth_radius.shape[0]):
-        errors = Errors(
+        errors = GearboxErrors(
             batch.tooth_position[s],
             batch.tooth_radius[s],
             batch.disc_profile[s],

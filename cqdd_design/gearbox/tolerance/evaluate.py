@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.contact.kernel_values import Errors, Load, Nominal, Start
+from cqdd_design.gearbox.contact.kernel_values import Load, Nominal, Start
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.part_errors import ErrorBatch
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
 from cqdd_design.gearbox.contact.sweep import (
     contact_sweep,
@@ -22,9 +22,8 @@ from cqdd_design.gearbox.contact.sweep import (
     stiffness_scale,
 )
 from cqdd_design.gearbox.precision.backlash import backlash
+from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.meshing import tooth_centres
-
-FloatArray = NDArray[np.float64]
 
 OUTPUTS: tuple[str, ...] = (
     "backlash_arcmin",
@@ -46,46 +45,15 @@ class EnsembleTables:
 
     Attributes
     ----------
-    model : ContactModel
-    torque : float
-        N m, positive.
     states : NominalStates
         Over one output turn.
-    marked : array (A,) of bool
-        Angles that serve backlash and stiffness.
-    perfect : array (A, 3 + 3 D)
-        States of the perfect gearbox under the torque, from which the others start.
-    free_poses : array (2, A, 3 + 3 D)
-        Its poses at both ends of its backlash, likewise.
+    start : Start
+        The perfect gearbox, from which the others start.
     """
 
     model: ContactModel
-    torque: float
     states: NominalStates
-    marked: NDArray[np.bool_]
-    perfect: FloatArray
-    free_poses: FloatArray
-
-    @property
-    def solves_per_gearbox(self) -> int:
-        """Equilibria under load per gearbox; the rigid solutions of the backlash not counted."""
-        return len(self.marked) + int(self.marked.sum())
-
-
-@dataclass(frozen=True, eq=False)
-class Outcome:
-    """Results of S gearboxes.
-
-    Attributes
-    ----------
-    values : array (S, 5)
-        In the units and order of `OUTPUTS`.
-    solves : int
-        Equilibria under load that were solved.
-    """
-
-    values: FloatArray
-    solves: int
+    start: Start
 
 
 def _stride(lobe_count: int) -> int:
@@ -115,7 +83,6 @@ def ensemble_tables(
 
     Parameters
     ----------
-    model : ContactModel
     torque : float
         N m, positive; transmission error, ring force and ripple are at it, the stiffness is the
         secant between half of it and it.
@@ -125,9 +92,8 @@ def ensemble_tables(
     states = nominal_states(model, output_turn_angles(model, angles))
     marked = marked_angles(model.lobe_count, len(states.crank_angle))
     perfect = contact_sweep(model, torque, states=states).state_vectors
-    return EnsembleTables(
-        model, torque, states, marked, perfect, backlash(model, states=states).poses
-    )
+    free_poses = backlash(model, states=states).poses
+    return EnsembleTables(model, states, Start(marked, perfect, free_poses, torque))
 
 
 def _nominal(tables: EnsembleTables, harmonics: int) -> Nominal:
@@ -144,7 +110,7 @@ def _nominal(tables: EnsembleTables, harmonics: int) -> Nominal:
         parameter_rate=states.ring.parameter_rate,
         curvature=states.ring.centre_curvature,
         tooth_centre=tooth_centres(model.disc),
-        pin_angle=states.pins.pin_angle,
+        pin_angle=states.pin_angle,
         crank_angle=states.crank_angle,
         phases=model.phases,
         basis=harmonic_basis(table_size(len(states.crank_angle), harmonics), harmonics),
@@ -156,14 +122,13 @@ def _nominal(tables: EnsembleTables, harmonics: int) -> Nominal:
 
 
 def evaluate_gearboxes(
-    tables: EnsembleTables, batch: ErrorBatch, threads: int | None = None
-) -> Outcome:
-    """Solve every gearbox of a batch over its output turn.
+    tables: EnsembleTables, batch: GearboxErrors, threads: int | None = None
+) -> FloatArray:
+    """Results (S, 5) of every gearbox of a batch, in the units and order of `OUTPUTS`.
 
     Parameters
     ----------
-    tables : EnsembleTables
-    batch : ErrorBatch
+    batch : GearboxErrors
         S gearboxes.
     threads : int, optional
         Default all; the numbers do not depend on it.
@@ -177,8 +142,9 @@ def evaluate_gearboxes(
 
     from cqdd_design.gearbox.tolerance.ensemble_kernel import solve_gearboxes
 
-    model, states = tables.model, tables.states
-    values, failed = np.empty((len(batch), 5)), np.empty(len(batch), dtype=np.int64)
+    model, states, torque = tables.model, tables.states, tables.start.torque
+    count = len(batch.tooth_radius)
+    values, failed = np.empty((count, 5)), np.empty(count, dtype=np.int64)
     former = numba.get_num_threads()
     numba.set_num_threads(min(threads or former, former))
     try:
@@ -186,9 +152,9 @@ def evaluate_gearboxes(
         solve(
             _nominal(tables, batch.disc_profile.shape[-1]),
             springs_of(model),
-            Load(tables.torque / states.length, stiffness_scale(model, tables.torque)),
-            Start(tables.marked, tables.perfect, tables.free_poses, tables.torque),
-            Errors(**vars(batch)),
+            Load(torque / states.length, stiffness_scale(model, torque)),
+            tables.start,
+            batch,
             values,
             failed,
         )
@@ -199,8 +165,8 @@ def evaluate_gearboxes(
         angle = math.degrees(states.crank_angle[failed[which]])
         raise ContactError(
             f"gearbox {which} of the batch has no contact equilibrium at crank angle {angle:.6g} "
-            f"deg and {tables.torque:g} N*m; its errors are too large for these clearances: "
+            f"deg and {torque:g} N*m; its errors are too large for these clearances: "
             "lower [tolerances], or the clearances."
         )
     scale = np.array([_ARCMIN, _ARCMIN, 1.0, 1.0 / _ARCMIN, float(model.lobe_count)])
-    return Outcome(values * scale, len(batch) * tables.solves_per_gearbox)
+    return np.asarray(values * scale)

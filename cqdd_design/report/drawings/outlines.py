@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.design import Design
-from cqdd_design.gearbox.stages import Stages, pin_mean_diameter
+from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.contours import Circle, PlanarPart
 from cqdd_design.geometry.cycloid import CycloidDisc
@@ -49,13 +49,11 @@ class Outlines:
     @classmethod
     def from_design(cls, design: Design, bearing: Bearing) -> Outlines:
         """Contours of a design whose cam bearing is `bearing`."""
-        mean = pin_mean_diameter(design)
         discs = tuple(
             disc_contour(
                 design,
                 index,
                 bore_diameter=bearing.outer_diameter,
-                pin_mean_diameter=mean,
                 tolerance=DRAWING_TOLERANCE,
             )
             for index in range(design.reducer.disc_count)

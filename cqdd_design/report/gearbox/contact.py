@@ -26,7 +26,7 @@ from cqdd_design.report.ink.svg import (
 )
 
 if TYPE_CHECKING:
-    from cqdd_design.gearbox.contact.sweep import ContactSweep
+    from cqdd_design.gearbox.contact.solved import ContactSweep
     from cqdd_design.machine.contact_analysis import ContactAnalysis
 
 _TURN = Axis(0.0, 360.0, (0.0, 90.0, 180.0, 270.0, 360.0), "crank angle, \u00b0")

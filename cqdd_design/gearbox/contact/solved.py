@@ -1,0 +1,165 @@
+"""Contact equilibria over crank angle: forces, pressures, displacements, energy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.hertz import line_contact_pressure
+from cqdd_design.geometry.contours import FloatArray
+
+IntArray = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class ContactSweep:
+    """Contact equilibria at A crank angles, D discs, T = n + 1 ring teeth, P output pins.
+
+    Points, normals and centres are those of the nominal pose, in which every disc balances.
+
+    Attributes
+    ----------
+    torque : float
+        On the carrier, counter-clockwise positive, N m.
+    crank_angle : array (A,)
+        rad.
+    ring_force : array (A, D, T)
+        N.
+    ring_normal, ring_point : array (A, D, T, 2)
+        Unit force on the disc; contact point, m.
+    ring_parameter, ring_equivalent_radius : array (A, D, T)
+        Place on the disc's profile (rad), R_eq (m).
+    pin_force : array (A, D, P)
+        N.
+    pin_normal, pin_point : array (A, D, P, 2)
+    cam_force : array (A, D, 2)
+        Force of the cam bearing on the disc, N.
+    disc_centre : array (A, D, 2)
+        Nominal, m.
+    disc_displacement : array (A, D, 3)
+        x, y (m) and angle (rad).
+    carrier_angle_error : array (A,)
+        Ahead of -phi/n positive, rad.
+    carrier_displacement : array (A, 2)
+        m; zero where the carrier's bearing is rigid.
+    energy : array (A,)
+        Pi = E - T gamma, J.
+    energy_slope : array (A,)
+        dPi/dphi at this load, N m; the input torque is T/n plus this.
+    stiffness : array (A,)
+        Tangent dT/dgamma, N m/rad; zero where nothing touches.
+    steps : array (A,)
+        Newton steps used.
+    """
+
+    model: ContactModel
+    torque: float
+    crank_angle: FloatArray
+    ring_force: FloatArray
+    ring_normal: FloatArray
+    ring_point: FloatArray
+    ring_parameter: FloatArray
+    ring_equivalent_radius: FloatArray
+    pin_force: FloatArray
+    pin_normal: FloatArray
+    pin_point: FloatArray
+    cam_force: FloatArray
+    disc_centre: FloatArray
+    disc_displacement: FloatArray
+    carrier_angle_error: FloatArray
+    carrier_displacement: FloatArray
+    energy: FloatArray
+    energy_slope: FloatArray
+    stiffness: FloatArray
+    steps: IntArray
+
+    @property
+    def state_vectors(self) -> FloatArray:
+        """Carrier and discs as the kernel holds them, angles times the pin circle, (A, 3 + 3 D)."""
+        length = self.model.pin_circle_radius
+        discs = self.disc_displacement * np.array([1.0, 1.0, length])
+        carrier = np.column_stack([self.carrier_displacement, length * self.carrier_angle_error])
+        return np.concatenate([carrier, discs.reshape(len(carrier), -1)], axis=1)
+
+    @property
+    def ring_pressure(self) -> FloatArray:
+        """Peak Hertz pressure at every tooth, (A, D, T), Pa."""
+        return line_contact_pressure(
+            self.ring_force,
+            self.model.contact_length,
+            self.ring_equivalent_radius,
+            self.model.ring_modulus,
+        )
+
+    @property
+    def pin_pressure(self) -> FloatArray:
+        """Peak Hertz pressure of every pin in its hole, (A, D, P), Pa."""
+        return line_contact_pressure(
+            self.pin_force,
+            self.model.contact_length,
+            self.model.pin_equivalent_radius,
+            self.model.pin_modulus,
+        )
+
+    @property
+    def cam_load(self) -> FloatArray:
+        """Size of the cam force, (A, D), N."""
+        return np.asarray(np.hypot(self.cam_force[..., 0], self.cam_force[..., 1]))
+
+    @property
+    def disc_torque(self) -> FloatArray:
+        """Torque every disc takes from the carrier, (A, D), N m; they add up to the torque."""
+        x, n = self.pin_point, self.pin_normal
+        moment = x[..., 0] * n[..., 1] - x[..., 1] * n[..., 0]
+        return np.asarray(np.sum(self.pin_force * moment, axis=-1))
+
+    @property
+    def uneven_sharing(self) -> float:
+        """Torque of the most loaded disc over the mean of the discs, greatest over the angles."""
+        share = np.abs(self.disc_torque)
+        return float((share.max(axis=1) / share.mean(axis=1)).max())
+
+    @property
+    def teeth_in_contact(self) -> IntArray:
+        """Loaded ring teeth, (A, D)."""
+        return np.asarray(np.sum(self.ring_force > 0.0, axis=-1), dtype=np.int64)
+
+    @property
+    def maxima(self) -> dict[str, float]:
+        """Greatest forces and pressures over this sweep, by their JSON keys."""
+        return {
+            "ring_force_max_N": float(self.ring_force.max()),
+            "output_pin_force_max_N": float(self.pin_force.max()),
+            "cam_bearing_load_max_N": float(self.cam_load.max()),
+            "ring_pressure_max_MPa": float(self.ring_pressure.max()) / 1e6,
+            "output_pressure_max_MPa": float(self.pin_pressure.max()) / 1e6,
+        }
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form (``contact``): the arrays, and their maxima over this sweep."""
+        share = np.abs(self.disc_torque).mean(axis=0)
+        shown = self.disc_displacement * 1e6
+        return {
+            "torque_Nm": self.torque,
+            "crank_angle_deg": np.degrees(self.crank_angle).tolist(),
+            "ring_force_N": self.ring_force.tolist(),
+            "ring_normal": self.ring_normal.tolist(),
+            "ring_point_mm": (1e3 * self.ring_point).tolist(),
+            "ring_pressure_MPa": (self.ring_pressure / 1e6).tolist(),
+            "ring_flank_parameter_deg": np.degrees(self.ring_parameter).tolist(),
+            "output_pin_force_N": self.pin_force.tolist(),
+            "output_pin_normal": self.pin_normal.tolist(),
+            "output_pin_point_mm": (1e3 * self.pin_point).tolist(),
+            "output_pressure_MPa": (self.pin_pressure / 1e6).tolist(),
+            "cam_force_N": self.cam_force.tolist(),
+            "disc_torque_Nm": self.disc_torque.tolist(),
+            "disc_centre_mm": (1e3 * self.disc_centre).tolist(),
+            "disc_displacement_um": shown.tolist(),
+            "carrier_angle_error_arcmin": (np.degrees(self.carrier_angle_error) * 60.0).tolist(),
+            "teeth_in_contact": self.teeth_in_contact.tolist(),
+            **self.maxima,
+            "disc_torque_share": (share / share.sum()).tolist() if share.sum() > 0.0 else None,
+        }
