@@ -21,6 +21,7 @@ FIXED = {
 RELATIONS = {"given", "calibrated", "predicted", "not comparable"}
 
 
+@pytest.mark.deep
 def test_bench_measures_every_row_and_writes_its_traces(cqdd, tmp_path):
     found = cqdd("bench", DESIGN, "--json", "--out", str(tmp_path / "traces"))
     assert found.code == 0

@@ -34,7 +34,7 @@ ON_DESIGN = [
     ("check",),
     ("analyse", "--torque", "40 N*m", "--angles", "24"),
     ("compare",),
-    ("inertia",),
+    pytest.param(("inertia",), marks=pytest.mark.deep),
     ("export", "--to", "dxf"),
     pytest.param(("report",), marks=pytest.mark.deep),
 ]

@@ -104,9 +104,9 @@ def test_a_named_file_is_not_overwritten_without_force(cqdd, tmp_path):
     "edit",
     [
         lambda text: text.replace('name = "sized-10"', 'name = "sized-10" # ours'),
-        lambda text: text + "\n[drive]\nencoder_bits = 16\n",
-        lambda text: "\n".join(text.splitlines()[:-1]) + "\n",
-        lambda text: "not even TOML [",
+        pytest.param(lambda text: text + "\n[drive]\nencoder_bits = 16\n", marks=pytest.mark.deep),
+        pytest.param(lambda text: "\n".join(text.splitlines()[:-1]) + "\n", marks=pytest.mark.deep),
+        pytest.param(lambda text: "not even TOML [", marks=pytest.mark.deep),
     ],
     ids=["a remark", "a key after the stamp", "no stamp", "another file"],
 )

@@ -47,6 +47,7 @@ def test_the_document_has_what_others_read(cqdd) -> None:
     assert results["seconds"] > 0.0
 
 
+@pytest.mark.deep
 def test_the_same_seed_gives_the_same_and_another_another(cqdd) -> None:
     def told(seed: str) -> object:
         done = cqdd(

@@ -144,6 +144,7 @@ def test_the_machine_comes_apart_in_an_order_that_frees_every_piece(name: str) -
     assert all(below[1] < above[0] for below, above in pairwise(ends))
 
 
+@pytest.mark.deep
 def test_section_cuts_what_the_plane_meets() -> None:
     """Height and bore of the first disc in the cut, and the pin beside it."""
     design, parts = known_design("paper"), known_parts("paper")

@@ -152,6 +152,7 @@ def test_a_bigger_ring_never_carries_less():
     assert most[-1] > 5.0 * most[0]
 
 
+@pytest.mark.deep
 def test_the_nearest_requirements_named_do_fit():
     """Both ways out of an infeasible request are real designs."""
     asked = {"ratio": 10, "peak_torque": "130 N*m", "continuous_torque": "50 N*m"}
@@ -167,6 +168,7 @@ def test_the_nearest_requirements_named_do_fit():
         sized(**asked, outer_diameter=f"{ring - 2} mm")
 
 
+@pytest.mark.deep
 def test_where_no_ring_helps_the_length_is_named():
     asked = {"ratio": 10, "peak_torque": "60 N*m", "length": "8 mm"}
     with pytest.raises(SizingInfeasibleError) as caught:

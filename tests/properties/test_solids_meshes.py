@@ -104,7 +104,7 @@ def test_display_meshes_are_closed_and_small() -> None:
         pytest.param("three discs", [1.1], DISPLAY, marks=pytest.mark.deep),
         pytest.param("pinwheel", [4.0], DISPLAY, marks=pytest.mark.deep),
         pytest.param("conjugate", [7.7], DISPLAY, marks=pytest.mark.deep),
-        ("one disc", [30.0], DISPLAY),
+        pytest.param("one disc", [30.0], DISPLAY, marks=pytest.mark.deep),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
