@@ -94,7 +94,9 @@ def test_calibration_goes_from_one_command_into_the_others(cqdd, tmp_path):
         (["bench", DESIGN, "--beside", "Some Motor"], "no motor 'Some Motor'"),
         (["bench", DESIGN, "--beside", "CubeMars RO100 KV55"], "geared"),
         (["bench", DESIGN, "--calibration", "none.json"], "cannot read none.json"),
-        (["calibrate", DESIGN, "--to", "mass"], "decides no unknown"),
+        pytest.param(
+            ["calibrate", DESIGN, "--to", "mass"], "decides no unknown", marks=pytest.mark.deep
+        ),
         (["calibrate", DESIGN, "--measured", "none.csv"], "cannot read none.csv"),
         (["calibrate", DESIGN, "--unknowns", "fricton_level"], "did you mean 'friction_level'"),
     ],

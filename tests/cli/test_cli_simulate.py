@@ -95,6 +95,7 @@ def test_a_locked_output_gives_what_is_commanded_less_friction(cqdd, tmp_path, m
     np.testing.assert_allclose(current, asked, rtol=0.01)
 
 
+@pytest.mark.deep
 def test_the_same_seed_gives_the_same_bytes(cqdd, tmp_path):
     arguments = (
         "simulate",

@@ -90,6 +90,7 @@ def test_bad_values_are_refused(cqdd, arguments: tuple[str, ...], code: int, wor
     assert "Traceback" not in done.err
 
 
+@pytest.mark.deep
 def test_a_wrong_scheduler_is_told_and_not_waited_for(cqdd) -> None:
     pytest.importorskip("distributed")
     wrong = ("--scheduler", "tcp://127.0.0.1:1", "--samples", "5")

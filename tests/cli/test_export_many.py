@@ -30,6 +30,7 @@ def folder(tmp_path: Path, repository: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.deep
 def test_a_crash_is_that_designs_failure(folder: Path) -> None:
     wrapper = folder / "wrapper.py"
     wrapper.write_text(CRASHING, encoding="utf-8")

@@ -217,6 +217,7 @@ def _draws_cleanly(page: str, folder: Path) -> None:
     assert found["start"]["discs"] != found["slid"]["discs"]
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("name", OTHERS)
 def test_other_designs_draw_as_cleanly(name: str, tmp_path: Path) -> None:
     _draws_cleanly(build_report(report_input(Design.from_mapping(OTHERS[name]))), tmp_path)

@@ -33,11 +33,12 @@ def test_ratio_10_carries_what_is_known_to_be_possible():
     ("given", "most", "ring", "binding"),
     [
         ({"outer_diameter": "40 mm"}, 4.8, 69, ("BEARING-STATIC",)),
-        (
+        pytest.param(
             {"peak_torque": "120 N*m"},
             106.0,
             76,
             ("BEARING-STATIC", "CONTACT-RING-PEAK", "BEARING-LIFE"),
+            marks=pytest.mark.deep,
         ),
         (
             {"peak_torque": "120 N*m", "continuous_torque": "40 N*m"},

@@ -137,7 +137,7 @@ def test_interference_is_a_balanced_preload(line_model: str) -> None:
     )
 
 
-@settings(max_examples=examples(32), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(16), deadline=None, suppress_health_check=SLOW)
 @given(
     contact_designs(modified=False),
     st.floats(-8e-6, 2e-6),

@@ -39,7 +39,7 @@ SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much]
 # ------------------------------------------------------------------ balance
 
 
-@settings(max_examples=examples(100), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(50), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), torques(), st.sampled_from(["palmgren", "linear"]), SEEDS)
 def test_everything_balances_at_any_torque(
     design: Design, torque: float, line_model: str, seed: int
@@ -48,7 +48,7 @@ def test_everything_balances_at_any_torque(
     assert_sound(swept(model, torque, some_angles(seed, model)))
 
 
-@settings(max_examples=examples(40), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(20), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), st.floats(-4.0, 0.3), st.sampled_from([1.0, -1.0]), SEEDS)
 def test_everything_balances_with_johnsons_law(
     design: Design, decade: float, sense: float, seed: int
@@ -59,7 +59,7 @@ def test_everything_balances_with_johnsons_law(
     assert_sound(swept(model, torque, some_angles(seed, model)))
 
 
-@settings(max_examples=examples(60), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(30), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), torques(1e-3, 1e2), LINE_MODELS, st.floats(0.1e-6, 8e-6), SEEDS)
 def test_everything_balances_with_part_errors(
     design: Design, torque: float, line_model: str, size: float, seed: int
@@ -85,7 +85,7 @@ def test_the_papers_gearbox_balances_over_its_period(torque: float, line_model: 
     assert np.abs(np.abs(total) - abs(torque)).max() < 1e-9 * abs(torque)
 
 
-@settings(max_examples=examples(32), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(16), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), torques(1e-2, 1e2), st.floats(6.0, 9.0), SEEDS)
 def test_a_soft_carrier_bearing_balances_too(
     design: Design, torque: float, decade: float, seed: int
@@ -135,7 +135,7 @@ def assert_agrees(
     assert sweep.stiffness[0] == pytest.approx(plain.stiffness, rel=1e-3)
 
 
-@settings(max_examples=examples(60), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(30), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), torques(1e-2, 3e2), LINE_MODELS, st.floats(0.0, 60.0))
 def test_forces_are_those_of_a_plain_minimisation(
     design: Design, torque: float, line_model: str, crank: float
@@ -146,7 +146,7 @@ def test_forces_are_those_of_a_plain_minimisation(
     assert_agrees(model, torque, crank)
 
 
-@settings(max_examples=examples(40), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(20), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), torques(1.0, 1e2), st.floats(0.0, 60.0), SEEDS)
 def test_forces_with_part_errors_are_those_of_a_plain_minimisation(
     design: Design, torque: float, crank: float, seed: int
@@ -164,7 +164,7 @@ def test_the_papers_gearbox_at_many_states() -> None:
     assert_agrees(replace(model, carrier_stiffness=2e7), 40.0, 0.4)
 
 
-@settings(max_examples=examples(40), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(20), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), torques(1e-2, 1e2), SEEDS)
 def test_the_road_there_does_not_matter(design: Design, torque: float, seed: int) -> None:
     """Warm starts from a neighbour, from afar, or none at all: one equilibrium."""
@@ -183,7 +183,7 @@ def test_the_road_there_does_not_matter(design: Design, torque: float, seed: int
 # ------------------------------------------------------------------ energy
 
 
-@settings(max_examples=examples(60), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(30), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(modified=False), torques(1e-3, 3e2), LINE_MODELS, SEEDS)
 def test_the_crank_carries_torque_over_ratio_where_normals_are_nominal(
     design: Design, torque: float, line_model: str, seed: int
@@ -215,7 +215,7 @@ def slope_by_difference(
     return found[1]
 
 
-@settings(max_examples=examples(48), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(24), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), torques(1e-1, 1e2), st.booleans(), SEEDS)
 def test_energy_slope_is_the_derivative_of_the_energy(
     design: Design, torque: float, faulty: bool, seed: int
@@ -229,7 +229,7 @@ def test_energy_slope_is_the_derivative_of_the_energy(
     assert np.abs(slope - by_difference).max() < 2e-6 * abs(torque) / model.lobe_count
 
 
-@settings(max_examples=examples(24), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(12), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(most_lobes=16), torques(1.0, 1e2))
 def test_energy_slope_integrates_to_zero_over_the_period(design: Design, torque: float) -> None:
     model = ContactModel.from_design(design)
@@ -256,7 +256,7 @@ def test_energy_slope_integrates_to_zero_over_an_output_turn_with_errors() -> No
 # ------------------------------------------------------------------ period
 
 
-@settings(max_examples=examples(48), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(24), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), torques(1e-1, 1e2), SEEDS)
 def test_a_perfect_gearbox_repeats_after_its_mesh_period(
     design: Design, torque: float, seed: int

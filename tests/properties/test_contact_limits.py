@@ -51,7 +51,7 @@ def ideal(model: ContactModel, cam_stiffness: float = 1e17) -> ContactModel:
 # ------------------------------------------------------------------ the rigid law
 
 
-@settings(max_examples=examples(80), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(40), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), torques(1.0, 1e2), SEEDS)
 def test_equal_linear_springs_without_clearance_share_by_the_rigid_law(
     design: Design, torque: float, seed: int
@@ -109,7 +109,7 @@ def test_discs_of_an_ideal_stack_share_by_their_stiffness() -> None:
 # ------------------------------------------------------------------ scaling and mirrors
 
 
-@settings(max_examples=examples(48), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(24), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), torques(1e-1, 1e2), st.floats(0.2, 5.0), SEEDS)
 def test_linear_springs_scale_with_all_lengths(
     design: Design, torque: float, factor: float, seed: int
@@ -154,7 +154,7 @@ def test_linear_springs_scale_with_all_lengths(
     assert two.stiffness[clear] / factor**2 == pytest.approx(one.stiffness[clear], rel=1e-6)
 
 
-@settings(max_examples=examples(40), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(20), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(clearances=False, modified=False), torques(1.0, 1e2), st.floats(0.1, 1e2))
 def test_without_clearance_linear_forces_follow_the_torque(
     design: Design, torque: float, factor: float
@@ -170,7 +170,7 @@ def test_without_clearance_linear_forces_follow_the_torque(
     assert one.stiffness == pytest.approx(torque / one.carrier_angle_error, rel=1e-6)
 
 
-@settings(max_examples=examples(48), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(24), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), torques(1e-2, 1e2), st.sampled_from(["palmgren", "johnson"]), SEEDS)
 def test_the_mirrored_gearbox_carries_the_mirrored_torque(
     design: Design, torque: float, line_model: str, seed: int
@@ -197,7 +197,7 @@ def test_the_mirrored_gearbox_carries_the_mirrored_torque(
     assert two.energy_slope == pytest.approx(-one.energy_slope, rel=1e-5, abs=1e-8 * abs(torque))
 
 
-@settings(max_examples=examples(48), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(24), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), st.booleans(), SEEDS)
 def test_more_torque_turns_the_carrier_further(design: Design, faulty: bool, seed: int) -> None:
     model = ContactModel.from_design(design)
@@ -265,7 +265,7 @@ def work_rate(sweep: ContactSweep, errors: GearboxErrors) -> float:
     )
 
 
-@settings(max_examples=examples(48), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(24), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), st.sampled_from([1.0, -1.0]), st.floats(0.0, 30.0), SEEDS)
 def test_every_part_error_does_its_work(
     design: Design, sense: float, crank: float, seed: int
@@ -335,7 +335,7 @@ def test_part_errors_of_the_papers_gearbox_act_as_a_machinist_expects() -> None:
     assert looser.carrier_angle_error[0] > base.carrier_angle_error[0]
 
 
-@settings(max_examples=examples(24), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(12), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), st.floats(0.0, 30.0), SEEDS)
 def test_errors_of_no_size_are_no_errors(design: Design, crank: float, seed: int) -> None:
     model = ContactModel.from_design(design)
@@ -355,7 +355,7 @@ def test_errors_of_no_size_are_no_errors(design: Design, crank: float, seed: int
     assert np.abs(one.ring_force - two.ring_force).max() < 1e-7 * perfect.ring_force.max()
 
 
-@settings(max_examples=examples(32), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(16), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), SEEDS)
 def test_moving_the_whole_ring_moves_the_whole_mechanism(design: Design, seed: int) -> None:
     """Ring, cams and carrier displaced alike carry the same forces: errors compose as a motion."""

@@ -69,13 +69,13 @@ def assert_backlash(
         assert found.greatest[0] == pytest.approx(high, abs=tolerance)
 
 
-@settings(max_examples=examples(48), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(24), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), st.floats(0.0, 60.0))
 def test_backlash_is_that_of_a_search_on_the_exact_profile(design: Design, crank: float) -> None:
     assert_backlash(ContactModel.from_design(design), crank)
 
 
-@settings(max_examples=examples(32), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(16), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), st.floats(0.0, 60.0), st.floats(0.2e-6, 2e-6), SEEDS)
 def test_backlash_with_part_errors_is_that_of_the_search(
     design: Design, crank: float, size: float, seed: int
@@ -147,7 +147,7 @@ def test_the_searches_gaps_are_distances_to_the_profile() -> None:
     assert values[:11] * 1e-6 == pytest.approx(nearest, abs=1e-10)
 
 
-@settings(max_examples=examples(40), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(20), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), st.floats(0.0, 60.0), st.floats(1e-6, 20e-6))
 def test_more_clearance_is_more_backlash(design: Design, crank: float, more: float) -> None:
     model = ContactModel.from_design(design)
@@ -166,7 +166,7 @@ def test_more_clearance_is_more_backlash(design: Design, crank: float, more: flo
     assert float(backlash(everything, at).free[0]) > base + 1e-3 * more / model.pin_circle_radius
 
 
-@settings(max_examples=examples(32), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(16), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(disc_counts=(2, 3)), st.floats(0.0, 60.0))
 def test_a_stack_is_as_free_as_its_discs_allow_together(design: Design, crank: float) -> None:
     """The intersection: never freer than any of its discs alone."""
@@ -188,7 +188,7 @@ def test_a_stack_is_as_free_as_its_discs_allow_together(design: Design, crank: f
     assert whole.free[0] == pytest.approx(max(together, 0.0), abs=2e-3 * ARCMIN)
 
 
-@settings(max_examples=examples(24), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(12), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), st.floats(0.0, 60.0))
 def test_backlash_is_where_vanishing_torques_hold_the_carrier(design: Design, crank: float) -> None:
     """The elastic carrier at a tiny torque stands at the ends of the rigid range.
@@ -401,7 +401,7 @@ def test_precision_of_the_papers_gearbox_by_other_roads() -> None:
     assert told["torque_ripple_pp_Nm"] == pytest.approx(np.ptp(found.ripple), rel=1e-12)
 
 
-@settings(max_examples=examples(20), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(10), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), st.sampled_from([None, 2e-6]), SEEDS)
 def test_precision_figures_hang_together(design: Design, size: float | None, seed: int) -> None:
     design = design if size is None or design.reducer.ratio < 12 else paper_design()

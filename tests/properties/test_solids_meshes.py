@@ -43,7 +43,8 @@ OTHERS = [
     ("one disc", "dowel pin"),
 ]
 CASES = [("paper", part) for part in known_parts("paper")] + [
-    (name, part_named(known_parts(name), part)) for name, part in OTHERS
+    pytest.param((name, part_named(known_parts(name), part)), marks=pytest.mark.deep)
+    for name, part in OTHERS
 ]
 
 
