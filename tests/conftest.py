@@ -34,8 +34,8 @@ SLOW = (
 )
 
 # The same examples every time; `python -m tools.fuzz --properties` draws others.
-settings.register_profile("steady", derandomize=True)
-settings.register_profile("random", print_blob=True)
+settings.register_profile("steady", derandomize=True, deadline=None)
+settings.register_profile("random", print_blob=True, deadline=None)
 settings.load_profile("steady")
 
 
