@@ -199,16 +199,14 @@ def _bytes_to_column(line: str, offset: int) -> int:
 
 
 def candidates() -> dict[str, list[Mutation]]:
-    """All mutations by room, without those known to change nothing that can be measured."""
-    known = _equivalent()
+    """All mutations by room."""
     rooms: dict[str, list[Mutation]] = {}
     for path in sorted(PACKAGE.rglob("*.py")):
         name = path.relative_to(PACKAGE).as_posix()
         if name.startswith(NO_FORMULAS):
             continue
         for one in mutations_of(path):
-            if one.content not in known:
-                rooms.setdefault(one.room, []).append(one)
+            rooms.setdefault(one.room, []).append(one)
     return rooms
 
 
@@ -221,15 +219,18 @@ def _equivalent() -> set[str]:
 
 
 def draw(count: int, seed: int) -> list[Mutation]:
-    """`count` mutations, each room by its share and at least two of each."""
-    rooms = candidates()
+    """`count` mutations, each room by its share and at least two of each.
+
+    Those known to change nothing that can be measured leave the draw, which stays as it is.
+    """
+    rooms, known = candidates(), _equivalent()
     total = sum(map(len, rooms.values()))
     chosen: list[Mutation] = []
     for name in sorted(rooms):
         share = max(2, round(count * len(rooms[name]) / total))
         # Seeded by room, so that a change in one room leaves the draws of the others.
         chosen += random.Random(f"{seed}/{name}").sample(rooms[name], min(share, len(rooms[name])))
-    return chosen
+    return [one for one in chosen if one.content not in known]
 
 
 def tests_for(mutation: Mutation) -> list[str]:
