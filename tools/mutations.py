@@ -44,7 +44,12 @@ ROOM_TESTS = {
     "actuator": ("test_actuator_*", "test_bench*", "test_recording*", "test_calibration*"),
     "catalog": ("test_catalog_*", "test_cli_lookups*", "test_gearbox_*", "test_actuator_param*"),
     "design": ("test_design_*", "test_motor_file*", "test_cli_bad_input*"),
-    "exporting": ("test_exporting_*", "test_torque_c_header*"),
+    "exporting": (
+        "test_exporting_*",
+        "test_torque_c_header*",
+        "test_cli_torque_export*",
+        "test_torque_clients*",
+    ),
     "files": ("test_files_*",),
     "gearbox": (
         "test_gearbox_*",

@@ -37,6 +37,16 @@ def test_paper_design_is_si_inside():
     assert design.reducer.pack_length == pytest.approx(0.0165)
 
 
+@pytest.mark.parametrize(
+    ("pin", "throw", "outside"),
+    # Outside the pins' circle stands half a pin, or where the lobes' tips run if that is further.
+    [("7 mm", "1.6 mm", 77.0), ("4 mm", "2.4 mm", 2.0 * (32.0 + 2.8 + 3.0))],
+)
+def test_the_ring_gets_a_wall_of_3_mm_outside_its_root(pin, throw, outside):
+    given = reducer(ring_pin_diameter=pin, eccentricity=throw)
+    assert Design.from_mapping(given).reducer.ring.outer_diameter == pytest.approx(1e-3 * outside)
+
+
 def test_every_value_of_the_paper_design_says_its_origin():
     for line in PAPER.read_text().splitlines():
         if "=" in line and not line.startswith(("#", "schema_version", "name")):
