@@ -13,7 +13,7 @@ from cqdd_design.design import load_design
 from cqdd_design.errors import ReadBackError, UsageError
 from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting.edm.dxf import write_flat_part
-from cqdd_design.exporting.edm.dxf_reader import loops_of, read_dxf
+from cqdd_design.exporting.edm.dxf_reader import DxfContents, Entity, loops_of, read_dxf
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.readback import read_back
 from cqdd_design.exporting.edm.wire_path import wire_paths
@@ -215,3 +215,17 @@ def test_classes_of_the_newest_dialect_stand_in_an_order_of_their_own(paper, tmp
         names = [one.dxf.name for one in drawing.classes if one.dxf.name in used]
         assert names == sorted(names)
         assert len(names) > 1
+
+
+def test_an_arc_may_cross_the_axis_from_which_angles_count():
+    """Half a round plate: an arc of 10 mm from 270 to 90 degrees, and the chord that closes it."""
+    arc = {8: "C", 10: 5.0, 20: 0.0, 40: 10.0, 50: 270.0, 51: 90.0}
+    chord = {8: "C", 10: 5.0, 20: 10.0, 11: 5.0, 21: -10.0}
+    entities = tuple(
+        Entity(kind, tuple((code, str(value)) for code, value in tags.items()))
+        for kind, tags in (("ARC", arc), ("LINE", chord))
+    )
+    contents = DxfContents({}, entities)
+    (loop,) = loops_of(contents, "C", "plate", ExportOptions(dxf_style="entities"))
+    assert loop.area == pytest.approx(0.5 * math.pi * 0.01**2, rel=1e-12)
+    assert loop.perimeter == pytest.approx(math.pi * 0.01 + 0.02, rel=1e-12)

@@ -20,7 +20,9 @@ from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, GeometryError, ReadBackError
 from cqdd_design.exporting.edm.dxf import write_flat_part
 from cqdd_design.exporting.edm.flat_parts import flat_parts
+from cqdd_design.exporting.edm.loops import Loop
 from cqdd_design.exporting.edm.readback import read_back
+from cqdd_design.exporting.edm.wire_check import nearest_distances
 from cqdd_design.exporting.edm.wire_path import (
     offset_contour,
     segmented,
@@ -274,3 +276,25 @@ def test_a_start_hole_that_does_not_fit_names_a_wire_that_does(paper, tmp_path):
 def test_the_paths_are_frozen(paper, disc):
     with pytest.raises(dataclasses.FrozenInstanceError):
         wire_paths(disc, paper.edm)[0].offset = 0.0
+
+
+@pytest.mark.parametrize("place", [0.0, 0.09 - 0.05j])
+def test_the_nearest_segment_is_found_wherever_the_part_lies(place):
+    """Looking only at segments that can be nearest gives what looking at all of them gives."""
+    generator = np.random.default_rng(3)
+
+    def star(count, size):
+        corners = (
+            size
+            * generator.uniform(0.6, 1.0, count)
+            * np.exp(2j * np.pi * np.arange(count) / count)
+        )
+        return Loop(
+            place + corners, place + np.roll(corners, -1), generator.uniform(-0.4, 0.4, count)
+        )
+
+    contour, path = star(60, 0.03), star(23, 0.032)
+    points, _ = path.sampled()
+    every = np.arange(60)
+    brute = [[contour.distances(np.full(60, one), every).min() for one in row] for row in points]
+    np.testing.assert_allclose(nearest_distances(path, contour), brute, rtol=0.0, atol=1e-15)
