@@ -29,6 +29,7 @@ from cqdd_design.gearbox.contact.sweep import (
     output_turn_angles,
     perfect_angles,
 )
+from cqdd_design.gearbox.contact.sweep_kernel import predict
 from cqdd_design.geometry import kinematics
 
 LINE_MODELS = st.sampled_from(["palmgren", "johnson", "linear"])
@@ -294,3 +295,19 @@ def test_a_gearbox_with_errors_repeats_only_after_an_output_turn() -> None:
         other = contact_sweep(model, 40.0, angle + part, errors=errors)
         gamma = other.carrier_angle_error - now.carrier_angle_error
         assert np.abs(gamma).max() > 1e-6
+
+
+@pytest.mark.parametrize("known", [1, 2])
+def test_a_state_that_turns_with_the_crank_is_its_own_start(known: int) -> None:
+    """Discs carried round by the crank, turning evenly, are where the next angle is started."""
+    turn, slow = 0.3, 1e-4 if known > 1 else 0.0
+    carrier, offset = np.array([1e-6, -2e-6, 3e-5]), np.array([4e-6 + 1e-6j, -2e-6 + 5e-6j])
+
+    def state(step: int) -> np.ndarray:
+        centres = offset * np.exp(1j * turn * step)
+        discs = np.column_stack([centres.real, centres.imag, np.full(2, slow * step)])
+        return np.concatenate([carrier * (1.0 + slow * step), discs.ravel()])
+
+    found = np.empty(9)
+    predict(state(1), state(0), turn, known, found)
+    np.testing.assert_allclose(found, state(2), rtol=0.0, atol=1e-18)
