@@ -77,7 +77,7 @@ COMPARISON: tuple[Compared, ...] = (
     Compared(
         "C-QDD (paper)",
         "cycloid",
-        RATIO,
+        float(RATIO),
         METRICS["peak_torque"].value,
         METRICS["mass"].value,
         "64.2",

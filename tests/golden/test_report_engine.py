@@ -50,6 +50,16 @@ def ensemble(design: Design) -> ToleranceResult:
     return run_ensemble(make_ensemble(design, angles=44), 160)
 
 
+def test_loads_and_speeds_of_the_analysis(design: Design, found: ContactAnalysis) -> None:
+    """Windup from an eighth to three times the torque; the map in eighths up to speed and peak."""
+    steady, asked = found.precision.torque, design.requirements
+    shares = [point.torque / steady for point in found.precision.curve]
+    assert shares == pytest.approx([0.125, 0.25, 0.5, 0.75, 1.0, 2.0, 3.0])
+    eighths = np.arange(1, 9) / 8
+    np.testing.assert_allclose(found.map.input_speed, eighths * asked.input_speed)
+    np.testing.assert_allclose(found.map.torque, eighths * asked.peak_torque)
+
+
 def tree(figure: Figure) -> ElementTree.Element:
     return ElementTree.fromstring(figure.render())
 

@@ -182,6 +182,13 @@ def test_load_factors_meet_where_their_branches_do():
             for d in (-1e-7, 1e-7)
         ]
         assert around[0] == pytest.approx(around[1], rel=1e-4)
+    # Between 1.15 and 1.5 times the resonance the factor falls along a straight line.
+    main, halfway, above = (
+        influence.dynamic_factor(speed_ratio, 10e9, 1e5, 5e-6, 5e-6, 1.5)
+        for speed_ratio in (1.15, 0.5 * (1.15 + 1.5), 1.6)
+    )
+    assert main > above > 1.0
+    assert halfway == pytest.approx(0.5 * (main + above), rel=1e-9)
 
 
 def test_torsion_of_the_pinion_is_that_of_a_solid_shaft():

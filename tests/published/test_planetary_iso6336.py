@@ -3,6 +3,7 @@
 - ISO/TR 6336-30:2017/2022, Annex A, example 1 (helical pair 17/103, module 8): group gear_iso of
   `data/published_examples.csv` with its own tolerances, and further printed intermediate results
   (stiffness, film, life, bearable stress) as quoted in gfsReboucas/Drivetrain (MATISO_6336.m).
+- ISO 6336-5:2016, Table 1: stress numbers A x + B of every row, at one hardness within it.
 - ISO 6336-3 charts for z = 20, x = 0: Y_F 2.80, Y_S 1.55.
 - The paper's planetary with all K = 1 and x = 0 (E = 206 GPa, nu = 0.3): Hertz pressure at the
   pitch point 468 MPa with six planets and 661 MPa with three; with Z_eps 0.903 and Z_B 1.227, 518
@@ -20,7 +21,7 @@ from pathlib import Path
 import pytest
 
 from cqdd_design.catalog import find_material
-from cqdd_design.planetary.gear_material import GearMaterial, gear_material
+from cqdd_design.planetary.gear_material import GearMaterial, gear_material, stress_numbers
 from cqdd_design.planetary.iso6336 import influence, pitting
 from cqdd_design.planetary.iso6336.form_factor import tooth_form
 from cqdd_design.planetary.kinematics import PlanetaryTeeth, tangential_force, torques
@@ -173,3 +174,28 @@ def test_work_hardening_of_a_soft_gear_by_a_hard_mate(vickers, factor):
     assert pitting.work_hardening_factor(soft, hard) == pytest.approx(factor)
     assert pitting.work_hardening_factor(soft, soft) == 1.0
     assert pitting.work_hardening_factor(hard, soft) == 1.0
+
+
+@pytest.mark.parametrize(
+    ("kind", "quality", "hardness", "contact", "bending"),
+    # ISO 6336-5:2016, Table 1: sigma_Hlim and sigma_Flim, MPa, at a hardness HV within the row.
+    [
+        ("through-hardened carbon steel", "ML", 200.0, 475.6, 158.0),
+        ("through-hardened carbon steel", "MQ", 200.0, 545.0, 211.0),
+        ("through-hardened carbon steel", "ME", 200.0, 599.6, 258.6),
+        ("through-hardened alloy steel", "ML", 300.0, 581.9, 230.9),
+        ("through-hardened alloy steel", "MQ", 300.0, 766.9, 314.5),
+        ("through-hardened alloy steel", "ME", 300.0, 923.9, 338.4),
+        ("case-hardened steel", "ML", 700.0, 1300.0, 312.0),
+        ("case-hardened steel", "MQ", 700.0, 1500.0, 425.0),
+        ("case-hardened steel", "ME", 700.0, 1650.0, 525.0),
+        ("induction-hardened steel", "ML", 550.0, 1009.0, 243.75),
+        ("induction-hardened steel", "MQ", 550.0, 1179.55, 365.9),
+        ("induction-hardened steel", "ME", 550.0, 1290.75, 386.05),
+    ],
+)
+def test_stress_numbers_are_those_of_the_table(kind, quality, hardness, contact, bending):
+    found = stress_numbers(kind, quality, hardness)
+    assert found[0] == pytest.approx(1e6 * contact, rel=1e-9)
+    assert found[1] == pytest.approx(1e6 * bending, rel=1e-9)
+    assert found[2] == ""
