@@ -189,6 +189,15 @@ def test_load_factors_meet_where_their_branches_do():
     )
     assert main > above > 1.0
     assert halfway == pytest.approx(0.5 * (main + above), rel=1e-9)
+    # Lightly loaded teeth leave the range below resonance sooner: N_S = 0.5 + 0.35 (25/100)^0.5.
+    below, after = (
+        influence.dynamic_factor(0.675 + d, 10e9, 0.25e5, 5e-6, 5e-6, 1.5) for d in (-1e-6, 1e-6)
+    )
+    deviations = 10e9 * 5e-6 / 0.25e5
+    assert below == pytest.approx(
+        1.0 + 0.675 * (0.32 + 0.34 + 0.23 / deviations) * deviations, rel=1e-4
+    )
+    assert after == pytest.approx(1.9 + (0.32 + 0.34) * deviations, rel=1e-9)
 
 
 def test_torsion_of_the_pinion_is_that_of_a_solid_shaft():

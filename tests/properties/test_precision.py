@@ -26,14 +26,22 @@ from hypothesis import strategies as st
 
 from cqdd_design.design import Design
 from cqdd_design.errors import ContactError, CqddError
+from cqdd_design.gearbox.contact.gaps_kernel import fill_errors
+from cqdd_design.gearbox.contact.kernel_values import Toleranced
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.states import error_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles
 from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.gearbox.precision.orders import order_spectrum
 from cqdd_design.gearbox.precision.precision import precision
 from cqdd_design.gearbox.tolerance.draws import draw_errors
-from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS, ensemble_tables, evaluate_gearboxes
+from cqdd_design.gearbox.tolerance.evaluate import (
+    OUTPUTS,
+    ensemble_tables,
+    evaluate_gearboxes,
+    nominal_of,
+)
 from cqdd_design.geometry import kinematics
 
 SEEDS = st.integers(0, 2**32 - 1)
@@ -502,3 +510,16 @@ def test_more_clearance_is_less_precise_and_more_stiffness_is_more() -> None:
     assert two.free.mean > one.free.mean
     assert two.lost_motion > one.lost_motion
     assert three.stiffness > 1.05 * one.stiffness
+
+
+def test_the_kernels_part_errors_are_those_of_the_plain_twin() -> None:
+    """Gaps, their rates, cam offsets and play of a drawn gearbox."""
+    model = ContactModel.from_design(paper_design())
+    errors = random_errors(model, np.random.default_rng(5), 2e-6)
+    tables = ensemble_tables(model, 40.0)
+    wanted = error_states(model, tables.states, errors)
+    found = Toleranced(*(np.empty_like(values) for values in wanted))
+    fill_errors(nominal_of(tables, errors.disc_profile.shape[-1]), errors, found)
+    for name, kernel, plain in zip(Toleranced._fields, found, wanted, strict=True):
+        np.testing.assert_allclose(kernel, plain, rtol=0.0, atol=2e-9, err_msg=name)
+    assert np.abs(wanted.gap_rates).max() > 1e-6

@@ -96,7 +96,7 @@ def ensemble_tables(
     return EnsembleTables(model, states, Start(marked, perfect, free_poses, torque))
 
 
-def _nominal(tables: EnsembleTables, harmonics: int) -> Nominal:
+def nominal_of(tables: EnsembleTables, harmonics: int) -> Nominal:
     """The perfect gearbox as the kernels take it, with a profile table for so many harmonics."""
     from cqdd_design.gearbox.contact.gaps_kernel import harmonic_basis, table_size
 
@@ -150,7 +150,7 @@ def evaluate_gearboxes(
     try:
         solve: Any = solve_gearboxes
         solve(
-            _nominal(tables, batch.disc_profile.shape[-1]),
+            nominal_of(tables, batch.disc_profile.shape[-1]),
             springs_of(model),
             Load(torque / states.length, stiffness_scale(model, torque)),
             tables.start,
