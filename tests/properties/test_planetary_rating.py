@@ -390,3 +390,12 @@ def test_json_has_the_promised_keys_and_finite_numbers():
         assert set(claim) == {"claim", "paper", "ours", "holds", "under"}
     assert document["cycloid"]["binding"]["peak"]["part"] == "ring teeth"
     assert len(document["claim_settings"]) == 100
+
+
+@pytest.mark.parametrize(
+    ("table", "factors"),
+    # For 3, 4, 5, 6 and 7 planets: IEC 61400-4, and the ABS steel vessel rules.
+    [("iso", [1.10, 1.25, 1.35, 1.44, 1.47]), ("abs", [1.0, 1.2, 1.3, 1.4, 1.4])],
+)
+def test_mesh_load_factors_are_those_of_the_tables(table, factors):
+    assert [influence.mesh_load_factor(planets, table) for planets in range(3, 8)] == factors

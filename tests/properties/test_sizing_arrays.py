@@ -273,3 +273,14 @@ def test_the_frame_leaves_discs_their_spacing_and_pins_their_tolerance():
         least, greatest = pin_diameter_limits(size.diameter)
         play = size.hole_clearance - 0.5 * (greatest - least)
         assert play >= 1e-6 - 1e-12 or size.hole_clearance == frame.default_clearance
+
+
+def test_a_gap_at_the_teeth_counts_against_undercut():
+    """The disc is cut by teeth that are larger by the gap; 0.89 of the limit leaves them 0.11."""
+    frame = search_frame(Requirements(ratio=10))
+    pitch, throw = np.array([32e-3]), np.array([1.6e-3])
+    limit = undercut_radius_limit(10, pitch, throw)
+    ring = shapes.RingSizes(pitch, throw, 0.89 * limit)
+    for share, met in ((0.10, True), (0.12, False)):
+        gapped = replace(frame, radial=0.0, equidistant=share * float(limit[0]))
+        assert shapes.profile_checks(gapped, ring)["GEO-UNDERCUT"].tolist() == [met]

@@ -261,3 +261,28 @@ def test_fixed_parts_stay_where_they_are() -> None:
     assert sum(part.mass * part.count for part in known_parts("paper")) == pytest.approx(
         1.7718, abs=1e-4
     )
+
+
+@pytest.mark.parametrize(
+    ("throw", "count", "circle", "pin"),
+    [
+        # Heads of 7 mm in counterbores need 7.97 mm from pin to pin: 16 have 8.19 mm, 17 have 7.72.
+        ("0.8 mm", 16, "21 mm", "shoulder screw"),
+        ("0.8 mm", 17, "21 mm", "dowel pin"),
+        # Near the ring the heads have no wall outside them any more.
+        ("0.4 mm", 6, "28.25 mm", "shoulder screw"),
+        ("0.4 mm", 6, "28.5 mm", "dowel pin"),
+    ],
+)
+def test_where_heads_have_no_room_pins_are_dowels(
+    throw: str, count: int, circle: str, pin: str
+) -> None:
+    reducer = {
+        "ratio": 20,
+        "ring_pitch_radius": "34 mm",
+        "eccentricity": throw,
+        "ring_pin_diameter": "4 mm",
+        "output_pins": {"count": count, "diameter": "4 mm", "circle_radius": circle},
+    }
+    names = {part.name for part in resolve(Design.from_mapping({"reducer": reducer})).parts}
+    assert names & {"shoulder screw", "dowel pin"} == {pin}
