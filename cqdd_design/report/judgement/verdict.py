@@ -15,6 +15,12 @@ from cqdd_design.results import Check, worst_status
 _CLOSEST = 6
 """Checks shown for a design that fails none."""
 
+_SCREEN = (
+    " The checks are a first screen, in which rigid parts share the load: the contact equilibrium, "
+    "the life and the test bench below judge the same loads more closely, and where they say less, "
+    "they count."
+)
+
 
 def verdict(design: Design, checks: Sequence[Check]) -> Values:
     """What a reader must know first: failures and warnings, or the least margins where none."""
@@ -34,12 +40,12 @@ def verdict(design: Design, checks: Sequence[Check]) -> Values:
     elif status == "warn":
         badge = f"Passes, {_count(warned, 'warning')}"
         headline = (
-            f"{name} meets every limit that decides {at}, with {_count(warned, 'warning')} "
-            f"among its {total} checks."
+            f"{name} passes {total - warned} of {total} checks {at}; "
+            f"{_count(warned, 'is a warning', 'are warnings')}."
         )
     else:
         badge = f"Passes all {total} checks"
-        headline = f"{name} meets its requirements: {at}, all {total} checks pass."
+        headline = f"{name} passes all {total} checks {at}."
     also = (
         f" {_count(warned, 'more is a warning', 'more are warnings')}." if failed and warned else ""
     )
@@ -49,7 +55,7 @@ def verdict(design: Design, checks: Sequence[Check]) -> Values:
         "badge": badge,
         "headline": headline,
         "detail": f"The least margin is {margin}, in "
-        f"“{least.title[0].lower()}{least.title[1:]}”.{also}",
+        f"“{least.title[0].lower()}{least.title[1:]}”.{also}" + ("" if failed else _SCREEN),
         "rows": failing(checks),
         "closest": () if failed else closest(checks, _CLOSEST),
         "least": margin,
