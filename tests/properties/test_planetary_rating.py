@@ -200,6 +200,16 @@ def test_load_factors_meet_where_their_branches_do():
     assert after == pytest.approx(1.9 + (0.32 + 0.34) * deviations, rel=1e-9)
 
 
+def test_lightly_loaded_teeth_are_softer_by_the_fourth_root():
+    """Above 100 N/mm the stiffness is constant; at a sixteenth of it half is left (eq. 90)."""
+    full, more, less = (
+        influence.single_stiffness(10e9, 1.0, 0.0, load, 206e9, 206e9)
+        for load in (1e5, 3e5, 1e5 / 16.0)
+    )
+    assert full == more == pytest.approx(8e9, rel=1e-12)
+    assert less == pytest.approx(4e9, rel=1e-12)
+
+
 def test_torsion_of_the_pinion_is_that_of_a_solid_shaft():
     """4/(pi G) (b/d)^2 F/b: a round bar of the reference diameter driven from one end."""
     width, diameter, load, shear_modulus = 12e-3, 12e-3, 2e4, 79.3e9
