@@ -12,10 +12,12 @@ import pytest
 from cqdd_design.design import load_design
 from cqdd_design.errors import ReadBackError, UsageError
 from cqdd_design.exporting import ExportOptions
+from cqdd_design.exporting.edm import wire_check
 from cqdd_design.exporting.edm.dxf import write_flat_part
-from cqdd_design.exporting.edm.dxf_reader import DxfContents, Entity, loops_of, read_dxf
+from cqdd_design.exporting.edm.dxf_reader import DxfContents, Entity, circles_of, loops_of, read_dxf
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.readback import read_back
+from cqdd_design.exporting.edm.wire_check import nearest_distances
 from cqdd_design.exporting.edm.wire_path import wire_paths
 from cqdd_design.exporting.options import CHOICES
 from cqdd_design.machine import resolve
@@ -57,8 +59,15 @@ def _write(flat, design, folder, options, *, wire=True):
     return path
 
 
-def test_every_dialect_reads_back_to_the_same_loops(parts, tmp_path):
+def test_every_dialect_reads_back_to_the_same_loops(parts, tmp_path, monkeypatch):
     design, flats = parts
+    measured = []
+
+    def watched(path, contour):
+        measured.append(nearest_distances(path, contour))
+        return measured[-1]
+
+    monkeypatch.setattr(wire_check, "nearest_distances", watched)
     for flat in flats:
         seen = []
         for options in DIALECTS:
@@ -69,10 +78,16 @@ def test_every_dialect_reads_back_to_the_same_loops(parts, tmp_path):
             assert drawing.dxfversion == RELEASE[options.dxf_version]
             contents = read_dxf(path)
             seen.append([loop for at in LAYERS for loop in loops_of(contents, at, "", options)])
+            measured.clear()  # writing measures too
             back = read_back(path, flat, design.edm, options, wire_paths=True)
             assert back.largest_deviation <= design.edm.profile_tolerance
             assert back.tangent_break < 1e-6
             assert back.segments <= 300
+            # The reader refuses a tenth of a micrometre; what is written is nearer by far.
+            paths = loops_of(contents, "WIRE_PATH", "", options)
+            assert len(measured) == len(paths) + len(circles_of(contents, "WIRE_PATH")) > 0
+            for distances in measured:
+                assert np.abs(distances - design.edm.wire_offset).max() < 1e-9
         for loops in seen[1:]:
             assert len(loops) == len(seen[0]) > 1
             for one, other in zip(seen[0], loops, strict=True):
