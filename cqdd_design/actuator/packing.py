@@ -174,6 +174,11 @@ def largest_step(parameters: ActuatorParameters, scenario: Scenario) -> tuple[fl
     return min(limits)
 
 
+def safe_step(parameters: ActuatorParameters, *scenarios: Scenario, most: float = 1e-4) -> float:
+    """Half the largest step that every scenario stands, s, and no more than `most`."""
+    return min(most, *(0.5 * largest_step(parameters, scene)[0] for scene in scenarios))
+
+
 def rounded_down(step: float) -> float:
     """The nearest 1, 2 or 5 times a power of ten that is not above a step.
 

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.actuator.columns import TRACES
-from cqdd_design.actuator.packing import largest_step, rounded_down
+from cqdd_design.actuator.packing import largest_step, rounded_down, safe_step
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.scenario import Chirp, Command, Load, Sampled, Scenario, Signal, Sine
 from cqdd_design.actuator.simulate import Simulation
@@ -92,7 +92,8 @@ def plan(
             f"million steps; use {most:g} Hz or less, or a shorter duration."
         )
     resolved = 1.0 / (STEPS_PER_PERIOD * fastest) if fastest > 0.0 else math.inf
-    wanted = rounded_down(min(LONGEST_STEP, 0.5 * limit, resolved)) if step is None else step
+    safe = min(safe_step(one, scenario, most=LONGEST_STEP) for one in parameters)
+    wanted = rounded_down(min(safe, resolved)) if step is None else step
     if wanted > limit * (1.0 + 1e-9):
         raise UsageError(
             f"a step of {wanted:g} s is too large for {cause}, which needs {limit:.3g} s or less; "

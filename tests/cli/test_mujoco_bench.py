@@ -22,6 +22,7 @@ from actuator_samples import paper_actuator, without_ripple
 
 from cqdd_design.actuator.bench import steady
 from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.packing import safe_step
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.scenario import Command, Constant, Load, Sampled, Scenario, Start
 from cqdd_design.actuator.simulate import simulate
@@ -109,7 +110,7 @@ def our_orders(p: ActuatorParameters, torque: float, speed: float, turns: float)
     scene = Scenario(
         Command("current", slowly), Load.driven(Constant(speed)), Start(output_speed=speed)
     )
-    step = steady.safe_step(p, scene)
+    step = safe_step(p, scene)
     every = max(1, int(span / speed / 40000 / step))
     run = simulate(steady.cold(p), scene, 1.5 * rise + 1.01 * span / speed, step, every=every)
     late = run.time > 1.5 * rise

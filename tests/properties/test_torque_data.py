@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from cqdd_design.actuator.bench.steady import no_load_speed
 from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.packing import largest_step
 from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.design import load_design
@@ -37,6 +38,18 @@ def gearbox():
 @pytest.fixture(scope="module")
 def small():
     return generate(resolve(DESIGN), SMALL)
+
+
+def test_a_stiff_gearbox_is_stepped_at_half_of_what_it_stands_or_less(gearbox):
+    """Its fastest mode sets the step, and no more than what makes records whole is lost."""
+    stiff = dataclasses.replace(
+        gearbox, gear=dataclasses.replace(gearbox.gear, stiffness=1e3 * gearbox.gear.stiffness)
+    )
+    swing = Configuration(0.5, 0.8, 0.2, 1.14, 0.3, None, 1)
+    _, facts = recorded(stiff, swing, seconds=0.1)
+    largest, cause = largest_step(stiff, pendulum._scenario(swing))
+    assert "stiffness" in cause
+    assert 0.4 * largest < facts["physics_step_s"] <= 0.5 * largest
 
 
 def recorded(gearbox, configuration, seconds=3.0, chain=None):

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.actuator.bench.metric import Metric
-from cqdd_design.actuator.bench.steady import cold, safe_step, with_voltage
+from cqdd_design.actuator.bench.steady import cold, with_voltage
+from cqdd_design.actuator.packing import safe_step
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.scenario import Chirp, Command, Load, Sampled, Scenario, Sine
 from cqdd_design.actuator.simulate import simulate

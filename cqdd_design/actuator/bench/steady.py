@@ -10,18 +10,13 @@ import numpy as np
 
 from cqdd_design.actuator.bench.metric import Metric
 from cqdd_design.actuator.motor import torque_constant_at
-from cqdd_design.actuator.packing import largest_step
+from cqdd_design.actuator.packing import safe_step
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.scenario import Command, Constant, Load, Sampled, Scenario, Start
 from cqdd_design.actuator.simulate import Simulation, simulate
 from cqdd_design.actuator.thermal import continuous_current, response
 
 RPM = 30.0 / math.pi
-
-
-def safe_step(parameters: ActuatorParameters, *scenarios: Scenario, most: float = 1e-4) -> float:
-    """Half the largest step that every scenario stands, s."""
-    return min(most, *(0.5 * largest_step(parameters, scene)[0] for scene in scenarios))
 
 
 def with_voltage(parameters: ActuatorParameters, voltage: float) -> ActuatorParameters:

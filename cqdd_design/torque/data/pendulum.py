@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from cqdd_design.actuator.joint_side import joint_side
-from cqdd_design.actuator.packing import largest_step
+from cqdd_design.actuator.packing import safe_step
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.recording import LONGEST_STEP
 from cqdd_design.actuator.scenario import GRAVITY, Command, Load, Scenario, Sine, Start, Wall
@@ -259,10 +259,10 @@ def _steps(
 ) -> tuple[float, int, float]:
     """Step (s), steps a record, records a second: whole numbers of them a sensor reading."""
     readings, _ = chain.acquisition(sets[0].drive.control_rate)
-    limit = min(largest_step(*pair)[0] for pair in zip(sets, scenes, strict=True))
+    step = min(safe_step(*pair, most=LONGEST_STEP) for pair in zip(sets, scenes, strict=True))
     fold = math.ceil(RECORDS / readings * (1.0 - 1e-9))
     rate = fold * readings
-    every = math.ceil(1.0 / rate / min(LONGEST_STEP, 0.5 * limit) * (1.0 - 1e-9))
+    every = math.ceil(1.0 / rate / step * (1.0 - 1e-9))
     return 1.0 / (rate * every), every, rate
 
 
