@@ -5,7 +5,7 @@
 
 * ``design.schema.json``: what ``cqdd-design schema`` prints.
 * ``cli.md``: the help of every command, between its markers.
-* ``validation.md``: every number of the literature that a test compares with, as compared.
+* ``validation.md``: every row of the table of published numbers, as its test compared it.
 * ``contact-model.md``: its validations and its comparison with the paper, between their markers.
 * ``actuator-model.md``: its validations and the calibrated table, between their markers.
 """
@@ -13,12 +13,15 @@
 from __future__ import annotations
 
 import contextlib
+import csv
 import io
 import json
-import re
+import math
 import sys
+import textwrap
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 DOCS = Path(__file__).resolve().parent
 BEGIN, END = "<!-- help: written by docs/build.py -->", "<!-- end of help -->"
@@ -27,10 +30,39 @@ VALIDATION_HEAD = """\
 # Validation
 
 Numbers of the literature beside ours. This page is written by `python docs/build.py` from the
-tests in `tests/published`: each row is one assertion of one test, and a row outside its tolerance
-would be a failing test. Tolerances are those the source supports; inputs and full sources stand in
+tests in `tests/published`: each row is one comparison of one test, and outside its tolerance the
+test would fail. A tolerance is half of the last printed digit, or what the note below its table
+says. The last column names the functions that a row validates: in the same test each of them in
+turn gives 1.5 times its result, and the row must then fail. Inputs and full sources stand in
 `tests/published/data/published_examples.csv`.
 """
+
+BASES = {
+    "printed": (
+        "Printed in a source",
+        "printed",
+        "The number stands in the source; what is computed here uses only inputs that stand there.",
+    ),
+    "trend": (
+        "Printed, with coefficients chosen here",
+        "printed",
+        "The source prints the result but not every coefficient: that ours agree shows a trend, "
+        "not a value.",
+    ),
+    "not met": (
+        "Printed, and not met",
+        "printed",
+        "The source contradicts itself: from its own inputs ours differs by more than its rounding "
+        "(see the errata in [theory](theory.md)).",
+    ),
+    "second": (
+        "Second evaluations, not published",
+        "second evaluation",
+        "No source prints these numbers: another program's output, or a published formula "
+        "evaluated apart from the code. They show that the code does what the formula says.",
+    ),
+}
+"""Heading of each kind of row, name of its column, and what it is worth."""
 
 
 def schema_file() -> str:
@@ -76,90 +108,80 @@ def _kinds(command: str) -> str:
     return "".join(["| kind | what is written |\n|---|---|\n", *rows, "\n"]) if rows else ""
 
 
-class _Comparisons:
-    """Pytest plugin: collects what tests compared with rows of published numbers."""
-
-    def __init__(self) -> None:
-        self.rows: dict[str, list[tuple[dict[str, str], str]]] = {}
-
-    def pytest_assertion_pass(self, item: object, lineno: int, orig: str, expl: str) -> None:
-        parameters = getattr(getattr(item, "callspec", None), "params", {})
-        row = parameters.get("row")
-        compared = re.match(r"(?:np\.float64\()?(-?[\d.]+(?:e[+-]?\d+)?)\)? == ", expl)
-        if isinstance(row, dict) and compared and 'row["value"]' in orig:
-            found = self.rows.setdefault(row["group"], [])
-            if all(known is not row and known != row for known, _ in found):
-                found.append((row, compared[1]))
-
-
-def validation_page() -> str:
-    """The page of validation tables, from a run of tests/published."""
-    import pytest
-
-    seen = _Comparisons()
-    quiet = io.StringIO()
-    with contextlib.redirect_stdout(quiet):
-        code = pytest.main(
-            [
-                str(DOCS.parent / "tests" / "published"),
-                "-q",
-                "-p",
-                "no:cacheprovider",
-                "-p",
-                "no:xdist",
-                "-o",
-                "enable_assertion_pass_hook=true",
-            ],
-            plugins=[seen],
-        )
-    if code != 0:
-        raise SystemExit(f"tests/published does not pass:\n{quiet.getvalue()}")
-    parts = [VALIDATION_HEAD]
-    for group, found in sorted(seen.rows.items()):
-        parts += [
-            f"\n## {group}\n\n| case | quantity | published | ours | difference | tolerance |"
-        ]
-        parts += ["\n|---|---|---|---|---|---|\n"]
-        for row, ours in found:
-            value, tolerance = float(row["value"]), float(row["tol"])
-            unit = "" if row["unit"] == "-" else f" {row['unit']}"
-            # What rounding leaves of an exact agreement differs from machine to machine.
-            difference = float(ours) - value
-            shown = "0" if abs(difference) < 1e-3 * tolerance else f"{difference:+.2g}"
-            quantity = row["quantity"].replace("|", "\\|").partition(" (CN")[0]
-            parts.append(
-                f"| {row['case']} | {quantity} | {value:.7g}{unit} | {float(ours):.6g} "
-                f"| {shown} | ±{tolerance:g} |\n"
-            )
-        sources = dict.fromkeys(row["source"] for row, _ in found)
-        parts += ["\n", *(f"Source: {source}.\n" for source in sources)]
-    return "".join(parts)
-
-
 class _Records:
     """Pytest plugin: collects what tests recorded about their comparisons."""
 
-    def __init__(self) -> None:
-        self.rows: list[tuple[str, ...]] = []
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self.rows: list[tuple[Any, ...]] = []
 
     def pytest_runtest_logreport(self, report: object) -> None:
         if getattr(report, "when", "") == "call":
             properties = getattr(report, "user_properties", [])
-            self.rows += [tuple(value) for name, value in properties if name == "validation"]
+            self.rows += [tuple(value) for name, value in properties if name == self._name]
+
+
+def _records(name: str, *tests: str) -> list[tuple[Any, ...]]:
+    """What the tests of some files or folders recorded under a name, from a run of them."""
+    import pytest
+
+    seen = _Records(name)
+    quiet = io.StringIO()
+    places = [str(DOCS.parent / "tests" / one) for one in tests]
+    with contextlib.redirect_stdout(quiet):
+        code = pytest.main([*places, "-q", "-p", "no:cacheprovider", "-p", "no:xdist"], [seen])
+    if code != 0:
+        raise SystemExit(f"{', '.join(tests)} do not pass:\n{quiet.getvalue()}")
+    return seen.rows
+
+
+def validation_page() -> str:
+    """The page of validation tables, from a run of tests/published."""
+    found = _records("published", "published")
+    table = DOCS.parent / "tests" / "published" / "data" / "published_examples.csv"
+    with table.open(encoding="utf-8", newline="") as file:
+        wanted = list(csv.DictReader(file))
+    compared = [row for row, _, _ in found]
+    if unused := [row for row in wanted if row not in compared]:
+        raise SystemExit(f"rows that no test compares: {unused}")
+    found.sort(key=lambda one: wanted.index(one[0]))
+    parts = [VALIDATION_HEAD]
+    for basis, (title, column, worth) in BASES.items():
+        rows = [one for one in found if one[0]["basis"] == basis]
+        parts.append(f"\n## {title}\n\n{textwrap.fill(worth, 100)}\n")
+        for group in dict.fromkeys(row["group"] for row in wanted if row["basis"] == basis):
+            parts += _validation_table([one for one in rows if one[0]["group"] == group], column)
+    return "".join(parts)
+
+
+def _validation_table(found: list[tuple[Any, ...]], column: str) -> Iterator[str]:
+    """The rows of a group, in the order of the file."""
+    yield f"\n### {found[0][0]['group'].capitalize()}\n\n"
+    yield f"| case | quantity | {column} | ours | difference | tolerance | validates |\n"
+    yield "|---|---|---|---|---|---|---|\n"
+    for row, ours, exercised in found:
+        tolerance = float(row["tol"])
+        unit = "" if row["unit"] == "-" else f" {row['unit']}"
+        digits = 1 - math.floor(math.log10(tolerance))
+        shown = f"{ours:.{max(digits, len(row['evaluated'].partition('.')[2]))}f}"
+        # What rounding leaves of an exact agreement differs from machine to machine.
+        off = ours - float(row["value"])
+        difference = "0" if abs(off) < 1e-3 * tolerance else f"{off:+.2g}"
+        names = ", ".join(f"`{'.'.join(name.split('.')[-2:])}`" for name in exercised)
+        yield (
+            f"| {row['case']} | {row['quantity']} | {row['value']}{unit} "
+            f"| {shown.rstrip('0').rstrip('.') if '.' in shown else shown} | {difference} "
+            f"| ±{tolerance:g} | {names} |\n"
+        )
+    for key, word in (("source", "Source"), ("note", "Note")):
+        for told in dict.fromkeys(row[key] for row, _, _ in found if row[key]):
+            yield "\n" + textwrap.fill(f"{word}: {told.removesuffix('.')}.", 100) + "\n"
 
 
 def _recorded(*names: str) -> str:
     """Table of what the tests of some files recorded, from a run of them."""
-    import pytest
-
-    seen = _Records()
-    quiet = io.StringIO()
-    tests = [str(DOCS.parent / "tests" / name) for name in names]
-    with contextlib.redirect_stdout(quiet):
-        code = pytest.main([*tests, "-q", "-p", "no:cacheprovider", "-p", "no:xdist"], [seen])
-    if code != 0:
-        raise SystemExit(f"{', '.join(names)} do not pass:\n{quiet.getvalue()}")
-    rows = [f"| {what} | {against} | {met} | {bound} |" for what, against, met, bound in seen.rows]
+    found = _records("validation", *names)
+    rows = [f"| {what} | {against} | {met} | {bound} |" for what, against, met, bound in found]
     return "\n".join(["| quantity | against | worst met | bound |", "|---|---|---|---|", *rows])
 
 

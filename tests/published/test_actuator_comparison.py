@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
+from published_rows import Row, label, published_rows
 
 from cqdd_design.actuator.comparison import (
     ComparedActuator,
@@ -21,6 +24,18 @@ def test_torque_densities_are_recomputed_and_the_wrong_one_is_named() -> None:
     assert found["PULSE115-60"].remark == ""
     # 32 N m over 0.670 kg is 47.76, which rounds up.
     assert "47.76" in found["BEAR"].remark
+
+
+@pytest.mark.parametrize("row", published_rows("torque density"), ids=label)
+def test_printed_torque_density_is_not_torque_over_mass(
+    row: Row, compared: Callable[..., None]
+) -> None:
+    def ours() -> float:
+        return next(
+            one for one in published_actuators() if one.name == row["inputs"]
+        ).torque_density
+
+    compared(row, ours, ComparedActuator.torque_density)
 
 
 def test_present_design_and_catalogue_join_the_table() -> None:

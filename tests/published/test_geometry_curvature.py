@@ -1,23 +1,23 @@
-"""Curvature of the disc against published and recomputed values.
+"""Curvature of the disc against closed forms and a source's pressures.
 
-Sources, row by row in ``data/published_examples.csv``:
+Groups of ``data/published_examples.csv``:
 
-* group ``curvature``: undercut limit (least convex radius of the path of the tooth centres) and
-  valley radius, closed forms of CN105404737A; Wang, Luo, Su 2016 (Mechanism and Machine Theory
-  102, 135-148) prints the second branch with (1 - K1)^2, which is a misprint.
-* group ``cycloid_contact``: radii of curvature at lobe tip and pit of the discs of Krol, Wiklo,
+* ``curvature``: undercut limit (least convex radius of the path of the tooth centres) and valley
+  radius, closed forms of CN105404737A; Wang, Luo, Su 2016 (Mechanism and Machine Theory 102,
+  135-148) prints the second branch with (1 - K1)^2, which is a misprint.
+* ``cycloid contact``: radii of curvature at lobe tip and pit of the discs of Krol, Wiklo,
   Olejarczyk, Kolodziejczyk, Siemiatkowska 2019, doi 10.1007/978-3-030-20131-9_103. There m is K1,
   q the tooth radius, zs the lobes.
 """
 
 from __future__ import annotations
 
-import csv
 import math
-from pathlib import Path
+from collections.abc import Callable
 
 import numpy as np
 import pytest
+from published_rows import Row, inputs, label, published_rows
 
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.trochoid import (
@@ -26,58 +26,49 @@ from cqdd_design.geometry.trochoid import (
     undercut_radius_limit,
 )
 
-DATA = Path(__file__).parent / "data" / "published_examples.csv"
+Compared = Callable[..., None]
+LIMITS = published_rows("curvature", "least convex radius")
+VALLEYS = published_rows("curvature", "radius of the locus in the valley")
+KROL = published_rows("cycloid contact", "radius of the flank")
 
 
-def _rows(group: str, *quantities: str) -> list[dict[str, str]]:
-    with DATA.open(encoding="utf-8", newline="") as file:
-        rows = [row for row in csv.DictReader(file) if row["group"] == group]
-    return [row for row in rows if any(row["quantity"].startswith(q) for q in quantities)]
-
-
-def _inputs(row: dict[str, str]) -> dict[str, float]:
-    pairs = (item.split("=") for item in row["inputs"].split(";"))
-    return {key.strip(): float(value.split()[0]) for key, value in pairs}
-
-
-def _name(row: dict[str, str]) -> str:
-    return f"{row['case']}-{row['quantity'][:12]}"
-
-
-LIMITS = _rows("curvature", "min convex radius")
-VALLEYS = _rows("curvature", "concave radius")
-KROL = _rows("cycloid_contact", "rho_lobe", "rho_pit")
-
-
-def test_every_published_row_is_used() -> None:
-    assert len(LIMITS) == len(VALLEYS) == 2
-    assert len(LIMITS) + len(VALLEYS) == len(_rows("curvature", ""))
+def test_no_row_is_missing() -> None:
+    assert len(LIMITS) + len(VALLEYS) == len(published_rows("curvature"))
     assert len(KROL) == 6
 
 
-@pytest.mark.parametrize("row", LIMITS, ids=_name)
-def test_undercut_limit(row: dict[str, str]) -> None:
-    given = _inputs(row)
-    found = 1e3 * float(undercut_radius_limit(given["N"], given["R"] * 1e-3, given["E"] * 1e-3))
-    assert found == pytest.approx(float(row["value"]), abs=float(row["tol"]))
+@pytest.mark.parametrize("row", LIMITS, ids=label)
+def test_undercut_limit(row: Row, compared: Compared) -> None:
+    given = inputs(row)
+
+    def ours() -> float:
+        return 1e3 * float(undercut_radius_limit(given["N"], given["R"] * 1e-3, given["E"] * 1e-3))
+
+    compared(row, ours, undercut_radius_limit)
 
 
-@pytest.mark.parametrize("row", VALLEYS, ids=_name)
-def test_valley_radius(row: dict[str, str]) -> None:
-    given = _inputs(row)
-    found = 1e3 * float(locus_valley_radius(given["N"], given["R"] * 1e-3, given["E"] * 1e-3))
-    assert found == pytest.approx(float(row["value"]), abs=float(row["tol"]))
+@pytest.mark.parametrize("row", VALLEYS, ids=label)
+def test_valley_radius(row: Row, compared: Compared) -> None:
+    given = inputs(row)
+
+    def ours() -> float:
+        return 1e3 * float(locus_valley_radius(given["N"], given["R"] * 1e-3, given["E"] * 1e-3))
+
+    compared(row, ours, locus_valley_radius)
 
 
-@pytest.mark.parametrize("row", KROL, ids=_name)
-def test_krol_disc_radii(row: dict[str, str]) -> None:
-    given = _inputs(row)
+@pytest.mark.parametrize("row", KROL, ids=label)
+def test_krol_disc_radii(row: Row, compared: Compared) -> None:
+    given = inputs(row)
     lobes = int(given["zs"])
     pitch = given["e"] * (lobes + 1) / given["m"]
-    disc = CycloidDisc(lobes, pitch * 1e-3, given["e"] * 1e-3, given["q"] * 1e-3)
-    at = math.pi / lobes if row["quantity"] == "rho_lobe" else 0.0
-    found = 1e3 / float(disc.curvature(at))
-    assert found == pytest.approx(float(row["value"]), abs=float(row["tol"]))
+    at = math.pi / lobes if row["quantity"].endswith("tip") else 0.0
+
+    def ours() -> float:
+        disc = CycloidDisc(lobes, pitch * 1e-3, given["e"] * 1e-3, given["q"] * 1e-3)
+        return 1e3 / float(disc.curvature(at))
+
+    compared(row, ours, CycloidDisc.curvature)
 
 
 def test_krol_form_is_the_same_curve() -> None:

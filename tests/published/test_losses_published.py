@@ -3,7 +3,8 @@
 Wang, Luo and Su 2016, Mechanism and Machine Theory 102:135-148: reducer XW3 (43 lobes, 44 ring
 pins, 8 output pins with sleeves), one existing and five optimised designs. The paper prints ranges
 of the coefficients (0.05 to 0.1 at the teeth, 0.008 to 0.08 at the output pins) but not the values
-nor the wall of the sleeves, so the efficiencies are a trend. Its formulas, for many teeth:
+nor the wall of the sleeves, so the efficiencies are a trend: they validate the share of the teeth;
+that of the pins, 8 to 14 % of it, is held to the closed form alone. Its formulas, for many teeth:
 
     teeth  1 - eta_n = 4 mu (D_p - d_rp)/(pi K1 z_c D_p), eta = eta_n/(1 + z_c (1 - eta_n))
     pins   1 - eta_s = 4 f K1 d_sw D_p/(pi D_w (d_sw + 2 wall))
@@ -13,25 +14,19 @@ times 0.99 for the cam bearing and 0.995 twice for the others.
 
 from __future__ import annotations
 
-import csv
 import math
-import re
-from pathlib import Path
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 from lone_disc import lone_disc
+from published_rows import Row, inputs, label, published_rows
 
 from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.losses import sliding
 from cqdd_design.geometry import kinematics
 
-TABLE = Path(__file__).parent / "data" / "published_examples.csv"
-ROWS = [
-    row
-    for row in csv.DictReader(TABLE.read_text(encoding="utf-8").splitlines())
-    if row["group"] == "efficiency"
-]
+ROWS = published_rows("efficiency")
 BEARINGS = 0.99 * 0.995**2
 # One pair of coefficients and one wall (mm) for all six designs, inside the printed ranges.
 MU, PIN_MU, WALL = 0.06, 0.01, 2.0
@@ -40,8 +35,8 @@ MU, PIN_MU, WALL = 0.06, 0.01, 2.0
 class Reducer:
     """One design of the table in its own symbols, lengths in mm."""
 
-    def __init__(self, row: dict[str, str]) -> None:
-        self.g = {k: float(v) for k, v in re.findall(r"(\w+)=(-?[\d.]+)", row["inputs"])}
+    def __init__(self, row: Row) -> None:
+        self.g = inputs(row)
         self.n, self.pins = int(self.g["zc"]), int(self.g["zw"])
         self.R, self.r = 0.5e-3 * self.g["Dp"], 0.5e-3 * self.g["drp"]
         self.e = self.g["K1"] * self.R / (self.n + 1)
@@ -70,10 +65,12 @@ class Reducer:
         return BEARINGS / (1.0 + mu * self.tooth_share) / (1.0 + pin_mu * sleeve * self.pin_share)
 
 
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: row["inputs"][-30:])
-def test_one_pair_of_coefficients_gives_every_printed_efficiency(row: dict[str, str]) -> None:
-    ours = Reducer(row).efficiency(MU, PIN_MU, WALL)
-    assert ours == pytest.approx(float(row["value"]), abs=float(row["tol"]))
+@pytest.mark.parametrize("row", ROWS, ids=label)
+def test_one_pair_of_coefficients_gives_every_printed_efficiency(
+    row: Row, compared: Callable[..., None]
+) -> None:
+    used = (sliding.friction_work, sliding.ring_sliding)
+    compared(row, lambda: Reducer(row).efficiency(MU, PIN_MU, WALL), *used)
 
 
 def test_order_of_the_designs_is_the_printed_one() -> None:
@@ -86,11 +83,11 @@ def test_order_of_the_designs_is_the_printed_one() -> None:
 @pytest.mark.parametrize(("mu", "pin_mu"), [(0.1, PIN_MU), (0.03, PIN_MU), (MU, 0.08)])
 def test_other_coefficients_do_not_fit(mu: float, pin_mu: float) -> None:
     off = [abs(Reducer(row).efficiency(mu, pin_mu, WALL) - float(row["value"])) for row in ROWS]
-    assert max(off) > 0.012
+    assert max(off) > float(ROWS[0]["tol"])
 
 
-@pytest.mark.parametrize("row", ROWS, ids=lambda row: row["inputs"][-30:])
-def test_mean_losses_are_the_papers_closed_forms(row: dict[str, str]) -> None:
+@pytest.mark.parametrize("row", ROWS, ids=label)
+def test_mean_losses_are_the_papers_closed_forms(row: Row) -> None:
     reducer = Reducer(row)
     g = reducer.g
     teeth = 4.0 * (g["Dp"] - g["drp"]) / (math.pi * g["K1"] * g["zc"] * g["Dp"])
