@@ -8,6 +8,7 @@
 * ``validation.md``: every row of the table of published numbers, as its test compared it.
 * ``contact-model.md``: its validations and its comparison with the paper, between their markers.
 * ``actuator-model.md``: its validations and the calibrated table, between their markers.
+* ``images/*.svg``: the figures of the pages on theory and models, from the code's own results.
 """
 
 from __future__ import annotations
@@ -22,6 +23,9 @@ import textwrap
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
+
+from figures import actuator, contact, theory
+from figures.sheet import sheet
 
 DOCS = Path(__file__).resolve().parent
 BEGIN, END = "<!-- help: written by docs/build.py -->", "<!-- end of help -->"
@@ -304,6 +308,12 @@ PAGES = {
     "validation.md": validation_page,
     "contact-model.md": contact_page,
     "actuator-model.md": actuator_page,
+    "images/theory-profile.svg": lambda: sheet(theory.profile()),
+    "images/theory-forces.svg": lambda: sheet(theory.forces()),
+    "images/contact-teeth.svg": lambda: sheet(contact.teeth()),
+    "images/contact-error.svg": lambda: sheet(contact.error()),
+    "images/actuator-scheme.svg": lambda: sheet(actuator.scheme()),
+    "images/actuator-position.svg": lambda: sheet(actuator.position()),
 }
 
 
