@@ -17,11 +17,12 @@ Exercised = Callable[..., Any] | property | functools.cached_property  # type: i
 
 
 @contextmanager
-def wrong_by_half(exercised: Exercised) -> Iterator[None]:
+def wrong_by_half(exercised: Exercised, part: str = "") -> Iterator[None]:
     """Whoever calls a function, method or property gets 1.5 times its result.
 
     The name is exchanged in its class, or in every loaded module that holds it; compiled kernels,
-    which hold no names, keep what they were compiled with.
+    which hold no names, keep what they were compiled with. Of a result with many fields only one
+    `part` may be wrong, such as ``ring_force`` or ``ledger.copper``.
     """
     plain = _function(exercised)
     if "." in plain.__qualname__:
@@ -31,7 +32,7 @@ def wrong_by_half(exercised: Exercised) -> Iterator[None]:
         holders = list(sys.modules.values())
     found = [(h, n) for h in holders for n, value in list(vars(h).items()) if value is exercised]
     assert found, f"nobody holds {name_of(exercised)}"
-    wrong = _wrong(exercised, plain)
+    wrong = _wrong(exercised, plain, part)
     try:
         for holder, name in found:
             setattr(holder, name, wrong)
@@ -55,14 +56,22 @@ def _function(exercised: Exercised) -> Any:
     return exercised.func if isinstance(exercised, functools.cached_property) else exercised
 
 
-def _wrong(exercised: Exercised, plain: Callable[..., Any]) -> Any:
+def _wrong(exercised: Exercised, plain: Callable[..., Any], part: str) -> Any:
     @functools.wraps(plain)
     def scaled(*arguments: Any, **named: Any) -> Any:
-        return _scaled(plain(*arguments, **named))
+        return _scaled_at(plain(*arguments, **named), part)
 
     if isinstance(exercised, property):
         return property(scaled)
     return functools.cached_property(scaled) if exercised is not plain else scaled
+
+
+def _scaled_at(value: Any, part: str) -> Any:
+    if not part:
+        return _scaled(value)
+    head, _, rest = part.partition(".")
+    changed = {head: _scaled_at(getattr(value, head), rest)}
+    return value._replace(**changed) if hasattr(value, "_replace") else replace(value, **changed)
 
 
 def _scaled(value: Any) -> Any:
