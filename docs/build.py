@@ -57,7 +57,7 @@ BASES = {
         "Printed, and not met",
         "printed",
         "The source contradicts itself: from its own inputs ours differs by more than its rounding "
-        "(see the errata in [theory](theory.md)).",
+        "(see errata and claims in [theory](theory.md)).",
     ),
     "second": (
         "Second evaluations, not published",
@@ -170,7 +170,7 @@ def _validation_table(found: list[tuple[Any, ...]], column: str) -> Iterator[str
         shown = f"{ours:.{max(digits, len(row['evaluated'].partition('.')[2]))}f}"
         # What rounding leaves of an exact agreement differs from machine to machine.
         off = ours - float(row["value"])
-        difference = "0" if abs(off) < 1e-3 * tolerance else f"{off:+.2g}"
+        difference = "0" if abs(off) < 1e-3 * tolerance else f"{float(f'{off:.2g}'):+g}"
         names = ", ".join(f"`{'.'.join(name.split('.')[-2:])}`" for name in exercised)
         yield (
             f"| {row['case']} | {row['quantity']} | {row['value']}{unit} "

@@ -80,6 +80,8 @@ def _scaled(value: Any) -> Any:
         return FACTOR * value
     if isinstance(value, np.ndarray) and value.dtype.kind in "fc":
         return FACTOR * value
+    if isinstance(value, list):
+        return [_scaled(part) for part in value]
     if isinstance(value, tuple):
         parts = [_scaled(part) for part in value]
         return value._make(parts) if hasattr(value, "_make") else tuple(parts)

@@ -182,10 +182,15 @@ def test_example_1_has_no_other_row() -> None:
     assert 0.85 * mesh == pytest.approx(14.84512, abs=5e-6)
 
 
-def test_charts_of_form_and_stress_correction():
-    form = tooth_form(20.0, 0.0, BasicRack(), load_point_diameter=22.0)
-    assert form.form_factor == pytest.approx(2.80, abs=0.005)
-    assert form.stress_correction == pytest.approx(1.55, abs=0.005)
+@pytest.mark.parametrize("row", published_rows("tooth form"), ids=label)
+def test_charts_of_form_and_stress_correction(row: Row, compared: Callable[..., None]) -> None:
+    name = "form_factor" if row["quantity"].endswith("Y_F") else "stress_correction"
+
+    def ours() -> float:
+        form = tooth_form(20.0, 0.0, BasicRack(), load_point_diameter=22.0)
+        return float(getattr(form, name))
+
+    compared(row, ours, tooth_form)
 
 
 def sun_mesh(planets: int, steel: GearMaterial) -> MeshRating:
