@@ -33,7 +33,7 @@ def compared(record_property: Callable[[str, object], None]) -> Compared:
         for function in exercised:
             with wrong_by_half(function):
                 assert _falls(row, ours), f"blind to {name_of(function)}"
-        record_property("published", (row, found, tuple(map(name_of, exercised))))
+        record_property("published", (row, float(found), tuple(map(name_of, exercised))))
 
     return check
 
