@@ -30,7 +30,7 @@ def wrong_by_half(exercised: Exercised, part: str = "") -> Iterator[None]:
         holders: list[Any] = [getattr(sys.modules[plain.__module__], owner)]
     else:
         holders = list(sys.modules.values())
-    found = [(h, n) for h in holders for n, value in list(vars(h).items()) if value is exercised]
+    found = [(h, n) for h in holders for n, value in _names(h) if value is exercised]
     assert found, f"nobody holds {name_of(exercised)}"
     wrong = _wrong(exercised, plain, part)
     try:
@@ -42,6 +42,10 @@ def wrong_by_half(exercised: Exercised, part: str = "") -> Iterator[None]:
     finally:
         for holder, name in found:
             setattr(holder, name, exercised)
+
+
+def _names(holder: Any) -> list[tuple[str, Any]]:
+    return list(getattr(holder, "__dict__", {}).items())
 
 
 def name_of(exercised: Exercised) -> str:
