@@ -186,9 +186,10 @@ class Setting(NamedTuple):
         if self.kind in (str, bool) and isinstance(value, self.kind):
             return value
         words = {float: "a number", int: "a whole number", str: "a name in quotes"}
+        example = self.text(self.usual) if self.most else (*self.choices, "true")[0]
         raise UsageError(
             f"{name} = {shown(value)} is not {words.get(self.kind, 'true or false')}, such as "
-            f"{self.choices[0] if self.choices else self.text(self.usual) if self.most else 'true'}."
+            f"{example}."
         )
 
 
