@@ -328,6 +328,19 @@ def test_motor_shortfall_is_a_warning_unless_the_motor_is_named() -> None:
     assert named["MOTOR-PEAK"].status == "fail"
 
 
+@pytest.mark.parametrize("design", [PAPER, SOUND], ids=["paper", "sound"])
+def test_the_motor_checks_say_what_the_losses_compute(design: Design) -> None:
+    """Between the efficiencies named, rounded, at either torque."""
+    low, high = allowables.COMPUTED_EFFICIENCIES
+    machine, wanted = resolve(design), design.requirements
+    for torque in (wanted.continuous_torque, wanted.peak_torque):
+        found = machine.losses.at(wanted.input_speed, torque).efficiency_forward
+        assert found is not None
+        assert low - 0.005 < found < high + 0.005
+    for key in ("MOTOR-PEAK", "MOTOR-CONTINUOUS"):
+        assert f"{low:g} to {high:g}" in by_id(machine.analysis)[key].why
+
+
 def test_a_motor_without_data_is_said_not_guessed() -> None:
     analysis = resolve(SOUND.replacing({"motor.name": "T-Motor U8 KV150"})).analysis
     assert any("no peak torque" in words for words in analysis.warnings)
