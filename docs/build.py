@@ -8,6 +8,7 @@
 * ``validation.md``: every number of the literature that a test compares with, as compared.
 * ``contact-model.md``: its validations and its comparison with the paper, between their markers.
 * ``actuator-model.md``: its validations and the calibrated table, between their markers.
+* ``assumptions.md``: every allowable, between its markers.
 """
 
 from __future__ import annotations
@@ -280,6 +281,66 @@ def actuator_page() -> str:
     return _with_tables("actuator-model.md", tables)
 
 
+STRENGTHS = (
+    "AISI 4140 Q&T 540C",
+    "AISI 4140 Q&T 425C",
+    "AISI 52100 / 100Cr6 hardened",
+    "18-8 shoulder screw (seed-consistent)",
+    "Alloy steel 12.9 (ISO 7379)",
+)
+"""Materials whose limits stand on the page: those of the designs, and of the tables of sources."""
+
+
+def _allowables() -> str:
+    """Every check with its rule, and what the rules come to for some materials."""
+    from functools import partial
+
+    from cqdd_design.catalog.materials import find_material
+    from cqdd_design.gearbox.checks import allowables
+    from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
+    from cqdd_design.gearbox.checks.guide_row import HOUSE
+
+    rows = ["| check | rule | unit | missed | source |", "|---|---|---|---|---|"]
+    for row in CHECK_GUIDE.values():
+        source = row.source.replace(HOUSE, "house rule")
+        cells = (f"`{row.id}`", row.formula, row.unit, row.severity, source)
+        rows.append(f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |")
+    bending = partial(allowables.pin_bending_limit_continuous, duty_reverses=False)
+    limits = (
+        allowables.contact_limit_static,
+        allowables.contact_limit_fatigue,
+        allowables.pin_limit_peak,
+        allowables.pin_shear_limit_peak,
+        bending,
+    )
+    strengths = [
+        "| MPa | contact, peak | contact, continuous | pin bending, peak | pin shear, peak "
+        "| pin bending, continuous |",
+        "|---|---|---|---|---|---|",
+    ]
+    for name in STRENGTHS:
+        found = " | ".join(f"{limit(find_material(name)).value / 1e6:.0f}" for limit in limits)
+        strengths.append(f"| {name} | {found} |")
+    static, fatigue = (
+        f"{limit / 1e6:g} MPa"
+        for limit in (allowables.HARDENED_STATIC_PRESSURE, allowables.HARDENED_FATIGUE_PRESSURE)
+    )
+    ranges = (
+        f"Contact: the weaker part decides. Steel through-hardened to {allowables.HARDENED_HRC:g} "
+        f"HRC has {static} at the peak torque, and with a hard surface {fatigue} at the continuous "
+        f"torque. The line over HB holds from {allowables.AGMA_LEAST_HB:g} to "
+        f"{allowables.AGMA_MOST_HB:g} HB, above which it stays level. Pin bending at the "
+        "continuous torque is what the catalogue tables for the screw, else "
+        f"S_u/{1.0 / allowables.PIN_FATIGUE_SHARE:g}, pulsating."
+    )
+    return "\n".join([*rows, "", ranges, "", *strengths])
+
+
+def assumptions_page() -> str:
+    """assumptions.md with the allowables as the code has them now."""
+    return _with_tables("assumptions.md", {"allowables": _allowables})
+
+
 def _with_tables(page_name: str, tables: Mapping[str, Callable[[], str]]) -> str:
     """A page with what stands between its markers made anew."""
     page = (DOCS / page_name).read_text(encoding="utf-8")
@@ -296,6 +357,7 @@ PAGES = {
     "validation.md": validation_page,
     "contact-model.md": contact_page,
     "actuator-model.md": actuator_page,
+    "assumptions.md": assumptions_page,
 }
 
 

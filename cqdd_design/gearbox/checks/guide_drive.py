@@ -40,7 +40,7 @@ ROWS = (
         "Number of discs",
         "",
         "min",
-        f"N >= {limits.LEAST_BALANCED_DISCS} "
+        f"D >= {limits.LEAST_BALANCED_DISCS} "
         "(the paper: N_Z = 2 for an even ratio, 3 for an odd one)",
         "Two discs opposite each other balance statically at any ratio. The paper's rule is "
         "reported, not imposed: balance does not depend on the parity of the ratio, and three "
