@@ -114,6 +114,48 @@ def test_constraints_pin_every_dependency():
         assert re.match(r"[\w-]+", requirement)[0].lower() in pinned, requirement
 
 
+_NAME = r"[A-Z](?:[^\W\d_]|['-](?=[^\W\d_]))+"
+_AUTHORS = rf"({_NAME})(?:(?:, {_NAME})*,? and {_NAME}| et al\.)?"
+_CITED = re.compile(rf"{_AUTHORS},? \(?(?:[A-Z]+, )?(1[89]\d\d|20[0-2]\d)\b")
+_STANDARD = re.compile(r"\b((?:ISO(?:/TR)?|AGMA|ASTM|ASME|IEC) (?:VIII|[A-Z]?\d+))")
+
+
+def cited(path):
+    """Sources that a file cites: first author and year, and numbers of standards."""
+    text = re.sub(r"\s+", " ", path.read_text(encoding="utf-8"))
+    return {f"{name} {year}" for name, year in _CITED.findall(text)} | set(_STANDARD.findall(text))
+
+
+def test_every_source_cited_is_in_the_bibliography():
+    bibliography = REPOSITORY / "docs" / "bibliography.md"
+    keys = re.findall(r"\*\*([^*]+)\*\*", bibliography.read_text(encoding="utf-8"))
+    words = [set(re.split(r"[ ,()-]+", key)) for key in keys]
+    sources = [page for page in PAGES if page != bibliography]
+    sources += sorted((REPOSITORY / "cqdd_design").rglob("*.py"))
+    missing = {
+        (source.name, one)
+        for source in sources
+        for one in cited(source)
+        if not any(set(one.split(" ")) <= key for key in words)
+    }
+    assert not missing
+    assert {"Cowper 1966", "Tate 1946", "ISO 76"} <= cited(REPOSITORY / "docs" / "contact-model.md")
+
+
+def test_every_torque_density_that_does_not_follow_is_an_erratum():
+    """Of the paper's comparison, on the page of theory and in the report."""
+    from cqdd_design.actuator.comparison import published_actuators
+    from cqdd_design.report.judgement.closing import ERRATA
+
+    page = (REPOSITORY / "docs" / "theory.md").read_text(encoding="utf-8")
+    wrong = [one for one in published_actuators() if one.remark]
+    assert {one.name for one in wrong} == {"BEAR", "Lee et al."}
+    for one in wrong:
+        right = f"{one.torque_density:.2f} N\u00b7m/kg"
+        assert any(one.name in line and right in line for line in page.splitlines())
+        assert any(one.name in row[0] and row[2] == right for row in ERRATA)
+
+
 def test_links_between_pages_lead_somewhere():
     for page in PAGES:
         for target in re.findall(r"\]\((?!https?://)([^)#]+)", page.read_text(encoding="utf-8")):
