@@ -1,5 +1,7 @@
 """README and docs are true: their commands run, their set-up lines are what CI runs."""
 
+import importlib.util
+import math
 import re
 import shlex
 import shutil
@@ -9,6 +11,9 @@ import tomllib
 from pathlib import Path
 
 import pytest
+
+from cqdd_design.design import load_design
+from cqdd_design.geometry import kinematics
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
@@ -87,6 +92,48 @@ def test_generated_pages_are_up_to_date():
         check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_no_validation_shows_a_figure_above_its_bound():
+    rows = [
+        (page.name, line)
+        for page in PAGES
+        for line in page.read_text(encoding="utf-8").splitlines()
+        if re.search(r"\| below [\d.e-]+ \| [\d.e-]+ \|$", line)
+    ]
+    assert len(rows) > 40
+    for name, line in rows:
+        met, bound = re.findall(r"[\d.e-]+", line.partition("| below ")[2])
+        assert float(met) <= float(bound), (name, line)
+
+
+def test_clearances_said_to_be_doubled_are():
+    spec = importlib.util.spec_from_file_location("build", REPOSITORY / "docs" / "build.py")
+    build = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(build)
+    paper = load_design(REPOSITORY / "designs" / "cqdd-10.toml")
+    cases = dict(build._paper_cases())
+    for words, factor in (("doubled", 2.0), ("half as wide again", 1.5)):
+        wider = paper.replacing(cases[f"all, clearances {words}"]).reducer
+        now = paper.reducer
+        assert wider.modification.equidistant == pytest.approx(
+            factor * now.modification.equidistant
+        )
+        assert wider.output_pins.hole_clearance == pytest.approx(
+            factor * now.output_pins.hole_clearance
+        )
+        assert wider.cam_bearing.radial_clearance == pytest.approx(
+            factor * now.cam_bearing.radial_clearance
+        )
+    page = (REPOSITORY / "docs" / "contact-model.md").read_text(encoding="utf-8")
+    assert all(f"| {words} |" in page for words in cases)
+
+
+def test_the_period_of_the_docs_is_that_of_the_code():
+    """2 pi n/((n+1) gcd(n, N_w)): the page once lacked the n."""
+    page = (REPOSITORY / "docs" / "theory.md").read_text(encoding="utf-8")
+    assert "2πn/((n+1)·gcd(n, N_w))" in page
+    assert kinematics.mesh_period(10, 5) == pytest.approx(2.0 * math.pi * 10 / (11 * 5))
 
 
 def test_exit_codes_of_the_docs_are_those_of_the_errors():

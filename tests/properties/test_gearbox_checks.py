@@ -29,6 +29,8 @@ from cqdd_design.gearbox.balance import paper_disc_count, stack_balance
 from cqdd_design.gearbox.bearing_life import basic_rating_life_hours, load_for_life
 from cqdd_design.gearbox.cam_bearing import choose
 from cqdd_design.gearbox.checks import allowables
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.machine import resolve
 from cqdd_design.results import Check, MassProperties, worst_status
@@ -337,8 +339,27 @@ def test_the_motor_checks_say_what_the_losses_compute(design: Design) -> None:
         found = machine.losses.at(wanted.input_speed, torque).efficiency_forward
         assert found is not None
         assert low - 0.005 < found < high + 0.005
-    for key in ("MOTOR-PEAK", "MOTOR-CONTINUOUS"):
-        assert f"{low:g} to {high:g}" in by_id(machine.analysis)[key].why
+    page = (Path(__file__).resolve().parents[2] / "docs" / "assumptions.md").read_text()
+    for words in (
+        page,
+        *(by_id(machine.analysis)[f"MOTOR-{k}"].why for k in ("PEAK", "CONTINUOUS")),
+    ):
+        assert f"{low:g} to {high:g} at ratio 10" in " ".join(words.split())
+        assert "14 to 19 % more" in " ".join(words.split())
+
+
+@pytest.mark.parametrize("design", [PAPER, SOUND], ids=["paper", "sound"])
+def test_clearance_shares_less_evenly_than_the_checks_assume(design: Design) -> None:
+    """As docs/assumptions.md says of the factor 1.15: 1.3 at the peak, 1.5 to 1.6 at continuous."""
+    model, wanted = ContactModel.from_design(design), design.requirements
+    rigid = resolve(design).analysis.rigid_peak
+    found = []
+    for torque in (wanted.peak_torque, wanted.continuous_torque):
+        sweeps = [contact_sweep(model, sense * torque, perfect_angles(model)) for sense in (1, -1)]
+        most = max(float(sweep.ring_force.max()) for sweep in sweeps)
+        found.append(most / rigid.at(torque).ring_force)
+    assert 1.25 < found[0] < 1.4
+    assert 1.45 < found[1] < 1.65
 
 
 def test_a_motor_without_data_is_said_not_guessed() -> None:
