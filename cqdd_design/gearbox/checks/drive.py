@@ -131,7 +131,8 @@ def _torque_check(
         available,
         f"{torque:g} N*m/({n} x {eta:g}) = {needed:.3f} N*m",
         f"lower requirements.{key} to {rounded_down(available * n * eta):g} N*m, or take a motor "
-        f"with {rounded_up(needed):g} N*m",
+        f"with {rounded_up(needed):g} N*m; both with the assumed efficiency of {eta:g}, above what "
+        "the losses leave",
     )
 
 
