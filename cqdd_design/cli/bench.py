@@ -103,7 +103,8 @@ def _lines(result: BenchResult) -> list[str]:
     ]
     if result.beside_paper:
         lines.append(
-            "given: an input or an identity; predicted: neither fitted nor given. "
+            "given: an input or an identity; assumed: from clearances that the design assumes; "
+            "predicted: none of these, nor fitted. "
             "`cqdd-design calibrate` fits friction and cooling."
         )
     return lines

@@ -32,7 +32,7 @@ class Row:
     measured : float or None
         None where it was not measured.
     relation : str
-        "calibrated", "predicted", "given" or "not comparable".
+        As of :class:`.Metric`.
     """
 
     name: str
@@ -88,7 +88,7 @@ class Calibration:
 
     @property
     def predicted(self) -> tuple[Row, ...]:
-        """Rows that were measured and neither fitted nor given."""
+        """Rows that were measured, and are neither fitted nor given nor of assumed clearances."""
         return tuple(
             row for row in self.rows if row.relation == "predicted" and row.measured is not None
         )

@@ -31,8 +31,13 @@ _NO_SPREAD = 1e-3
 
 RELATIONS = (
     ("given", "an input or an identity: an agreement says nothing"),
+    ("assumed", "follows from clearances that the design assumes: an agreement says that they fit"),
     ("calibrated", "fitted to the measured value"),
-    ("predicted", "computed from geometry and catalogue without looking at the measured value"),
+    (
+        "predicted",
+        "computed from geometry, catalogue and usual friction and cooling, without looking at the "
+        "measured value",
+    ),
     ("not comparable", "measured under conditions that are not known"),
 )
 """What the words about an agreement mean."""
