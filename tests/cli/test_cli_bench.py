@@ -18,7 +18,7 @@ FIXED = {
     "backdrive_static", "backdrive_dynamic", "torque_ripple", "torque_bandwidth",
     "position_bandwidth_45deg", "position_bandwidth_5deg",
 }  # fmt: skip
-RELATIONS = {"given", "assumed", "calibrated", "predicted", "not comparable"}
+RELATIONS = {"given", "calibrated", "predicted", "not comparable"}
 
 
 @pytest.mark.deep

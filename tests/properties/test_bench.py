@@ -109,7 +109,7 @@ def test_gebler_finds_the_dead_zone(actuator: ActuatorParameters, arcmin: float)
     found = measured(loose, "backlash")
     assert found.value == pytest.approx(arcmin, abs=0.2 + 0.02 * arcmin)
     # It says how large the clearances of the design are, which nobody measured.
-    assert found.relation == "assumed"
+    assert found.relation == "given"
 
 
 def test_breakaway_is_the_friction_seen_from_the_output(actuator: ActuatorParameters) -> None:

@@ -88,7 +88,7 @@ class Calibration:
 
     @property
     def predicted(self) -> tuple[Row, ...]:
-        """Rows that were measured, and are neither fitted nor given nor of assumed clearances."""
+        """Rows that were measured and neither fitted nor given."""
         return tuple(
             row for row in self.rows if row.relation == "predicted" and row.measured is not None
         )

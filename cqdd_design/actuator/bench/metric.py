@@ -11,7 +11,7 @@ from cqdd_design.actuator.parameters import FloatArray
 from cqdd_design.catalog import paper
 from cqdd_design.errors import UsageError, did_you_mean
 
-Relation = Literal["given", "assumed", "calibrated", "predicted", "not comparable"]
+Relation = Literal["given", "calibrated", "predicted", "not comparable"]
 
 METRICS: Mapping[str, str] = MappingProxyType(
     {
@@ -58,9 +58,9 @@ class Metric:
         In the unit of `METRICS`.
     spread : float or None
         Standard deviation over positions or repetitions; None for a single figure.
-    relation : {"given", "assumed", "calibrated", "predicted", "not comparable"}
-        How an agreement with a measured value would have to be read: an input or an identity, what
-        follows from clearances that the design assumes, a fit, a prediction, or something measured
+    relation : {"given", "calibrated", "predicted", "not comparable"}
+        How an agreement with a measured value would have to be read: an input, an identity or what
+        follows from clearances that the design assumes; a fit; a prediction; or something measured
         under other conditions.
     protocol : str
         A sentence.

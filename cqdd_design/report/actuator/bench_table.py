@@ -30,8 +30,11 @@ _NO_SPREAD = 1e-3
 """Of the value: a smaller spread is not told in digits."""
 
 RELATIONS = (
-    ("given", "an input or an identity: an agreement says nothing"),
-    ("assumed", "follows from clearances that the design assumes: an agreement says that they fit"),
+    (
+        "given",
+        "an input, an identity, or what follows from clearances that the design assumes: an "
+        "agreement says nothing, or that they fit",
+    ),
     ("calibrated", "fitted to the measured value"),
     (
         "predicted",
