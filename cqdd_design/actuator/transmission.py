@@ -4,12 +4,14 @@ The carrier's angle error gamma(theta, T) changes with the load. One kinematic e
 stiffness over angle stand for it such that the work is right: with the energy Pi = min(E - T gamma)
 of the contact engine under T and -T::
 
-    eps(theta) = -(Pi(T) - Pi(-T))/(2 T)                  mean of gamma over loads from -T to T
-    u(theta)   = ((p+1)/p) (-(Pi(T) + Pi(-T))/(2 T) - b/2)    windup of a spring of exponent p
+    eps(theta) = -(Pi(T) - Pi(-T))/(2 T)        mean of gamma over loads from -T to T
+    w(theta)   = -(Pi(T) + Pi(-T))/(2 T)        half of the backlash and p/(p+1) of the windup
+    u(theta)   = mean u + ((p+1)/p) (w - mean w)    windup of a spring of exponent p
 
-Behind them the torque that holds the motor under the loads T and -T varies over angle exactly as
-n dPi/dphi does in the contact engine: its torque ripple. The loaded angle error itself is that of
-the mean load; mean windup, stiffening and backlash are those of the loaded curve.
+The stiffness over angle is (mean u/u)^p, its mean set to 1. The torque that holds the motor under
+the loads T and -T then varies over angle as dPi/dphi does in the contact engine; n times that is
+the torque ripple at the output. The loaded angle error itself is that of the mean load; mean
+windup, stiffening and backlash are those of the loaded curve.
 """
 
 from __future__ import annotations

@@ -31,8 +31,9 @@ class Material:
     drawing_note : str
         The treatment as a drawing of a part that is cut by wire says it; empty for stock as it is
         delivered.
-    form : {"stock", "fastener"}
-        Whether parts are made of it, or it is bought as screws and pins.
+    form : {"stock", "fastener", "motor"}
+        Whether parts are made of it, it is bought as screws and pins, or it makes laminations,
+        magnets and boards of motors.
     pulsating_strength : float or None
         Bending stress that may come and go for ever, Pa, where it is tabled for the part itself:
         shoulder screws, about S_u/4 for ground shoulder and fillet.
@@ -54,7 +55,7 @@ class Material:
     fatigue_strength: float | None = column("fatigue_MPa", 1e6)
     treatment: str = column("treatment")
     drawing_note: str = column("drawing_note")
-    form: Literal["stock", "fastener"] = column("form")
+    form: Literal["stock", "fastener", "motor"] = column("form")
     pulsating_strength: float | None = column("pulsating_MPa", 1e6)
     pulsating_basis: str = column("pulsating_basis")
     contact_allowable: float | None = column("contact_allow_MPa", 1e6)

@@ -123,7 +123,7 @@ class Estimated(NamedTuple):
         return [self.title, *(none if one is None else f"{one:.2f}" for one in numbers)]
 
 
-NETWORKS_SOURCE = "C-QDD paper, Table II and section IV-A (hardware)"
+NETWORKS_SOURCE = "C-QDD paper, Table III and section IV-A (hardware)"
 NETWORKS: tuple[Estimated, ...] = (
     Estimated("pva-gru", "PVA-GRU", 0.97, 0.92, 1.49),
     Estimated("pv-gru", "PV-GRU", 1.00, 0.85, 3.10),

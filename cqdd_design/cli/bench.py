@@ -103,7 +103,8 @@ def _lines(result: BenchResult) -> list[str]:
     ]
     if result.beside_paper:
         lines.append(
-            "given: an input or an identity; predicted: neither fitted nor given. "
+            "given: an input, an identity, or from clearances that the design assumes; "
+            "predicted: neither fitted nor given. "
             "`cqdd-design calibrate` fits friction and cooling."
         )
     return lines

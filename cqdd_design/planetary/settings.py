@@ -178,7 +178,7 @@ class Setting(NamedTuple):
         number = isinstance(value, (int, float)) and not isinstance(value, bool)
         if self.kind is float and number:
             return float(value)
-        if self.kind is int and number and value == int(value):
+        if self.kind is int and number and float(value).is_integer():
             return int(value)
         if isinstance(value, str) and self.choices and value not in self.choices:
             hint = did_you_mean(value, self.choices) or "."
@@ -186,9 +186,10 @@ class Setting(NamedTuple):
         if self.kind in (str, bool) and isinstance(value, self.kind):
             return value
         words = {float: "a number", int: "a whole number", str: "a name in quotes"}
+        example = self.text(self.usual) if self.most else (*self.choices, "true")[0]
         raise UsageError(
             f"{name} = {shown(value)} is not {words.get(self.kind, 'true or false')}, such as "
-            f"{self.choices[0] if self.choices else self.text(self.usual or True)}."
+            f"{example}."
         )
 
 

@@ -338,8 +338,7 @@ class GearPair:
         """Room between the tips of pinion and ring away from the line of action, rad of the ring.
 
         Negative where they foul. Tip corners that pass one point of both tip circles: theta_2 +
-        inv(alpha_a2) - inv(alpha_wt) against z_1/|z_2| times the pinion's (Colbourne, The Geometry
-        of Involute Gears, 1987, ch. 8).
+        inv(alpha_a2) - inv(alpha_wt) against z_1/|z_2| times the pinion's (Colbourne 1987, ch. 8).
         """
         distance = abs(self.working_centre_distance)
         radius_1, radius_2 = (0.5 * abs(tip) for tip in self.tip_diameters)

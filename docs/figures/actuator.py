@@ -44,17 +44,19 @@ def scheme() -> Figure:
     upper, lower = 24.0, 64.0  # px from a block's top to its two wires
     body += [
         *_wire([(120.0, 14.0), (120.0, y1)], "command: voltage, current, torque, position", 1.0),
-        *_wire([(x1 + _WIDE, y1 + upper), (x2, y1 + upper)], "v"),
-        *_wire([(x2, y1 + lower), (x1 + _WIDE, y1 + lower)], "i"),
-        *_wire([(x2 + _WIDE, y1 + upper), (x3, y1 + upper)], "K i"),
+        *_wire([(x1 + _WIDE, y1 + upper), (x2, y1 + upper)], "V"),
+        *_wire([(x2, y1 + lower), (x1 + _WIDE, y1 + lower)], "I"),
+        *_wire([(x2 + _WIDE, y1 + upper), (x3, y1 + upper)], "K I"),
         *_wire([(x3, y1 + lower), (x2 + _WIDE, y1 + lower)], "ω"),
-        *_wire([(x3 + 60.0, y1 + _HIGH), (x3 + 60.0, y2)], "θ, ω", -1.0),
-        *_wire([(x3 + 140.0, y2), (x3 + 140.0, y1 + _HIGH)], "T (1/n + ε\u2032) + κ\u2032 W", 1.0),
-        *_wire([(x3 + 60.0, y2 + _HIGH), (x3 + 60.0, y3)], "T", -1.0),
+        *_wire([(x3 + 60.0, y1 + _HIGH), (x3 + 60.0, y2)], "φ, ω", -1.0),
+        *_wire(
+            [(x3 + 140.0, y2), (x3 + 140.0, y1 + _HIGH)], "T_g (1/Z_R + ε\u2032) + κ\u2032 W", 1.0
+        ),
+        *_wire([(x3 + 60.0, y2 + _HIGH), (x3 + 60.0, y3)], "T_g", -1.0),
         *_wire([(x3 + 140.0, y3), (x3 + 140.0, y2 + _HIGH)], "q, dq/dt", 1.0),
         *_wire([(x3, y3 + upper), (x2 + _WIDE, y3 + upper)], "q, dq/dt"),
         *_wire([(x2 + _WIDE, y3 + lower), (x3, y3 + lower)], "torque"),
-        *_wire([(x2 + 100.0, y1 + _HIGH), (x2 + 100.0, y2)], "R i²", 1.0, "heat"),
+        *_wire([(x2 + 100.0, y1 + _HIGH), (x2 + 100.0, y2)], "R_m I²", 1.0, "heat"),
         *_wire([(x2, y2 + 44.0), (x1 + _WIDE, y2 + 44.0)], "heat", 0.0, "heat"),
     ]
     under = y2 + _HIGH + 24.0
@@ -70,7 +72,7 @@ def scheme() -> Figure:
     return words.figure(_WIDTH, y3 + _HIGH + 14.0, body)
 
 
-_COLUMNS, _ROWS = (20.0, 330.0, 640.0), (44.0, 184.0, 332.0)
+_COLUMNS, _ROWS = (20.0, 324.0, 628.0), (44.0, 184.0, 332.0)
 _WIDE, _HIGH = 200.0, 88.0
 
 
@@ -85,33 +87,33 @@ def _blocks(one: ActuatorParameters) -> dict[tuple[int, int], tuple[str, str, st
         ),
         (1, 0): (
             "winding",
-            f"R {1e3 * motor.resistance:.3g} mΩ, L {1e6 * motor.inductance:.3g} µH",
+            f"R_m {1e3 * motor.resistance:.3g} mΩ, L_m {1e6 * motor.inductance:.3g} µH",
             f"K {motor.torque_constant:.4g} N·m/A",
         ),
         (2, 0): (
             "motor side",
-            f"J {1e4 * one.motor_side_inertia:.3g} kg·cm²",
+            f"{1e4 * one.motor_side_inertia:.3g} kg·cm²",
             "cogging, iron loss, friction",
         ),
         (0, 1): (
-            "housing",
+            "heat of the housing",
             f"{thermal.housing_capacity:.3g} J/K",
             f"{thermal.housing_to_ambient:.3g} K/W to the air",
         ),
         (1, 1): (
-            "copper",
+            "heat of the winding",
             f"{thermal.winding_capacity:.3g} J/K",
             f"{thermal.winding_to_housing:.3g} K/W to the housing",
         ),
         (2, 1): (
             "gearbox",
             f"k {1e-3 * gear.stiffness:.3g} kN·m/rad, p {gear.stiffening:.3g}",
-            f"b {math.degrees(gear.backlash) * 60.0:.3g}\u2032, ε(θ), κ(θ)",
+            f"β {math.degrees(gear.backlash) * 60.0:.3g}\u2032, ε(φ), κ(φ)",
         ),
         (1, 2): ("load", "held, free, inertia, driven,", "pendulum, pendulum and wall"),
         (2, 2): (
             "output side",
-            f"J {1e4 * gear.output_inertia:.3g} kg·cm²",
+            f"{1e4 * gear.output_inertia:.3g} kg·cm²",
             "friction",
         ),
     }

@@ -53,7 +53,7 @@ def teeth() -> Figure:
             ),
             (
                 "closing",
-                linear_axis(float(pressed.min()), float(pressed.max()), "pressed, µm"),
+                linear_axis(float(pressed.min()), float(pressed.max()), "approach δ, µm"),
                 232.0,
                 170.0,
             ),

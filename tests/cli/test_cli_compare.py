@@ -83,6 +83,7 @@ def test_defaults_are_printed(cqdd):
         ("application_factor = 20.0", "0.1 to 10; 1 is usual"),
         ('application_factor = "much"', "is not a number"),
         ("accuracy_class = 5.5", "is not a whole number"),
+        ("accuracy_class = inf", "is not a whole number"),
         ("accuracy_class = 12", "1 to 11; 5 is usual"),
         ('mesh_load_table = "isoo"', "did you mean 'iso'"),
         ('material_quality = "mq"', "'MQ'"),

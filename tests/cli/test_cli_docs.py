@@ -1,5 +1,7 @@
 """README and docs are true: their commands run, their set-up lines are what CI runs."""
 
+import importlib.util
+import math
 import re
 import shlex
 import shutil
@@ -9,6 +11,9 @@ import tomllib
 from pathlib import Path
 
 import pytest
+
+from cqdd_design.design import load_design
+from cqdd_design.geometry import kinematics
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 PAGES = [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))]
@@ -95,6 +100,48 @@ def test_generated_pages_are_up_to_date():
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+def test_no_validation_shows_a_figure_above_its_bound():
+    rows = [
+        (page.name, line)
+        for page in PAGES
+        for line in page.read_text(encoding="utf-8").splitlines()
+        if re.search(r"\| below [\d.e-]+ \| [\d.e-]+ \|$", line)
+    ]
+    assert len(rows) > 40
+    for name, line in rows:
+        met, bound = re.findall(r"[\d.e-]+", line.partition("| below ")[2])
+        assert float(met) <= float(bound), (name, line)
+
+
+def test_clearances_said_to_be_doubled_are():
+    spec = importlib.util.spec_from_file_location("build", REPOSITORY / "docs" / "build.py")
+    build = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(build)
+    paper = load_design(REPOSITORY / "designs" / "cqdd-10.toml")
+    cases = dict(build._paper_cases())
+    for words, factor in (("doubled", 2.0), ("half as wide again", 1.5)):
+        wider = paper.replacing(cases[f"all, clearances {words}"]).reducer
+        now = paper.reducer
+        assert wider.modification.equidistant == pytest.approx(
+            factor * now.modification.equidistant
+        )
+        assert wider.output_pins.hole_clearance == pytest.approx(
+            factor * now.output_pins.hole_clearance
+        )
+        assert wider.cam_bearing.radial_clearance == pytest.approx(
+            factor * now.cam_bearing.radial_clearance
+        )
+    page = (REPOSITORY / "docs" / "contact-model.md").read_text(encoding="utf-8")
+    assert all(f"| {words} |" in page for words in cases)
+
+
+def test_the_period_of_the_docs_is_that_of_the_code():
+    """2 pi n/((n+1) gcd(n, N_w)): the page once lacked the n."""
+    page = (REPOSITORY / "docs" / "theory.md").read_text(encoding="utf-8")
+    assert "2πn/((n+1)·gcd(n, N_w))" in page
+    assert kinematics.mesh_period(10, 5) == pytest.approx(2.0 * math.pi * 10 / (11 * 5))
+
+
 def test_exit_codes_of_the_docs_are_those_of_the_errors():
     from cqdd_design import errors
 
@@ -118,6 +165,48 @@ def test_constraints_pin_every_dependency():
     needed = [*project["dependencies"], *extras["dev"], *extras["torque"]]
     for requirement in needed:
         assert re.match(r"[\w-]+", requirement)[0].lower() in pinned, requirement
+
+
+_NAME = r"[A-Z](?:[^\W\d_]|['-](?=[^\W\d_]))+"
+_AUTHORS = rf"({_NAME})(?:(?:, {_NAME})*,? and {_NAME}| et al\.)?"
+_CITED = re.compile(rf"{_AUTHORS},? \(?(?:[A-Z]+, )?(1[89]\d\d|20[0-2]\d)\b")
+_STANDARD = re.compile(r"\b((?:ISO(?:/TR)?|AGMA|ASTM|ASME|IEC) (?:VIII|[A-Z]?\d+))")
+
+
+def cited(path):
+    """Sources that a file cites: first author and year, and numbers of standards."""
+    text = re.sub(r"\s+", " ", path.read_text(encoding="utf-8"))
+    return {f"{name} {year}" for name, year in _CITED.findall(text)} | set(_STANDARD.findall(text))
+
+
+def test_every_source_cited_is_in_the_bibliography():
+    bibliography = REPOSITORY / "docs" / "bibliography.md"
+    keys = re.findall(r"\*\*([^*]+)\*\*", bibliography.read_text(encoding="utf-8"))
+    words = [set(re.split(r"[ ,()-]+", key)) for key in keys]
+    sources = [page for page in PAGES if page != bibliography]
+    sources += sorted((REPOSITORY / "cqdd_design").rglob("*.py"))
+    missing = {
+        (source.name, one)
+        for source in sources
+        for one in cited(source)
+        if not any(set(one.split(" ")) <= key for key in words)
+    }
+    assert not missing
+    assert {"Cowper 1966", "Tate 1946", "ISO 76"} <= cited(REPOSITORY / "docs" / "contact-model.md")
+
+
+def test_every_torque_density_that_does_not_follow_is_an_erratum():
+    """Of the paper's comparison, on the page of theory and in the report."""
+    from cqdd_design.actuator.comparison import published_actuators
+    from cqdd_design.report.judgement.closing import ERRATA
+
+    page = (REPOSITORY / "docs" / "theory.md").read_text(encoding="utf-8")
+    wrong = [one for one in published_actuators() if one.remark]
+    assert {one.name for one in wrong} == {"BEAR", "Lee et al."}
+    for one in wrong:
+        right = f"{one.torque_density:.2f} N\u00b7m/kg"
+        assert any(one.name in line and right in line for line in page.splitlines())
+        assert any(one.name in row[0] and row[2] == right for row in ERRATA)
 
 
 def test_links_between_pages_lead_somewhere():

@@ -29,6 +29,8 @@ from cqdd_design.gearbox.balance import paper_disc_count, stack_balance
 from cqdd_design.gearbox.bearing_life import basic_rating_life_hours, load_for_life
 from cqdd_design.gearbox.cam_bearing import choose
 from cqdd_design.gearbox.checks import allowables
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.machine import resolve
 from cqdd_design.results import Check, MassProperties, worst_status
@@ -328,6 +330,38 @@ def test_motor_shortfall_is_a_warning_unless_the_motor_is_named() -> None:
     assert named["MOTOR-PEAK"].status == "fail"
 
 
+@pytest.mark.parametrize("design", [PAPER, SOUND], ids=["paper", "sound"])
+def test_the_motor_checks_say_what_the_losses_compute(design: Design) -> None:
+    """Between the efficiencies named, rounded, at either torque."""
+    low, high = allowables.COMPUTED_EFFICIENCIES
+    machine, wanted = resolve(design), design.requirements
+    for torque in (wanted.continuous_torque, wanted.peak_torque):
+        found = machine.losses.at(wanted.input_speed, torque).efficiency_forward
+        assert found is not None
+        assert low - 0.005 < found < high + 0.005
+    page = (Path(__file__).resolve().parents[2] / "docs" / "assumptions.md").read_text()
+    for words in (
+        page,
+        *(by_id(machine.analysis)[f"MOTOR-{k}"].why for k in ("PEAK", "CONTINUOUS")),
+    ):
+        assert f"{low:g} to {high:g} at ratio 10" in " ".join(words.split())
+        assert "14 to 19 % more" in " ".join(words.split())
+
+
+@pytest.mark.parametrize("design", [PAPER, SOUND], ids=["paper", "sound"])
+def test_clearance_shares_less_evenly_than_the_checks_assume(design: Design) -> None:
+    """As docs/assumptions.md says of the factor 1.15: 1.3 at the peak, 1.5 to 1.6 at continuous."""
+    model, wanted = ContactModel.from_design(design), design.requirements
+    rigid = resolve(design).analysis.rigid_peak
+    found = []
+    for torque in (wanted.peak_torque, wanted.continuous_torque):
+        sweeps = [contact_sweep(model, sense * torque, perfect_angles(model)) for sense in (1, -1)]
+        most = max(float(sweep.ring_force.max()) for sweep in sweeps)
+        found.append(most / rigid.at(torque).ring_force)
+    assert 1.25 < found[0] < 1.4
+    assert 1.45 < found[1] < 1.65
+
+
 def test_a_motor_without_data_is_said_not_guessed() -> None:
     analysis = resolve(SOUND.replacing({"motor.name": "T-Motor U8 KV150"})).analysis
     assert any("no peak torque" in words for words in analysis.warnings)
@@ -614,13 +648,99 @@ def test_more_pins_named_by_the_remedy_carry_the_load() -> None:
     )
     check = by_id(resolve(few).analysis)["PIN-BENDING-PEAK"]
     assert check.status == "fail"
-    named = re.search(r"or (\d+) of them", check.remedy)
+    named = re.search(r"use (\d+) pins of 3 mm", check.remedy)
     assert named, check.remedy
     count = int(named.group(1))
     more = by_id(resolve(few.replacing({"reducer.output_pins.count": count})).analysis)
     assert more["PIN-BENDING-PEAK"].status == "pass"
     fewer = by_id(resolve(few.replacing({"reducer.output_pins.count": count - 2})).analysis)
     assert fewer["PIN-BENDING-PEAK"].status == "fail"
+
+
+@pytest.mark.parametrize(
+    ("disc", "ring", "torque"),
+    [
+        ("AISI 4140 Q&T 540C", "AISI 4140 Q&T 540C", 120.0),
+        ("AISI 4140 Q&T 540C", "AISI 4140 Q&T 540C", 250.0),
+        ("6061-T6", "6061-T6", 20.0),
+        ("6061-T6", "AISI 4140 Q&T 540C", 20.0),
+        ("PLA", "PLA", 6.0),
+        ("AISI 4140 annealed", "Brass CuZn39Pb3", 10.0),
+    ],
+)
+def test_the_materials_named_by_the_remedy_pass(disc: str, ring: str, torque: float) -> None:
+    """What is named is another material, of which such a part can be made, and carries the load."""
+    design = PAPER.replacing(
+        {
+            "reducer.disc_material": disc,
+            "reducer.ring_material": ring,
+            "requirements.peak_torque": torque,
+            "requirements.continuous_torque": 0.2 * torque,
+        }
+    )
+    keys = {
+        "disc": "reducer.disc_material",
+        "ring": "reducer.ring_material",
+        "pins": "reducer.output_pins.material",
+    }
+    found = 0
+    for check in by_id(resolve(design).analysis).values():
+        named = re.findall(r"the (disc|ring|pins) of '([^']*)'", check.remedy)
+        if not check.id.startswith("CONTACT") or not named:
+            continue
+        found += 1
+        for part, name in named:
+            table, _, key = keys[part].rpartition(".")
+            now = design.reducer.output_pins if table.endswith("pins") else design.reducer
+            assert name != getattr(now, key)
+            form = find_material(name).form
+            assert form == "stock" or (part == "pins" and form == "fastener")
+        harder = {keys[part]: name for part, name in named}
+        assert changed(harder, design)[check.id].status == "pass", check.remedy
+    assert found
+
+
+def test_thicker_pins_are_named_with_a_circle_that_has_room_for_them() -> None:
+    check = by_id(resolve(PAPER).analysis)["PIN-SHEAR-PEAK"]
+    named = re.search(r"use pins of ([\d.]+) mm .*circle_radius near ([\d.]+) mm", check.remedy)
+    assert named, check.remedy
+    size, circle = named.groups()
+    before = by_id(resolve(PAPER).analysis)
+    after = changed(
+        {
+            "reducer.output_pins.diameter": f"{size} mm",
+            "reducer.output_pins.circle_radius": f"{circle} mm",
+        },
+        PAPER,
+    )
+    assert after["PIN-SHEAR-PEAK"].status == "pass"
+    ligaments = [key for key in before if key.startswith("GEO-LIGAMENT")]
+    assert all(after[key].margin > 0.95 for key in ligaments)
+    overloaded = changed({"requirements.peak_torque": 2000.0}, PAPER)
+    for key in ("PIN-PAPER", "PIN-SHEAR-PEAK", "PIN-BENDING-PEAK", "PIN-BEARING-PEAK"):
+        sizes = re.findall(r"pins of (?:at least )?([\d.]+) mm \(", overloaded[key].remedy)
+        # No pin of four times the diameter on the same disc.
+        assert all(float(size) < 12.0 for size in sizes), overloaded[key].remedy
+
+
+def test_a_ring_wall_needs_half_of_a_diameter() -> None:
+    check = changed({"reducer.ring.outer_diameter": "66 mm"}, PAPER)["GEO-RING-WALL"]
+    named = re.search(r"ring_pitch_radius to about ([\d.]+) mm", check.remedy)
+    assert named, check.remedy
+    lower = 32.0 - float(named.group(1))
+    assert lower == pytest.approx(check.limit - check.value, abs=0.01)
+
+
+def test_a_remedy_says_a_thing_once() -> None:
+    even = changed({"reducer.disc_count": 1}, PAPER)["DISC-COUNT"]
+    assert even.remedy == "disc_count = 2 balances statically and follows the paper's rule"
+    odd = changed({"reducer.disc_count": 1, "reducer.ratio": 11, "requirements.ratio": 11})
+    assert "; disc_count = 3 follows" in odd["DISC-COUNT"].remedy
+    short = changed({"requirements.length": "12 mm"}, PAPER)["SPACE-LENGTH"]
+    named = re.search(r"disc_thickness to ([\d.]+) mm", short.remedy)
+    assert named, short.remedy
+    thinner = {"requirements.length": "12 mm", "reducer.disc_thickness": f"{named.group(1)} mm"}
+    assert changed(thinner, PAPER)["SPACE-LENGTH"].status == "pass"
 
 
 def test_the_wire_named_by_the_remedy_passes() -> None:

@@ -700,7 +700,7 @@ def test_slow_samples_show_no_ripple(data):
 
 
 def test_the_papers_own_numbers_hold_together():
-    """RMSE^2 - variance = bias^2 recomputed from Table II (arXiv:2410.16591): hardware."""
+    """RMSE^2 - variance = bias^2 recomputed from Table III (arXiv:2410.16591): hardware."""
     rows = {row.model: row for row in paper.NETWORKS}
     assert rows["pva-gru"].bias == pytest.approx(0.145, abs=0.005)
     assert rows["mlp-baseline"].bias == pytest.approx(1.56, abs=0.005)

@@ -32,7 +32,7 @@ class Row:
     measured : float or None
         None where it was not measured.
     relation : str
-        "calibrated", "predicted", "given" or "not comparable".
+        As of :class:`.Metric`.
     """
 
     name: str

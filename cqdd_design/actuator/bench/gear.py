@@ -72,7 +72,8 @@ def backlash(parameters: ActuatorParameters, positions: int = 6) -> Metric:
     return Metric(
         "backlash",
         float(values.mean()) if values.size else 0.0,
-        "predicted",
+        # It says how large the clearances are that the design assumes, which nobody measured.
+        "given",
         f"Gebler: onto one flank, then the motor slowly back until a dial of {DIAL * 1e3:g} mm at "
         f"{DIAL_RADIUS * 1e3:g} mm moves, at {positions} places from both flanks; the dial's own "
         "threshold is taken off.",

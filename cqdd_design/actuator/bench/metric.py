@@ -59,8 +59,9 @@ class Metric:
     spread : float or None
         Standard deviation over positions or repetitions; None for a single figure.
     relation : {"given", "calibrated", "predicted", "not comparable"}
-        How an agreement with a measured value would have to be read: an input or an identity, a
-        fit, a prediction, or something measured under other conditions.
+        How an agreement with a measured value would have to be read: an input, an identity or what
+        follows from clearances that the design assumes; a fit; a prediction; or something measured
+        under other conditions.
     protocol : str
         A sentence.
     details : mapping of str to float

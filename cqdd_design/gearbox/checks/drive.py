@@ -65,8 +65,12 @@ def _disc_count(state: GearboxState) -> Check:
         float(count),
         float(allowables.LEAST_BALANCED_DISCS),
         f"the design has {count}; ratio {ratio} is {parity}, so the paper's rule asks for {wanted}",
-        f"disc_count = {allowables.LEAST_BALANCED_DISCS} balances statically; "
-        f"disc_count = {wanted} follows the paper's rule",
+        f"disc_count = {allowables.LEAST_BALANCED_DISCS} balances statically"
+        + (
+            " and follows the paper's rule"
+            if wanted == allowables.LEAST_BALANCED_DISCS
+            else f"; disc_count = {wanted} follows the paper's rule"
+        ),
     )
 
 
@@ -127,7 +131,8 @@ def _torque_check(
         available,
         f"{torque:g} N*m/({n} x {eta:g}) = {needed:.3f} N*m",
         f"lower requirements.{key} to {rounded_down(available * n * eta):g} N*m, or take a motor "
-        f"with {rounded_up(needed):g} N*m",
+        f"with {rounded_up(needed):g} N*m; both with the assumed efficiency of {eta:g}, above what "
+        "the losses leave",
     )
 
 

@@ -6,6 +6,13 @@ from cqdd_design.gearbox.checks import allowables as limits
 from cqdd_design.gearbox.checks.guide_row import HOUSE, PAPER, CheckGuide
 
 _EFFICIENCY = "motor catalogue; efficiency assumed at the low end of measured steel cycloid drives"
+_LOW, _HIGH = limits.COMPUTED_EFFICIENCIES
+_COMPUTED = (
+    f"The efficiency of {limits.REDUCER_EFFICIENCY:g} is assumed: the losses that `analyse` "
+    f"computes leave {_LOW:g} to {_HIGH:g} at ratio 10 and a friction of 0.08, for which the motor "
+    f"needs {100.0 * (limits.REDUCER_EFFICIENCY / _HIGH - 1.0):.0f} to "
+    f"{100.0 * (limits.REDUCER_EFFICIENCY / _LOW - 1.0):.0f} % more torque."
+)
 
 ROWS = (
     CheckGuide(
@@ -33,7 +40,7 @@ ROWS = (
         "Number of discs",
         "",
         "min",
-        f"N >= {limits.LEAST_BALANCED_DISCS} "
+        f"D >= {limits.LEAST_BALANCED_DISCS} "
         "(the paper: N_Z = 2 for an even ratio, 3 for an odd one)",
         "Two discs opposite each other balance statically at any ratio. The paper's rule is "
         "reported, not imposed: balance does not depend on the parity of the ratio, and three "
@@ -47,7 +54,7 @@ ROWS = (
         "N*m",
         "max",
         f"T_peak/(n eta) <= T_motor,peak, eta = {limits.REDUCER_EFFICIENCY:g}",
-        "The motor has to reach the peak torque through the reducer and its losses.",
+        f"The motor has to reach the peak torque through the reducer and its losses. {_COMPUTED}",
         _EFFICIENCY,
         "warn",
     ),
@@ -57,7 +64,7 @@ ROWS = (
         "N*m",
         "max",
         f"T_continuous/(n eta) <= T_motor,rated, eta = {limits.REDUCER_EFFICIENCY:g}",
-        "Above its rated torque the winding overheats in continuous duty.",
+        f"Above its rated torque the winding overheats in continuous duty. {_COMPUTED}",
         _EFFICIENCY,
         "warn",
     ),

@@ -3,34 +3,37 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from functools import partial
 
 from cqdd_design.catalog.bearings import Bearing
-from cqdd_design.catalog.materials import Material, find_material, materials
-from cqdd_design.catalog.screws import shoulder_screws
+from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.gearbox import cam_bearing
 from cqdd_design.gearbox.bearing_life import load_for_life
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING, Allowable
+from cqdd_design.gearbox.checks.remedies import (
+    MaterialRule,
+    harder_parts,
+    softer_contact,
+    stronger_capacity,
+    stronger_pins,
+    torque_words,
+)
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.gearbox.loads import RigidMaxima
-from cqdd_design.geometry.limits import rounded_down, rounded_up
 from cqdd_design.results import Check
 
 _MEGA = 1e6
-_MOST_THICKENING = 2.0
-"""A thicker disc is offered as a remedy up to this many times its thickness."""
-
-_MaterialRule = Callable[[Material], Allowable]
+_SPREAD = {
+    True: "raise ring_pitch_radius or disc_count",
+    False: "raise output_pins.circle_radius or count",
+}
+"""What spreads the load of the ring, and of the pins."""
 
 
 def load_checks(state: GearboxState) -> tuple[Check, ...]:
     """All checks of this chapter."""
     return (*_contact(state), *_pins(state), *_bearing(state))
-
-
-def _torque(value: float) -> str:
-    return f"{rounded_down(value):g} N*m"
 
 
 def _contact(state: GearboxState) -> tuple[Check, ...]:
@@ -39,7 +42,7 @@ def _contact(state: GearboxState) -> tuple[Check, ...]:
     ring, pin = find_material(reducer.ring_material), find_material(reducer.output_pins.material)
     static, fatigue = allowables.contact_limit_static, allowables.contact_limit_fatigue
 
-    def one(check_id: str, load: RigidMaxima, rule: _MaterialRule, other: Material) -> Check:
+    def one(check_id: str, load: RigidMaxima, rule: MaterialRule, other: Material) -> Check:
         at_ring = other is ring
         raw = load.ring_pressure if at_ring else load.output_pressure
         force = load.ring_force if at_ring else load.output_pin_force
@@ -53,8 +56,8 @@ def _contact(state: GearboxState) -> tuple[Check, ...]:
             f"sqrt({UNEVEN_SHARING:g}) x {raw / _MEGA:.1f} MPa = {pressure / _MEGA:.1f} MPa "
             f"(F up to {force:.1f} N a disc, b {reducer.disc_thickness * 1e3:g} mm) at "
             f"{load.torque:g} N*m",
-            _softer_contact(reducer.disc_thickness, load.torque, pressure, allowed.value)
-            + _harder_parts(parts, rule, pressure),
+            softer_contact(reducer.disc_thickness, load.torque, pressure, allowed.value)
+            + harder_parts(parts, rule, pressure, _SPREAD[at_ring]),
             basis=allowed.basis,
         )
 
@@ -66,44 +69,14 @@ def _contact(state: GearboxState) -> tuple[Check, ...]:
     )
 
 
-def _softer_contact(thickness: float, torque: float, pressure: float, limit: float) -> str:
-    """Say what brings a Hertz pressure down to a limit: it grows with sqrt(T/b)."""
-    if limit <= 0.0:
-        return ""
-    share = (pressure / limit) ** 2
-    words = f"lower the torque to {_torque(torque / share)}, or "
-    if share <= _MOST_THICKENING:
-        words = f"raise disc_thickness to {rounded_up(thickness * 1e3 * share):g} mm, or " + words
-    return words
-
-
-def _harder_parts(parts: dict[str, Material], rule: _MaterialRule, pressure: float) -> str:
-    """Name, for every part too weak, the catalogue's mildest material that allows the pressure."""
-    words = []
-    for part, material in parts.items():
-        if rule(material).value >= pressure:
-            continue
-        enough = [
-            (rule(other).value, other.name)
-            for other in materials().values()
-            if rule(other).value >= pressure and (part == "pins" or other.form != "fastener")
-        ]
-        if not enough:
-            most = rounded_up(pressure / _MEGA)
-            return f"spread the load: no catalogue material allows {most:g} MPa"
-        value, name = min(enough)
-        words.append(f"the {part} of '{name}' ({value / _MEGA:.0f} MPa)")
-    return "make " + " and ".join(words)
-
-
 def _pins(state: GearboxState) -> tuple[Check, ...]:
     pins, reducer = state.design.reducer.output_pins, state.design.reducer
     strength, peak, continuous = state.output_pins, state.rigid_peak, state.rigid_continuous
     material = find_material(pins.material)
-    bending_limit = allowables.pin_limit_peak(material)
-    shear_limit = allowables.pin_shear_limit_peak(material)
+    bending, shear = allowables.pin_limit_peak, allowables.pin_shear_limit_peak
+    fatigue = partial(allowables.pin_bending_limit_continuous, duty_reverses=strength.duty_reverses)
     bearing_limit = allowables.weaker(
-        bending_limit, allowables.pin_limit_peak(find_material(reducer.disc_material))
+        bending(material), bending(find_material(reducer.disc_material))
     )
     d = pins.diameter * 1e3
     # What bears on the hole is the sleeve where there is one; bent and sheared is the pin.
@@ -111,18 +84,17 @@ def _pins(state: GearboxState) -> tuple[Check, ...]:
     needed = peak.torque
 
     def capacity(check_id: str, torque: float, substituted: str) -> Check:
-        thicker = d * math.sqrt(needed / torque)
-        return build_check(
-            check_id,
-            torque,
-            needed,
-            substituted,
-            f"use pins of {_pin_size(thicker)}, or lower the peak torque to {_torque(torque)}",
-        )
+        remedy = stronger_capacity(state, torque, needed)
+        return build_check(check_id, torque, needed, substituted, remedy)
 
     def stress(
-        check_id: str, raw: float, allowed: Allowable, load: RigidMaxima, power: int
+        check_id: str,
+        raw: float,
+        limits: tuple[MaterialRule, Allowable],
+        load: RigidMaxima,
+        power: int,
     ) -> Check:
+        allowed = limits[1]
         value = UNEVEN_SHARING * raw
         force = UNEVEN_SHARING * load.output_pin_force
         where = {
@@ -136,13 +108,10 @@ def _pins(state: GearboxState) -> tuple[Check, ...]:
             allowed.value / _MEGA,
             f"{UNEVEN_SHARING:g} x {raw / _MEGA:.1f} MPa = {value / _MEGA:.1f} MPa "
             f"(F {force:.1f} N on {where}) at {load.torque:g} N*m",
-            _stronger_pins(state, value, allowed, load.torque, power),
+            stronger_pins(state, value, limits, load.torque, power),
             basis=allowed.basis,
         )
 
-    fatigue = allowables.pin_bending_limit_continuous(
-        material, duty_reverses=strength.duty_reverses
-    )
     factor = strength.peak_force_factor
     return (
         capacity(
@@ -157,44 +126,21 @@ def _pins(state: GearboxState) -> tuple[Check, ...]:
             f"{reducer.disc_count} x {strength.paper_torque_total:.2f} N*m/{factor:.3f} "
             f"= {strength.shared_torque_capacity:.2f} N*m",
         ),
-        stress("PIN-SHEAR-PEAK", strength.shear_stress_peak, shear_limit, peak, 2),
-        stress("PIN-BENDING-PEAK", strength.bending_stress_peak, bending_limit, peak, 3),
+        stress("PIN-SHEAR-PEAK", strength.shear_stress_peak, (shear, shear(material)), peak, 2),
         stress(
-            "PIN-BENDING-CONTINUOUS", strength.bending_stress_continuous, fatigue, continuous, 3
+            "PIN-BENDING-PEAK", strength.bending_stress_peak, (bending, bending(material)), peak, 3
         ),
-        stress("PIN-BEARING-PEAK", strength.bearing_pressure_peak, bearing_limit, peak, 1),
+        stress(
+            "PIN-BENDING-CONTINUOUS",
+            strength.bending_stress_continuous,
+            (fatigue, fatigue(material)),
+            continuous,
+            3,
+        ),
+        stress(
+            "PIN-BEARING-PEAK", strength.bearing_pressure_peak, (bending, bearing_limit), peak, 1
+        ),
     )
-
-
-def _pin_size(least_mm: float) -> str:
-    """Name the thinnest catalogue shoulder of at least this diameter, or the number itself."""
-    sizes = sorted(screw.shoulder_diameter * 1e3 for screw in shoulder_screws().values())
-    enough = [size for size in sizes if size >= least_mm]
-    wanted = f"{rounded_up(least_mm):g} mm"
-    return f"{enough[0]:g} mm (at least {wanted})" if enough else f"at least {wanted}"
-
-
-def _stronger_pins(
-    state: GearboxState, value: float, allowed: Allowable, torque: float, power: int
-) -> str:
-    """Remedy for a pin stress that falls with d^power and with the number of pins."""
-    if allowed.value <= 0.0:
-        return f"choose a pin material the catalogue knows strengths of: {allowed.basis}"
-    pins = state.design.reducer.output_pins
-    ratio = value / allowed.value
-    lower = f"lower the torque to {_torque(torque / ratio)}"
-    if power == 1 and pins.sleeve_diameter > 0.0:
-        wider = rounded_up(pins.sleeve_diameter * 1e3 * ratio)
-        return f"raise output_pins.sleeve_diameter to {wider:g} mm, or {lower}"
-    thicker = pins.diameter * 1e3 * ratio ** (1.0 / power)
-    # An even count, whose peak factor is exactly four.
-    count = 2 * math.ceil(0.5 * pins.count * ratio * 4.0 / state.output_pins.peak_force_factor)
-    # Twice the count on the same circle needs room between the holes.
-    reach = 2.0 * pins.circle_radius * math.sin(math.pi / count)
-    room = reach - state.geometry.hole_diameter >= allowables.LIGAMENT
-    more = f", or {count} of them" if room else ""
-    held = ", or hold the pins at both ends" if power == 3 and pins.support != "both" else ""
-    return f"use pins of {_pin_size(thicker)}{more}{held}, or {lower}"
 
 
 def _bearing(state: GearboxState) -> tuple[Check, ...]:
@@ -243,7 +189,7 @@ def _bearing(state: GearboxState) -> tuple[Check, ...]:
 def _lower_torque(torque: float, share: float) -> str:
     if share <= 0.0:
         return "choose a bearing with catalogue ratings"
-    return f"lower the torque to {_torque(torque * share)}"
+    return f"lower the torque to {torque_words(torque * share)}"
 
 
 def _other_bearing(state: GearboxState) -> str:

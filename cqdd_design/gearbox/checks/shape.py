@@ -81,13 +81,14 @@ def _ring_wall(state: GearboxState) -> Check:
     outer, root = state.design.reducer.ring.outer_diameter, state.geometry.ring_root_radius
     wall = 0.5 * outer - root
     enough = 2.0 * (root + allowables.RING_WALL)
+    lower = state.stages.ring_pitch_radius - max(allowables.RING_WALL - wall, 0.0)
     return build_check(
         "GEO-RING-WALL",
         _mm(wall),
         _mm(allowables.RING_WALL),
         f"{_mm(outer):.4g} mm/2 - {_mm(root):.4f} mm = {_mm(wall):.4f} mm",
         f"raise ring.outer_diameter to {rounded_up(_mm(enough), 4):g} mm, or lower "
-        "ring_pitch_radius by the difference",
+        f"ring_pitch_radius to about {rounded_down(_mm(lower), 4):g} mm",
     )
 
 
@@ -196,6 +197,9 @@ def _space(state: GearboxState) -> tuple[Check, ...]:
     """Check the two space limits: only warnings where nobody stated the requirement."""
     design, wanted = state.design, state.design.requirements
     outer, length = design.reducer.ring.outer_diameter, design.reducer.pack_length
+    discs, spacing = design.reducer.disc_count, design.reducer.disc_spacing
+    thin = (wanted.length - (discs - 1) * spacing) / discs
+    thinner = f"lower disc_thickness to {rounded_down(_mm(thin)):g} mm, or " if thin > 0.0 else ""
     return (
         build_check(
             "SPACE-DIAMETER",
@@ -211,8 +215,7 @@ def _space(state: GearboxState) -> tuple[Check, ...]:
             _mm(length),
             _mm(wanted.length),
             f"{_mm(length):.4g} mm in {_mm(wanted.length):.4g} mm",
-            f"lower disc_thickness by {_mm(length - wanted.length) / design.reducer.disc_count:.3g}"
-            f" mm, or raise requirements.length to {rounded_up(_mm(length), 4):g} mm",
+            f"{thinner}raise requirements.length to {rounded_up(_mm(length), 4):g} mm",
             severity="warn" if "requirements.length" in design.assumed else "fail",
         ),
     )
@@ -232,7 +235,7 @@ def _edm(state: GearboxState) -> tuple[Check, ...]:
             f"least concave radius {_mm(radius):.4f} mm",
             f"use a wire of at most {rounded_down(_mm(finer)):g} mm"
             if finer > 0.0
-            else f"enlarge the {what}: its radius is below the spark gap",
+            else f"enlarge the {what}: their radius is below the spark gap",
         )
 
     valleys = (

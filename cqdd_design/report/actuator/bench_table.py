@@ -30,9 +30,17 @@ _NO_SPREAD = 1e-3
 """Of the value: a smaller spread is not told in digits."""
 
 RELATIONS = (
-    ("given", "an input or an identity: an agreement says nothing"),
+    (
+        "given",
+        "an input, an identity, or what follows from clearances that the design assumes: an "
+        "agreement says nothing, or that they fit",
+    ),
     ("calibrated", "fitted to the measured value"),
-    ("predicted", "computed from geometry and catalogue without looking at the measured value"),
+    (
+        "predicted",
+        "computed from geometry, catalogue and usual friction and cooling, without looking at the "
+        "measured value",
+    ),
     ("not comparable", "measured under conditions that are not known"),
 )
 """What the words about an agreement mean."""

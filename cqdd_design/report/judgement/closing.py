@@ -37,6 +37,12 @@ ERRATA = (
         "83.96 N\u00b7m/kg",
         "155.32 N\u00b7m over 1.85 kg.",
     ),
+    (
+        "table II, BEAR",
+        "47.7 N\u00b7m/kg",
+        "47.76 N\u00b7m/kg",
+        "32 N\u00b7m over 0.670 kg.",
+    ),
 )
 
 

@@ -125,8 +125,8 @@ def paper_table() -> Table:
             ("Variance, N²·m²", lambda row: f"{row.variance:.2f}"),
             ("Cycle time, µs", lambda row: f"{row.cycle_time:.2f}"),
         ),
-        "Table II of the paper, measured on its own actuator. Its variances are printed in N·m and "
-        "can only be N²·m²; the bias is recomputed from RMSE² less variance. "
+        "Table III of the paper, measured on its own actuator. Its variances are printed in N·m "
+        "and can only be N²·m²; the bias is recomputed from RMSE² less variance. "
         f"{paper.NETWORKS[0].cycle_time:.2f} µs cannot be a window of 30 steps alone (1.30 "
         "MFLOP); it fits one recurrent step, or a share of a large batch. No number here is to be "
         "read against one of ours: other machine, other data.",

@@ -37,7 +37,7 @@ def markdown(result: EvaluationResult) -> str:
 
 
 def paper_table() -> str:
-    """The paper's Table II with the bias that its numbers imply."""
+    """The paper's Table III with the bias that its numbers imply."""
     rows = [row.cells(NONE) for row in paper.NETWORKS]
     head = ["model", "RMSE, N·m", "size of bias, N·m ¹", "variance, N²·m² ²", "cycle time, µs"]
     notes = (

@@ -1,0 +1,175 @@
+"""What would make a load check pass: other materials, thicker or more pins, less torque.
+
+A remedy is named only where it holds for what it changes: a stiffer material bears a higher
+pressure, a thicker pin needs a wider hole.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from cqdd_design.catalog.materials import Material, materials
+from cqdd_design.catalog.screws import shoulder_screws
+from cqdd_design.gearbox.checks import allowables
+from cqdd_design.gearbox.checks.allowables import Allowable
+from cqdd_design.gearbox.checks.state import GearboxState
+from cqdd_design.geometry.limits import rounded_down, rounded_up
+
+_MEGA = 1e6
+_MOST_THICKENING = 2.0
+"""A thicker disc or pin is offered as a remedy up to this many times what it was."""
+_AS_STIFF = 0.9
+"""Of a part's modulus: what is softer is no harder part, though it would spread the contact."""
+_UNMOVED = 0.05e-3
+"""A circle that moves by less need not be told, m."""
+
+MaterialRule = Callable[[Material], Allowable]
+
+
+def torque_words(value: float) -> str:
+    """A torque as a remedy names it, rounded to the safe side."""
+    return f"{rounded_down(value):g} N*m"
+
+
+def softer_contact(thickness: float, torque: float, pressure: float, limit: float) -> str:
+    """Say what brings a Hertz pressure down to a limit: it grows with sqrt(T/b)."""
+    if limit <= 0.0:
+        return ""
+    share = (pressure / limit) ** 2
+    words = f"lower the torque to {torque_words(torque / share)}, or "
+    if share <= _MOST_THICKENING:
+        words = f"raise disc_thickness to {rounded_up(thickness * 1e3 * share):g} mm, or " + words
+    return words
+
+
+def harder_parts(
+    parts: dict[str, Material], rule: MaterialRule, pressure: float, otherwise: str
+) -> str:
+    """Name, for every part too weak, the mildest material that allows the pressure it would bear.
+
+    Parameters
+    ----------
+    parts : dict of str to Material
+        The two in contact.
+    rule : callable
+        A material's limit.
+    pressure : float
+        Now, Pa; it changes with the root of the pair's E*.
+    otherwise : str
+        What to do where no materials are enough.
+    """
+    weak = [part for part, material in parts.items() if rule(material).value < pressure]
+    offered = [
+        [
+            (rule(other).value, other.name, _compliance(other))
+            for other in (materials().values() if part in weak else [material])
+            if part not in weak or _harder(other, material, part)
+        ]
+        for part, material in parts.items()
+    ]
+    now = sum(_compliance(material) for material in parts.values())
+    enough = [
+        (one[0] + two[0], one, two)
+        for one in offered[0]
+        for two in offered[1]
+        if min(one[0], two[0]) >= pressure * math.sqrt(now / (one[2] + two[2]))
+    ]
+    if not enough:
+        most = rounded_up(pressure / _MEGA)
+        return f"{otherwise}: no catalogue material allows {most:g} MPa"
+    words = [
+        f"the {part} of '{name}' ({value / _MEGA:.0f} MPa)"
+        for part, (value, name, _) in zip(parts, min(enough)[1:], strict=True)
+        if part in weak
+    ]
+    return "make " + " and ".join(words)
+
+
+def _harder(other: Material, material: Material, part: str) -> bool:
+    """Whether a part can be made of another material that is about as stiff."""
+    stiff = other.youngs_modulus >= _AS_STIFF * material.youngs_modulus
+    return stiff and _makes(other, part) and other.name != material.name
+
+
+def _makes(material: Material, part: str) -> bool:
+    """Whether a part is made of it: laminations and magnets make no disc, screws only pins."""
+    return material.form == "stock" or (part == "pins" and material.form == "fastener")
+
+
+def _compliance(material: Material) -> float:
+    """(1 - nu^2)/E; 1/E* of a pair is the sum of its two, 1/Pa."""
+    return (1.0 - material.poisson_ratio**2) / material.youngs_modulus
+
+
+def stronger_capacity(state: GearboxState, torque: float, needed: float) -> str:
+    """Remedy for a capacity in shear, which grows with the square of the pin's diameter."""
+    thicker = state.design.reducer.output_pins.diameter * math.sqrt(needed / torque)
+    lower = f"lower the peak torque to {torque_words(torque)}"
+    return ", or ".join((*_thicker_pins(state, thicker), lower))
+
+
+def stronger_pins(
+    state: GearboxState,
+    value: float,
+    limits: tuple[MaterialRule, Allowable],
+    torque: float,
+    power: int,
+) -> str:
+    """Remedy for a pin stress that falls with d^power and with the number of pins.
+
+    Parameters
+    ----------
+    value : float
+        Pa, at `torque`, N m.
+    limits : tuple
+        A pin material's limit, and that of this design.
+    """
+    rule, allowed = limits
+    if allowed.value <= 0.0:
+        return f"choose a pin material the catalogue knows strengths of: {allowed.basis}"
+    pins = state.design.reducer.output_pins
+    ratio = value / allowed.value
+    lower = f"lower the torque to {torque_words(torque / ratio)}"
+    if power == 1 and pins.sleeve_diameter > 0.0:
+        wider = rounded_up(pins.sleeve_diameter * 1e3 * ratio)
+        return f"raise output_pins.sleeve_diameter to {wider:g} mm, or {lower}"
+    words = [*_thicker_pins(state, pins.diameter * ratio ** (1.0 / power))]
+    # An even count, whose peak factor is exactly four.
+    count = 2 * math.ceil(0.5 * pins.count * ratio * 4.0 / state.output_pins.peak_force_factor)
+    # More on the same circle need room between the holes.
+    reach = 2.0 * pins.circle_radius * math.sin(math.pi / count)
+    if reach - state.geometry.hole_diameter >= allowables.LIGAMENT:
+        words.append(f"use {count} pins of {pins.diameter * 1e3:g} mm")
+    if power == 3 and pins.support != "both":
+        words.append("hold the pins at both ends")
+    screws = [
+        (rule(screw).value, screw.name)
+        for screw in materials().values()
+        if screw.form == "fastener" and rule(screw).value >= value
+    ]
+    # What bears on the hole is limited by the disc too.
+    if screws and power > 1:
+        words.append(f"take pins of '{min(screws)[1]}'")
+    return ", or ".join((*words, lower))
+
+
+def _thicker_pins(state: GearboxState, least: float) -> tuple[str, ...]:
+    """The thinnest catalogue shoulder of at least a diameter (m), and what its holes need."""
+    pins, geometry = state.design.reducer.output_pins, state.geometry
+    if least > _MOST_THICKENING * pins.diameter:
+        return ()
+    sizes = sorted(screw.shoulder_diameter for screw in shoulder_screws().values())
+    size = next((size for size in sizes if size >= least), least)
+    words = f"use pins of {size * 1e3:g} mm (at least {rounded_up(least * 1e3):g} mm)"
+    grown = 0.5 * (size - pins.diameter)
+    # What is left beside the wider holes on the same circle, and how far that should move.
+    inside = geometry.ligament("hole to bore").thickness - grown
+    outside = geometry.ligament("hole to profile").thickness - grown
+    between = geometry.ligament("hole to hole").thickness - 2.0 * grown
+    if inside + outside < 2.0 * allowables.LIGAMENT or between < allowables.LIGAMENT:
+        return (f"{words} on a disc with room for their holes",)
+    out = max(allowables.LIGAMENT - inside, 0.0) - max(allowables.LIGAMENT - outside, 0.0)
+    if abs(out) > _UNMOVED:
+        words += f" with output_pins.circle_radius near {1e3 * (pins.circle_radius + out):.1f} mm"
+    return (words,)
