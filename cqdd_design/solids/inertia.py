@@ -24,6 +24,7 @@ from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.results import MassProperties
+from cqdd_design.solids import counterweights
 from cqdd_design.solids.mesh import mass_properties, mesh_volume
 from cqdd_design.solids.motor_rules import drawn_motor
 from cqdd_design.solids.part import Instance, Part
@@ -41,8 +42,7 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "motor cover",
             "encoder magnet",
             "encoder board",
-            "balance weight, shaft end",
-            "balance weight, output end",
+            *counterweights.NAMES,
         ),
         "discs and ring": ("disc", "disc 1", "disc 2", "disc 3", "ring", "ring pin"),
         "shaft and bearings": (
@@ -128,8 +128,6 @@ class GearboxInertia:
         n.
     motor_missing : str
         Why the motor is not among the parts; empty where it is.
-    orbiting_mass : float
-        Mass that circles at the eccentricity for each disc: the disc and its cam bearing, kg.
     """
 
     parts: tuple[PartInertia, ...]
@@ -137,7 +135,6 @@ class GearboxInertia:
     ratio: int
     motor: Motor
     motor_missing: str
-    orbiting_mass: float
 
     @property
     def rotor_inertia(self) -> float | None:
@@ -220,15 +217,12 @@ def gearbox_inertia(
     """
     rows = []
     total = MassProperties(0.0)
-    orbiting = 0.0
     meshed = source is mass_properties
     for part in parts:
         own = source(part)
         placed = [_in_machine(design, own, piece) for piece in part.instances]
         for one in placed:
             total = total + one
-        if part.instances[0].body.kind == "disc":
-            orbiting += own.mass * part.count
         rows.append(
             PartInertia(
                 name=part.name,
@@ -248,7 +242,6 @@ def gearbox_inertia(
         ratio=design.reducer.ratio,
         motor=motor,
         motor_missing="" if drawn else _why(motor),
-        orbiting_mass=orbiting / design.reducer.disc_count,
     )
 
 
@@ -260,25 +253,6 @@ def _why(motor: Motor) -> str:
 def closed_form(part: Part) -> MassProperties:
     """Mass properties of one piece from exact integrals, without CadQuery."""
     return part.exact_properties
-
-
-def crank_properties(
-    design: Design, parts: Sequence[Part], source: MassSource = mass_properties
-) -> MassProperties:
-    """What is fixed to the crank (shaft, loose cams), as one body for the balance of the stack.
-
-    Returns
-    -------
-    MassProperties
-        In the frame of `gearbox.balance`: x along the crank of disc 0, z from the middle of the
-        pack of discs.
-    """
-    total = MassProperties(0.0)
-    for part in parts:
-        if part.inner_body is None and part.instances[0].body.kind == "shaft":
-            total = total + _in_machine(design, source(part), part.instances[0])
-    middle = 0.5 * design.reducer.pack_length
-    return total.moved(_along_axis(-middle))
 
 
 def _along_axis(height: float) -> FloatArray:

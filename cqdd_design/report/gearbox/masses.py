@@ -177,24 +177,19 @@ def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
 
 
 def _balance(design: Design, bodies: Bodies) -> tuple[tuple[Row, bool], ...]:
-    reducer, speed = design.reducer, design.requirements.input_speed
-    # What cancels on paper leaves rounding of the sums, which is shown as nothing.
-    throw = bodies.inertia.orbiting_mass * reducer.eccentricity
-    arm = reducer.disc_thickness
-
-    def shown(value: float, scale: float, least: float, digits: int) -> str:
-        return "0" if value < 1e-9 * least else significant(scale * value, digits)
+    def shown(value: float, digits: int) -> str:
+        return "0" if value == 0.0 else significant(value, digits)
 
     return tuple(
         (
             (
                 str(count),
-                shown(found.static_unbalance, 1e6, throw, 4),
-                shown(found.couple_unbalance, 1e9, throw * arm, 4),
-                shown(found.shaking_force, 1.0, throw * speed**2, 3),
-                shown(found.shaking_moment, 1.0, throw * arm * speed**2, 3),
+                shown(1e6 * found.static_unbalance, 4),
+                shown(1e9 * found.couple_unbalance, 4),
+                shown(found.shaking_force, 3),
+                shown(found.shaking_moment, 3),
             ),
-            count == reducer.disc_count,
+            count == design.reducer.disc_count,
         )
         for count, found in bodies.balance.items()
     )
