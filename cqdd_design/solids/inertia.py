@@ -123,7 +123,7 @@ class GearboxInertia:
     Attributes
     ----------
     total : MassProperties
-        All pieces at crank angle 0 in the ring's frame, the motor too where it is drawn.
+        All pieces drawn, at crank angle 0 in the ring's frame; the motor is one where it is drawn.
     ratio : int
         n.
     motor_missing : str
@@ -142,6 +142,46 @@ class GearboxInertia:
         return self.motor.rotor_inertia if self.motor.torque_at == "motor" else None
 
     @property
+    def motor_by_catalogue(self) -> float | None:
+        """Mass of a bare motor that is not drawn, kg; None where it is drawn or not known."""
+        absent = self.motor_missing and self.motor.torque_at == "motor"
+        return self.motor.mass if absent else None
+
+    @property
+    def mass(self) -> float:
+        """Mass of the actuator as far as it is known, kg: `mass_scope` says how far."""
+        return self.total.mass + (self.motor_by_catalogue or 0.0)
+
+    @property
+    def mass_scope(self) -> str:
+        """What `mass` counts, in words."""
+        if not self.motor_missing:
+            return "gearbox, housing, motor, bell, cover and encoder as drawn"
+        drawn, motor = f"gearbox and housing as drawn, {self.total.mass:.4g} kg", self.motor.name
+        if self.motor_by_catalogue is None:
+            return f"{drawn}; without the motor, bell, cover and encoder, which are not drawn"
+        return (
+            f"{drawn}, and {motor} by its catalogue, {self.motor_by_catalogue:.4g} kg; without "
+            "bell, cover and encoder, which are not drawn"
+        )
+
+    @property
+    def crank_scope(self) -> str:
+        """What `gearbox_reflected` counts, in words."""
+        if not self.motor_missing:
+            return "gearbox and bell as drawn"
+        return "gearbox as drawn, without the bell that carries the rotor, which is not drawn"
+
+    @property
+    def inertia_scope(self) -> str:
+        """What `reflected_input` counts, in words."""
+        if not self.motor_missing:
+            return f"rotor, {self.crank_scope}"
+        if self.rotor_inertia is None:
+            return f"{self.crank_scope}; without the rotor, whose inertia is not known"
+        return f"rotor by its catalogue, {self.crank_scope}"
+
+    @property
     def gearbox_reflected(self) -> float:
         """Inertia at the input without the rotor's ring of magnets, kg m^2."""
         return sum(part.reflected for part in self.parts if part.name != ROTOR)
@@ -154,8 +194,8 @@ class GearboxInertia:
 
     @property
     def group_masses(self) -> dict[str, float]:
-        """Mass of every group of parts, kg: motor, gears, shaft and bearings, and so on."""
-        masses = dict.fromkeys(GROUPS, 0.0)
+        """Share of every group of parts in `mass`, kg: motor, gears, housing and so on."""
+        masses = dict.fromkeys(GROUPS, 0.0) | {"motor": self.motor_by_catalogue or 0.0}
         for part in self.parts:
             masses[group_of(part.name)] += part.count * part.properties.mass
         return {name: mass for name, mass in masses.items() if mass > 0.0}
@@ -164,6 +204,8 @@ class GearboxInertia:
     def group_inertias(self) -> dict[str, float]:
         """Share of every group in the inertia at the input, kg m^2."""
         shares = dict.fromkeys(self.group_masses, 0.0)
+        if self.motor_missing and self.rotor_inertia is not None:
+            shares["motor"] = self.rotor_inertia
         for part in self.parts:
             shares[group_of(part.name)] += part.reflected
         return shares
@@ -178,7 +220,7 @@ class GearboxInertia:
         """What the figures leave out."""
         found = []
         if self.motor_missing:
-            found.append(f"mass and solids are without the motor: {self.motor_missing}.")
+            found.append(f"the motor is not drawn: {self.motor_missing}. Mass: {self.mass_scope}.")
         if self.rotor_inertia is None:
             found.append(
                 f"the catalogue has no rotor inertia for {self.motor.name}; the reflected inertia "
@@ -190,7 +232,10 @@ class GearboxInertia:
         """The JSON form (``results`` of ``inertia``, without ``balance``)."""
         return {
             "parts": [part.to_dict() for part in self.parts],
-            "total_mass_kg": self.total.mass,
+            "total_mass_kg": self.mass,
+            "total_mass_scope": self.mass_scope,
+            "drawn_mass_kg": self.total.mass,
+            "motor_mass_from_catalogue_kg": self.motor_by_catalogue,
             "centre_of_mass_mm": [float(c) * 1e3 for c in self.total.centre],
             "motor_included": not self.motor_missing,
             "group_mass_kg": self.group_masses,
@@ -199,6 +244,7 @@ class GearboxInertia:
             "gearbox_reflected_inertia_input_kgm2": self.gearbox_reflected,
             "reflected_inertia_input_kgm2": self.reflected_input,
             "reflected_inertia_output_kgm2": self.reflected_output,
+            "reflected_inertia_scope": self.inertia_scope,
         }
 
 
