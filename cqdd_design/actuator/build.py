@@ -1,6 +1,8 @@
 """From a design to the actuator's parameters: catalogue, geometry, contact, losses, mass.
 
 What the design and the catalogue do not say is assumed by a stated rule and marked in `origins`.
+Masses and inertias are closed forms of the solids (`Machine.inertia`). `inertia` measures the same
+from meshes, which takes ten seconds and more, and agrees within 6e-5 (tested).
 """
 
 from __future__ import annotations
