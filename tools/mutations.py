@@ -52,12 +52,12 @@ ROOM_TESTS = {
     ),
     "files": ("test_files_*",),
     "gearbox": (
+        "test_report_engine*",
         "test_gearbox_*",
         "test_contact_*",
         "test_life*",
         "test_losses*",
         "test_precision*",
-        "test_report_engine*",
     ),
     "geometry": ("test_geometry_*", "test_gearbox_*", "test_contact_*", "test_exporting_dxf*"),
     "machine": (

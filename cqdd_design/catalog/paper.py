@@ -159,6 +159,26 @@ Clearances, tolerances, friction and cooling are not among them: the paper print
 what a user fits.
 """
 
+CASE: Mapping[str, float | str] = MappingProxyType(
+    {
+        **ACTUATOR,
+        "name": "cqdd-10",
+        "requirements.ratio": RATIO,
+        "requirements.peak_torque": PEAK_TORQUE,
+        "requirements.continuous_torque": CONTINUOUS_TORQUE,
+        "requirements.input_speed": RATIO * METRICS["no_load_speed"].value * math.pi / 30.0,
+        "motor.name": "CubeMars RO100 KV55",
+        # 4140 alloy steel (section III-C), its temper not printed; 18-8 screws (section III-A).
+        "reducer.disc_material": "AISI 4140 Q&T 540C",
+        "reducer.ring_material": "AISI 4140 Q&T 540C",
+        "reducer.output_pins.material": "18-8 shoulder screw (seed-consistent)",
+        # Not printed, as in designs/cqdd-10.toml.
+        "reducer.cam_bearing.designation": "6902",
+        "reducer.ring.outer_diameter": 72e-3,
+    }
+)
+"""The paper's actuator with the loads it was sized for: what its claims are judged on."""
+
 
 def is_papers_actuator(design: object) -> bool:
     """Whether a design is that of the paper's actuator, whatever it is called.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cqdd_design.cli.options import (
@@ -33,14 +34,56 @@ def compare(
     planets: Annotated[
         int | None, option("N", "Planets looked at in detail; default the most that fit.")
     ] = None,
+    settings: Annotated[
+        Path | None, option("FILE", "Settings of the rating in TOML; options below go before it.")
+    ] = None,
+    material_quality: Annotated[
+        str | None, option("ML|MQ|ME", "Of ISO 6336-5; default MQ.")
+    ] = None,
+    accuracy_class: Annotated[int | None, option("N", "Of ISO 1328-1; default 5, ground.")] = None,
+    application_factor: Annotated[float | None, option("X", "K_A; default 1.")] = None,
+    mesh_load_table: Annotated[
+        str | None, option("NAME", "K_gamma by number of planets; default iso.")
+    ] = None,
+    lubricant_viscosity: Annotated[
+        str | None, quantity_option('At 40 C; default "150 mm^2/s".')
+    ] = None,
+    life_hours: Annotated[
+        float | None, option("H", "At the continuous torque; default 1000.")
+    ] = None,
+    peak_cycles: Annotated[
+        float | None, option("N", "Of every tooth at the peak torque; default 1e4.")
+    ] = None,
+    least_contact_safety: Annotated[float | None, option("X", "S_H asked; default 1.")] = None,
+    least_bending_safety: Annotated[float | None, option("X", "S_F asked; default 1.2.")] = None,
+    shifts: Annotated[
+        str | None,
+        option("S,P1,P2,R", "Profile shifts, the ring's in the sign of ISO 21771; default least."),
+    ] = None,
 ) -> None:
     """The same loads on a compound planetary, rated by ISO 6336."""
     from cqdd_design.design import load_design
     from cqdd_design.planetary.kinematics import PlanetaryTeeth
+    from cqdd_design.planetary.settings import read_settings
     from cqdd_design.roads.compare import compare as compared
     from cqdd_design.units import LENGTH
 
     counts = parse_whole_list("--teeth", teeth, 4, "12,36,22,70")
+    chosen = read_settings(
+        settings,
+        {
+            "material_quality": material_quality,
+            "accuracy_class": accuracy_class,
+            "application_factor": application_factor,
+            "mesh_load_table": mesh_load_table,
+            "lubricant_viscosity": lubricant_viscosity,
+            "life_hours": life_hours,
+            "peak_cycles": peak_cycles,
+            "least_contact_safety": least_contact_safety,
+            "least_bending_safety": least_bending_safety,
+            "shifts": shifts,
+        },
+    )
     loaded = load_design(design)
     found = compared(
         loaded,
@@ -49,6 +92,7 @@ def compare(
         face_width=parse_positive("--face-width", face_width, LENGTH),
         material=material,
         planets=planets,
+        settings=chosen,
     )
     out.say(*_lines(found))
     out.warn(*found.warnings)
@@ -75,16 +119,24 @@ def _lines(found: PlanetaryComparison) -> list[str]:
     assembling = ", ".join(str(n) for n in found.planets_that_assemble)
     claims = []
     for claim in found.claims:
-        word = {True: "holds", False: "does not hold", None: "open"}[claim.holds]
-        told = f"- {claim.claim} Paper: {claim.paper}. Ours: {claim.ours}. It {word}."
+        told = f"- {claim.claim} Paper: {claim.paper}. Ours: {claim.ours}. It {claim.verdict}."
         claims.append(textwrap.fill(told, width=96, subsequent_indent="  "))
+    settings = [
+        [name, value, "default" if usual else "given"]
+        for name, value, usual in found.gears.settings.rows()
+    ]
     return [
         f"compound planetary, {results['material']}: ratio {number(results['ratio'], 6)}, "
         f"centre distance {number(results['centre_distance_mm'])} mm",
+        f"profile shifts {found.gears.shifts_text}; tip diameter of the ring "
+        f"{number(results['ring_tip_diameter_mm'], 5)} mm",
         f"at most {found.planets_that_fit} planets fit; these assemble: {assembling}",
         "",
         table(rows, head=head, right=(0, 5, 6, 7, 8)),
         "",
-        "the paper's claims:",
+        "rated with:",
+        table(settings, head=["setting", "value", ""], right=()),
+        "",
+        "the paper's claims, judged on the paper's actuator:",
         *claims,
     ]

@@ -117,26 +117,28 @@ class PlanetaryEnvelope:
         return self.outer_diameter <= bore
 
 
-def require_one_centre_distance(teeth: PlanetaryTeeth, module: float) -> None:
-    """Refuse teeth that put the sun's and the ring's mesh at different centre distances.
+def require_one_centre_distance(
+    teeth: PlanetaryTeeth, module: float, sun_distance: float, ring_distance: float
+) -> None:
+    """Refuse teeth and shifts that put both meshes at different centre distances.
 
     Parameters
     ----------
     module : float
         m, only for the message.
+    sun_distance, ring_distance : float
+        Working centre distances of the sun's and the ring's mesh, m, positive.
 
     Raises
     ------
     GeometryError
-        The message names the ring that makes them equal.
+        They differ by more than a millionth; the message names the ring that makes them equal.
     """
-    if teeth.ring == teeth.matching_ring:
+    if abs(sun_distance - ring_distance) <= 1e-6 * sun_distance:
         return
-    sun = 0.5 * module * (teeth.sun + teeth.planet_sun)
-    ring = 0.5 * module * (teeth.ring - teeth.planet_ring)
     raise GeometryError(
         f"teeth {teeth} with module {module * 1e3:g} mm: the sun mesh needs a centre distance of "
-        f"{sun * 1e3:.4g} mm and the ring mesh {ring * 1e3:.4g} mm, but both "
+        f"{sun_distance * 1e3:.5g} mm and the ring mesh {ring_distance * 1e3:.5g} mm, but both "
         f"gears of a planet turn on one pin. With a ring of {teeth.matching_ring} teeth and no sum "
         "of profile shifts both are equal."
     )

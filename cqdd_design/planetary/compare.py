@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cqdd_design.errors import UsageError
 from cqdd_design.planetary.assembly import (
@@ -21,7 +21,7 @@ from cqdd_design.planetary.claim_settings import (
     PAPER_TEETH,
     ClaimSetting,
 )
-from cqdd_design.planetary.claims import Claim, paper_claims
+from cqdd_design.planetary.claims import Claim, PaperCase, paper_claims
 from cqdd_design.planetary.cycloid import CycloidLimit, binding_limit
 from cqdd_design.planetary.gear_material import GearMaterial
 from cqdd_design.planetary.gear_set import (
@@ -111,11 +111,23 @@ class PlanetaryComparison:
             "contact_limit_MPa": self.material.contact_limit * 1e-6,
             "bending_limit_MPa": self.material.bending_limit * 1e-6,
             "settings": self.gears.settings.label,
+            "rating_settings": self.gears.settings.to_dict(),
+            "rating_settings_given": [
+                name for name, _, usual in self.gears.settings.rows() if not usual
+            ],
             "peak_torque_Nm": self.peak.torque,
             "continuous_torque_Nm": self.continuous.torque,
             "ratio": ratio_ring_fixed(gears.teeth),
             "ratio_carrier_fixed": ratio_carrier_fixed(gears.teeth),
             "centre_distance_mm": gears.centre_distance * 1e3,
+            "ring_tip_diameter_mm": gears.ring_tip_diameter * 1e3,
+            "contact_ratios": {
+                mesh.name: {
+                    "tip_circles": mesh.pair.transverse_contact_ratio,
+                    "interference_free": mesh.pair.interference_free_contact_ratio,
+                }
+                for mesh in (gears.sun_mesh, gears.ring_mesh)
+            },
             "planet_tip_diameter_mm": gears.largest_tip_diameter * 1e3,
             "envelope": {
                 "planet_sweep_diameter_mm": envelope.planet_sweep_diameter * 1e3,
@@ -208,6 +220,7 @@ def compare_planetary(
     bore: float | None = None,
     settings: RatingSettings | None = None,
     cycloid: Sequence[CycloidLimit] = (),
+    paper: PaperCase | None = None,
 ) -> PlanetaryComparison:
     """Rate a compound planetary for a cycloid's loads and answer the paper's claims.
 
@@ -229,6 +242,10 @@ def compare_planetary(
         Diameter of the space inside the stator, m.
     cycloid : sequence of CycloidLimit
         The cycloid's limits at the same loads, computed elsewhere.
+    settings : RatingSettings, optional
+        What ISO 6336 leaves to the designer.
+    paper : PaperCase, optional
+        What the paper's claims are judged on; default what is compared here.
 
     Raises
     ------
@@ -281,7 +298,11 @@ def compare_planetary(
         )
         for n in range(1, last + 1)
     )
-    claims, grid = paper_claims(material, chosen, input_speed, bore, cycloid)
+    case = paper or PaperCase(material, input_speed, bore, tuple(cycloid))
+    # Shifts and tips drawn for other teeth say nothing about the paper's.
+    own = teeth == PAPER_TEETH and module == PAPER_MODULE
+    for_paper = chosen if own else replace(chosen, shifts=None, ring_tip_diameter=None)
+    claims, grid = paper_claims(case, for_paper)
     return PlanetaryComparison(
         gears=gears,
         material=material,

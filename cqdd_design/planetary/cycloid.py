@@ -29,6 +29,10 @@ class CycloidLimit:
     torque_exponent : float
         `value` grows as torque to this power: 1 for forces and stresses, 0.5 for Hertz pressures of
         line contacts.
+    model : str
+        What `value` rests on.
+    solved_capacity : float or None
+        Torque at which a model that knows no such power reaches the limit, N*m.
     """
 
     part: str
@@ -39,6 +43,8 @@ class CycloidLimit:
     limit: float
     unit: str
     torque_exponent: float = 1.0
+    model: str = "rigid law"
+    solved_capacity: float | None = None
 
     def __post_init__(self) -> None:
         """Refuse what has no margin."""
@@ -57,6 +63,8 @@ class CycloidLimit:
     @property
     def torque_capacity(self) -> float:
         """Torque at which the limit is reached, N*m: margins of stress and pressure made equal."""
+        if self.solved_capacity is not None:
+            return self.solved_capacity
         return float(self.torque * self.margin ** (1.0 / self.torque_exponent))
 
     @property
@@ -75,6 +83,7 @@ class CycloidLimit:
             "limit": self.limit,
             "unit": self.unit,
             "margin": self.margin,
+            "model": self.model,
             "torque_capacity_Nm": self.torque_capacity,
         }
 

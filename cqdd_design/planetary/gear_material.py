@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 from cqdd_design.catalog import Material
 from cqdd_design.errors import UsageError
@@ -22,6 +22,7 @@ MaterialClass = Literal[
     "induction-hardened steel",
 ]
 Quality = Literal["ML", "MQ", "ME"]
+QUALITIES: tuple[Quality, ...] = get_args(Quality)
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from cqdd_design.errors import GeometryError
+from cqdd_design.errors import GeometryError, UsageError
 from cqdd_design.planetary.assembly import (
     MOST_PLANETS,
     PlanetaryEnvelope,
@@ -85,6 +85,16 @@ class PlanetaryGearSet:
         """Tip diameter of the larger planet gear, m."""
         return max(self.sun_mesh.pair.tip_diameters[1], self.ring_mesh.pair.tip_diameters[0])
 
+    @property
+    def ring_tip_diameter(self) -> float:
+        """As made, m, positive."""
+        return -self.ring_mesh.pair.tip_diameters[1]
+
+    @property
+    def shifts_text(self) -> str:
+        """Profile shifts of sun, planet, planet and ring, as they are written."""
+        return ", ".join(f"{shift:g}" for shift in vars(self.shifts).values())
+
     def fits(self, planets: int) -> bool:
         """Whether neighbouring planets clear each other."""
         return neighbour_gap(self.centre_distance, self.largest_tip_diameter, planets) > 0.0
@@ -106,7 +116,7 @@ def build_gear_set(
     Raises
     ------
     UsageError
-        Module or width outside their ranges.
+        Module, width or shifts outside their ranges.
     GeometryError
         Unequal centre distances, teeth that cannot mesh, pointed teeth.
 
@@ -116,18 +126,36 @@ def build_gear_set(
     >>> round(gears.centre_distance * 1e3, 9), gears.fits(3), gears.fits(4)
     (24.0, True, False)
     """
-    shifts = default_shifts(teeth)
+    chosen = settings or RatingSettings()
+    shifts = chosen.shifts or default_shifts(teeth)
+    if not teeth.stepped and shifts.planet_sun != shifts.planet_ring:
+        raise UsageError(
+            f"shifts: the planet of {teeth.planet_sun} teeth is one gear in both meshes and cannot "
+            f"have the shifts {shifts.planet_sun:g} and {shifts.planet_ring:g}; give both "
+            f"{shifts.planet_sun:g}."
+        )
     validate_module(module)
-    # Before the teeth are looked at: counts that belong on no common pin deserve that message,
-    # not a remark about some tooth of theirs.
-    require_one_centre_distance(teeth, module)
+    if shifts.sun + shifts.planet_sun == 0.0 == shifts.planet_ring + shifts.ring:
+        # Before the teeth are looked at: counts that belong on no common pin deserve that message,
+        # not a remark about some tooth of theirs.
+        sun_distance = 0.5 * module * (teeth.sun + teeth.planet_sun)
+        ring_distance = 0.5 * module * (teeth.ring - teeth.planet_ring)
+        require_one_centre_distance(teeth, module, sun_distance, ring_distance)
     sun_pair = GearPair(
         teeth.sun, teeth.planet_sun, module, face_width, shifts.sun, shifts.planet_sun
     )
+    made = chosen.ring_tip_diameter
     ring_pair = GearPair(
-        teeth.planet_ring, -teeth.ring, module, face_width, shifts.planet_ring, shifts.ring
+        teeth.planet_ring,
+        -teeth.ring,
+        module,
+        face_width,
+        shifts.planet_ring,
+        shifts.ring,
+        wheel_tip_diameter=None if made is None else -made,
     )
     distance = sun_pair.working_centre_distance
+    require_one_centre_distance(teeth, module, distance, -ring_pair.working_centre_distance)
     rim, idler = max(LEAST_RING_WALL, RING_RIM_MODULES * module), not teeth.stepped
     sun_mesh = PlanetaryMesh("sun_planet", sun_pair, (False, idler))
     ring_mesh = PlanetaryMesh("planet_ring", ring_pair, (idler, False), rim)
@@ -150,7 +178,7 @@ def build_gear_set(
         sun_mesh,
         ring_mesh,
         envelope,
-        settings or RatingSettings(),
+        chosen,
         _warnings(teeth, shifts, sun_pair, ring_pair),
     )
 
@@ -174,14 +202,9 @@ def _warnings(
                 f"The {name} of {count} teeth is undercut at profile shift {shift:g}; ISO 6336 "
                 f"rates it too favourably. It needs {least:.3f} or more."
             )
-    for name, pair in (("sun and planet", sun_pair), ("planet and ring", ring_pair)):
-        nominal, free = pair.transverse_contact_ratio, pair.interference_free_contact_ratio
-        if free < nominal - 1e-9:
-            found.append(
-                f"The tips of {name} reach past the involutes: only {free:.3f} of the contact "
-                f"ratio {nominal:.3f} is usable. Shift the smaller gear outward or shorten the "
-                "tips."
-            )
+    for names, pair in ((("sun", "planet"), sun_pair), (("planet", "ring"), ring_pair)):
+        name, nominal = " and ".join(names), pair.transverse_contact_ratio
+        found += _interference(names, pair)
         if nominal >= 2.0:
             found.append(
                 f"{name.capitalize()} have a contact ratio of {nominal:.2f}; two pairs always "
@@ -208,6 +231,39 @@ def _warnings(
             "outside they are extrapolated."
         )
     return tuple(found)
+
+
+def _interference(names: tuple[str, str], pair: GearPair) -> list[str]:
+    """Where the tips of one gear reach past the involute of the other."""
+    found = []
+    for index, past in enumerate(pair.root_interference):
+        if past <= 1e-9:
+            continue
+        here, there = names[index], names[1 - index]
+        form = abs(pair.form_rolls[index]) * 1e3
+        met = form - past * 1e3 if index == 0 or not pair.internal else form + past * 1e3
+        where = (
+            f"The tips of the {there} reach the {here} at a radius of curvature of {met:.3f} mm, "
+            f"past the end of its involute at {form:.3f} mm: "
+        )
+        undercut = pair.shifts[index] < least_shift_without_undercut(abs(pair.teeth[index]))
+        if undercut and pair.teeth[index] > 0:
+            found.append(
+                f"{where}of the contact ratio {pair.transverse_contact_ratio:.3f} only "
+                f"{pair.interference_free_contact_ratio:.3f} is usable. Shift the {here} outward."
+            )
+        else:
+            clears = abs(pair.clearing_tip_diameters[1 - index]) * 1e3
+            found.append(
+                f"{where}they run into its root fillet, and such a pair does not turn. A tip "
+                f"diameter of {clears:.3f} mm clears."
+            )
+    if pair.internal and pair.tip_fouling < 0.0:
+        found.append(
+            "The tips of planet and ring foul each other beside the line of action; give the ring "
+            "more teeth or shorter tips."
+        )
+    return found
 
 
 def rate_gear_set(
@@ -245,6 +301,18 @@ def rate_gear_set(
     return (
         rate_mesh(gears.sun_mesh, sun_load, material, settings),
         rate_mesh(gears.ring_mesh, ring_load, material, settings),
+    )
+
+
+def reserve(gears: PlanetaryGearSet, planets: int, case: LoadCase, material: GearMaterial) -> float:
+    """The least safety factor of contact or bending over the one asked for: 1 and more is safe."""
+    settings = gears.settings
+    return min(
+        min(
+            rating.contact_safety / settings.least_contact_safety,
+            rating.bending_safety / settings.least_bending_safety,
+        )
+        for rating in rate_gear_set(gears, planets, case, material)
     )
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from cqdd_design.planetary.cutting_tools import ISO_53_A, BasicRack
 from cqdd_design.planetary.kinematics import PlanetaryTeeth
-from cqdd_design.planetary.tooth_geometry import ISO_53_A, BasicRack
 
 #: Shifts are drawn in steps of this many modules.
 SHIFT_STEP = 0.05
@@ -25,8 +25,7 @@ def least_shift_without_undercut(teeth: float, rack: BasicRack = ISO_53_A) -> fl
     0.298
     """
     sine = math.sin(rack.pressure_angle)
-    straight = rack.dedendum - rack.fillet_radius * (1.0 - sine)
-    return straight - 0.5 * teeth * sine * sine
+    return rack.straight_depth - 0.5 * teeth * sine * sine
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,20 @@
 
 from __future__ import annotations
 
+import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from cqdd_design.errors import DesignError, UsageError, did_you_mean, shown
+from cqdd_design.files import parse_toml, read_text_file
+from cqdd_design.planetary.gear_material import QUALITIES, Quality
+from cqdd_design.planetary.iso6336.influence import MESH_LOAD_TABLES
+from cqdd_design.planetary.profile_shift import ProfileShifts
+from cqdd_design.units import LENGTH, SMALL_LENGTH, VISCOSITY, Dimension, parse_quantity
+
+_LARGEST_FILE = 100_000
 
 
 @dataclass(frozen=True)
@@ -11,6 +24,8 @@ class RatingSettings:
 
     Attributes
     ----------
+    material_quality : {"ML", "MQ", "ME"}
+        Of ISO 6336-5. MQ is what an experienced maker reaches at ordinary cost.
     application_factor : float
         K_A. 1: peak and continuous torque are stated apart, as for the cycloid.
     mesh_load_table : str
@@ -33,8 +48,18 @@ class RatingSettings:
         cycloid's peak limits are static.
     least_contact_safety, least_bending_safety : float
         S_H 1.0 and S_F 1.2, the margins the cycloid's contact and pins must keep.
+    shifts : ProfileShifts or None
+        None for :func:`profile_shift.default_shifts`.
+    ring_tip_diameter : float or None
+        As made, m; None for the rack's, shortened to what clears the planet's root.
+
+    Raises
+    ------
+    UsageError
+        A setting outside the range that the formulas hold for.
     """
 
+    material_quality: Quality = "MQ"
     application_factor: float = 1.0
     mesh_load_table: str = "iso"
     dynamic_factor: float | None = None
@@ -49,6 +74,18 @@ class RatingSettings:
     peak_cycles: float = 1e4
     least_contact_safety: float = 1.0
     least_bending_safety: float = 1.2
+    shifts: ProfileShifts | None = None
+    ring_tip_diameter: float | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse settings outside the ranges the formulas hold for."""
+        for name, row in SETTINGS.items():
+            value = getattr(self, name)
+            if row.most > 0.0 and value is not None and not row.least <= value <= row.most:
+                raise UsageError(
+                    f"settings: {name} = {row.text(value)} is outside {row.text(row.least)} to "
+                    f"{row.text(row.most)}; {row.text(row.usual)} is usual."
+                )
 
     @classmethod
     def nominal(cls) -> RatingSettings:
@@ -76,3 +113,149 @@ class RatingSettings:
             crowning = "crowned" if self.crowned else "not crowned"
             parts.append(f"class {self.accuracy_class}, {crowning}")
         return ", ".join(parts)
+
+    def rows(self) -> tuple[tuple[str, str, bool], ...]:
+        """Name, value with its unit and whether it is the default, of every setting."""
+        usual = RatingSettings()
+        return tuple(
+            (name, row.text(getattr(self, name)), getattr(self, name) == getattr(usual, name))
+            for name, row in SETTINGS.items()
+        )
+
+    def to_dict(self) -> dict[str, object]:
+        """Every setting, units in the names; null is what the standard or the teeth give."""
+        found: dict[str, object] = {}
+        for name, row in SETTINGS.items():
+            value = getattr(self, name)
+            if isinstance(value, ProfileShifts):
+                value = dict(vars(value))
+            elif row.dimension is not None and value is not None:
+                value = value / row.dimension.si_factor
+            found[name + row.suffix] = value
+        return found
+
+
+class Setting(NamedTuple):
+    """How one setting is written, and its range.
+
+    `usual` is what the message of a refusal offers; without `most` there is no range.
+    """
+
+    least: float = 0.0
+    most: float = 0.0
+    usual: float = 0.0
+    dimension: Dimension | None = None
+    suffix: str = ""
+    choices: tuple[str, ...] = ()
+    kind: type = float
+    missing: str = ""
+
+    def text(self, value: Any) -> str:
+        """A value as people read it."""
+        if value is None:
+            return self.missing
+        if isinstance(value, ProfileShifts):
+            return ", ".join(f"{shift:g}" for shift in vars(value).values())
+        if isinstance(value, bool):
+            return "yes" if value else "no"
+        if isinstance(value, str):
+            return value
+        if self.dimension is not None:
+            return f"{value / self.dimension.si_factor:.10g} {self.dimension.unit}"
+        return f"{value:g}"
+
+    def read(self, name: str, value: Any) -> Any:
+        """The value of a file or option, SI; a `UsageError` says how it is written."""
+        if self.dimension is not None:
+            if not isinstance(value, str):
+                raise UsageError(f"{name} = {shown(value)} is written {self.dimension.example()}.")
+            try:
+                return parse_quantity(value, self.dimension)
+            except DesignError as error:
+                raise UsageError(f"{name}: {error.message.rstrip('.')}.") from None
+        if self.kind is ProfileShifts:
+            return _shifts(name, value)
+        number = isinstance(value, (int, float)) and not isinstance(value, bool)
+        if self.kind is float and number:
+            return float(value)
+        if self.kind is int and number and float(value).is_integer():
+            return int(value)
+        if isinstance(value, str) and self.choices and value not in self.choices:
+            hint = did_you_mean(value, self.choices) or "."
+            raise UsageError(f"{name} = {shown(value)} is none of {', '.join(self.choices)}{hint}")
+        if self.kind in (str, bool) and isinstance(value, self.kind):
+            return value
+        words = {float: "a number", int: "a whole number", str: "a name in quotes"}
+        example = self.text(self.usual) if self.most else (*self.choices, "true")[0]
+        raise UsageError(
+            f"{name} = {shown(value)} is not {words.get(self.kind, 'true or false')}, such as "
+            f"{example}."
+        )
+
+
+#: Every setting by its name in files; the options of `compare` are the same with dashes.
+SETTINGS: Mapping[str, Setting] = {
+    "material_quality": Setting(choices=QUALITIES, kind=str),
+    "application_factor": Setting(0.1, 10.0, 1.0),
+    "mesh_load_table": Setting(choices=tuple(MESH_LOAD_TABLES), kind=str),
+    "dynamic_factor": Setting(1.0, 10.0, 1.05, missing="by method B"),
+    "face_load_factor": Setting(1.0, 10.0, 1.25, missing="by method C"),
+    "transverse_load_factor": Setting(1.0, 10.0, 1.0, missing="by method B"),
+    "accuracy_class": Setting(1, 11, 5, kind=int),
+    "crowned": Setting(kind=bool),
+    "lubricant_viscosity": Setting(1e-6, 1e-1, 150e-6, VISCOSITY, "_mm2_per_s"),
+    "flank_roughness": Setting(0.1e-6, 100e-6, 3e-6, SMALL_LENGTH, "_um"),
+    "root_roughness": Setting(0.1e-6, 100e-6, 10e-6, SMALL_LENGTH, "_um"),
+    "life_hours": Setting(1e-3, 1e7, 1000.0),
+    "peak_cycles": Setting(1.0, 1e12, 1e4),
+    "least_contact_safety": Setting(0.1, 10.0, 1.0),
+    "least_bending_safety": Setting(0.1, 10.0, 1.2),
+    "shifts": Setting(kind=ProfileShifts, missing="least without undercut"),
+    "ring_tip_diameter": Setting(
+        1e-3, 1.0, 68.22e-3, LENGTH, "_mm", missing="clears the planet's root"
+    ),
+}
+
+
+def _shifts(name: str, value: Any) -> ProfileShifts:
+    """Four numbers as a list, or as text with commas."""
+    parts = value.split(",") if isinstance(value, str) else value
+    try:
+        numbers = [float(part) for part in parts]
+    except (TypeError, ValueError):
+        numbers = []
+    if len(numbers) != 4 or not all(-2.0 <= number <= 2.0 for number in numbers):
+        raise UsageError(
+            f"{name} = {shown(value)} must be four profile shifts from -2 to 2, of sun, planet at "
+            "the sun, planet at the ring and ring, such as 0.3, -0.3, 0, 0."
+        )
+    return ProfileShifts(*numbers)
+
+
+def read_settings(path: Path | None, changes: Mapping[str, Any] | None = None) -> RatingSettings:
+    """The settings of a TOML file, with changes on top.
+
+    Parameters
+    ----------
+    path : Path or None
+        Keys are those of :data:`SETTINGS`, quantities with their unit; None for the defaults.
+    changes : mapping, optional
+        Written like the file's; None stands for what is not given.
+
+    Raises
+    ------
+    UsageError
+        No such file, an unknown key, a value that is none.
+    """
+    found: dict[str, Any] = {}
+    if path is not None:
+        content = parse_toml(read_text_file(path, _LARGEST_FILE, wrong=UsageError), path)
+        for key, value in content.items():
+            if key not in SETTINGS:
+                hint = did_you_mean(key, SETTINGS) or f"; its keys are {', '.join(SETTINGS)}."
+                raise UsageError(f"{path}: {shown(key)} is no setting{hint}")
+            found[key] = SETTINGS[key].read(f"{path}: {key}", value)
+    for key, value in (changes or {}).items():
+        if value is not None:
+            found[key] = SETTINGS[key].read("--" + key.replace("_", "-"), value)
+    return dataclasses.replace(RatingSettings(), **found)

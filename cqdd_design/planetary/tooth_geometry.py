@@ -13,65 +13,18 @@ import math
 from dataclasses import dataclass
 
 from cqdd_design.errors import GeometryError, UsageError
+from cqdd_design.planetary.cutting_tools import (
+    ISO_53_A,
+    BasicRack,
+    PinionCutter,
+    inverse_involute,
+    involute,
+    rack_form_roll,
+    ring_form_roll,
+)
 
 #: Modules outside 0.05 to 50 mm are typing mistakes (m against mm) rather than gears.
 LEAST_MODULE, MOST_MODULE = 0.05e-3, 50e-3
-
-
-def involute(angle: float) -> float:
-    """inv(alpha) = tan(alpha) - alpha, rad."""
-    return math.tan(angle) - angle
-
-
-def inverse_involute(value: float) -> float:
-    """The angle in [0, pi/2) whose involute is `value` >= 0, by Newton's method.
-
-    Examples
-    --------
-    >>> round(inverse_involute(involute(0.35)), 12)
-    0.35
-    """
-    # inv(a) > a^3/3, so this start lies above the root, from where Newton falls monotonically.
-    angle = min(math.cbrt(3.0 * value), 1.4)
-    for _ in range(60):
-        step = (involute(angle) - value) / max(math.tan(angle) ** 2, 1e-12)
-        angle = min(max(angle - step, 1e-9), 1.55)
-        if abs(step) < 1e-15:
-            break
-    return angle
-
-
-@dataclass(frozen=True)
-class BasicRack:
-    """Basic rack tooth profile, lengths in modules.
-
-    Attributes
-    ----------
-    addendum, dedendum, fillet_radius : float
-        h_aP*, h_fP*, rho_fP*. The defaults are profile A of ISO 53:1998.
-    pressure_angle : float
-        Normal pressure angle, rad.
-    """
-
-    addendum: float = 1.0
-    dedendum: float = 1.25
-    fillet_radius: float = 0.38
-    pressure_angle: float = math.radians(20.0)
-
-    @property
-    def half_tip_land(self) -> float:
-        """Half the flat between the roundings of the tool's tip, in modules.
-
-        This is E of ISO 6336-3:2006 eq. 10 without undercut: pi/4 - h_fP* tan(alpha) - (1 -
-        sin(alpha)) rho_fP*/cos(alpha).
-        """
-        alpha = self.pressure_angle
-        rounding = (1.0 - math.sin(alpha)) * self.fillet_radius / math.cos(alpha)
-        return 0.25 * math.pi - self.dedendum * math.tan(alpha) - rounding
-
-
-#: The usual basic rack.
-ISO_53_A = BasicRack()
 
 
 def validate_module(module: float) -> None:
@@ -102,10 +55,13 @@ class GearPair:
     helix_angle : float
         At the reference cylinder, rad; 0 for spur gears.
     pinion_tip_diameter, wheel_tip_diameter : float or None
-        Made tip diameters in m (negative for a ring); None for the rack's addendum with shift.
+        Made tip diameters in m (negative for a ring); None for the rack's addendum with shift,
+        which a ring shortens to what clears the pinion's root fillet.
     centre_distance : float or None
         Working centre distance in m (negative for an internal pair); None for the distance without
         backlash that follows from the shifts.
+    cutter : PinionCutter or None
+        Of a ring; None for `PinionCutter.usual`.
     """
 
     pinion_teeth: int
@@ -119,6 +75,7 @@ class GearPair:
     pinion_tip_diameter: float | None = None
     wheel_tip_diameter: float | None = None
     centre_distance: float | None = None
+    cutter: PinionCutter | None = None
 
     def __post_init__(self) -> None:
         """Refuse lengths no gear can have and pairs that do not hand over from tooth to tooth."""
@@ -204,14 +161,56 @@ class GearPair:
 
     @functools.cached_property
     def tip_diameters(self) -> tuple[float, float]:
-        """d_a = d + 2 m (h_aP* + x) of pinion and wheel, m, unless given."""
+        """d_a = d + 2 m (h_aP* + x) of pinion and wheel, m, unless given.
+
+        A ring's default goes no further in than the pinion's form circle asks for: beyond, its tips
+        would run into the pinion's root fillet.
+        """
         found = []
         made = (self.pinion_tip_diameter, self.wheel_tip_diameter)
         for teeth, shift, given in zip(self.teeth, self.shifts, made, strict=True):
             nominal = self.reference_diameter(teeth)
             nominal += 2.0 * self.module * (self.rack.addendum + shift)
+            if given is None and teeth < 0:
+                nominal = min(nominal, self.clearing_tip_diameters[1])
             found.append(nominal if given is None else given)
         return found[0], found[1]
+
+    @functools.cached_property
+    def clearing_tip_diameters(self) -> tuple[float, float]:
+        """Tip diameters of pinion and wheel that just reach the mate's form circle, m; signed."""
+        first, second = (
+            math.copysign(
+                2.0 * math.hypot(self.tangent_length - form, 0.5 * self.base_diameter(teeth)), teeth
+            )
+            for teeth, form in zip(self.teeth, reversed(self.form_rolls), strict=True)
+        )
+        return first, second
+
+    @functools.cached_property
+    def ring_cutter(self) -> PinionCutter:
+        """The cutter of the ring, given or usual."""
+        return self.cutter or PinionCutter.usual(-self.wheel_teeth, self.pinion_teeth, self.rack)
+
+    @functools.cached_property
+    def form_rolls(self) -> tuple[float, float]:
+        """Radius of curvature where the involute of pinion and wheel ends at the root, m; signed.
+
+        See :func:`rack_form_roll` and :func:`ring_form_roll`.
+        """
+        pinion, wheel = self.teeth
+        beta = self.helix_angle
+        first = rack_form_roll(pinion, self.pinion_shift, self.rack, beta)
+        if self.internal:
+            second = -ring_form_roll(-wheel, self.wheel_shift, self.ring_cutter, self.rack)
+        else:
+            second = rack_form_roll(wheel, self.wheel_shift, self.rack, beta)
+        return first * self.module, second * self.module
+
+    @property
+    def tangent_length(self) -> float:
+        """Distance between the tangent points of both base circles, m; negative if internal."""
+        return self.working_centre_distance * math.sin(self.working_pressure_angle)
 
     @functools.cached_property
     def root_diameters(self) -> tuple[float, float]:
@@ -287,35 +286,75 @@ class GearPair:
             / math.cos(self.helix_angle)
         )
 
-    def _roll_length(self, index: int) -> float:
-        """Length of the tangent from the base circle to the tips, m, signed like the teeth."""
-        teeth = self.teeth[index]
-        tip, base = self.tip_diameters[index], self.base_diameter(teeth)
-        return math.copysign(0.5 * math.sqrt(tip * tip - base * base), teeth)
+    @functools.cached_property
+    def path_of_contact(self) -> tuple[float, float]:
+        """Radius of curvature of the pinion's flank where contact begins and where it ends, m.
+
+        Contact needs both involutes: it lies between the tip circles and, where one reaches further
+        than the mate's involute, the form circles (ISO 21771:2007, 5.4).
+        """
+        (tip_1, tip_2), (form_1, form_2) = self._roll_lengths, self.form_rolls
+        return (
+            max(self.tangent_length - tip_2, form_1),
+            min(tip_1, self.tangent_length - form_2),
+        )
+
+    @property
+    def _roll_lengths(self) -> tuple[float, float]:
+        """Radii of curvature of the flanks at the tips of pinion and wheel, m, signed."""
+        first, second = (
+            math.copysign(0.5 * math.sqrt(tip * tip - self.base_diameter(teeth) ** 2), teeth)
+            for teeth, tip in zip(self.teeth, self.tip_diameters, strict=True)
+        )
+        return first, second
 
     @functools.cached_property
     def transverse_contact_ratio(self) -> float:
         """eps_alpha from the tip circles (ISO 6336-1, 8.3; ISO 21771, 5.4).
 
         It takes both flanks to reach the line of action everywhere between the tip circles. Where
-        a root is undercut or tips interfere (:attr:`interference_free_contact_ratio` is then
+        a root is undercut or a tip interferes (:attr:`interference_free_contact_ratio` is then
         smaller) it is too favourable; the standard does not rate such gears.
         """
-        length = self._roll_length(0) + self._roll_length(1)
-        length -= self.working_centre_distance * math.sin(self.working_pressure_angle)
-        return length / self.transverse_base_pitch
+        return (sum(self._roll_lengths) - self.tangent_length) / self.transverse_base_pitch
 
     @functools.cached_property
     def interference_free_contact_ratio(self) -> float:
-        """eps_alpha with the path cut off at the tangent points of the base circles."""
-        tangent = self.working_centre_distance * math.sin(self.working_pressure_angle)
-        # Distance from the pinion's base tangent point to where its contact with the wheel's tip
-        # begins; negative when that lies beyond the point, off the involute.
-        start = tangent - self._roll_length(1)
-        end = self._roll_length(0)
-        if not self.internal:
-            end = min(end, tangent)
-        return (end - max(start, 0.0)) / self.transverse_base_pitch
+        """eps_alpha of :attr:`path_of_contact`."""
+        begin, end = self.path_of_contact
+        return (end - begin) / self.transverse_base_pitch
+
+    @property
+    def root_interference(self) -> tuple[float, float]:
+        """How far the mate's tip reaches past the involute of pinion and wheel, m of curvature.
+
+        Positive: the tip runs into the root fillet, and no such pair turns.
+        """
+        (tip_1, tip_2), (form_1, form_2) = self._roll_lengths, self.form_rolls
+        return form_1 - (self.tangent_length - tip_2), tip_1 - (self.tangent_length - form_2)
+
+    @property
+    def tip_fouling(self) -> float:
+        """Room between the tips of pinion and ring away from the line of action, rad of the ring.
+
+        Negative where they foul. Tip corners that pass one point of both tip circles: theta_2 +
+        inv(alpha_a2) - inv(alpha_wt) against z_1/|z_2| times the pinion's (Colbourne, The Geometry
+        of Involute Gears, 1987, ch. 8).
+        """
+        distance = abs(self.working_centre_distance)
+        radius_1, radius_2 = (0.5 * abs(tip) for tip in self.tip_diameters)
+        if radius_1 + distance <= radius_2:
+            return math.pi
+        cosine_1 = (radius_2**2 - radius_1**2 - distance**2) / (2.0 * distance * radius_1)
+        cosine_2 = (radius_2**2 - radius_1**2 + distance**2) / (2.0 * distance * radius_2)
+        working = involute(self.working_pressure_angle)
+        turned = []
+        for cosine, teeth, tip in zip(
+            (cosine_1, cosine_2), self.teeth, self.tip_diameters, strict=True
+        ):
+            flank = involute(math.acos(self.base_diameter(teeth) / tip)) - working
+            turned.append(math.acos(min(max(cosine, -1.0), 1.0)) + flank)
+        return turned[0] * self.pinion_teeth / abs(self.wheel_teeth) - turned[1]
 
     @property
     def overlap_ratio(self) -> float:

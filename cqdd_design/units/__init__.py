@@ -31,6 +31,7 @@ from cqdd_design.units.dimensions import (
     TORQUE,
     TORQUE_CONSTANT,
     TORQUE_DENSITY,
+    VISCOSITY,
     VOLTAGE,
     Dimension,
 )
@@ -60,6 +61,7 @@ __all__ = [
     "TORQUE",
     "TORQUE_CONSTANT",
     "TORQUE_DENSITY",
+    "VISCOSITY",
     "VOLTAGE",
     "Dimension",
     "QuantityIn",

@@ -111,6 +111,9 @@ DAMPING_GAIN = Dimension(
 )
 THERMAL_RESISTANCE = Dimension("thermal resistance", "K/W", "temperature/power", (("K/W", 1.0),))
 TIME = Dimension("time", "s", "time", (("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("min", 60.0)))
+VISCOSITY = Dimension(
+    "kinematic viscosity", "mm^2/s", "length^2/time", (("mm^2/s", 1e-6), ("m^2/s", 1.0))
+)
 MASS = Dimension("mass", "kg", "mass", (("kg", 1.0), ("g", 1e-3)))
 INERTIA = Dimension(
     "moment of inertia",

@@ -32,8 +32,14 @@ def console_commands(page: Path) -> list[str]:
     ids=lambda page: page.name,
 )
 def test_every_command_shown_runs(page, cqdd, tmp_path):
-    """In the order of the page, from a folder that holds the repository's designs."""
+    """In the order of the page, from a folder with the repository's designs and the page's files.
+
+    A block of TOML that begins with a file's name is that file.
+    """
     shutil.copytree(REPOSITORY / "designs", tmp_path / "designs")
+    for block in blocks(page, "toml"):
+        if name := re.match(r"# ([\w-]+\.toml)\b", block):
+            (tmp_path / name[1]).write_text(block)
     for command in console_commands(page):
         program, *arguments = shlex.split(command, comments=True)
         assert program == "cqdd-design", command
@@ -157,6 +163,6 @@ def test_the_claims_of_the_paper_are_those_computed(cqdd):
     rows = [line.split("|")[1:-1] for line in table.splitlines() if line.startswith("| ")][1:]
     assert len(rows) == len(claims)
     for (_, _, ours, holds), claim in zip(rows, claims, strict=True):
-        assert holds.strip() == ("yes" if claim["holds"] else "no")
+        assert holds.strip() == claim["verdict"]
         for number in re.findall(r"[0-9]+[.][0-9]+", ours):
             assert number in str(claim["ours"]), claim["claim"]

@@ -191,7 +191,7 @@ def test_text_of_the_design_cannot_become_markup(paper_input: ReportInput) -> No
 
 def test_claims_of_the_paper_are_answered(page: str, paper_input: ReportInput) -> None:
     planetary = text_of(page[page.index('id="planetary"') : page.index('id="symbols"')])
-    assert len(paper_input.planetary.claims) == 5
+    assert len(paper_input.planetary.claims) == 6
     assert "10.5455" in planetary
     assert "12 / 36 / 22 / 70" in planetary
 

@@ -106,10 +106,20 @@ def test_a_random_design_is_analysed_or_refused(mapping: dict[str, object]) -> N
     assert outcome.checks
 
 
+@settings(max_examples=examples(20), suppress_health_check=[HealthCheck.too_slow])
+@given(designs())
+def test_limits_of_a_random_design_are_found_or_refused(mapping: dict[str, object]) -> None:
+    try:
+        limits = cycloid_limits(resolve(Design.from_mapping(mapping)))
+    except CqddError:
+        return
+    assert all(limit.torque_capacity >= 0.0 for limit in limits)
+
+
 def analysed(mapping: dict[str, object]) -> GearboxAnalysis | CqddError:
     try:
-        analysis = resolve(Design.from_mapping(mapping)).analyse(angles=8)
-        cycloid_limits(analysis)
+        machine = resolve(Design.from_mapping(mapping))
+        analysis = machine.analyse(angles=8)
     except CqddError as error:
         return error
     return analysis

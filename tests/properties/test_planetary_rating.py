@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections import Counter
 from dataclasses import replace
 from itertools import pairwise
 from types import SimpleNamespace
@@ -356,8 +357,43 @@ def test_claims_are_computed_under_the_settings_given():
     hard = gear_material(find_material("SCM415/16MnCr5 case hardened"))
     strong = compare_planetary(hard, **asked, settings=RatingSettings.nominal())
     weak = compare_planetary(STEEL, **asked, settings=RatingSettings(accuracy_class=8))
-    assert [c.holds for c in strong.claims[:4]] == [False, False, True, False]
-    assert [c.holds for c in weak.claims[:4]] == [False, False, True, True]
+    assert [c.ours[:2] for c in (strong.claims[1], weak.claims[1])] == ["1 ", "16"]
+    assert float(strong.claims[3].ours[4:8]) > 1.0 > float(weak.claims[3].ours[4:8])
+    # What settings decide is neither true nor false.
+    for found in (strong, weak):
+        assert [c.holds for c in found.claims[:4]] == [False, None, True, None]
+        assert found.claims[1].verdict == found.claims[3].verdict == "hangs on the settings"
+
+
+def test_how_many_planets_are_needed_is_told_with_its_spread():
+    """Six at the defaults is chance: four reach 0.98 of what is asked, five do not assemble."""
+    asked = {"peak_torque": 120.0, "continuous_torque": 40.0, "input_speed": SPEED}
+    found = compare_planetary(STEEL, **asked)
+    claim = found.claims[1]
+    assert claim.ours.startswith("6 under the settings given")
+    assert "4 reach 0.98 of the safety asked" in claim.under
+    assert "5 do not assemble" in claim.under
+    needed = Counter(setting.planets_needed for setting in found.claim_settings)
+    assert {2, 3, 4, 6, 8, 12} < set(needed)
+    for planets, times in needed.items():
+        assert (f"{planets} in {times}" if planets else f"more than 24 in {times}") in claim.ours
+    for name, values in (
+        ("mesh_load_table", 3),
+        ("least_contact_safety", 2),
+        ("peak_cycles", 2),
+        ("application_factor", 2),
+        ("factors", 4),
+        ("material", 10),
+    ):
+        assert len({getattr(setting, name) for setting in found.claim_settings}) == values, name
+
+
+def test_the_planetary_is_too_wide_for_the_stator_that_the_paper_says_it_fits():
+    asked = {"peak_torque": 120.0, "continuous_torque": 40.0, "input_speed": SPEED}
+    compact = [compare_planetary(STEEL, **asked, bore=bore).claims[5] for bore in (76e-3, 86e-3)]
+    assert [claim.holds for claim in compact] == [False, True]
+    assert "85.4 mm" in compact[0].ours
+    assert compare_planetary(STEEL, **asked).claims[5].verdict == "not computed"
 
 
 def test_claims_are_about_the_papers_gears_whatever_is_compared():
@@ -395,11 +431,11 @@ def test_json_has_the_promised_keys_and_finite_numbers():
         )
     cases = {(row["planets"], row["mesh"], row["load"]) for row in planetary["by_planets"]}
     assert len(cases) == len(planetary["by_planets"]) == 8 * 4
-    assert len(document["paper_claims"]) == 5
+    assert len(document["paper_claims"]) == 6
     for claim in document["paper_claims"]:
-        assert set(claim) == {"claim", "paper", "ours", "holds", "under"}
+        assert set(claim) == {"claim", "paper", "ours", "holds", "under", "verdict"}
     assert document["cycloid"]["binding"]["peak"]["part"] == "ring teeth"
-    assert len(document["claim_settings"]) == 100
+    assert len(document["claim_settings"]) == 960
 
 
 @pytest.mark.parametrize(

@@ -15,10 +15,11 @@ and its chord 4 to 10 % small, so a ring's Y_F is on the safe side by twice that
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cqdd_design.errors import GeometryError
-from cqdd_design.planetary.tooth_geometry import BasicRack, GearPair, involute
+from cqdd_design.planetary.cutting_tools import BasicRack, PinionCutter, involute
+from cqdd_design.planetary.tooth_geometry import GearPair
 
 
 @dataclass(frozen=True)
@@ -41,20 +42,18 @@ class RootSection:
     height: float
 
 
-def equivalent_fillet_radius(rack: BasicRack, internal: bool, cutter_teeth: int) -> float:
-    """rho_fPv in modules, eq. 11: the rack's own for external gears, the cutter's for rings.
+def equivalent_fillet_radius(rack: BasicRack, cutter: PinionCutter) -> float:
+    """rho_fPv of a ring in modules, eq. 11.
 
-    rho_fP + (x0 + h_fP - rho_fP)^1.95/(3.156 1.036^z0) for a ring cut by a pinion of z0 teeth
-    without profile shift x0.
+    rho_a0 + (x0 + h_fP - rho_a0)^1.95/(3.156 1.036^z0) for a pinion cutter of z0 teeth with the tip
+    radius rho_a0 and without profile shift x0.
     """
-    if not internal:
-        return rack.fillet_radius
-    excess = (rack.dedendum - rack.fillet_radius) ** 1.95
-    return float(rack.fillet_radius + excess / (3.156 * 1.036**cutter_teeth))
+    excess = (rack.dedendum - cutter.tip_radius) ** 1.95
+    return float(cutter.tip_radius + excess / (3.156 * 1.036**cutter.teeth))
 
 
 def root_section(
-    virtual_teeth: float, shift: float, rack: BasicRack, cutter_teeth: int = 20
+    virtual_teeth: float, shift: float, rack: BasicRack, cutter: PinionCutter | None = None
 ) -> RootSection:
     """Chord, fillet radius and height of the critical section, eq. 10 to 17.
 
@@ -64,8 +63,8 @@ def root_section(
         z_n, negative for an internal gear.
     shift : float
         x.
-    cutter_teeth : int
-        z0 of the pinion cutter; only for internal gears.
+    cutter : PinionCutter, optional
+        Of an internal gear, default the usual one; an external gear is cut by the rack.
 
     Raises
     ------
@@ -81,7 +80,11 @@ def root_section(
     (1.94475, 0.57295)
     """
     internal = virtual_teeth < 0
-    radius = equivalent_fillet_radius(rack, internal, cutter_teeth)
+    radius = rack.fillet_radius
+    if internal:
+        cutter = cutter or PinionCutter.usual(round(-virtual_teeth), rack=rack)
+        radius = equivalent_fillet_radius(rack, cutter)
+        rack = replace(rack, fillet_radius=cutter.tip_radius)
     g = radius - rack.dedendum + shift
     tangent = math.pi / 6.0 if internal else math.pi / 3.0
     h = 2.0 / virtual_teeth * (0.5 * math.pi - rack.half_tip_land) - tangent
@@ -174,7 +177,7 @@ def tooth_form(
     shift: float,
     rack: BasicRack,
     load_point_diameter: float,
-    cutter_teeth: int = 20,
+    cutter: PinionCutter | None = None,
 ) -> ToothForm:
     """Y_F and Y_S for a load on the circle `load_point_diameter` (modules), eq. 9, 18 to 38.
 
@@ -189,8 +192,8 @@ def tooth_form(
         x.
     load_point_diameter : float
         d_en/m_n, signed like the teeth.
-    cutter_teeth : int
-        z0 of a ring's pinion cutter.
+    cutter : PinionCutter, optional
+        Of a ring.
 
     Raises
     ------
@@ -205,7 +208,7 @@ def tooth_form(
     >>> round(form.form_factor, 2), round(form.stress_correction, 2)
     (2.8, 1.55)
     """
-    section = root_section(virtual_teeth, shift, rack, cutter_teeth)
+    section = root_section(virtual_teeth, shift, rack, cutter)
     alpha = rack.pressure_angle
     alpha_load = math.acos(min(virtual_teeth * math.cos(alpha) / load_point_diameter, 1.0))
     half_thickness = (0.5 * math.pi + 2.0 * math.tan(alpha) * shift) / virtual_teeth
@@ -241,5 +244,6 @@ def pair_tooth_forms(pair: GearPair) -> tuple[ToothForm, ToothForm]:
         pair.teeth, pair.virtual_teeth, pair.shifts, pair.tip_diameters, strict=True
     ):
         diameter = load_diameter(teeth, virtual, tip, ratio, pair)
-        forms.append(tooth_form(virtual, shift, pair.rack, diameter))
+        cutter = pair.ring_cutter if teeth < 0 else None
+        forms.append(tooth_form(virtual, shift, pair.rack, diameter, cutter))
     return forms[0], forms[1]

@@ -59,7 +59,7 @@ def single_pair_factors(pair: GearPair) -> tuple[float, float]:
     """Z_B of the pinion and Z_D of the wheel, 6.2, eq. 17 and 18; at least 1.
 
     They move the stress from the pitch point to the inner point of single pair contact. Helical
-    gears with eps_beta >= 1 need neither; below 1 the excess is interpolated.
+    gears with eps_beta >= 1 need neither; below 1 the excess is interpolated. A ring's Z_D is 1.
 
     Examples
     --------
@@ -84,7 +84,7 @@ def single_pair_factors(pair: GearPair) -> tuple[float, float]:
         factor = tangent / math.sqrt(curvature) if near > 0.0 and far > 0.0 else 1.0
         excess = max(factor - 1.0, 0.0)
         factors.append(1.0 + excess * max(1.0 - pair.overlap_ratio, 0.0))
-    return factors[0], factors[1]
+    return factors[0], 1.0 if pair.internal else factors[1]
 
 
 def nominal_contact_stress(

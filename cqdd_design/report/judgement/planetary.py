@@ -8,6 +8,7 @@ from cqdd_design.planetary.assembly import MOST_PLANETS, assembles
 from cqdd_design.planetary.compare import PlanetaryComparison
 from cqdd_design.planetary.kinematics import ratio_ring_fixed
 from cqdd_design.planetary.rating import MeshRating
+from cqdd_design.planetary.settings import RatingSettings
 from cqdd_design.report.ink.numbers import decimals, millimetres, significant, with_unit
 from cqdd_design.report.ink.page import Values
 from cqdd_design.report.judgement.check_rows import printed
@@ -39,6 +40,7 @@ def planetary_view(comparison: PlanetaryComparison) -> Values:
                 limit.title,
                 f"{significant(limit.value)} of {with_unit(limit.limit, limit.unit)}",
                 (with_unit(limit.torque_capacity, "N*m", 3), limit.holds),
+                limit.model,
             )
             for limit in limits
         ),
@@ -48,12 +50,21 @@ def planetary_view(comparison: PlanetaryComparison) -> Values:
                 printed(claim.paper),
                 printed(claim.ours),
                 claim.holds,
+                claim.verdict,
                 printed(claim.under),
             )
             for claim in comparison.claims
         ),
         "warnings": tuple(printed(warning) for warning in comparison.warnings),
     }
+
+
+def _other_settings(settings: RatingSettings) -> str:
+    """What `label`, shifts and tip do not say."""
+    said = {"shifts", "ring_tip_diameter", "crowned", "accuracy_class", "application_factor"}
+    said |= {"mesh_load_table", "dynamic_factor", "face_load_factor", "transverse_load_factor"}
+    rows = [(name, value) for name, value, _ in settings.rows() if name not in said]
+    return ", ".join(f"{name.replace('_', ' ')} {value}" for name, value in rows)
 
 
 def _rows(comparison: PlanetaryComparison) -> tuple[Values, ...]:
@@ -115,6 +126,9 @@ def _summary(comparison: PlanetaryComparison) -> tuple[tuple[str, str], ...]:
         ("centre distance", millimetres(gears.centre_distance, 4)),
         ("material", comparison.material.label),
         ("load factors", printed(gears.settings.label)),
+        ("profile shifts", gears.shifts_text),
+        ("tip diameter of the ring", millimetres(gears.ring_tip_diameter, 5)),
+        ("other settings", printed(_other_settings(gears.settings))),
         ("planets that fit side by side", f"at most {comparison.planets_that_fit}"),
         (f"planets that assemble, up to {_ASSEMBLING}", ", ".join(assembling)),
         ("needed for bending at peak torque", needed(comparison.needed_peak_bending)),
