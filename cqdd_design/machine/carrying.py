@@ -13,10 +13,8 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.analysis import GearboxAnalysis
 from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
-from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
-from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.machine.capacity import LOAD_OF_CHECK, LoadedContacts
 from cqdd_design.machine.machine import Machine
 from cqdd_design.results import Check
 
@@ -35,8 +33,7 @@ PARTS: Mapping[str, str] = MappingProxyType(
 )
 """Checks at the peak torque that are limits of it, and what gives way."""
 
-_ANGLES = 180
-_NEAR, _MOST_STEPS = 1e-4, 40
+OUT_OF_REACH = "the parts would have to move farther than they reach"
 
 
 @dataclass(frozen=True)
@@ -46,7 +43,7 @@ class TorqueLimit:
     Attributes
     ----------
     check : str
-        The check whose limit it is, of `PARTS`.
+        The check whose limit it is, of `PARTS`; empty where the equilibrium ends before.
     torque : float
         At the output, N m.
     model : str
@@ -60,7 +57,7 @@ class TorqueLimit:
     @property
     def part(self) -> str:
         """What gives way."""
-        return PARTS[self.check]
+        return PARTS[self.check] if self.check else OUT_OF_REACH
 
 
 @dataclass(frozen=True)
@@ -106,12 +103,11 @@ def carried_torque(machine: Machine) -> CarriedTorque:
     GeometryError
         When disc, ring or holes cannot exist.
     """
-    analysis = machine.analysis
-    checks = [check for check in analysis.checks if check.id in PARTS]
+    checks = [check for check in machine.analysis.checks if check.id in PARTS]
     known = [check for check in checks if min(check.value, check.limit) > 0.0]
-    model = machine.contact
-    states = nominal_states(model, perfect_angles(model, _ANGLES))
-    limits = [_limit(machine, analysis, check, states) for check in known]
+    contacts = LoadedContacts(machine)
+    # Several parts may outlast the equilibrium, which ends once.
+    limits = dict.fromkeys(_limit(machine, contacts, check) for check in known)
     return CarriedTorque(
         required=machine.design.requirements.peak_torque,
         limits=tuple(sorted(limits, key=lambda one: one.torque)),
@@ -119,42 +115,26 @@ def carried_torque(machine: Machine) -> CarriedTorque:
     )
 
 
-def _limit(
-    machine: Machine, analysis: GearboxAnalysis, check: Check, states: NominalStates
-) -> TorqueLimit:
-    """Torque at which the value of one check, from the equilibrium, is on its limit."""
-    # Pressures grow about with the root of the torque, all else with the torque.
-    power = 2.0 if check.id.startswith("CONTACT-") else 1.0
-    rigid = machine.design.requirements.peak_torque * check.margin**power
-    torque = rigid
+def _limit(machine: Machine, contacts: LoadedContacts, check: Check) -> TorqueLimit:
+    """Torque at which the load of one check, from the equilibrium, is as much as is allowed."""
+    required, key = machine.design.requirements.peak_torque, LOAD_OF_CHECK[check.id]
+    allowed = _allowed_load(machine, check)
     try:
-        for _ in range(_MOST_STEPS):
-            share = _share_of_limit(machine, analysis, check, torque, states)
-            if abs(share - 1.0) < _NEAR:
-                return TorqueLimit(check.id, torque, EQUILIBRIUM)
-            torque *= share**-power
+        torque = contacts.torque_at(key, allowed, required)
+        reached = contacts.greatest(torque)[key] > 0.99 * allowed
     except ContactError:
-        pass
-    return TorqueLimit(check.id, rigid, RIGID)
+        # Pressures of the rigid law grow with the root of the torque, all else with the torque.
+        power = 2.0 if check.id.startswith("CONTACT-") else 1.0
+        return TorqueLimit(check.id, required * check.margin**power, RIGID)
+    return TorqueLimit(check.id if reached else "", torque, EQUILIBRIUM)
 
 
-def _share_of_limit(
-    machine: Machine,
-    analysis: GearboxAnalysis,
-    check: Check,
-    torque: float,
-    states: NominalStates,
-) -> float:
-    """Value over limit of a check at a torque (N m), its load from the equilibrium."""
-    sweeps = [contact_sweep(machine.contact, s * torque, states=states).maxima for s in (1.0, -1.0)]
-    most = {key: max(one[key] for one in sweeps) for key in sweeps[0]}
-    if check.id == "CONTACT-RING-PEAK":
-        return most["ring_pressure_max_MPa"] / check.limit
-    if check.id == "CONTACT-PIN-PEAK":
-        return most["output_pressure_max_MPa"] / check.limit
+def _allowed_load(machine: Machine, check: Check) -> float:
+    """What a check allows of the force (N) or pressure (MPa) that it comes from."""
+    analysis = machine.analysis
     if check.id == "BEARING-STATIC":
-        rating = check.value * analysis.cam_bearing.peak_load
-        return most["cam_bearing_load_max_N"] * check.limit / rating
+        return check.value * analysis.cam_bearing.peak_load / check.limit
+    if check.id.startswith("CONTACT-"):
+        return check.limit
     # Stresses of a pin grow with its force, which the check counts with uneven sharing.
-    counted = UNEVEN_SHARING * analysis.rigid_peak.output_pin_force
-    return check.value / check.limit * most["output_pin_force_max_N"] / counted
+    return check.limit / check.value * UNEVEN_SHARING * analysis.rigid_peak.output_pin_force

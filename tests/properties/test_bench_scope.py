@@ -151,7 +151,7 @@ def test_where_the_equilibrium_has_no_answer_the_rigid_law_says_so(
     def none(*_: object, **__: object) -> None:
         raise ContactError("no contact equilibrium was found.")
 
-    monkeypatch.setattr("cqdd_design.machine.carrying.contact_sweep", none)
+    monkeypatch.setattr("cqdd_design.machine.capacity.contact_sweep", none)
     machine = resolve(PAPER)
     limits = carried_torque(machine).limits
     assert {one.model for one in limits} == {RIGID}
@@ -162,6 +162,20 @@ def test_where_the_equilibrium_has_no_answer_the_rigid_law_says_so(
     assert by_check["BEARING-STATIC"] == pytest.approx(120.0 * margin)
     margin = checks["CONTACT-RING-PEAK"].margin
     assert by_check["CONTACT-RING-PEAK"] == pytest.approx(120.0 * margin**2)
+
+
+def test_what_outlasts_the_equilibrium_is_not_said_to_give_way() -> None:
+    """Strong pins of a single disc: the teeth lose their reach long before."""
+    single = {
+        "reducer.disc_count": 1,
+        "reducer.output_pins.material": "Alloy steel 12.9 (ISO 7379)",
+        "reducer.modification.equidistant": 60e-6,
+    }
+    limits = carried_torque(resolve(PAPER.replacing(single))).limits
+    (end,) = (one for one in limits if not one.check)
+    assert end == limits[-1]
+    assert "PIN-BEARING-PEAK" not in {one.check for one in limits}
+    assert "farther than they reach" in end.part
 
 
 def test_a_bearing_without_rating_is_no_reserve() -> None:
