@@ -113,7 +113,8 @@ def present_actuator(
     return ComparedActuator(
         name=f"{name} (this design)",
         gearing="cycloid",
-        source="virtual test bench: peak torque at the driver's limit, mass of the solids",
+        source="virtual test bench: peak torque that motor and driver give, no more than is "
+        "required of the gearbox; mass of the solids, and of a motor that is not drawn",
         ratio=abs(ratio),
         peak_torque=peak_torque,
         mass=mass,

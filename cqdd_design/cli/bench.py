@@ -17,7 +17,7 @@ from cqdd_design.cli.options import (
     parse_positive,
 )
 from cqdd_design.cli.session import Output, read_specimen
-from cqdd_design.cli.tables import number, table
+from cqdd_design.cli.tables import number, table, told
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -101,6 +101,8 @@ def _lines(result: BenchResult) -> list[str]:
         f"{len(rows)} measurements in {number(result.seconds)} s; dynamic rows at "
         f"{result.voltage:g} V. Protocols stand in --json and in the report.",
     ]
+    remarks = [(one.name, one.remark) for one in result.metrics if one.remark]
+    lines += ["", told(remarks), ""] if remarks else []
     if result.beside_paper:
         lines.append(
             "given: an input, an identity, or from clearances that the design assumes; "

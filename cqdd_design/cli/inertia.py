@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cqdd_design.cli.options import DesignFile, OwnMotor, parse_positive, quantity_option
 from cqdd_design.cli.session import Output, read_specimen
-from cqdd_design.cli.tables import number, table
+from cqdd_design.cli.tables import number, table, told
 
 if TYPE_CHECKING:
     from cqdd_design.roads.inertia import InertiaAndBalance
@@ -71,12 +71,19 @@ def _lines(found: InertiaAndBalance) -> list[str]:
         "",
         table(groups, head=group_head, right=(1, 2)),
         "",
-        f"total mass                 {number(total.total.mass)} kg "
-        f"{'without' if total.motor_missing else 'with'} the motor",
-        f"torque density             {number(found.torque_density)} N*m/kg at the peak torque",
+        f"total mass                 {number(total.mass)} kg",
+        f"torque density             {number(found.torque_density)} N*m/kg",
         f"rotor of {total.motor.name}: {rotor} kg*mm2",
         f"reflected to the input     {number(1e6 * total.reflected_input)} kg*mm2",
         f"reflected to the output    {number(total.reflected_output)} kg*m2",
+        "",
+        told(
+            [
+                ("total mass", total.mass_scope),
+                ("torque density", found.torque_density_scope),
+                ("reflected", total.inertia_scope),
+            ]
+        ),
         "",
         table(balance, head=balance_head, right=(1, 2, 3, 4)),
         f"the paper's rule asks for {found.paper_disc_count} discs",

@@ -122,6 +122,8 @@ def _lines(design: Design, sizing: SizingResult) -> list[str]:
         checks_table(sizing.checks),
         "",
         table(_choices(sizing), head=_CHOICE_HEAD, right=tuple(range(1, len(_CHOICE_HEAD)))),
+        f"counted: {sizing.objective.scope};",
+        "`inertia` weighs the whole machine.",
         "",
         f"{design.name}: {verdict(sizing.checks)}; {sizing.objective.binding} binds, "
         f"{number(sizing.objective.torque_reserve)} times the torque is its limit",

@@ -85,10 +85,12 @@ def verdict(checks: Sequence[Check]) -> str:
 
 def remedies(checks: Sequence[Check]) -> str:
     """For each check that does not pass, what would make it pass."""
+    return told([(check.id, check.remedy) for check in checks if check.status != "pass"])
+
+
+def told(sentences: Sequence[tuple[str, str]]) -> str:
+    """A list of names with a sentence each."""
     return "\n".join(
-        textwrap.fill(
-            f"{check.id}: {check.remedy}", width=96, initial_indent="- ", subsequent_indent="  "
-        )
-        for check in checks
-        if check.status != "pass"
+        textwrap.fill(f"{name}: {sentence}", width=96, initial_indent="- ", subsequent_indent="  ")
+        for name, sentence in sentences
     )

@@ -6,10 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
-from cqdd_design.gearbox.balance import stack_balance
+from cqdd_design.gearbox.balance import StackBalance
 from cqdd_design.gearbox.cam_bearing import cam_bearing
 from cqdd_design.gearbox.checks.allowables import HARDENED_HRC
 from cqdd_design.gearbox.checks.drive import drive_checks
@@ -63,7 +62,12 @@ class GearboxAnalysis(GearboxState):
 
 
 def analyse_gearbox(
-    design: Design, motor: Motor, *, torque: float | None = None, angles: int = DEFAULT_ANGLES
+    design: Design,
+    motor: Motor,
+    balance: StackBalance,
+    *,
+    torque: float | None = None,
+    angles: int = DEFAULT_ANGLES,
 ) -> GearboxAnalysis:
     """Analyse a design by closed forms: no contact equilibrium, no meshes.
 
@@ -73,6 +77,8 @@ def analyse_gearbox(
         With a named cam bearing.
     motor : Motor
         Which the checks judge.
+    balance : StackBalance
+        Of the crank with all that turns with it, at the required input speed.
     torque : float, optional
         Output torque of `rigid` and `series`, N m; the required peak torque where left out.
         Pins, bearing and checks always use the torques of the requirements.
@@ -84,7 +90,7 @@ def analyse_gearbox(
     GeometryError
         When disc, ring or holes cannot exist.
     """
-    requirements, reducer = design.requirements, design.reducer
+    requirements = design.requirements
     CycloidDisc.from_design(design)
     stages = Stages.from_design(design)
     peak = rigid_maxima(stages, requirements.peak_torque)
@@ -93,17 +99,6 @@ def analyse_gearbox(
     bearing = cam.bearing
     validate_geometry(design, bore_diameter=bearing.outer_diameter)
     geometry = summarise_geometry(design, bearing)
-    density = find_material(reducer.disc_material).density
-    # Both rings of the bearing stand on the eccentric, so all of it orbits with the disc.
-    orbiting = density * geometry.disc_area * reducer.disc_thickness + (bearing.mass or 0.0)
-    balance = stack_balance(
-        orbiting,
-        reducer.eccentricity,
-        reducer.disc_thickness,
-        reducer.disc_spacing,
-        reducer.disc_count,
-        requirements.input_speed,
-    )
     state = GearboxState(
         design=design,
         motor=motor,
@@ -113,7 +108,6 @@ def analyse_gearbox(
         rigid_continuous=continuous,
         output_pins=pin_strength(design, peak, continuous),
         cam_bearing=cam,
-        orbiting_mass=orbiting,
         balance=balance,
     )
     drive, warnings = drive_checks(state)

@@ -8,8 +8,9 @@ disc pack. Disc d of D orbits at e (cos p_d, sin p_d), p_d = 2 pi d/D::
     z =  -(b+s)     0      +(b+s)
 
 A disc orbits with the crank but spins against it at 1/n, so only its mass at its centre takes part
-in the unbalance: a plate symmetric about its own mid-plane has no couple of its own. Parts fixed to
-the crank (shaft, cams, counterweights) take part with all of their mass.
+in the unbalance: a plate symmetric about its own mid-plane has no couple of its own. Its cam
+bearing and the eccentric under it stand at the same centre and in the same plane. Other bodies
+fixed to the crank, such as counterweights, take part with all of their mass.
 """
 
 from __future__ import annotations
@@ -24,6 +25,9 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.kinematics import crank_phases
 from cqdd_design.results import MassProperties
 
+BALANCING_PLANES = 2
+"""Planes with a weight each that together cancel any force and any couple."""
+
 
 @dataclass(frozen=True)
 class StackBalance:
@@ -33,19 +37,26 @@ class StackBalance:
     ----------
     disc_count : int
         D.
+    throw_mass : float
+        Mass at the eccentricity for each disc: disc, cam bearing and eccentric, kg.
     static_unbalance : float
         |sum m r|, kg m.
     couple_unbalance : float
         |sum m r z| about the middle of the pack (products of inertia included), kg m^2.
     shaking_force, shaking_moment : float
         Both times the square of the input speed, N and N m.
+    weights_missing : str
+        Why balance weights that the design asks for are not among what turns; empty where they
+        are, or where none are asked for.
     """
 
     disc_count: int
+    throw_mass: float
     static_unbalance: float
     couple_unbalance: float
     shaking_force: float
     shaking_moment: float
+    weights_missing: str = ""
 
     def to_dict(self) -> dict[str, float]:
         """Return the JSON form (``balance.by_disc_count``)."""
@@ -64,20 +75,22 @@ def disc_mid_planes(disc_count: int, disc_thickness: float, disc_spacing: float)
 
 
 def stack_balance(
-    disc_mass: float,
+    throw_mass: float,
     eccentricity: float,
     disc_thickness: float,
     disc_spacing: float,
     disc_count: int,
     speed: float,
     crank_parts: Iterable[MassProperties] = (),
+    *,
+    weights_missing: str = "",
 ) -> StackBalance:
     """Unbalance of D equal discs and of the parts that turn with the crank.
 
     Parameters
     ----------
-    disc_mass : float
-        Mass of one disc with what orbits with it (outer ring of the cam bearing), kg.
+    throw_mass : float
+        Mass of one disc with what goes round with it: cam bearing and eccentric, kg.
     eccentricity, disc_thickness, disc_spacing : float
         e, b and s in m.
     disc_count : int
@@ -85,7 +98,9 @@ def stack_balance(
     speed : float
         Input speed, rad/s.
     crank_parts : iterable of MassProperties
-        Bodies fixed to the crank in the frame above, such as counterweights.
+        Other bodies fixed to the crank in the frame above, such as counterweights.
+    weights_missing : str
+        See `StackBalance`.
 
     Examples
     --------
@@ -97,7 +112,7 @@ def stack_balance(
     """
     phases = crank_phases(disc_count)
     heights = disc_mid_planes(disc_count, disc_thickness, disc_spacing)
-    throw = disc_mass * eccentricity * np.stack([np.cos(phases), np.sin(phases)])
+    throw = throw_mass * eccentricity * np.stack([np.cos(phases), np.sin(phases)])
     static = throw.sum(axis=1)
     couple = (throw * heights).sum(axis=1)
     for part in crank_parts:
@@ -110,10 +125,12 @@ def stack_balance(
     couple_size = _without_noise(float(np.hypot(*couple)), parts_moment * disc_thickness)
     return StackBalance(
         disc_count=disc_count,
+        throw_mass=throw_mass,
         static_unbalance=static_size,
         couple_unbalance=couple_size,
         shaking_force=static_size * speed**2,
         shaking_moment=couple_size * speed**2,
+        weights_missing=weights_missing,
     )
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import lru_cache
+from types import MappingProxyType
 
 from scipy.optimize import brentq
 
@@ -11,6 +13,21 @@ from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
 from cqdd_design.gearbox.contact.sweep import ANGLES, contact_sweep, perfect_angles
 from cqdd_design.machine.machine import Machine
+
+LOAD_OF_CHECK: Mapping[str, str] = MappingProxyType(
+    {
+        "CONTACT-RING-PEAK": "ring_pressure_max_MPa",
+        "CONTACT-RING-CONTINUOUS": "ring_pressure_max_MPa",
+        "CONTACT-PIN-PEAK": "output_pressure_max_MPa",
+        "CONTACT-PIN-CONTINUOUS": "output_pressure_max_MPa",
+        "PIN-SHEAR-PEAK": "output_pin_force_max_N",
+        "PIN-BENDING-PEAK": "output_pin_force_max_N",
+        "PIN-BENDING-CONTINUOUS": "output_pin_force_max_N",
+        "PIN-BEARING-PEAK": "output_pin_force_max_N",
+        "BEARING-STATIC": "cam_bearing_load_max_N",
+    }
+)
+"""Strength checks, and the force or pressure of the equilibrium that their values go with."""
 
 _SEARCHED_ANGLES = 120
 """Over the period while a torque is sought; they miss a greatest value by half a percent at most,

@@ -10,17 +10,22 @@ from typing import TYPE_CHECKING, Any
 from cqdd_design.catalog.bearings import Bearing, find_bearing
 from cqdd_design.catalog.motors import Motor, find_motor
 from cqdd_design.design import Design
+from cqdd_design.errors import GeometryError
+from cqdd_design.solids.counterweights import drawn_weights
 from cqdd_design.solids.layout import Layout
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.proportions import lay_out, seat_bearings
 from cqdd_design.solids.selection import ChosenBearing
+from cqdd_design.solids.throw import throw_of
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.analysis import GearboxAnalysis
+    from cqdd_design.gearbox.balance import StackBalance
     from cqdd_design.gearbox.contact.model import ContactModel
     from cqdd_design.gearbox.losses import FrictionMachine, LossModel
     from cqdd_design.gearbox.losses.rolling import BearingFriction
+    from cqdd_design.results import MassProperties
     from cqdd_design.solids.inertia import GearboxInertia
 
 AUTO = "auto"
@@ -77,6 +82,32 @@ class Machine:
         return gearbox_inertia(self.design, self.motor, self.parts, closed_form)
 
     @cached_property
+    def balance(self) -> StackBalance:
+        """Of the crank with all that turns with it, balance weights as drawn, in closed form.
+
+        Weights that are asked for and cannot be drawn balance nothing; the result says why.
+        """
+        from cqdd_design.gearbox.balance import stack_balance
+
+        reducer, missing = self.design.reducer, ""
+        weights: tuple[MassProperties, ...] = ()
+        if reducer.balance.counterweights:
+            try:
+                weights = drawn_weights(self.design, self.parts)
+            except GeometryError as error:
+                missing = error.message
+        return stack_balance(
+            throw_of(self.design, self.cam).mass,
+            reducer.eccentricity,
+            reducer.disc_thickness,
+            reducer.disc_spacing,
+            reducer.disc_count,
+            self.design.requirements.input_speed,
+            weights,
+            weights_missing=missing,
+        )
+
+    @cached_property
     def analysis(self) -> GearboxAnalysis:
         """Closed forms and checks at the torques of the requirements."""
         return self.analyse()
@@ -86,7 +117,11 @@ class Machine:
         from cqdd_design.gearbox.analysis import DEFAULT_ANGLES, analyse_gearbox
 
         return analyse_gearbox(
-            self.design, self.motor, torque=torque, angles=angles or DEFAULT_ANGLES
+            self.design,
+            self.motor,
+            self.balance,
+            torque=torque,
+            angles=angles or DEFAULT_ANGLES,
         )
 
     @cached_property

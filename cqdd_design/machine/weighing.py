@@ -1,7 +1,8 @@
 """Bodies of a machine: parts, mass properties, and balance for one, two and three discs.
 
-By default everything is a closed form or the catalogue's, so no CAD kernel is needed; the same
-figures from meshes come with ``source=mass_properties``.
+By default everything is a closed form or the catalogue's, so no CAD kernel is needed; mass
+properties of the parts from meshes come with ``source=mass_properties``. The balance is that of
+`Machine.balance`, the checks' own, whatever the source.
 """
 
 from __future__ import annotations
@@ -10,13 +11,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from cqdd_design.errors import GeometryError
-from cqdd_design.gearbox.balance import StackBalance, stack_balance
+from cqdd_design.gearbox.balance import StackBalance
 from cqdd_design.machine.machine import Machine
 from cqdd_design.solids.inertia import (
     GearboxInertia,
     MassSource,
     closed_form,
-    crank_properties,
     gearbox_inertia,
 )
 from cqdd_design.solids.part import Part
@@ -33,9 +33,9 @@ class Bodies:
     inertia : GearboxInertia
         Mass properties of `parts`, in their order.
     balance : mapping of int to StackBalance
-        Of the crank with one, two and three such discs, shaft included, at the required input
-        speed; counterweights only with the design's own number. A number of discs with which the
-        machine cannot be built is left out.
+        Of the crank with one, two and three such discs, eccentrics included, at the required
+        input speed; counterweights only with the design's own number. A number of discs with
+        which the machine cannot be built is left out.
     """
 
     parts: tuple[Part, ...]
@@ -49,7 +49,7 @@ def weigh(machine: Machine, source: MassSource = closed_form) -> Bodies:
     Parameters
     ----------
     source : callable
-        Mass properties of one piece; those of the other numbers of discs are closed forms.
+        Mass properties of one piece.
 
     Raises
     ------
@@ -57,31 +57,27 @@ def weigh(machine: Machine, source: MassSource = closed_form) -> Bodies:
         When the parts cannot exist or cannot be put together, which a design that fails its
         checks may well do.
     """
-    design, reducer, parts = machine.design, machine.design.reducer, machine.parts
+    design, parts = machine.design, machine.parts
     meshed = source is not closed_form
     inertia = gearbox_inertia(design, machine.motor, parts, source) if meshed else machine.inertia
     balance = {}
     for count in DISC_COUNTS:
-        if count == reducer.disc_count:
-            crank = crank_properties(design, parts, source)
-        else:
-            variant = machine.changed(
+        stack = machine
+        if count != design.reducer.disc_count:
+            stack = machine.changed(
                 {"reducer.disc_count": count, "reducer.balance.counterweights": False}
             )
-            try:
-                crank = crank_properties(variant.design, variant.parts, closed_form)
-            except GeometryError:
+            if not _can_be_built(stack):
                 continue
-        balance[count] = stack_balance(
-            inertia.orbiting_mass,
-            reducer.eccentricity,
-            reducer.disc_thickness,
-            reducer.disc_spacing,
-            count,
-            design.requirements.input_speed,
-            (crank,),
-        )
+        balance[count] = stack.balance
     return Bodies(parts, inertia, balance)
+
+
+def _can_be_built(machine: Machine) -> bool:
+    try:
+        return bool(machine.parts)
+    except GeometryError:
+        return False
 
 
 def weigh_if_possible(machine: Machine) -> tuple[Bodies | None, tuple[str, ...]]:

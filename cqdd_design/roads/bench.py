@@ -17,6 +17,7 @@ from cqdd_design.design import Design
 from cqdd_design.errors import CqddError
 from cqdd_design.files import WrittenFile, ensure_folder, refuse_overwrite, write_with
 from cqdd_design.machine import Machine
+from cqdd_design.machine.carrying import carried_torque
 from cqdd_design.roads.telling import Progress, silent
 
 #: Toleranced gearboxes whose mean ripple is the bench's.
@@ -68,6 +69,7 @@ def measure(
         only=only,
         beside_paper=is_papers_actuator(machine.given),
         drawn=drawn_actuators(machine, specimen) if rippling else (),
+        gearbox=carried_torque(machine),
         progress=progress,
     )
 
@@ -101,7 +103,7 @@ def compared_actuators(
     CatalogError
         For a name that is no geared actuator of the catalogue.
     """
-    peak, mass = result.value("peak_torque"), result.value("mass")
+    peak, mass = result.counted_peak, result.value("mass")
     own = None
     if peak is not None and mass is not None:
         efficiency = result.value("efficiency_peak")

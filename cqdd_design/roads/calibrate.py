@@ -12,6 +12,7 @@ from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.catalog.paper import METRICS, is_papers_actuator
 from cqdd_design.design import Design
 from cqdd_design.errors import UsageError
+from cqdd_design.machine.carrying import carried_torque
 from cqdd_design.roads.bench import drawn_actuators
 from cqdd_design.roads.telling import Progress, silent
 
@@ -67,5 +68,6 @@ def calibrate(
         voltage=VOLTAGE if voltage is None else voltage,
         rated_current=machine.motor.rated_current,
         drawn=() if specimen.seed is not None else drawn_actuators(machine, specimen),
+        gearbox=carried_torque(machine),
         progress=progress,
     )

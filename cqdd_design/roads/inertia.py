@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from cqdd_design.actuator.build import motor_and_drive
+from cqdd_design.actuator.density import density_torque, torques_of_drive
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
+from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.balance import paper_disc_count
 from cqdd_design.machine import Machine
 from cqdd_design.machine.weighing import Bodies, weigh
@@ -25,16 +28,29 @@ class InertiaAndBalance:
         Parts, their mass properties, and the balance by number of discs.
     paper_disc_count : int
         What the paper's rule asks for.
+    drive_peak : float or None
+        Torque at the output that motor and driver give, N m; None where their data do not say.
     """
 
     machine: Machine
     bodies: Bodies
     paper_disc_count: int
+    drive_peak: float | None = None
 
     @property
     def torque_density(self) -> float:
-        """Peak torque over the mass of all that is drawn, N m/kg."""
-        return self.machine.design.requirements.peak_torque / self.bodies.inertia.total.mass
+        """Peak torque over mass, N m/kg: the test bench's, on the same torque and mass."""
+        return self._counted[0] / self.bodies.inertia.mass
+
+    @property
+    def torque_density_scope(self) -> str:
+        """Which torque it is, over which mass."""
+        inertia = self.bodies.inertia
+        return f"{self._counted[1]} over {inertia.mass:.4g} kg: {inertia.mass_scope}"
+
+    @property
+    def _counted(self) -> tuple[float, str]:
+        return density_torque(self.drive_peak, self.machine.design.requirements.peak_torque)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -52,6 +68,7 @@ class InertiaAndBalance:
         return {
             **self.bodies.inertia.to_dict(),
             "torque_density_Nm_per_kg": self.torque_density,
+            "torque_density_scope": self.torque_density_scope,
             "balance": {"by_disc_count": by_count, "paper_disc_count": self.paper_disc_count},
         }
 
@@ -96,4 +113,14 @@ def inertia(
         machine = machine.changed({"requirements.input_speed": speed})
     progress("building solids and meshes")
     bodies = weigh(machine, mass_properties)
-    return InertiaAndBalance(machine, bodies, paper_disc_count(design.reducer.ratio))
+    paper = paper_disc_count(design.reducer.ratio)
+    return InertiaAndBalance(machine, bodies, paper, _drive_peak(machine, specimen))
+
+
+def _drive_peak(machine: Machine, specimen: Specimen) -> float | None:
+    """Torque at the output that motor and driver give, N m; None where their data do not say."""
+    try:
+        motor, drive, _ = motor_and_drive(machine, specimen)
+    except DesignError:
+        return None
+    return min(torques_of_drive(motor, drive, machine.design.reducer.ratio).values())

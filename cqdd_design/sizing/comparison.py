@@ -14,7 +14,7 @@ from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.gearbox.bearing_life import load_for_life
 from cqdd_design.gearbox.checks.allowables import LIFE_HOURS, STATIC_SAFETY, UNEVEN_SHARING
 from cqdd_design.machine import Machine, resolve
-from cqdd_design.machine.capacity import LoadedContacts
+from cqdd_design.machine.capacity import LOAD_OF_CHECK, LoadedContacts
 from cqdd_design.planetary.claims import PaperCase
 from cqdd_design.planetary.compare import PlanetaryComparison, compare_planetary
 from cqdd_design.planetary.cycloid import CycloidLimit, LoadName
@@ -111,17 +111,16 @@ def papers_machine() -> Machine:
     return resolve(Design.from_mapping(nested, source=paper.SOURCE, si=True))
 
 
-#: Strength checks that limit the torque of a cycloid: part, load, how the value grows with torque,
-#: and what it goes with in the contact equilibrium.
-_TORQUE_LIMITS: dict[str, tuple[str, LoadName, float, str]] = {
-    "CONTACT-RING-PEAK": ("ring teeth", "peak", 0.5, "ring_pressure_max_MPa"),
-    "CONTACT-RING-CONTINUOUS": ("ring teeth", "continuous", 0.5, "ring_pressure_max_MPa"),
-    "CONTACT-PIN-PEAK": ("output pins", "peak", 0.5, "output_pressure_max_MPa"),
-    "CONTACT-PIN-CONTINUOUS": ("output pins", "continuous", 0.5, "output_pressure_max_MPa"),
-    "PIN-SHEAR-PEAK": ("output pins", "peak", 1.0, "output_pin_force_max_N"),
-    "PIN-BENDING-PEAK": ("output pins", "peak", 1.0, "output_pin_force_max_N"),
-    "PIN-BENDING-CONTINUOUS": ("output pins", "continuous", 1.0, "output_pin_force_max_N"),
-    "PIN-BEARING-PEAK": ("output pins", "peak", 1.0, "output_pin_force_max_N"),
+#: Strength checks that limit the torque of a cycloid: part, load, how the value grows with torque.
+_TORQUE_LIMITS: dict[str, tuple[str, LoadName, float]] = {
+    "CONTACT-RING-PEAK": ("ring teeth", "peak", 0.5),
+    "CONTACT-RING-CONTINUOUS": ("ring teeth", "continuous", 0.5),
+    "CONTACT-PIN-PEAK": ("output pins", "peak", 0.5),
+    "CONTACT-PIN-CONTINUOUS": ("output pins", "continuous", 0.5),
+    "PIN-SHEAR-PEAK": ("output pins", "peak", 1.0),
+    "PIN-BENDING-PEAK": ("output pins", "peak", 1.0),
+    "PIN-BENDING-CONTINUOUS": ("output pins", "continuous", 1.0),
+    "PIN-BEARING-PEAK": ("output pins", "peak", 1.0),
 }
 EQUILIBRIUM, RIGID = "contact equilibrium", f"rigid law x {UNEVEN_SHARING:g}"
 
@@ -148,9 +147,10 @@ def _rigid_limits(analysis: GearboxAnalysis) -> list[tuple[CycloidLimit, str]]:
     found = []
     for check in analysis.checks:
         if check.id in _TORQUE_LIMITS and check.limit > 0.0:
-            part, at, exponent, key = _TORQUE_LIMITS[check.id]
+            part, at, exponent = _TORQUE_LIMITS[check.id]
             numbers = (torque[at], check.value, check.limit, check.unit, exponent, RIGID)
-            found.append((CycloidLimit(part, check.title, at, *numbers), key))
+            limit_of_part = CycloidLimit(part, check.title, at, *numbers)
+            found.append((limit_of_part, LOAD_OF_CHECK[check.id]))
     cam = analysis.cam_bearing
     if cam.bearing.static_rating and cam.bearing.dynamic_rating:
         bearable = load_for_life(cam.bearing.dynamic_rating, LIFE_HOURS, cam.speed, cam.exponent)
@@ -161,10 +161,8 @@ def _rigid_limits(analysis: GearboxAnalysis) -> list[tuple[CycloidLimit, str]]:
         )
         for load, words, value, limit in rows:
             numbers = (torque[load], value, limit, "N", 1.0, RIGID)
-            title = f"load for {words}"
-            found.append(
-                (CycloidLimit("cam bearing", title, load, *numbers), "cam_bearing_load_max_N")
-            )
+            limit_of_cam = CycloidLimit("cam bearing", f"load for {words}", load, *numbers)
+            found.append((limit_of_cam, LOAD_OF_CHECK["BEARING-STATIC"]))
     return found
 
 

@@ -10,9 +10,9 @@ from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.design import Design, Requirements
 from cqdd_design.design.model import dump
 from cqdd_design.errors import DesignError
-from cqdd_design.gearbox.analysis import analyse_gearbox
 from cqdd_design.gearbox.bearing_life import life_exponent
 from cqdd_design.gearbox.cam_bearing import rolling_element
+from cqdd_design.machine import resolve
 from cqdd_design.results import Check
 from cqdd_design.sizing.points import Evaluator, Points
 from cqdd_design.sizing.reserves import CAM_CHECKS, PIN_CHECKS, RING_CHECKS
@@ -34,7 +34,7 @@ def finish(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> 
     """
     try:
         design = design_of(evaluator, points, row, suffix)
-        analysis = analyse_gearbox(design, evaluator.frame.motor)
+        analysis = resolve(design, evaluator.frame.motor).analysis
     except DesignError:
         return None
     checks, warnings = analysis.checks, analysis.warnings

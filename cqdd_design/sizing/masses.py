@@ -18,6 +18,8 @@ from cqdd_design.gearbox.output_pins import pin_span
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing.frame import Frame
 
+SCOPE = "discs, ring, output pins over their free span, cam bearings and eccentrics"
+"""What is counted, in words."""
 SHAFT_DENSITY = 7850.0
 """Steel eccentrics, kg/m^3."""
 MASS_WEIGHT, INERTIA_WEIGHT = 0.7, 0.3

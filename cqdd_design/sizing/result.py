@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from cqdd_design.design import Design
 from cqdd_design.results import Check
-from cqdd_design.sizing.masses import INERTIA_WEIGHT, MASS_WEIGHT
+from cqdd_design.sizing.masses import INERTIA_WEIGHT, MASS_WEIGHT, SCOPE
 
 
 @dataclass(frozen=True)
@@ -40,6 +40,12 @@ class Objective:
     binding: str
     least_margin: float
 
+    @property
+    def scope(self) -> str:
+        """What masses and inertias count."""
+        rotor = "" if self.reflected_inertia is None else "; inertia with the motor's rotor"
+        return f"{SCOPE}{rotor}"
+
     def to_dict(self) -> dict[str, object]:
         """The JSON form."""
         return {
@@ -47,6 +53,7 @@ class Objective:
             "mass_kg": self.mass,
             "gearbox_inertia_kgm2": self.gearbox_inertia,
             "reflected_inertia_kgm2": self.reflected_inertia,
+            "scope": self.scope,
             "torque_reserve": self.torque_reserve,
             "least_margin": self.least_margin,
             "binding": self.binding,

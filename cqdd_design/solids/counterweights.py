@@ -17,11 +17,13 @@ from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.contours import ArcContour, FloatArray, PlanarPart, as_points
+from cqdd_design.results import MassProperties
 from cqdd_design.solids.layers import prism
 from cqdd_design.solids.layout import Layout, MotorLayout
 from cqdd_design.solids.part import Colour, Part, on_axis
 from cqdd_design.solids.poses import SHAFT, body_pose
 
+NAMES = ("balance weight, shaft end", "balance weight, output end")
 MATERIAL = "AISI 4140 annealed"
 _HEIGHT = 1.5
 """Of a weight, units."""
@@ -73,18 +75,31 @@ def balance_weights(
         )
     height = _HEIGHT * layout.unit
     places = (
-        ("balance weight, shaft end", motor.web_bottom - height, motor.rotor_inner),
-        ("balance weight, output end", motor.ring_top, motor.rotor_inner + 0.5 * layout.unit),
+        (motor.web_bottom - height, motor.rotor_inner),
+        (motor.ring_top, motor.rotor_inner + 0.5 * layout.unit),
     )
-    levels = [bottom + 0.5 * height for _, bottom, _ in places]
+    levels = [bottom + 0.5 * height for bottom, _ in places]
     static, couple = crank_moments(design, parts)
     upper = (static * levels[0] - couple) / (levels[1] - levels[0])
     needed = (-static - upper, upper)
     return [
         _weight(name, motor, bottom, inner, height, moment, colour)
-        for (name, bottom, inner), moment in zip(places, needed, strict=True)
+        for name, (bottom, inner), moment in zip(NAMES, places, needed, strict=True)
         if abs(moment) > _LEAST
     ]
+
+
+def drawn_weights(design: Design, parts: Sequence[Part]) -> tuple[MassProperties, ...]:
+    """The weights among the parts of a machine, as bodies for the balance of its crank.
+
+    Returns
+    -------
+    tuple of MassProperties
+        In the frame of `gearbox.balance`: x along the crank of disc 0, z from the middle of the
+        pack of discs.
+    """
+    down = np.array([0.0, 0.0, -0.5 * design.reducer.pack_length])
+    return tuple(part.exact_properties.moved(down) for part in parts if part.name in NAMES)
 
 
 def _weight(

@@ -24,6 +24,7 @@ from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.results import MassProperties
+from cqdd_design.solids import counterweights
 from cqdd_design.solids.mesh import mass_properties, mesh_volume
 from cqdd_design.solids.motor_rules import drawn_motor
 from cqdd_design.solids.part import Instance, Part
@@ -41,8 +42,7 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "motor cover",
             "encoder magnet",
             "encoder board",
-            "balance weight, shaft end",
-            "balance weight, output end",
+            *counterweights.NAMES,
         ),
         "discs and ring": ("disc", "disc 1", "disc 2", "disc 3", "ring", "ring pin"),
         "shaft and bearings": (
@@ -123,13 +123,11 @@ class GearboxInertia:
     Attributes
     ----------
     total : MassProperties
-        All pieces at crank angle 0 in the ring's frame, the motor too where it is drawn.
+        All pieces drawn, at crank angle 0 in the ring's frame; the motor is one where it is drawn.
     ratio : int
         n.
     motor_missing : str
         Why the motor is not among the parts; empty where it is.
-    orbiting_mass : float
-        Mass that circles at the eccentricity for each disc: the disc and its cam bearing, kg.
     """
 
     parts: tuple[PartInertia, ...]
@@ -137,12 +135,51 @@ class GearboxInertia:
     ratio: int
     motor: Motor
     motor_missing: str
-    orbiting_mass: float
 
     @property
     def rotor_inertia(self) -> float | None:
         """Of the bare motor, kg m^2; None where it is not known, as of a geared actuator."""
         return self.motor.rotor_inertia if self.motor.torque_at == "motor" else None
+
+    @property
+    def motor_by_catalogue(self) -> float | None:
+        """Mass of a bare motor that is not drawn, kg; None where it is drawn or not known."""
+        absent = self.motor_missing and self.motor.torque_at == "motor"
+        return self.motor.mass if absent else None
+
+    @property
+    def mass(self) -> float:
+        """Mass of the actuator as far as it is known, kg: `mass_scope` says how far."""
+        return self.total.mass + (self.motor_by_catalogue or 0.0)
+
+    @property
+    def mass_scope(self) -> str:
+        """What `mass` counts, in words."""
+        if not self.motor_missing:
+            return "gearbox, housing, motor, bell, cover and encoder as drawn"
+        drawn, motor = f"gearbox and housing as drawn, {self.total.mass:.4g} kg", self.motor.name
+        if self.motor_by_catalogue is None:
+            return f"{drawn}; without the motor, bell, cover and encoder, which are not drawn"
+        return (
+            f"{drawn}, and {motor} by its catalogue, {self.motor_by_catalogue:.4g} kg; without "
+            "bell, cover and encoder, which are not drawn"
+        )
+
+    @property
+    def crank_scope(self) -> str:
+        """What `gearbox_reflected` counts, in words."""
+        if not self.motor_missing:
+            return "gearbox and bell as drawn"
+        return "gearbox as drawn, without the bell that carries the rotor, which is not drawn"
+
+    @property
+    def inertia_scope(self) -> str:
+        """What `reflected_input` counts, in words."""
+        if not self.motor_missing:
+            return f"rotor, {self.crank_scope}"
+        if self.rotor_inertia is None:
+            return f"{self.crank_scope}; without the rotor, whose inertia is not known"
+        return f"rotor by its catalogue, {self.crank_scope}"
 
     @property
     def gearbox_reflected(self) -> float:
@@ -157,8 +194,8 @@ class GearboxInertia:
 
     @property
     def group_masses(self) -> dict[str, float]:
-        """Mass of every group of parts, kg: motor, gears, shaft and bearings, and so on."""
-        masses = dict.fromkeys(GROUPS, 0.0)
+        """Share of every group of parts in `mass`, kg: motor, gears, housing and so on."""
+        masses = dict.fromkeys(GROUPS, 0.0) | {"motor": self.motor_by_catalogue or 0.0}
         for part in self.parts:
             masses[group_of(part.name)] += part.count * part.properties.mass
         return {name: mass for name, mass in masses.items() if mass > 0.0}
@@ -167,6 +204,8 @@ class GearboxInertia:
     def group_inertias(self) -> dict[str, float]:
         """Share of every group in the inertia at the input, kg m^2."""
         shares = dict.fromkeys(self.group_masses, 0.0)
+        if self.motor_missing and self.rotor_inertia is not None:
+            shares["motor"] = self.rotor_inertia
         for part in self.parts:
             shares[group_of(part.name)] += part.reflected
         return shares
@@ -181,7 +220,7 @@ class GearboxInertia:
         """What the figures leave out."""
         found = []
         if self.motor_missing:
-            found.append(f"mass and solids are without the motor: {self.motor_missing}.")
+            found.append(f"the motor is not drawn: {self.motor_missing}. Mass: {self.mass_scope}.")
         if self.rotor_inertia is None:
             found.append(
                 f"the catalogue has no rotor inertia for {self.motor.name}; the reflected inertia "
@@ -193,7 +232,10 @@ class GearboxInertia:
         """The JSON form (``results`` of ``inertia``, without ``balance``)."""
         return {
             "parts": [part.to_dict() for part in self.parts],
-            "total_mass_kg": self.total.mass,
+            "total_mass_kg": self.mass,
+            "total_mass_scope": self.mass_scope,
+            "drawn_mass_kg": self.total.mass,
+            "motor_mass_from_catalogue_kg": self.motor_by_catalogue,
             "centre_of_mass_mm": [float(c) * 1e3 for c in self.total.centre],
             "motor_included": not self.motor_missing,
             "group_mass_kg": self.group_masses,
@@ -202,6 +244,7 @@ class GearboxInertia:
             "gearbox_reflected_inertia_input_kgm2": self.gearbox_reflected,
             "reflected_inertia_input_kgm2": self.reflected_input,
             "reflected_inertia_output_kgm2": self.reflected_output,
+            "reflected_inertia_scope": self.inertia_scope,
         }
 
 
@@ -220,15 +263,12 @@ def gearbox_inertia(
     """
     rows = []
     total = MassProperties(0.0)
-    orbiting = 0.0
     meshed = source is mass_properties
     for part in parts:
         own = source(part)
         placed = [_in_machine(design, own, piece) for piece in part.instances]
         for one in placed:
             total = total + one
-        if part.instances[0].body.kind == "disc":
-            orbiting += own.mass * part.count
         rows.append(
             PartInertia(
                 name=part.name,
@@ -248,7 +288,6 @@ def gearbox_inertia(
         ratio=design.reducer.ratio,
         motor=motor,
         motor_missing="" if drawn else _why(motor),
-        orbiting_mass=orbiting / design.reducer.disc_count,
     )
 
 
@@ -260,25 +299,6 @@ def _why(motor: Motor) -> str:
 def closed_form(part: Part) -> MassProperties:
     """Mass properties of one piece from exact integrals, without CadQuery."""
     return part.exact_properties
-
-
-def crank_properties(
-    design: Design, parts: Sequence[Part], source: MassSource = mass_properties
-) -> MassProperties:
-    """What is fixed to the crank (shaft, loose cams), as one body for the balance of the stack.
-
-    Returns
-    -------
-    MassProperties
-        In the frame of `gearbox.balance`: x along the crank of disc 0, z from the middle of the
-        pack of discs.
-    """
-    total = MassProperties(0.0)
-    for part in parts:
-        if part.inner_body is None and part.instances[0].body.kind == "shaft":
-            total = total + _in_machine(design, source(part), part.instances[0])
-    middle = 0.5 * design.reducer.pack_length
-    return total.moved(_along_axis(-middle))
 
 
 def _along_axis(height: float) -> FloatArray:

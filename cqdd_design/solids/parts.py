@@ -30,10 +30,8 @@ from cqdd_design.solids.motor_shapes import (
 from cqdd_design.solids.part import Colour, Instance, Part, around, on_axis, placed
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
 from cqdd_design.solids.selection import ChosenBearing
+from cqdd_design.solids.throw import shaft_material
 
-SHAFT_MATERIAL = "AISI 4140 Q&T 540C"
-RACEWAY_MATERIAL = "SCM415/16MnCr5 case hardened"
-"""Shaft whose lobes are raceways of a needle cage: they must be hard."""
 NUT_MATERIAL = "AISI 4140 Q&T 540C"
 FASTENER_MATERIAL = "Alloy steel 12.9 (ISO 7379)"
 
@@ -137,7 +135,7 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
 
 def _shaft_parts(layout: Layout) -> list[Part]:
     pack, shaft, motor = layout.pack, layout.shaft, layout.motor
-    material = RACEWAY_MATERIAL if pack.cam.bearing.kind == "needle cage" else SHAFT_MATERIAL
+    material = shaft_material(pack.cam.bearing)
 
     def ground(name: str, shape: Stack, more: str = "") -> Part:
         how = f"turned and ground{more}"

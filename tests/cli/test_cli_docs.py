@@ -247,6 +247,7 @@ def test_the_claims_of_the_paper_are_those_computed(cqdd):
         (REPOSITORY / "docs" / "theory.md")
         .read_text(encoding="utf-8")
         .split("## Claims of the paper")[1]
+        .split("\n## ")[0]
     )
     rows = [line.split("|")[1:-1] for line in table.splitlines() if line.startswith("| ")][1:]
     assert len(rows) == len(claims)

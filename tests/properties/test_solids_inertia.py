@@ -13,9 +13,11 @@ from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.machine import resolve
 from cqdd_design.results import MassProperties
-from cqdd_design.solids.inertia import closed_form, crank_properties
+from cqdd_design.solids.counterweights import crank_moments
+from cqdd_design.solids.mesh import mass_properties
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.poses import SHAFT, Body, body_pose
+from cqdd_design.solids.throw import throw_of
 
 STEP = 1e-6
 
@@ -105,11 +107,42 @@ def test_sums_and_signs() -> None:
     assert np.abs(moving.centre[:2]).max() < 1e-12
 
 
-def test_orbiting_mass_is_disc_and_cam_bearing() -> None:
-    design, parts = known_design("paper"), known_parts("paper")
-    disc = part_named(parts, "disc").mass
-    found = resolve(design).inertia
-    assert found.orbiting_mass == pytest.approx(disc + find_bearing("6902").mass)
+@pytest.mark.parametrize("name", CHANGES)
+def test_the_balance_is_that_of_the_parts_as_drawn(name: str) -> None:
+    """Closed forms without a layout against the first moments of every part that was built."""
+    design, machine = known_design(name), resolve(known_design(name))
+    static, couple = crank_moments(design, known_parts(name))
+    middle = 0.5 * design.reducer.pack_length
+    balance, throw = machine.balance, machine.balance.throw_mass * design.reducer.eccentricity
+    assert balance.static_unbalance == pytest.approx(abs(static), abs=1e-12 * throw)
+    about_the_middle = abs(couple - middle * static)
+    assert balance.couple_unbalance == pytest.approx(about_the_middle, abs=1e-12 * throw * middle)
+
+
+@pytest.mark.parametrize("designation", ["6710", "needle cage K20x24x10"])
+def test_a_bearing_without_mass_and_one_without_rings_throw_what_is_drawn(designation: str) -> None:
+    """An envelope stands for an unknown mass; the lobe is the raceway of a needle cage."""
+    wide = {
+        "reducer.ring_pitch_radius": 0.055,
+        "reducer.ring.outer_diameter": 0.12,
+        "reducer.disc_count": 1,
+        "reducer.disc_thickness": 0.011,
+        "reducer.output_pins.circle_radius": 0.039,
+        "reducer.cam_bearing.designation": designation,
+    }
+    machine = resolve(known_design("paper").replacing(wide))
+    static, _ = crank_moments(machine.design, machine.parts)
+    assert machine.balance.static_unbalance == pytest.approx(abs(static), rel=1e-12)
+
+
+def test_meshes_agree_with_the_closed_forms_of_the_balance() -> None:
+    """Disc and lobe from their tessellation: 1e-4, the facets of the curves."""
+    design, parts = known_design("one disc"), known_parts("one disc")
+    disc = mass_properties(part_named(parts, "disc"))
+    shaft = mass_properties(part_named(parts, "eccentric shaft"))
+    bearing = find_bearing(design.reducer.cam_bearing.designation).mass
+    meshed = (disc.mass + bearing) * design.reducer.eccentricity + shaft.mass * shaft.centre[0]
+    assert resolve(design).balance.static_unbalance == pytest.approx(meshed, rel=1e-4)
 
 
 def test_discs_weigh_on_the_input_by_orbit_and_spin() -> None:
@@ -139,19 +172,21 @@ def test_the_rotor_of_a_geared_actuator_is_none_of_a_bare_motor() -> None:
     assert found.reflected_input == found.gearbox_reflected
 
 
-def test_crank_of_two_opposed_lobes_has_a_couple_and_no_unbalance() -> None:
-    design = known_design("paper")
-    crank = crank_properties(design, known_parts("paper"), closed_form)
-    assert np.abs(crank.centre[:2]).max() < 1e-12
-    assert abs(crank.inertia[0, 2]) > 1e-10
-    one = known_design("one disc")
-    single = crank_properties(one, known_parts("one disc"), closed_form)
+def test_the_eccentrics_take_part_in_the_balance() -> None:
+    """A lobe as wide as its bearing, of the shaft's steel, at the eccentricity of every disc."""
     shaft = part_named(known_parts("one disc"), "eccentric shaft")
-    lobe_radius = find_bearing("6902").bore_diameter / 2.0
-    lobe = np.pi * lobe_radius**2 * find_bearing("6902").width * shaft.density
-    # Only the lobe is off the axis.
-    throw = lobe * one.reducer.eccentricity
-    assert single.mass * single.centre[0] == pytest.approx(throw, rel=1e-9)
+    bearing = find_bearing("6902")
+    lobe = np.pi * (bearing.bore_diameter / 2.0) ** 2 * bearing.width * shaft.density
+    for name in ("one disc", "paper"):
+        machine = resolve(known_design(name))
+        disc = part_named(known_parts(name), "disc").mass
+        mass = disc + bearing.mass + lobe
+        assert machine.balance.throw_mass == pytest.approx(mass, rel=1e-12)
+    # Of one disc, what its shaft alone has off the axis.
+    own = shaft.exact_properties
+    throw = throw_of(known_design("one disc"), bearing).eccentric * 1.2e-3
+    assert own.mass * own.centre[0] == pytest.approx(throw, rel=1e-9)
+    assert throw == pytest.approx(lobe * 1.2e-3, rel=1e-12)
 
 
 def test_eccentricity_and_density_have_their_effect() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +20,9 @@ from cqdd_design.actuator.bench.unknowns import (
 )
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.errors import UsageError, did_you_mean
+
+if TYPE_CHECKING:
+    from cqdd_design.machine.carrying import CarriedTorque
 
 _MOST_FACTOR = 200.0
 
@@ -137,6 +141,7 @@ def calibrate(
     voltage: float = VOLTAGE,
     rated_current: float | None = None,
     drawn: Collection[ActuatorParameters] = (),
+    gearbox: CarriedTorque | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> Calibration:
     """Fit unknowns to some measured rows and predict the others.
@@ -155,6 +160,8 @@ def calibrate(
     rated_current : float, optional
         A, for the rated power.
     drawn : collection of ActuatorParameters
+        As for `run_bench`.
+    gearbox : CarriedTorque, optional
         As for `run_bench`.
     progress : callable, optional
         Told what begins.
@@ -180,13 +187,16 @@ def calibrate(
     factors = Fit(_fit(parameters, {name: measured[name] for name in rows}, names, voltage), rows)
     final = apply_factors(parameters, factors)
     tell("measuring before")
-    before = run_bench(parameters, rated_current=rated_current, voltage=voltage, drawn=drawn)
+    before = run_bench(
+        parameters, rated_current=rated_current, voltage=voltage, drawn=drawn, gearbox=gearbox
+    )
     tell("measuring after")
     after = run_bench(
         final,
         rated_current=rated_current,
         voltage=voltage,
         drawn=[apply_factors(one, factors) for one in drawn],
+        gearbox=gearbox,
     )
     old = {metric.name: metric.value for metric in before.metrics}
     return Calibration(

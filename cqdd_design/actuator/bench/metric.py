@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -68,6 +69,8 @@ class Metric:
         Other figures of the same run, each with its unit in its name.
     trace : mapping of str to array
         Columns, each with its unit in its name.
+    remark : str
+        What the value counts, or what stands against it: for whoever reads the value alone.
     """
 
     name: str
@@ -77,6 +80,7 @@ class Metric:
     spread: float | None = None
     details: Mapping[str, float] = field(default_factory=dict)
     trace: Mapping[str, FloatArray] = field(default_factory=dict)
+    remark: str = ""
 
     @property
     def unit(self) -> str:
@@ -98,6 +102,8 @@ class BenchResult:
         Of the dynamic rows, V.
     seconds : float
         Time taken.
+    required : float
+        Peak torque that is asked of the gearbox, N m; infinite where nothing is known of it.
     """
 
     name: str
@@ -106,10 +112,17 @@ class BenchResult:
     voltage: float
     seconds: float
     warnings: tuple[str, ...] = ()
+    required: float = math.inf
 
     def value(self, name: str) -> float | None:
         """Value of a measurement; None where it was not made."""
         return next((metric.value for metric in self.metrics if metric.name == name), None)
+
+    @property
+    def counted_peak(self) -> float | None:
+        """Peak torque for a torque density: no more than is asked of the gearbox, N m."""
+        peak = self.value("peak_torque")
+        return None if peak is None else min(peak, self.required)
 
     def paper(self, name: str) -> float | None:
         """The paper's value of a measurement, beside the paper's own actuator only."""
@@ -128,6 +141,7 @@ class BenchResult:
                     "paper": self.paper(metric.name),
                     "relation": metric.relation,
                     "protocol": metric.protocol,
+                    **({"remark": metric.remark} if metric.remark else {}),
                     **({"details": dict(metric.details)} if metric.details else {}),
                 }
                 for metric in self.metrics

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import time
 from collections.abc import Callable, Collection, Mapping
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.bench import bandwidth, gear, steady
 from cqdd_design.actuator.bench.metric import BenchResult, Metric, refuse_unmeasured
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.catalog import paper
 from cqdd_design.errors import UsageError
+
+if TYPE_CHECKING:
+    from cqdd_design.machine.carrying import CarriedTorque
 
 VOLTAGE = paper.SUPPLY_VOLTAGE
 """Of the dynamic rows, V: what the paper measured at."""
@@ -37,6 +42,7 @@ def run_bench(
     only: Collection[str] = (),
     beside_paper: bool = False,
     drawn: Collection[ActuatorParameters] = (),
+    gearbox: CarriedTorque | None = None,
     progress: Progress | None = None,
 ) -> BenchResult:
     """Measure an actuator.
@@ -54,6 +60,8 @@ def run_bench(
     drawn : collection of ActuatorParameters
         The same actuator with gearboxes drawn from the tolerances, whose mean ripple is the
         ripple; default its own.
+    gearbox : CarriedTorque, optional
+        What is asked of the gearbox and what it carries, told beside the torques.
     progress : callable, optional
         Told the name of each measurement before it begins.
 
@@ -67,15 +75,18 @@ def run_bench(
     if not voltage > 0.0:
         raise UsageError(f"--voltage {voltage:g} V must be above 0; the paper's is {VOLTAGE:g} V.")
     began = time.perf_counter()
+    required = math.inf if gearbox is None else gearbox.required
     measures: dict[str, Callable[[], Metric | None]] = {
         "continuous_torque": lambda: steady.continuous_torque(parameters),
-        "peak_torque": lambda: steady.peak_torque(parameters),
-        "stall_torque": lambda: steady.stall_torque(parameters),
+        "peak_torque": lambda: steady.peak_torque(parameters, gearbox),
+        "stall_torque": lambda: steady.stall_torque(parameters, gearbox),
         "no_load_speed": lambda: steady.no_load_speed(parameters, voltage),
         "rated_power": lambda: steady.rated_power(parameters, rated_current),
         "output_resolution": lambda: steady.output_resolution(parameters),
         "efficiency_peak": lambda: steady.efficiency_peak(parameters),
-        "torque_density": lambda: steady.torque_density(steady.peak_torque(parameters), parameters),
+        "torque_density": lambda: steady.torque_density(
+            parameters, steady.peak_torque(parameters).value, required
+        ),
         "actuator_inertia": lambda: steady.actuator_inertia(parameters),
         "mass": lambda: steady.mass(parameters),
         "backlash": lambda: gear.backlash(parameters),
@@ -105,4 +116,5 @@ def run_bench(
         voltage=voltage,
         seconds=time.perf_counter() - began,
         warnings=tuple(warnings),
+        required=required,
     )

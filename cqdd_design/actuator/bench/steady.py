@@ -5,16 +5,21 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cqdd_design.actuator.bench.metric import Metric
+from cqdd_design.actuator.density import density_torque, torques_of_drive
 from cqdd_design.actuator.motor import torque_constant_at
 from cqdd_design.actuator.packing import safe_step
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.scenario import Command, Constant, Load, Sampled, Scenario, Start
 from cqdd_design.actuator.simulate import Simulation, simulate
 from cqdd_design.actuator.thermal import continuous_current, response
+
+if TYPE_CHECKING:
+    from cqdd_design.machine.carrying import CarriedTorque
 
 RPM = 30.0 / math.pi
 
@@ -91,23 +96,28 @@ def _locked_torque(
     return np.asarray(np.abs(settled.mean(axis=1))), trace
 
 
-def peak_torque(parameters: ActuatorParameters) -> Metric:
+def peak_torque(parameters: ActuatorParameters, gearbox: CarriedTorque | None = None) -> Metric:
     """Torque constant times current times ratio, at the driver's limit or the motor's peak."""
-    by_motor = parameters.motor.peak_torque * abs(parameters.gear.ratio)
-    details = {"driver_limited_Nm": parameters.torque_limit}
-    if math.isfinite(by_motor):
-        details["motor_limited_Nm"] = by_motor
+    details = torques_of_drive(parameters.motor, parameters.drive, abs(parameters.gear.ratio))
+    peak = min(details.values())
     return Metric(
         "peak_torque",
-        min(details.values()),
+        peak,
         "given",
         "Torque constant times the driver's current limit times the ratio, or the motor's peak "
         "torque by its catalogue times the ratio, whichever is less; losses left out.",
-        details=details,
+        details=details | _first_limit(gearbox),
+        remark="" if gearbox is None else gearbox.told(peak),
     )
 
 
-def stall_torque(parameters: ActuatorParameters) -> Metric:
+def _first_limit(gearbox: CarriedTorque | None) -> dict[str, float]:
+    if gearbox is None or not gearbox.limits:
+        return {}
+    return {"gearbox_limited_Nm": gearbox.limits[0].torque}
+
+
+def stall_torque(parameters: ActuatorParameters, gearbox: CarriedTorque | None = None) -> Metric:
     """Locked output, current ramped to the driver's limit, or to the motor's peak torque."""
     motor = parameters.motor
     limit = parameters.drive.current_limit
@@ -121,8 +131,9 @@ def stall_torque(parameters: ActuatorParameters) -> Metric:
         f"Output held still, current ramped to {limit:.3g} A in 0.3 s and held, at 12 places of a "
         "motor turn: what friction leaves of the peak torque while it rises.",
         spread=float(torques.std(ddof=1)),
-        details={"current_A": limit},
+        details={"current_A": limit} | _first_limit(gearbox),
         trace=trace,
+        remark="" if gearbox is None else gearbox.told(float(torques.mean())),
     )
 
 
@@ -258,14 +269,35 @@ def actuator_inertia(parameters: ActuatorParameters) -> Metric:
         "torques over difference of accelerations, at the motor.",
         details={"from_solids_kgm2": computed},
         trace=_columns(run, "motor_speed", "current", index=1),
+        remark=_origins(parameters, rotor="motor.rotor_inertia", gearbox="gear.input_inertia"),
     )
 
 
 def mass(parameters: ActuatorParameters) -> Metric:
     """Of all parts."""
-    return Metric("mass", parameters.mass, "predicted", "Sum of all parts drawn, motor included.")
+    protocol = "Sum of all parts drawn, and the motor where it is not drawn."
+    return Metric(
+        "mass", parameters.mass, "predicted", protocol, remark=parameters.origins.get("mass", "")
+    )
 
 
-def torque_density(peak: Metric, parameters: ActuatorParameters) -> Metric:
-    """Peak torque over mass."""
-    return Metric("torque_density", peak.value / parameters.mass, "given", "Peak torque over mass.")
+def torque_density(
+    parameters: ActuatorParameters, peak: float, required: float = math.inf
+) -> Metric:
+    """Peak torque (N m) over mass, no more of it than is asked of the gearbox."""
+    counted, scope = density_torque(peak, required)
+    return Metric(
+        "torque_density",
+        counted / parameters.mass,
+        "given",
+        "Peak torque over mass: what motor and driver give, but no more than the peak torque "
+        "required of the gearbox.",
+        details={"torque_Nm": counted, "mass_kg": parameters.mass},
+        remark=f"{scope} over {parameters.mass:.4g} kg: {parameters.origins.get('mass', '')}",
+    )
+
+
+def _origins(parameters: ActuatorParameters, **names: str) -> str:
+    """Where some values come from, under what they are of."""
+    found = parameters.origins
+    return "; ".join(f"{of}: {found[name]}" for of, name in names.items() if name in found)

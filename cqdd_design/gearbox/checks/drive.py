@@ -6,7 +6,7 @@ import math
 from typing import Literal
 
 from cqdd_design.catalog.motors import Motor
-from cqdd_design.gearbox.balance import paper_disc_count
+from cqdd_design.gearbox.balance import BALANCING_PLANES, paper_disc_count
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.geometry.limits import rounded_down, rounded_up
@@ -22,37 +22,59 @@ def drive_checks(state: GearboxState) -> tuple[tuple[Check, ...], tuple[str, ...
 
 
 def _balance(state: GearboxState) -> tuple[Check, ...]:
-    reducer, speed = state.design.reducer, state.design.requirements.input_speed
-    balance, mass = state.balance, state.orbiting_mass
+    reducer, balance = state.design.reducer, state.balance
+    speed = state.design.requirements.input_speed
+    mass, static, couple = balance.throw_mass, balance.static_unbalance, balance.shaking_moment
     total = reducer.disc_count * mass
     permitted = total * allowables.BALANCE_GRADE / speed
-    # With counterweights asked for, they are sized to cancel what the discs leave.
-    cancelled = reducer.balance.counterweights
-    static = 0.0 if cancelled else balance.static_unbalance
-    couple = 0.0 if cancelled else balance.shaking_moment
     reaction = couple / (reducer.disc_count * reducer.disc_thickness)
     most = allowables.SHAKING_SHARE * state.cam_bearing.continuous_load
     moment = mass * reducer.eccentricity
+    asked, missing = reducer.balance.counterweights, balance.weights_missing.rstrip(".")
+    # Weights that a design asks for are part of it: what they leave is no rule of thumb.
+    severity: Literal["fail"] | None = "fail" if asked else None
+    weights = " with the balance weights as drawn" if asked and not missing else ""
+    weights += "; no balance weights" if missing else ""
+    reason = f": {missing}" if missing else ""
+    gentler = (
+        "lower disc_thickness or the input speed to "
+        f"{rounded_down(speed * _RPM * math.sqrt(most / max(reaction, 1e-12))):g} rpm"
+    )
     return (
+        *([_no_weights(missing)] if missing else []),
         build_check(
             "BALANCE-STATIC",
             static * 1e6,
             permitted * 1e6,
             f"{reducer.disc_count} x {mass * 1e3:.1f} g at {reducer.eccentricity * 1e3:g} mm leave "
-            f"{static * 1e6:.3g} g*mm; {total * 1e3:.1f} g x "
+            f"{static * 1e6:.4g} g*mm{weights}{reason}; {total * 1e3:.1f} g x "
             f"{allowables.BALANCE_GRADE * 1e3:g} mm/s/{speed:.1f} rad/s",
-            "use two discs, or set balance.counterweights = true, which needs a counterweight of "
-            f"{moment * 1e6:.3g} g*mm",
+            "use two discs"
+            if asked
+            else "use two discs, or set balance.counterweights = true, which needs a counterweight "
+            f"of {moment * 1e6:.3g} g*mm",
+            severity=severity,
         ),
         build_check(
             "BALANCE-COUPLE",
             reaction,
             most,
             f"{couple:.4g} N*m/({reducer.disc_count} x {reducer.disc_thickness * 1e3:g} mm) = "
-            f"{reaction:.3g} N",
-            "set balance.counterweights = true, or lower disc_thickness or the input speed to "
-            f"{rounded_down(speed * _RPM * math.sqrt(most / max(reaction, 1e-12))):g} rpm",
+            f"{reaction:.3g} N{weights}",
+            gentler if asked else f"set balance.counterweights = true, or {gentler}",
+            severity=severity,
         ),
+    )
+
+
+def _no_weights(reason: str) -> Check:
+    """The line that stands where balance weights are asked for and cannot be drawn."""
+    return build_check(
+        "BALANCE-WEIGHTS",
+        0.0,
+        float(BALANCING_PLANES),
+        f"none of {BALANCING_PLANES}: {reason}",
+        reason,
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cqdd_design.gearbox.balance import BALANCING_PLANES
 from cqdd_design.gearbox.checks import allowables as limits
 from cqdd_design.gearbox.checks.guide_row import HOUSE, PAPER, CheckGuide
 
@@ -21,7 +22,8 @@ ROWS = (
         "g*mm",
         "max",
         f"|sum m r| <= sum m G/omega, G {1e3 * limits.BALANCE_GRADE:g}",
-        "A shaking force at every turn of the input; one disc alone has it, two or three cancel.",
+        "A shaking force at every turn of the input; one disc alone has it, two or three cancel. "
+        "Counted are discs, cam bearings and eccentrics, and balance weights as they are drawn.",
         f"ISO 21940-11, grade G {1e3 * limits.BALANCE_GRADE:g}",
         "warn",
     ),
@@ -34,6 +36,17 @@ ROWS = (
         "Discs in different planes leave a couple that shakes the shaft's bearings.",
         HOUSE,
         "warn",
+    ),
+    CheckGuide(
+        "BALANCE-WEIGHTS",
+        "Balance weights that can be built",
+        "",
+        "min",
+        f"weights drawn >= {BALANCING_PLANES} where balance.counterweights = true",
+        "The weights sit on the motor's bell in two planes, which together cancel force and "
+        "couple. Where they find no place, or not enough room, nothing is balanced and the machine "
+        "as designed cannot be built. Shown only then.",
+        "layout of the parts",
     ),
     CheckGuide(
         "DISC-COUNT",

@@ -27,10 +27,8 @@ class GearboxState:
         Raw maxima at the peak and at the continuous torque of the requirements.
     output_pins : PinStrength
         At the same torques.
-    orbiting_mass : float
-        Mass of one disc with its cam bearing, kg.
     balance : StackBalance
-        Discs with their bearings, from exact planar areas, at the required input speed.
+        Of everything that goes round with the crank, at the required input speed.
     """
 
     design: Design
@@ -41,7 +39,6 @@ class GearboxState:
     rigid_continuous: RigidMaxima
     output_pins: PinStrength
     cam_bearing: BearingResult
-    orbiting_mass: float
     balance: StackBalance
 
 

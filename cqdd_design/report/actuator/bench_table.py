@@ -98,6 +98,8 @@ def bench_row(metric: Metric, bench: BenchResult, *, holds: bool = False) -> Val
     `holds` tells that the output cannot turn the gearbox.
     """
     protocol = prose(metric.protocol)
+    if metric.remark:
+        protocol += " " + prose(_sentence(metric.remark))
     if holds and metric.name in BACKDRIVEN:
         metric = dataclasses.replace(metric, value=math.nan, spread=None)
         protocol += " The gearbox holds itself: the output does not turn it."
@@ -114,6 +116,11 @@ def bench_row(metric: Metric, bench: BenchResult, *, holds: bool = False) -> Val
         "relation": metric.relation,
         "protocol": protocol,
     }
+
+
+def _sentence(words: str) -> str:
+    """Words as a sentence, its first letter capital."""
+    return f"{words[:1].upper()}{words[1:].removesuffix('.')}."
 
 
 def _spread(metric: Metric, factor: float) -> str:
@@ -177,7 +184,7 @@ def _summary(bench: BenchResult) -> str:
 
 def comparison(parameters: ActuatorParameters, bench: BenchResult) -> Values:
     """The paper's table of actuators with this one as a column, whose number is `own`."""
-    peak, efficiency = bench.value("peak_torque"), bench.value("efficiency_peak")
+    peak, efficiency = bench.counted_peak, bench.value("efficiency_peak")
     own = None
     if peak is not None and math.isfinite(peak):
         ratio = parameters.gear.ratio

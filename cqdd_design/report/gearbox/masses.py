@@ -38,8 +38,8 @@ def bodies_view(design: Design, bodies: Bodies) -> Values:
             _part_row(row, by_name.get(row.part), inertia)
             for row in bill_of_materials(bodies.inertia.motor, bodies.parts)
         ),
-        "total_mass": with_unit(inertia.total.mass, "kg", 4),
-        "total_of": "gearbox without motor" if inertia.motor_missing else "actuator",
+        "total_mass": with_unit(inertia.mass, "kg", 4),
+        "total_of": printed(inertia.mass_scope),
         "groups": _groups(inertia),
         "paper": _beside_the_paper(design, inertia) if beside else (),
         "reflected": _reflected(inertia),
@@ -87,7 +87,7 @@ def _groups(inertia: GearboxInertia) -> tuple[Row, ...]:
         (
             name,
             with_unit(1e3 * mass, "g", 4),
-            share(mass, inertia.total.mass),
+            share(mass, inertia.mass),
             _scaled(shares[name]),
             share(shares[name], inertia.reflected_input),
         )
@@ -99,7 +99,7 @@ def _beside_the_paper(design: Design, inertia: GearboxInertia) -> tuple[Row, ...
     """Mass and inertia beside what the paper prints, with what makes the difference."""
     paper = {name: figure.value for name, figure in METRICS.items()}
     groups, shares = inertia.group_masses, inertia.group_inertias
-    mass, whole = inertia.total.mass, inertia.reflected_input
+    mass, whole = inertia.mass, inertia.reflected_input
     rotor, bell = inertia.rotor_inertia or 0.0, shares["bell, cover and encoder"]
     peak, dense = design.requirements.peak_torque, "\u202fN\u00b7m/kg"
 
@@ -156,7 +156,7 @@ def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
         (
             "gearbox, at the input",
             shown(inertia.gearbox_reflected),
-            "all parts but the rotor's ring of magnets",
+            printed(inertia.crank_scope),
         ),
         (
             "rotor of the motor",
@@ -166,7 +166,8 @@ def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
         (
             "together, at the input",
             shown(inertia.reflected_input),
-            f"the paper prints {printed_there} for its actuator, at the motor",
+            f"{printed(inertia.inertia_scope)}; the paper prints {printed_there} for its actuator, "
+            "at the motor",
         ),
         (
             "together, at the output",
@@ -177,24 +178,19 @@ def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
 
 
 def _balance(design: Design, bodies: Bodies) -> tuple[tuple[Row, bool], ...]:
-    reducer, speed = design.reducer, design.requirements.input_speed
-    # What cancels on paper leaves rounding of the sums, which is shown as nothing.
-    throw = bodies.inertia.orbiting_mass * reducer.eccentricity
-    arm = reducer.disc_thickness
-
-    def shown(value: float, scale: float, least: float, digits: int) -> str:
-        return "0" if value < 1e-9 * least else significant(scale * value, digits)
+    def shown(value: float, digits: int) -> str:
+        return "0" if value == 0.0 else significant(value, digits)
 
     return tuple(
         (
             (
                 str(count),
-                shown(found.static_unbalance, 1e6, throw, 4),
-                shown(found.couple_unbalance, 1e9, throw * arm, 4),
-                shown(found.shaking_force, 1.0, throw * speed**2, 3),
-                shown(found.shaking_moment, 1.0, throw * arm * speed**2, 3),
+                shown(1e6 * found.static_unbalance, 4),
+                shown(1e9 * found.couple_unbalance, 4),
+                shown(found.shaking_force, 3),
+                shown(found.shaking_moment, 3),
             ),
-            count == reducer.disc_count,
+            count == design.reducer.disc_count,
         )
         for count, found in bodies.balance.items()
     )

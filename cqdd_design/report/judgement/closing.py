@@ -110,7 +110,8 @@ def model_assumptions(design: Design) -> tuple[str, ...]:
         "The cam bearing carries ring and output-pin forces together, at its greatest load over "
         "the period.",
         "Basic rating life by ISO 281 without the factors for lubrication and cleanliness.",
-        "The balance checks count the discs with their cam bearings, from exact areas.",
+        "Balance counts the discs with their cam bearings and eccentrics, and balance weights as "
+        "drawn, in closed form.",
     )
 
 

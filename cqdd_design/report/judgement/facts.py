@@ -32,10 +32,15 @@ def head_facts(results: ReportInput, least_margin: str) -> tuple[tuple[str, str,
         ("Least margin", least_margin, "1 is on the limit"),
     ]
     if bodies is not None:
-        mass = with_unit(bodies.inertia.total.mass, "kg", 3)
-        whole = not bodies.inertia.motor_missing
-        facts.insert(4, ("Mass", mass, "with the motor" if whole else "without the motor"))
-        if whole:
+        inertia = bodies.inertia
+        mass = with_unit(inertia.mass, "kg", 3)
+        counted = "with the motor"
+        if inertia.motor_by_catalogue is not None:
+            counted = "motor by its catalogue, without its bell"
+        elif inertia.motor_missing:
+            counted = "without the motor"
+        facts.insert(4, ("Mass", mass, counted))
+        if not inertia.motor_missing:
             diameter, length = overall_size(bodies.parts)
             size = f"\u2300 {significant(1e3 * diameter)} {TIMES} {millimetres(length, 3)}"
             facts.insert(3, ("Actuator", size, "over everything"))
