@@ -15,12 +15,9 @@
 from __future__ import annotations
 
 import contextlib
-import csv
 import io
 import json
-import math
 import sys
-import textwrap
 from collections.abc import Callable, Iterator, Mapping
 from operator import attrgetter
 from pathlib import Path
@@ -28,47 +25,10 @@ from typing import Any
 
 from figures import actuator, contact, theory
 from figures.sheet import sheet
+from validation import page as tables_of
 
 DOCS = Path(__file__).resolve().parent
 BEGIN, END = "<!-- help: written by docs/build.py -->", "<!-- end of help -->"
-
-VALIDATION_HEAD = """\
-# Validation
-
-Numbers of the literature beside ours. This page is written by `python docs/build.py` from the
-tests in `tests/published`: each row is one comparison of one test, and outside its tolerance the
-test would fail. A tolerance is half of the last printed digit, or what the note below its table
-says. The last column names the functions that a row validates: in the same test each of them in
-turn gives 1.5 times its result, and the row must then fail. Inputs and full sources stand in
-`tests/published/data/published_examples.csv`.
-"""
-
-BASES = {
-    "printed": (
-        "Printed in a source",
-        "printed",
-        "The number stands in the source; what is computed here uses only inputs that stand there.",
-    ),
-    "trend": (
-        "Printed, with coefficients chosen here",
-        "printed",
-        "The source prints the result but not every coefficient: that ours agree shows a trend, "
-        "not a value.",
-    ),
-    "not met": (
-        "Printed, and not met",
-        "printed",
-        "The source contradicts itself: from its own inputs ours differs by more than its rounding "
-        "(see errata and claims in [theory](theory.md)).",
-    ),
-    "second": (
-        "Second evaluations, not published",
-        "second evaluation",
-        "No source prints these numbers: another program's output, or a published formula "
-        "evaluated apart from the code. They show that the code does what the formula says.",
-    ),
-}
-"""Heading of each kind of row, name of its column, and what it is worth."""
 
 
 def schema_file() -> str:
@@ -143,45 +103,8 @@ def _records(name: str, *tests: str) -> list[tuple[Any, ...]]:
 
 def validation_page() -> str:
     """The page of validation tables, from a run of tests/published."""
-    found = _records("published", "published")
-    table = DOCS.parent / "tests" / "published" / "data" / "published_examples.csv"
-    with table.open(encoding="utf-8", newline="") as file:
-        wanted = list(csv.DictReader(file))
-    compared = [row for row, _, _ in found]
-    if unused := [row for row in wanted if row not in compared]:
-        raise SystemExit(f"rows that no test compares: {unused}")
-    found.sort(key=lambda one: wanted.index(one[0]))
-    parts = [VALIDATION_HEAD]
-    for basis, (title, column, worth) in BASES.items():
-        rows = [one for one in found if one[0]["basis"] == basis]
-        parts.append(f"\n## {title}\n\n{textwrap.fill(worth, 100)}\n")
-        for group in dict.fromkeys(row["group"] for row in wanted if row["basis"] == basis):
-            parts += _validation_table([one for one in rows if one[0]["group"] == group], column)
-    return "".join(parts)
-
-
-def _validation_table(found: list[tuple[Any, ...]], column: str) -> Iterator[str]:
-    """The rows of a group, in the order of the file."""
-    yield f"\n### {found[0][0]['group'].capitalize()}\n\n"
-    yield f"| case | quantity | {column} | ours | difference | tolerance | validates |\n"
-    yield "|---|---|---|---|---|---|---|\n"
-    for row, ours, exercised in found:
-        tolerance = float(row["tol"])
-        unit = "" if row["unit"] == "-" else f" {row['unit']}"
-        digits = 1 - math.floor(math.log10(tolerance))
-        shown = f"{ours:.{max(digits, len(row['evaluated'].partition('.')[2]))}f}"
-        # What rounding leaves of an exact agreement differs from machine to machine.
-        off = ours - float(row["value"])
-        difference = "0" if abs(off) < 1e-3 * tolerance else f"{float(f'{off:.2g}'):+g}"
-        names = ", ".join(f"`{'.'.join(name.split('.')[-2:])}`" for name in exercised)
-        yield (
-            f"| {row['case']} | {row['quantity']} | {row['value']}{unit} "
-            f"| {shown.rstrip('0').rstrip('.') if '.' in shown else shown} | {difference} "
-            f"| ±{tolerance:g} | {names} |\n"
-        )
-    for key, word in (("source", "Source"), ("note", "Note")):
-        for told in dict.fromkeys(row[key] for row, _, _ in found if row[key]):
-            yield "\n" + textwrap.fill(f"{word}: {told.removesuffix('.')}.", 100) + "\n"
+    folder = DOCS.parent / "tests" / "published"
+    return tables_of(_records("published", "published"), folder / "data" / "published_examples.csv")
 
 
 def _recorded(*names: str) -> str:
