@@ -15,6 +15,7 @@
 from __future__ import annotations
 
 import contextlib
+import importlib
 import io
 import json
 import sys
@@ -22,10 +23,6 @@ from collections.abc import Callable, Iterator, Mapping
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
-
-from figures import actuator, contact, theory
-from figures.sheet import sheet
-from validation import page as tables_of
 
 DOCS = Path(__file__).resolve().parent
 BEGIN, END = "<!-- help: written by docs/build.py -->", "<!-- end of help -->"
@@ -103,8 +100,10 @@ def _records(name: str, *tests: str) -> list[tuple[Any, ...]]:
 
 def validation_page() -> str:
     """The page of validation tables, from a run of tests/published."""
+    from validation import page
+
     folder = DOCS.parent / "tests" / "published"
-    return tables_of(_records("published", "published"), folder / "data" / "published_examples.csv")
+    return page(_records("published", "published"), folder / "data" / "published_examples.csv")
 
 
 def _recorded(*names: str) -> str:
@@ -300,18 +299,26 @@ def _with_tables(page_name: str, tables: Mapping[str, Callable[[], str]]) -> str
     return page
 
 
+def _figure(chapter: str, name: str) -> str:
+    """A figure of a page as a file."""
+    from figures.sheet import sheet
+
+    drawn = getattr(importlib.import_module(f"figures.{chapter}"), name)
+    return sheet(drawn())
+
+
 PAGES = {
     "design.schema.json": schema_file,
     "cli.md": cli_page,
     "validation.md": validation_page,
     "contact-model.md": contact_page,
     "actuator-model.md": actuator_page,
-    "images/theory-profile.svg": lambda: sheet(theory.profile()),
-    "images/theory-forces.svg": lambda: sheet(theory.forces()),
-    "images/contact-teeth.svg": lambda: sheet(contact.teeth()),
-    "images/contact-error.svg": lambda: sheet(contact.error()),
-    "images/actuator-scheme.svg": lambda: sheet(actuator.scheme()),
-    "images/actuator-position.svg": lambda: sheet(actuator.position()),
+    "images/theory-profile.svg": lambda: _figure("theory", "profile"),
+    "images/theory-forces.svg": lambda: _figure("theory", "forces"),
+    "images/contact-teeth.svg": lambda: _figure("contact", "teeth"),
+    "images/contact-error.svg": lambda: _figure("contact", "error"),
+    "images/actuator-scheme.svg": lambda: _figure("actuator", "scheme"),
+    "images/actuator-position.svg": lambda: _figure("actuator", "position"),
     "assumptions.md": assumptions_page,
 }
 
