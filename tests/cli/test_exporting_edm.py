@@ -28,6 +28,24 @@ def test_package_and_programs_in_one_go(cqdd, paper_design_file, tmp_path):
     assert "INSUNITS" not in done.err
 
 
+def test_a_bearing_left_to_the_catalogue_changes_no_hash(cqdd, paper_design_file, tmp_path):
+    """Every file names the design as it was written, the way the JSON does."""
+    text = paper_design_file.read_text().replace('designation = "6902"', 'designation = "auto"')
+    (tmp_path / "auto.toml").write_text(text)
+    done = cqdd("export", tmp_path / "auto.toml", "--to", "edm,gcode,svg,urdf,card", "--json")
+    assert done.code == 0, done.err
+    wanted = done.document["provenance"]["design_sha256"][:16]
+    told = 0
+    for file in done.document["files"]:
+        path = tmp_path / file["path"]
+        if path.suffix in {".txt", ".nc", ".dxf", ".urdf", ".md", ".yaml"} or "/edm/" in str(path):
+            if path.suffix == ".pdf":
+                continue
+            assert wanted.lower() in path.read_text().lower(), path.name
+            told += 1
+    assert told >= 9
+
+
 @pytest.mark.parametrize(
     ("option", "value", "said"),
     [

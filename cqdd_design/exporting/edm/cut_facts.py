@@ -134,7 +134,8 @@ def facts_of(flat: FlatPart, machine: Machine) -> CutFacts:
     ReadBackError
         When the wire is too thick for a contour.
     """
-    design = machine.design
+    # As it was written, so that sheets carry the hash that every other output has.
+    design = machine.given
     return CutFacts(
         flat=flat,
         design=design,
