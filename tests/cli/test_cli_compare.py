@@ -99,13 +99,13 @@ def test_defaults_are_printed(cqdd):
         ("application_factor = ", "not valid TOML"),
     ],
 )
-def test_settings_that_are_none(cqdd, tmp_path, text, said):
+def test_settings_that_are_none(tmp_path, text, said):
     path = tmp_path / "settings.toml"
     path.write_text(text)
-    done = cqdd("compare", DESIGN, "--settings", path)
-    assert done.code == 2
-    assert said in done.err
-    assert str(path) in done.err or "settings:" in done.err
+    with pytest.raises(UsageError) as caught:
+        read_settings(path)
+    assert said in caught.value.message
+    assert caught.value.message.startswith((str(path), "settings:"))
 
 
 def test_options_name_themselves(cqdd):
