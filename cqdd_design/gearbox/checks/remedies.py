@@ -78,12 +78,15 @@ def harder_parts(
     if not enough:
         most = rounded_up(pressure / _MEGA)
         return f"{otherwise}: no catalogue material allows {most:g} MPa"
+    _, one, two = min(enough)
     words = [
         f"the {part} of '{name}' ({value / _MEGA:.0f} MPa)"
-        for part, (value, name, _) in zip(parts, min(enough)[1:], strict=True)
+        for part, (value, name, _) in zip(parts, (one, two), strict=True)
         if part in weak
     ]
-    return "make " + " and ".join(words)
+    borne = pressure * math.sqrt(now / (one[2] + two[2]))
+    told = f", which lowers the pressure to {borne / _MEGA:.0f} MPa"
+    return "make " + " and ".join(words) + (told if borne < 0.995 * pressure else "")
 
 
 def _harder(other: Material, material: Material, part: str) -> bool:
