@@ -14,6 +14,7 @@
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import importlib
 import io
@@ -323,16 +324,19 @@ PAGES = {
 }
 
 
-def main(arguments: list[str]) -> int:
+def main() -> int:
     """Write or compare every page."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("--check", action="store_true", help="only compare; 1 when out of date")
+    only_compare = parser.parse_args().check
     stale = []
     for name, make in PAGES.items():
         path, text = DOCS / name, make()
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             stale.append(name)
-            if "--check" not in arguments:
+            if not only_compare:
                 path.write_text(text, encoding="utf-8")
-    if "--check" in arguments and stale:
+    if only_compare and stale:
         print(f"out of date: {', '.join(stale)}; run `python docs/build.py`")
         return 1
     print(f"wrote {', '.join(stale)}" if stale else "every page is up to date")
@@ -340,4 +344,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())
