@@ -1,39 +1,75 @@
-"""What torque a gearbox carries at its peak, by the best model there is for each of its limits.
+"""What torque a gearbox carries, by the best model there is for each of its limits.
 
 Pressures, pin forces and cam loads come from the contact equilibrium of perfect parts without
 friction, over the period and in both senses of torque; strengths are those of the checks. Where
 the equilibrium has no answer, the rigid law with its factor for uneven sharing stands in, and the
-limit says so. What a gearbox lasts is not asked here.
+limit says so. Of what a gearbox lasts only the cam bearing's basic life is asked here.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from types import MappingProxyType
+from typing import Literal, NamedTuple
 
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
-from cqdd_design.machine.capacity import LOAD_OF_CHECK, LoadedContacts
+from cqdd_design.gearbox.bearing_life import load_for_life
+from cqdd_design.gearbox.checks.allowables import LIFE_HOURS, STATIC_SAFETY, UNEVEN_SHARING
+from cqdd_design.machine.capacity import LoadedContacts
 from cqdd_design.machine.machine import Machine
-from cqdd_design.results import Check
 
 EQUILIBRIUM = "contact equilibrium of perfect parts, without friction"
-RIGID = f"rigid law times {UNEVEN_SHARING:g}"
+RIGID = f"rigid law x {UNEVEN_SHARING:g}"
+OUT_OF_REACH = "the parts would have to move farther than they reach"
 
-PARTS: Mapping[str, str] = MappingProxyType(
+LoadName = Literal["peak", "continuous"]
+
+
+class _Row(NamedTuple):
+    """A strength check: what gives way, at which load, and what its value goes with.
+
+    `key` is of the maxima of a contact sweep; by the rigid law the value grows as the torque to
+    the power `power`.
+    """
+
+    part: str
+    words: str
+    load: LoadName
+    key: str
+    power: float
+
+
+_RING, _HOLE = "ring_pressure_max_MPa", "output_pressure_max_MPa"
+_PIN, _CAM = "output_pin_force_max_N", "cam_bearing_load_max_N"
+LIMITS: Mapping[str, _Row] = MappingProxyType(
     {
-        "CONTACT-RING-PEAK": "pressure of the ring's teeth",
-        "CONTACT-PIN-PEAK": "pressure of the pins in their holes",
-        "PIN-SHEAR-PEAK": "shear of the output pins",
-        "PIN-BENDING-PEAK": "bending of the output pins",
-        "PIN-BEARING-PEAK": "mean pressure of the pins in their holes",
-        "BEARING-STATIC": "static rating of the cam bearing",
+        "CONTACT-RING-PEAK": _Row("ring teeth", "pressure of the ring's teeth", "peak", _RING, 0.5),
+        "CONTACT-RING-CONTINUOUS": _Row(
+            "ring teeth", "pressure of the ring's teeth", "continuous", _RING, 0.5
+        ),
+        "CONTACT-PIN-PEAK": _Row(
+            "output pins", "pressure of the pins in their holes", "peak", _HOLE, 0.5
+        ),
+        "CONTACT-PIN-CONTINUOUS": _Row(
+            "output pins", "pressure of the pins in their holes", "continuous", _HOLE, 0.5
+        ),
+        "PIN-SHEAR-PEAK": _Row("output pins", "shear of the output pins", "peak", _PIN, 1.0),
+        "PIN-BENDING-PEAK": _Row("output pins", "bending of the output pins", "peak", _PIN, 1.0),
+        "PIN-BENDING-CONTINUOUS": _Row(
+            "output pins", "bending of the output pins", "continuous", _PIN, 1.0
+        ),
+        "PIN-BEARING-PEAK": _Row(
+            "output pins", "mean pressure of the pins in their holes", "peak", _PIN, 1.0
+        ),
+        "BEARING-STATIC": _Row(
+            "cam bearing", "static rating of the cam bearing", "peak", _CAM, 1.0
+        ),
+        "BEARING-LIFE": _Row("cam bearing", "life of the cam bearing", "continuous", _CAM, 1.0),
     }
 )
-"""Checks at the peak torque that are limits of it, and what gives way."""
-
-OUT_OF_REACH = "the parts would have to move farther than they reach"
+"""Checks that limit the torque of a gearbox."""
 
 
 @dataclass(frozen=True)
@@ -43,21 +79,40 @@ class TorqueLimit:
     Attributes
     ----------
     check : str
-        The check whose limit it is, of `PARTS`; empty where the equilibrium ends before.
+        The check whose limit it is, of `LIMITS`.
+    title : str
+        What is compared.
+    asked : float
+        The torque that is required at this load, N m.
+    value, limit : float
+        What the check compares, at `asked`, and what it allows, in `unit`.
     torque : float
-        At the output, N m.
+        At the output, where `limit` is reached, N m.
     model : str
-        `EQUILIBRIUM` or `RIGID`.
+        What `value` and `torque` rest on.
+    reached : bool
+        False where the equilibrium ends at `torque` and nothing has given way.
     """
 
     check: str
+    title: str
+    asked: float
+    value: float
+    limit: float
+    unit: str
     torque: float
     model: str
+    reached: bool = True
 
     @property
-    def part(self) -> str:
+    def row(self) -> _Row:
+        """What gives way, and at which load."""
+        return LIMITS[self.check]
+
+    @property
+    def words(self) -> str:
         """What gives way."""
-        return PARTS[self.check] if self.check else OUT_OF_REACH
+        return self.row.words if self.reached else OUT_OF_REACH
 
 
 @dataclass(frozen=True)
@@ -69,9 +124,9 @@ class CarriedTorque:
     required : float
         The peak torque of the requirements, N m.
     limits : tuple of TorqueLimit
-        Least torque first.
+        At the peak torque, least torque first; the end of the equilibrium once.
     unknown : tuple of str
-        Checks of `PARTS` for which the catalogue gives no strength.
+        Checks of `LIMITS` for which the catalogue gives no strength.
     """
 
     required: float
@@ -81,60 +136,107 @@ class CarriedTorque:
     def told(self, torque: float) -> str:
         """A sentence on whether a torque (N m) is carried, and what gives way below it."""
         below = [one for one in self.limits if one.torque < torque]
-        missing = "".join(f"; {PARTS[one]}: no strength is known" for one in self.unknown)
+        missing = "".join(f"; {LIMITS[one].words}: no strength is known" for one in self.unknown)
         if below:
-            parts = "; ".join(f"{one.part} from {one.torque:.3g} N*m" for one in below)
+            parts = "; ".join(f"{one.words} from {one.torque:.3g} N*m" for one in below)
             models = " and ".join(dict.fromkeys(one.model for one in below))
             return f"the gearbox does not carry it: {parts} ({models}){missing}"
         if not self.limits:
             return f"whether the gearbox carries it is not known{missing}"
         first = self.limits[0]
         return (
-            f"the gearbox carries it; first to give way is {first.part}, at {first.torque:.3g} N*m "
-            f"({first.model}){missing}"
+            f"the gearbox carries it; first to give way is {first.words}, at {first.torque:.3g} "
+            f"N*m ({first.model}){missing}"
         )
 
 
-def carried_torque(machine: Machine) -> CarriedTorque:
-    """Peak torques at which a machine's gearbox reaches its limits.
+class _Compared(NamedTuple):
+    """A check's comparison by the rigid law, and its value for one unit of its key."""
+
+    check: str
+    title: str
+    value: float
+    limit: float
+    unit: str
+    per_key: float
+
+
+@lru_cache(maxsize=2)
+def torque_limits(machine: Machine) -> tuple[TorqueLimit, ...]:
+    """Torques at which a machine's gearbox reaches its limits, in the order of the checks.
+
+    A report asks twice for one machine, so the last are kept. Limits whose strength the catalogue
+    does not give are left out.
 
     Raises
     ------
     GeometryError
         When disc, ring or holes cannot exist.
     """
-    checks = [check for check in machine.analysis.checks if check.id in PARTS]
-    known = [check for check in checks if min(check.value, check.limit) > 0.0]
-    contacts = LoadedContacts(machine)
-    # Several parts may outlast the equilibrium, which ends once.
-    limits = dict.fromkeys(_limit(machine, contacts, check) for check in known)
+    contacts = LoadedContacts(machine.contact)
+    return tuple(_limit(machine, contacts, one) for one in _compared(machine))
+
+
+def carried_torque(machine: Machine) -> CarriedTorque:
+    """What a machine's gearbox carries at its peak torque; errors as `torque_limits`."""
+    peak = [one for one in torque_limits(machine) if one.row.load == "peak"]
+    known = {one.check for one in peak}
+    ends = sorted((one for one in peak if not one.reached), key=lambda one: one.torque)
+    limits = [one for one in peak if one.reached] + ends[:1]
     return CarriedTorque(
         required=machine.design.requirements.peak_torque,
         limits=tuple(sorted(limits, key=lambda one: one.torque)),
-        unknown=tuple(check.id for check in checks if check not in known),
+        unknown=tuple(
+            check.id
+            for check in machine.analysis.checks
+            if check.id in LIMITS and LIMITS[check.id].load == "peak" and check.id not in known
+        ),
     )
 
 
-def _limit(machine: Machine, contacts: LoadedContacts, check: Check) -> TorqueLimit:
-    """Torque at which the load of one check, from the equilibrium, is as much as is allowed."""
-    required, key = machine.design.requirements.peak_torque, LOAD_OF_CHECK[check.id]
-    allowed = _allowed_load(machine, check)
-    try:
-        torque = contacts.torque_at(key, allowed, required)
-        reached = contacts.greatest(torque)[key] > 0.99 * allowed
-    except ContactError:
-        # Pressures of the rigid law grow with the root of the torque, all else with the torque.
-        power = 2.0 if check.id.startswith("CONTACT-") else 1.0
-        return TorqueLimit(check.id, required * check.margin**power, RIGID)
-    return TorqueLimit(check.id if reached else "", torque, EQUILIBRIUM)
-
-
-def _allowed_load(machine: Machine, check: Check) -> float:
-    """What a check allows of the force (N) or pressure (MPa) that it comes from."""
+def _compared(machine: Machine) -> Iterator[_Compared]:
+    """The checks whose strengths are known; bearings by their load instead of safety and hours."""
     analysis = machine.analysis
-    if check.id == "BEARING-STATIC":
-        return check.value * analysis.cam_bearing.peak_load / check.limit
-    if check.id.startswith("CONTACT-"):
-        return check.limit
-    # Stresses of a pin grow with its force, which the check counts with uneven sharing.
-    return check.limit / check.value * UNEVEN_SHARING * analysis.rigid_peak.output_pin_force
+    cam = analysis.cam_bearing
+    static = (cam.bearing.static_rating or 0.0) / STATIC_SAFETY
+    dynamic = cam.bearing.dynamic_rating or 0.0
+    lasting = float(load_for_life(dynamic, LIFE_HOURS, cam.speed, cam.exponent))
+    bearings = {
+        "BEARING-STATIC": (f"load for C0/P = {STATIC_SAFETY:g}", cam.peak_load, static),
+        "BEARING-LIFE": (f"load for L10h = {LIFE_HOURS:g} h", cam.continuous_load, lasting),
+    }
+    for check in analysis.checks:
+        if check.id in bearings:
+            title, value, limit = bearings[check.id]
+            found = _Compared(check.id, title, value, limit, "N", 1.0)
+        elif check.id in LIMITS:
+            row, per_key = LIMITS[check.id], 1.0
+            if row.key == _PIN:
+                # Stresses of a pin grow with its force, which the check counts for uneven sharing.
+                peak = row.load == "peak"
+                load = analysis.rigid_peak if peak else analysis.rigid_continuous
+                per_key = check.value / (UNEVEN_SHARING * load.output_pin_force)
+            found = _Compared(check.id, check.title, check.value, check.limit, check.unit, per_key)
+        else:
+            continue
+        if min(found.value, found.limit) > 0.0:
+            yield found
+
+
+def _limit(machine: Machine, contacts: LoadedContacts, one: _Compared) -> TorqueLimit:
+    row, requirements = LIMITS[one.check], machine.design.requirements
+    asked = requirements.peak_torque if row.load == "peak" else requirements.continuous_torque
+    value, model, reached = one.value, RIGID, True
+    torque = asked * (one.limit / one.value) ** (1.0 / row.power)
+    allowed = one.limit / one.per_key
+    try:
+        torque = contacts.torque_at(row.key, allowed, asked)
+        model = f"{RIGID}; torque by the {EQUILIBRIUM}"
+        reached = contacts.greatest(torque)[row.key] > 0.99 * allowed
+        value, model = one.per_key * contacts.greatest(asked)[row.key], EQUILIBRIUM
+    except ContactError:
+        # What was found before the equilibrium ended stands.
+        pass
+    return TorqueLimit(
+        one.check, one.title, asked, value, one.limit, one.unit, torque, model, reached
+    )

@@ -26,13 +26,10 @@ class CycloidLimit:
         Output torque `value` was computed at, N*m.
     value, limit : float
         In `unit`, both positive; `value` may reach `limit`.
-    torque_exponent : float
-        `value` grows as torque to this power: 1 for forces and stresses, 0.5 for Hertz pressures of
-        line contacts.
+    torque_capacity : float
+        Torque at which `value` reaches `limit`, N*m.
     model : str
-        What `value` rests on.
-    solved_capacity : float or None
-        Torque at which a model that knows no such power reaches the limit, N*m.
+        What `value` and `torque_capacity` rest on.
     """
 
     part: str
@@ -42,30 +39,23 @@ class CycloidLimit:
     value: float
     limit: float
     unit: str
-    torque_exponent: float = 1.0
-    model: str = "rigid law"
-    solved_capacity: float | None = None
+    torque_capacity: float
+    model: str = ""
 
     def __post_init__(self) -> None:
         """Refuse what has no margin."""
-        if min(self.torque, self.value, self.limit, self.torque_exponent) <= 0.0:
+        numbers = (self.torque, self.value, self.limit)
+        if min(numbers) <= 0.0 or self.torque_capacity < 0.0:
             raise UsageError(
-                f"cycloid limit '{self.part}, {self.title}': torque, value, limit and exponent "
-                f"must be positive, not {self.torque:g}, {self.value:g}, {self.limit:g}, "
-                f"{self.torque_exponent:g}."
+                f"cycloid limit '{self.part}, {self.title}': torque, value and limit must be "
+                f"positive and the capacity not negative, not {self.torque:g}, {self.value:g}, "
+                f"{self.limit:g}, {self.torque_capacity:g}."
             )
 
     @property
     def margin(self) -> float:
         """limit/value."""
         return self.limit / self.value
-
-    @property
-    def torque_capacity(self) -> float:
-        """Torque at which the limit is reached, N*m: margins of stress and pressure made equal."""
-        if self.solved_capacity is not None:
-            return self.solved_capacity
-        return float(self.torque * self.margin ** (1.0 / self.torque_exponent))
 
     @property
     def holds(self) -> bool:
@@ -93,8 +83,8 @@ def binding_limit(limits: Sequence[CycloidLimit], load: LoadName) -> CycloidLimi
 
     Examples
     --------
-    >>> pins = CycloidLimit("output pins", "shear", "peak", 120.0, 49.0, 120.7, "MPa")
-    >>> ring = CycloidLimit("ring teeth", "pressure", "peak", 120.0, 1527.0, 1393.0, "MPa", 0.5)
+    >>> pins = CycloidLimit("output pins", "shear", "peak", 120.0, 49.0, 120.7, "MPa", 295.6)
+    >>> ring = CycloidLimit("ring teeth", "pressure", "peak", 120.0, 1527.0, 1393.0, "MPa", 99.9)
     >>> binding_limit([pins, ring], "peak").part
     'ring teeth'
     """

@@ -9,15 +9,12 @@ from typing import Any
 from cqdd_design.catalog import find_material, paper
 from cqdd_design.design import Design
 from cqdd_design.design.model import SCHEMA_VERSION
-from cqdd_design.errors import ContactError, UsageError
-from cqdd_design.gearbox import GearboxAnalysis
-from cqdd_design.gearbox.bearing_life import load_for_life
-from cqdd_design.gearbox.checks.allowables import LIFE_HOURS, STATIC_SAFETY, UNEVEN_SHARING
+from cqdd_design.errors import UsageError
 from cqdd_design.machine import Machine, resolve
-from cqdd_design.machine.capacity import LOAD_OF_CHECK, LoadedContacts
+from cqdd_design.machine.carrying import torque_limits
 from cqdd_design.planetary.claims import PaperCase
 from cqdd_design.planetary.compare import PlanetaryComparison, compare_planetary
-from cqdd_design.planetary.cycloid import CycloidLimit, LoadName
+from cqdd_design.planetary.cycloid import CycloidLimit
 from cqdd_design.planetary.gear_material import GearMaterial, Quality, gear_material
 from cqdd_design.planetary.kinematics import PlanetaryTeeth
 from cqdd_design.planetary.settings import RatingSettings
@@ -111,72 +108,19 @@ def papers_machine() -> Machine:
     return resolve(Design.from_mapping(nested, source=paper.SOURCE, si=True))
 
 
-#: Strength checks that limit the torque of a cycloid: part, load, how the value grows with torque.
-_TORQUE_LIMITS: dict[str, tuple[str, LoadName, float]] = {
-    "CONTACT-RING-PEAK": ("ring teeth", "peak", 0.5),
-    "CONTACT-RING-CONTINUOUS": ("ring teeth", "continuous", 0.5),
-    "CONTACT-PIN-PEAK": ("output pins", "peak", 0.5),
-    "CONTACT-PIN-CONTINUOUS": ("output pins", "continuous", 0.5),
-    "PIN-SHEAR-PEAK": ("output pins", "peak", 1.0),
-    "PIN-BENDING-PEAK": ("output pins", "peak", 1.0),
-    "PIN-BENDING-CONTINUOUS": ("output pins", "continuous", 1.0),
-    "PIN-BEARING-PEAK": ("output pins", "peak", 1.0),
-}
-EQUILIBRIUM, RIGID = "contact equilibrium", f"rigid law x {UNEVEN_SHARING:g}"
-
-
 def cycloid_limits(machine: Machine) -> tuple[CycloidLimit, ...]:
-    """What limits the torque of a machine's gearbox, for the comparison.
-
-    Values and capacities are those of the contact equilibrium of perfect parts over the period and
-    both senses of torque; stresses of pins go with their force. Where the torques asked for have no
-    equilibrium they are the checks', and say so.
-    """
-    rigid = _rigid_limits(machine.analysis)
-    contacts = LoadedContacts(machine)
-    try:
-        return tuple(_by_equilibrium(machine.analysis, contacts, *one) for one in rigid)
-    except ContactError:
-        return tuple(limit for limit, _ in rigid)
-
-
-def _rigid_limits(analysis: GearboxAnalysis) -> list[tuple[CycloidLimit, str]]:
-    """The limits by the checks, each with the key of its force or pressure in the equilibrium."""
-    requirements = analysis.design.requirements
-    torque = {"peak": requirements.peak_torque, "continuous": requirements.continuous_torque}
-    found = []
-    for check in analysis.checks:
-        if check.id in _TORQUE_LIMITS and check.limit > 0.0:
-            part, at, exponent = _TORQUE_LIMITS[check.id]
-            numbers = (torque[at], check.value, check.limit, check.unit, exponent, RIGID)
-            limit_of_part = CycloidLimit(part, check.title, at, *numbers)
-            found.append((limit_of_part, LOAD_OF_CHECK[check.id]))
-    cam = analysis.cam_bearing
-    if cam.bearing.static_rating and cam.bearing.dynamic_rating:
-        bearable = load_for_life(cam.bearing.dynamic_rating, LIFE_HOURS, cam.speed, cam.exponent)
-        static = cam.bearing.static_rating / STATIC_SAFETY
-        rows: tuple[tuple[LoadName, str, float, float], ...] = (
-            ("peak", f"C0/P = {STATIC_SAFETY:g}", cam.peak_load, static),
-            ("continuous", f"L10h = {LIFE_HOURS:g} h", cam.continuous_load, float(bearable)),
+    """What limits the torque of a machine's gearbox, as the comparison takes it."""
+    return tuple(
+        CycloidLimit(
+            part=one.row.part,
+            title=one.title,
+            load=one.row.load,
+            torque=one.asked,
+            value=one.value,
+            limit=one.limit,
+            unit=one.unit,
+            torque_capacity=one.torque,
+            model=one.model,
         )
-        for load, words, value, limit in rows:
-            numbers = (torque[load], value, limit, "N", 1.0, RIGID)
-            limit_of_cam = CycloidLimit("cam bearing", f"load for {words}", load, *numbers)
-            found.append((limit_of_cam, LOAD_OF_CHECK["BEARING-STATIC"]))
-    return found
-
-
-def _by_equilibrium(
-    analysis: GearboxAnalysis, contacts: LoadedContacts, rigid: CycloidLimit, key: str
-) -> CycloidLimit:
-    """A limit by the checks with the force or pressure of the equilibrium in its place."""
-    unit = 1.0
-    if key == "output_pin_force_max_N":
-        load = analysis.rigid_peak if rigid.load == "peak" else analysis.rigid_continuous
-        unit = rigid.value / (UNEVEN_SHARING * load.output_pin_force)
-    return replace(
-        rigid,
-        value=unit * contacts.greatest(rigid.torque)[key],
-        model=EQUILIBRIUM,
-        solved_capacity=contacts.torque_at(key, rigid.limit / unit, rigid.torque),
+        for one in torque_limits(machine)
     )

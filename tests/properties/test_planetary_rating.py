@@ -335,9 +335,9 @@ def test_comparison_refuses(change, error, named):
 
 def limits() -> list[CycloidLimit]:
     return [
-        CycloidLimit("output pins", "bending", "peak", 120.0, 963.0, 900.0, "MPa"),
-        CycloidLimit("ring teeth", "pressure", "peak", 120.0, 1527.0, 1393.0, "MPa", 0.5),
-        CycloidLimit("ring teeth", "pressure", "continuous", 40.0, 882.0, 944.0, "MPa", 0.5),
+        CycloidLimit("output pins", "bending", "peak", 120.0, 963.0, 900.0, "MPa", 112.1),
+        CycloidLimit("ring teeth", "pressure", "peak", 120.0, 1527.0, 1393.0, "MPa", 99.9),
+        CycloidLimit("ring teeth", "pressure", "continuous", 40.0, 882.0, 944.0, "MPa", 45.8),
     ]
 
 

@@ -8,11 +8,10 @@ import pytest
 from cqdd_design.design import load_design
 from cqdd_design.errors import UsageError
 from cqdd_design.machine import resolve
+from cqdd_design.machine.carrying import EQUILIBRIUM, RIGID
 from cqdd_design.machine.contact_analysis import analyse_contact
 from cqdd_design.sizing.comparison import (
     DEFAULT_STEEL,
-    EQUILIBRIUM,
-    RIGID,
     compare_with_planetary,
     cycloid_limits,
     papers_machine,
@@ -31,7 +30,9 @@ def test_at_its_capacity_a_limit_is_just_met():
             torque["requirements.continuous_torque"] = 0.5 * limit.torque_capacity
         again = cycloid_limits(machine.changed(torque))
         (same,) = [one for one in again if one.title == limit.title]
-        assert same.model == RIGID or math.isclose(same.value, limit.limit, rel_tol=2e-3), limit
+        assert same.model != EQUILIBRIUM or math.isclose(same.value, limit.limit, rel_tol=2e-3), (
+            limit
+        )
 
 
 def test_values_are_those_of_analyse():
@@ -54,14 +55,15 @@ def test_values_are_those_of_analyse():
     assert {one.model for one in found.values()} == {EQUILIBRIUM}
 
 
-def test_without_an_equilibrium_limits_are_the_checks_and_say_so():
+def test_a_torque_without_equilibrium_has_the_value_of_its_check_and_a_capacity_below():
+    """20 kN m bends everything out of reach; what the ring carries is found from less."""
     machine = resolve(PAPER.replacing({"requirements.peak_torque": 20000.0}))
-    limits = cycloid_limits(machine)
-    assert {one.model for one in limits} == {RIGID} == {"rigid law x 1.15"}
-    (ring,) = [one for one in limits if "ring, peak" in one.title]
+    (ring,) = [one for one in cycloid_limits(machine) if "ring, peak" in one.title]
     (check,) = [one for one in machine.analysis.checks if one.id == "CONTACT-RING-PEAK"]
     assert ring.value == check.value
-    assert ring.torque_capacity == pytest.approx(20000.0 * (check.limit / check.value) ** 2)
+    assert ring.model == f"{RIGID}; torque by the {EQUILIBRIUM}"
+    usual = {one.title: one for one in cycloid_limits(resolve(PAPER))}[ring.title]
+    assert ring.torque_capacity == pytest.approx(usual.torque_capacity, rel=5e-3)
 
 
 def test_every_strength_check_of_ring_pins_and_bearing_takes_part():

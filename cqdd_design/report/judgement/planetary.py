@@ -40,10 +40,10 @@ def planetary_view(comparison: PlanetaryComparison) -> Values:
                 limit.title,
                 f"{significant(limit.value)} of {with_unit(limit.limit, limit.unit)}",
                 (with_unit(limit.torque_capacity, "N*m", 3), limit.holds),
-                limit.model,
             )
             for limit in limits
         ),
+        "cycloid_models": " and ".join(dict.fromkeys(limit.model for limit in limits)),
         "claims": tuple(
             (
                 printed(claim.claim),
