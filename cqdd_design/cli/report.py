@@ -27,7 +27,7 @@ def report(
 
     loaded = load_design(design)
     out.note_compilation(simulation=True)
-    file, analysis = write_report(
+    written = write_report(
         loaded,
         target,
         specimen=read_specimen(
@@ -37,7 +37,8 @@ def report(
         force=force,
         progress=out.stages(REPORT_STAGES),
     )
-    out.wrote([file])
-    out.say(f"{loaded.name}: {verdict(analysis.checks)}")
-    out.warn(*analysis.warnings)
-    out.document({}, design=loaded, checks=analysis.checks, files=[file])
+    checks = written.analysis.checks
+    out.wrote([written.file])
+    out.say(f"{loaded.name}: {verdict(checks)}")
+    out.warn(*written.analysis.warnings, *written.short)
+    out.document({}, design=loaded, checks=checks, files=[written.file])

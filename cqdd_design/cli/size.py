@@ -85,7 +85,7 @@ def size(
     )
     out.say(*_lines(road.design, road.sizing))
     out.warn(*(f"{c.id}: {c.remedy}." for c in road.sizing.checks if c.status == "warn"))
-    out.warn(*road.sizing.warnings)
+    out.warn(*road.sizing.warnings, *road.short)
     out.wrote(road.files)
     results, checks = road.sizing.to_dict(), road.sizing.checks
     out.document(results, design=road.design, checks=checks, files=road.files)

@@ -34,6 +34,7 @@ from cqdd_design.report.judgement.facts import derived_values, head_facts
 from cqdd_design.report.judgement.origins import Value, defaults, values_by_group
 from cqdd_design.report.judgement.planetary import planetary_view
 from cqdd_design.report.judgement.search import sizing_view
+from cqdd_design.report.judgement.shortfalls import shortfalls
 from cqdd_design.report.judgement.verdict import pin_figure, verdict
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ def build_report(results: ReportInput) -> str:
     str
         HTML, to be written as UTF-8.
     """
-    judged = verdict(results.design, results.gearbox.checks)
+    judged = verdict(results.design, results.gearbox.checks, shortfalls(results))
     shown = [chapter for chapter in _chapters(results) if chapter.values is not None]
     context: Values = {
         "design": results.design,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import NamedTuple
 
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
@@ -14,6 +15,7 @@ from cqdd_design.machine import Machine
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
 from cqdd_design.machine.weighing import weigh_if_possible
 from cqdd_design.report import ReportInput, build_report, read_comments
+from cqdd_design.report.judgement.shortfalls import shortfalls
 from cqdd_design.report.machine_view.apart import start_drawing
 from cqdd_design.roads.bench import measured_actuator
 from cqdd_design.roads.telling import Progress, provenance, silent
@@ -29,6 +31,14 @@ REPORT_SAMPLES, LEAST_REPORT_SAMPLES = 400, 128
 _REPORT_ANGLES = 1000
 
 
+class WrittenReport(NamedTuple):
+    """A report's file, the analysis it shows, and where closer models say less than is asked."""
+
+    file: WrittenFile
+    analysis: GearboxAnalysis
+    short: tuple[str, ...]
+
+
 def write_report(
     design: Design,
     path: Path | None = None,
@@ -40,7 +50,7 @@ def write_report(
     samples: int = REPORT_SAMPLES,
     force: bool = False,
     progress: Progress = silent,
-) -> tuple[WrittenFile, GearboxAnalysis]:
+) -> WrittenReport:
     """Write the report of a design.
 
     Parameters
@@ -64,8 +74,8 @@ def write_report(
 
     Returns
     -------
-    WrittenFile, GearboxAnalysis
-        The report, and the analysis it shows.
+    WrittenReport
+        The file, and what it says.
     """
     target = path or Path("reports") / f"{design.name}.html"
     refuse_overwrite(target, force=force or path is None)
@@ -98,7 +108,9 @@ def write_report(
         bench_missing=unmeasured,
     )
     progress("writing the report")
-    return write_atomically(target, build_report(results), "report"), analysis
+    file = write_atomically(target, build_report(results), "report")
+    short = tuple(one.sentence for one in shortfalls(results))
+    return WrittenReport(file, analysis, short)
 
 
 def _contact_and_tolerances(

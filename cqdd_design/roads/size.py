@@ -32,11 +32,14 @@ class Road:
         The sized design under the name of its file.
     files : tuple of WrittenFile
         The design file first, then exports, then the report.
+    short : tuple of str
+        Where the models of the report say less than is asked.
     """
 
     sizing: SizingResult
     design: Design
     files: tuple[WrittenFile, ...]
+    short: tuple[str, ...] = ()
 
 
 def size_and_write(
@@ -88,17 +91,18 @@ def size_and_write(
     design = sizing.design.replacing({"schema_version": 1, "name": target.stem})
     specimen = Specimen(motor=motor)
     files: tuple[WrittenFile, ...] = (_write_fresh(target, design),)
+    short: tuple[str, ...] = ()
     if kinds:
         files += export(specimen.machine(design), kinds, specimen=specimen, progress=progress)
     if report:
         # It computes everything there is, and imports as much.
         from cqdd_design.roads.report import write_report
 
-        written, _ = write_report(
+        written = write_report(
             design, specimen=specimen, source=target, sizing=sizing, files=files, progress=progress
         )
-        files += (written,)
-    return Road(sizing, design, files)
+        files, short = (*files, written.file), written.short
+    return Road(sizing, design, files, short)
 
 
 def road_stages(kinds: tuple[str, ...], *, report: bool) -> int:

@@ -19,12 +19,9 @@ import numpy as np
 import pytest
 from published_rows import Row, inputs, label, published_rows
 
+from cqdd_design.geometry import trochoid
 from cqdd_design.geometry.cycloid import CycloidDisc
-from cqdd_design.geometry.trochoid import (
-    locus_curvature,
-    locus_valley_radius,
-    undercut_radius_limit,
-)
+from cqdd_design.geometry.trochoid import locus_curvature, undercut_radius_limit
 
 Compared = Callable[..., None]
 LIMITS = published_rows("curvature", "least convex radius")
@@ -37,24 +34,21 @@ def test_no_row_is_missing() -> None:
     assert len(KROL) == 6
 
 
-@pytest.mark.parametrize("row", LIMITS, ids=label)
-def test_undercut_limit(row: Row, compared: Compared) -> None:
+@pytest.mark.parametrize(
+    ("row", "radius"),
+    [(row, "undercut_radius_limit") for row in LIMITS]
+    + [(row, "locus_valley_radius") for row in VALLEYS],
+    ids=lambda one: one if isinstance(one, str) else label(one),
+)
+def test_radii_of_the_locus(row: Row, radius: str, compared: Compared) -> None:
     given = inputs(row)
 
     def ours() -> float:
-        return 1e3 * float(undercut_radius_limit(given["N"], given["R"] * 1e-3, given["E"] * 1e-3))
+        # Looked up each time: `compared` exchanges it in its module.
+        size = (given["R"] * 1e-3, given["E"] * 1e-3)
+        return 1e3 * float(getattr(trochoid, radius)(given["N"], *size))
 
-    compared(row, ours, undercut_radius_limit)
-
-
-@pytest.mark.parametrize("row", VALLEYS, ids=label)
-def test_valley_radius(row: Row, compared: Compared) -> None:
-    given = inputs(row)
-
-    def ours() -> float:
-        return 1e3 * float(locus_valley_radius(given["N"], given["R"] * 1e-3, given["E"] * 1e-3))
-
-    compared(row, ours, locus_valley_radius)
+    compared(row, ours, getattr(trochoid, radius))
 
 
 @pytest.mark.parametrize("row", KROL, ids=label)

@@ -10,6 +10,7 @@ from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.report.ink.numbers import TIMES, decimals, significant, with_unit
 from cqdd_design.report.ink.page import Values
 from cqdd_design.report.judgement.check_rows import closest, failing
+from cqdd_design.report.judgement.shortfalls import Shortfall
 from cqdd_design.results import Check, worst_status
 
 _CLOSEST = 6
@@ -22,8 +23,14 @@ _SCREEN = (
 )
 
 
-def verdict(design: Design, checks: Sequence[Check]) -> Values:
-    """What a reader must know first: failures and warnings, or the least margins where none."""
+def verdict(design: Design, checks: Sequence[Check], short: Sequence[Shortfall] = ()) -> Values:
+    """What a reader must know first: failures and warnings, or the least margins where none.
+
+    Parameters
+    ----------
+    short : sequence of Shortfall
+        What closer models find not to be met: no design that has any is shown as passing.
+    """
     name, asked = design.name, design.requirements
     status = worst_status(checks)
     total = len(checks)
@@ -46,17 +53,23 @@ def verdict(design: Design, checks: Sequence[Check]) -> Values:
     else:
         badge = f"Passes all {total} checks"
         headline = f"{name} passes all {total} checks {at}."
+    if short and status != "fail":
+        status = "warn"
+        badge = "Checks pass, closer models do not"
+        headline = headline.removesuffix(".") + ", but closer models say less than is asked."
     also = (
         f" {_count(warned, 'more is a warning', 'more are warnings')}." if failed and warned else ""
     )
     margin = significant(least.margin, 3)
+    screen = "" if failed or short else _SCREEN
     return {
         "status": status,
         "badge": badge,
         "headline": headline,
         "detail": f"The least margin is {margin}, in "
-        f"“{least.title[0].lower()}{least.title[1:]}”.{also}" + ("" if failed else _SCREEN),
+        f"“{least.title[0].lower()}{least.title[1:]}”.{also}{screen}",
         "rows": failing(checks),
+        "short": short,
         "closest": () if failed else closest(checks, _CLOSEST),
         "least": margin,
     }
