@@ -19,7 +19,12 @@ from typing import Any
 import pytest
 from hypothesis import settings
 
-import cqdd_design
+# Modules and rewritten tests stay compiled, for every process of a run and for the next run,
+# whatever the environment says: a thousand files would be compiled anew in each.
+sys.dont_write_bytecode = False
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+
+import cqdd_design  # noqa: E402
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 
