@@ -1,8 +1,8 @@
 """Plain numpy equilibrium of the contacts with Coulomb friction at ring teeth and output pins.
 
 Every contact slides all the time while the crank turns, in a direction that the kinematics alone
-gives, so that its friction is a known share m of its normal force, along the normal turned a quarter
-turn counter-clockwise: m = -mu (sign of the slip along that tangent) (sense of the crank's turning).
+gives, so that its friction is a known share m of its normal force, along the normal turned a
+quarter turn counter-clockwise: m = -mu (sign of the slip along that tangent) (sense of the crank).
 A contact then pushes along a line that differs from the one it closes along; the matrix of Newton's
 method is not symmetric and no energy exists. The coefficient of friction is raised from zero, where
 the minimum of the energy is known, in steps that halve where the method fails. Dense matrices, one
