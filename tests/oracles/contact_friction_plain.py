@@ -20,7 +20,10 @@ from numpy.typing import NDArray
 from cqdd_design.gearbox.contact.kernel_values import Toleranced
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import NominalStates
+from cqdd_design.gearbox.contact.tables import nearest_parameter
 from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.contours import as_complex, as_points
+from cqdd_design.geometry.meshing import tooth_centres
 
 FloatArray = NDArray[np.float64]
 
@@ -119,7 +122,7 @@ class _Balance:
         torque: float,
     ) -> None:
         self.model = model
-        self.gaps, self.coefficient = changed.gaps[a], states.coefficient[a]
+        self.gaps, self.coefficient = changed.gaps[a].copy(), states.coefficient[a]
         self.offset, self.half_play = changed.offset[a], changed.half_play
         self.rub = rubbing(model, states, a)
         self.pull = torque / states.length
@@ -208,6 +211,102 @@ class _Balance:
         return None
 
 
+class _Following(_Balance):
+    """The same with points, normals and arms of the bodies where they are, not where they should.
+
+    Linear about the state `q`: closings, and what they push along, are exact there. The cam's
+    force goes through the displaced centre, about which the moments of a disc are taken.
+    """
+
+    def __init__(
+        self,
+        model: ContactModel,
+        states: NominalStates,
+        changed: Toleranced,
+        a: int,
+        torque: float,
+        q: FloatArray,
+    ) -> None:
+        super().__init__(model, states, changed, a, torque)
+        n, teeth, length, disc = model.lobe_count, model.tooth_count, states.length, model.disc
+        own = states.crank_angle[a] + model.phases
+        turn, shift = kinematics.disc_pose(disc, own)
+        tooth = as_complex(tooth_centres(disc))
+        pins = model.pin_circle_radius * np.exp(1j * states.pin_angle[a])
+        carried = complex(q[0], q[1]) + pins * np.exp(1j * q[2] / length)
+        changes = changed.gaps[a] - states.gaps[a]
+        for d in range(len(self.gaps)):
+            x, y, swing = q[3 + 3 * d : 6 + 3 * d]
+            centre = shift[d] + complex(x, y)
+            tilt = np.exp(1j * swing / length)
+            seen = (tooth - centre) / (turn[d] * tilt)
+            t = nearest_parameter(disc, as_points(seen), states.ring.parameter[a, d])
+            foot, outward = disc.profile(t)
+            hole = centre + pins * tilt
+            apart = carried - hole
+            normal = np.concatenate([-outward * turn[d] * tilt, apart / np.abs(apart)])
+            point = np.concatenate(
+                [
+                    foot * turn[d] * tilt + centre,
+                    carried + model.pin_contact_radius * normal[teeth:],
+                ]
+            )
+            gap = np.concatenate(
+                [
+                    ((seen - foot) * np.conj(outward)).real - disc.tooth_radius,
+                    model.hole_radius - model.pin_contact_radius - np.abs(apart),
+                ]
+            )
+            tangent = 1j * normal
+            about = point - centre
+            at = slice(3 + 3 * d, 6 + 3 * d)
+            for rows, way, sign in ((self.closing, normal, -1.0), (self.tangent, tangent, 1.0)):
+                arm = (np.conj(about) * way).imag / length
+                rows[d, :, at] = sign * np.column_stack([way.real, way.imag, arm])
+                held = (np.conj(point - complex(q[0], q[1])) * way).imag / length
+                rows[d, teeth:, :3] = -sign * np.column_stack([way.real, way.imag, held])[teeth:]
+            self.gaps[d] = gap + changes[d] + self.closing[d] @ q
+            # Slip of the points where they are, as the nominal motion carries them.
+            pitch = centre + n * shift[d]
+            moved = np.concatenate(
+                [
+                    -1j / n * (point[:teeth] - pitch),
+                    1j * (1.0 + 1.0 / n) * np.full(len(pins), shift[d]),
+                ]
+            )
+            self.rub.slip[d] = (moved * np.conj(tangent)).real
+
+
+def solve_following(
+    model: ContactModel,
+    states: NominalStates,
+    changed: Toleranced,
+    a: int,
+    torque: float,
+    coefficients: tuple[float, float],
+    sense: float,
+    start: FloatArray,
+) -> PlainFriction:
+    """As :func:`solve_friction_plain`, with normals that follow the bodies.
+
+    `start` is the state with nominal normals, with friction or without it.
+    """
+    q = start
+    for _ in range(20):
+        balance = _Following(model, states, changed, a, torque, q)
+        m = _shares(model, balance.rub, torque, coefficients, sense)
+        found = balance.solved(q, m)
+        if found is None:
+            raise AssertionError("no equilibrium with normals that follow the bodies")
+        change = float(np.abs(found - q).max())
+        q = found
+        if change < 1e-13:
+            break
+    else:
+        raise AssertionError("normals and bodies do not settle")
+    return _result(model, states, a, balance, q, m, 1.0)
+
+
 def solve_friction_plain(
     model: ContactModel,
     states: NominalStates,
@@ -235,10 +334,7 @@ def solve_friction_plain(
         The frictionless equilibrium.
     """
     balance = _Balance(model, states, changed, a, torque)
-    turning = sense * (1.0 if torque >= 0.0 else -1.0)
-    teeth = model.tooth_count
-    mu = np.where(np.arange(balance.gaps.shape[1]) < teeth, *coefficients)
-    full = -np.sign(balance.rub.slip) * turning * mu
+    full = _shares(model, balance.rub, torque, coefficients, sense)
     reached, rise = 0.0, 1.0
     begun = balance.solved(start, 0.0 * full)
     if begun is None:
@@ -255,7 +351,31 @@ def solve_friction_plain(
             rise *= 0.5
             continue
         before, q, reached = (reached, q), found, share
-    m = reached * full
+    return _result(model, states, a, balance, q, reached * full, reached)
+
+
+def _shares(
+    model: ContactModel,
+    rub: Rubbing,
+    torque: float,
+    coefficients: tuple[float, float],
+    sense: float,
+) -> FloatArray:
+    """Signed friction over normal force of every contact, (D, C)."""
+    turning = sense * (1.0 if torque >= 0.0 else -1.0)
+    mu = np.where(np.arange(rub.slip.shape[1]) < model.tooth_count, *coefficients)
+    return np.asarray(-np.sign(rub.slip) * turning * mu)
+
+
+def _result(
+    model: ContactModel,
+    states: NominalStates,
+    a: int,
+    balance: _Balance,
+    q: FloatArray,
+    m: FloatArray,
+    reached: float,
+) -> PlainFriction:
     _, _, force, cam_force = balance.at(q, m)
     tangential = m * force
     centre = kinematics.disc_centre(model.eccentricity, states.crank_angle[a], model.phases)

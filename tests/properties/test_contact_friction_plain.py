@@ -13,6 +13,7 @@ from contact_friction_plain import (
     DRIVE,
     PlainFriction,
     rubbing,
+    solve_following,
     solve_friction_plain,
 )
 from examples import examples
@@ -180,6 +181,40 @@ def test_reference_design_has_the_figures_of_a_second_implementation(
     assert pressed.max() == pytest.approx(pressure, rel=0.005)
     assert max(loads) == pytest.approx(cam, rel=0.005)
     assert torque / model.lobe_count / spent == pytest.approx(efficiency, abs=0.002)
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.08])
+def test_normals_that_follow_the_bodies_change_a_force_by_little(mu: float) -> None:
+    """What the linearisation at the nominal pose leaves out, at the continuous torque."""
+    model, torque = reference_s(), 34.2
+    states = nominal_states(model, perfect_angles(model, 3))
+    sweep = contact_sweep(model, torque, states=states)
+    changed = error_states(model, states, None)
+    nominal = rubbed(sweep, states, (mu, mu), DRIVE)
+    scale = max(one.force.max() for one in nominal)
+    for a, one in enumerate(nominal):
+        moved = solve_following(model, states, changed, a, torque, (mu, mu), DRIVE, one.state)
+        assert 1e-4 * scale < np.abs(moved.force - one.force).max() < 0.03 * scale
+
+
+@pytest.mark.parametrize(
+    ("torque", "cam", "efficiency"), [(34.2, 1155.0, 0.7725), (90.0, 3081.0, 0.755)]
+)
+def test_with_such_normals_the_second_implementation_agrees(
+    torque: float, cam: float, efficiency: float
+) -> None:
+    model = reference_s()
+    states = nominal_states(model, perfect_angles(model, 6))
+    changed = error_states(model, states, None)
+    sweep = contact_sweep(model, torque, states=states)
+    start = sweep.state_vectors
+    found = [
+        solve_following(model, states, changed, a, torque, (0.08, 0.08), DRIVE, start[a])
+        for a in range(len(start))
+    ]
+    spent = np.mean([one.input_torque for one in found])
+    assert max(np.hypot(*one.cam_force.T).max() for one in found) == pytest.approx(cam, rel=1e-3)
+    assert torque / model.lobe_count / spent == pytest.approx(efficiency, abs=5e-4)
 
 
 def test_it_locks_where_friction_alone_can_hold_the_carrier() -> None:
