@@ -23,6 +23,14 @@ class ContactLaw(StrEnum):
     linear = "linear"
 
 
+class Friction(StrEnum):
+    """Which way power goes through contacts that rub, if they do."""
+
+    drive = "drive"
+    backdrive = "backdrive"
+    off = "off"
+
+
 def analyse(
     out: Output,
     design: DesignFile,
@@ -34,6 +42,12 @@ def analyse(
     law: Annotated[
         ContactLaw, typer.Option("--contact-law", help="How line contacts yield to force.")
     ] = ContactLaw.palmgren,
+    friction: Annotated[
+        Friction,
+        typer.Option(
+            "--friction", help="Contact forces with friction while the crank or the output drives."
+        ),
+    ] = Friction.off,
 ) -> None:
     """Loads, contact equilibrium, precision, losses and life."""
     from cqdd_design.cli.tables import verdict
@@ -46,7 +60,12 @@ def analyse(
     loaded = load_design(design)
     out.note_compilation()
     found = analysed(
-        loaded, torque=asked_torque, speed=asked_speed, angles=angles, line_model=law.value
+        loaded,
+        torque=asked_torque,
+        speed=asked_speed,
+        angles=angles,
+        line_model=law.value,
+        friction=friction.value,
     )
     results, checks = found.to_dict(), found.gearbox.checks
     lines = _lines(found.gearbox, results)

@@ -11,6 +11,7 @@ import numpy as np
 
 from cqdd_design.gearbox.contact.laws import LineModel
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.rubbing import ContactFriction, FrictionChoice
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.contact.sweep import ANGLES, contact_sweep, perfect_angles
@@ -56,7 +57,7 @@ class ContactAnalysis:
     def crank_turn(self) -> ContactSweep:
         """The same load over one crank turn, every two degrees, for pictures."""
         angle = 2.0 * np.pi * np.arange(_PICTURE_ANGLES) / _PICTURE_ANGLES
-        return contact_sweep(self.model, self.sweep.torque, angle)
+        return contact_sweep(self.model, self.sweep.torque, angle, friction=self.sweep.friction)
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -84,6 +85,7 @@ def analyse_contact(
     torque: float | None = None,
     angles: int = ANGLES,
     line_model: LineModel = "palmgren",
+    friction: FrictionChoice = "off",
 ) -> ContactAnalysis:
     """Solve the contact equilibrium of a machine over its period, and what follows from it.
 
@@ -96,6 +98,9 @@ def analyse_contact(
         Crank angles over the period.
     line_model : {"palmgren", "johnson", "linear"}
         Approach of teeth and pins.
+    friction : {"drive", "backdrive", "off"}
+        Which way power goes through the forces of `sweep`, `reversed` and `preload`, with Coulomb
+        friction at teeth and pins, or ``off`` without it, as everything else is.
 
     Raises
     ------
@@ -108,17 +113,21 @@ def analyse_contact(
     asked = design.requirements
     peak = asked.peak_torque if torque is None else torque
     steady = asked.continuous_torque if torque is None else torque
-    sweep = contact_sweep(model, peak, states=states)
+    parts = machine.friction
+    rubbed = None
+    if friction != "off":
+        rubbed = ContactFriction(friction, parts.tooth_coefficient, parts.hole_coefficient)
+    sweep = contact_sweep(model, peak, states=states, friction=rubbed)
     tight = bool(states.gaps.min() < 0.0)
-    friction = machine.losses if usual else loss_model(model, machine.friction, asked.peak_torque)
+    losses = machine.losses if usual else loss_model(model, parts, asked.peak_torque)
     shares = np.arange(1, _MAP_STEPS + 1) / _MAP_STEPS
     return ContactAnalysis(
         model=model,
         sweep=sweep,
-        reversed=contact_sweep(model, -peak, states=states),
-        preload=contact_sweep(model, 0.0, states=states) if tight else None,
+        reversed=contact_sweep(model, -peak, states=states, friction=rubbed),
+        preload=contact_sweep(model, 0.0, states=states, friction=rubbed) if tight else None,
         precision=precision(model, steady, angles=angles),
-        losses=friction.at(asked.input_speed, steady),
-        map=friction.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),
+        losses=losses.at(asked.input_speed, steady),
+        map=losses.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),
         life=life(design, model),
     )

@@ -8,6 +8,7 @@ from cqdd_design.design import Design
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.gearbox.contact.laws import LineModel
+from cqdd_design.gearbox.contact.rubbing import FrictionChoice
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
 
@@ -51,6 +52,7 @@ def analyse(
     speed: float | None = None,
     angles: int,
     line_model: LineModel = "palmgren",
+    friction: FrictionChoice = "off",
 ) -> Analysis:
     """Analyse a design; one that cannot carry the torque as far as closed forms go.
 
@@ -64,6 +66,8 @@ def analyse(
         Crank angles over a period.
     line_model : {"palmgren", "johnson", "linear"}
         Approach of teeth and pins.
+    friction : {"drive", "backdrive", "off"}
+        Of the contact forces; see `analyse_contact`.
 
     Raises
     ------
@@ -74,7 +78,9 @@ def analyse(
     machine = resolve(asked)
     gearbox = machine.analyse(torque=torque, angles=angles)
     try:
-        contact = analyse_contact(machine, torque=torque, angles=angles, line_model=line_model)
+        contact = analyse_contact(
+            machine, torque=torque, angles=angles, line_model=line_model, friction=friction
+        )
     except ContactError as error:
         return Analysis(machine, gearbox, None, error.message)
     return Analysis(machine, gearbox, contact, "")

@@ -93,16 +93,16 @@ def solve_state(
         stuck = (
             iteration > 3
             and residual >= 0.25 * previous
-            and residual <= max(1e-7 * scale, _rounding(work.stiff, state))
+            and residual <= max(1e-7 * scale, rounding(work.stiff, state))
         )
         if residual <= _NEARLY * scale or stuck:
             # The last step is taken on the forces too, in first order: this balances them to
             # rounding, and its own error is the square of a relative 1e-6.
             smooth = True
             if residual > _GOOD * scale and not stuck:
-                smooth = _within_first_order(contacts, springs.teeth, work, scale)
+                smooth = within_first_order(contacts, springs.teeth, work, scale)
             if smooth:
-                _take_step(contacts, springs, state, forces, work)
+                take_step(contacts, springs, state, forces, work)
                 return CONVERGED, iteration, torsional
         previous = residual
         slope = 0.0
@@ -206,7 +206,7 @@ def _least_along(
 
 
 @numba.njit(cache=True, error_model="numpy", forceinline=True)
-def _rounding(stiff: Any, state: Any) -> float:
+def rounding(stiff: Any, state: Any) -> float:
     """Force that the rounding of the closings alone leaves unbalanced."""
     stiffest, furthest = 0.0, 0.0
     for d in range(stiff.shape[0]):
@@ -229,7 +229,7 @@ def _moved(rows: Any, teeth: int, step: Any, d: int, k: int) -> float:
 
 
 @numba.njit(cache=True, error_model="numpy", forceinline=True)
-def _within_first_order(contacts: Contacts, teeth: int, work: Work, scale: float) -> bool:
+def within_first_order(contacts: Contacts, teeth: int, work: Work, scale: float) -> bool:
     """Whether the step neither opens nor closes a contact, nor changes a force by its square."""
     rows, step, closed, stiff = contacts.rows, work.step, work.closed, work.stiff
     discs, count = closed.shape
@@ -245,9 +245,7 @@ def _within_first_order(contacts: Contacts, teeth: int, work: Work, scale: float
 
 
 @numba.njit(cache=True, error_model="numpy", forceinline=True)
-def _take_step(
-    contacts: Contacts, springs: Springs, state: Any, forces: Forces, work: Work
-) -> None:
+def take_step(contacts: Contacts, springs: Springs, state: Any, forces: Forces, work: Work) -> None:
     """Move the state by the step and the forces by their stiffness times it."""
     rows, step, stiff, teeth = contacts.rows, work.step, work.stiff, springs.teeth
     offset, half_play, force, cam = contacts.offset, contacts.half_play, forces.contact, forces.cam

@@ -85,6 +85,30 @@ class Work(NamedTuple):
     """(6,) What is left at the carrier."""
 
 
+class Rubbing(NamedTuple):
+    """Coulomb friction at one crank angle, or (with a leading axis A) at many.
+
+    The tangent of a contact is its normal turned a quarter turn counter-clockwise.
+    """
+
+    share: FloatArray
+    """(D, C) Force on the disc along the tangent over the normal force, signed."""
+    disc_arm: FloatArray
+    carrier_arm: FloatArray
+    """(D, C) Arm of a force along the tangent about the disc's nominal centre, and about the ring's
+    centre, over length."""
+
+
+class RubbingWork(NamedTuple):
+    """Scratch of one equilibrium with friction, made by :func:`.friction_kernel.rubbing_work`."""
+
+    work: Work
+    matrix: FloatArray
+    """(3 + 3 D, 3 + 3 D)"""
+    unit: FloatArray
+    """(3 + 3 D,) Displacements by a unit torque."""
+
+
 class SweepResult(NamedTuple):
     """Equilibria at A crank angles, filled by :func:`.sweep_kernel.solve_sweep`."""
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.hertz import line_contact_pressure
 from cqdd_design.geometry.contours import FloatArray
 
@@ -35,6 +36,12 @@ class ContactSweep:
     pin_force : array (A, D, P)
         N.
     pin_normal, pin_point : array (A, D, P, 2)
+    ring_tangential, pin_tangential : array (A, D, T) and (A, D, P)
+        Friction on the disc along the normal turned a quarter turn counter-clockwise, N.
+    friction : ContactFriction or None
+        None without it.
+    friction_work : array (A,)
+        Of teeth and pins per radian of the crank, N m; not negative.
     cam_force : array (A, D, 2)
         Force of the cam bearing on the disc, N.
     disc_centre : array (A, D, 2)
@@ -48,7 +55,8 @@ class ContactSweep:
     energy : array (A,)
         Pi = E - T gamma, J.
     energy_slope : array (A,)
-        dPi/dphi at this load, N m; the input torque is T/n plus this.
+        Work of the contacts per radian of the crank at a held state, N m: without friction
+        dPi/dphi, and the input torque is T/n plus this.
     stiffness : array (A,)
         Tangent dT/dgamma, N m/rad; zero where nothing touches.
     steps : array (A,)
@@ -66,6 +74,10 @@ class ContactSweep:
     pin_force: FloatArray
     pin_normal: FloatArray
     pin_point: FloatArray
+    ring_tangential: FloatArray
+    pin_tangential: FloatArray
+    friction: ContactFriction | None
+    friction_work: FloatArray
     cam_force: FloatArray
     disc_centre: FloatArray
     disc_displacement: FloatArray
@@ -114,7 +126,32 @@ class ContactSweep:
         """Torque every disc takes from the carrier, (A, D), N m; they add up to the torque."""
         x, n = self.pin_point, self.pin_normal
         moment = x[..., 0] * n[..., 1] - x[..., 1] * n[..., 0]
-        return np.asarray(np.sum(self.pin_force * moment, axis=-1))
+        rubbed = self.pin_tangential * np.sum(x * n, axis=-1)
+        return np.asarray(np.sum(self.pin_force * moment + rubbed, axis=-1))
+
+    @property
+    def crank_torque(self) -> FloatArray:
+        """Torque on the crank that holds the cam forces at the nominal centres, (A,), N m.
+
+        T/n where conjugate flanks touch without friction; more while the crank drives, less while
+        it is driven, and against the crank's turning where friction locks the gearbox.
+        """
+        at, force = self.disc_centre, self.cam_force
+        moment = at[..., 0] * force[..., 1] - at[..., 1] * force[..., 0]
+        return np.asarray(np.sum(moment, axis=-1))
+
+    @property
+    def efficiency(self) -> float | None:
+        """Efficiency of teeth and pins, from the mean of their work; None without load.
+
+        Zero where friction locks the gearbox: the carrier alone does not turn the crank.
+        """
+        ideal = abs(self.torque) / self.model.lobe_count
+        if ideal == 0.0:
+            return None
+        lost = float(self.friction_work.mean()) / ideal
+        backward = self.friction is not None and self.friction.sense == "backdrive"
+        return max(1.0 - lost, 0.0) if backward else 1.0 / (1.0 + lost)
 
     @property
     def uneven_sharing(self) -> float:
@@ -160,6 +197,21 @@ class ContactSweep:
             "disc_displacement_um": shown.tolist(),
             "carrier_angle_error_arcmin": (np.degrees(self.carrier_angle_error) * 60.0).tolist(),
             "teeth_in_contact": self.teeth_in_contact.tolist(),
+            **self._friction_dict(),
             **self.maxima,
             "disc_torque_share": (share / share.sum()).tolist() if share.sum() > 0.0 else None,
+        }
+
+    def _friction_dict(self) -> dict[str, object]:
+        """What friction adds to the JSON form."""
+        if self.friction is None:
+            return {}
+        return {
+            "friction": self.friction.sense,
+            "friction_tooth": self.friction.tooth,
+            "friction_pin": self.friction.pin,
+            "ring_tangential_N": self.ring_tangential.tolist(),
+            "output_pin_tangential_N": self.pin_tangential.tolist(),
+            "crank_torque_Nm": self.crank_torque.tolist(),
+            "efficiency": self.efficiency,
         }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from cqdd_design.gearbox.contact.kernel_values import (
 )
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.rubbing import ContactFriction, rubbing, slip
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import (
     NominalStates,
@@ -59,6 +61,7 @@ def contact_sweep(
     errors: GearboxErrors | None = None,
     states: NominalStates | None = None,
     changed: Toleranced | None = None,
+    friction: ContactFriction | None = None,
 ) -> ContactSweep:
     """Solve the contact equilibrium over crank angle.
 
@@ -76,6 +79,8 @@ def contact_sweep(
         them.
     changed : Toleranced, optional
         From :func:`.states.error_states` for the same states and errors, likewise.
+    friction : ContactFriction, optional
+        Coulomb friction at teeth and pins; default none.
 
     Returns
     -------
@@ -88,7 +93,7 @@ def contact_sweep(
         Without finite crank angles, or with errors of another gearbox.
     ContactError
         When a state has no equilibrium within reach of the nominal pose, naming its angle; when
-        the load leaves the force law.
+        the load leaves the force law; when friction jams the gearbox.
     """
     from cqdd_design.gearbox.contact.sweep_kernel import solve_sweep
 
@@ -114,9 +119,49 @@ def contact_sweep(
             f"{math.degrees(states.crank_angle[failed]):.6g} deg and {torque:g} N*m; check the "
             "clearances in reducer.modification, output_pins.hole_clearance and cam_bearing."
         )
+    rubbed = _Rubbed(None, np.zeros_like(result.force), np.zeros(len(result.force)))
     _refuse_out_of_reach(model, torque, states, result.states)
+    if friction is not None:
+        result, rubbed = _with_friction(model, torque, states, changed, friction, result)
+        _refuse_out_of_reach(model, torque, states, result.states)
     _refuse_outside_law(model, torque, states, result.force)
-    return _assemble(model, torque, states, changed, result)
+    return _assemble(model, torque, states, changed, result, rubbed)
+
+
+@dataclass(frozen=True, eq=False)
+class _Rubbed:
+    """Friction of a sweep: forces along the tangents (A, D, C) and work per radian (A,)."""
+
+    friction: ContactFriction | None
+    tangential: FloatArray
+    work: FloatArray
+
+
+def _with_friction(
+    model: ContactModel,
+    torque: float,
+    states: NominalStates,
+    changed: Toleranced,
+    friction: ContactFriction,
+    smooth: SweepResult,
+) -> tuple[SweepResult, _Rubbed]:
+    """Equilibria with friction, from those without it."""
+    from cqdd_design.gearbox.contact.friction_kernel import rub_sweep
+
+    contacts, springs, load, turns, result = sweep_problem(model, torque, states, changed)
+    rubs = rubbing(model, states, friction, torque)
+    solve: Any = rub_sweep
+    failed = solve(contacts, springs, load, rubs, turns, smooth.states, result)
+    if failed >= 0:
+        raise ContactError(
+            f"at crank angle {math.degrees(states.crank_angle[failed]):.6g} deg and {torque:g} N*m "
+            f"friction of {friction.tooth:g} at the teeth and {friction.pin:g} at the pins jams "
+            "the gearbox: no forces carry the load while the contacts slide. Lower "
+            "reducer.friction.tooth and reducer.friction.pin."
+        )
+    tangential = rubs.share * result.force
+    work = np.sum(np.abs(tangential * slip(model, states)), axis=(1, 2))
+    return result, _Rubbed(friction, tangential, work)
 
 
 def _refuse_misshapen(model: ContactModel, errors: GearboxErrors | None) -> None:
@@ -214,6 +259,7 @@ def _assemble(
     states: NominalStates,
     changed: Toleranced,
     result: SweepResult,
+    rubbed: _Rubbed,
 ) -> ContactSweep:
     teeth, length = model.tooth_count, states.length
     state, force, cam_force = result.states, result.force, result.cam_force
@@ -242,6 +288,10 @@ def _assemble(
         pin_force=force[:, :, teeth:],
         pin_normal=pin_normal,
         pin_point=pin_at[:, None] + model.pin_contact_radius * pin_normal,
+        ring_tangential=rubbed.tangential[:, :, :teeth],
+        pin_tangential=rubbed.tangential[:, :, teeth:],
+        friction=rubbed.friction,
+        friction_work=rubbed.work,
         cam_force=cam_force,
         disc_centre=centre,
         disc_displacement=displacement,

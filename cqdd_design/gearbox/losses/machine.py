@@ -128,6 +128,14 @@ class FrictionMachine:
         """Turn of the crank against disc and carrier per radian of crank, 1 + 1/n."""
         return 1.0 + 1.0 / self.lobe_count
 
+    @property
+    def hole_coefficient(self) -> float:
+        """Force along the wall of a hole over the one across it: mu, or what sleeves leave of it.
+
+        A sleeve turns where the moments of both of its faces balance, t r_sleeve = mu F r_pin.
+        """
+        return self.pin_coefficient * self.sleeve_share
+
     def coulomb_work(self, forces: ContactSweep) -> dict[str, float]:
         """Mean Coulomb friction work per radian of crank over a sweep, by source, N m.
 

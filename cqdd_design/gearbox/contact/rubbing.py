@@ -1,0 +1,87 @@
+"""Coulomb friction at ring teeth and output pins as the equilibrium takes it: where, which way.
+
+While the crank turns every loaded contact slides, in a direction that the kinematics alone gives.
+Per radian of the crank a disc turns by -1/n about its pitch point P, so that along the tangent
+t = (-n_y, n_x) of a contact at c with the normal n it slides by -(c - P).n/n on the ring; against
+the carrier all of its points move by e (1 + 1/n) across the crank direction u, and along the
+tangent of a pin, whose normal is -u, by -e (1 + 1/n). Friction is then a known share of each normal
+force. A carrier turns against the crank, so that a crank which drives turns with the torque on the
+carrier, and one which is driven turns against it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from cqdd_design.gearbox.contact.kernel_values import Rubbing
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.states import NominalStates
+from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.contours import FloatArray
+
+PowerSense = Literal["drive", "backdrive"]
+FrictionChoice = Literal["drive", "backdrive", "off"]
+
+
+@dataclass(frozen=True)
+class ContactFriction:
+    """Friction of an equilibrium.
+
+    Attributes
+    ----------
+    sense : {"drive", "backdrive"}
+        Whether the crank drives the carrier, or the carrier the crank.
+    tooth, pin : float
+        mu at ring teeth, and at the holes: that of plain pins, or what sleeves leave of it.
+    """
+
+    sense: PowerSense
+    tooth: float
+    pin: float
+
+    def crank_sense(self, torque: float) -> float:
+        """Sense in which the crank turns under a torque on the carrier, 1 or -1."""
+        along = 1.0 if torque >= 0.0 else -1.0
+        return along if self.sense == "drive" else -along
+
+
+def slip(model: ContactModel, states: NominalStates) -> FloatArray:
+    """Slip of the discs along the contacts' tangents at the nominal pose, (A, D, C), m/rad."""
+    n, teeth = model.lobe_count, model.tooth_count
+    pitch_point = (n + 1) * _centre(model, states)
+    found = np.full(states.gaps.shape, -model.eccentricity * (1.0 + 1.0 / n))
+    arm = states.ring.point - pitch_point
+    found[:, :, :teeth] = -np.sum(arm * states.rows[:, :, :teeth, :2], axis=-1) / n
+    return found
+
+
+def rubbing(
+    model: ContactModel, states: NominalStates, friction: ContactFriction, torque: float
+) -> Rubbing:
+    """Friction of every contact over crank angle, for a torque on the carrier (N m).
+
+    A force along the tangent t = i n at c has the moment (c - C) x t = (c - C).n about C.
+    """
+    teeth = model.tooth_count
+    normal = states.rows[..., :2]
+    at = model.pin_circle_radius * np.stack(
+        [np.cos(states.pin_angle), np.sin(states.pin_angle)], axis=-1
+    )
+    pins = at[:, None] + model.pin_contact_radius * normal[:, :, teeth:]
+    point = np.concatenate([states.ring.point, pins], axis=2)
+    mu = np.full(states.gaps.shape[2], friction.pin)
+    mu[:teeth] = friction.tooth
+    return Rubbing(
+        share=-friction.crank_sense(torque) * mu * np.sign(slip(model, states)),
+        disc_arm=np.sum((point - _centre(model, states)) * normal, axis=-1) / states.length,
+        carrier_arm=np.sum(point * normal, axis=-1) / states.length,
+    )
+
+
+def _centre(model: ContactModel, states: NominalStates) -> FloatArray:
+    """Nominal centres of the discs, (A, D, 1, 2), m."""
+    angle = states.crank_angle[:, None]
+    return kinematics.disc_centre(model.eccentricity, angle, model.phases)[:, :, None, :]
