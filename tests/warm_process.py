@@ -4,9 +4,10 @@
 
 It imports what every command imports, and for each request forks a process that runs the command
 line from its first line to its last: its own memory, standard streams, signals and exit code. What
-is lost is only the second or two that an interpreter takes to import numpy and its kin, and the
-taking apart of all modules at its end, which in a fork copies every page they stand on. Tests of
-that very start (what is imported, missing packages, other paths) begin a fresh interpreter instead.
+is lost is only the second or two that an interpreter takes to import numpy and its kin and to read
+the commands, and the taking apart of all modules at its end, which in a fork copies every page.
+Tests of that very start (what is imported, missing packages, other paths) begin a fresh interpreter
+instead.
 
 A request is one JSON object in a line: arguments, folder, environment, and the files that take
 standard output and error. The answers are lines too: the process's number when it has started, its
@@ -17,6 +18,7 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import functools
 import gc
 import importlib
 import json
@@ -40,6 +42,7 @@ def serve(path: str) -> None:
         with contextlib.suppress(ImportError):
             importlib.import_module(name)
     _load_what_numba_loads_late()
+    _read_the_commands()
     gc.collect()
     gc.freeze()
     with socket.socket(socket.AF_UNIX) as door:
@@ -67,6 +70,16 @@ def _load_what_numba_loads_late() -> None:
         import numba
 
         numba.njit(lambda x: x)(0.0)
+
+
+def _read_the_commands() -> None:
+    """Signatures and help of all commands, which every process reads anew."""
+    import typer.main
+
+    from cqdd_design.cli.main import app
+
+    typer.main.get_command = functools.cache(typer.main.get_command)
+    typer.main.get_command(app)
 
 
 def _become(request: dict[str, Any]) -> None:

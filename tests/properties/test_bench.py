@@ -180,7 +180,13 @@ def test_torque_bandwidth_is_that_of_the_linear_machine(
     assert found.trace["coherence"].min() > 0.9
 
 
-@pytest.mark.parametrize("name", ["position_bandwidth_45deg", "position_bandwidth_5deg"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param("position_bandwidth_45deg", marks=pytest.mark.deep),
+        "position_bandwidth_5deg",
+    ],
+)
 def test_position_bandwidth_stays_below_what_saturation_allows(
     actuator: ActuatorParameters, name: str
 ) -> None:

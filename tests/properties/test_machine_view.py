@@ -251,30 +251,28 @@ def test_model_decodes_back_to_the_solids() -> None:
         )
 
 
-SAMPLES: list[tuple[BodyKind, int, float]] = [
-    (kind, disc, angle)
-    for kind, disc in (("housing", 0), ("shaft", 0), ("carrier", 0), ("disc", 0), ("disc", 2))
-    for angle in (0.0, 0.7, 5.0, 40.0)
-]
-
-
-def test_the_viewer_moves_bodies_by_the_same_law(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["paper", pytest.param("three discs", marks=pytest.mark.deep)])
+def test_the_viewer_moves_bodies_by_the_same_law(tmp_path: Path, name: str) -> None:
     node = shutil.which("node")
     if node is None:
         pytest.skip("node is not installed; the browser's test covers the law too")
-    design = known_design("three discs")
-    document, _ = glb_parts(model("three discs").glb)
+    design = known_design(name)
+    document, _ = glb_parts(model(name).glb)
     mechanism = document["nodes"][0]["extras"]
+    last = design.reducer.disc_count - 1
+    bodies: list[tuple[BodyKind, int]] = [("housing", 0), ("shaft", 0), ("carrier", 0)]
+    bodies += [("disc", 0), ("disc", last)]
+    samples = [(*body, angle) for body in bodies for angle in (0.0, 0.7, 5.0, 40.0)]
     script = tmp_path / "law.js"
     script.write_text(
         f"{VIEWER.read_text(encoding='utf-8')}\n"
-        f"const samples = {json.dumps(SAMPLES)}, mechanism = {json.dumps(mechanism)};\n"
+        f"const samples = {json.dumps(samples)}, mechanism = {json.dumps(mechanism)};\n"
         "console.log(JSON.stringify(samples.map(([body, disc, angle]) =>"
         " cqddMachine.bodyPose(mechanism, body, disc, angle))));\n",
         encoding="utf-8",
     )
     done = subprocess.run([node, script], capture_output=True, text=True, timeout=60, check=True)
-    for (kind, disc, angle), pose in zip(SAMPLES, json.loads(done.stdout), strict=True):
+    for (kind, disc, angle), pose in zip(samples, json.loads(done.stdout), strict=True):
         expected = body_pose(design, Body(kind, disc), angle)
         assert [pose["x"], pose["y"]] == pytest.approx(expected[:2, 3].tolist(), abs=1e-15)
         turned_by = [math.cos(pose["angle"]), math.sin(pose["angle"])]

@@ -4,6 +4,7 @@ import math
 import os
 import subprocess
 import sys
+from functools import cache
 
 import pytest
 from examples import examples
@@ -20,6 +21,7 @@ from cqdd_design.sizing import SizingInfeasibleError, size
 MAY_WARN = {"BALANCE-STATIC", "BALANCE-COUPLE", "DISC-COUNT", "SPACE-DIAMETER", "SPACE-LENGTH"}
 
 
+@cache
 def sized(**given):
     return size(Requirements(**given))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 import re
 import shutil
 import subprocess
@@ -21,7 +22,14 @@ from cqdd_design.torque.features.matrix import feature_matrix
 from cqdd_design.torque.features.physics import actuator_to_dict, driven_torque
 from cqdd_design.torque.networks.predict import predict
 
-COMPILERS = [name for name in ("cc", "gcc", "clang") if shutil.which(name)]
+#: By their names, each program once: "cc" is often another name of "gcc".
+COMPILERS = list(
+    {
+        os.path.realpath(found): name
+        for name in ("clang", "gcc", "cc")
+        if (found := shutil.which(name))
+    }.values()
+)
 compiled = pytest.mark.skipif(not COMPILERS, reason="no C compiler (cc, gcc, clang) on this system")
 STRICT = ("-std=c99", "-Wall", "-Wextra", "-pedantic", "-Wconversion", "-Werror")
 TOLERANCE = 1e-5
