@@ -246,12 +246,13 @@ class CarrierProblem:
         _, stiff = self.laws(approach)
         inner = np.linalg.inv(np.eye(len(stiff)) + w * stiff)
         matrix = self.springs + self.cams(u)[2] + push.T @ (stiff[:, None] * (inner @ closing))
+        # A disc that nothing touches stays where it is.
+        matrix += 1e-13 * np.abs(np.diag(matrix)).max() * np.eye(self.size)
         unit = np.zeros(self.size)
         unit[2] = 1.0
-        free = np.ix_(self.free, self.free)
-        return float(
-            self.length**2 / np.linalg.solve(matrix[free], unit[self.free])[self.free[:2].sum()]
-        )
+        moved = np.zeros(self.size)
+        moved[self.free] = np.linalg.solve(matrix[np.ix_(self.free, self.free)], unit[self.free])
+        return float(self.length**2 / moved[2])
 
 
 def solve_carrier_plain(problem: CarrierProblem, start: FloatArray) -> PlainCarrier:

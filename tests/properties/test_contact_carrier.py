@@ -93,15 +93,20 @@ def yielding(
     )
 
 
-def unless_it_jams(*arguments: object, **named: object) -> YieldingResult:
-    """The same, unless no forces carry the load, which is not what is tested."""
+def unless_it_jams(
+    sweep: ContactSweep,
+    beam: PinBeam,
+    friction: ContactFriction | None,
+    errors: GearboxErrors | None = None,
+    bodies: np.ndarray | None = None,
+) -> YieldingResult:
+    """The same, unless friction jams it or it moves too far, which is not what is tested."""
     try:
-        found = yielding(*arguments, **named)  # type: ignore[arg-type]
+        found = yielding(sweep, beam, friction, errors, bodies)
     except ContactError as error:
-        if "no forces carry the load" in error.message:
+        if friction is not None and "no forces carry the load" in error.message:
             reject()
         raise
-    sweep: ContactSweep = arguments[0]  # type: ignore[assignment]
     if np.abs(found.states).max() > 0.25 * sweep.model.eccentricity:
         reject()
     return found
@@ -141,7 +146,7 @@ def left_over(
 # ------------------------------------------------------------------ statics
 
 
-@settings(max_examples=examples(30), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(120), deadline=None, suppress_health_check=SLOW)
 @given(
     contact_designs(),
     st.floats(-3.0, 0.3),
@@ -181,7 +186,7 @@ def test_every_body_balances(
 # ------------------------------------------------------------------ the same as other ways
 
 
-@settings(max_examples=examples(12), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(20), deadline=None, suppress_health_check=SLOW)
 @given(
     contact_designs(),
     st.floats(-1.5, 0.3),
@@ -206,12 +211,12 @@ def test_the_plain_twin_finds_the_same(
     errors = random_errors(model, np.random.default_rng(seed), 1e-6)
     sweep = swept(model, torque, angle, errors)
     beam = beam_of(model, ends)
-    friction = ContactFriction(sense, mu, mu)
+    friction = ContactFriction(sense, mu, mu) if mu else None
     bodies = soft_bodies(model, len(angle), 3e-9, seed) if soft else None
     found = unless_it_jams(sweep, beam, friction, errors, bodies)
     states = nominal_states(model, angle)
     changed = error_states(model, states, errors)
-    share = rubbing(model, states, friction, torque).share
+    share = rubbing(model, states, friction or ContactFriction(sense, 0.0, 0.0), torque).share
     each = states.gaps.shape[2]
     scale = found.force.max()
     for a in range(len(angle)):
@@ -227,10 +232,10 @@ def test_the_plain_twin_finds_the_same(
         assert np.abs(found.force[a] - one.force).max() < 1e-8 * scale
         assert np.abs(found.cam_force[a] - one.cam_force).max() < 1e-8 * scale
         stiffness = found.torsional[a] * model.pin_circle_radius**2
-        assert stiffness == pytest.approx(one.torsional, rel=1e-5, abs=1e-9 * abs(torque))
+        assert stiffness == pytest.approx(one.torsional, rel=1e-4, abs=1e-9 * abs(torque))
 
 
-@settings(max_examples=examples(15), deadline=None, suppress_health_check=SLOW)
+@settings(max_examples=examples(40), deadline=None, suppress_health_check=SLOW)
 @given(contact_designs(), st.floats(-2.0, 0.3), st.sampled_from([0.0, 0.1]), SENSES, SEEDS)
 def test_held_plates_and_rigid_bodies_are_the_former_equilibrium(
     design: object, decade: float, mu: float, sense: PowerSense, seed: int
@@ -249,7 +254,7 @@ def test_held_plates_and_rigid_bodies_are_the_former_equilibrium(
     assert np.abs(found.force - wanted).max() < 1e-9 * scale
     assert np.abs(found.cam_force - former.cam_force).max() < 1e-9 * scale
     stiffness = found.torsional * model.pin_circle_radius**2
-    assert stiffness == pytest.approx(former.stiffness, rel=1e-5)
+    assert stiffness == pytest.approx(former.stiffness, rel=1e-4)
 
 
 def test_stiffness_is_the_slope_of_torque_over_the_plates_turn() -> None:

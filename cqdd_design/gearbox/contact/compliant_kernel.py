@@ -78,14 +78,15 @@ def _find_yield(
     discs, count = force.shape
     rigid = bodies.shape[0] == 0
     for d in range(discs):
-        touch = first[d + 1] - first[d]
         for c in range(count):
-            total = 0.0
-            if not rigid:
-                for i in range(touch):
-                    k = touching[d, i]
-                    total += bodies[d, c, k] * force[d, k]
-            yielded[d, c] = total
+            yielded[d, c] = 0.0
+        if rigid:
+            continue
+        for i in range(first[d + 1] - first[d]):
+            k = touching[d, i]
+            f = force[d, k]
+            for c in range(count):
+                yielded[d, c] += bodies[d, k, c] * f
     for e in range(discs):
         for i in range(first[e + 1] - first[e]):
             k = touching[e, i]
@@ -202,7 +203,7 @@ def assemble(
     teeth, bed, join, lack = springs.teeth, springs.carrier_stiffness, compliance.join, work.lack
     first = work.first
     discs = rows.shape[0]
-    touch, size = first[discs], 4 + 3 * discs
+    touch, size = int(first[discs]), 4 + 3 * discs
     total = touch + 1 + size
     right, motion = touch, touch + 1
     yields = bodies.shape[0] > 0
@@ -231,7 +232,7 @@ def assemble(
                 for j in range(total):
                     matrix[i, j] = 0.0
             for j in range(first[d], first[d + 1]):
-                matrix[i, j] = bodies[d, k, touching[d, j - first[d]]] if yields else 0.0
+                matrix[i, j] = bodies[d, touching[d, j - first[d]], k] if yields else 0.0
             matrix[i, i] += 1.0 / stiff[d, k]
             matrix[i, right] = -lack[d, k]
             matrix[i, column] = nx
@@ -293,88 +294,112 @@ def assemble(
 
 
 @numba.njit(cache=True, error_model="numpy", forceinline=True)
-def _clear_column(matrix: Any, i: int, rows: Any, last: int, others: Any) -> None:
-    """Take pivot i out of some rows: columns after it up to `last`, and two ranges of others."""
-    inverse = 1.0 / matrix[i, i]
-    low, high, own, end = others
+def _clear(matrix: Any, pivot: Any, rows: Any, after: Any, others: Any) -> None:
+    """Take a pivot (row and column) out of some rows: its columns `after` it, and two others."""
+    i, c = pivot
+    low, high = after
+    left, right, own, end = others
+    inverse = 1.0 / matrix[i, c]
     for j in range(rows[0], rows[1]):
-        share = matrix[j, i] * inverse
+        share = matrix[j, c] * inverse
         if share != 0.0:
-            for k in range(i + 1, last):
-                matrix[j, k] -= share * matrix[i, k]
             for k in range(low, high):
+                matrix[j, k] -= share * matrix[i, k]
+            for k in range(left, right):
                 matrix[j, k] -= share * matrix[i, k]
             for k in range(own, end):
                 matrix[j, k] -= share * matrix[i, k]
 
 
 @numba.njit(cache=True, error_model="numpy", forceinline=True)
-def eliminate(work: YieldingWork, meet: bool) -> float:
+def _swap_for_pivot(matrix: Any, i: int, c: int, last: int, columns: Any) -> int:
+    """Bring the greatest entry of column c among rows i to `last` into row i; where it was."""
+    pivot = i
+    for j in range(i + 1, last):
+        if abs(matrix[j, c]) > abs(matrix[pivot, c]):
+            pivot = j
+    if pivot != i:
+        for k in range(columns[0], columns[1]):
+            kept = matrix[i, k]
+            matrix[i, k] = matrix[pivot, k]
+            matrix[pivot, k] = kept
+    return pivot
+
+
+@numba.njit(cache=True, error_model="numpy", forceinline=True)
+def eliminate(work: YieldingWork, meet: bool, fixed: int) -> float:
     """Motions into `work.step`, changes of force into the right-hand side.
 
-    The forces go first, disc by disc: their diagonal is above what couples them. The motions left
-    take row pivots, and beside the residual a unit torque on the plate; returned is the torque
-    over its turn.
+    The forces go first, disc by disc: their diagonal is above what couples them. Then go the
+    motions of the discs and those of the carrier, of which the first `fixed` do not move, with row
+    pivots; beside the residual a unit torque on the plate. Returned is the torque over its turn.
     """
     matrix, step, unit, first = work.matrix, work.step, work.unit, work.first
     size, discs = step.size, first.size - 1
-    touch = first[discs]
+    touch = int(first[discs])
     right, motion, total = touch, touch + 1, touch + 1 + size
+    carrier, end = (touch + fixed, touch + 4), touch + size
     for d in range(discs):
         own = motion + 4 + 3 * d
         row = own - 1
-        for i in range(first[d], first[d + 1]):
+        last = int(first[d + 1])
+        others = (right, motion + 4, own, own + 3)
+        for i in range(int(first[d]), last):
             if meet:
-                _clear_column(matrix, i, (i + 1, touch + size), touch, (right, total, 0, 0))
-                continue
-            last = first[d + 1]
-            others = (right, motion + 4, own, own + 3)
-            _clear_column(matrix, i, (i + 1, last), last, others)
-            _clear_column(matrix, i, (touch, touch + 4), last, others)
-            _clear_column(matrix, i, (row, row + 3), last, others)
-    for i in range(size):
+                _clear(matrix, (i, i), (i + 1, end), (i + 1, total), (0, 0, 0, 0))
+            else:
+                _clear(matrix, (i, i), (i + 1, last), (i + 1, last), others)
+                _clear(matrix, (i, i), carrier, (i + 1, last), others)
+                _clear(matrix, (i, i), (row, row + 3), (i + 1, last), others)
+    # Discs before the carrier: without a pin between them they share nothing else.
+    for d in range(discs):
+        row, own = touch + 4 + 3 * d, motion + 4 + 3 * d
+        for i in range(3):
+            r, c = row + i, own + i
+            past = end if meet else row + 3
+            _swap_for_pivot(matrix, r, c, past, (right, total))
+            ahead = (c + 1, total if meet else own + 3)
+            _clear(matrix, (r, c), (r + 1, past), ahead, (right, motion + 4, 0, 0))
+            _clear(matrix, (r, c), carrier, ahead, (right, motion + 4, 0, 0))
+    for i in range(4):
         unit[i] = 0.0
     unit[2] = 1.0
-    for i in range(size):
-        pivot = i
-        for j in range(i + 1, size):
-            if abs(matrix[touch + j, motion + i]) > abs(matrix[touch + pivot, motion + i]):
-                pivot = j
-        if pivot != i:
-            for k in range(right, total):
-                kept = matrix[touch + i, k]
-                matrix[touch + i, k] = matrix[touch + pivot, k]
-                matrix[touch + pivot, k] = kept
-            unit[i], unit[pivot] = unit[pivot], unit[i]
-        inverse = 1.0 / matrix[touch + i, motion + i]
-        for j in range(i + 1, size):
-            share = matrix[touch + j, motion + i] * inverse
-            if share != 0.0:
-                for k in range(motion + i + 1, total):
-                    matrix[touch + j, k] -= share * matrix[touch + i, k]
-                matrix[touch + j, right] -= share * matrix[touch + i, right]
-                unit[j] -= share * unit[i]
-    for i in range(size - 1, -1, -1):
+    for i in range(fixed, 4):
+        r, c = touch + i, motion + i
+        pivot = _swap_for_pivot(matrix, r, c, touch + 4, (right, motion + 4)) - touch
+        unit[i], unit[pivot] = unit[pivot], unit[i]
+        for j in range(i + 1, 4):
+            share = matrix[touch + j, c] / matrix[r, c]
+            unit[j] -= share * unit[i]
+        _clear(matrix, (r, c), (r + 1, touch + 4), (c + 1, motion + 4), (right, right + 1, 0, 0))
+    for i in range(fixed):
+        step[i] = 0.0
+        unit[i] = 0.0
+    for i in range(3, fixed - 1, -1):
         left, lone = matrix[touch + i, right], unit[i]
-        for k in range(i + 1, size):
+        for k in range(i + 1, 4):
             left -= matrix[touch + i, motion + k] * step[k]
             lone -= matrix[touch + i, motion + k] * unit[k]
         step[i] = left / matrix[touch + i, motion + i]
         unit[i] = lone / matrix[touch + i, motion + i]
+    for i in range(size - 1, 3, -1):
+        left = matrix[touch + i, right]
+        for k in range(fixed, 4):
+            left -= matrix[touch + i, motion + k] * step[k]
+        for k in range(i + 1, size if meet else 7 + 3 * ((i - 4) // 3)):
+            left -= matrix[touch + i, motion + k] * step[k]
+        step[i] = left / matrix[touch + i, motion + i]
     for d in range(discs - 1, -1, -1):
-        own = motion + 4 + 3 * d
-        for i in range(first[d + 1] - 1, first[d] - 1, -1):
+        low, high = (4, size) if meet else (4 + 3 * d, 7 + 3 * d)
+        last = touch if meet else int(first[d + 1])
+        for i in range(int(first[d + 1]) - 1, int(first[d]) - 1, -1):
             left = matrix[i, right]
-            for k in range(i + 1, touch if meet else first[d + 1]):
+            for k in range(i + 1, last):
                 left -= matrix[i, k] * matrix[k, right]
-            if meet:
-                for k in range(size):
-                    left -= matrix[i, motion + k] * step[k]
-            else:
-                for k in range(4):
-                    left -= matrix[i, motion + k] * step[k]
-                for k in range(3):
-                    left -= matrix[i, own + k] * step[4 + 3 * d + k]
+            for k in range(fixed, 4):
+                left -= matrix[i, motion + k] * step[k]
+            for k in range(low, high):
+                left -= matrix[i, motion + k] * step[k]
             matrix[i, right] = left / matrix[i, i]
     return 1.0 / float(unit[2])
 

@@ -39,14 +39,16 @@ from cqdd_design.gearbox.contact.sweep_kernel import contacts_at
 _STEPS = 60
 _HALVINGS = 12
 _GOOD = 1e-11
-_NEARLY = 1e-3
-_SQUARE = 1e-9
+_NEARLY = 1e-2
+_SQUARE = 3e-9
 """Square of a step, in shares of the greatest force, below which forces follow in first order:
 a line contact's own curve, F^0.9, leaves a twentieth of it."""
 _LEAST_RISE = 2.0**-8
 """Share of compliance and friction below which no further rise is tried: the machine jams."""
 _NEAR = 0.2
-"""Turn of the crank, rad, beyond which the states before say nothing about the next."""
+"""Turn of the crank, rad, beyond which the state before is the best start."""
+_POINTS = 3
+"""States before an angle from which it is predicted."""
 
 
 @numba.njit(cache=True, error_model="numpy", forceinline=True)
@@ -161,13 +163,16 @@ def solve_yielding(
             share *= 0.5
             halved += 1
         else:
-            u[:] = trial
-            approach[:] = trial_approach
+            for i in range(size):
+                u[i] = trial[i]
+            for d in range(discs):
+                for k in range(count):
+                    approach[d, k] = trial_approach[d, k]
             if iteration == _STEPS or not math.isfinite(square):
                 return NOT_CONVERGED, iteration, torsional
             scale = max(abs(pull), largest)
             meet = assemble(contacts, springs, compliance, u, ridge, work)
-            torsional = eliminate(work, meet)
+            torsional = eliminate(work, meet, 2 if springs.carrier_stiffness <= 0.0 else 0)
             change_approach(contacts, springs.teeth, compliance, work)
             stuck = iteration > 3 and residual >= 0.25 * previous and residual <= 1e-7 * scale
             # As with held plates, the last step is taken on the forces too, in first order.
@@ -261,50 +266,40 @@ def solve_yielding_raised(
     return CONVERGED, steps, torsional
 
 
-@numba.njit(cache=True, error_model="numpy")
-def _weights(turns: Any, a: int) -> tuple[float, float, float]:
-    """Weights of the states at a-1, a-2 and a-3 from which that at `a` follows, by Lagrange."""
-    t = turns[a]
-    if a < 2 or abs(t) > _NEAR:
-        return 1.0, 0.0, 0.0
-    t1 = turns[a - 1]
-    if not 0.3 * abs(t) < abs(t1) < 3.0 * abs(t) or t * t1 < 0.0:
-        return 1.0, 0.0, 0.0
-    if a > 2:
-        t2 = turns[a - 2]
-        if 0.3 * abs(t) < abs(t2) < 3.0 * abs(t) and t * t2 > 0.0:
-            return (
-                (t + t1) * (t + t1 + t2) / (t1 * (t1 + t2)),
-                -t * (t + t1 + t2) / (t1 * t2),
-                t * (t + t1) / ((t1 + t2) * t2),
-            )
-    return 1.0 + t / t1, -t / t1, 0.0
-
-
-@numba.njit(cache=True, error_model="numpy")
+@numba.njit(cache=True, error_model="numpy", forceinline=True)
 def _predict(result: YieldingResult, turns: Any, a: int) -> None:
-    """Start for angle `a` from up to three before it, disc centres carried round with the crank."""
+    """Start for angle `a` from up to four before it, by Lagrange's polynomial through them.
+
+    Disc centres are carried round with the crank, in whose frame they hardly move. Angles that are
+    far apart, or not about even, give the state before.
+    """
     states, approach = result.states, result.approach
-    weights = _weights(turns, a)
     state, closed = states[a], approach[a]
+    turn = turns[a]
+    known = 1
+    if abs(turn) < _NEAR:
+        while known < min(a, _POINTS) and 0.5 < turns[a - known] / turn < 2.0:
+            known += 1
     state[:] = 0.0
     closed[:] = 0.0
-    turn = 0.0
-    for back in range(3):
-        weight = weights[back]
-        if weight == 0.0:
-            break
-        at = a - 1 - back
-        turn += turns[a - back]
-        cosine, sine = math.cos(turn), math.sin(turn)
-        for i in range(4):
-            state[i] += weight * states[at, i]
+    behind = 0.0
+    for i in range(known):
+        behind += turns[a - i]
+        weight, there = 1.0, 0.0
+        for j in range(known):
+            there += turns[a - j]
+            if j != i:
+                weight *= there / (there - behind)
+        at = a - 1 - i
+        cosine, sine = weight * math.cos(behind), weight * math.sin(behind)
+        for j in range(4):
+            state[j] += weight * states[at, j]
         for d in range(closed.shape[0]):
-            i = 4 + 3 * d
-            x, y = states[at, i], states[at, i + 1]
-            state[i] += weight * (cosine * x - sine * y)
-            state[i + 1] += weight * (sine * x + cosine * y)
-            state[i + 2] += weight * states[at, i + 2]
+            j = 4 + 3 * d
+            x, y = states[at, j], states[at, j + 1]
+            state[j] += cosine * x - sine * y
+            state[j + 1] += sine * x + cosine * y
+            state[j + 2] += weight * states[at, j + 2]
             for k in range(closed.shape[1]):
                 closed[d, k] += weight * approach[at, d, k]
 

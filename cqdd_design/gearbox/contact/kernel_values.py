@@ -124,8 +124,9 @@ class Compliance(NamedTuple):
     join: float
     """Torque between plate and cap over their turn, /length^2, N/m; above 0."""
     bodies: FloatArray
-    """(D, C, C), with a leading axis A over angles: closing that contact c of a disc loses by a
-    unit force at c', m/N; of no length along every axis where bodies are rigid."""
+    """(D, C, C), with a leading axis A over angles: what a unit force of one contact of a disc
+    (last axis but one) takes from the closing of another (last axis), m/N; of no length along
+    every axis where bodies are rigid."""
 
 
 class YieldingWork(NamedTuple):
