@@ -15,7 +15,12 @@ from hypothesis import strategies as st
 from reference_design import reference_s
 
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.contact.compliant import carrier_compliance, compliant_states
+from cqdd_design.gearbox.contact.compliant import (
+    carrier_compliance,
+    compliant_energy,
+    compliant_slope,
+    compliant_states,
+)
 from cqdd_design.gearbox.contact.kernel_values import SweepResult, YieldingResult
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
@@ -267,6 +272,29 @@ def test_stiffness_is_the_slope_of_torque_over_the_plates_turn() -> None:
     radius = model.pin_circle_radius
     slope = 0.02 / (high.states[:, 2] - low.states[:, 2]) * radius
     assert mid.torsional * radius**2 == pytest.approx(slope, rel=1e-5)
+
+
+@settings(max_examples=examples(20), deadline=None, suppress_health_check=SLOW)
+@given(contact_designs(), st.floats(-1.0, 0.3), st.sampled_from(ENDS), SEEDS)
+def test_work_at_held_motions_is_the_slope_of_the_energy(
+    design: object, decade: float, ends: tuple[PinEnd, PinEnd], seed: int
+) -> None:
+    """By differences over crank angle: the envelope of the least energies."""
+    model = ContactModel.from_design(design)  # type: ignore[arg-type]
+    torque = usual_torque(model, 10.0**decade)
+    errors = random_errors(model, np.random.default_rng(seed), 1e-6)
+    step = 1e-4
+    angle = float(some_angles(seed, model, 1)[0]) + step * np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
+    beam = beam_of(model, ends)
+    bodies = np.repeat(soft_bodies(model, 1, 3e-9, seed), len(angle), axis=0)
+    found = unless_it_jams(swept(model, torque, angle, errors), beam, None, errors, bodies)
+    states = nominal_states(model, angle)
+    changed = error_states(model, states, errors)
+    compliance = carrier_compliance(model.pin_count, beam, bodies)
+    energy = compliant_energy(model, torque, states, compliance, found)
+    slope = compliant_slope(model, states, changed, compliance, found)
+    differences = (energy[0] - 8.0 * energy[1] + 8.0 * energy[3] - energy[4]) / (12.0 * step)
+    assert slope[2] == pytest.approx(differences, abs=1e-6 * torque / model.lobe_count)
 
 
 def test_a_drive_that_jams_says_so() -> None:

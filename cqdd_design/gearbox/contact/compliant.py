@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from cqdd_design.errors import ContactError
+from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.kernel_values import (
     Compliance,
     Rubbing,
@@ -101,3 +102,68 @@ def compliant_states(
             f"no forces carry the load {why}; lower the torque or the friction."
         )
     return result
+
+
+def compliant_energy(
+    model: ContactModel,
+    torque: float,
+    states: NominalStates,
+    compliance: Compliance,
+    found: YieldingResult,
+) -> FloatArray:
+    """Pi = E - T gamma of equilibria with compliance, gamma the plate's turn, (A,), J.
+
+    Without friction every one of them is the least of its angle, and the crank's torque is T/n
+    and the derivative of Pi over the crank angle (:func:`compliant_slope`).
+    """
+    teeth, force = model.tooth_count, found.force
+    stored = np.zeros(len(force))
+    for law, part in ((model.ring_law, slice(None, teeth)), (model.pin_law, slice(teeth, None))):
+        coefficient = states.coefficient[..., part]
+        stored += laws.stored_energy(law, coefficient, 0.0, force[..., part]).sum(axis=(1, 2))
+    pushed = force[:, :, teeth:, None] * states.rows[:, :, teeth:, :2]
+    stored += 0.5 * np.einsum("adpx,de,aepx->a", pushed, compliance.pins, pushed)
+    if compliance.bodies.size:
+        stored += 0.5 * np.einsum("ade,adec,adc->a", force, compliance.bodies, force)
+    load = np.hypot(found.cam_force[..., 0], found.cam_force[..., 1])
+    closed = (load / model.cam.stiffness) ** (1.0 / model.cam.exponent)
+    stored += np.sum(load * closed / (model.cam.exponent + 1.0), axis=1)
+    motion = found.states
+    stored += 0.5 * compliance.join * (motion[:, 2] - motion[:, 3]) ** 2
+    stored += 0.5 * (model.carrier_stiffness or 0.0) * np.sum(motion[:, :2] ** 2, axis=1)
+    return np.asarray(stored - torque * motion[:, 2] / states.length)
+
+
+def compliant_slope(
+    model: ContactModel,
+    states: NominalStates,
+    changed: Toleranced,
+    compliance: Compliance,
+    found: YieldingResult,
+    bodies_rate: FloatArray | None = None,
+) -> FloatArray:
+    """Work of the contacts per radian of the crank at held motions, (A,), N m.
+
+    Forces times the rates at which their contacts close, as :func:`.sweep.energy_slope` has it for
+    held plates. A pin's own deflection turns with the crank directions of the discs that push it,
+    which stay at the same angles to each other, so that what pins store does not change by itself.
+
+    Parameters
+    ----------
+    bodies_rate : array (A, D, C, C), optional
+        Derivative of the bodies' compliance over the crank angle, m/(N rad).
+    """
+    teeth, force, motion = model.tooth_count, found.force, found.states
+    discs = motion[:, 4:].reshape(len(motion), -1, 1, 3)
+    against = np.repeat(discs, force.shape[2], axis=2)
+    turned = motion[:, 2:3] + compliance.at_cap * (motion[:, 3:4] - motion[:, 2:3])
+    against[:, :, teeth:, :2] -= motion[:, None, None, :2]
+    against[:, :, teeth:, 2] -= turned[..., None]
+    spin, arm_rate, gap_rate, softening = np.moveaxis(states.rates, -1, 0)
+    nx, ny = states.rows[..., 0], states.rows[..., 1]
+    across = nx * against[..., 1] - ny * against[..., 0]
+    closing = -(spin * across + arm_rate * against[..., 2]) - gap_rate - changed.gap_rates
+    slope = np.sum(force * closing - 0.5 * force**2 * softening, axis=(1, 2))
+    if bodies_rate is not None:
+        slope -= 0.5 * np.einsum("ade,adec,adc->a", force, bodies_rate, force)
+    return np.asarray(slope + np.sum(found.cam_force * changed.offset_rates, axis=(1, 2)))
