@@ -81,6 +81,7 @@ class CarrierProblem:
         *,
         friction: FloatArray | None = None,
         bodies: FloatArray | None = None,
+        floating: bool = False,
     ) -> None:
         """Arguments as in `contact_sweep`, and
 
@@ -90,6 +91,8 @@ class CarrierProblem:
             Signed share of the force along the normal turned counter-clockwise.
         bodies : array (D C, D C), optional
             Compliance of bodies besides the pins, m/N.
+        floating : bool
+            Whether the cap moves sideways too, on the pins alone; its motion follows the discs'.
         """
         self.model = model
         self.rows, self.gaps = states.rows[a], changed.gaps[a]
@@ -102,7 +105,8 @@ class CarrierProblem:
         self.friction = np.zeros(shape) if friction is None else friction
         self.bodies = np.zeros((self.gaps.size,) * 2) if bodies is None else bodies
         self.beam = beam
-        self.size = 4 + 3 * shape[0]
+        self.floating = floating
+        self.size = 4 + 3 * shape[0] + 2 * floating
         self.free = np.ones(self.size, dtype=bool)
         bed = model.carrier_stiffness or 0.0
         self.free[:2] = bool(bed)
@@ -110,7 +114,11 @@ class CarrierProblem:
         self.springs[0, 0] = self.springs[1, 1] = bed
         # Where nothing joins plate and cap, no force reaches the cap either; any spring holds it.
         join = model.pin_count * beam.joint or 1.0
-        self.springs[2:4, 2:4] = join * np.array([[1.0, -1.0], [-1.0, 1.0]])
+        apart = join * np.array([[1.0, -1.0], [-1.0, 1.0]])
+        self.springs[2:4, 2:4] = apart
+        for i in range(2 * floating):
+            both = np.array([i, self.size - 2 + i])
+            self.springs[np.ix_(both, both)] += apart
 
     def matrices(self, share: float) -> tuple[FloatArray, FloatArray, FloatArray]:
         """B and P, (D C, U), and W with `share` of what is new in them."""
@@ -130,8 +138,11 @@ class CarrierProblem:
             turned = h + m[d] * self.rub.carrier_arm[d] / self.length
             cap = share * self.beam.at_cap[d]
             pins = slice(teeth, None)
-            closing[d, pins, :2] = n[pins]
-            push[d, pins, :2] = (n + m[d, :, None] * t)[pins]
+            along = (n + m[d, :, None] * t)[pins]
+            closing[d, pins, :2], push[d, pins, :2] = n[pins], along
+            if self.floating:
+                closing[d, pins, :2], push[d, pins, :2] = (1.0 - cap) * n[pins], (1.0 - cap) * along
+                closing[d, pins, -2:], push[d, pins, -2:] = cap * n[pins], cap * along
             for row, value in ((closing, h), (push, turned)):
                 row[d, pins, 2] = (1.0 - cap) * value[pins]
                 row[d, pins, 3] = cap * value[pins]
@@ -263,7 +274,7 @@ def solve_carrier_plain(problem: CarrierProblem, start: FloatArray) -> PlainCarr
     start : array (3 + 3 D,)
         As `ContactSweep.state_vectors` holds it.
     """
-    u = np.concatenate([start[:3], start[2:3], start[3:]])
+    u = np.concatenate([start[:3], start[2:3], start[3:], np.zeros(2 * problem.floating)])
     closing, _, w = problem.matrices(0.0)
     closed = closing @ u - problem.gaps.ravel()
     force = np.zeros_like(closed)

@@ -343,6 +343,31 @@ def test_reference_design_has_the_figures_of_a_second_implementation(
     assert first.max() < share[1] + 0.01
 
 
+def test_what_a_cap_that_also_moves_sideways_would_change() -> None:
+    """Discs that share unevenly push the cap sideways: S from 61:39 to 67:33, if nothing holds it.
+
+    The second implementation's cap turns alone, as ours does; a bearing or columns hold it so.
+    """
+    model, torque = reference_s(), 34.2
+    sweep = contact_sweep(model, torque, perfect_angles(model, 3))
+    states = nominal_states(model, sweep.crank_angle)
+    changed = error_states(model, states, None)
+    beam = pin_of_s(("clamped", "clamped"))
+    first = []
+    for floating in (False, True):
+        one = [
+            solve_carrier_plain(
+                CarrierProblem(model, states, changed, a, torque, beam, floating=floating), start
+            )
+            for a, start in enumerate(sweep.state_vectors)
+        ]
+        force = np.array([state.force for state in one])[:, :, model.tooth_count :, None]
+        moment = cross(sweep.pin_point, force * sweep.pin_normal).sum(axis=2)
+        first.append(float(moment[:, 0].mean()) / torque)
+    assert first[0] == pytest.approx(0.608, abs=0.004)
+    assert first[1] == pytest.approx(0.665, abs=0.004)
+
+
 def test_reference_design_as_a_cantilever() -> None:
     model = reference_s()
     sweep = contact_sweep(model, 34.2, perfect_angles(model, 30))

@@ -52,6 +52,18 @@ def carrier_compliance(
     )
 
 
+def new_result(count: int, discs: int, contacts: int) -> YieldingResult:
+    """Room for the equilibria of A angles, D discs and C contacts each."""
+    return YieldingResult(
+        states=np.empty((count, 4 + 3 * discs)),
+        approach=np.empty((count, discs, contacts)),
+        force=np.empty((count, discs, contacts)),
+        cam_force=np.empty((count, discs, 2)),
+        torsional=np.empty(count),
+        steps=np.zeros(count, dtype=np.int64),
+    )
+
+
 def compliant_states(
     model: ContactModel,
     torque: float,
@@ -82,15 +94,7 @@ def compliant_states(
     contacts, springs, load, turns, _ = sweep_problem(model, torque, states, changed)
     none = ContactFriction("drive", 0.0, 0.0)
     rubs: Rubbing = rubbing(model, states, friction or none, torque)
-    count, discs, each = states.gaps.shape
-    result = YieldingResult(
-        states=np.empty((count, 4 + 3 * discs)),
-        approach=np.empty((count, discs, each)),
-        force=np.empty((count, discs, each)),
-        cam_force=np.empty((count, discs, 2)),
-        torsional=np.empty(count),
-        steps=np.zeros(count, dtype=np.int64),
-    )
+    result = new_result(*states.gaps.shape)
     solve: Any = yield_sweep
     failed = solve(contacts, springs, load, rubs, compliance, turns, smooth.states, result)
     if failed >= 0:
