@@ -3,17 +3,37 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from cqdd_design.gearbox.life.cam import CamLife
+
+if TYPE_CHECKING:
+    from cqdd_design.gearbox.contact.rubbing import PowerSense
 
 
 @dataclass(frozen=True)
 class DutyCase:
-    """One load case: output torque (N m, signed), output speed (rad/s, size), share of time."""
+    """One load case.
+
+    Attributes
+    ----------
+    torque, speed : float
+        At the output, N m with its sign and rad/s without.
+    share : float
+        Of the time.
+    driven : bool
+        Whether the output drives the motor: its torque and speed oppose each other.
+    """
 
     torque: float
     speed: float
     share: float
+    driven: bool = False
+
+    @property
+    def power_sense(self) -> PowerSense:
+        """Which way power goes; at a standstill as when the motor drives."""
+        return "backdrive" if self.driven else "drive"
 
 
 @dataclass(frozen=True)
