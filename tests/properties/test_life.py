@@ -336,10 +336,8 @@ def test_who_drives_decides_on_the_forces_of_a_duty() -> None:
     for name in ("ring teeth", "disc flanks"):
         assert part(driven, name).damage_per_hour < 0.5 * part(driving, name).damage_per_hour
     both = lived((40.0, 10.0, 0.5), (40.0, -10.0, 0.5))
-    halves = (
-        part(driving, "ring teeth").damage_per_hour + part(driven, "ring teeth").damage_per_hour
-    )
-    assert part(both, "ring teeth").damage_per_hour == pytest.approx(0.5 * halves, rel=1e-3)
+    each = [part(one, "ring teeth").damage_per_hour for one in (driving, driven)]
+    assert 0.9 < part(both, "ring teeth").damage_per_hour / (0.5 * sum(each)) <= 1.0 + 1e-9
 
 
 def test_limits_of_pins_lie_on_one_goodman_line() -> None:

@@ -44,8 +44,8 @@ _GOOD = 1e-11
 _NEARLY = 1e-6
 _RIDGES = (1e-10, 1e-6, 1e-5, 1e-4)
 """Stiffness that is added to every displacement in a step, in typical stiffnesses. The least one
-leaves Newton's method as it is; the others hold a disc that hangs slack between tooth and pin, which
-friction may wedge in more places than one."""
+leaves Newton's method as it is; the others hold a disc that hangs slack between tooth and pin,
+which friction may wedge in more places than one."""
 _SLACK = 1e-12
 """Share of the greatest force below which a disc carries nothing."""
 _LEAST_RISE = 2.0**-8

@@ -191,7 +191,6 @@ class LossModel:
             torque=torque,
             power=np.abs(speed)[:, None] * crank,
             loss_torque=loss,
-            loss_torque_backward=back,
             forward=np.where(some, safe / (safe + loss), 0.0),
             backward=np.where(some, np.maximum(1.0 - back / safe, 0.0), 0.0),
         )
@@ -242,6 +241,7 @@ class LossModel:
             by_source=power,
             load_independent=size * float(drag[0]),
             loss_torque=loss,
+            loss_torque_backward=back,
             efficiency_forward=float(grid.forward[0, 0]) if some else None,
             efficiency_backward=float(grid.backward[0, 0]) if some else None,
             backdrives=back < abs(torque) if some else None,

@@ -18,7 +18,8 @@ class Losses:
     output_speed : float
         rad/s, size only.
     by_source : mapping
-        Mean power while the motor drives, by the names of :data:`.machine.SOURCES`, in the order of the tables, W.
+        Mean power while the motor drives, W, by the names of :data:`.machine.SOURCES` in the order
+        of the tables.
     load_independent : float
         Part of the total that does not depend on the load, W.
     loss_torque, loss_torque_backward : float
