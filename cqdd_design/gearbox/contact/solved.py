@@ -15,6 +15,11 @@ from cqdd_design.geometry.contours import FloatArray
 IntArray = NDArray[np.int64]
 
 
+def _load(force: FloatArray, tangential: FloatArray, normal: FloatArray) -> FloatArray:
+    across = np.stack([-normal[..., 1], normal[..., 0]], axis=-1)
+    return np.asarray(force[..., None] * normal + tangential[..., None] * across)
+
+
 @dataclass(frozen=True, eq=False)
 class ContactSweep:
     """Contact equilibria at A crank angles, D discs, T = n + 1 ring teeth, P output pins.
@@ -97,12 +102,14 @@ class ContactSweep:
         return np.concatenate([carrier, discs.reshape(len(carrier), -1)], axis=1)
 
     @property
+    def ring_load(self) -> FloatArray:
+        """Force of every ring tooth on a disc, friction included, (A, D, T, 2), N."""
+        return _load(self.ring_force, self.ring_tangential, self.ring_normal)
+
+    @property
     def pin_load(self) -> FloatArray:
-        """Force of every pin on a disc, friction included, (A, D, P, 2), N."""
-        normal = self.pin_normal
-        across = np.stack([-normal[..., 1], normal[..., 0]], axis=-1)
-        pressed = self.pin_force[..., None] * normal
-        return np.asarray(pressed + self.pin_tangential[..., None] * across)
+        """Force of every pin on a disc, likewise, (A, D, P, 2), N."""
+        return _load(self.pin_force, self.pin_tangential, self.pin_normal)
 
     @property
     def ring_pressure(self) -> FloatArray:

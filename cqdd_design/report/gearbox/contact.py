@@ -77,14 +77,15 @@ def force_picture(turn: ContactSweep, outlines: Outlines) -> Figure:
     load = float(np.hypot(*cam))
     greatest = max(float(turn.ring_force[at, disc].max()), load, 1e-12)
     scale = 95.0 / greatest
-    for kind, forces, normals, points in (
-        ("ring", turn.ring_force, turn.ring_normal, turn.ring_point),
-        ("pin", turn.pin_force, turn.pin_normal, turn.pin_point),
+    for kind, loads, points in (
+        ("ring", turn.ring_load, turn.ring_point),
+        ("pin", turn.pin_load, turn.pin_point),
     ):
-        for k, force in enumerate(forces[at, disc].tolist()):
-            if force > 0.0:
+        sizes = np.hypot(loads[at, disc, :, 0], loads[at, disc, :, 1])
+        for k, size in enumerate(sizes.tolist()):
+            if size > 0.0:
                 tip = view.point(points[at, disc, k])
-                body += _arrow(tip, normals[at, disc, k], force, scale, f"force-{kind}")
+                body += _arrow(tip, loads[at, disc, k] / size, size, scale, f"force-{kind}")
     if load > 0.0:
         tip = view.point(turn.disc_centre[at, disc])
         body += _arrow(tip, cam / load, load, scale, "force-cam")
@@ -96,8 +97,8 @@ def force_picture(turn: ContactSweep, outlines: Outlines) -> Figure:
         f"Forces on disc {disc + 1} at crank angle {degrees:.0f} degrees, where tooth "
         f"{tooth + 1} carries {shown:.0f} N.",
         f"Disc {disc + 1} at crank angle {decimals(degrees, 0)}\u00b0, where tooth {tooth + 1} "
-        "carries the greatest force. Arrows are forces on the disc, in N: ring teeth red, output "
-        "pins green, cam bearing violet.",
+        "carries the greatest force. Arrows are forces on the disc, friction included, in N: ring "
+        "teeth red, output pins green, cam bearing violet.",
     )
     return words.figure(width, width, body)
 
