@@ -43,8 +43,23 @@ def contact_view(analysis: ContactAnalysis, outlines: Outlines, law: RigidMaxima
         "worst": force_picture(turn, outlines),
         "rows": _rows(analysis, law),
         "torque": with_unit(analysis.sweep.torque, "N*m"),
+        "friction": _friction(analysis.sweep),
         "preload": _preload(analysis),
     }
+
+
+def _friction(sweep: ContactSweep) -> str:
+    """The friction of a sweep, as a sentence goes on."""
+    if sweep.friction is None:
+        return ", without friction"
+    driver = "motor" if sweep.friction.sense == "drive" else "output"
+    tooth, pin = (f"{one:.3g}" for one in (sweep.friction.tooth, sweep.friction.pin))
+    each = (
+        f"a friction of {tooth}"
+        if tooth == pin
+        else f"friction of {tooth} at teeth and {pin} at holes"
+    )
+    return f", the {driver} driving against {each}"
 
 
 def _heat_map(turn: ContactSweep, disc: int) -> Figure:
