@@ -167,6 +167,12 @@ class LifeResult:
             for part in self.parts
             if part.hours is not None and part.hours < self.required_hours
         ]
+        if self.cam.set_hours is not None and self.cam.set_hours < self.required_hours:
+            found.append(
+                f"the cam bearings {self.cam.designation} would together last "
+                f"{self.cam.set_hours:.3g} h under this duty (L10), less than the "
+                f"{self.required_hours:g} h required."
+            )
         if self.cam.hours is None:
             found.append(
                 f"no life is given for the cam bearings {self.cam.designation}: the catalogue has "
