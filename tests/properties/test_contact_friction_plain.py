@@ -26,7 +26,6 @@ from cqdd_design.gearbox.contact.states import NominalStates, error_states, nomi
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.hertz import line_contact_pressure
 
-DESIGN_S = Path(__file__).resolve().parents[2] / "designs" / "reference-s.toml"
 SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much]
 SENSES = st.sampled_from([DRIVE, BACKDRIVE])
 

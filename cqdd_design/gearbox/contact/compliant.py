@@ -28,6 +28,8 @@ from cqdd_design.gearbox.contact.states import NominalStates
 from cqdd_design.gearbox.contact.sweep import sweep_problem
 from cqdd_design.geometry.contours import FloatArray
 
+_NO_BODIES = np.empty((0, 0, 0, 0))
+
 
 def carrier_compliance(
     pin_count: int, beam: PinBeam, bodies: FloatArray | None = None
@@ -41,14 +43,15 @@ def carrier_compliance(
     beam : PinBeam
         Of every pin. A cantilever's cap bears nothing and is as good as none.
     bodies : array (A, D, C, C), optional
-        Closing that a contact loses by unit forces of its disc's contacts, m/N; default rigid.
+        Closing that every contact of a disc (last axis but one) loses by a unit force of another
+        (last axis), friction with it, m/N; default rigid.
     """
     return Compliance(
         pins=np.ascontiguousarray(beam.influence),
         at_cap=np.ascontiguousarray(beam.at_cap),
         # Where no pin reaches a cap, any spring holds it: nothing moves it against the plate.
         join=pin_count * beam.joint or 1.0,
-        bodies=np.empty((0, 0, 0, 0)) if bodies is None else np.ascontiguousarray(bodies),
+        bodies=np.ascontiguousarray(_NO_BODIES if bodies is None else bodies.swapaxes(-1, -2)),
     )
 
 
@@ -69,7 +72,7 @@ def compliant_states(
     torque: float,
     states: NominalStates,
     changed: Toleranced,
-    smooth: SweepResult,
+    start: SweepResult,
     compliance: Compliance,
     friction: ContactFriction | None = None,
 ) -> YieldingResult:
@@ -81,8 +84,9 @@ def compliant_states(
         On the plate, N m.
     states, changed
         From :func:`.states.nominal_states` and :func:`.states.error_states`.
-    smooth : SweepResult
-        Equilibria without compliance and friction, from :func:`.sweep_kernel.solve_sweep`.
+    start : SweepResult
+        Equilibria without compliance, best with the same friction: from
+        :func:`.sweep_kernel.solve_sweep` or :func:`.friction_kernel.rub_sweep`.
 
     Raises
     ------
@@ -96,7 +100,7 @@ def compliant_states(
     rubs: Rubbing = rubbing(model, states, friction or none, torque)
     result = new_result(*states.gaps.shape)
     solve: Any = yield_sweep
-    failed = solve(contacts, springs, load, rubs, compliance, turns, smooth.states, result)
+    failed = solve(contacts, springs, load, rubs, compliance, turns, start.states, result)
     if failed >= 0:
         why = "with the carrier's cap on its pins"
         if friction is not None:

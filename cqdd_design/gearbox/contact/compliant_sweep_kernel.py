@@ -1,9 +1,9 @@
 """Compiled equilibria of contacts with bodies that yield, plate and cap apart, over crank angle.
 
 Approaches change smoothly over crank angle, open ones too, so that a state found from the three
-before it starts near its end with the right contacts. Where that does not lead to it, compliance,
-the cap's part and friction are raised from nothing, where the state is known. The system of one
-state is :mod:`.compliant_kernel`.
+before it starts near its end with the right contacts. Where that does not lead to it, compliance
+and the cap's part are raised from nothing, where the state is known. The system of one state is
+:mod:`.compliant_kernel`.
 """
 
 from __future__ import annotations
@@ -44,7 +44,10 @@ _SQUARE = 3e-9
 """Square of a step, in shares of the greatest force, below which forces follow in first order:
 a line contact's own curve, F^0.9, leaves a twentieth of it."""
 _LEAST_RISE = 2.0**-8
-"""Share of compliance and friction below which no further rise is tried: the machine jams."""
+"""Share of the compliance below which no further rise is tried: the machine jams."""
+_RIDGES = (1e-10, 1e-6, 1e-5, 1e-4)
+"""Stiffness added to every displacement in a step, in typical stiffnesses; the greater ones hold a
+disc that hangs slack."""
 _NEAR = 0.2
 """Turn of the crank, rad, beyond which the state before is the best start."""
 _POINTS = 3
@@ -140,12 +143,13 @@ def solve_yielding(
     approach: Any,
     forces: Forces,
     work: YieldingWork,
+    held: float,
 ) -> tuple[int, int, float]:
     """Find the equilibrium near `u` and `approach`, and into them.
 
-    Returns are those of :func:`.equilibrium_kernel.solve_state`.
+    Returns are those of :func:`.equilibrium_kernel.solve_state`; `held` is one of `_RIDGES`.
     """
-    ridge = 1e-10 * load.scale_stiffness
+    ridge = held * load.scale_stiffness
     torsional, previous = 0.0, np.inf
     trial, trial_approach, step, change = work.trial, work.trial_approach, work.step, work.change
     pull, size = load.pull, u.size
@@ -205,20 +209,20 @@ def _some(compliance: Compliance, held: Any, share: float) -> Compliance:
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _from_held(contacts: Contacts, springs: Springs, smooth: Any, u: Any, approach: Any) -> None:
-    """Motions and approaches of the state `smooth` (3 + 3 D,) of held plates, without friction."""
+def _from_held(contacts: Contacts, springs: Springs, start: Any, u: Any, approach: Any) -> None:
+    """Motions and approaches of the state `start` (3 + 3 D,) of held plates and rigid bodies."""
     rows, gaps, coefficient = contacts.rows, contacts.gaps, contacts.coefficient
     teeth, series = springs.teeth, springs.pin_series
-    u[:3] = smooth[:3]
-    u[3] = smooth[2]
-    u[4:] = smooth[3:]
+    u[:3] = start[:3]
+    u[3] = start[2]
+    u[4:] = start[3:]
     discs, count = gaps.shape
     for d in range(discs):
         i = 3 + 3 * d
-        x, y, t = smooth[i], smooth[i + 1], smooth[i + 2]
+        x, y, t = start[i], start[i + 1], start[i + 2]
         for k in range(count):
             if k == teeth:
-                x, y, t = x - smooth[0], y - smooth[1], t - smooth[2]
+                x, y, t = x - start[0], y - start[1], t - start[2]
             closed = -(rows[d, k, 0] * x + rows[d, k, 1] * y + rows[d, k, 2] * t) - gaps[d, k]
             if k >= teeth and closed > 0.0:
                 f, _ = line_force(
@@ -235,24 +239,27 @@ def solve_yielding_raised(
     load: Load,
     rubbing: Rubbing,
     compliance: Compliance,
-    smooth: Any,
+    start: Any,
     u: Any,
     approach: Any,
     forces: Forces,
     work: YieldingWork,
+    held: float,
 ) -> tuple[int, int, float]:
-    """Solve one state by raising compliance and friction from the state `smooth` without them."""
+    """Solve one state by raising compliance from the state `start` without it.
+
+    A start without friction, where there is some, is put right at the first share.
+    """
     reached, rise, steps, torsional = 0.0, 1.0, 0, 0.0
     known, known_approach = np.empty_like(u), np.empty_like(approach)
-    _from_held(contacts, springs, smooth, known, known_approach)
+    _from_held(contacts, springs, start, known, known_approach)
     while reached < 1.0:
         share = min(reached + rise, 1.0)
-        rubs = Rubbing(share * rubbing.share, rubbing.disc_arm, rubbing.carrier_arm)
         some = _some(compliance, springs.pin_series, share)
         u[:] = known
         approach[:] = known_approach
         status, used, torsional = solve_yielding(
-            contacts, springs, load, rubs, some, u, approach, forces, work
+            contacts, springs, load, rubbing, some, u, approach, forces, work, held
         )
         steps += used
         if status == CONVERGED:
@@ -312,7 +319,7 @@ def yield_sweep(
     rubbing: Rubbing,
     compliance: Compliance,
     turns: Any,
-    smooth: Any,
+    start: Any,
     result: YieldingResult,
 ) -> int:
     """Equilibria with compliance and friction at consecutive crank angles.
@@ -325,8 +332,8 @@ def yield_sweep(
         Of all angles; the springs' `pin_series` is that of held plates.
     turns : array (A,)
         Crank angle since the state before, rad.
-    smooth : array (A, 3 + 3 D)
-        States of held plates and rigid bodies without friction.
+    start : array (A, 3 + 3 D)
+        States of held plates and rigid bodies, with the friction or without it.
     result : YieldingResult
         Out.
 
@@ -354,11 +361,13 @@ def yield_sweep(
         if a > 0:
             _predict(result, turns, a)
             status, used, left = solve_yielding(
-                here, springs, load, rubs, some, state, approach, forces, work
+                here, springs, load, rubs, some, state, approach, forces, work, _RIDGES[0]
             )
-        if status != CONVERGED:
+        for held in _RIDGES:
+            if status == CONVERGED:
+                break
             status, used, left = solve_yielding_raised(
-                here, springs, load, rubs, some, smooth[a], state, approach, forces, work
+                here, springs, load, rubs, some, start[a], state, approach, forces, work, held
             )
         if status != CONVERGED:
             return a
