@@ -20,7 +20,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from cqdd_design.gearbox.output_pins import disc_positions, pin_span
+from cqdd_design.gearbox.output_pins import PinSupport, disc_positions, pin_span
 from cqdd_design.geometry.contours import FloatArray
 
 SEAT_LENGTH = 1.0
@@ -33,6 +33,13 @@ clamped: a shoulder or head drawn against the plate holds its slope, and its sea
 pin alone; bedded: it lies in its seat as on an even elastic bed, which lets it turn too, about the
 seat's middle; hinged: as clamped, with no moment; free: not at all.
 """
+
+
+HELD: dict[PinSupport, tuple[PinEnd, PinEnd]] = {
+    "both": ("hinged", "hinged"),
+    "cantilever": ("bedded", "free"),
+}
+"""Ends of pins whose plates are one body, by how many hold them."""
 
 
 class PinSection(NamedTuple):
