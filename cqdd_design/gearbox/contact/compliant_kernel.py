@@ -185,6 +185,49 @@ def press(
 
 
 @numba.njit(cache=True, error_model="numpy", forceinline=True)
+def _meet(touching: Any, first: Any, teeth: int) -> bool:
+    """Whether any two discs push the same pin; contacts stand in rising order."""
+    for e in range(1, first.size - 1):
+        for d in range(e):
+            i, j = 0, 0
+            while i < first[d + 1] - first[d] and j < first[e + 1] - first[e]:
+                if touching[d, i] < touching[e, j]:
+                    i += 1
+                elif touching[d, i] > touching[e, j]:
+                    j += 1
+                elif touching[d, i] >= teeth:
+                    return True
+                else:
+                    i += 1
+                    j += 1
+    return False
+
+
+@numba.njit(cache=True, error_model="numpy", forceinline=True)
+def _add_cams(
+    contacts: Contacts, springs: Springs, u: Any, matrix: Any, row: int, column: int
+) -> None:
+    """Stiffness of the cam bearings, from the row and column of the first disc."""
+    offset, half_play = contacts.offset, contacts.half_play
+    for d in range(half_play.size):
+        i, j, m = 4 + 3 * d, row + 3 * d, column + 3 * d
+        rx = u[i] - offset[d, 0]
+        ry = u[i + 1] - offset[d, 1]
+        rho = math.sqrt(rx * rx + ry * ry)
+        over = rho - half_play[d]
+        if over > 0.0 and rho > 0.0:
+            f, s = radial_force(springs.cam_stiffness, springs.cam_exponent, over)
+            ux, uy, across = rx / rho, ry / rho, f / rho
+            matrix[j, m] += s * ux * ux + across * uy * uy
+            matrix[j, m + 1] += (s - across) * ux * uy
+            matrix[j + 1, m] += (s - across) * ux * uy
+            matrix[j + 1, m + 1] += s * uy * uy + across * ux * ux
+        elif over >= 0.0 and springs.cam_exponent == 1.0:
+            matrix[j, m] += springs.cam_stiffness
+            matrix[j + 1, m + 1] += springs.cam_stiffness
+
+
+@numba.njit(cache=True, error_model="numpy", forceinline=True)
 def assemble(
     contacts: Contacts,
     springs: Springs,
@@ -198,7 +241,7 @@ def assemble(
     Where they do not, entries between discs are neither written nor read.
     """
     rows, pins, bodies, push = contacts.rows, compliance.pins, compliance.bodies, work.push
-    offset, half_play, gradient = contacts.offset, contacts.half_play, work.gradient
+    gradient = work.gradient
     at_cap, touching, matrix, stiff = compliance.at_cap, work.touching, work.matrix, work.stiff
     teeth, bed, join, lack = springs.teeth, springs.carrier_stiffness, compliance.join, work.lack
     first = work.first
@@ -207,19 +250,7 @@ def assemble(
     total = touch + 1 + size
     right, motion = touch, touch + 1
     yields = bodies.shape[0] > 0
-    meet = False
-    for e in range(1, discs):
-        for d in range(e):
-            i, j = 0, 0
-            while i < first[d + 1] - first[d] and j < first[e + 1] - first[e]:
-                if touching[d, i] < touching[e, j]:
-                    i += 1
-                elif touching[d, i] > touching[e, j]:
-                    j += 1
-                else:
-                    meet = meet or touching[d, i] >= teeth
-                    i += 1
-                    j += 1
+    meet = _meet(touching, first, teeth)
     for i in range(touch, touch + size):
         for j in range(total):
             matrix[i, j] = 0.0
@@ -271,22 +302,7 @@ def assemble(
     matrix[touch + 2, motion + 3] = -join
     matrix[touch + 3, motion + 2] = -join
     matrix[touch + 3, motion + 3] = join
-    for d in range(discs):
-        i, j, m = 4 + 3 * d, touch + 4 + 3 * d, motion + 4 + 3 * d
-        rx = u[i] - offset[d, 0]
-        ry = u[i + 1] - offset[d, 1]
-        rho = math.sqrt(rx * rx + ry * ry)
-        over = rho - half_play[d]
-        if over > 0.0 and rho > 0.0:
-            f, s = radial_force(springs.cam_stiffness, springs.cam_exponent, over)
-            ux, uy, across = rx / rho, ry / rho, f / rho
-            matrix[j, m] += s * ux * ux + across * uy * uy
-            matrix[j, m + 1] += (s - across) * ux * uy
-            matrix[j + 1, m] += (s - across) * ux * uy
-            matrix[j + 1, m + 1] += s * uy * uy + across * ux * ux
-        elif over >= 0.0 and springs.cam_exponent == 1.0:
-            matrix[j, m] += springs.cam_stiffness
-            matrix[j + 1, m + 1] += springs.cam_stiffness
+    _add_cams(contacts, springs, u, matrix, touch + 4, motion + 4)
     for i in range(size):
         matrix[touch + i, motion + i] += ridge
         matrix[touch + i, right] = -gradient[i]
