@@ -26,7 +26,7 @@ from processes import CONTACT_HEADING, machine, write_section
 
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.contact import laws
-from cqdd_design.gearbox.contact.friction_kernel import rub_sweep
+from cqdd_design.gearbox.contact.friction_sweep_kernel import rub_sweep
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, rubbing
 from cqdd_design.gearbox.contact.states import error_states, nominal_states
