@@ -28,7 +28,7 @@ from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.compliant import carrier_compliance, new_result
 from cqdd_design.gearbox.contact.compliant_sweep_kernel import yield_sweep
-from cqdd_design.gearbox.contact.friction_kernel import rub_sweep
+from cqdd_design.gearbox.contact.friction_sweep_kernel import rub_sweep
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.pin_beam import pin_in_stack, pin_section
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, rubbing

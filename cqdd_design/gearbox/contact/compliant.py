@@ -86,7 +86,7 @@ def compliant_states(
         From :func:`.states.nominal_states` and :func:`.states.error_states`.
     start : SweepResult
         Equilibria without compliance, best with the same friction: from
-        :func:`.sweep_kernel.solve_sweep` or :func:`.friction_kernel.rub_sweep`.
+        :func:`.sweep_kernel.solve_sweep` or :func:`.friction_sweep_kernel.rub_sweep`.
 
     Raises
     ------

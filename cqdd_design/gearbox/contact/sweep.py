@@ -146,7 +146,7 @@ def _with_friction(
     smooth: SweepResult,
 ) -> tuple[SweepResult, _Rubbed]:
     """Equilibria with friction, from those without it."""
-    from cqdd_design.gearbox.contact.friction_kernel import rub_sweep
+    from cqdd_design.gearbox.contact.friction_sweep_kernel import rub_sweep
 
     contacts, springs, load, turns, result = sweep_problem(model, torque, states, changed)
     rubs = rubbing(model, states, friction, torque)
