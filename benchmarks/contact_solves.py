@@ -30,11 +30,12 @@ from cqdd_design.gearbox.contact.compliant import carrier_compliance, new_result
 from cqdd_design.gearbox.contact.compliant_sweep_kernel import yield_sweep
 from cqdd_design.gearbox.contact.friction_sweep_kernel import rub_sweep
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.pin_beam import pin_in_stack, pin_section
+from cqdd_design.gearbox.contact.problem import sweep_problem
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, rubbing
 from cqdd_design.gearbox.contact.states import error_states, nominal_states
-from cqdd_design.gearbox.contact.sweep import contact_sweep, sweep_problem
+from cqdd_design.gearbox.contact.sweep import contact_sweep
 from cqdd_design.gearbox.contact.sweep_kernel import solve_sweep
+from cqdd_design.gearbox.pin_beam import pin_in_stack, pin_section
 from cqdd_design.gearbox.tolerance.draws import draw_errors
 from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
 from cqdd_design.gearbox.tolerance.evaluate import ensemble_tables, evaluate_gearboxes
@@ -110,7 +111,7 @@ def compliant_rate(
     bodies = np.broadcast_to(
         yielding_discs(model), (len(angle), model.disc_count, *states.gaps.shape[2:] * 2)
     )
-    compliance = carrier_compliance(model.pin_count, beam, bodies)
+    compliance = carrier_compliance(model.pin_count, beam, bodies=bodies)
     rubs = rubbing(model, states, ContactFriction("drive", friction, friction), torque)
     result = new_result(len(angle), *states.gaps.shape[1:])
     best = np.inf

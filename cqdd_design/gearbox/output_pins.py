@@ -6,10 +6,8 @@ neighbours and at both ends::
       plate | s | disc 0 | s | disc 1 | s | plate
             |<------------- L ------------->|        L = D b + (D + 1) s
 
-A pin is loaded by disc d at a = s + b/2 + d (b + s) from the first plate. Discs 180 degrees apart
-never load the same pin together; three discs at 120 degrees load it two at a time in directions
-120 degrees apart, whose resultant moment is never above the larger one. The worst single load
-therefore bounds the moment for one, two and three discs.
+A pin is loaded by disc d at a = s + b/2 + d (b + s) from the first plate. What it bends by, and
+what plate and cap take of it, is :mod:`.pin_beam`'s.
 """
 
 from __future__ import annotations
@@ -69,48 +67,15 @@ def disc_positions(
     return np.asarray(s + b / 2.0 + np.arange(disc_count) * (b + s))
 
 
-def bending_arm(
-    disc_count: int,
-    disc_thickness: ArrayLike,
-    disc_spacing: ArrayLike,
-    support: PinSupport,
-) -> FloatArray:
-    """Greatest bending moment per newton of disc force on a pin, over the discs of the stack, m.
-
-    Held at both ends (simply supported, force spread evenly over the thickness b):
-    a (L - a)/L - b/8, taken at the middle of the patch. Cantilever from the first plate: the
-    distance a of the farthest disc.
-
-    Parameters
-    ----------
-    disc_count : int
-        D, 1 to 3.
-    disc_thickness, disc_spacing : array_like
-        b and s in m.
-    support : {"both", "cantilever"}
-        How the pin is held.
-
-    Examples
-    --------
-    Two 8 mm discs 0.5 mm apart: L = 17.5 mm, a = 4.5 mm.
-
-    >>> print(round(float(bending_arm(2, 8e-3, 0.5e-3, "both")) * 1e3, 4))
-    2.3429
-    >>> print(round(float(bending_arm(2, 8e-3, 0.5e-3, "cantilever")) * 1e3, 4))
-    13.0
-    """
-    at = disc_positions(disc_count, disc_thickness, disc_spacing)
-    if support == "cantilever":
-        return np.asarray(at.max(axis=-1))
-    span = pin_span(disc_count, disc_thickness, disc_spacing)[..., None]
-    b = np.asarray(disc_thickness, dtype=float)[..., None]
-    return np.asarray((at * (span - at) / span - b / 8.0).max(axis=-1))
+def bending_modulus(pin_diameter: ArrayLike) -> FloatArray:
+    """Section modulus pi d^3/32 of a round pin, m^3: stress is moment over it."""
+    return np.asarray(np.pi / 32.0 * np.asarray(pin_diameter, dtype=float) ** 3)
 
 
 def bending_stress(force: ArrayLike, arm: ArrayLike, pin_diameter: ArrayLike) -> FloatArray:
-    """Bending stress 32 F arm/(pi d^3) of a round pin, Pa (arm from :func:`bending_arm`)."""
+    """Bending stress 32 F arm/(pi d^3) of a round pin, Pa; arm by :func:`.carrier.bending_arm`."""
     moment = np.asarray(force, dtype=float) * np.asarray(arm, dtype=float)
-    return np.asarray(32.0 * moment / (np.pi * np.asarray(pin_diameter, dtype=float) ** 3))
+    return np.asarray(moment / bending_modulus(pin_diameter))
 
 
 def shear_stress(force: ArrayLike, pin_diameter: ArrayLike) -> FloatArray:

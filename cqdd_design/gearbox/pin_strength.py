@@ -9,6 +9,7 @@ from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox import output_pins, rigid
+from cqdd_design.gearbox.carrier import design_bending_arm
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.loads import RigidMaxima
 
@@ -22,7 +23,8 @@ class PinStrength:
     diameter : float
         Nominal diameter d, m; strength counts with it, as screw tables do.
     span, bending_arm : float
-        Free length L between the carrier plates, and bending moment per newton, m.
+        Free length L between the carrier plates, and bending moment per newton by
+        :func:`.carrier.design_bending_arm`, m.
     peak_force_factor : float
         k of F = k T/(D N_w R_w).
     paper_shear : float
@@ -99,8 +101,8 @@ def pin_strength(design: Design, peak: RigidMaxima, continuous: RigidMaxima) -> 
     reducer, pins = design.reducer, design.reducer.output_pins
     material = find_material(pins.material)
     d, b = pins.diameter, reducer.disc_thickness
-    arm = float(output_pins.bending_arm(reducer.disc_count, b, reducer.disc_spacing, pins.support))
     factor = rigid.peak_pin_force_factor(pins.count)
+    arm = design_bending_arm(design)
     paper_shear = allowables.PAPER_SHEAR_SHARE * _ultimate(material)
     per_pin = float(output_pins.single_shear_torque_per_pin(d, paper_shear, pins.circle_radius))
     bending_limit = allowables.pin_limit_peak(material).value

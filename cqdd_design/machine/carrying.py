@@ -43,7 +43,8 @@ class _Row(NamedTuple):
 
 
 _RING, _HOLE = "ring_pressure_max_MPa", "output_pressure_max_MPa"
-_PIN, _CAM = "output_pin_force_max_N", "cam_bearing_load_max_N"
+_PIN, _BENT = "output_pin_force_max_N", "output_pin_bending_max_MPa"
+_CAM = "cam_bearing_load_max_N"
 LIMITS: Mapping[str, _Row] = MappingProxyType(
     {
         "CONTACT-RING-PEAK": _Row("ring teeth", "pressure of the ring's teeth", "peak", _RING, 0.5),
@@ -57,9 +58,9 @@ LIMITS: Mapping[str, _Row] = MappingProxyType(
             "output pins", "pressure of the pins in their holes", "continuous", _HOLE, 0.5
         ),
         "PIN-SHEAR-PEAK": _Row("output pins", "shear of the output pins", "peak", _PIN, 1.0),
-        "PIN-BENDING-PEAK": _Row("output pins", "bending of the output pins", "peak", _PIN, 1.0),
+        "PIN-BENDING-PEAK": _Row("output pins", "bending of the output pins", "peak", _BENT, 1.0),
         "PIN-BENDING-CONTINUOUS": _Row(
-            "output pins", "bending of the output pins", "continuous", _PIN, 1.0
+            "output pins", "bending of the output pins", "continuous", _BENT, 1.0
         ),
         "PIN-BEARING-PEAK": _Row(
             "output pins", "mean pressure of the pins in their holes", "peak", _PIN, 1.0

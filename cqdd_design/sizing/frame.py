@@ -16,8 +16,10 @@ from cqdd_design.catalog.motors import Motor, find_motor
 from cqdd_design.design import Design, Requirements
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox import hertz
+from cqdd_design.gearbox.carrier import pin_ends
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import Allowable
+from cqdd_design.gearbox.pin_beam import PinEnd
 from cqdd_design.geometry import kinematics
 from cqdd_design.sizing.bought_parts import (
     BearingTable,
@@ -71,6 +73,8 @@ class Frame:
         Of the output holes, m.
     clocking : float
         Of the first output hole, a quarter lobe pitch, rad.
+    pin_ends : tuple of str
+        How plate and cap hold the output pins, of :mod:`~cqdd_design.gearbox.carrier`.
     most_thickness : float
         Of one disc in the required length.
     cam_speed : float
@@ -95,6 +99,7 @@ class Frame:
     wire_radius: float
     default_clearance: float
     clocking: float
+    pin_ends: tuple[PinEnd, PinEnd]
     most_thickness: float
     cam_speed: float
     limits: LoadLimits
@@ -176,6 +181,7 @@ def search_frame(requirements: Requirements, motor: Motor | None = None) -> Fram
         wire_radius=template.edm.wire_offset,
         default_clearance=pins.hole_clearance,
         clocking=pins.hole_clocking,
+        pin_ends=pin_ends(template),
         most_thickness=most,
         cam_speed=float(
             kinematics.cam_bearing_speed_ring_fixed(requirements.ratio, requirements.input_speed)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.gearbox import hertz, output_pins
+from cqdd_design.gearbox.carrier import slender_bending_arm
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
 from cqdd_design.geometry.contours import FloatArray
@@ -90,7 +91,7 @@ def pin_reserves_per_radius(
     uneven = UNEVEN_SHARING * force
     relative = hertz.conformal_equivalent_radius(pin_radius, hole_radius)
     pressure = hertz.line_contact_pressure(uneven, b, relative, frame.pin_modulus)
-    arm = output_pins.bending_arm(frame.disc_count, b, frame.spacing, "both")
+    arm = slender_bending_arm(frame.disc_count, b, frame.spacing, frame.pin_ends, k)
     bending = output_pins.bending_stress(uneven, arm, d)
     paper_shear = allowables.PAPER_SHEAR_SHARE * limits.pin_ultimate
     peak = frame.requirements.peak_torque

@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 
 from cqdd_design.gearbox.contact.kernel_values import Toleranced
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.pin_beam import PinBeam
 from cqdd_design.gearbox.contact.states import NominalStates
+from cqdd_design.gearbox.pin_beam import PinBeam
 
 FloatArray = NDArray[np.float64]
 

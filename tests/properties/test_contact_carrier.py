@@ -24,12 +24,12 @@ from cqdd_design.gearbox.contact.compliant import (
 from cqdd_design.gearbox.contact.kernel_values import SweepResult, YieldingResult
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
-from cqdd_design.gearbox.contact.pin_beam import PinBeam, PinEnd, pin_in_stack, pin_section
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, PowerSense, rubbing
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.hertz import line_contact_pressure
+from cqdd_design.gearbox.pin_beam import PinBeam, PinEnd, pin_in_stack, pin_section
 
 SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much]
 SEEDS = st.integers(0, 2**32 - 1)
@@ -97,7 +97,7 @@ def yielding(
         )
     model, states = sweep.model, nominal_states(sweep.model, sweep.crank_angle)
     changed = error_states(model, states, errors)
-    compliance = carrier_compliance(model.pin_count, beam, bodies)
+    compliance = carrier_compliance(model.pin_count, beam, bodies=bodies)
     return compliant_states(
         model, sweep.torque, states, changed, solved(start), compliance, friction
     )
@@ -299,7 +299,7 @@ def test_work_at_held_motions_is_the_slope_of_the_energy(
     found = unless_it_jams(swept(model, torque, angle, errors), beam, None, errors, bodies)
     states = nominal_states(model, angle)
     changed = error_states(model, states, errors)
-    compliance = carrier_compliance(model.pin_count, beam, bodies)
+    compliance = carrier_compliance(model.pin_count, beam, bodies=bodies)
     energy = compliant_energy(model, torque, states, compliance, found)
     slope = compliant_slope(model, states, changed, compliance, found)
     differences = (energy[0] - 8.0 * energy[1] + 8.0 * energy[3] - energy[4]) / (12.0 * step)

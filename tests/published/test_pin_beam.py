@@ -14,7 +14,7 @@ import math
 import numpy as np
 import pytest
 
-from cqdd_design.gearbox.contact.pin_beam import (
+from cqdd_design.gearbox.pin_beam import (
     PinEnd,
     PinSection,
     pin_beam,

@@ -78,9 +78,10 @@ ROWS = (
         "Bending stress of the output pins, peak torque",
         "MPa",
         "max",
-        f"sigma = 32 M/(pi d^3) <= {_YIELD}, M = {_UNEVEN} F (a(L-a)/L - b/8) or {_UNEVEN} F a "
-        "(cantilever)",
-        "Thin pins bend long before they shear; a bent pin jams in its holes.",
+        f"sigma = 32 M/(pi d^3) <= {_YIELD}, M = {_UNEVEN} F arm; the arm is that of a slender "
+        "beam between plate and cap, which turns until the pins' and columns' torque on it is zero",
+        "Thin pins bend long before they shear; a bent pin jams in its holes. A cap that hangs on "
+        "the pins bears none of the torque: they carry it to the plate, bent there.",
         f"beam theory; {SHIGLEY}; {WANG} (pin stress)",
     ),
     CheckGuide(

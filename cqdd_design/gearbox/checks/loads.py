@@ -79,6 +79,7 @@ def _pins(state: GearboxState) -> tuple[Check, ...]:
         bending(material), bending(find_material(reducer.disc_material))
     )
     d = pins.diameter * 1e3
+    held = reducer.carrier.joint if pins.support == "both" else pins.support
     # What bears on the hole is the sleeve where there is one; bent and sheared is the pin.
     runner = max(pins.diameter, pins.sleeve_diameter)
     needed = peak.torque
@@ -100,7 +101,7 @@ def _pins(state: GearboxState) -> tuple[Check, ...]:
         where = {
             1: f"{runner * 1e3:g} mm x {reducer.disc_thickness * 1e3:g} mm",
             2: f"{d:g} mm",
-            3: f"{d:g} mm, arm {strength.bending_arm * 1e3:.4f} mm ({pins.support})",
+            3: f"{d:g} mm, arm {strength.bending_arm * 1e3:.4f} mm ({held})",
         }[power]
         return build_check(
             check_id,

@@ -146,6 +146,8 @@ def stronger_pins(
         words.append(f"use {count} pins of {pins.diameter * 1e3:g} mm")
     if power == 3 and pins.support != "both":
         words.append("hold the pins at both ends")
+    elif power == 3 and state.design.reducer.carrier.joint == "hinged":
+        words.append("clamp them in the cap too (reducer.carrier.joint)")
     screws = [
         (rule(screw).value, screw.name)
         for screw in materials().values()

@@ -22,17 +22,17 @@ from cqdd_design.gearbox.contact.kernel_values import (
     YieldingResult,
 )
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.pin_beam import PinBeam
+from cqdd_design.gearbox.contact.problem import sweep_problem
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, rubbing
 from cqdd_design.gearbox.contact.states import NominalStates
-from cqdd_design.gearbox.contact.sweep import sweep_problem
+from cqdd_design.gearbox.pin_beam import PinBeam
 from cqdd_design.geometry.contours import FloatArray
 
 _NO_BODIES = np.empty((0, 0, 0, 0))
 
 
 def carrier_compliance(
-    pin_count: int, beam: PinBeam, bodies: FloatArray | None = None
+    pin_count: int, beam: PinBeam, tie: float = 0.0, bodies: FloatArray | None = None
 ) -> Compliance:
     """What yields behind the contacts of a gearbox whose cap hangs on its pins.
 
@@ -42,6 +42,8 @@ def carrier_compliance(
         N_w; together they hold the cap by N_w joint R_w^2 against the plate.
     beam : PinBeam
         Of every pin. A cantilever's cap bears nothing and is as good as none.
+    tie : float
+        What else holds it, over R_w^2, N/m.
     bodies : array (A, D, C, C), optional
         Closing that every contact of a disc (last axis but one) loses by a unit force of another
         (last axis), friction with it, m/N; default rigid.
@@ -50,7 +52,7 @@ def carrier_compliance(
         pins=np.ascontiguousarray(beam.influence),
         at_cap=np.ascontiguousarray(beam.at_cap),
         # Where no pin reaches a cap, any spring holds it: nothing moves it against the plate.
-        join=pin_count * beam.joint or 1.0,
+        join=pin_count * beam.joint + tie or 1.0,
         bodies=np.ascontiguousarray(_NO_BODIES if bodies is None else bodies.swapaxes(-1, -2)),
     )
 

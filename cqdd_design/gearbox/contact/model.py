@@ -10,11 +10,12 @@ from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
+from cqdd_design.gearbox.carrier import pin_of, tie_of
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import Bodies, CamSpring, LineLaw, LineModel
-from cqdd_design.gearbox.contact.pin_beam import HELD, pin_in_stack, pin_section
 from cqdd_design.gearbox.hertz import conformal_equivalent_radius
 from cqdd_design.gearbox.output_pins import sleeve_share
+from cqdd_design.gearbox.pin_beam import HELD, PinBeam
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.cycloid import CycloidDisc
@@ -33,7 +34,8 @@ class ContactModel(Stages):
     ring_bodies, pin_bodies : Bodies
         Of tooth and disc, and of pin and disc.
     pin_series : array (D,)
-        Compliance of a pin at every disc, m/N.
+        Compliance of a pin at every disc, m/N, where plate and cap are one body and no disc's
+        force reaches another: the state that every other starts from.
     cam : CamSpring
         Between bore and cam.
     tooth_friction, hole_friction : float
@@ -42,6 +44,12 @@ class ContactModel(Stages):
         t r_sleeve = mu F r_pin).
     carrier_stiffness : float or None
         Radial stiffness of the carrier's bearing, N/m; None where it is rigid.
+    pin : PinBeam or None
+        A pin between plate and cap, which turn apart; None where they are one body.
+    pin_diameter : float
+        Nominal, with which a pin's strength counts, m.
+    tie : float
+        Torque over turn between plate and cap by all but the pins, N m/rad.
     """
 
     disc: CycloidDisc
@@ -54,6 +62,9 @@ class ContactModel(Stages):
     tooth_friction: float
     hole_friction: float
     carrier_stiffness: float | None = None
+    pin: PinBeam | None = None
+    pin_diameter: float = 0.0
+    tie: float = 0.0
 
     @classmethod
     def from_design(cls, design: Design, line_model: LineModel = "palmgren") -> ContactModel:
@@ -76,7 +87,6 @@ class ContactModel(Stages):
         steel = find_material(reducer.disc_material)
         tooth = find_material(reducer.ring_material)
         pin = find_material(pins.material)
-        plate = find_material(design.housing.material)
         behind_flank = disc.valley_distance - 0.5 * bearing.outer_diameter
         ring_bodies = (
             _body(0.5 * reducer.ring_pin_diameter, tooth),
@@ -90,13 +100,6 @@ class ContactModel(Stages):
                 laws.johnson_coefficients(length, 1.0, stages.ring_modulus, ring_bodies)[1],
                 laws.johnson_coefficients(length, 1.0, stages.pin_modulus, pin_bodies)[1],
             )
-        beam = pin_in_stack(
-            reducer.disc_count,
-            reducer.disc_thickness,
-            reducer.disc_spacing,
-            pin_section(pins.diameter, pin.youngs_modulus, pin.poisson_ratio, plate.youngs_modulus),
-            HELD[pins.support],
-        )
         return cls(
             **vars(stages),
             disc=disc,
@@ -104,12 +107,15 @@ class ContactModel(Stages):
             pin_law=LineLaw(line_model, logarithms[1]),
             ring_bodies=ring_bodies,
             pin_bodies=pin_bodies,
-            pin_series=np.diag(beam.influence).copy(),
+            pin_series=np.diag(pin_of(design, HELD[pins.support]).influence).copy(),
             cam=laws.cam_spring(bearing, reducer.cam_bearing.radial_clearance),
             tooth_friction=reducer.friction.tooth,
             hole_friction=reducer.friction.pin
             * sleeve_share(mean_pin_diameter(pins.diameter), pins.sleeve_diameter),
             carrier_stiffness=reducer.carrier_bearing.stiffness or None,
+            pin=pin_of(design),
+            pin_diameter=pins.diameter,
+            tie=tie_of(design),
         )
 
     @property

@@ -7,10 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.errors import UsageError
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.hertz import line_contact_pressure
-from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.gearbox.output_pins import bending_modulus
+from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 IntArray = NDArray[np.int64]
 
@@ -54,7 +56,9 @@ class ContactSweep:
     disc_displacement : array (A, D, 3)
         x, y (m) and angle (rad).
     carrier_angle_error : array (A,)
-        Ahead of -phi/n positive, rad.
+        Of the plate, ahead of -phi/n positive, rad.
+    cap_angle_error : array (A,) or None
+        Of the cap, likewise; None where it is one body with the plate, and where there is none.
     carrier_displacement : array (A, 2)
         m; zero where the carrier's bearing is rigid.
     energy : array (A,)
@@ -87,6 +91,7 @@ class ContactSweep:
     disc_centre: FloatArray
     disc_displacement: FloatArray
     carrier_angle_error: FloatArray
+    cap_angle_error: FloatArray | None
     carrier_displacement: FloatArray
     energy: FloatArray
     energy_slope: FloatArray
@@ -100,6 +105,12 @@ class ContactSweep:
         discs = self.disc_displacement * np.array([1.0, 1.0, length])
         carrier = np.column_stack([self.carrier_displacement, length * self.carrier_angle_error])
         return np.concatenate([carrier, discs.reshape(len(carrier), -1)], axis=1)
+
+    @property
+    def plate_angles(self) -> FloatArray:
+        """Angle errors of the carrier's plates, its own and the cap's, (A, 2) or (A, 1), rad."""
+        both = (self.carrier_angle_error, self.cap_angle_error)
+        return np.column_stack([angle for angle in both if angle is not None])
 
     @property
     def ring_load(self) -> FloatArray:
@@ -130,6 +141,30 @@ class ContactSweep:
             self.model.pin_equivalent_radius,
             self.model.pin_modulus,
         )
+
+    @property
+    def pin_moment(self) -> ComplexArray:
+        """Bending moment in every pin at the sections of :class:`.PinBeam`, (A, D + 2, P), N m.
+
+        Complex in the pin's own axes, outward and along the circle, as the force that bends it.
+        """
+        pin = self.model.pin
+        if pin is None:
+            raise UsageError("pins of plates that are one body have no known moments.")
+        middle = self.pin_point - self.model.pin_contact_radius * self.pin_normal
+        outward = middle[..., 0] + 1j * middle[..., 1]
+        load = self.pin_load[..., 0] + 1j * self.pin_load[..., 1]
+        force = -load * np.conj(outward) / np.abs(outward)
+        moment = np.einsum("sd,adp->asp", pin.disc_moment, force)
+        if self.cap_angle_error is not None:
+            sway = self.model.pin_circle_radius * (self.cap_angle_error - self.carrier_angle_error)
+            moment += 1j * (sway[:, None] * pin.sway_moment)[..., None]
+        return np.asarray(moment)
+
+    @property
+    def pin_bending(self) -> FloatArray:
+        """Greatest bending stress of every section of every pin, (A, D + 2, P), Pa."""
+        return np.abs(self.pin_moment) / bending_modulus(self.model.pin_diameter)
 
     @property
     def cam_load(self) -> FloatArray:
@@ -194,13 +229,16 @@ class ContactSweep:
     @property
     def maxima(self) -> dict[str, float]:
         """Greatest forces and pressures over this sweep, by their JSON keys."""
-        return {
+        found = {
             "ring_force_max_N": float(self.ring_force.max()),
             "output_pin_force_max_N": float(self.pin_force.max()),
             "cam_bearing_load_max_N": float(self.cam_load.max()),
             "ring_pressure_max_MPa": float(self.ring_pressure.max()) / 1e6,
             "output_pressure_max_MPa": float(self.pin_pressure.max()) / 1e6,
         }
+        if self.model.pin is not None:
+            found["output_pin_bending_max_MPa"] = float(self.pin_bending.max()) / 1e6
+        return found
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form (``contact``): the arrays, and their maxima over this sweep."""
@@ -223,6 +261,7 @@ class ContactSweep:
             "disc_centre_mm": (1e3 * self.disc_centre).tolist(),
             "disc_displacement_um": shown.tolist(),
             "carrier_angle_error_arcmin": (np.degrees(self.carrier_angle_error) * 60.0).tolist(),
+            "plate_angle_arcmin": (np.degrees(self.plate_angles) * 60.0).tolist(),
             "teeth_in_contact": self.teeth_in_contact.tolist(),
             "friction": "off" if self.friction is None else self.friction.sense,
             "friction_tooth": 0.0 if self.friction is None else self.friction.tooth,

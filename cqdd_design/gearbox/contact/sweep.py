@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.contact import laws
-from cqdd_design.gearbox.contact.kernel_values import (
-    Contacts,
-    Load,
-    Springs,
-    SweepResult,
-    Toleranced,
+from cqdd_design.gearbox.contact.compliant import (
+    carrier_compliance,
+    compliant_energy,
+    compliant_slope,
+    compliant_states,
 )
+from cqdd_design.gearbox.contact.kernel_values import SweepResult, Toleranced
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.problem import sweep_problem
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, rubbing, slip
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import (
@@ -119,22 +119,22 @@ def contact_sweep(
             f"{math.degrees(states.crank_angle[failed]):.6g} deg and {torque:g} N*m; check the "
             "clearances in reducer.modification, output_pins.hole_clearance and cam_bearing."
         )
-    rubbed = _Rubbed(None, np.zeros_like(result.force), np.zeros(len(result.force)))
     _refuse_out_of_reach(model, torque, states, result.states)
     if friction is not None:
-        result, rubbed = _with_friction(model, torque, states, changed, friction, result)
+        result = _with_friction(model, torque, states, changed, friction, result)
         _refuse_out_of_reach(model, torque, states, result.states)
-    _refuse_outside_law(model, torque, states, result.force)
-    return _assemble(model, torque, states, changed, result, rubbed)
+    found = _joined(model, torque, states, changed, friction, result)
+    _refuse_outside_law(model, torque, states, found.result.force)
+    return _assemble(model, torque, states, friction, found)
 
 
-@dataclass(frozen=True, eq=False)
-class _Rubbed:
-    """Friction of a sweep: forces along the tangents (A, D, C) and work per radian (A,)."""
+class _Found(NamedTuple):
+    """Equilibria with what belongs to them: the cap's turn (A,), rad, energy and its slope (A,)."""
 
-    friction: ContactFriction | None
-    tangential: FloatArray
-    work: FloatArray
+    result: SweepResult
+    cap_angle: FloatArray | None
+    energy: FloatArray
+    energy_slope: FloatArray
 
 
 def _with_friction(
@@ -144,7 +144,7 @@ def _with_friction(
     changed: Toleranced,
     friction: ContactFriction,
     smooth: SweepResult,
-) -> tuple[SweepResult, _Rubbed]:
+) -> SweepResult:
     """Equilibria with friction, from those without it."""
     from cqdd_design.gearbox.contact.friction_sweep_kernel import rub_sweep
 
@@ -159,9 +159,52 @@ def _with_friction(
             "the gearbox: no forces carry the load while the contacts slide. Lower "
             "reducer.friction.tooth and reducer.friction.pin."
         )
-    tangential = rubs.share * result.force
-    work = np.sum(np.abs(tangential * slip(model, states)), axis=(1, 2))
-    return result, _Rubbed(friction, tangential, work)
+    return result
+
+
+def _held(
+    model: ContactModel,
+    torque: float,
+    states: NominalStates,
+    changed: Toleranced,
+    result: SweepResult,
+) -> _Found:
+    """Equilibria of plates that are one body."""
+    state, force, cam_force = result.states, result.force, result.cam_force
+    energy = _spring_energy(model, states, force, cam_force)
+    energy += 0.5 * (model.carrier_stiffness or 0.0) * np.sum(state[:, :2] ** 2, axis=-1)
+    energy -= torque * state[:, 2] / states.length
+    slope = energy_slope(states, changed, state, force, cam_force, model.tooth_count)
+    return _Found(result, None, energy, slope)
+
+
+def _joined(
+    model: ContactModel,
+    torque: float,
+    states: NominalStates,
+    changed: Toleranced,
+    friction: ContactFriction | None,
+    start: SweepResult,
+) -> _Found:
+    """Equilibria of plates that turn apart as the carrier is built, from those of one body."""
+    if model.pin is None:
+        return _held(model, torque, states, changed, start)
+    compliance = carrier_compliance(model.pin_count, model.pin, model.tie / states.length**2)
+    found = compliant_states(model, torque, states, changed, start, compliance, friction)
+    result = SweepResult(
+        states=np.delete(found.states, 3, axis=1),
+        force=found.force,
+        cam_force=found.cam_force,
+        torsional=found.torsional,
+        steps=start.steps + found.steps,
+    )
+    _refuse_out_of_reach(model, torque, states, found.states)
+    return _Found(
+        result,
+        found.states[:, 3] / states.length if np.any(compliance.at_cap) else None,
+        compliant_energy(model, torque, states, compliance, found),
+        compliant_slope(model, states, changed, compliance, found),
+    )
 
 
 def _refuse_misshapen(model: ContactModel, errors: GearboxErrors | None) -> None:
@@ -174,51 +217,6 @@ def _refuse_misshapen(model: ContactModel, errors: GearboxErrors | None) -> None
             raise UsageError(
                 f"errors.{name} has the shape {np.shape(given)}; this gearbox needs {right.shape}."
             )
-
-
-def sweep_problem(
-    model: ContactModel, torque: float, states: NominalStates, changed: Toleranced
-) -> tuple[Contacts, Springs, Load, FloatArray, SweepResult]:
-    """Arguments of :func:`.sweep_kernel.solve_sweep`, the last of them still to be filled."""
-    count, discs, each = states.gaps.shape
-    contacts = Contacts(
-        rows=states.rows,
-        gaps=changed.gaps,
-        coefficient=states.coefficient,
-        offset=changed.offset,
-        half_play=changed.half_play,
-    )
-    load = Load(torque / states.length, stiffness_scale(model, torque))
-    result = SweepResult(
-        states=np.empty((count, 3 + 3 * discs)),
-        force=np.empty((count, discs, each)),
-        cam_force=np.empty((count, discs, 2)),
-        torsional=np.empty(count),
-        steps=np.zeros(count, dtype=np.int64),
-    )
-    return contacts, springs_of(model), load, states.turns, result
-
-
-def springs_of(model: ContactModel) -> Springs:
-    """The force laws of a gearbox as the kernels take them."""
-    return Springs(
-        teeth=model.tooth_count,
-        ring_law=model.ring_law.code,
-        pin_law=model.pin_law.code,
-        ring_logarithm=model.ring_law.logarithm,
-        pin_logarithm=model.pin_law.logarithm,
-        pin_series=np.ascontiguousarray(model.pin_series),
-        cam_stiffness=model.cam.stiffness,
-        cam_exponent=model.cam.exponent,
-        carrier_stiffness=model.carrier_stiffness or 0.0,
-    )
-
-
-def stiffness_scale(model: ContactModel, torque: float) -> float:
-    """Stiffness of a pin under its share of the torque, N/m."""
-    load = max(abs(torque) / model.pin_circle_radius / model.disc_count, 1e-9)
-    closed = laws.approach(model.pin_law, model.pin_coefficient(), model.pin_series[0], load)
-    return load / max(abs(float(closed)), 1e-15)
 
 
 def _refuse_out_of_reach(
@@ -257,25 +255,23 @@ def _assemble(
     model: ContactModel,
     torque: float,
     states: NominalStates,
-    changed: Toleranced,
-    result: SweepResult,
-    rubbed: _Rubbed,
+    friction: ContactFriction | None,
+    found: _Found,
 ) -> ContactSweep:
-    teeth, length = model.tooth_count, states.length
-    state, force, cam_force = result.states, result.force, result.cam_force
-    discs = state[:, 3:].reshape(len(state), -1, 3)
-    energy = _spring_energy(model, states, force, cam_force)
-    carrier = state[:, :2]
-    energy += 0.5 * (model.carrier_stiffness or 0.0) * np.sum(carrier**2, axis=-1)
-    energy -= torque * state[:, 2] / length
+    result, teeth, length = found.result, model.tooth_count, states.length
+    state, force = result.states, result.force
+    displacement = state[:, 3:].reshape(len(state), -1, 3).copy()
+    displacement[..., 2] /= length
+    tangential = np.zeros_like(force)
+    if friction is not None:
+        tangential = rubbing(model, states, friction, torque).share * force
+    work = np.sum(np.abs(tangential * slip(model, states)), axis=(1, 2))
     centre = kinematics.disc_centre(model.eccentricity, states.crank_angle[:, None], model.phases)
     pin_normal = states.rows[:, :, teeth:, :2]
     pin_at = model.pin_circle_radius * np.stack(
         [np.cos(states.pin_angle), np.sin(states.pin_angle)], axis=-1
     )
     touching = np.any(force > 0.0, axis=(1, 2))
-    displacement = discs.copy()
-    displacement[..., 2] /= length
     return ContactSweep(
         model=model,
         torque=torque,
@@ -288,17 +284,18 @@ def _assemble(
         pin_force=force[:, :, teeth:],
         pin_normal=pin_normal,
         pin_point=pin_at[:, None] + model.pin_contact_radius * pin_normal,
-        ring_tangential=rubbed.tangential[:, :, :teeth],
-        pin_tangential=rubbed.tangential[:, :, teeth:],
-        friction=rubbed.friction,
-        friction_work=rubbed.work,
-        cam_force=cam_force,
+        ring_tangential=tangential[:, :, :teeth],
+        pin_tangential=tangential[:, :, teeth:],
+        friction=friction,
+        friction_work=work,
+        cam_force=result.cam_force,
         disc_centre=centre,
         disc_displacement=displacement,
         carrier_angle_error=state[:, 2] / length,
-        carrier_displacement=carrier,
-        energy=energy,
-        energy_slope=energy_slope(states, changed, state, force, cam_force, teeth),
+        cap_angle_error=found.cap_angle,
+        carrier_displacement=state[:, :2],
+        energy=found.energy,
+        energy_slope=found.energy_slope,
         stiffness=np.where(touching, np.maximum(result.torsional, 0.0) * length**2, 0.0),
         steps=result.steps,
     )

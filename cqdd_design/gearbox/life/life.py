@@ -206,12 +206,7 @@ def _pin_bending(duty: _Duty) -> tuple[PartLife, list[NDArray[np.complex128]]]:
     """Bending of the output pins, and its stress vectors in every load case."""
     reducer, cases = duty.design.reducer, duty.cases
     material = find_material(reducer.output_pins.material)
-    support = reducer.output_pins.support
-    arms = pins.moment_arms(
-        reducer.disc_count, reducer.disc_thickness, reducer.disc_spacing, support
-    )
-    diameter = reducer.output_pins.diameter
-    stresses = [pins.bending_histories(sweep, arms, diameter) for sweep in duty.sweeps]
+    stresses = [pins.bending_histories(sweep) for sweep in duty.sweeps]
     senses = [case.torque for case in cases if case.share > 0.0]
     reverses = min(senses) < 0.0 < max(senses)
     limit = allowables.pin_bending_limit_continuous(material, duty_reverses=reverses)
@@ -235,7 +230,8 @@ def _pin_bending(duty: _Duty) -> tuple[PartLife, list[NDArray[np.complex128]]]:
     place, reserve = "", None
     if swing > 0.0:
         worst = fibres[max(range(len(fibres)), key=lambda k: (rates[k], swings[k]))]
-        place = "at the plate" if support == "cantilever" else f"at disc {worst.section + 1}"
+        places = ["at the plate", *(f"at disc {d + 1}" for d in range(reducer.disc_count))]
+        place = [*places, "at the cap"][worst.section]
         reserve = min(
             fatigue.largest_factor(partial(one.damage, endurance, ultimate), allowables.LIFE_HOURS)
             for one in fibres

@@ -17,10 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cqdd_design.gearbox import output_pins
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.life import fatigue
-from cqdd_design.gearbox.output_pins import PinSupport
+from cqdd_design.gearbox.output_pins import bending_modulus
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 Cycle = tuple[float, float, float]
@@ -37,7 +36,7 @@ class FibreCycles:
     ----------
     cycles : tuple of (low, high, per hour)
     section : int
-        Section of :func:`moment_arms` that the fibre lies in.
+        Section of :class:`.PinBeam` that the fibre lies in.
     """
 
     cycles: tuple[Cycle, ...]
@@ -59,24 +58,8 @@ class FibreCycles:
         return float(fatigue.goodman_reversed(low, high, ultimate).max())
 
 
-def moment_arms(
-    disc_count: int, disc_thickness: float, disc_spacing: float, support: PinSupport
-) -> FloatArray:
-    """Bending moment at the sections judged per newton of every disc, (sections, D), m.
-
-    Held at both ends: at the middle of every disc, simply supported, the disc's own force spread
-    over its thickness as in :func:`.output_pins.bending_arm`. Cantilever: at the plate.
-    """
-    at = output_pins.disc_positions(disc_count, disc_thickness, disc_spacing)
-    if support == "cantilever":
-        return np.asarray(at[None, :])
-    span = float(output_pins.pin_span(disc_count, disc_thickness, disc_spacing))
-    near, far = np.minimum.outer(at, at), np.maximum.outer(at, at)
-    return np.asarray(near * (span - far) / span - np.eye(disc_count) * disc_thickness / 8.0)
-
-
-def pin_force_histories(sweep: ContactSweep) -> ComplexArray:
-    """Force of every disc on a pin over one turn of the crank against the carrier.
+def pin_moment_histories(sweep: ContactSweep) -> ComplexArray:
+    """Bending moments of a pin over one turn of the crank against the carrier.
 
     Parameters
     ----------
@@ -86,32 +69,25 @@ def pin_force_histories(sweep: ContactSweep) -> ComplexArray:
 
     Returns
     -------
-    array (g A, D, N_w/g)
-        Complex in the pin's own axes, radial and tangential, N. The other pins of the circle
-        differ from these in nothing but the time.
+    array (g A, D + 2, N_w/g)
+        As :attr:`.ContactSweep.pin_moment`, N m. The other pins of the circle differ from these in
+        nothing but the time.
     """
-    model = sweep.model
+    model, moment = sweep.model, sweep.pin_moment
     shared = math.gcd(model.lobe_count, model.pin_count)
     different = model.pin_count // shared
-    middle = sweep.pin_point - model.pin_contact_radius * sweep.pin_normal
-    outward = middle[..., 0] + 1j * middle[..., 1]
-    load = sweep.pin_load
-    on_disc = load[..., 0] + 1j * load[..., 1]
-    force = -on_disc * np.conj(outward) / np.abs(outward)
     pin = np.arange(different) - different * np.arange(shared)[:, None]
-    return np.concatenate([force[:, :, row] for row in np.mod(pin, model.pin_count)])
+    return np.concatenate([moment[:, :, row] for row in np.mod(pin, model.pin_count)])
 
 
-def bending_histories(sweep: ContactSweep, arms: FloatArray, diameter: float) -> ComplexArray:
-    """Bending stress vector over the same turn, (N_w/g, sections, g A), Pa.
+def bending_histories(sweep: ContactSweep) -> ComplexArray:
+    """Bending stress vector over the same turn, (N_w/g, D + 2, g A), Pa.
 
     Its size is the greatest stress in the section; the real part of it turned back by an angle is
     the stress of the fibre at that angle from the outward radius.
     """
-    per_moment = 32.0 / (math.pi * diameter**3)
-    return np.asarray(
-        per_moment * np.einsum("sd,adp->psa", arms, pin_force_histories(sweep)), dtype=complex
-    )
+    modulus = float(bending_modulus(sweep.model.pin_diameter))
+    return np.moveaxis(pin_moment_histories(sweep), (2, 1, 0), (0, 1, 2)) / modulus
 
 
 def worst_fibres(

@@ -13,13 +13,12 @@ from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.contact.kernel_values import Load, Nominal, Start
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.problem import springs_of, stiffness_scale
 from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
 from cqdd_design.gearbox.contact.sweep import (
     contact_sweep,
     output_turn_angles,
     output_turn_count,
-    springs_of,
-    stiffness_scale,
 )
 from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.geometry.contours import FloatArray

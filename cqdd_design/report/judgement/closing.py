@@ -17,6 +17,14 @@ from cqdd_design.geometry import kinematics
 from cqdd_design.report.ink.numbers import MINUS, millimetres
 from cqdd_design.solids.part import Part
 
+_JOINTS = {
+    "clamped": "Output pins are beams clamped in plate and cap; the cap hangs on them and turns.",
+    "hinged": "Output pins are beams clamped in the plate and pinned in the cap, which hangs on "
+    "them and turns.",
+    "columns": "Output pins are beams clamped in the plate and pinned in the cap, which columns "
+    "tie to the plate.",
+}
+
 #: Where the paper's own arithmetic or units do not hold: place, printed, correct, reason.
 ERRATA = (
     (
@@ -94,8 +102,7 @@ def model_assumptions(design: Design) -> tuple[str, ...]:
         f"{UNEVEN_SHARING:g} for what is uneven."
     )
     pins = (
-        "Output pins are simply supported by plates on both sides; the force is spread over the "
-        "disc's thickness."
+        _JOINTS[reducer.carrier.joint]
         if reducer.output_pins.support == "both"
         else "Output pins are cantilevers from one plate; the farthest disc bends them most."
     )

@@ -7,6 +7,7 @@ the forces F_d. What is linear in them is worked out once::
     deflection at disc d   w_d = at_plate_d p + at_cap_d q + sum_e influence_de F_e
     force on the cap       R   = sum_d at_cap_d F_d + joint (p - q)
     force on the plate         = sum_d F_d - R
+    moment at section s    M_s = sum_d disc_moment_sd F_d + sway_moment_s (q - p)
 
 By reciprocity one number is both: how much of the plate's motion the pin shows at a disc, and how
 much of the disc's force goes to the plate. Plates turn about the pin's direction and do not tilt,
@@ -15,7 +16,7 @@ so that a clamped end keeps its slope whatever the plates do.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -68,12 +69,19 @@ class PinBeam:
         Deflection at disc d by a unit force of disc e, plate and cap held, m/N.
     joint : float
         Force between plate and cap when they move apart by one, N/m.
+    disc_moment : array (D + 2, D)
+        Bending moment at the plate's face, at the middle of every disc and at the cap's face by a
+        unit force of every disc, m.
+    sway_moment : array (D + 2,)
+        The same when the cap moves by one against the plate, N.
     """
 
     at_plate: FloatArray
     at_cap: FloatArray
     influence: FloatArray
     joint: float
+    disc_moment: FloatArray
+    sway_moment: FloatArray
 
 
 def pin_section(
@@ -135,7 +143,10 @@ def pin_in_stack(
     """
     span = float(pin_span(disc_count, disc_thickness, disc_spacing))
     at = disc_positions(disc_count, disc_thickness, disc_spacing)
-    return pin_beam(at, span, section, ends)
+    beam = pin_beam(at, span, section, ends)
+    # Half of a force that is spread over its disc lies beyond the disc's middle.
+    spread = np.eye(disc_count + 2, disc_count, -1) * disc_thickness / 8.0
+    return replace(beam, disc_moment=beam.disc_moment + spread)
 
 
 def pin_beam(
@@ -204,11 +215,17 @@ def pin_beam(
     shown += np.outer(x**2 * (3.0 - x) / 6.0 + shear * x, force)
     near, far = np.minimum.outer(x, x), np.maximum.outer(x, x)
     shown[:, 2:] += near**2 * (3.0 * far - near) / 6.0 + shear * near
+    # Moments of what lies beyond a section, seen from the plate.
+    sections = np.array([0.0, *x, 1.0])
+    bent = moment + np.outer(1.0 + behind - sections, force)
+    bent[:, 2:] += np.maximum(x - sections[:, None], 0.0)
     return PinBeam(
         at_plate=shown[:, 0],
         at_cap=shown[:, 1],
         influence=shown[:, 2:] * (span / unit),
         joint=float(force[1]) * unit / span,
+        disc_moment=bent[:, 2:] * span,
+        sway_moment=bent[:, 1] * unit,
     )
 
 
