@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from hypothesis import reject
 
@@ -13,6 +15,11 @@ from cqdd_design.gearbox.contact.sweep import contact_sweep
 from cqdd_design.geometry import kinematics
 
 BALANCE = 1e-9
+
+
+def one_body(model: ContactModel) -> ContactModel:
+    """The same gearbox with plate and cap of its carrier as one body, as plain oracles have it."""
+    return replace(model, pin=None)
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:

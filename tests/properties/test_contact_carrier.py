@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from contact_carrier_plain import CarrierProblem, solve_carrier_plain
-from contact_checks import BALANCE, cross, some_angles, swept
+from contact_checks import BALANCE, cross, one_body, some_angles, swept
 from contact_designs import contact_designs, random_errors, usual_torque
 from examples import examples
 from hypothesis import HealthCheck, given, reject, settings
@@ -63,6 +63,8 @@ def held(beam: PinBeam) -> PinBeam:
         np.zeros_like(beam.at_cap),
         np.diag(np.diag(beam.influence)),
         0.0,
+        beam.disc_moment,
+        beam.sway_moment,
     )
 
 
@@ -182,7 +184,8 @@ def test_every_body_balances(
     soft: bool,
     seed: int,
 ) -> None:
-    model = replace(ContactModel.from_design(design, line_model), carrier_stiffness=bed)  # type: ignore[arg-type]
+    model = one_body(ContactModel.from_design(design, line_model))  # type: ignore[arg-type]
+    model = replace(model, carrier_stiffness=bed)
     torque = way * usual_torque(model, 10.0**decade)
     angle = some_angles(seed, model)
     sweep = swept(model, torque, angle)
@@ -216,7 +219,7 @@ def test_the_plain_twin_finds_the_same(
     soft: bool,
     seed: int,
 ) -> None:
-    model = ContactModel.from_design(design)  # type: ignore[arg-type]
+    model = one_body(ContactModel.from_design(design))  # type: ignore[arg-type]
     torque = usual_torque(model, 10.0**decade)
     angle = some_angles(seed, model, 2)
     errors = random_errors(model, np.random.default_rng(seed), 1e-6)
@@ -254,13 +257,13 @@ def test_the_plain_twin_finds_the_same(
 def test_held_plates_and_rigid_bodies_are_the_former_equilibrium(
     design: object, decade: float, mu: float, sense: PowerSense, seed: int
 ) -> None:
-    model = ContactModel.from_design(design)  # type: ignore[arg-type]
+    model = one_body(ContactModel.from_design(design))  # type: ignore[arg-type]
     torque = usual_torque(model, 10.0**decade)
     angle = some_angles(seed, model)
     smooth = swept(model, torque, angle)
     friction = ContactFriction(sense, mu, mu) if mu else None
     none = np.zeros(model.disc_count)
-    lone = PinBeam(1.0 - none, none, np.diag(model.pin_series), 0.0)
+    lone = PinBeam(1.0 - none, none, np.diag(model.pin_series), 0.0, np.zeros((2, 0)), none)
     found = unless_it_jams(smooth, lone, friction)
     former = contact_sweep(model, torque, angle, friction=friction)
     wanted = np.concatenate([former.ring_force, former.pin_force], axis=2)
@@ -289,7 +292,7 @@ def test_work_at_held_motions_is_the_slope_of_the_energy(
     design: object, decade: float, ends: tuple[PinEnd, PinEnd], seed: int
 ) -> None:
     """By differences over crank angle: the envelope of the least energies."""
-    model = ContactModel.from_design(design)  # type: ignore[arg-type]
+    model = one_body(ContactModel.from_design(design))  # type: ignore[arg-type]
     torque = usual_torque(model, 10.0**decade)
     errors = random_errors(model, np.random.default_rng(seed), 1e-6)
     step = 1e-4

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from contact_checks import BALANCE, assert_sound, cross, some_angles, swept
+from contact_checks import BALANCE, assert_sound, cross, one_body, some_angles, swept
 from contact_designs import (
     contact_designs,
     machine_of,
@@ -141,7 +141,7 @@ def assert_agrees(
 def test_forces_are_those_of_a_plain_minimisation(
     design: Design, torque: float, line_model: str, crank: float
 ) -> None:
-    model = ContactModel.from_design(design, line_model)
+    model = one_body(ContactModel.from_design(design, line_model))
     if line_model == "johnson":
         torque = math.copysign(usual_torque(model), torque)
     assert_agrees(model, torque, crank)
@@ -152,13 +152,13 @@ def test_forces_are_those_of_a_plain_minimisation(
 def test_forces_with_part_errors_are_those_of_a_plain_minimisation(
     design: Design, torque: float, crank: float, seed: int
 ) -> None:
-    model = ContactModel.from_design(design)
+    model = one_body(ContactModel.from_design(design))
     errors = random_errors(model, np.random.default_rng(seed))
     assert_agrees(model, torque, crank, errors)
 
 
 def test_the_papers_gearbox_at_many_states() -> None:
-    model = ContactModel.from_design(paper_design())
+    model = one_body(ContactModel.from_design(paper_design()))
     for torque in (-120.0, -5.0, 0.5, 40.0, 120.0):
         for crank in (0.0, 0.7, 3.3):
             assert_agrees(model, torque, crank)

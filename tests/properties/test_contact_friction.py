@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from contact_checks import BALANCE, cross, some_angles, swept
+from contact_checks import BALANCE, cross, one_body, some_angles, swept
 from contact_designs import contact_designs, paper_design, random_errors, usual_torque
 from contact_friction_plain import BACKDRIVE, DRIVE, solve_friction_plain
 from examples import examples
@@ -168,7 +168,7 @@ def test_friction_opposes_the_slip_of_either_sense() -> None:
 def test_the_plain_twin_finds_the_same(
     design: Design, decade: float, tooth: float, pin: float, sense: PowerSense, seed: int
 ) -> None:
-    model = ContactModel.from_design(design)
+    model = one_body(ContactModel.from_design(design))
     torque = usual_torque(model, 10.0**decade)
     angle = some_angles(seed, model, 2)
     errors = random_errors(model, np.random.default_rng(seed), 1e-6)

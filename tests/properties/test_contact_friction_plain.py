@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from contact_checks import BALANCE, cross, some_angles, swept
+from contact_checks import BALANCE, cross, one_body, some_angles, swept
 from contact_designs import contact_designs, random_errors, usual_torque
 from contact_friction_plain import (
     BACKDRIVE,
@@ -83,7 +83,7 @@ def test_every_body_balances_and_no_power_is_lost_but_by_friction(
     line_model: str,
     seed: int,
 ) -> None:
-    model = ContactModel.from_design(design, line_model)
+    model = one_body(ContactModel.from_design(design, line_model))
     torque = way * usual_torque(model, 10.0**decade)
     angle = some_angles(seed, model, 2)
     sweep = swept(model, torque, angle)
@@ -110,7 +110,7 @@ def test_every_body_balances_and_no_power_is_lost_but_by_friction(
 def test_without_friction_it_is_the_compiled_equilibrium(
     design: Design, decade: float, sense: float, seed: int
 ) -> None:
-    model = ContactModel.from_design(design)
+    model = one_body(ContactModel.from_design(design))
     torque = usual_torque(model, 10.0**decade)
     angle = some_angles(seed, model, 2)
     errors = random_errors(model, np.random.default_rng(seed), 1e-6)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from contact_checks import imbalance, some_angles, swept
+from contact_checks import imbalance, one_body, some_angles, swept
 from contact_designs import (
     contact_designs,
     paper_design,
@@ -36,7 +36,7 @@ LINEAR = LineLaw("linear")
 def ideal(model: ContactModel, cam_stiffness: float = 1e17) -> ContactModel:
     """Equal linear springs, no clearance anywhere, rigid bearings."""
     return replace(
-        model,
+        one_body(model),
         disc=model.disc.unmodified,
         hole_radius=model.pin_contact_radius + model.eccentricity,
         ring_law=LINEAR,
@@ -175,7 +175,7 @@ def test_the_mirrored_gearbox_carries_the_mirrored_torque(
     design: Design, torque: float, line_model: str, seed: int
 ) -> None:
     """Mirrored about the x axis: angles, clocking and torque change sign, discs keep pace."""
-    model = ContactModel.from_design(design, line_model)
+    model = one_body(ContactModel.from_design(design, line_model))
     if line_model == "johnson":
         torque = math.copysign(usual_torque(model), torque)
     angle = some_angles(seed, model, 3)

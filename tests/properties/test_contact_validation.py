@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from backlash_oracle import carrier_range
-from contact_checks import imbalance
+from contact_checks import imbalance, one_body
 from contact_designs import ARCMIN, machine_of, paper_design, peer_design, random_errors, rigid_of
 from contact_oracle import solve
 from contact_plain import solve_plain
@@ -95,6 +95,7 @@ def _rigid_limit(model: ContactModel) -> ContactModel:
         ring_law=LineLaw("linear"),
         pin_law=LineLaw("linear"),
         pin_series=np.zeros(model.disc_count),
+        pin=None,
         cam=CamSpring(1e17, 1.0, 0.0),
     )
 
@@ -126,7 +127,7 @@ def test_rigid_limit(discs: int, validated: Callable[..., None]) -> None:
 
 def test_plain_twin(validated: Callable[..., None]) -> None:
     worst = 0.0
-    for model in _models():
+    for model in map(one_body, _models()):
         states = nominal_states(model, np.array([0.1, 0.7]))
         perfect = error_states(model, states, None)
         sweep = contact_sweep(model, 40.0, states=states)
@@ -146,7 +147,7 @@ def test_plain_twin(validated: Callable[..., None]) -> None:
 
 def test_independent_minimisation(validated: Callable[..., None]) -> None:
     worst = 0.0
-    for model in _models()[:3]:
+    for model in map(one_body, _models()[:3]):
         for crank in (0.3, 2.9):
             sweep = contact_sweep(model, 40.0, np.array([crank]))
             found = solve(machine_of(model), crank, 40.0)

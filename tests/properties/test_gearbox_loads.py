@@ -14,8 +14,10 @@ from hypothesis import strategies as st
 from lone_disc import lone_disc
 
 from cqdd_design.gearbox import hertz, output_pins, rigid
+from cqdd_design.gearbox.carrier import slender_bending_arm
 from cqdd_design.gearbox.disc_forces import disc_forces
 from cqdd_design.gearbox.loads import rigid_maxima, rigid_series
+from cqdd_design.gearbox.pin_beam import HELD
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.cycloid import CycloidDisc
@@ -326,8 +328,8 @@ def test_pin_bending_against_a_beam_integrated_numerically(
         moment = np.cumsum(shear) * step
         centre = int(np.argmin(np.abs(x - at)))
         worst = max(worst, moment[centre])
-    arm = float(output_pins.bending_arm(count, thickness, spacing, "both"))
+    arm = float(slender_bending_arm(count, thickness, spacing, HELD["both"], 4.0))
     assert force * arm == pytest.approx(worst, rel=5e-3)
-    cantilever = float(output_pins.bending_arm(count, thickness, spacing, "cantilever"))
+    cantilever = float(slender_bending_arm(count, thickness, spacing, HELD["cantilever"], 4.0))
     assert cantilever == pytest.approx(span - spacing - thickness / 2.0)
     assert cantilever > arm

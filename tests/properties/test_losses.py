@@ -496,7 +496,8 @@ def test_work_is_nearly_but_not_quite_proportional_to_torque() -> None:
 def test_both_senses_of_torque_lose_alike() -> None:
     machine = resolve(PAPER).friction
     ahead, back = (sum(machine.coulomb_work(paper_sweep(t)).values()) for t in (40.0, -40.0))
-    assert back == pytest.approx(ahead, rel=1e-4)
+    # The stack is its own mirror image, but for the plate that stands at one of its ends.
+    assert back == pytest.approx(ahead, rel=3e-3)
 
 
 def from_sweeps(*torques: float) -> LossModel:

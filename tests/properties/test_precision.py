@@ -481,13 +481,13 @@ def test_precision_at_any_torque_the_gearbox_carries(torque: float) -> None:
 
 
 def test_precision_in_the_other_sense_is_refused_or_the_same() -> None:
-    model = ContactModel.from_design(paper_design())
+    model = replace(ContactModel.from_design(paper_design()), pin=None)
     one = precision(model, 40.0).to_dict()
     try:
         two = precision(model, -40.0).to_dict()
     except CqddError:
         return
-    # The paper's stack is its own mirror image at another angle.
+    # The paper's stack is its own mirror image at another angle, where both plates are alike.
     for key in ("lost_motion_arcmin", "stiffness_Nm_per_rad", "transmission_error_pp_arcmin"):
         assert two[key] == pytest.approx(one[key], rel=1e-3), key
 

@@ -68,6 +68,7 @@ def ideal(model: ContactModel) -> ContactModel:
         ring_law=LineLaw("linear"),
         pin_law=LineLaw("linear"),
         pin_series=np.zeros(1),
+        pin=None,
         cam=CamSpring(1e17, 1.0, 0.0),
     )
 
@@ -200,8 +201,11 @@ def test_peak_pin_force_factor(pins: int, factor: float) -> None:
 
 
 def test_two_discs_do_not_share_equally() -> None:
-    """The notes quote a case of 1364 N against 1346 N, 1.3 %; its springs are not given."""
-    model = ContactModel.from_design(paper_design())
+    """The notes quote a case of 1364 N against 1346 N, 1.3 %; its springs are not given.
+
+    Its plates are one body: a cap that hangs on the pins makes much more of it.
+    """
+    model = replace(ContactModel.from_design(paper_design()), pin=None)
     sweep = contact_sweep(model, 40.0)
     share = sweep.disc_torque / 40.0
     assert np.abs(share.sum(axis=1) - 1.0).max() < 1e-9
@@ -232,7 +236,7 @@ def test_transmission_error_changes_with_the_load() -> None:
 
     With the springs of the model the sizes are alike (0.06 to 0.2) and the load matters as much.
     """
-    model = ContactModel.from_design(paper_design())
+    model = replace(ContactModel.from_design(paper_design()), pin=None)
     error = [
         float(np.ptp(contact_sweep(model, torque).carrier_angle_error)) / ARCMIN
         for torque in (5.0, 40.0, 120.0)
