@@ -313,7 +313,8 @@ def test_one_sense_pulsates_at_the_stress_of_the_equilibrium(joint: str) -> None
     sweep = duty_sweep(model, 15.0)
     assert result.loads[0].pin_bending == pytest.approx(sweep.pin_bending.max(), rel=1e-9)
     stress = part(result, "output pins, bending").stress
-    assert stress <= result.loads[0].pin_bending * 1.001
+    # Friction turns the force a little beyond either end of its half turn.
+    assert stress <= 1.02 * result.loads[0].pin_bending
     # A cap that hangs on the pins keeps them bent while no disc pushes them.
     assert stress > (0.97 if joint == "cantilever" else 0.7) * result.loads[0].pin_bending
 
@@ -341,7 +342,8 @@ def test_pins_hand_the_whole_torque_to_the_plate(ends: tuple[str, str], discs: i
 def test_who_drives_decides_on_the_forces_of_a_duty() -> None:
     """A case whose torque and speed oppose each other is driven by the output: friction helps."""
     driving, driven = lived((40.0, 10.0, 1.0)), lived((40.0, -10.0, 1.0))
-    model = ContactModel.from_design(load_design(PAPER))
+    steel = {"reducer.output_pins.material": "Alloy steel 12.9 (ISO 7379)"}
+    model = ContactModel.from_design(load_design(PAPER).replacing(steel))
     for result, sense in ((driving, "drive"), (driven, "backdrive")):
         sweep = duty_sweep(model, 40.0, sense)
         assert result.loads[0].cam_load == pytest.approx(sweep.cam_load.max(), rel=1e-9)
