@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from cqdd_design.errors import ContactError
+from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.kernel_values import (
     Compliance,
@@ -55,6 +55,19 @@ def carrier_compliance(
         join=pin_count * beam.joint + tie or 1.0,
         bodies=np.ascontiguousarray(_NO_BODIES if bodies is None else bodies.swapaxes(-1, -2)),
     )
+
+
+def model_compliance(model: ContactModel) -> Compliance:
+    """That of a gearbox whose plate and cap turn apart, :attr:`.ContactModel.pin`.
+
+    Raises
+    ------
+    UsageError
+        Where they are one body.
+    """
+    if model.pin is None:
+        raise UsageError("a carrier whose plates are one body has no compliance of its own.")
+    return carrier_compliance(model.pin_count, model.pin, model.tie / model.pin_circle_radius**2)
 
 
 def new_result(count: int, discs: int, contacts: int) -> YieldingResult:

@@ -45,7 +45,7 @@ _SQUARE = 3e-9
 a line contact's own curve, F^0.9, leaves a twentieth of it."""
 _LEAST_RISE = 2.0**-8
 """Share of the compliance below which no further rise is tried: the machine jams."""
-_RIDGES = (1e-10, 1e-6, 1e-5, 1e-4)
+RIDGES = (1e-10, 1e-6, 1e-5, 1e-4)
 """Stiffness added to every displacement in a step, in typical stiffnesses; the greater ones hold a
 disc that hangs slack."""
 _NEAR = 0.2
@@ -147,7 +147,7 @@ def solve_yielding(
 ) -> tuple[int, int, float]:
     """Find the equilibrium near `u` and `approach`, and into them.
 
-    Returns are those of :func:`.equilibrium_kernel.solve_state`; `held` is one of `_RIDGES`.
+    Returns are those of :func:`.equilibrium_kernel.solve_state`; `held` is one of `RIDGES`.
     """
     ridge = held * load.scale_stiffness
     torsional, previous = 0.0, np.inf
@@ -274,7 +274,7 @@ def solve_yielding_raised(
 
 
 @numba.njit(cache=True, error_model="numpy", forceinline=True)
-def _predict(result: YieldingResult, turns: Any, a: int) -> None:
+def predict_yielding(result: YieldingResult, turns: Any, a: int) -> None:
     """Start for angle `a` from up to four before it, by Lagrange's polynomial through them.
 
     Disc centres are carried round with the crank, in whose frame they hardly move. Angles that are
@@ -311,6 +311,14 @@ def _predict(result: YieldingResult, turns: Any, a: int) -> None:
                 closed[d, k] += weight * approach[at, d, k]
 
 
+@numba.njit(cache=True, error_model="numpy", forceinline=True)
+def compliance_at(compliance: Compliance, a: int) -> Compliance:
+    """The compliance at one of many crank angles."""
+    bodies = compliance.bodies
+    some = bodies[a] if bodies.shape[0] > 0 else np.empty((0, 0, 0))
+    return Compliance(compliance.pins, compliance.at_cap, compliance.join, some)
+
+
 @numba.njit(cache=True, error_model="numpy")
 def yield_sweep(
     contacts: Contacts,
@@ -344,26 +352,19 @@ def yield_sweep(
     """
     count, discs, each = contacts.gaps.shape
     work = yielding_work(discs, each)
-    bodies = compliance.bodies
-    rigid = np.empty((0, 0, 0))
     for a in range(count):
         here = contacts_at(contacts, a)
         rubs = Rubbing(rubbing.share[a], rubbing.disc_arm[a], rubbing.carrier_arm[a])
-        some = Compliance(
-            compliance.pins,
-            compliance.at_cap,
-            compliance.join,
-            bodies[a] if bodies.shape[0] > 0 else rigid,
-        )
+        some = compliance_at(compliance, a)
         forces = Forces(result.force[a], result.cam_force[a])
         state, approach = result.states[a], result.approach[a]
         status, used, left = NOT_CONVERGED, 0, 0.0
         if a > 0:
-            _predict(result, turns, a)
+            predict_yielding(result, turns, a)
             status, used, left = solve_yielding(
-                here, springs, load, rubs, some, state, approach, forces, work, _RIDGES[0]
+                here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0]
             )
-        for held in _RIDGES:
+        for held in RIDGES:
             if status == CONVERGED:
                 break
             status, used, left = solve_yielding_raised(

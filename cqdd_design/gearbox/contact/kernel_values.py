@@ -241,13 +241,35 @@ class Start(NamedTuple):
     """What the perfect gearbox knows before toleranced ones are solved."""
 
     marked: NDArray[np.bool_]
-    """(A,) Angles that serve backlash and stiffness."""
+    """(A,) Angles that serve backlash, stiffness and the gearbox without load."""
     perfect: FloatArray
-    """(A, 3 + 3 D) Its states under the torque."""
+    """(A, 3 + 3 D) Its states under the torque, plates held and without friction."""
     free_poses: FloatArray
     """(2, A, 3 + 3 D) Its poses at both ends of its backlash."""
     torque: float
     """N m."""
+
+
+class Worn(NamedTuple):
+    """What friction and pressure of a gearbox's contacts come from, over its crank angles."""
+
+    slip: FloatArray
+    """(A, D, C) Size of the slip at every contact per radian of the crank, m."""
+    pressing: FloatArray
+    """(A, D, T) Square of the pressure at a ring tooth over its force, Pa^2/N."""
+    crank_sense: float
+    """In which the crank turns under the torque, 1 or -1."""
+
+
+class Shared(NamedTuple):
+    """Friction, compliance and pressures that all gearboxes of an ensemble share."""
+
+    rubbing: Rubbing
+    """Under the torque, with a leading axis A."""
+    idle: Rubbing
+    """The crank turning ahead without load, likewise."""
+    compliance: Compliance
+    worn: Worn
 
 
 class RigidParts(NamedTuple):

@@ -10,10 +10,10 @@ import numpy as np
 from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.compliant import (
-    carrier_compliance,
     compliant_energy,
     compliant_slope,
     compliant_states,
+    model_compliance,
 )
 from cqdd_design.gearbox.contact.kernel_values import SweepResult, Toleranced
 from cqdd_design.gearbox.contact.model import ContactModel
@@ -189,7 +189,7 @@ def _joined(
     """Equilibria of plates that turn apart as the carrier is built, from those of one body."""
     if model.pin is None:
         return _held(model, torque, states, changed, start)
-    compliance = carrier_compliance(model.pin_count, model.pin, model.tie / states.length**2)
+    compliance = model_compliance(model)
     found = compliant_states(model, torque, states, changed, start, compliance, friction)
     result = SweepResult(
         states=np.delete(found.states, 3, axis=1),

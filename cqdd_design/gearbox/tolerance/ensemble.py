@@ -85,7 +85,7 @@ def _tables(ensemble: Ensemble) -> EnsembleTables:
 
 
 def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
-    """Values (count, 5) of a block of gearboxes, in the order and units of `OUTPUTS`."""
+    """Values (count, 9) of a block of gearboxes, in the order and units of `OUTPUTS`."""
     tables = _tables(ensemble)
     errors = draw_errors(
         tables.model,
@@ -112,7 +112,7 @@ class ToleranceResult:
     ----------
     asked : int
         Gearboxes asked for.
-    values : array (S, 5)
+    values : array (S, 9)
         Of every gearbox that was solved, in the order and units of `OUTPUTS`.
     sensitivity : tuple of SobolIndices or None
         Of every output over `GROUPS`; None where it was not computed.
@@ -273,7 +273,9 @@ def run_ensemble(
     except KeyboardInterrupt:
         interrupted = True
     main = len(_blocks(samples, ()))
-    values = np.concatenate([v for v in found[:main] if v is not None] or [np.empty((0, 5))])
+    values = np.concatenate(
+        [v for v in found[:main] if v is not None] or [np.empty((0, len(OUTPUTS)))]
+    )
     indices = None
     if base and not interrupted:
         indices = _sensitivity(values[:base], found[main:], base)

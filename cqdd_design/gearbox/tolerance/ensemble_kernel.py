@@ -7,48 +7,57 @@ the number of threads. Memory is one gearbox's arrays a thread.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from cqdd_design.files.kernel_cache import numba
-from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, new_work
+from cqdd_design.gearbox.contact.compliant_kernel import yielding_work
+from cqdd_design.gearbox.contact.compliant_sweep_kernel import (
+    RIDGES,
+    compliance_at,
+    predict_yielding,
+    solve_yielding,
+    solve_yielding_raised,
+)
+from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, NOT_CONVERGED, new_work
 from cqdd_design.gearbox.contact.gaps_kernel import fill_errors
 from cqdd_design.gearbox.contact.kernel_values import (
+    Compliance,
     Contacts,
     Extremes,
     Forces,
     Load,
     Nominal,
     RigidParts,
+    Rubbing,
+    Shared,
     Springs,
     Start,
     Toleranced,
+    Worn,
+    YieldingResult,
 )
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
-from cqdd_design.gearbox.contact.sweep_kernel import contacts_at, predict, solve_near
+from cqdd_design.gearbox.contact.sweep_kernel import contacts_at, solve_near
 from cqdd_design.gearbox.precision.backlash_kernel import OVERLAP, backlash_sweep
 
 BACKLASH, TRANSMISSION_ERROR, RING_FORCE, STIFFNESS, RIPPLE = range(5)
-
-
-class _Seen(NamedTuple):
-    """What the states of one sweep show: carrier angles times length (m), N, N m."""
-
-    least: float
-    greatest: float
-    ring_force: float
-    least_slope: float
-    greatest_slope: float
-    mean: float
-    """Of the carrier angle at the marked angles."""
+PRESSURE, CAM_LOAD, PRELOAD, IDLE_TORQUE = range(5, 9)
+RESULTS = 9
 
 
 @numba.njit(cache=True, error_model="numpy")
 def _slope(
-    nominal: Nominal, found: Toleranced, a: int, teeth: int, state: Any, forces: Forces
+    nominal: Nominal,
+    found: Toleranced,
+    compliance: Compliance,
+    a: int,
+    teeth: int,
+    state: Any,
+    forces: Forces,
 ) -> float:
-    """dPi/dphi of one state: forces times the rates of closing at a held state, N m.
+    """dPi/dphi of one state: forces times the rates of closing at held motions, N m.
 
     A contact closes at the rate -(n' r + h' t) - gap', and a softer one stores less:
     dU/dc = -F^2/2 at a held closing, which `rates[..., 3]` takes part in.
@@ -58,12 +67,12 @@ def _slope(
     discs, contacts = force.shape
     slope = 0.0
     for d in range(discs):
-        x, y, t = state[3 + 3 * d], state[4 + 3 * d], state[5 + 3 * d]
+        x, y, t = state[4 + 3 * d], state[5 + 3 * d], state[6 + 3 * d]
         for k in range(contacts):
             if k == teeth:
                 x -= state[0]
                 y -= state[1]
-                t -= state[2]
+                t -= state[2] + compliance.at_cap[d] * (state[3] - state[2])
             if force[d, k] > 0.0:
                 across = rows[d, k, 0] * y - rows[d, k, 1] * x
                 slope -= force[d, k] * (
@@ -77,61 +86,122 @@ def _slope(
     return slope
 
 
+@numba.njit(cache=True, error_model="numpy", forceinline=True)
+def _rubbing_at(rubbing: Rubbing, a: int) -> Rubbing:
+    return Rubbing(rubbing.share[a], rubbing.disc_arm[a], rubbing.carrier_arm[a])
+
+
 @numba.njit(cache=True, error_model="numpy")
 def _follow(
     nominal: Nominal,
     found: Toleranced,
     springs: Springs,
     load: Load,
+    rubbing: Rubbing,
+    compliance: Compliance,
     angles: tuple[Any, Any],
     base: Any,
-    solved: Any,
-) -> Any:
-    """Solve some angles in turn: (-1 or the angle that did not converge, what was seen).
+    result: YieldingResult,
+) -> int:
+    """Equilibria at some angles in turn into `result`; -1, or the angle that has none.
 
-    `angles` are the indices to solve and (A,) whether an angle is marked; `base` (A, 3 + 3 D) are
-    known states nearby, such as those of the perfect gearbox: a state starts from its base plus
-    the deviations of the states before. `solved` (A, 3 + 3 D) returns the states.
+    `angles` are the indices to solve and the turn of the crank since the one before. A state
+    starts from those before it. Where that does not lead to it, plates are held and friction left
+    out first, from `base` (A, 3 + 3 D), states of held plates nearby such as the perfect
+    gearbox's.
     """
-    chosen, marked = angles
+    chosen, turns = angles
     discs, contacts = found.gaps.shape[1:]
-    teeth, size = springs.teeth, 3 + 3 * discs
-    work = new_work(discs, contacts)
-    state, deviation = np.zeros(size), np.zeros(size)
-    last, before = np.zeros(size), np.zeros(size)
-    forces = Forces(np.empty((discs, contacts)), np.empty((discs, 2)))
+    work, held_work = yielding_work(discs, contacts), new_work(discs, contacts)
     over_angles = Contacts(
         nominal.rows, found.gaps, nominal.coefficient, found.offset, found.half_play
     )
-    least, greatest, most, total = np.inf, -np.inf, 0.0, 0.0
-    least_slope, greatest_slope = np.inf, -np.inf
-    stopped, counted = -1, 0
+    smooth = np.empty(3 + 3 * discs)
     for b in range(chosen.size):
         a = chosen[b]
+        here, rubs = contacts_at(over_angles, a), _rubbing_at(rubbing, a)
+        some = compliance_at(compliance, a)
+        forces = Forces(result.force[b], result.cam_force[b])
+        state, approach = result.states[b], result.approach[b]
+        status, used, left = NOT_CONVERGED, 0, 0.0
         if b > 0:
-            turn = nominal.crank_angle[a] - nominal.crank_angle[chosen[b - 1]]
-            predict(last, before, turn, b, deviation)
-        for i in range(size):
-            state[i] = base[a, i] + deviation[i]
-        contacts_here = contacts_at(over_angles, a)
-        status, _, _ = solve_near(contacts_here, springs, load, state, forces, work)
+            predict_yielding(result, turns, b)
+            status, used, left = solve_yielding(
+                here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0]
+            )
         if status != CONVERGED:
-            stopped = int(a)
-            break
-        before[:] = last
-        for i in range(size):
-            last[i] = state[i] - base[a, i]
-            solved[a, i] = state[i]
-        least, greatest = min(least, state[2]), max(greatest, state[2])
-        for d in range(discs):
-            for k in range(teeth):
-                most = max(most, forces.contact[d, k])
-        slope = _slope(nominal, found, a, teeth, state, forces)
-        least_slope, greatest_slope = min(least_slope, slope), max(greatest_slope, slope)
-        if marked[a]:
-            total += state[2]
-            counted += 1
-    return stopped, _Seen(least, greatest, most, least_slope, greatest_slope, total / counted)
+            smooth[:] = base[a]
+            status, _, _ = solve_near(here, springs, load, smooth, forces, held_work)
+            if status != CONVERGED:
+                return int(a)
+            status = NOT_CONVERGED
+            for ridge in RIDGES:
+                if status != CONVERGED:
+                    status, used, left = solve_yielding_raised(
+                        here,
+                        springs,
+                        load,
+                        rubs,
+                        some,
+                        smooth,
+                        state,
+                        approach,
+                        forces,
+                        work,
+                        ridge,
+                    )
+        if status != CONVERGED:
+            return int(a)
+        result.torsional[b] = left
+        result.steps[b] = used
+    return -1
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _turns(nominal: Nominal, chosen: Any) -> Any:
+    """Crank angle since the chosen angle before, rad."""
+    turns = np.zeros(chosen.size)
+    for b in range(1, chosen.size):
+        turns[b] = nominal.crank_angle[chosen[b]] - nominal.crank_angle[chosen[b - 1]]
+    return turns
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _room(count: int, discs: int, contacts: int) -> YieldingResult:
+    return YieldingResult(
+        np.empty((count, 4 + 3 * discs)),
+        np.empty((count, discs, contacts)),
+        np.empty((count, discs, contacts)),
+        np.empty((count, discs, 2)),
+        np.empty(count),
+        np.zeros(count, dtype=np.int64),
+    )
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _crank_torques(
+    nominal: Nominal,
+    found: Toleranced,
+    shared: Shared,
+    rubbing: Rubbing,
+    sense: float,
+    teeth: int,
+    chosen: Any,
+    result: YieldingResult,
+) -> Any:
+    """What the crank bears beyond T/n: the contacts' slope and, in its sense, friction's work."""
+    torques = np.empty(chosen.size)
+    for b in range(chosen.size):
+        a = chosen[b]
+        forces = Forces(result.force[b], result.cam_force[b])
+        slope = _slope(nominal, found, shared.compliance, a, teeth, result.states[b], forces)
+        share, slip = rubbing.share[a], shared.worn.slip[a]
+        work = 0.0
+        for d in range(share.shape[0]):
+            for k in range(share.shape[1]):
+                work += abs(share[d, k]) * result.force[b, d, k] * slip[d, k]
+        torques[b] = slope + sense * work
+    return torques
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -169,13 +239,123 @@ def _rigid_parts(nominal: Nominal, found: Toleranced, errors: GearboxErrors) -> 
 
 
 @numba.njit(cache=True, error_model="numpy")
-def _solve_gearbox(
-    nominal: Nominal, springs: Springs, load: Load, start: Start, errors: GearboxErrors, values: Any
+def _loaded(
+    nominal: Nominal,
+    found: Toleranced,
+    springs: Springs,
+    load: Load,
+    start: Start,
+    shared: Shared,
+    values: Any,
 ) -> int:
-    """All five results of one gearbox; -1, or the angle that did not converge."""
+    """What a gearbox shows under the torque and under half of it; -1, or a failing angle."""
     count, discs, contacts = nominal.gaps.shape
-    size, length = 3 + 3 * discs, nominal.length
+    teeth, length = springs.teeth, nominal.length
     every, some = np.arange(count), np.flatnonzero(start.marked)
+    whole = _room(count, discs, contacts)
+    compliance, rubbing = shared.compliance, shared.rubbing
+    stopped = _follow(
+        nominal,
+        found,
+        springs,
+        load,
+        rubbing,
+        compliance,
+        (every, _turns(nominal, every)),
+        start.perfect,
+        whole,
+    )
+    if stopped >= 0:
+        return int(stopped)
+    turned = whole.states[:, 2]
+    values[TRANSMISSION_ERROR] = (turned.max() - turned.min()) / length
+    most, pressed, borne = 0.0, 0.0, 0.0
+    for a in range(count):
+        for d in range(discs):
+            for k in range(teeth):
+                force = whole.force[a, d, k]
+                most = max(most, force)
+                pressed = max(pressed, force * shared.worn.pressing[a, d, k])
+            x, y = whole.cam_force[a, d, 0], whole.cam_force[a, d, 1]
+            borne = max(borne, x * x + y * y)
+    values[RING_FORCE] = most
+    values[PRESSURE] = math.sqrt(pressed)
+    values[CAM_LOAD] = math.sqrt(borne)
+    torques = _crank_torques(
+        nominal, found, shared, rubbing, shared.worn.crank_sense, teeth, every, whole
+    )
+    values[RIPPLE] = torques.max() - torques.min()
+    half = Load(0.5 * start.torque / length, load.scale_stiffness)
+    eased = _room(some.size, discs, contacts)
+    base = np.empty((count, 3 + 3 * discs))
+    base[:, :3] = whole.states[:, :3]
+    base[:, 3:] = whole.states[:, 4:]
+    stopped = _follow(
+        nominal,
+        found,
+        springs,
+        half,
+        rubbing,
+        compliance,
+        (some, _turns(nominal, some)),
+        base,
+        eased,
+    )
+    if stopped >= 0:
+        return int(stopped)
+    # The secant between half of the torque and all of it, (T - T/2)/(gamma - gamma_half).
+    apart = (turned[some] - eased.states[:, 2]).mean()
+    values[STIFFNESS] = 0.5 * start.torque * length / apart
+    return -1
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _unloaded(
+    nominal: Nominal,
+    found: Toleranced,
+    springs: Springs,
+    load: Load,
+    shared: Shared,
+    some: Any,
+    values: Any,
+) -> int:
+    """Forces of a gearbox without load at the angles that are tight, and what turns the crank."""
+    discs, contacts = nominal.gaps.shape[1:]
+    idle = _room(some.size, discs, contacts)
+    stopped = _follow(
+        nominal,
+        found,
+        springs,
+        Load(0.0, load.scale_stiffness),
+        shared.idle,
+        shared.compliance,
+        (some, _turns(nominal, some)),
+        np.zeros((nominal.gaps.shape[0], 3 + 3 * discs)),
+        idle,
+    )
+    if stopped >= 0:
+        return int(stopped)
+    values[PRELOAD] = idle.force.max()
+    values[IDLE_TORQUE] = _crank_torques(
+        nominal, found, shared, shared.idle, 1.0, springs.teeth, some, idle
+    ).max()
+    return -1
+
+
+@numba.njit(cache=True, error_model="numpy")
+def _solve_gearbox(
+    nominal: Nominal,
+    springs: Springs,
+    load: Load,
+    start: Start,
+    shared: Shared,
+    errors: GearboxErrors,
+    values: Any,
+) -> int:
+    """All results of one gearbox; -1, or the angle that has no equilibrium."""
+    count, discs, contacts = nominal.gaps.shape
+    size = 3 + 3 * discs
+    some = np.flatnonzero(start.marked)
     found = Toleranced(
         np.empty((count, discs, contacts)),
         np.empty((count, discs, contacts)),
@@ -184,21 +364,9 @@ def _solve_gearbox(
         np.empty(discs),
     )
     fill_errors(nominal, errors, found)
-    solved, halved = np.empty((count, size)), np.empty((count, size))
-    stopped, seen = _follow(
-        nominal, found, springs, load, (every, start.marked), start.perfect, solved
-    )
-    values[TRANSMISSION_ERROR] = (seen.greatest - seen.least) / length
-    values[RING_FORCE] = seen.ring_force
-    values[RIPPLE] = seen.greatest_slope - seen.least_slope
+    stopped = _loaded(nominal, found, springs, load, start, shared, values)
     if stopped >= 0:
-        return int(stopped)
-    half = Load(0.5 * start.torque / length, load.scale_stiffness)
-    stopped, eased = _follow(nominal, found, springs, half, (some, start.marked), solved, halved)
-    # The secant between half of the torque and all of it, (T - T/2)/(gamma - gamma_half).
-    values[STIFFNESS] = 0.5 * start.torque * length / (seen.mean - eased.mean)
-    if stopped >= 0:
-        return int(stopped)
+        return stopped
     parts = _rigid_parts(nominal, found, errors)
     free_count = some.size
     least = Extremes(np.empty(free_count), np.empty(free_count), np.empty((free_count, size)))
@@ -206,12 +374,19 @@ def _solve_gearbox(
     at = backlash_sweep(parts, some, -1.0, start.free_poses[0], least)
     if at < 0:
         at = backlash_sweep(parts, some, 1.0, start.free_poses[1], most)
-    free = 0.0
+    if at >= 0:
+        return int(some[at])
+    free, tight = 0.0, np.zeros(free_count, dtype=np.bool_)
     for b in range(free_count):
         if most.preload[b] <= OVERLAP:
             free += max(most.ends[b] - least.ends[b], 0.0)
+        else:
+            tight[b] = True
     values[BACKLASH] = free / free_count
-    return int(some[at]) if at >= 0 else -1
+    values[PRELOAD] = values[IDLE_TORQUE] = 0.0
+    if np.any(tight):
+        return _unloaded(nominal, found, springs, load, shared, some[tight], values)
+    return -1
 
 
 @numba.njit(cache=True, error_model="numpy", parallel=True)
@@ -220,24 +395,31 @@ def solve_gearboxes(
     springs: Springs,
     load: Load,
     start: Start,
+    rubbing: Rubbing,
+    idle: Rubbing,
+    compliance: Compliance,
+    worn: Worn,
     batch: GearboxErrors,
     values: Any,
     failed: Any,
 ) -> None:
-    """Backlash, transmission error, ring force, stiffness and ripple of S gearboxes.
+    """What S gearboxes show, with friction and with the carrier joined as it is built.
 
     Parameters
     ----------
-    nominal, springs, load, start
-        What all gearboxes share.
+    nominal, springs, load, start, rubbing, idle, compliance, worn
+        What all gearboxes have in common; the last four are a :class:`.Shared`, which a parallel
+        loop takes in pieces only.
     batch : GearboxErrors
         With a leading axis S.
-    values : array (S, 5)
-        Out, in SI: backlash and transmission error in rad, the ripple without the factor n.
+    values : array (S, 9)
+        Out, in SI, in the order of the module's names: backlash and transmission error in rad,
+        ripple and idle torque at the crank.
     failed : array (S,)
-        Out: -1, or the angle that did not converge.
+        Out: -1, or the angle that has no equilibrium.
     """
     for s in numba.prange(batch.tooth_radius.shape[0]):
+        shared = Shared(rubbing, idle, compliance, worn)
         errors = GearboxErrors(
             batch.tooth_position[s],
             batch.tooth_radius[s],
@@ -249,4 +431,4 @@ def solve_gearboxes(
             batch.cam_centre[s],
             batch.cam_play[s],
         )
-        failed[s] = _solve_gearbox(nominal, springs, load, start, errors, values[s])
+        failed[s] = _solve_gearbox(nominal, springs, load, start, shared, errors, values[s])

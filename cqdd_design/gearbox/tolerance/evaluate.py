@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.contact.kernel_values import Load, Nominal, Start
+from cqdd_design.gearbox.contact.compliant import model_compliance
+from cqdd_design.gearbox.contact.kernel_values import Load, Nominal, Shared, Start, Worn
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.problem import springs_of, stiffness_scale
+from cqdd_design.gearbox.contact.rubbing import ContactFriction, rubbing, slip
 from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
 from cqdd_design.gearbox.contact.sweep import (
     contact_sweep,
     output_turn_angles,
     output_turn_count,
 )
+from cqdd_design.gearbox.hertz import line_contact_pressure
 from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.meshing import tooth_centres
@@ -30,7 +33,13 @@ OUTPUTS: tuple[str, ...] = (
     "ring_force_max_N",
     "stiffness_Nm_per_arcmin",
     "torque_ripple_pp_Nm",
+    "ring_pressure_max_MPa",
+    "cam_bearing_load_max_N",
+    "preload_force_max_N",
+    "unloaded_torque_Nm",
 )
+"""Forces, pressure, transmission error and ripple are under the torque, the motor driving; the
+ripple and the torque that turns the gearbox without load are n times those of the crank."""
 
 _ARCMIN = math.degrees(1.0) * 60.0
 
@@ -48,11 +57,14 @@ class EnsembleTables:
         Over one output turn.
     start : Start
         The perfect gearbox, from which the others start.
+    shared : Shared
+        Friction, compliance and pressures.
     """
 
     model: ContactModel
     states: NominalStates
     start: Start
+    shared: Shared
 
 
 def _stride(lobe_count: int) -> int:
@@ -90,9 +102,27 @@ def ensemble_tables(
     """
     states = nominal_states(model, output_turn_angles(model, angles))
     marked = marked_angles(model.lobe_count, len(states.crank_angle))
-    perfect = contact_sweep(model, torque, states=states).state_vectors
+    held = replace(model, pin=None)
+    perfect = contact_sweep(held, torque, states=states).state_vectors
     free_poses = backlash(model, states=states).poses
-    return EnsembleTables(model, states, Start(marked, perfect, free_poses, torque))
+    start = Start(marked, perfect, free_poses, torque)
+    return EnsembleTables(model, states, start, _shared(model, states, torque))
+
+
+def _shared(model: ContactModel, states: NominalStates, torque: float) -> Shared:
+    friction = ContactFriction("drive", model.tooth_friction, model.hole_friction)
+    teeth = states.ring.equivalent_radius
+    return Shared(
+        rubbing=rubbing(model, states, friction, torque),
+        idle=rubbing(model, states, friction, 0.0),
+        compliance=model_compliance(model),
+        worn=Worn(
+            slip=np.abs(slip(model, states)),
+            pressing=line_contact_pressure(1.0, model.contact_length, teeth, model.ring_modulus)
+            ** 2,
+            crank_sense=friction.crank_sense(torque),
+        ),
+    )
 
 
 def nominal_of(tables: EnsembleTables, harmonics: int) -> Nominal:
@@ -123,7 +153,7 @@ def nominal_of(tables: EnsembleTables, harmonics: int) -> Nominal:
 def evaluate_gearboxes(
     tables: EnsembleTables, batch: GearboxErrors, threads: int | None = None
 ) -> FloatArray:
-    """Results (S, 5) of every gearbox of a batch, in the units and order of `OUTPUTS`.
+    """Results (S, 9) of every gearbox of a batch, in the units and order of `OUTPUTS`.
 
     Parameters
     ----------
@@ -139,11 +169,11 @@ def evaluate_gearboxes(
     """
     import numba
 
-    from cqdd_design.gearbox.tolerance.ensemble_kernel import solve_gearboxes
+    from cqdd_design.gearbox.tolerance.ensemble_kernel import RESULTS, solve_gearboxes
 
     model, states, torque = tables.model, tables.states, tables.start.torque
     count = len(batch.tooth_radius)
-    values, failed = np.empty((count, 5)), np.empty(count, dtype=np.int64)
+    values, failed = np.empty((count, RESULTS)), np.empty(count, dtype=np.int64)
     former = numba.get_num_threads()
     numba.set_num_threads(min(threads or former, former))
     try:
@@ -153,6 +183,7 @@ def evaluate_gearboxes(
             springs_of(model),
             Load(torque / states.length, stiffness_scale(model, torque)),
             tables.start,
+            *tables.shared,
             batch,
             values,
             failed,
@@ -167,5 +198,6 @@ def evaluate_gearboxes(
             f"deg and {torque:g} N*m; its errors are too large for these clearances: "
             "lower [tolerances], or the clearances."
         )
-    scale = np.array([_ARCMIN, _ARCMIN, 1.0, 1.0 / _ARCMIN, float(model.lobe_count)])
+    n = float(model.lobe_count)
+    scale = np.array([_ARCMIN, _ARCMIN, 1.0, 1.0 / _ARCMIN, n, 1e-6, 1.0, 1.0, n])
     return np.asarray(values * scale)
