@@ -35,7 +35,7 @@ from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.solids.clocking import disc_groups
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
-PAPER = load_design(DESIGNS / "cqdd-10.toml")
+PAPER = load_design(DESIGNS / "cqdd-10.toml").replacing({"reducer.carrier.joint": "clamped"})
 REFERENCE_S = load_design(DESIGNS / "reference-s.toml")
 BORE = 28e-3
 UNIT = np.array([1.0, 1.0j])
