@@ -15,7 +15,9 @@ from outputs_inputs import BAD
 
 SIZED = {"sized-7": ("--ratio", "7"), "sized-20": ("--ratio", "20")}
 """Designs that ``size`` makes in the run, with its options."""
-WRITTEN = ("conjugate", "pinwheel", "one-disc", "three-discs", "sleeved", "small-motor")
+WRITTEN = (
+    *("conjugate", "pinwheel", "one-disc", "three-discs", "sleeved", "small-motor", "columns"),
+)
 """Designs of ``tools/outputs_designs``."""
 TEXT = ("paper", "three-discs")
 """Designs of which the dear commands are also shown as text."""

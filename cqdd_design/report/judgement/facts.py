@@ -64,6 +64,8 @@ def derived_values(results: ReportInput) -> tuple[tuple[str, str, str], ...]:
         ("free length of the output pins", "L", analysis.output_pins.span),
         (f"bore for the cam bearing {bearing.designation}", "", bearing.outer_diameter),
     )
+    if geometry.column_hole_diameter:
+        lengths += (("diameter of the holes for columns", "", geometry.column_hole_diameter),)
     shown = [(words, symbol, millimetres(length)) for words, symbol, length in lengths]
     return (
         ("signed ratio, ring held", "i", significant(geometry.ratio)),
