@@ -193,7 +193,8 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
     if carrier.cap:
         how = "turned and drilled"
         if carrier.bonded_in_cap:
-            how += ", bonded on the pins and drawn against their heads"
+            drawn = " and drawn against their heads" if carrier.pin.screw else ""
+            how += f", seats {1e3 * carrier.pin.nominal_diameter:g} H7 bonded on the f9 pins{drawn}"
         cap = carrier_shapes.carrier_cap(carrier, layout.pack.gap)
         parts.append(made("carrier cap", cap, how))
         parts += _column_parts(layout)
