@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from cqdd_design.catalog.screws import LEAST_COLUMN, column_screw
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import CatalogError, DesignError, GeometryError
+from cqdd_design.gearbox.cam_bearing import largest_outer_diameter
 from cqdd_design.gearbox.carrier_columns import column_stiffness, join_stiffness
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.columns import (
@@ -301,3 +302,13 @@ def test_a_screw_leaves_its_column_a_wall(diameter: float) -> None:
 def test_no_screw_goes_through_a_needle() -> None:
     with pytest.raises(CatalogError, match=r"the least is 3 mm"):
         column_screw(2.9e-3)
+
+
+def test_a_cam_bearing_leaves_material_to_the_holes_for_columns() -> None:
+    design = with_columns(PAPER, "7 mm")
+    hole = column_hole_diameter(design.reducer)
+    assert hole > hole_diameter(design)
+    most = largest_outer_diameter(design, hole_diameter(design), valley_distance=1.0)
+    assert most == pytest.approx(2.0 * (19.5e-3 - 0.5 * hole - 1.5e-3))
+    plain = largest_outer_diameter(PAPER, hole_diameter(PAPER), valley_distance=1.0)
+    assert plain == pytest.approx(2.0 * (19.5e-3 - 0.5 * hole_diameter(PAPER) - 1.5e-3))
