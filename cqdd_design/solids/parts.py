@@ -197,7 +197,6 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
             how += f", seats {1e3 * carrier.pin.nominal_diameter:g} H7 bonded on the f9 pins{drawn}"
         cap = carrier_shapes.carrier_cap(carrier, layout.pack.gap)
         parts.append(made("carrier cap", cap, how))
-        parts += _column_parts(layout)
     nut = made(
         "bearing nut",
         carrier_shapes.bearing_nut(carrier),
@@ -206,6 +205,7 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
     parts += [
         dataclasses.replace(nut, material=NUT_MATERIAL, colour=_SCREW),
         _pin_part(design, layout),
+        *_column_parts(layout),
     ]
     if design.reducer.output_pins.sleeve_diameter > 0.0:
         parts.append(_sleeve_part(design, layout))

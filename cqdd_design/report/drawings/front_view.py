@@ -157,7 +157,7 @@ def _named_columns(outlines: Outlines, view: View) -> list[Leader]:
         Leader(
             view.polar(0.4 * reducer.carrier.column_diameter, 2.6, at),
             f"\u2300 {millimetres(reducer.carrier.column_diameter)}",
-            f"columns, {len(angles)}, in holes of {millimetres(column_hole_diameter(reducer))}",
+            f"{len(angles)} columns, holes {millimetres(column_hole_diameter(reducer))}",
         )
     ]
 
