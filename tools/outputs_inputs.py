@@ -65,6 +65,7 @@ BAD = {
     "overlap": FIRST.replace('"7 mm"', '"25 mm"'),
     "curtate": FIRST.replace('"1.6 mm"', '"4 mm"'),
     "break-out": FIRST + '[reducer.output_pins]\ncircle_radius = "27 mm"\n',
+    "columns": FIRST + '[reducer.carrier]\njoint = "columns"\ncolumn_diameter = "14 mm"\n',
     "duty": FIRST + '[[requirements.duty]]\ntorque = "1 N*m"\n',
     "version": FIRST.replace("schema_version = 1", "schema_version = 7"),
 }

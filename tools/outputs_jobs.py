@@ -15,7 +15,9 @@ from outputs_inputs import BAD
 
 SIZED = {"sized-7": ("--ratio", "7"), "sized-20": ("--ratio", "20")}
 """Designs that ``size`` makes in the run, with its options."""
-WRITTEN = ("conjugate", "pinwheel", "one-disc", "three-discs", "sleeved", "small-motor")
+WRITTEN = (
+    *("conjugate", "pinwheel", "one-disc", "three-discs", "sleeved", "small-motor", "columns"),
+)
 """Designs of ``tools/outputs_designs``."""
 TEXT = ("paper", "three-discs")
 """Designs of which the dear commands are also shown as text."""
@@ -66,8 +68,8 @@ KINDS = {
 COLLECTIONS = ("materials", "motors", "bearings", "screws", "fits")
 CHECKS = """
 GEO-K1-LEAST GEO-K1-MOST GEO-UNDERCUT GEO-TOOTH-OVERLAP GEO-RING-WALL GEO-LIGAMENT-HOLES
-GEO-LIGAMENT-PROFILE GEO-LIGAMENT-BORE GEO-LIGAMENT-RIM GEO-SLEEVE-WALL FIT-PIN-HOLE
-SPACE-DIAMETER SPACE-LENGTH CONTACT-RING-PEAK CONTACT-RING-CONTINUOUS CONTACT-PIN-PEAK
+GEO-LIGAMENT-PROFILE GEO-LIGAMENT-BORE GEO-LIGAMENT-RIM GEO-LIGAMENT-COLUMN GEO-SLEEVE-WALL
+FIT-PIN-HOLE SPACE-DIAMETER SPACE-LENGTH CONTACT-RING-PEAK CONTACT-RING-CONTINUOUS CONTACT-PIN-PEAK
 CONTACT-PIN-CONTINUOUS PIN-PAPER PIN-SHARED PIN-SHEAR-PEAK PIN-BENDING-PEAK PIN-BENDING-CONTINUOUS
 PIN-BEARING-PEAK BEARING-STATIC BEARING-LIFE BEARING-WIDTH BEARING-CORE BEARING-RACEWAY
 BALANCE-STATIC BALANCE-COUPLE DISC-COUNT EDM-DISC EDM-HOLE EDM-RING MOTOR-PEAK MOTOR-CONTINUOUS

@@ -27,7 +27,7 @@ from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.losses import LossModel
 from cqdd_design.gearbox.losses.model import SENSES
 from cqdd_design.machine import Machine
-from cqdd_design.solids.inertia import ROTOR, GearboxInertia
+from cqdd_design.solids.inertia import GROUPS, ROTOR, GearboxInertia
 
 ELECTRICAL_TIME = 1e-3
 """L/R where the catalogue has no inductance, s: common for large flat motors."""
@@ -135,8 +135,7 @@ def motor_and_drive(
 
 def _split(inertia: GearboxInertia) -> _Split:
     """What turns with the carrier counts at the output, all else that moves at the crank."""
-    own = {"carrier plate", "carrier cap", "bearing nut", "shoulder screw", "dowel pin"}
-    own |= {"pin sleeve", "output bearing"}
+    own = {*GROUPS["carrier"], "output bearing"}
     output = sum(part.reflected for part in inertia.parts if part.name in own)
     return _Split(
         input=inertia.gearbox_reflected - output,

@@ -174,6 +174,7 @@ CASE: Mapping[str, float | str] = MappingProxyType(
         "reducer.output_pins.material": "18-8 shoulder screw (seed-consistent)",
         # Not printed, as in designs/cqdd-10.toml.
         "reducer.cam_bearing.designation": "6902",
+        "reducer.carrier.joint": "hinged",
         "reducer.ring.outer_diameter": 72e-3,
     }
 )

@@ -1,4 +1,7 @@
-"""Shoulder screws (ISO 7379 and the commercial small sizes), and the fit of output pins."""
+"""Shoulder screws (ISO 7379 and the commercial small sizes), and the fit of output pins.
+
+And the screws that go through the columns of a carrier, with their bores.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,25 @@ from dataclasses import dataclass
 from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.catalog.reader import number, optional_number, read_rows
 from cqdd_design.errors import CatalogError
+
+# Bores of clearance over metric threads, mm (ISO 273:1979, fine series).
+_FINE_BORES = {
+    1.6: 1.7,
+    2.0: 2.2,
+    2.5: 2.7,
+    3.0: 3.2,
+    4.0: 4.3,
+    5.0: 5.3,
+    6.0: 6.4,
+    8.0: 8.4,
+    10.0: 10.5,
+    12.0: 13.0,
+    16.0: 17.0,
+}
+_BORE_SHARE = 0.6
+"""Most of a column's diameter that its bore takes: seven eighths of its stiffness stay."""
+LEAST_COLUMN = 3e-3
+"""Least diameter of a column, m: a tube over an M1.6 screw, the smallest there is."""
 
 
 @dataclass(frozen=True)
@@ -119,3 +141,43 @@ def mean_pin_diameter(diameter: float) -> float:
     """Mean of the limits of an output pin of a nominal size, to which hole clearances count, m."""
     least, greatest = pin_diameter_limits(diameter)
     return 0.5 * (least + greatest)
+
+
+@dataclass(frozen=True)
+class ColumnScrew:
+    """The screw through a column, m.
+
+    Attributes
+    ----------
+    thread : float
+        Nominal diameter of the metric thread.
+    bore : float
+        Of the column over it.
+    """
+
+    thread: float
+    bore: float
+
+
+def column_screw(diameter: float) -> ColumnScrew:
+    """The largest screw whose bore leaves a column of a diameter (m) a wall of a fifth of it.
+
+    Raises
+    ------
+    CatalogError
+        Below `LEAST_COLUMN`.
+
+    Examples
+    --------
+    >>> column_screw(6e-3)
+    ColumnScrew(thread=0.003, bore=0.0032)
+    """
+    most = _BORE_SHARE * diameter * 1e3
+    fitting = [(size, bore) for size, bore in _FINE_BORES.items() if bore <= most + 1e-9]
+    if diameter < LEAST_COLUMN or not fitting:
+        raise CatalogError(
+            f"no screw goes through a column of {diameter * 1e3:g} mm; the least is "
+            f"{LEAST_COLUMN * 1e3:g} mm."
+        )
+    thread, bore = fitting[-1]
+    return ColumnScrew(thread * 1e-3, bore * 1e-3)

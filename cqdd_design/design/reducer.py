@@ -16,6 +16,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import ValidationInfo, model_validator
 
+from cqdd_design.catalog.screws import LEAST_COLUMN
 from cqdd_design.design.fields import (
     BearingName,
     FreeText,
@@ -43,6 +44,8 @@ PIN_CIRCLE_SHARE = 0.61
 """Default radius of the pin circle over the ring's pitch radius: the paper's 19.5 mm on 32 mm."""
 RING_WALL = 3e-3
 """Default wall outside the ring's root, m."""
+_FEWEST_COLUMNS = 3
+"""Three columns hold a cap square to the plate, and leave the carrier balanced."""
 
 
 _Shift = Annotated[
@@ -99,7 +102,8 @@ class Carrier(FrozenModel):
 
     clamped: the pins sit tight in both and keep their slope there; hinged: tight in the plate,
     free to slide and turn in the cap; columns: as hinged, and columns between the pins, through
-    holes of the discs, tie the cap to the plate.
+    holes of the discs, tie the cap to the plate. As many columns as pins unless the file says
+    otherwise.
     """
 
     joint: CarrierJoint = "clamped"
@@ -107,6 +111,23 @@ class Carrier(FrozenModel):
     column_diameter: Annotated[
         float, QuantityIn(LENGTH, "0 mm", "100 mm", "0 where there are no columns")
     ] = default("0 mm")
+
+    @model_validator(mode="after")
+    def _columns_belong(self) -> Carrier:
+        count, diameter = self.column_count, self.column_diameter
+        told = f"column_count {count} and column_diameter {diameter * 1e3:.6g} mm"
+        if self.joint != "columns" and (count or diameter):
+            raise ValueError(
+                f'{told} belong to joint = "columns", not to joint = "{self.joint}"; leave them '
+                'out, or choose joint = "columns"'
+            )
+        if self.joint == "columns" and diameter < LEAST_COLUMN:
+            raise ValueError(
+                f"column_diameter {diameter * 1e3:.6g} mm must be from {LEAST_COLUMN * 1e3:g} to "
+                "100 mm: a column is a tube over its screw, M1.6 at least; the nearest allowed is "
+                f"{LEAST_COLUMN * 1e3:g} mm"
+            )
+        return self
 
 
 class CarrierBearing(FrozenModel):
@@ -190,10 +211,31 @@ class Reducer(FrozenModel):
         """Length of the pack of discs, m."""
         return self.disc_count * self.disc_thickness + (self.disc_count - 1) * self.disc_spacing
 
+    @model_validator(mode="after")
+    def _columns_between_pins(self) -> Reducer:
+        carrier, pins = self.carrier, self.output_pins.count
+        if carrier.joint != "columns":
+            return self
+        if self.output_pins.support != "both":
+            raise ValueError(
+                'carrier.joint "columns" ties a cap to the plate, and output_pins.support '
+                f'"{self.output_pins.support}" has no cap; set support = "both", or leave joint, '
+                "column_count and column_diameter out"
+            )
+        count = carrier.column_count
+        even = [n for n in range(_FEWEST_COLUMNS, pins + 1) if pins % n == 0]
+        if count not in even:
+            raise ValueError(
+                f"carrier.column_count {count} must be a divisor of output_pins.count {pins}, "
+                f"{_FEWEST_COLUMNS} or more, so that columns stand evenly midway between pins; the "
+                f"nearest is {min(even, key=lambda n: (abs(n - count), n))}"
+            )
+        return self
+
     @model_validator(mode="before")
     @classmethod
     def _derive(cls, data: Any, info: ValidationInfo) -> Any:
-        """Defaults that follow from the first four keys: hole clocking, pin circle, ring size."""
+        """Defaults that follow from other keys: hole clocking, pin circle, ring size, columns."""
         if not isinstance(data, dict):
             return data
         filled = dict(data)
@@ -215,6 +257,12 @@ class Reducer(FrozenModel):
                 radius = round(PIN_CIRCLE_SHARE * lengths[0], 4)
                 pins["circle_radius"] = format_quantity(radius, LENGTH)
             filled["output_pins"] = pins
+            carrier = filled.get("carrier")
+            if isinstance(carrier, dict) and carrier.get("joint") == "columns":
+                # One between every two pins.
+                count = pins.get("count", OutputPins.model_fields["count"].default)
+                if isinstance(count, int):
+                    filled["carrier"] = {"column_count": count, **carrier}
         if isinstance(ring, dict):
             ring = dict(ring)
             if "outer_diameter" not in ring and lengths is not None:

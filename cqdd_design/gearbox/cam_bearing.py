@@ -17,6 +17,7 @@ from cqdd_design.gearbox.bearing_life import (
 )
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.columns import column_hole_diameter
 from cqdd_design.geometry.contours import FloatArray
 
 _Lengths = TypeVar("_Lengths", float, FloatArray)
@@ -39,7 +40,8 @@ def carries_raceways(bearing: Bearing, disc_material: str) -> bool:
 
 def largest_outer_diameter(design: Design, hole_diameter: float, valley_distance: float) -> float:
     """Largest cam bearing that leaves the least ligament to holes and valleys, m."""
-    to_holes = design.reducer.output_pins.circle_radius - 0.5 * hole_diameter
+    holes = max(hole_diameter, column_hole_diameter(design.reducer))
+    to_holes = design.reducer.output_pins.circle_radius - 0.5 * holes
     return 2.0 * (min(to_holes, valley_distance) - allowables.LIGAMENT)
 
 

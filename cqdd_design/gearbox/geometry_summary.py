@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.design import Design
 from cqdd_design.gearbox.cam_bearing import largest_outer_diameter
+from cqdd_design.geometry.columns import column_hole_diameter
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.disc import (
     Ligament,
@@ -41,9 +42,9 @@ class GeometrySummary:
     profile_area, profile_perimeter : float
         Of the lobed outline without holes, m^2 and m.
     disc_area : float
-        Of disc 0 with bore and output holes, m^2.
-    hole_diameter : float
-        Of the output holes, m.
+        Of disc 0 with bore and holes, m^2.
+    hole_diameter, column_hole_diameter : float
+        Of the output holes, and of those for columns (0 without columns), m.
     ligaments : tuple of Ligament
         Thinnest first.
     largest_cam_bearing : float
@@ -63,6 +64,7 @@ class GeometrySummary:
     profile_perimeter: float
     disc_area: float
     hole_diameter: float
+    column_hole_diameter: float
     ligaments: tuple[Ligament, ...]
     largest_cam_bearing: float
 
@@ -78,6 +80,7 @@ class GeometrySummary:
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form (``geometry``)."""
         thinnest = self.ligaments[0]
+        column = {"column_hole_diameter_mm": self.column_hole_diameter * 1e3}
         return {
             "lobe_count": self.lobe_count,
             "ring_tooth_count": self.ring_tooth_count,
@@ -94,6 +97,7 @@ class GeometrySummary:
             "disc_profile_perimeter_mm": self.profile_perimeter * 1e3,
             "disc_area_mm2": self.disc_area * 1e6,
             "hole_diameter_mm": self.hole_diameter * 1e3,
+            **(column if self.column_hole_diameter else {}),
             "thinnest_ligament_mm": thinnest.thickness * 1e3,
             "thinnest_ligament_where": thinnest.where,
         }
@@ -123,6 +127,7 @@ def summarise_geometry(design: Design, cam_bearing: Bearing) -> GeometrySummary:
         profile_perimeter=profile_perimeter(disc),
         disc_area=disc_moments(design, 0, bore_diameter=bore).area,
         hole_diameter=hole,
+        column_hole_diameter=column_hole_diameter(design.reducer),
         ligaments=ligaments(design, bore_diameter=bore),
         largest_cam_bearing=largest_outer_diameter(design, hole, disc.valley_distance),
     )

@@ -1,4 +1,4 @@
-"""The disc as a part: outline, bore, output holes, ligaments, and its exact area integrals.
+"""The disc as a part: outline, bore, holes, ligaments, and its exact area integrals.
 
 Holes stand at ``clocking + p/n + 2 pi j/N`` in the frame of the disc's own lobes, with p the crank
 phase of the disc: the lobes of a phased disc are turned by -p/n in the world, its holes are not::
@@ -7,11 +7,15 @@ phase of the disc: the lobes of a phased disc are turned by -p/n in the world, i
         .-'''-.                  p/n = 18 deg for the second of two 10-lobe discs
        ( o (+) o )--- x
         '-...-'
+
+Where columns tie the carrier's cap to its plate, their holes stand midway between output holes
+(:mod:`.columns`).
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -23,6 +27,7 @@ from numpy.typing import ArrayLike
 from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.errors import UsageError
 from cqdd_design.geometry.biarc import fit_biarcs, mirrored_contour
+from cqdd_design.geometry.columns import column_hole_diameter, column_offsets
 from cqdd_design.geometry.contours import (
     ArcContour,
     Circle,
@@ -50,7 +55,8 @@ class Ligament:
     Attributes
     ----------
     kind : str
-        ``hole to hole``, ``hole to profile``, ``hole to bore`` or ``bore to profile``.
+        ``hole to hole``, ``hole to profile``, ``hole to bore`` or ``bore to profile``; with columns
+        also ``column to hole``, ``column to profile`` and ``column to bore``, of their holes.
     thickness : float
         m; zero or less means the edges meet.
     where : str
@@ -94,6 +100,21 @@ def hole_centres(design: Design, disc_index: int = 0) -> FloatArray:
     return as_points(pins.circle_radius * np.exp(1j * turns))
 
 
+def column_hole_centres(design: Design, disc_index: int = 0) -> FloatArray:
+    """Centres (N_c, 2) of the holes for columns in the frame of the disc's own lobes, m."""
+    turns = first_hole_angle(design, disc_index) + column_offsets(design.reducer)
+    return as_points(design.reducer.output_pins.circle_radius * np.exp(1j * turns))
+
+
+def disc_holes(design: Design, disc_index: int) -> tuple[Circle, ...]:
+    """Round holes of a disc beside its bore: output holes in order, then those for columns."""
+    output, column = hole_diameter(design) / 2.0, column_hole_diameter(design.reducer) / 2.0
+    return (
+        *(Circle(centre, output) for centre in hole_centres(design, disc_index)),
+        *(Circle(centre, column) for centre in column_hole_centres(design, disc_index)),
+    )
+
+
 @lru_cache(maxsize=64)
 def lobed_outline(disc: CycloidDisc, tolerance: float) -> ArcContour:
     """Outline of the finished disc in arcs, within `tolerance` (m) of the exact curve.
@@ -112,7 +133,7 @@ def lobed_outline(disc: CycloidDisc, tolerance: float) -> ArcContour:
 def disc_contour(
     design: Design, disc_index: int, *, bore_diameter: float, tolerance: float | None = None
 ) -> PlanarPart:
-    """One disc as it is cut: lobed outline, bore, output holes.
+    """One disc as it is cut: lobed outline, bore, output holes, holes for columns.
 
     Parameters
     ----------
@@ -128,13 +149,12 @@ def disc_contour(
     -------
     PlanarPart
         In the frame of the disc's lobes: centre at the origin, a valley on +x. Holes: the bore
-        first, then the output holes in order.
+        first, then those of `disc_holes`.
     """
     allowed = design.edm.profile_tolerance if tolerance is None else tolerance
     outline = lobed_outline(CycloidDisc.from_design(design), allowed)
-    radius = hole_diameter(design) / 2.0
     bore = Circle(np.zeros(2), bore_diameter / 2.0)
-    holes = tuple(Circle(centre, radius) for centre in hole_centres(design, disc_index))
+    holes = disc_holes(design, disc_index)
     return PlanarPart(f"disc {disc_index + 1}", outline, (bore, *holes))
 
 
@@ -153,7 +173,7 @@ def ligaments(design: Design, *, bore_diameter: float) -> tuple[Ligament, ...]:
     """
     disc = CycloidDisc.from_design(design)
     pins = design.reducer.output_pins
-    hole = hole_diameter(design)
+    hole, column = hole_diameter(design), column_hole_diameter(design.reducer)
     found = [
         Ligament(
             "hole to hole",
@@ -170,16 +190,44 @@ def ligaments(design: Design, *, bore_diameter: float) -> tuple[Ligament, ...]:
             disc.valley_distance - bore_diameter / 2.0,
             "between the bore and each valley",
         ),
+        _to_profile(design, disc, "hole", "output hole", hole_centres, hole),
     ]
+    if column > 0.0:
+        # Twice as many places on the circle, the holes of both kinds in turn.
+        between = ligament_hole_to_hole(pins.circle_radius, 2 * pins.count, (hole + column) / 2.0)
+        found += [
+            Ligament(
+                "column to hole",
+                float(between),
+                "between each hole for a column and its output holes",
+            ),
+            Ligament(
+                "column to bore",
+                float(ligament_hole_to_bore(pins.circle_radius, column, bore_diameter)),
+                "between each hole for a column and the bore",
+            ),
+            _to_profile(design, disc, "column", "column hole", column_hole_centres, column),
+        ]
+    return tuple(sorted(found, key=lambda one: one.thickness))
+
+
+def _to_profile(
+    design: Design,
+    disc: CycloidDisc,
+    kind: str,
+    name: str,
+    centres: Callable[[Design, int], FloatArray],
+    hole: float,
+) -> Ligament:
+    """The least material between holes of one kind and the profile, over all discs."""
     worst, where = math.inf, ""
     for index in range(design.reducer.disc_count):
-        depths = -project(disc, hole_centres(design, index)).distance
+        depths = -project(disc, centres(design, index)).distance
         nearest = int(depths.argmin())
         if depths[nearest] < worst - 1e-12:
             worst = float(depths[nearest])
-            where = f"between output hole {nearest + 1} of disc {index + 1} and the profile"
-    found.append(Ligament("hole to profile", worst - hole / 2.0, where))
-    return tuple(sorted(found, key=lambda one: one.thickness))
+            where = f"between {name} {nearest + 1} of disc {index + 1} and the profile"
+    return Ligament(f"{kind} to profile", worst - hole / 2.0, where)
 
 
 def ligament_hole_to_hole(
@@ -242,14 +290,13 @@ def profile_perimeter(disc: CycloidDisc) -> float:
 
 
 def disc_moments(design: Design, disc_index: int, *, bore_diameter: float) -> Moments:
-    """Exact area and second moments of one disc with its bore and output holes.
+    """Exact area and second moments of one disc with its bore and holes.
 
     About the disc's centre; times thickness and density they are mass and inertia. Arguments as
     for `disc_contour`.
     """
     total = profile_moments(CycloidDisc.from_design(design))
     total = total - Circle(np.zeros(2), bore_diameter / 2.0).moments()
-    radius = hole_diameter(design) / 2.0
-    for centre in hole_centres(design, disc_index):
-        total = total - Circle(centre, radius).moments()
+    for hole in disc_holes(design, disc_index):
+        total = total - hole.moments()
     return total

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from cqdd_design.catalog.screws import LEAST_COLUMN
 from cqdd_design.errors import GeometryError
+from cqdd_design.geometry.columns import column_hole_diameter
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.disc import Ligament, hole_diameter, ligaments
-from cqdd_design.geometry.limits import millimetres, rounded_down, rounded_up
+from cqdd_design.geometry.limits import at_most, millimetres, rounded_down, rounded_up
 from cqdd_design.geometry.ring import ring_contour
 
 if TYPE_CHECKING:
@@ -44,7 +46,31 @@ def validate_geometry(design: Design, *, bore_diameter: float) -> None:
     if broken:
         # A bore outside the disc is the plainest of them, whatever else it cuts on the way.
         plainest = next((one for one in broken if one.kind == "bore to profile"), broken[0])
+        if plainest.kind.startswith("column"):
+            raise GeometryError(_column_breaks_out(design, plainest))
         raise GeometryError(_break_out(design, plainest, hole, bore_diameter))
+
+
+def _column_breaks_out(design: Design, worst: Ligament) -> str:
+    carrier = design.reducer.carrier
+    room = {
+        "column to hole": "run into the output holes beside them",
+        "column to bore": "break out into the bore",
+        "column to profile": "break out into the lobed profile",
+    }
+    # Material grows by half of what the diameter loses, and the screw's play never grows with it.
+    most = carrier.column_diameter + 2.0 * worst.thickness
+    fix = (
+        f"lower it to {at_most(most)}"
+        if most > LEAST_COLUMN
+        else f"even the least column of {millimetres(LEAST_COLUMN)} has no room there: use fewer "
+        'or thinner output_pins, or joint = "clamped"'
+    )
+    return (
+        f"carrier.column_diameter {millimetres(carrier.column_diameter)} lets its holes of "
+        f"{millimetres(column_hole_diameter(design.reducer))} in the discs {room[worst.kind]}; "
+        f"{fix}."
+    )
 
 
 def _break_out(design: Design, worst: Ligament, hole: float, bore: float) -> str:

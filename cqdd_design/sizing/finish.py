@@ -102,6 +102,8 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
             "disc_material": requirements.disc_material,
             "ring_material": requirements.ring_material,
             "output_pins": pins,
+            # Stated, since forces hang on it: no room is searched for columns.
+            "carrier": {"joint": "clamped"},
             "cam_bearing": {"designation": frame.bearings[points.bearing[row]].designation},
             "ring": {"outer_diameter": requirements.outer_diameter},
         },

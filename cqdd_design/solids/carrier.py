@@ -1,11 +1,13 @@
-"""Shapes of the output carrier: plate, cap, nut, shoulder screws.
+"""Shapes of the output carrier: plate, cap, nut, shoulder screws, columns with their screws.
 
 Drawn in the carrier's frame, where the first pin stands at the hole clocking.
 """
 
 from __future__ import annotations
 
-from cqdd_design.geometry.contours import PlanarPart
+import numpy as np
+
+from cqdd_design.geometry.contours import FloatArray, PlanarPart
 from cqdd_design.solids.layers import (
     Annulus,
     Drilling,
@@ -20,7 +22,7 @@ from cqdd_design.solids.layers import (
     prism,
     turned,
 )
-from cqdd_design.solids.layout import CarrierLayout, ShaftLayout
+from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, ShaftLayout
 from cqdd_design.solids.rotating import plain_pin
 from cqdd_design.solids.selection import CapScrew, OutputPin
 
@@ -29,7 +31,7 @@ _NUT_SLOTS = 4
 
 
 def carrier_plate(carrier: CarrierLayout, shaft: ShaftLayout, unit: float) -> Stack:
-    """The output plate: pin seats and threads, bearing seats, output face with tapped holes."""
+    """The output plate: seats and threads of pins, threads for columns, bearing seats, bolts."""
     output = carrier.output
     support = shaft.support
     seat_top = carrier.plate_bottom + support.bearing.width
@@ -54,6 +56,9 @@ def carrier_plate(carrier: CarrierLayout, shaft: ShaftLayout, unit: float) -> St
         drillings.append(
             Drilling(pins, 0.5 * pin.thread_diameter, carrier.shoulder_top, thread_top)
         )
+    if carrier.columns is not None:
+        thread, top = 0.5 * carrier.columns.screw.thread, carrier.columns.thread_top
+        drillings.append(Drilling(column_places(carrier), thread, carrier.plate_bottom, top))
     if carrier.bolt_thread:
         depth = min(2.0 * carrier.bolt_thread, carrier.plate_top - seat_top - 0.5 * unit)
         bolts = on_circle(_BOLTS, carrier.bolt_circle_radius, 0.0)
@@ -64,15 +69,35 @@ def carrier_plate(carrier: CarrierLayout, shaft: ShaftLayout, unit: float) -> St
 
 
 def carrier_cap(carrier: CarrierLayout, gap: float) -> Stack:
-    """The ring that holds the far ends of the pins, counterbored for the screw heads."""
+    """The ring that holds the far ends of pins and columns, counterbored for the screw heads."""
     pins = on_circle(carrier.pin_count, carrier.pin_circle_radius, carrier.clocking)
     drillings = [Drilling(pins, 0.5 * carrier.pin.nominal_diameter, carrier.shoulder_bottom, -gap)]
     if carrier.counterbore_radius:
         drillings.append(
             Drilling(pins, carrier.counterbore_radius, carrier.cap_bottom, carrier.shoulder_bottom)
         )
+    columns = carrier.columns
+    if columns is not None:
+        places = column_places(carrier)
+        drillings += [
+            Drilling(places, columns.bore_radius, columns.seat, -gap),
+            Drilling(places, columns.counterbore_radius, carrier.cap_bottom, columns.seat),
+        ]
     ring = Annulus(carrier.cap_bottom, -gap, carrier.cap_inner, carrier.cap_outer)
     return turned([ring], drillings)
+
+
+def column_places(carrier: CarrierLayout) -> FloatArray:
+    """Axes (N_c, 2) of the columns, m; none without columns."""
+    columns = carrier.columns
+    if columns is None:
+        return np.zeros((0, 2))
+    return on_circle(columns.count, carrier.pin_circle_radius, columns.angle)
+
+
+def column_shape(columns: ColumnLayout, bottom: float, top: float) -> Stack:
+    """The tube of a column on the z axis, from cap to plate."""
+    return turned([Annulus(bottom, top, columns.bore_radius, columns.radius)])
 
 
 def bearing_nut(carrier: CarrierLayout) -> Stack:

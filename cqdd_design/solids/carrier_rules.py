@@ -1,13 +1,21 @@
-"""The rules of the output carrier: pins in plate and cap, and the plate's heights and seats."""
+"""The rules of the output carrier: pins and columns between plate and cap, heights and seats."""
 
 from __future__ import annotations
 
 import math
 
+from cqdd_design.catalog.screws import column_screw
 from cqdd_design.design import Design
+from cqdd_design.design.reducer import Reducer
 from cqdd_design.errors import GeometryError
-from cqdd_design.solids.layout import CarrierLayout, PackLayout
-from cqdd_design.solids.selection import ChosenBearing, OutputPin, thread_size
+from cqdd_design.geometry.columns import column_offsets, has_columns
+from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, PackLayout
+from cqdd_design.solids.selection import ChosenBearing, OutputPin, cap_screw, thread_size
+
+_ENGAGEMENT = 1.3
+"""Least length of a column's screw in the plate, in threads."""
+CLAMPED_SEAT = 1.0
+"""Least length of a pin's seat in the cap that holds its slope, in diameters."""
 
 
 def pin_wall(diameter: float, unit: float) -> float:
@@ -20,6 +28,19 @@ def counterbore_radius(pin: OutputPin, unit: float) -> float:
     if pin.screw is None:
         return 0.5 * pin.nominal_diameter
     return 0.5 * pin.head_diameter + 0.25 * unit
+
+
+def column_head_radius(reducer: Reducer, unit: float) -> float:
+    """Radius of the recess in the cap for the head of a column's screw, m; 0 without columns."""
+    if not has_columns(reducer):
+        return 0.0
+    thread = column_screw(reducer.carrier.column_diameter).thread
+    return 0.5 * cap_screw(thread, 0.0).head_diameter + 0.25 * unit
+
+
+def reach_beside_circle(reducer: Reducer) -> float:
+    """How far pins and columns stand out from their circle in the plate, m."""
+    return 0.5 * max(reducer.output_pins.diameter, reducer.carrier.column_diameter)
 
 
 def lay_out_carrier(
@@ -53,24 +74,33 @@ def lay_out_carrier(
     pins = design.reducer.output_pins
     circle, diameter = pins.circle_radius, pins.diameter
     wall = pin_wall(diameter, unit)
-    both = pins.support == "both"
+    both, joint = pins.support == "both", design.reducer.carrier.joint
     counterbore = counterbore_radius(pin, unit)
+    beside = column_head_radius(design.reducer, unit)
     most_outer = pack.ledge_radius - 0.4 * unit
     # A catalogue head may be too large for a dense pin circle; ground dowels always fit.
-    crowded = 2.0 * circle * math.sin(math.pi / pins.count) < 2.0 * counterbore + 0.4 * unit
+    apart = 2.0 * circle * math.sin(math.pi / pins.count)
+    crowded = apart < 2.0 * counterbore + 0.4 * unit
+    if beside:
+        apart = 2.0 * circle * math.sin(0.5 * math.pi / pins.count)
+        crowded |= apart < counterbore + beside + 0.4 * unit
     inward = circle - counterbore - core < unit
     outward = circle + counterbore + 0.4 * unit > most_outer
     if crowded or inward or outward:
         pin = pin.as_dowel()
     if pin.screw is None:
         counterbore = 0.0
-    around = max(counterbore, 0.5 * diameter)
+    around = max(counterbore, beside, reach_beside_circle(design.reducer))
 
     bottom = pack.top + pack.gap
     span = bottom + pack.gap
-    register, web = _seat_depths(pin, span, both, unit)
+    register, web = _seat_depths(pin, span, both, unit, clamped=joint == "clamped")
     shoulder_bottom = -pack.gap - web
     cap_bottom = shoulder_bottom - pin.head_height if both else -pack.gap
+    columns = None
+    if beside:
+        columns = _lay_out_columns(design.reducer, pack, cap_bottom, beside, unit)
+        cap_bottom = columns.seat - columns.screw.head_height
     lowest = min(cap_bottom, shoulder_bottom - pin.head_height)
 
     clamp = max(2.5 * unit, pack.gap + 1.5 * unit)
@@ -87,13 +117,17 @@ def lay_out_carrier(
     plate_top = max(
         nut_top + unit,
         bottom + register + pin.thread_length + 0.5 * unit,
+        (columns.thread_top if columns else bottom) + 0.5 * unit,
         bottom + support.bearing.width + 1.5 * unit,
     )
-    room = circle - 0.5 * diameter - 0.5 * support.bearing.outer_diameter
+    threads = max(diameter, columns.screw.thread if columns else 0.0)
+    room = circle - 0.5 * threads - 0.5 * support.bearing.outer_diameter
     bolt_circle = 0.5 * support.bearing.outer_diameter + 0.5 * room
     # Six bolts stand their circle's radius apart.
     bolt = thread_size(min(0.55 * room, bolt_circle / 2.0, 4.0 * unit))
     return CarrierLayout(
+        joint=joint,
+        columns=columns,
         pin=pin,
         pin_count=pins.count,
         pin_circle_radius=circle,
@@ -120,17 +154,41 @@ def lay_out_carrier(
     )
 
 
-def _seat_depths(pin: OutputPin, span: float, both: bool, unit: float) -> tuple[float, float]:
+def _lay_out_columns(
+    reducer: Reducer, pack: PackLayout, cap_bottom: float, head_radius: float, unit: float
+) -> ColumnLayout:
+    """Columns in a cap whose lower face is at `cap_bottom` (m) for the pins' sake, or lower."""
+    diameter = reducer.carrier.column_diameter
+    size = column_screw(diameter)
+    head = cap_screw(size.thread, 0.0).head_height
+    under_head = max(unit, 0.8 * size.thread)
+    seat = min(cap_bottom + head, -pack.gap - under_head)
+    grip = pack.top + pack.gap - seat
+    return ColumnLayout(
+        count=reducer.carrier.column_count,
+        angle=reducer.output_pins.hole_clocking + float(column_offsets(reducer)[0]),
+        radius=0.5 * diameter,
+        bore_radius=0.5 * size.bore,
+        screw=cap_screw(size.thread, grip + _ENGAGEMENT * size.thread),
+        counterbore_radius=head_radius,
+        seat=seat,
+    )
+
+
+def _seat_depths(
+    pin: OutputPin, span: float, both: bool, unit: float, *, clamped: bool
+) -> tuple[float, float]:
     """Depth of the pin's seat in the plate, and length of shoulder below the pack, m.
 
     Screws come in steps of length; what a step is too long is shared between both seats.
     """
     diameter = pin.nominal_diameter
+    seat = CLAMPED_SEAT * diameter if clamped else 0.0
     if pin.screw is None:
-        web = max(2.5 * unit, 0.75 * diameter) if both else 0.0
+        web = max(2.5 * unit, 0.75 * diameter, seat) if both else 0.0
         return pin.shoulder_length(span + web + 1.5 * diameter) - span - web, web
     least_register = max(unit, 0.25 * diameter)
-    least_web = max(1.5 * unit, 0.5 * diameter) if both else 0.0
+    least_web = max(1.5 * unit, 0.5 * diameter, seat) if both else 0.0
     spare = pin.shoulder_length(span + least_register + least_web) - span
     if both:
         register = max(least_register, min(0.5 * spare, spare - least_web))

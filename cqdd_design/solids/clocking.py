@@ -4,7 +4,8 @@ In its own lobes' frame disc d has its first hole at ``clocking + p_d/n``. A dis
 whole lobes, and turned over about a lobe axis, because its outline has both symmetries; where such
 a turn carries the holes of one disc onto those of another, the two are one part. Two discs at 180
 degrees are one part, the second turned over, whenever the clocking is a quarter lobe pitch
-pi/(2n), for every n and every number of holes.
+pi/(2n), for every n and every number of holes. Holes for columns must be carried onto each other
+too; with one between every two pins they always are.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import math
 from dataclasses import dataclass
 
 from cqdd_design.design import Design
+from cqdd_design.geometry.columns import column_offsets
 from cqdd_design.geometry.disc import first_hole_angle
 
 _SAME_HOLE = 1e-9
@@ -69,6 +71,18 @@ def _placed(design: Design, drawn: int, disc: int) -> PlacedDisc | None:
         for lobes in range(design.reducer.ratio):
             angle = 2.0 * math.pi * lobes / design.reducer.ratio
             off = math.remainder(start + angle - wanted, spacing)
-            if abs(off) * pins.circle_radius <= _SAME_HOLE:
+            if abs(off) * pins.circle_radius > _SAME_HOLE:
+                continue
+            if _same_columns(design, start + angle - wanted, turned_over):
                 return PlacedDisc(disc, angle, turned_over)
     return None
+
+
+def _same_columns(design: Design, turn: float, turned_over: bool) -> bool:
+    """Whether the holes for columns of two discs agree that stand `turn` (rad) apart."""
+    offsets = column_offsets(design.reducer)
+    if len(offsets) == 0:
+        return True
+    start = turn + (-offsets[0] if turned_over else offsets[0])
+    off = math.remainder(start - offsets[0], 2.0 * math.pi / len(offsets))
+    return abs(off) * design.reducer.output_pins.circle_radius <= _SAME_HOLE

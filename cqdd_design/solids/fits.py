@@ -4,7 +4,8 @@ Why these: the load of a cam bearing turns with the crank, so its inner ring has
 and slips on the lobe (h6), while its outer ring is pressed into the disc (N7). The shaft's support
 bearings and the output bearing are pressed on what turns (k6) and slide in what stands (H7). Ring
 and pins are located without play that matters: n6 in H7 for the ring, which its clamp then holds,
-H7 over the f9 shoulders of the screws.
+H7 over the f9 shoulders of the screws. A retaining compound fills what H7 leaves there where a pin
+is to sit stiffly: in a cap whose joint is clamped, and in the plate where a dowel has no thread.
 """
 
 from __future__ import annotations
@@ -70,7 +71,7 @@ def seat_fits(layout: Layout) -> tuple[Fit, ...]:
         Fit("eccentric shaft", "journals and rotor seat", support.bore_diameter, "k6"),
         Fit("carrier plate", "seat of the output bearing", output.bore_diameter, "k6"),
         Fit("carrier plate", "seat of the shaft bearing", support.outer_diameter, "H7"),
-        Fit("carrier plate", "pin seats", pin, "H7"),
+        Fit("carrier plate", "pin seats" if carrier.pin.screw else "bonded pin seats", pin, "H7"),
         Fit("housing", "ring seat", ring, "H7"),
         Fit("housing", "seat of the shaft bearing", support.outer_diameter, "H7"),
         Fit("output cover", "seat of the output bearing", output.outer_diameter, "H7"),
@@ -85,7 +86,8 @@ def seat_fits(layout: Layout) -> tuple[Fit, ...]:
         for part in ("ring", "housing"):
             fits.append(Fit(part, "holes of the ring dowels", 2.0 * layout.dowels.radius, "H7"))
     if carrier.cap:
-        fits.append(Fit("carrier cap", "pin holes", pin, "H7"))
+        holes = "bonded pin seats" if carrier.bonded_in_cap else "pin holes"
+        fits.append(Fit("carrier cap", holes, pin, "H7"))
     if pack.disc_count > 2:
         core = 2.0 * shaft.shoulder_radius
         fits.append(Fit("eccentric shaft", "seat of the eccentric cam", core, "p6"))

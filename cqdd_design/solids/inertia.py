@@ -55,6 +55,8 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "carrier": (
             "carrier plate",
             "carrier cap",
+            "carrier column",
+            "column screw",
             "bearing nut",
             "shoulder screw",
             "dowel pin",

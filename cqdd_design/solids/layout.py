@@ -15,8 +15,10 @@ Section through a two-disc gearbox, output upward; z = 0 is the lower face of di
 
 The carrier hangs on one output bearing; the eccentric shaft runs in two support bearings, one in
 the housing floor (inside the cap where there is room) and one in the carrier plate. Pins are
-shoulder screws, head in the cap, thread in the plate. Dimensions that nothing else decides are
-proportions of the ring, in *units* of a millimetre on a 72 mm ring.
+shoulder screws, head in the cap, thread in the plate. Where they hold the cap stiffly they are
+bonded into a seat of one diameter in it; columns are tubes between plate and cap, each drawn
+together by a screw from the cap. Dimensions that nothing else decides are proportions of the ring,
+in *units* of a millimetre on a 72 mm ring.
 """
 
 from __future__ import annotations
@@ -27,6 +29,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cqdd_design.catalog.motors import Motor
+from cqdd_design.design.reducer import CarrierJoint
 from cqdd_design.solids.selection import CapScrew, ChosenBearing, OutputPin
 
 
@@ -101,11 +104,47 @@ class ShaftLayout:
 
 
 @dataclass(frozen=True)
+class ColumnLayout:
+    """Columns between plate and cap with their screws, m; on the pins' circle.
+
+    Attributes
+    ----------
+    count : int
+        Of columns.
+    angle : float
+        Of the first at crank angle 0, rad.
+    radius, bore_radius : float
+        Of the tube.
+    screw : CapScrew
+        Head in the cap, thread in the plate.
+    counterbore_radius, seat : float
+        Of the recess for its head; height of the face under the head.
+    """
+
+    count: int
+    angle: float
+    radius: float
+    bore_radius: float
+    screw: CapScrew
+    counterbore_radius: float
+    seat: float
+
+    @property
+    def thread_top(self) -> float:
+        """Height of the screw's end."""
+        return self.seat + self.screw.length
+
+
+@dataclass(frozen=True)
 class CarrierLayout:
     """Carrier plate, cap, nut, pins and output bearing, m.
 
     Attributes
     ----------
+    joint : {"clamped", "hinged", "columns"}
+        How plate and cap are joined.
+    columns : ColumnLayout or None
+        None unless columns join them.
     pin_circle_radius, clocking : float
         Of the pins; the first pin's angle at crank angle 0.
     shoulder_bottom, shoulder_top : float
@@ -126,6 +165,8 @@ class CarrierLayout:
         Tapped holes in the output face; a thread of 0 where there is no room.
     """
 
+    joint: CarrierJoint
+    columns: ColumnLayout | None
     pin: OutputPin
     pin_count: int
     pin_circle_radius: float
@@ -148,6 +189,11 @@ class CarrierLayout:
     nut_radius: float
     bolt_thread: float
     bolt_circle_radius: float
+
+    @property
+    def bonded_in_cap(self) -> bool:
+        """Whether the pins sit stiffly in the cap."""
+        return self.cap and self.joint == "clamped"
 
 
 @dataclass(frozen=True)

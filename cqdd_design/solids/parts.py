@@ -9,6 +9,7 @@ import dataclasses
 from collections.abc import Sequence
 
 from cqdd_design.design import Design
+from cqdd_design.geometry.columns import COLUMN_MATERIAL
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_contour, disc_moments
 from cqdd_design.geometry.ring import ring_contour, ring_moments, ring_pins
@@ -190,7 +191,12 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
     plate = carrier_shapes.carrier_plate(carrier, layout.shaft, layout.unit)
     parts = [made("carrier plate", plate)]
     if carrier.cap:
-        parts.append(made("carrier cap", carrier_shapes.carrier_cap(carrier, layout.pack.gap)))
+        how = "turned and drilled"
+        if carrier.bonded_in_cap:
+            drawn = " and drawn against their heads" if carrier.pin.screw else ""
+            how += f", seats {1e3 * carrier.pin.nominal_diameter:g} H7 bonded on the f9 pins{drawn}"
+        cap = carrier_shapes.carrier_cap(carrier, layout.pack.gap)
+        parts.append(made("carrier cap", cap, how))
     nut = made(
         "bearing nut",
         carrier_shapes.bearing_nut(carrier),
@@ -199,11 +205,42 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
     parts += [
         dataclasses.replace(nut, material=NUT_MATERIAL, colour=_SCREW),
         _pin_part(design, layout),
+        *_column_parts(layout),
     ]
     if design.reducer.output_pins.sleeve_diameter > 0.0:
         parts.append(_sleeve_part(design, layout))
     seat = on_axis("output bearing", HOUSING, carrier.bearing_bottom)
     return [*parts, _bearing_part("output bearing", carrier.output, seat, CARRIER)]
+
+
+def _column_parts(layout: Layout) -> list[Part]:
+    columns, pack = layout.carrier.columns, layout.pack
+    if columns is None:
+        return []
+    places = carrier_shapes.column_places(layout.carrier)
+    bottom, top = -pack.gap, layout.carrier.plate_bottom
+    size = f"{2e3 * columns.radius:.6g} x {2e3 * columns.bore_radius:g} x {1e3 * (top - bottom):g}"
+    heads_down = (transform(x=x, y=y, z=columns.seat, turned_over=True) for x, y in places)
+    return [
+        Part(
+            "carrier column",
+            carrier_shapes.column_shape(columns, bottom, top),
+            COLUMN_MATERIAL,
+            _BEARING,
+            "make",
+            f"tube {size} mm, faces ground as one set to one length",
+            around("carrier column", CARRIER, places),
+        ),
+        Part(
+            "column screw",
+            carrier_shapes.cap_screw_shape(columns.screw),
+            FASTENER_MATERIAL,
+            _SCREW,
+            "buy",
+            columns.screw.designation,
+            placed("column screw", CARRIER, *heads_down),
+        ),
+    ]
 
 
 def _pin_positions(layout: Layout) -> FloatArray:
@@ -217,7 +254,8 @@ def _pin_part(design: Design, layout: Layout) -> Part:
     name = "dowel pin" if pin.screw is None else "shoulder screw"
     size = f"{pin.nominal_diameter * 1e3:g} f9 x {length * 1e3:.4g}"
     if pin.screw is None:
-        designation = f"ground dowel {size}"
+        bonded = "plate and cap" if carrier.bonded_in_cap else "the plate"
+        designation = f"ground dowel {size}, bonded in {bonded}"
     elif pin.screw.name.startswith("metric"):
         designation = f"ISO 7379 {size} {pin.screw.thread}"
     else:

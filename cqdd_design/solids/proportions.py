@@ -10,7 +10,13 @@ from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.validate import validate_geometry
-from cqdd_design.solids.carrier_rules import counterbore_radius, lay_out_carrier, pin_wall
+from cqdd_design.solids.carrier_rules import (
+    column_head_radius,
+    counterbore_radius,
+    lay_out_carrier,
+    pin_wall,
+    reach_beside_circle,
+)
 from cqdd_design.solids.layout import (
     CarrierLayout,
     HousingLayout,
@@ -103,12 +109,13 @@ def _seats(
     design: Design, pack: PackLayout, pin: OutputPin, core: float, unit: float
 ) -> tuple[ChosenBearing, ChosenBearing]:
     pins = design.reducer.output_pins
-    circle, radius = pins.circle_radius, 0.5 * pins.diameter
+    circle, radius = pins.circle_radius, reach_beside_circle(design.reducer)
+    heads = max(counterbore_radius(pin, unit), column_head_radius(design.reducer, unit), radius)
     support = support_bearing(
         2.0 * core,
         max(0.4e-3, 0.16 * core),
         min(pack.cam.bearing.outer_diameter, 2.0 * (circle - radius - unit)),
-        2.0 * (circle - counterbore_radius(pin, unit) - pin_wall(pins.diameter, unit) - 2.3 * unit),
+        2.0 * (circle - heads - pin_wall(pins.diameter, unit) - 2.3 * unit),
     )
     most_shoulder, around = _most_shoulder_radius(pack, unit), circle + radius
     output = output_bearing(

@@ -217,6 +217,34 @@ def test_wrong_ratio_in_a_file(complaint, value, said):
     assert text.count("ratio = ") == 1, "one problem is told once"
 
 
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ('joint = "bolted"', "reducer.carrier.joint = 'bolted' must be 'clamped', 'hinged'"),
+        ('joint = "columns"', "column_diameter 0 mm must be from 3 to 100 mm"),
+        ('column_diameter = "6 mm"', 'choose joint = "columns"'),
+        ('joint = "columns"\ncolumn_diameter = "2 mm"', "the nearest allowed is 3 mm"),
+        ('joint = "columns"\ncolumn_diameter = "6"', 'write it like "6 mm"'),
+        (
+            'joint = "columns"\ncolumn_diameter = "4 mm"\ncolumn_count = 4',
+            "carrier.column_count 4 must be a divisor of output_pins.count 6",
+        ),
+        (
+            'joint = "columns"\ncolumn_diameter = "12 mm"\n[reducer.cam_bearing]\n'
+            'designation = "6801"',
+            "in the discs run into the output holes beside them; lower it",
+        ),
+        (
+            'joint = "columns"\ncolumn_diameter = "4 mm"\n[reducer.output_pins]\n'
+            'support = "cantilever"',
+            'has no cap; set support = "both"',
+        ),
+    ],
+)
+def test_columns_that_do_not_fit(complaint, lines, said):
+    assert said in complaint(f"{MINIMAL}[reducer.carrier]\n{lines}\n")
+
+
 def test_all_problems_are_told_at_once(complaint):
     text = complaint(
         MINIMAL.replace('"1.6 mm"', "1.6").replace('"7 mm"', '"7 kg"') + "lobes = 10\n"

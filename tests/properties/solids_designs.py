@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 from hypothesis import assume
 from hypothesis import strategies as st
 
 from cqdd_design.catalog.bearings import Bearing, bearings
+from cqdd_design.catalog.screws import LEAST_COLUMN
 from cqdd_design.design import Design, load_design
 from cqdd_design.geometry.trochoid import undercut_radius_limit
 from cqdd_design.machine import resolve
@@ -46,6 +49,15 @@ CHANGES: dict[str, dict[str, object]] = {
         "reducer.output_pins.diameter": 0.0045,
         "reducer.output_pins.circle_radius": 0.02,
     },
+    # Columns thicker than the pins between plate and cap.
+    "columns": {
+        "reducer.carrier.joint": "columns",
+        "reducer.carrier.column_diameter": 0.006,
+        "reducer.output_pins.circle_radius": 0.0215,
+        "reducer.cam_bearing.designation": "6803",
+    },
+    # Pins bonded into the cap.
+    "clamped": {"reducer.carrier.joint": "clamped"},
 }
 
 
@@ -98,7 +110,7 @@ def machines(draw: st.DrawFn) -> tuple[Design, Bearing]:
     circle = least + (farthest - least) * draw(st.floats(0.0, 1.0))
     fits = int(math.pi / math.asin(min(1.0, (hole + 1e-3) / (2.0 * circle))))
     assume(fits >= 3)
-    reducer = {
+    reducer: dict[str, Any] = {
         "ratio": n,
         "ring_pitch_radius": R,
         "eccentricity": e,
@@ -117,4 +129,29 @@ def machines(draw: st.DrawFn) -> tuple[Design, Bearing]:
         "cam_bearing": {"designation": bearing.designation},
         "ring": {"outer_diameter": outside},
     }
+    reducer["carrier"] = draw(carriers(reducer, bearing, farthest + hole / 2.0))
     return Design.from_mapping({"reducer": reducer}, si=True), bearing
+
+
+@st.composite
+def carriers(
+    draw: st.DrawFn, reducer: Mapping[str, Any], bearing: Bearing, most_reach: float
+) -> dict[str, object]:
+    """How plate and cap are joined; columns where their holes have room within `most_reach`."""
+    pins, e = reducer["output_pins"], reducer["eccentricity"]
+    circle, hole = pins["circle_radius"], (pins["sleeve_diameter"] or pins["diameter"]) + 2.0 * e
+    room = min(
+        2.0 * (2.0 * circle * math.sin(0.5 * math.pi / pins["count"]) - 0.5 * hole),
+        2.0 * (circle - 0.5 * bearing.outer_diameter),
+        2.0 * (most_reach - circle),
+    )
+    most = room - 2.0 * e - 1.5e-3
+    joints = ["clamped", "hinged"]
+    if most > LEAST_COLUMN and pins["support"] == "both":
+        joints.append("columns")
+    joint = draw(st.sampled_from(joints))
+    if joint != "columns":
+        return {"joint": joint}
+    share = draw(st.floats(0.0, 1.0))
+    diameter = LEAST_COLUMN + share * (min(most, 0.1) - LEAST_COLUMN)
+    return {"joint": joint, "column_diameter": diameter}

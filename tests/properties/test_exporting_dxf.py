@@ -68,6 +68,19 @@ def test_layers_hold_what_they_say(drawings):
         assert layers == {"CUT_OUTER", "CUT_INNER", "START_HOLE", "REF", "NOTES"}
 
 
+def test_holes_for_columns_are_circles_to_cut_with_start_holes(paper, tmp_path):
+    columns = {"reducer.carrier.joint": "columns", "reducer.carrier.column_diameter": "4 mm"}
+    files = export(paper.replacing(columns), "dxf", tmp_path)
+    (path,) = (file.path for file in files if file.path.name == "cqdd-10-disc.dxf")
+    space = ezdxf.readfile(path).modelspace()
+    cut = [e for e in space if e.dxf.layer == "CUT_INNER"]
+    assert Counter(round(2.0 * e.dxf.radius, 4) for e in cut) == {28.0: 1, 7.191: 5, 7.616: 5}
+    assert sum(e.dxf.layer == "START_HOLE" for e in space) == 12
+    text = "\n".join(e.dxf.text for e in space.query("TEXT"))
+    assert "HOLES 1 x dia 28.0000, 5 x dia 7.1910, 5 x dia 7.6160" in text
+    assert "CUT 2, FLIP 1" in text
+
+
 def test_files_are_clean_metric_and_start_where_they_should(drawings):
     for drawing in drawings.values():
         audit = drawing.audit()

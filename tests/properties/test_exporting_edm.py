@@ -21,13 +21,15 @@ from cqdd_design.exporting.edm.cut_facts import facts_of, zone_text
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.seats import seats_of
 from cqdd_design.exporting.sheets.canvas import pdf_bytes
-from cqdd_design.exporting.sheets.cut_sheet import SCALES, draw_sheet, sheet_scale
+from cqdd_design.exporting.sheets.cut_sheet import FRONT, SCALES, draw_sheet, sheet_scale
+from cqdd_design.exporting.sheets.drawing import OUTLINE, THIN, SheetDrawing
 from cqdd_design.exporting.sheets.frame import BOTTOM, LEFT, RIGHT, TOP
 from cqdd_design.exporting.sheets.lettering import WIDTHS, fitting_height, printable, text_width
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
 from cqdd_design.solids.fits import seat_fits
 
+COLUMNS = {"reducer.carrier.joint": "columns", "reducer.carrier.column_diameter": "4 mm"}
 SEVERAL = settings(
     max_examples=examples(8), deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
 )
@@ -118,6 +120,8 @@ def _assert_legible(canvas):
         {"reducer.disc_count": 3},
         {"reducer.output_pins.hole_clocking": "0 deg"},
         {"reducer.output_pins.hole_clocking": "-40 deg"},
+        COLUMNS,
+        {**COLUMNS, "reducer.output_pins.count": 8, "reducer.carrier.column_count": 4},
     ],
 )
 def test_text_of_a_sheet_is_apart_and_on_the_page(paper, change):
@@ -168,6 +172,43 @@ def test_the_disc_sheet_shows_what_it_must(package):
     ):
         assert phrase in words, phrase
     assert any("270 arcs" in line for line in words)
+
+
+def test_holes_for_columns_are_cut_and_said_apart_from_output_holes(paper, tmp_path):
+    design = paper.replacing(COLUMNS)
+    written = {file.path.name: file for file in export(design, "edm,gcode", tmp_path)}
+    words = _words(written, "cqdd-10-disc.svg")
+    for phrase in (
+        "5 \u00d7 \u00d87.191 \u00b10.002",
+        "5 \u00d7 \u00d87.616 \u00b10.002",
+        "cycloidal disc of 10 lobes, 5 output holes, 5 for columns; cut by wire EDM",
+        "Cut 2, flip 1: disc 1 as drawn, disc 2 turned over about the X axis.",
+        "9\u00b0",
+    ):
+        assert phrase in words, phrase
+    readme = " ".join(written["README.txt"].path.read_text(encoding="ascii").split())
+    assert "output holes and those for columns +-0.002 mm" in readme
+    program = written["cqdd-10-disc.nc"].path.read_text(encoding="ascii")
+    assert program.count("DIA 7.6160") == 5
+
+
+@pytest.mark.parametrize("change", [{}, COLUMNS, {**COLUMNS, "reducer.output_pins.count": 7}])
+def test_the_face_is_marked_on_metal(paper, change, monkeypatch):
+    drawn, circle = [], SheetDrawing.circle
+
+    def noted(sheet, centre, radius, layer=THIN):
+        drawn.append((centre, radius, layer, sheet.scale))
+        circle(sheet, centre, radius, layer)
+
+    monkeypatch.setattr(SheetDrawing, "circle", noted)
+    machine = resolve(paper.replacing(change))
+    flat = flat_parts(machine)[0]
+    draw_sheet(facts_of(flat, machine))
+    (spot,) = (
+        (c - FRONT) / s for c, radius, layer, s in drawn if (radius, layer) == (1.0, OUTLINE)
+    )
+    for hole in flat.shape.holes:
+        assert abs(1e-3 * spot - complex(*hole.centre)) > hole.radius + 0.5e-3
 
 
 def test_the_ring_sheet_shows_what_it_must(package):

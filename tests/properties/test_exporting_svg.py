@@ -86,6 +86,18 @@ def test_the_mechanism_is_put_together_right(paper):
         assert apart == pytest.approx([1.6, 0.0], abs=1e-5)
 
 
+def test_columns_stand_in_their_holes(paper):
+    columns = {"reducer.carrier.joint": "columns", "reducer.carrier.column_diameter": "4 mm"}
+    root = ElementTree.fromstring(front_view(resolve(paper.replacing(columns))))
+    drawn = [p.get("d") for p in root.iter(f"{SVG}path") if p.get("class") == "part pin"]
+    (front,) = (p for p in root.iter(f"{SVG}path") if p.get("class") == "part disc")
+    holes = front.get("d").removesuffix("Z").split("Z ")[2:]
+    assert len(drawn) == len(holes) == 10
+    for hole, pin in zip(holes, drawn, strict=True):
+        apart = _joints(hole)[:2].mean(axis=0) - _joints(pin)[:2].mean(axis=0)
+        assert apart == pytest.approx([1.6, 0.0], abs=1e-5)
+
+
 def test_names_are_escaped(paper):
     odd = paper.replacing({"name": "a & b"})
     assert (

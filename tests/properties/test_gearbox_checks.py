@@ -483,6 +483,13 @@ def test_guide_and_checks_speak_of_the_same_things() -> None:
         SOUND.replacing(
             {"reducer.output_pins.sleeve_diameter": "6 mm", "reducer.output_pins.count": 8}
         ),
+        SOUND.replacing(
+            {
+                "reducer.output_pins.count": 5,
+                "reducer.carrier.joint": "columns",
+                "reducer.carrier.column_diameter": "3 mm",
+            }
+        ),
     ):
         for check in resolve(design).analysis.checks:
             guide = CHECK_GUIDE[check.id]

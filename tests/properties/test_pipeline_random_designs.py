@@ -51,6 +51,9 @@ def designs(draw: st.DrawFn) -> dict[str, object]:
         "support": draw(st.sampled_from(["both", "cantilever"])),
         "material": draw(st.sampled_from(sorted(materials()))),
     }
+    carrier = {"joint": draw(mostly(st.just("clamped"), st.sampled_from(["hinged", "columns"])))}
+    if carrier["joint"] == "columns":
+        carrier["column_diameter"] = draw(mostly(lengths(3.0, 0.2 * radius), lengths(1.0, radius)))
     modification = {
         "equidistant": draw(mostly(micrometres(0, 30), micrometres(-500, 500))),
         "radial": draw(mostly(micrometres(0, 30), micrometres(-500, 500))),
@@ -73,6 +76,7 @@ def designs(draw: st.DrawFn) -> dict[str, object]:
         "ring_material": draw(st.sampled_from(sorted(materials()))),
         "modification": modification,
         "output_pins": pins,
+        "carrier": carrier,
         "cam_bearing": {
             "designation": draw(mostly(st.just("auto"), st.sampled_from(sorted(bearings()))))
         },

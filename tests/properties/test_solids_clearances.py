@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from solids_designs import known_design, known_parts, part_named
 
+from cqdd_design.geometry.columns import column_clearance
 from cqdd_design.roads.check import assembly_check
 from cqdd_design.solids.clearances import SEARCH, AssemblyMotion, assembly_motion, output_revolution
 from cqdd_design.solids.mesh import DISPLAY
@@ -48,6 +49,18 @@ def test_gaps_are_those_of_the_design(motion: AssemblyMotion) -> None:
     assert gap(motion, "disc", "disc") == pytest.approx(0.5e-3, abs=1e-9)
     assert all(one.gap < SEARCH for one in motion.clearances)
     assert {"eccentric shaft", "cam bearing"} in [set(pair) for pair in motion.seats]
+
+
+def test_columns_keep_their_distance_from_the_discs_all_the_way_round() -> None:
+    design, parts = known_design("columns"), known_parts("columns")
+    pieces = tuple(part_named(parts, name) for name in ("disc", "carrier column"))
+    angles = output_revolution(design, 12)
+    found = assembly_motion(design, pieces, angles, DISPLAY)
+    assert found.collisions == ()
+    (one,) = (c for c in found.clearances if "carrier column" in {c.first, c.second})
+    half = 0.5 * column_clearance(design.reducer)
+    assert one.gap == pytest.approx(half, abs=one.slack)
+    assert half > 0.1e-3
 
 
 @pytest.mark.deep

@@ -14,16 +14,19 @@ from solids_designs import CHANGES, known_design, known_parts, machines, part_na
 from cqdd_design.catalog import find_bearing
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.catalog.motors import find_motor
+from cqdd_design.catalog.screws import column_screw
 from cqdd_design.design import Design
 from cqdd_design.errors import CatalogError, GeometryError
+from cqdd_design.gearbox.output_pins import pin_span
 from cqdd_design.geometry.contours import Circle
 from cqdd_design.geometry.disc import disc_contour
 from cqdd_design.machine import resolve
 from cqdd_design.solids.clocking import disc_groups
+from cqdd_design.solids.inertia import group_of
 from cqdd_design.solids.layers import Annulus, Drilling, notched_circle, on_circle, turned
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.parts import build_parts
-from cqdd_design.solids.poses import HOUSING, body_pose
+from cqdd_design.solids.poses import CARRIER, HOUSING, body_pose
 from cqdd_design.solids.proportions import lay_out
 
 TOUCH = 1e-9
@@ -107,10 +110,69 @@ def test_known_machines_have_their_parts(name: str) -> None:
         "pinwheel": {"ring pin", "pin sleeve", "shoulder screw"},
         "conjugate": {"ring", "shoulder screw"},
         "one disc": {"disc", "dowel pin", "carrier cap"},
+        "columns": {"disc", "shoulder screw", "carrier cap", "carrier column", "column screw"},
+        "clamped": {"disc", "shoulder screw", "carrier cap"},
     }[name]
     assert expected <= set(names)
     assert ("carrier cap" in names) == (known_design(name).reducer.output_pins.support == "both")
     assert ("eccentric cam" in names) == (name == "three discs")
+    assert ("carrier column" in names) == (name == "columns")
+
+
+def test_a_clamped_pin_has_a_bonded_seat_of_its_diameter_in_the_cap() -> None:
+    for name, bonded in (("paper", False), ("clamped", True), ("columns", False)):
+        design = known_design(name)
+        carrier = resolve(design).layout.carrier
+        seat = -resolve(design).layout.pack.gap - carrier.shoulder_bottom
+        assert (seat >= 4e-3 - 1e-12) == bonded
+        cap = part_named(known_parts(name), "carrier cap")
+        told = "turned and drilled"
+        if bonded:
+            told += ", seats 4 H7 bonded on the f9 pins and drawn against their heads"
+        assert cap.designation == told
+        assert [fit.feature for fit in cap.fits] == ["bonded pin seats" if bonded else "pin holes"]
+    # A dowel has no thread that would hold it in the plate.
+    dowel = part_named(known_parts("one disc"), "dowel pin")
+    assert dowel.designation.endswith("bonded in the plate")
+    plate = part_named(known_parts("one disc"), "carrier plate")
+    assert "bonded pin seats 4.5 H7" in {str(fit) for fit in plate.fits}
+
+
+def test_columns_stand_between_plate_and_cap_each_drawn_by_its_screw() -> None:
+    design, parts = known_design("columns"), known_parts("columns")
+    layout = resolve(design).layout
+    carrier, columns = layout.carrier, layout.carrier.columns
+    assert columns is not None
+    tube = part_named(parts, "carrier column")
+    reducer = design.reducer
+    length = float(pin_span(reducer.disc_count, reducer.disc_thickness, reducer.disc_spacing))
+    assert tube.shape.top - tube.shape.bottom == pytest.approx(length)
+    assert tube.shape.top == carrier.plate_bottom
+    assert tube.shape.bottom == part_named(parts, "carrier cap").shape.top
+    # What the stiffness takes: diameter, bore, place.
+    tube_layer = tube.shape.layers[0].shape
+    assert isinstance(tube_layer.outer, Circle)
+    assert 2.0 * tube_layer.outer.radius == pytest.approx(6e-3)
+    assert 2.0 * tube_layer.holes[0].radius == pytest.approx(column_screw(6e-3).bore)  # type: ignore[union-attr]
+    turned_in = [complex(*piece.placement[:2, 3]) for piece in tube.instances]
+    pins = part_named(parts, "shoulder screw")
+    between = [complex(*piece.placement[:2, 3]) for piece in pins.instances]
+    assert np.abs(turned_in) == pytest.approx(np.full(5, 0.0215))
+    assert np.angle(np.array(turned_in) / between) == pytest.approx(np.full(5, math.pi / 5))
+    screw = part_named(parts, "column screw")
+    assert screw.designation == columns.screw.designation == "ISO 4762 M3 x 30"
+    ends = [piece.placement @ [0.0, 0.0, -columns.screw.length, 1.0] for piece in screw.instances]
+    assert [end[2] for end in ends] == pytest.approx([columns.thread_top] * 5)
+    assert columns.thread_top - carrier.plate_bottom >= 1.3 * columns.screw.thread
+    assert columns.thread_top < carrier.plate_top
+    # The heads lie flush in the cap, with material under them.
+    top = [0.0, 0.0, columns.screw.head_height, 1.0]
+    heads = [(piece.placement @ top)[2] for piece in screw.instances]
+    assert heads == pytest.approx([carrier.cap_bottom] * 5)
+    assert -layout.pack.gap - columns.seat >= 0.8 * columns.screw.thread
+    # All of it turns with the carrier and counts there.
+    assert {piece.body for part in (tube, screw) for piece in part.instances} == {CARRIER}
+    assert {group_of("carrier column"), group_of("column screw")} == {"carrier"}
 
 
 def test_shoulder_screws_are_catalogue_screws_that_span_the_pack() -> None:

@@ -41,6 +41,11 @@ OTHERS = [
     ("pinwheel", "pin sleeve"),
     ("conjugate", "ring"),
     ("one disc", "dowel pin"),
+    ("columns", "disc"),
+    ("columns", "carrier plate"),
+    ("columns", "carrier cap"),
+    ("columns", "carrier column"),
+    ("columns", "column screw"),
 ]
 CASES = [("paper", part) for part in known_parts("paper")] + [
     pytest.param((name, part_named(known_parts(name), part)), marks=pytest.mark.deep)
@@ -106,6 +111,8 @@ def test_display_meshes_are_closed_and_small() -> None:
         pytest.param("pinwheel", [4.0], DISPLAY, marks=pytest.mark.deep),
         pytest.param("conjugate", [7.7], DISPLAY, marks=pytest.mark.deep),
         pytest.param("one disc", [30.0], DISPLAY, marks=pytest.mark.deep),
+        pytest.param("columns", [3.1], DISPLAY, marks=pytest.mark.deep),
+        pytest.param("clamped", [3.1], DISPLAY, marks=pytest.mark.deep),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )

@@ -95,6 +95,12 @@ def sensible(draw: random.Random) -> dict[str, str]:
     if draw.random() < 0.5:
         values["reducer.output_pins.count"] = str(draw.randint(3, 12))
         values["reducer.output_pins.diameter"] = f'"{radius * draw.uniform(0.05, 0.2):.3g} mm"'
+    if draw.random() < 0.3:
+        joint = draw.choice(["clamped", "hinged", "columns"])
+        values["reducer.carrier.joint"] = f'"{joint}"'
+        if joint == "columns":
+            diameter = f'"{draw.uniform(3.0, 0.25 * radius):.3g} mm"'
+            values["reducer.carrier.column_diameter"] = diameter
     return values
 
 
@@ -102,9 +108,13 @@ def sensible(draw: random.Random) -> dict[str, str]:
 CALM = [
     key
     for key, rule in RULES.items()
-    if isinstance(rule, tuple | Share)
-    or key.startswith(("motor.", "drive.", "tolerances.", "edm."))
-    or key.endswith("disc_count")
+    if (
+        isinstance(rule, tuple | Share)
+        or key.startswith(("motor.", "drive.", "tolerances.", "edm."))
+        or key.endswith("disc_count")
+    )
+    # These go together.
+    and not key.startswith("reducer.carrier.")
 ]
 
 

@@ -45,7 +45,7 @@ class Zones:
     profile : float
         Width of the zone about the exact curve, half to either side.
     hole_position : float
-        Diameter of the zone about the place of each output hole.
+        Diameter of the zone about the place of each hole beside the bore.
     hole_diameter : float
         To either side of nominal.
     """

@@ -86,7 +86,7 @@ def _front_view(sheet: SheetDrawing, facts: CutFacts) -> None:
     if rounds:
         _holes(sheet, facts, rounds, reach)
         if flat.turned_over:
-            _mark(sheet, facts, np.angle(as_complex([hole.centre for hole in rounds])))
+            _mark(sheet, facts, rounds)
     else:
         sheet.diameter(FRONT, factor * flat.reference_radius, 152.0, 0.35)
         _spoke(sheet, 360.0 / facts.design.reducer.ring_tooth_count, reach)
@@ -95,7 +95,7 @@ def _front_view(sheet: SheetDrawing, facts: CutFacts) -> None:
 
 
 def _output_holes(facts: CutFacts) -> list[Circle]:
-    """Round holes away from the axis."""
+    """Round holes away from the axis: output holes, then those for columns."""
     holes = [hole for hole in facts.flat.shape.holes if isinstance(hole, Circle)]
     return [hole for hole in holes if abs(complex(*hole.centre)) > hole.radius]
 
@@ -108,22 +108,33 @@ def _holes(sheet: SheetDrawing, facts: CutFacts, holes: list[Circle], reach: flo
         along = cmath.exp(1j * cmath.phase(complex(*hole.centre)))
         sheet.line(centre - arm * along, centre + arm * along, AXIS)
     angles = np.angle(as_complex([hole.centre for hole in holes]))
-    upper_left = int(np.abs(np.angle(np.exp(1j * (angles - math.radians(125.0))))).argmin())
-    hole = holes[upper_left]
-    centre = FRONT + factor * complex(*hole.centre)
+    output, columns = _by_use(facts, holes)
     elbow = complex(FRONT.real - 60.0, FRONT.imag + MOST_REACH + 20.0)
-    target = centre + factor * hole.radius * (elbow - centre) / abs(elbow - centre)
-    words = f"{2.0 * _MM * hole.radius:.4g} \u00b1{zone_text(zones.hole_diameter)}"
-    words = f"{len(holes)} \u00d7 \u00d8{words}"
-    width = text_width(words, TEXT) + 3.0
-    sheet.callout(target, elbow, words, -width)
-    sheet.tolerance(
-        elbow - width - 7.0j, "position", f"\u00d8{zone_text(zones.hole_position)}", ["A"]
-    )
+    for alike, toward, at in ((output, 125.0, elbow), (columns, 160.0, elbow - 15.0j)):
+        if not alike:
+            continue
+        places = np.angle(as_complex([hole.centre for hole in alike]))
+        named = int(np.abs(np.angle(np.exp(1j * (places - math.radians(toward))))).argmin())
+        hole = alike[named]
+        centre = FRONT + factor * complex(*hole.centre)
+        target = centre + factor * hole.radius * (at - centre) / abs(at - centre)
+        words = f"{2.0 * _MM * hole.radius:.4g} \u00b1{zone_text(zones.hole_diameter)}"
+        words = f"{len(alike)} \u00d7 \u00d8{words}"
+        width = text_width(words, TEXT) + 3.0
+        sheet.callout(target, at, words, -width)
+        sheet.tolerance(
+            at - width - 7.0j, "position", f"\u00d8{zone_text(zones.hole_position)}", ["A"]
+        )
     sheet.diameter(FRONT, factor * facts.flat.reference_radius, _free_angle(angles), 0.3)
     first = float(np.degrees(angles[0]))
     if abs(math.remainder(first, 360.0)) > 1e-9:
         _spoke(sheet, first, reach)
+
+
+def _by_use(facts: CutFacts, holes: list[Circle]) -> tuple[list[Circle], list[Circle]]:
+    """Output holes and those for columns, which follow them."""
+    count = facts.design.reducer.output_pins.count
+    return holes[:count], holes[count:]
 
 
 def _free_angle(angles: FloatArray) -> float:
@@ -142,9 +153,15 @@ def _spoke(sheet: SheetDrawing, angle: float, reach: float) -> None:
     sheet.angle(FRONT, reach + 4.5, min(0.0, angle), max(0.0, angle), 6.0)
 
 
-def _mark(sheet: SheetDrawing, facts: CutFacts, angles: FloatArray) -> None:
+def _mark(sheet: SheetDrawing, facts: CutFacts, holes: list[Circle]) -> None:
     """Say where the upper face is marked: between two holes, in the lower left."""
+    output, columns = _by_use(facts, holes)
+    angles = np.angle(as_complex([hole.centre for hole in output]))
     gap = math.pi / len(angles)
+    if columns:
+        # In the middle of the web between an output hole and the place of a column's.
+        wider = output[0].radius - columns[0].radius
+        gap = 0.5 * (gap + wider / facts.flat.reference_radius)
     between = angles + gap
     off = np.abs(np.angle(np.exp(1j * (between + math.radians(135.0)))))
     spot = FRONT + cmath.rect(

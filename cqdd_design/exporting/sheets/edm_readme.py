@@ -17,6 +17,7 @@ from cqdd_design.exporting.edm.cut_facts import (
     zone_text,
 )
 from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
+from cqdd_design.geometry.columns import has_columns
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.cut_facts import CutFacts
@@ -149,8 +150,8 @@ def _tolerances(parts: Sequence[CutFacts]) -> list[str]:
             f"{label}: profile of the fitted contour within a zone {zone_text(zones.profile)} mm "
             "wide, half to either side"
             + (
-                f"; output holes +-{zone_text(zones.hole_diameter)} mm, each within a zone of dia "
-                f"{zone_text(zones.hole_position)} mm about its place, to the axis of the bore."
+                f"; {_holes(facts)} +-{zone_text(zones.hole_diameter)} mm, each within a zone of "
+                f"dia {zone_text(zones.hole_position)} mm about its place, to the axis of the bore."
                 if label != "ring"
                 else ", to the axis of the outside."
             )
@@ -166,6 +167,11 @@ def _tolerances(parts: Sequence[CutFacts]) -> list[str]:
         f"{zone_text(GROUND_FLATNESS)} and parallel within {zone_text(GROUND_PARALLELISM)}.",
         f"Walls {CUT_FINISH}, faces {FACE_FINISH}; no recast layer after the last skim cut.",
     ]
+
+
+def _holes(facts: CutFacts) -> str:
+    columns = has_columns(facts.design.reducer)
+    return "output holes and those for columns" if columns else "output holes"
 
 
 def _discs(parts: Sequence[CutFacts]) -> list[str]:

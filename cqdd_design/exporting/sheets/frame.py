@@ -10,6 +10,7 @@ from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
 from cqdd_design.exporting.sheets.canvas import sheet_date
 from cqdd_design.exporting.sheets.drawing import OUTLINE, SMALL, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import text_width
+from cqdd_design.geometry.columns import has_columns
 from cqdd_design.geometry.contours import Circle
 
 if TYPE_CHECKING:
@@ -95,7 +96,9 @@ def _title(facts: CutFacts) -> str:
     reducer = facts.design.reducer
     if facts.flat.label == "ring":
         return f"ring of {reducer.ring_tooth_count} teeth"
-    return f"cycloidal disc of {reducer.ratio} lobes, {reducer.output_pins.count} output holes"
+    columns = f", {reducer.carrier.column_count} for columns" if has_columns(reducer) else ""
+    pins = reducer.output_pins.count
+    return f"cycloidal disc of {reducer.ratio} lobes, {pins} output holes{columns}"
 
 
 def _projection_sign(sheet: SheetDrawing, centre: complex) -> None:

@@ -13,6 +13,7 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
+from cqdd_design.catalog.screws import column_screw
 from cqdd_design.exporting.edm.flat_parts import (
     FlatPart,
     disc_shape,
@@ -22,7 +23,8 @@ from cqdd_design.exporting.edm.flat_parts import (
 )
 from cqdd_design.exporting.sheets.lettering import short_number
 from cqdd_design.files import WrittenFile, write_atomically
-from cqdd_design.geometry.contours import Circle, Contour, PlanarPart
+from cqdd_design.geometry.columns import column_offsets
+from cqdd_design.geometry.contours import Circle, Contour, PlanarPart, as_points
 from cqdd_design.geometry.disc import crank_phase
 from cqdd_design.geometry.ring import ring_contour, ring_pins
 
@@ -83,6 +85,7 @@ def front_view(machine: Machine) -> str:
         ball = PlanarPart("cam bearing", Circle(centre, bearing.outer_diameter / 2.0), inside)
         shapes += [_part(ball, "bearing"), _part(PlanarPart("cam", inside[0]), "cam")]
     shapes += [_part(PlanarPart("output pin", pin), "pin") for pin in _output_pins(design)]
+    shapes += [_part(column, "pin") for column in _columns(design)]
     reach = reach_of(ring.outer)
     shapes += [_axes(0j, reach), _axes(complex(reducer.eccentricity), reach / 4.0)]
     caption = (
@@ -100,6 +103,22 @@ def _output_pins(design: Design) -> list[Circle]:
     centres = pins.circle_radius * np.stack([np.cos(turns), np.sin(turns)], axis=-1)
     sizes = [s for s in (pins.sleeve_diameter, pin_diameter(design)) if s > 0.0]
     return [Circle(centre, size / 2.0) for centre in centres for size in sizes]
+
+
+def _columns(design: Design) -> list[PlanarPart]:
+    """Columns over their screws, at carrier angle 0."""
+    reducer = design.reducer
+    diameter = reducer.carrier.column_diameter
+    turns = reducer.output_pins.hole_clocking + column_offsets(reducer)
+    centres = as_points(reducer.output_pins.circle_radius * np.exp(1j * turns))
+    return [
+        PlanarPart(
+            "column",
+            Circle(centre, diameter / 2.0),
+            (Circle(centre, column_screw(diameter).bore / 2.0),),
+        )
+        for centre in centres
+    ]
 
 
 def _part(shape: PlanarPart, kind: str) -> str:

@@ -40,6 +40,12 @@ _LIGAMENTS = tuple(
             "R_valley - D_bearing/2",
             "The rim between the cam bearing and the valleys carries every force of the disc.",
         ),
+        (
+            "COLUMN",
+            "Ligament beside the carrier's columns",
+            "least distance of a column's hole and the output holes, the bore or the flank",
+            "Holes for columns take the webs between the output holes, which carry the pin forces.",
+        ),
     )
 )
 

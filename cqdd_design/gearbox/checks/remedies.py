@@ -172,6 +172,8 @@ def _thicker_pins(state: GearboxState, least: float) -> tuple[str, ...]:
     inside = geometry.ligament("hole to bore").thickness - grown
     outside = geometry.ligament("hole to profile").thickness - grown
     between = geometry.ligament("hole to hole").thickness - 2.0 * grown
+    if state.design.reducer.carrier.column_count:
+        between = geometry.ligament("column to hole").thickness - grown
     if inside + outside < 2.0 * allowables.LIGAMENT or between < allowables.LIGAMENT:
         return (f"{words} on a disc with room for their holes",)
     out = max(allowables.LIGAMENT - inside, 0.0) - max(allowables.LIGAMENT - outside, 0.0)

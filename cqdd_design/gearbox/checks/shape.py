@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 
-from cqdd_design.catalog.screws import pin_diameter_limits
+from cqdd_design.catalog.screws import LEAST_COLUMN, pin_diameter_limits
 from cqdd_design.gearbox.cam_bearing import least_bore
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
-from cqdd_design.geometry.limits import rounded_down, rounded_up
+from cqdd_design.geometry.limits import at_most, rounded_down, rounded_up
 from cqdd_design.results import Check
 
 _SLACK = 1e-12
@@ -114,6 +114,18 @@ def _ligaments(state: GearboxState) -> tuple[Check, ...]:
 
     to_bore, to_rim = short("hole to bore"), short("bore to profile")
     inward = circle - short("hole to profile")
+    columns: tuple[Check, ...] = ()
+    if state.design.reducer.carrier.column_count:
+        kinds = ("column to hole", "column to profile", "column to bore")
+        thinnest = min(kinds, key=lambda kind: geometry.ligament(kind).thickness)
+        diameter = state.design.reducer.carrier.column_diameter
+        most = diameter - 2.0 * short(thinnest)
+        remedy = (
+            f"lower carrier.column_diameter to {at_most(most)}"
+            if most > LEAST_COLUMN
+            else 'use fewer or thinner pins, or carrier.joint = "clamped"'
+        )
+        columns = (one("GEO-LIGAMENT-COLUMN", thinnest, remedy),)
     return (
         one(
             "GEO-LIGAMENT-HOLES",
@@ -139,6 +151,7 @@ def _ligaments(state: GearboxState) -> tuple[Check, ...]:
             f"use a cam bearing of at most {_mm(bearing.outer_diameter - 2.0 * to_rim):.2f} mm "
             "outside diameter",
         ),
+        *columns,
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from cqdd_design.geometry.columns import column_hole_diameter
 from cqdd_design.report.drawings.outlines import Outlines
 from cqdd_design.report.ink.dimensions import Leader, horizontal_dimension, leader_column
 from cqdd_design.report.ink.numbers import millimetres
@@ -116,7 +117,7 @@ def _closest(angles: list[float], wanted: float) -> float:
 
 
 def _named_left(outlines: Outlines, view: View) -> list[Leader]:
-    """Ring and profile."""
+    """Columns, ring and profile."""
     reducer, profile = outlines.design.reducer, outlines.profile
     centre = outlines.disc_pose(0, 0.0)[1]
     pitch, radius = reducer.ring_pitch_radius, 0.5 * reducer.ring_pin_diameter
@@ -126,6 +127,7 @@ def _named_left(outlines: Outlines, view: View) -> list[Leader]:
     lobe = _closest([math.pi * (2 * k + 1) / reducer.ratio for k in range(reducer.ratio)], 180.0)
     valley = _nearest(0.0, reducer.ratio, 222.0)
     return [
+        *_named_columns(outlines, view),
         Leader(
             view.polar(-radius, tooth - 0.5, at_tooth),
             f"Z_p = \u2300 {millimetres(reducer.ring_pin_diameter)}",
@@ -141,6 +143,22 @@ def _named_left(outlines: Outlines, view: View) -> list[Leader]:
             f"\u2300 {millimetres(2.0 * profile.valley_distance)}",
             "disc in its valleys",
         ),
+    ]
+
+
+def _named_columns(outlines: Outlines, view: View) -> list[Leader]:
+    """The columns and their holes, where there are any."""
+    angles, reducer = outlines.column_angles(0.0), outlines.design.reducer
+    if not angles:
+        return []
+    radius, angle = reducer.output_pins.circle_radius, _closest(angles, 150.0)
+    at = (radius * math.cos(angle), radius * math.sin(angle))
+    return [
+        Leader(
+            view.polar(0.4 * reducer.carrier.column_diameter, 2.6, at),
+            f"\u2300 {millimetres(reducer.carrier.column_diameter)}",
+            f"{len(angles)} columns, holes {millimetres(column_hole_diameter(reducer))}",
+        )
     ]
 
 
@@ -160,7 +178,8 @@ def _named_right(outlines: Outlines, view: View) -> list[Leader]:
     sleeved = pins.sleeve_diameter > 0.0
     shown = pins.sleeve_diameter if sleeved else pins.diameter
     # Between two pins, where nothing else lies on the circle.
-    between = _closest([angle + math.pi / pins.count for angle in angles], 62.0)
+    share = 0.5 if outlines.design.reducer.carrier.column_count else 1.0
+    between = _closest([angle + share * math.pi / pins.count for angle in angles], 62.0)
     return [
         Leader(
             view.polar(circle_radius, between),

@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cqdd_design.catalog.bearings import Bearing
+from cqdd_design.catalog.screws import column_screw
 from cqdd_design.design import Design
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.columns import column_offsets
 from cqdd_design.geometry.contours import Circle, PlanarPart
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.disc import disc_contour
@@ -95,9 +97,31 @@ class Outlines:
         return [part_shape(self.ring, view, "ring"), *pins]
 
     def pin_shapes(self, view: View, crank_angle: float) -> list[str]:
-        """The output pins, or their sleeves."""
+        """The output pins, or their sleeves, and the columns between them."""
         radius = view.length(self.stages.pin_contact_radius)
-        return [
+        pins = [
             circle(view.polar(self.stages.pin_circle_radius, angle), radius, "pin")
             for angle in self.pin_angles(crank_angle)
+        ]
+        return pins + self.column_shapes(view, crank_angle)
+
+    def column_angles(self, crank_angle: float) -> list[float]:
+        """Angles of the columns in the fixed frame, rad; none without columns."""
+        first = self.pin_angles(crank_angle)[0]
+        return [first + float(offset) for offset in column_offsets(self.design.reducer)]
+
+    def column_shapes(self, view: View, crank_angle: float) -> list[str]:
+        """The columns over their screws."""
+        places = [
+            view.polar(self.stages.pin_circle_radius, angle)
+            for angle in self.column_angles(crank_angle)
+        ]
+        if not places:
+            return []
+        diameter = self.design.reducer.carrier.column_diameter
+        sizes = (("column", diameter), ("column-bore", column_screw(diameter).bore))
+        return [
+            circle(place, view.length(0.5 * size), class_)
+            for place in places
+            for class_, size in sizes
         ]

@@ -166,6 +166,7 @@ def _carrier(outlines: Outlines) -> str:
         )
         for index, angle in enumerate(outlines.pin_angles(0.0))
     ]
+    shapes += outlines.column_shapes(_PAGE, 0.0)
     turn = float(kinematics.carrier_angle(stages.lobe_count, _POSTER))
     return group(shapes, class_="mesh-carrier", transform=_turned(turn))
 

@@ -53,7 +53,7 @@ def derived_values(results: ReportInput) -> tuple[tuple[str, str, str], ...]:
     geometry, bearing = analysis.geometry, analysis.cam_bearing.bearing
     thinnest = geometry.ligaments[0]
     area = with_unit(1e6 * geometry.profile_area, "mm^2", 6)
-    lengths = (
+    lengths: tuple[tuple[str, str, float], ...] = (
         ("largest tooth radius before undercut", "", geometry.undercut_radius_limit),
         ("least convex radius of the disc", "", geometry.disc_min_convex_radius),
         ("least concave radius of the disc", "", geometry.disc_min_concave_radius),
@@ -64,6 +64,8 @@ def derived_values(results: ReportInput) -> tuple[tuple[str, str, str], ...]:
         ("free length of the output pins", "L", analysis.output_pins.span),
         (f"bore for the cam bearing {bearing.designation}", "", bearing.outer_diameter),
     )
+    if geometry.column_hole_diameter:
+        lengths += (("diameter of the holes for columns", "", geometry.column_hole_diameter),)
     shown = [(words, symbol, millimetres(length)) for words, symbol, length in lengths]
     return (
         ("signed ratio, ring held", "i", significant(geometry.ratio)),

@@ -34,6 +34,7 @@ _FOLLOWS = {
     "requirements.continuous_torque": f"{DEFAULT_CONTINUOUS_SHARE:g} of the peak torque",
     "reducer.output_pins.hole_clocking": "a quarter lobe pitch: two discs are one part",
     "reducer.output_pins.circle_radius": f"{PIN_CIRCLE_SHARE:g} of the ring pitch radius",
+    "reducer.carrier.column_count": "with columns one between every two pins, else none",
     "reducer.ring.outer_diameter": f"root of the ring and a wall of {1e3 * RING_WALL:g} mm",
 }
 
@@ -42,6 +43,8 @@ _FOLLOWS = {
 _WORDS: dict[tuple[str, object], str] = {
     ("reducer.output_pins.support", "both"): "both ends",
     ("reducer.output_pins.support", "cantilever"): "one end",
+    ("reducer.carrier.joint", "clamped"): "pins held tight in both",
+    ("reducer.carrier.joint", "hinged"): "pins that turn in the cap",
 }
 
 
