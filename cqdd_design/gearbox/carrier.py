@@ -17,6 +17,7 @@ from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
 from cqdd_design.design.reducer import CarrierJoint
 from cqdd_design.gearbox import rigid
+from cqdd_design.gearbox.carrier_columns import join_stiffness
 from cqdd_design.gearbox.pin_beam import (
     HELD,
     PinBeam,
@@ -68,7 +69,7 @@ def pin_of(design: Design, ends: tuple[PinEnd, PinEnd] | None = None) -> PinBeam
 
 def tie_of(design: Design) -> float:
     """Torque over turn between plate and cap by all but the pins, N m/rad; 0 without columns."""
-    return 0.0
+    return join_stiffness(design)
 
 
 def bending_arm(beam: PinBeam, peak_factor: float, tie: float = 0.0) -> float:

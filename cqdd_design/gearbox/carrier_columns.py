@@ -6,7 +6,7 @@ import math
 
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.screws import column_screw
-from cqdd_design.design.reducer import Reducer
+from cqdd_design.design import Design
 from cqdd_design.gearbox.output_pins import pin_span
 from cqdd_design.geometry.columns import COLUMN_MATERIAL, has_columns
 
@@ -29,8 +29,7 @@ def column_stiffness(
     -------
     float
         12 E I/(L^3 (1 + phi)) with phi = 12 E I/(kappa G A L^2), after Timoshenko; kappa of a
-        hollow round section by Cowper (1966, J. Appl. Mech. 33:335). The screw inside adds nothing;
-        the plates do not yield under the column's feet, so it is an upper bound.
+        hollow round section by Cowper (1966, J. Appl. Mech. 33:335). The screw inside adds nothing.
 
     Examples
     --------
@@ -55,19 +54,49 @@ def column_stiffness(
     return bending / (1.0 + bending * length / (kappa * shear_modulus * area))
 
 
-def join_stiffness(reducer: Reducer) -> float:
+def feet_compliance(length: float, diameter: float, modulus: float, poisson: float) -> float:
+    """What plates that yield under both feet of a column add to its compliance, m/N.
+
+    Parameters
+    ----------
+    length, diameter : float
+        Of the column, m.
+    modulus, poisson : float
+        Of the plates.
+
+    Returns
+    -------
+    float
+        2/K_x + L^2/(2 K_t), each foot a rigid disc of radius a on a half space: it slides with
+        K_x = 8 G a/(2 - nu) and turns with K_t = 8 G a^3/(3 (1 - nu)) (Johnson 1985, Contact
+        Mechanics, sections 3.7 and 5.4).
+    """
+    shear_modulus, radius = modulus / (2.0 * (1.0 + poisson)), 0.5 * diameter
+    slides = 8.0 * shear_modulus * radius / (2.0 - poisson)
+    turns = 8.0 * shear_modulus * radius**3 / (3.0 * (1.0 - poisson))
+    return 2.0 / slides + length**2 / (2.0 * turns)
+
+
+def join_stiffness(design: Design) -> float:
     """Torque about the axis by which the columns resist a turn of cap on plate, N m/rad.
 
-    N_c k_c R_w^2; 0 without columns.
+    N_c k R_w^2, k of a column on feet that yield; 0 without columns.
     """
+    reducer = design.reducer
     if not has_columns(reducer):
         return 0.0
     carrier, steel = reducer.carrier, find_material(COLUMN_MATERIAL)
-    each = column_stiffness(
-        float(pin_span(reducer.disc_count, reducer.disc_thickness, reducer.disc_spacing)),
+    plate = find_material(design.housing.material)
+    length = float(pin_span(reducer.disc_count, reducer.disc_thickness, reducer.disc_spacing))
+    own = column_stiffness(
+        length,
         carrier.column_diameter,
         column_screw(carrier.column_diameter).bore,
         steel.youngs_modulus,
         steel.poisson_ratio,
     )
+    feet = feet_compliance(
+        length, carrier.column_diameter, plate.youngs_modulus, plate.poisson_ratio
+    )
+    each = 1.0 / (1.0 / own + feet)
     return carrier.column_count * each * reducer.output_pins.circle_radius**2

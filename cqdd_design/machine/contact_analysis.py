@@ -33,7 +33,7 @@ class ContactAnalysis:
     sweep, reversed : ContactSweep
         Over the period, at the torque and at its negative.
     preload : ContactSweep or None
-        Without load, where the fits are of interference.
+        Without load and friction, where the fits are of interference.
     precision : Precision
         At the continuous torque, or at the one asked for.
     losses : Losses
@@ -123,7 +123,7 @@ def analyse_contact(
         model=model,
         sweep=sweep,
         reversed=contact_sweep(model, -peak, states=states, friction=rubbed),
-        preload=contact_sweep(model, 0.0, states=states, friction=rubbed) if tight else None,
+        preload=contact_sweep(model, 0.0, states=states) if tight else None,
         precision=precision(model, steady, angles=angles, friction=friction),
         losses=losses.at(asked.input_speed, steady),
         map=losses.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),

@@ -266,8 +266,8 @@ class Shared(NamedTuple):
 
     rubbing: Rubbing
     """Under the torque, with a leading axis A."""
-    idle: Rubbing
-    """The crank turning ahead without load, likewise."""
+    smooth: Rubbing
+    """No friction, likewise."""
     compliance: Compliance
     worn: Worn
 

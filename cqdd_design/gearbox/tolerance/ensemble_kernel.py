@@ -1,4 +1,4 @@
-"""Compiled kernel that solves many toleranced gearboxes, one a loop turn, in parallel.
+"""Compiled kernel that solves one toleranced gearbox; it lets other threads work on theirs.
 
 Each gearbox is worked alone and in the same order of operations, so its numbers do not depend on
 the number of threads. Memory is one gearbox's arrays a thread.
@@ -35,7 +35,6 @@ from cqdd_design.gearbox.contact.kernel_values import (
     Springs,
     Start,
     Toleranced,
-    Worn,
     YieldingResult,
 )
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
@@ -319,7 +318,10 @@ def _unloaded(
     some: Any,
     values: Any,
 ) -> int:
-    """Forces of a gearbox without load at the angles that are tight, and what turns the crank."""
+    """Forces of a gearbox without load at the angles that are tight, and what turns the crank.
+
+    Friction is laid over them: without load nothing says which way parts that hang loose slide.
+    """
     discs, contacts = nominal.gaps.shape[1:]
     idle = _room(some.size, discs, contacts)
     stopped = _follow(
@@ -327,7 +329,7 @@ def _unloaded(
         found,
         springs,
         Load(0.0, load.scale_stiffness),
-        shared.idle,
+        shared.smooth,
         shared.compliance,
         (some, _turns(nominal, some)),
         np.zeros((nominal.gaps.shape[0], 3 + 3 * discs)),
@@ -337,13 +339,13 @@ def _unloaded(
         return int(stopped)
     values[PRELOAD] = idle.force.max()
     values[IDLE_TORQUE] = _crank_torques(
-        nominal, found, shared, shared.idle, 1.0, springs.teeth, some, idle
+        nominal, found, shared, shared.rubbing, 1.0, springs.teeth, some, idle
     ).max()
     return -1
 
 
-@numba.njit(cache=True, error_model="numpy")
-def _solve_gearbox(
+@numba.njit(cache=True, error_model="numpy", nogil=True)
+def solve_gearbox(
     nominal: Nominal,
     springs: Springs,
     load: Load,
@@ -352,7 +354,21 @@ def _solve_gearbox(
     errors: GearboxErrors,
     values: Any,
 ) -> int:
-    """All results of one gearbox; -1, or the angle that has no equilibrium."""
+    """What one gearbox shows, with friction and with the carrier joined as it is built.
+
+    Parameters
+    ----------
+    nominal, springs, load, start, shared
+        What all gearboxes of an ensemble have in common.
+    values : array (9,)
+        Out, in SI, in the order of the module's names: backlash and transmission error in rad,
+        ripple and idle torque at the crank.
+
+    Returns
+    -------
+    int
+        -1, or the angle that has no equilibrium.
+    """
     count, discs, contacts = nominal.gaps.shape
     size = 3 + 3 * discs
     some = np.flatnonzero(start.marked)
@@ -387,48 +403,3 @@ def _solve_gearbox(
     if np.any(tight):
         return _unloaded(nominal, found, springs, load, shared, some[tight], values)
     return -1
-
-
-@numba.njit(cache=True, error_model="numpy", parallel=True)
-def solve_gearboxes(
-    nominal: Nominal,
-    springs: Springs,
-    load: Load,
-    start: Start,
-    rubbing: Rubbing,
-    idle: Rubbing,
-    compliance: Compliance,
-    worn: Worn,
-    batch: GearboxErrors,
-    values: Any,
-    failed: Any,
-) -> None:
-    """What S gearboxes show, with friction and with the carrier joined as it is built.
-
-    Parameters
-    ----------
-    nominal, springs, load, start, rubbing, idle, compliance, worn
-        What all gearboxes have in common; the last four are a :class:`.Shared`, which a parallel
-        loop takes in pieces only.
-    batch : GearboxErrors
-        With a leading axis S.
-    values : array (S, 9)
-        Out, in SI, in the order of the module's names: backlash and transmission error in rad,
-        ripple and idle torque at the crank.
-    failed : array (S,)
-        Out: -1, or the angle that has no equilibrium.
-    """
-    for s in numba.prange(batch.tooth_radius.shape[0]):
-        shared = Shared(rubbing, idle, compliance, worn)
-        errors = GearboxErrors(
-            batch.tooth_position[s],
-            batch.tooth_radius[s],
-            batch.disc_profile[s],
-            batch.hole_position[s],
-            batch.hole_radius[s],
-            batch.pin_position[s],
-            batch.pin_radius[s],
-            batch.cam_centre[s],
-            batch.cam_play[s],
-        )
-        failed[s] = _solve_gearbox(nominal, springs, load, start, shared, errors, values[s])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -112,9 +113,10 @@ def ensemble_tables(
 def _shared(model: ContactModel, states: NominalStates, torque: float) -> Shared:
     friction = ContactFriction("drive", model.tooth_friction, model.hole_friction)
     teeth = states.ring.equivalent_radius
+    rubbed = rubbing(model, states, friction, torque)
     return Shared(
-        rubbing=rubbing(model, states, friction, torque),
-        idle=rubbing(model, states, friction, 0.0),
+        rubbing=rubbed,
+        smooth=rubbed._replace(share=np.zeros_like(rubbed.share)),
         compliance=model_compliance(model),
         worn=Worn(
             slip=np.abs(slip(model, states)),
@@ -169,27 +171,25 @@ def evaluate_gearboxes(
     """
     import numba
 
-    from cqdd_design.gearbox.tolerance.ensemble_kernel import RESULTS, solve_gearboxes
+    from cqdd_design.gearbox.tolerance.ensemble_kernel import RESULTS, solve_gearbox
 
     model, states, torque = tables.model, tables.states, tables.start.torque
     count = len(batch.tooth_radius)
     values, failed = np.empty((count, RESULTS)), np.empty(count, dtype=np.int64)
-    former = numba.get_num_threads()
-    numba.set_num_threads(min(threads or former, former))
-    try:
-        solve: Any = solve_gearboxes
-        solve(
-            nominal_of(tables, batch.disc_profile.shape[-1]),
-            springs_of(model),
-            Load(torque / states.length, stiffness_scale(model, torque)),
-            tables.start,
-            *tables.shared,
-            batch,
-            values,
-            failed,
+    nominal = nominal_of(tables, batch.disc_profile.shape[-1])
+    springs = springs_of(model)
+    load = Load(torque / states.length, stiffness_scale(model, torque))
+    solve: Any = solve_gearbox
+
+    def work(which: int) -> None:
+        errors = batch.one(which)
+        failed[which] = solve(
+            nominal, springs, load, tables.start, tables.shared, errors, values[which]
         )
-    finally:
-        numba.set_num_threads(former)
+
+    with ThreadPoolExecutor(threads or numba.config.NUMBA_NUM_THREADS) as pool:
+        for _ in pool.map(work, range(count)):
+            pass
     if np.any(failed >= 0):
         which = int(np.flatnonzero(failed >= 0)[0])
         angle = math.degrees(states.crank_angle[failed[which]])
