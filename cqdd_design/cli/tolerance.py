@@ -62,16 +62,21 @@ def _lines(result: ToleranceResult) -> list[str]:
         return ["no gearbox was finished"]
     statistics = result.statistics()
     columns = ("mean", "std", "p5", "p50", "p95", "p99")
+    limits = result.limits
+    reserve = result.pressure_reserve()
+    shown = statistics | ({"pressure_reserve": reserve} if reserve else {})
+    # A reserve is short below 1, everything else beyond its limit.
+    known = {name: number(limit) for name, limit in limits.items()} | {"pressure_reserve": "1"}
     rows = [
-        [f"  {name}", *(number(values[column]) for column in columns)]
-        for name, values in statistics.items()
+        [f"  {name}", *(number(values[column]) for column in columns), known.get(name, "")]
+        for name, values in shown.items()
     ]
     lines = [
         f"{len(result.values)} gearboxes over one output turn at "
-        f"{number(result.ensemble.torque)} N*m, {result.solves:,} equilibria without friction in "
+        f"{number(result.ensemble.torque)} N*m, {result.solves:,} equilibria with friction in "
         f"{result.seconds:.1f} s",
         "",
-        table(rows, head=("", *columns), right=tuple(range(1, len(columns) + 1))),
+        table(rows, head=("", *columns, "limit"), right=tuple(range(1, len(columns) + 2))),
     ]
     if result.sensitivity is None:
         return lines

@@ -30,6 +30,7 @@ from cqdd_design.gearbox.contact.gaps_kernel import fill_errors
 from cqdd_design.gearbox.contact.kernel_values import Toleranced
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.states import error_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles
 from cqdd_design.gearbox.precision.backlash import backlash
@@ -324,17 +325,20 @@ def test_an_ensemble_gives_what_its_gearboxes_give_alone() -> None:
     assert np.array_equal(values, evaluate_gearboxes(tables, batch, threads=1))
     angle = output_turn_angles(model)
     assert len(angle) == 880
+    friction = ContactFriction.of(model, "drive")
     for row, errors in zip(values, drawn, strict=True):
         told = dict(zip(OUTPUTS, row, strict=True))
-        full = contact_sweep(model, 40.0, angle, errors=errors)
-        half = contact_sweep(model, 20.0, angle, errors=errors)
+        full = contact_sweep(model, 40.0, angle, errors=errors, friction=friction)
+        half = contact_sweep(model, 20.0, angle, errors=errors, friction=friction)
         gamma = full.carrier_angle_error
         expected = {
             "backlash_arcmin": backlash(model, angle, errors=errors).mean / ARCMIN,
             "transmission_error_pp_arcmin": np.ptp(gamma) / ARCMIN,
             "ring_force_max_N": full.ring_force.max(),
             "stiffness_Nm_per_arcmin": 20.0 / (gamma - half.carrier_angle_error).mean() * ARCMIN,
-            "torque_ripple_pp_Nm": 10.0 * np.ptp(full.energy_slope),
+            "torque_ripple_pp_Nm": 10.0 * np.ptp(full.crank_ripple),
+            "ring_pressure_max_MPa": full.ring_pressure.max() / 1e6,
+            "cam_bearing_load_max_N": full.cam_load.max(),
         }
         # The ensemble's backlash sees flanks as osculating circles, at every eleventh angle.
         coarse = backlash(model, angle[tables.start.marked], errors=errors).mean / ARCMIN
@@ -344,6 +348,38 @@ def test_an_ensemble_gives_what_its_gearboxes_give_alone() -> None:
             # The stiffness is a mean, which fewer angles give nearly as well.
             tolerance = 3e-3 if name.startswith("stiffness") else 1e-4
             assert told[name] == pytest.approx(value, rel=tolerance), name
+
+
+def test_a_tight_gearbox_takes_a_torque_to_turn_and_a_loose_one_none() -> None:
+    """Forces without load from sweeps of their own, friction laid over them by hand."""
+    tight = paper_design().replacing(
+        {
+            "reducer.modification.equidistant": -4e-6,
+            "reducer.output_pins.hole_clearance": -6e-6,
+            "reducer.cam_bearing.radial_clearance": 0.0,
+        }
+    )
+    for design, binds in ((paper_design(), False), (tight, True)):
+        model = ContactModel.from_design(design)
+        errors = random_errors(model, np.random.default_rng(2), 0.2e-6)
+        batch = GearboxErrors(*(field[None] for field in errors))
+        tables = ensemble_tables(model, 40.0, 88)
+        told = dict(zip(OUTPUTS, evaluate_gearboxes(tables, batch)[0], strict=True))
+        assert (told["unloaded_torque_Nm"] > 0.0) == binds
+        assert (told["preload_force_max_N"] > 0.0) == binds
+        if not binds:
+            continue
+        angle = tables.states.crank_angle[tables.start.marked]
+        sweep = contact_sweep(model, 0.0, angle, errors=errors)
+        force = np.concatenate([sweep.ring_force, sweep.pin_force], axis=2)
+        assert told["preload_force_max_N"] == pytest.approx(force.max(), rel=1e-6)
+        # At a pin by e (1 + 1/n), at a tooth by its distance from the pitch point over n.
+        at_pins = 1.1 * 1.6e-3 * sweep.pin_force.sum(axis=(1, 2))
+        pitch = 11.0 * sweep.disc_centre[:, :, None]
+        arm = np.abs(np.sum((sweep.ring_point - pitch) * sweep.ring_normal, axis=-1)) / 10.0
+        work = 0.08 * (at_pins + np.sum(sweep.ring_force * arm, axis=(1, 2)))
+        wanted = 10.0 * (sweep.energy_slope + work).max()
+        assert told["unloaded_torque_Nm"] == pytest.approx(wanted, rel=1e-5)
 
 
 def test_the_ripple_of_a_gearbox_is_that_of_its_energy() -> None:

@@ -21,6 +21,7 @@ from cqdd_design.gearbox.tolerance.evaluate import (
     evaluate_gearboxes,
     marked_angles,
 )
+from cqdd_design.gearbox.tolerance.limits import BINDING_SHARE, limits
 from cqdd_design.gearbox.tolerance.sobol import SobolIndices, sobol_indices
 from cqdd_design.geometry.contours import FloatArray
 
@@ -31,6 +32,14 @@ _SENSITIVITY_SHARE, _LEAST_BASE = 8, 16
 once more; with fewer than this many gearboxes it would say nothing and is left out."""
 _MOST_CONTACTS = 6_000_000
 """Contacts times angles that fit into memory comfortably: about half a gigabyte."""
+
+_BEYOND = {
+    "unloaded_torque_Nm": f"bind: without load they take more than {BINDING_SHARE:.0%} of the "
+    "continuous torque to turn",
+    "ring_pressure_max_MPa": "press their ring harder at this torque than lasts the required hours",
+    "cam_bearing_load_max_N": "load a cam bearing harder at this torque than lasts the required "
+    "hours",
+}
 
 _PERCENTILES = {"p5": 5.0, "p50": 50.0, "p95": 95.0, "p99": 99.0}
 
@@ -136,13 +145,31 @@ class ToleranceResult:
 
     def statistics(self) -> dict[str, dict[str, float]]:
         """Mean, standard deviation and percentiles of every output."""
-        found = {}
-        for name, column in zip(OUTPUTS, self.values.T, strict=True):
-            spread = float(column.std(ddof=1)) if len(column) > 1 else 0.0
-            found[name] = {"mean": float(column.mean()), "std": spread} | {
-                key: float(np.percentile(column, share)) for key, share in _PERCENTILES.items()
-            }
-        return found
+        columns = zip(OUTPUTS, self.values.T, strict=True)
+        return {name: _distribution(column) for name, column in columns}
+
+    @property
+    def limits(self) -> dict[str, float]:
+        """Limits by output, of those that have one."""
+        return limits(self.ensemble.design)
+
+    def beyond(self) -> dict[str, float]:
+        """Share of the gearboxes that are beyond a limit, by output."""
+        return {
+            name: float(np.mean(self.values[:, OUTPUTS.index(name)] > limit))
+            for name, limit in self.limits.items()
+        }
+
+    def pressure_reserve(self) -> dict[str, float] | None:
+        """Pressure that lasts the required hours over the greatest one; None where not known.
+
+        Percentiles of gearboxes from the least reserve up; below 1 a ring does not last.
+        """
+        name = "ring_pressure_max_MPa"
+        if name not in self.limits or not len(self.values):
+            return None
+        reserve = self.limits[name] / self.values[:, OUTPUTS.index(name)]
+        return _distribution(reserve)
 
     def ranking(self, output: str) -> list[tuple[str, float, float]]:
         """Tolerances with their first-order and total shares of one output, largest total first."""
@@ -158,10 +185,15 @@ class ToleranceResult:
         if self.interrupted:
             done = len(self.values)
             return (f"interrupted after {done} of {self.asked} gearboxes; these are kept.",)
+        told = []
+        beyond = self.beyond()
+        for name, words in _BEYOND.items():
+            if beyond.get(name, 0.0) > 0.0:
+                told.append(f"{beyond[name]:.1%} of the gearboxes {words}.")
         if self.sensitivity is None:
             least = _LEAST_BASE * _SENSITIVITY_SHARE
-            return (f"no sensitivity: it needs at least {least} gearboxes.",)
-        return ()
+            told.append(f"no sensitivity: it needs at least {least} gearboxes.")
+        return tuple(told)
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form (``results`` of ``tolerance``)."""
@@ -179,7 +211,10 @@ class ToleranceResult:
             "sensitivity_base": self.base,
             "angles": self.ensemble.angles,
             "torque_Nm": self.ensemble.torque,
-            "friction": "off",
+            "friction": "drive",
+            "limits": self.limits,
+            "share_beyond_limit": self.beyond() if len(self.values) else None,
+            "pressure_reserve": self.pressure_reserve(),
             "seed": self.ensemble.seed,
             "solves": self.solves,
             "seconds": self.seconds,
@@ -193,6 +228,13 @@ class ToleranceResult:
             output: dict(zip(GROUPS, getattr(indices, key).tolist(), strict=True))
             for output, indices in zip(OUTPUTS, self.sensitivity, strict=True)
         }
+
+
+def _distribution(values: FloatArray) -> dict[str, float]:
+    spread = float(values.std(ddof=1)) if len(values) > 1 else 0.0
+    return {"mean": float(values.mean()), "std": spread} | {
+        key: float(np.percentile(values, share)) for key, share in _PERCENTILES.items()
+    }
 
 
 def make_ensemble(

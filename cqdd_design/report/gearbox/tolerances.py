@@ -18,23 +18,37 @@ _NAMES = {
     "ring_force_max_N": ("greatest ring force", "N"),
     "stiffness_Nm_per_arcmin": ("stiffness", "N\u00b7m/arcmin"),
     "torque_ripple_pp_Nm": ("torque ripple, peak to peak", "N\u00b7m"),
+    "ring_pressure_max_MPa": ("greatest pressure at the ring", "MPa"),
+    "cam_bearing_load_max_N": ("greatest cam bearing load", "N"),
+    "preload_force_max_N": ("greatest contact force without load", "N"),
+    "unloaded_torque_Nm": ("torque to turn it without load", "N\u00b7m"),
 }
-_SHOWN = ("backlash_arcmin", "torque_ripple_pp_Nm")
+_SHOWN = ("backlash_arcmin", "torque_ripple_pp_Nm", "ring_pressure_max_MPa")
 _STATISTICS = ("mean", "std", "p5", "p50", "p95", "p99")
 
 
 def tolerance_view(result: ToleranceResult) -> Values:
-    """Figures, and rows of (name, mean, std, p5, p50, p95, p99)."""
+    """Figures, and rows of (name, mean, std, p5, p50, p95, p99, limit)."""
     ensemble, count = result.ensemble, len(result.values)
     lead = (
         f"{count} gearboxes drawn from the tolerances of the design (seed {ensemble.seed}) and "
         f"solved at {with_unit(ensemble.torque, 'N*m')} over a whole output turn, "
-        f"{ensemble.angles} angles each, without friction."
+        f"{ensemble.angles} angles each, the motor driving against friction."
     )
+    limits = result.limits
     rows = tuple(
-        (", ".join(_NAMES[name]), *(significant(told[key]) for key in _STATISTICS))
+        (
+            ", ".join(_NAMES[name]),
+            *(significant(told[key]) for key in _STATISTICS),
+            significant(limits[name]) if name in limits else "",
+        )
         for name, told in result.statistics().items()
     )
+    reserve = result.pressure_reserve()
+    if reserve is not None:
+        told = tuple(significant(reserve[key]) for key in _STATISTICS)
+        rows += (("reserve of pressure at the required hours", *told, "1, least"),)
+    lead += "".join(f" {words[0].upper()}{words[1:]}" for words in result.warnings)
     histograms = [_histogram(result, name) for name in _SHOWN]
     rankings = [_ranking(result, name) for name in _SHOWN if result.ranking(name)]
     return {"lead": lead, "figures": (*histograms, *rankings), "rows": rows}
