@@ -136,7 +136,7 @@ def motor_and_drive(
 def _split(inertia: GearboxInertia) -> _Split:
     """What turns with the carrier counts at the output, all else that moves at the crank."""
     own = {"carrier plate", "carrier cap", "bearing nut", "shoulder screw", "dowel pin"}
-    own |= {"pin sleeve", "output bearing"}
+    own |= {"pin sleeve", "pin needle cage", "output bearing"}
     output = sum(part.reflected for part in inertia.parts if part.name in own)
     return _Split(
         input=inertia.gearbox_reflected - output,

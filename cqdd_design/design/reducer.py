@@ -38,6 +38,8 @@ from cqdd_design.units import (
 
 CarrierJoint = Literal["clamped", "hinged", "columns"]
 RingType = Literal["solid", "conjugate", "pinwheel"]
+RunsOn = Literal["plain", "needle"]
+"""What a sleeve or roller turns on: its pin itself, or a needle cage between the two."""
 
 PIN_CIRCLE_SHARE = 0.61
 """Default radius of the pin circle over the ring's pitch radius: the paper's 19.5 mm on 32 mm."""
@@ -62,7 +64,13 @@ class Modification(FrozenModel):
 
 
 class OutputPins(FrozenModel):
-    """The output pins (shoulder screws, with or without sleeves) and their holes in the disc."""
+    """The output pins (shoulder screws, with or without sleeves) and their holes in the disc.
+
+    A sleeve of `sleeve_diameter` turns on its pin of `diameter`: plain, with `sleeve_play` between
+    the two, or on the needle cage of the catalogue that fits between them, with that play in it.
+    Its default is the mean of a G6 bore on an h5 pin of 3 to 6 mm (ISO 286), as makers of needle
+    cages ask for.
+    """
 
     count: Annotated[int, Whole(3, 60, "three pins hold a carrier")] = 6
     diameter: Annotated[
@@ -74,6 +82,11 @@ class OutputPins(FrozenModel):
     sleeve_diameter: Annotated[float, QuantityIn(LENGTH, "0 mm", "150 mm", "0 means no sleeve")] = (
         default("0 mm")
     )
+    sleeve: RunsOn = "plain"
+    sleeve_play: Annotated[
+        float,
+        QuantityIn(SMALL_LENGTH, "0 um", "500 um", "of a sleeve on its pin, on the diameter"),
+    ] = default("10 um")
     hole_clearance: Annotated[
         float,
         QuantityIn(SMALL_LENGTH, "-100 um", "1000 um", "on the diameter, to the pin's mean"),
@@ -83,6 +96,15 @@ class OutputPins(FrozenModel):
     ]
     support: Literal["both", "cantilever"] = "both"
     material: MaterialName = "Alloy steel 12.9 (ISO 7379)"
+
+    @model_validator(mode="after")
+    def _needles_in_a_sleeve(self) -> OutputPins:
+        if self.sleeve == "needle" and self.sleeve_diameter == 0.0:
+            raise ValueError(
+                'sleeve = "needle" needs a sleeve for the needles to run in; give '
+                'sleeve_diameter, or make sleeve "plain"'
+            )
+        return self
 
 
 class CamBearing(FrozenModel):

@@ -18,6 +18,7 @@ from cqdd_design.gearbox.checks.state import GearboxState
 from cqdd_design.gearbox.geometry_summary import summarise_geometry
 from cqdd_design.gearbox.loads import RigidMaxima, RigidSeries, rigid_maxima, rigid_series
 from cqdd_design.gearbox.pin_strength import pin_strength
+from cqdd_design.gearbox.sleeves import sleeve_needles
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.validate import validate_geometry
@@ -56,7 +57,10 @@ class GearboxAnalysis(GearboxState):
             "rigid_continuous": self.rigid_continuous.to_dict(),
             "rigid_series": self.series.to_dict(),
             "output_pins": self.output_pins.to_dict(),
-            "bearings": {"cam": self.cam_bearing.to_dict()},
+            "bearings": {
+                "cam": self.cam_bearing.to_dict(),
+                **({} if self.sleeves is None else {"sleeves": self.sleeves.to_dict()}),
+            },
             "balance": self.balance.to_dict(),
         }
 
@@ -108,6 +112,7 @@ def analyse_gearbox(
         rigid_continuous=continuous,
         output_pins=pin_strength(design, peak, continuous),
         cam_bearing=cam,
+        sleeves=sleeve_needles(design, peak.output_pin_force, continuous.output_pin_force),
         balance=balance,
     )
     drive, warnings = drive_checks(state)

@@ -59,6 +59,7 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "shoulder screw",
             "dowel pin",
             "pin sleeve",
+            "pin needle cage",
         ),
         "housing": ("housing", "ring clamp", "output cover"),
         "fasteners": (),

@@ -12,6 +12,7 @@ from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_contour, disc_moments
 from cqdd_design.geometry.ring import ring_contour, ring_moments, ring_pins
+from cqdd_design.geometry.runners import Runner, pin_runner
 from cqdd_design.solids import carrier as carrier_shapes
 from cqdd_design.solids import housing as housing_shapes
 from cqdd_design.solids import rotating
@@ -29,7 +30,7 @@ from cqdd_design.solids.motor_shapes import (
 )
 from cqdd_design.solids.part import Colour, Instance, Part, around, on_axis, placed
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
-from cqdd_design.solids.selection import ChosenBearing
+from cqdd_design.solids.selection import BEARING_MATERIAL, ChosenBearing
 from cqdd_design.solids.throw import shaft_material
 
 NUT_MATERIAL = "AISI 4140 Q&T 540C"
@@ -200,8 +201,9 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
         dataclasses.replace(nut, material=NUT_MATERIAL, colour=_SCREW),
         _pin_part(design, layout),
     ]
-    if design.reducer.output_pins.sleeve_diameter > 0.0:
-        parts.append(_sleeve_part(design, layout))
+    runner = pin_runner(design)
+    if runner is not None:
+        parts += _sleeve_parts(design, layout, runner)
     seat = on_axis("output bearing", HOUSING, carrier.bearing_bottom)
     return [*parts, _bearing_part("output bearing", carrier.output, seat, CARRIER)]
 
@@ -233,23 +235,43 @@ def _pin_part(design: Design, layout: Layout) -> Part:
     )
 
 
-def _sleeve_part(design: Design, layout: Layout) -> Part:
-    pins, pack = design.reducer.output_pins, layout.pack
-    outer, inner, length = pins.sleeve_diameter, pins.diameter, pack.disc_thickness
-    places = [
-        transform(x=x, y=y, z=pack.disc_bottom(disc))
-        for disc in range(pack.disc_count)
-        for x, y in _pin_positions(layout)
-    ]
-    return Part(
+def _sleeve_parts(design: Design, layout: Layout, runner: Runner) -> list[Part]:
+    """One sleeve a pin and disc, and the needle cage in the middle of it."""
+    pack = layout.pack
+
+    def at_every_disc(name: str, length: float) -> tuple[Instance, ...]:
+        above = 0.5 * (pack.disc_thickness - length)
+        places = [
+            transform(x=x, y=y, z=pack.disc_bottom(disc) + above)
+            for disc in range(pack.disc_count)
+            for x, y in _pin_positions(layout)
+        ]
+        return placed(name, CARRIER, *places)
+
+    outer, inner, length = runner.diameter, runner.bore, runner.length
+    sleeve = Part(
         "pin sleeve",
         rotating.sleeve(inner, outer, length),
-        pins.material,
+        design.reducer.output_pins.material,
         _BEARING,
         "make",
         f"ground sleeve {inner * 1e3:g} x {outer * 1e3:g} x {length * 1e3:g} mm",
-        placed("pin sleeve", CARRIER, *places),
+        at_every_disc("pin sleeve", length),
     )
+    cage = runner.cage
+    if cage is None:
+        return [sleeve]
+    needles = Part(
+        "pin needle cage",
+        rotating.sleeve(cage.bore_diameter, cage.outer_diameter, cage.width),
+        BEARING_MATERIAL,
+        _BEARING,
+        "buy",
+        cage.designation,
+        at_every_disc("pin needle cage", cage.width),
+        catalogue_mass=cage.mass,
+    )
+    return [sleeve, needles]
 
 
 def _housing_parts(design: Design, layout: Layout) -> list[Part]:

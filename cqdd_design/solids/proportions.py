@@ -9,6 +9,7 @@ from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.runners import pin_runner
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.solids.carrier_rules import counterbore_radius, lay_out_carrier, pin_wall
 from cqdd_design.solids.layout import (
@@ -52,7 +53,7 @@ def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
         eccentrics leave no shaft.
     """
     pin = output_pin(design.reducer.output_pins.diameter)
-    _refuse_small_sleeve(design)
+    pin_runner(design)
     validate_geometry(design, bore_diameter=cam_bearing.outer_diameter)
     unit = millimetre_unit(design.reducer.ring.outer_diameter)
     pack = _pack(design, cam_bearing, unit)
@@ -118,16 +119,6 @@ def _seats(
         unit,
     )
     return support, output
-
-
-def _refuse_small_sleeve(design: Design) -> None:
-    pins = design.reducer.output_pins
-    if 0.0 < pins.sleeve_diameter <= pins.diameter:
-        raise GeometryError(
-            f"output_pins.sleeve_diameter {pins.sleeve_diameter * 1e3:g} mm does not go over the "
-            f"{pins.diameter * 1e3:g} mm pin; make it at least "
-            f"{pins.diameter * 1e3 + 1.0:g} mm, or 0 mm for no sleeve."
-        )
 
 
 def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:

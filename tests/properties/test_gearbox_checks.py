@@ -481,7 +481,12 @@ def test_guide_and_checks_speak_of_the_same_things() -> None:
     for design in (
         SOUND,
         SOUND.replacing(
-            {"reducer.output_pins.sleeve_diameter": "6 mm", "reducer.output_pins.count": 8}
+            {
+                "reducer.output_pins.diameter": "3 mm",
+                "reducer.output_pins.sleeve_diameter": "6 mm",
+                "reducer.output_pins.sleeve": "needle",
+                "reducer.output_pins.count": 8,
+            }
         ),
     ):
         for check in resolve(design).analysis.checks:

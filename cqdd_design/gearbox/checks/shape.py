@@ -9,6 +9,7 @@ from cqdd_design.gearbox.cam_bearing import least_bore
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.geometry.limits import rounded_down, rounded_up
+from cqdd_design.geometry.runners import pin_runner
 from cqdd_design.results import Check
 
 _SLACK = 1e-12
@@ -177,16 +178,16 @@ def _fits(state: GearboxState) -> tuple[Check, ...]:
             f"{rounded_up(_mm(least_bore(reducer.eccentricity))):g} mm",
         ),
     ]
-    if sleeved:
-        wall = 0.5 * (pins.sleeve_diameter - pins.diameter)
-        enough = pins.diameter + 2.0 * allowables.SLEEVE_WALL
+    runner = pin_runner(state.design)
+    if runner is not None:
+        enough = runner.bore + 2.0 * allowables.SLEEVE_WALL
         checks.append(
             build_check(
                 "GEO-SLEEVE-WALL",
-                _mm(wall),
+                _mm(runner.wall),
                 _mm(allowables.SLEEVE_WALL),
-                f"({_mm(pins.sleeve_diameter):g} mm - {_mm(pins.diameter):g} mm)/2 = "
-                f"{_mm(wall):.4g} mm",
+                f"({_mm(runner.diameter):g} mm - {_mm(runner.bore):g} mm)/2 = "
+                f"{_mm(runner.wall):.4g} mm",
                 f"raise output_pins.sleeve_diameter to {_mm(enough):g} mm",
             )
         )

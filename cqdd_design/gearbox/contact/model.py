@@ -8,16 +8,16 @@ import numpy as np
 
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.materials import Material, find_material
-from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import Bodies, CamSpring, LineLaw, LineModel
 from cqdd_design.gearbox.contact.pin_beam import HELD, pin_in_stack, pin_section
-from cqdd_design.gearbox.hertz import conformal_equivalent_radius
-from cqdd_design.gearbox.output_pins import sleeve_share
+from cqdd_design.gearbox.hertz import conformal_equivalent_radius, pair_modulus
+from cqdd_design.gearbox.output_pins import hole_friction
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.runners import pin_runner
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,11 +37,14 @@ class ContactModel(Stages):
     cam : CamSpring
         Between bore and cam.
     tooth_friction, hole_friction : float
-        Coulomb friction at ring teeth, and at the walls of the holes: that of plain pins, or what
-        sleeves leave of it (a sleeve turns where the moments of both of its faces balance,
-        t r_sleeve = mu F r_pin).
+        Coulomb friction at ring teeth, and at the walls of the holes
+        (:func:`.output_pins.hole_friction`).
     carrier_stiffness : float or None
         Radial stiffness of the carrier's bearing, N/m; None where it is rigid.
+    sleeve_play : float
+        Radial play of sleeves on their pins, m; 0 without.
+    sleeve_coefficient : float
+        Between pin and sleeve, the c of ``delta = c F^0.9``, N and m; 0 without.
     """
 
     disc: CycloidDisc
@@ -54,6 +57,8 @@ class ContactModel(Stages):
     tooth_friction: float
     hole_friction: float
     carrier_stiffness: float | None = None
+    sleeve_play: float = 0.0
+    sleeve_coefficient: float = 0.0
 
     @classmethod
     def from_design(cls, design: Design, line_model: LineModel = "palmgren") -> ContactModel:
@@ -77,6 +82,7 @@ class ContactModel(Stages):
         tooth = find_material(reducer.ring_material)
         pin = find_material(pins.material)
         plate = find_material(design.housing.material)
+        runner = pin_runner(design)
         behind_flank = disc.valley_distance - 0.5 * bearing.outer_diameter
         ring_bodies = (
             _body(0.5 * reducer.ring_pin_diameter, tooth),
@@ -107,9 +113,12 @@ class ContactModel(Stages):
             pin_series=np.diag(beam.influence).copy(),
             cam=laws.cam_spring(bearing, reducer.cam_bearing.radial_clearance),
             tooth_friction=reducer.friction.tooth,
-            hole_friction=reducer.friction.pin
-            * sleeve_share(mean_pin_diameter(pins.diameter), pins.sleeve_diameter),
+            hole_friction=hole_friction(design),
             carrier_stiffness=reducer.carrier_bearing.stiffness or None,
+            sleeve_play=0.0 if runner is None else 0.5 * runner.play,
+            sleeve_coefficient=0.0
+            if runner is None
+            else laws.runner_coefficient(runner.cage, runner.length, pair_modulus(pin, pin)),
         )
 
     @property
@@ -119,8 +128,11 @@ class ContactModel(Stages):
 
     @property
     def pin_gap(self) -> float:
-        """Gap at an output pin in the nominal pose, half of the hole clearance, m."""
-        return self.hole_radius - self.pin_contact_radius - self.eccentricity
+        """Gap at an output pin in the nominal pose, m: half of the clearance of the hole.
+
+        A sleeve's play opens it further: pin and hole can part by both.
+        """
+        return self.hole_radius - self.pin_contact_radius - self.eccentricity + self.sleeve_play
 
     @property
     def pin_equivalent_radius(self) -> float:
@@ -134,9 +146,17 @@ class ContactModel(Stages):
         )
 
     def pin_coefficient(self) -> float:
-        """Coefficient of the pins' law."""
+        """Coefficient of the pins' law, the contact of pin and sleeve in series.
+
+        Both grow as F^0.9 by Palmgren; beside the other laws the pin in its sleeve is taken with
+        its secant at the line load that the linear law is made for.
+        """
         radius = np.asarray(self.pin_equivalent_radius)
-        return float(self._coefficient(self.pin_law, radius, self.pin_modulus, self.pin_bodies))
+        own = float(self._coefficient(self.pin_law, radius, self.pin_modulus, self.pin_bodies))
+        if self.pin_law.model == "palmgren":
+            return own + self.sleeve_coefficient
+        secant = (_LINE_LOAD * self.contact_length) ** -0.1
+        return own + self.sleeve_coefficient * float(secant)
 
     def _coefficient(
         self, law: LineLaw, equivalent_radius: FloatArray, modulus: float, bodies: Bodies

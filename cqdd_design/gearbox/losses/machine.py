@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import find_bearing
-from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.gearbox.losses.lubricant import Lubricant, find_lubricant
 from cqdd_design.gearbox.losses.rolling import BearingFriction
@@ -24,7 +23,7 @@ from cqdd_design.gearbox.losses.sliding import (
     pin_sliding,
     ring_sliding,
 )
-from cqdd_design.gearbox.output_pins import disc_positions, pin_span, sleeve_share
+from cqdd_design.gearbox.output_pins import disc_positions, hole_friction, pin_span
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_moments
 
@@ -76,7 +75,6 @@ class FrictionMachine:
     eccentricity: float
     tooth_coefficient: float
     pin_coefficient: float
-    sleeve_share: float
     disc_heights: tuple[float, ...]
     span: float
     cam: BearingFriction
@@ -100,7 +98,7 @@ class FrictionMachine:
         support, output : BearingFriction
             At either end of the shaft, and of the carrier.
         """
-        reducer, pins = design.reducer, design.reducer.output_pins
+        reducer = design.reducer
         cam = find_bearing(reducer.cam_bearing.designation)
         lubricant, warning = find_lubricant(reducer.friction.lubricant)
         stack = (reducer.disc_count, reducer.disc_thickness, reducer.disc_spacing)
@@ -109,8 +107,7 @@ class FrictionMachine:
             disc_count=reducer.disc_count,
             eccentricity=reducer.eccentricity,
             tooth_coefficient=reducer.friction.tooth,
-            pin_coefficient=reducer.friction.pin,
-            sleeve_share=sleeve_share(mean_pin_diameter(pins.diameter), pins.sleeve_diameter),
+            pin_coefficient=hole_friction(design),
             disc_heights=tuple(float(z) for z in disc_positions(*stack)),
             span=float(pin_span(*stack)),
             cam=BearingFriction.of(cam),
@@ -143,7 +140,7 @@ class FrictionMachine:
             (n + 1) * np.asarray(forces.disc_centre)[:, :, None, :],
         )
         ring = friction_work(self.tooth_coefficient, forces.ring_force, sliding)
-        path = self.sleeve_share * pin_sliding(n, self.eccentricity)
+        path = pin_sliding(n, self.eccentricity)
         pins = friction_work(self.pin_coefficient, forces.pin_force, path)
         cam = self.cam.load_torque(np.linalg.norm(forces.cam_force, axis=-1))
         first, second, carrier = self._seat_loads(forces)

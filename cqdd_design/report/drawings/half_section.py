@@ -13,6 +13,7 @@ import numpy as np
 
 from cqdd_design.gearbox.output_pins import disc_positions, pin_span
 from cqdd_design.geometry.contours import Circle, Contour
+from cqdd_design.geometry.runners import pin_runner
 from cqdd_design.report.drawings.outlines import DRAWING_TOLERANCE, Outlines
 from cqdd_design.report.ink.dimensions import (
     Leader,
@@ -96,6 +97,8 @@ class _Section:
         pack = (reducer.disc_count, reducer.disc_thickness, reducer.disc_spacing)
         self.outlines, self.reducer, self.bearing = outlines, reducer, outlines.bearing
         self.pins = reducer.output_pins
+        runner = pin_runner(outlines.design)
+        self.cage = None if runner is None else runner.cage
         self.both = self.pins.support == "both"
         self.outer = 0.5 * reducer.ring.outer_diameter
         self.half = 0.5 * float(pin_span(*pack))
@@ -222,6 +225,11 @@ class _Section:
         pieces = []
         if sleeve > 0.0:
             pieces.append(self.box((-half, half), (middle - sleeve, middle + sleeve), "sleeve"))
+        if self.cage is not None:
+            around = 0.5 * self.cage.outer_diameter
+            for z in self.middles:
+                across = (z - 0.5 * self.cage.width, z + 0.5 * self.cage.width)
+                pieces.append(self.box(across, (middle - around, middle + around), "roller"))
         pieces.append(self.box((-half - into, right), (middle - radius, middle + radius), "pin"))
         ends = (self.at(-half - into - 1.2e-3, middle), self.at(right + 1.2e-3, middle))
         return group([*pieces, line(*ends, "centre-line")])
@@ -289,6 +297,7 @@ class _Section:
         runs_in = _short(pins.material)
         if pins.sleeve_diameter > 0.0:
             runs_in = f"in sleeves of {millimetres(pins.sleeve_diameter)}"
+            runs_in += " on needles" if pins.sleeve == "needle" else ""
         long_name = len(bearing.designation) > _LONG_DESIGNATION
         in_disc = 0.5 * (self.hole(last)[1] + self.tip(last))
         right = [

@@ -66,6 +66,8 @@ _LABELS = {
     "reducer.output_pins.diameter": Label("pin diameter", "d"),
     "reducer.output_pins.circle_radius": Label("radius of the pin circle", "R_w"),
     "reducer.output_pins.sleeve_diameter": Label("sleeve diameter (0: no sleeve)"),
+    "reducer.output_pins.sleeve": Label("sleeves turn on"),
+    "reducer.output_pins.sleeve_play": Label("play of a sleeve on its pin, diameter"),
     "reducer.output_pins.hole_clearance": Label("hole clearance on the diameter"),
     "reducer.output_pins.hole_clocking": Label("first hole from the valley on +x"),
     "reducer.output_pins.support": Label("pins held at"),
