@@ -141,7 +141,12 @@ class CarrierBearing(FrozenModel):
 
 
 class Ring(FrozenModel):
-    """The fixed ring."""
+    """The fixed ring.
+
+    The pins of a pinwheel ring take rollers of `roller_diameter`, which then is what meshes with
+    the discs: plain, with `roller_play` between roller and pin, or on the needle cage of the
+    catalogue that fits between the two, with that play in it.
+    """
 
     outer_diameter: Annotated[
         float, QuantityIn(LENGTH, "5 mm", "2500 mm", "must leave a wall outside the teeth")
@@ -150,6 +155,23 @@ class Ring(FrozenModel):
         float,
         QuantityIn(LENGTH, "0.01 mm", "5 mm", "clears the lobe tips between the teeth"),
     ] = default("0.1 mm")
+    roller_diameter: Annotated[
+        float, QuantityIn(LENGTH, "0 mm", "500 mm", "0 means no rollers on the pins")
+    ] = default("0 mm")
+    roller: RunsOn = "plain"
+    roller_play: Annotated[
+        float,
+        QuantityIn(SMALL_LENGTH, "0 um", "500 um", "of a roller on its pin, on the diameter"),
+    ] = default("10 um")
+
+    @model_validator(mode="after")
+    def _needles_in_a_roller(self) -> Ring:
+        if self.roller == "needle" and self.roller_diameter == 0.0:
+            raise ValueError(
+                'roller = "needle" needs a roller for the needles to run in; give '
+                'roller_diameter, or make roller "plain"'
+            )
+        return self
 
 
 class ReducerFriction(FrozenModel):
@@ -203,6 +225,16 @@ class Reducer(FrozenModel):
     balance: Balance = Balance()
 
     @property
+    def tooth_diameter(self) -> float:
+        """What meshes with the discs, m: the rollers where there are any, else the ring's pins."""
+        return self.ring.roller_diameter or self.ring_pin_diameter
+
+    @property
+    def tooth_key(self) -> str:
+        """The key that says it."""
+        return "ring.roller_diameter" if self.ring.roller_diameter else "ring_pin_diameter"
+
+    @property
     def ring_tooth_count(self) -> int:
         """Teeth of the ring, one more than lobes on the disc."""
         return self.ratio + 1
@@ -211,6 +243,15 @@ class Reducer(FrozenModel):
     def pack_length(self) -> float:
         """Length of the pack of discs, m."""
         return self.disc_count * self.disc_thickness + (self.disc_count - 1) * self.disc_spacing
+
+    @model_validator(mode="after")
+    def _rollers_on_pins(self) -> Reducer:
+        if self.ring.roller_diameter > 0.0 and self.ring_type != "pinwheel":
+            raise ValueError(
+                f"ring.roller_diameter: rollers turn on the pins of a pinwheel ring, and this one "
+                f'is "{self.ring_type}"; make ring_type "pinwheel", or roller_diameter "0 mm"'
+            )
+        return self
 
     @model_validator(mode="before")
     @classmethod
@@ -241,6 +282,12 @@ class Reducer(FrozenModel):
             ring = dict(ring)
             if "outer_diameter" not in ring and lengths is not None:
                 pitch, throw, pin = lengths
+                rollers = _readable_lengths(
+                    ring,
+                    ("roller_diameter",),
+                    si=bool(info.context and info.context.get("si")),
+                )
+                pin = max(pin, rollers[0]) if rollers else pin
                 root = pitch + max(2.0 * throw - 0.5 * pin, 0.5 * pin)
                 ring["outer_diameter"] = format_quantity(2.0 * (root + RING_WALL), LENGTH)
             filled["ring"] = ring

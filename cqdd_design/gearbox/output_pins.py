@@ -19,11 +19,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cqdd_design.catalog.bearings import FRICTION_COEFFICIENT
-from cqdd_design.catalog.screws import mean_pin_diameter
-from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
-from cqdd_design.geometry.runners import pin_runner
 
 PinSupport = Literal["both", "cantilever"]
 
@@ -180,36 +176,3 @@ def sleeve_share(pin_diameter: float, sleeve_diameter: float) -> float:
     (0.625, 1.0)
     """
     return pin_diameter / sleeve_diameter if sleeve_diameter > 0.0 else 1.0
-
-
-def hole_friction(design: Design) -> float:
-    """Coefficient of friction at the wall of the output holes.
-
-    Of a bare pin its own; a sleeve brings there what its own bearing resists with, by the balance
-    of moments of :func:`sleeve_share`: that of the pin it slides on, or of the needles it rolls
-    on, M = mu F d/2 with d the pin's diameter (JTEKT, as of every bearing). Needles never count
-    with more than the pin would.
-    """
-    pins = design.reducer.output_pins
-    runner, own = pin_runner(design), design.reducer.friction.pin
-    if runner is None:
-        return own
-    if runner.cage is None:
-        return own * sleeve_share(mean_pin_diameter(pins.diameter), runner.diameter)
-    rolling = min(own, FRICTION_COEFFICIENT[runner.cage.kind])
-    return rolling * sleeve_share(runner.cage.bore_diameter, runner.diameter)
-
-
-def sleeve_turn(lobe_count: int, eccentricity: ArrayLike, sleeve_diameter: ArrayLike) -> FloatArray:
-    """Turn of a sleeve on its pin per radian of crank, 2 e (1 + 1/n)/d_s.
-
-    It rolls in its hole, which passes at e (1 + 1/n). It is let go for half of every turn of the
-    crank, and is taken to keep turning, which is on the safe side of its life.
-
-    Examples
-    --------
-    >>> print(round(float(sleeve_turn(10, 1.6e-3, 8e-3)), 3))
-    0.44
-    """
-    path = np.asarray(eccentricity, dtype=float) * (1.0 + 1.0 / lobe_count)
-    return np.asarray(2.0 * path / np.asarray(sleeve_diameter, dtype=float))

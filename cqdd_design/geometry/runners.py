@@ -1,18 +1,18 @@
-"""What turns on an output pin: a plain sleeve, or a sleeve on needles.
+"""What turns on a pin: a sleeve on an output pin, a roller on a ring's pin, plain or on needles.
 
 needle cage between pin and sleeve
   __ _ ____
- |  |:|    |    The sleeve's wall is what stands outside the cage, or outside the pin where
+ |  |:|    |    Its wall is what stands outside the cage, or outside the pin where
  |  |:|    |    there is none.
  |__|:|____|
- pin   sleeve
+ pin   sleeve or roller
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from cqdd_design.catalog.bearings import Bearing, bearings
 from cqdd_design.errors import GeometryError
@@ -30,7 +30,7 @@ _SAME = 1e-9
 
 @dataclass(frozen=True)
 class Runner:
-    """A sleeve that turns on a pin, m.
+    """A sleeve or roller that turns on a pin, m.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Runner:
     diameter, length : float
         Of the sleeve.
     play : float
-        Of the sleeve on its pin, on the diameter.
+        Of it on its pin, on the diameter.
     cage : Bearing or None
         The needle cage between the two; None where the sleeve turns on the pin itself.
     """
@@ -69,23 +69,52 @@ def pin_runner(design: Design) -> Runner | None:
     GeometryError
         When a sleeve does not go over its pin, or no needle cage of the catalogue fits inside it.
     """
-    pins, thickness = design.reducer.output_pins, design.reducer.disc_thickness
-    if pins.sleeve_diameter <= 0.0:
+    pins = design.reducer.output_pins
+    words = _Words("sleeve", "output_pins.sleeve", "output_pins.diameter")
+    return _runner(design, words, pins.diameter, pins.sleeve_diameter, pins.sleeve_play)
+
+
+def ring_runner(design: Design) -> Runner | None:
+    """The rollers on the pins of a pinwheel ring, one a disc; None where there are none.
+
+    Raises
+    ------
+    GeometryError
+        When a roller does not go over its pin, or no needle cage of the catalogue fits inside it.
+    """
+    pin, ring = design.reducer.ring_pin_diameter, design.reducer.ring
+    words = _Words("roller", "ring.roller", "ring_pin_diameter")
+    return _runner(design, words, pin, ring.roller_diameter, ring.roller_play)
+
+
+class _Words(NamedTuple):
+    """What a runner is called, the key of its kind (and, with _diameter, size), and its pin's."""
+
+    name: str
+    kind: str
+    pin: str
+
+
+def _runner(
+    design: Design, words: _Words, pin: float, diameter: float, play: float
+) -> Runner | None:
+    if diameter <= 0.0:
         return None
-    if pins.sleeve_diameter <= pins.diameter:
+    if diameter <= pin:
         raise GeometryError(
-            f"output_pins.sleeve_diameter {pins.sleeve_diameter * 1e3:g} mm does not go over the "
-            f"{pins.diameter * 1e3:g} mm pin; make it at least "
-            f"{(pins.diameter + 2.0 * LEAST_WALL) * 1e3:g} mm, or 0 mm for no sleeve."
+            f"{words.kind}_diameter {diameter * 1e3:g} mm does not go over the {pin * 1e3:g} mm "
+            f"pin; make it at least {(pin + 2.0 * LEAST_WALL) * 1e3:g} mm, or 0 mm for no "
+            f"{words.name}."
         )
-    cage = None
-    if pins.sleeve == "needle":
-        cage = _needle_cage(pins.diameter, pins.sleeve_diameter, thickness)
-    return Runner(pins.diameter, pins.sleeve_diameter, thickness, pins.sleeve_play, cage)
+    reducer = design.reducer
+    kind = reducer.output_pins.sleeve if words.name == "sleeve" else reducer.ring.roller
+    length = reducer.disc_thickness
+    cage = _needle_cage(words, pin, diameter, length) if kind == "needle" else None
+    return Runner(pin, diameter, length, play, cage)
 
 
-def _needle_cage(pin: float, sleeve: float, length: float) -> Bearing:
-    """The cage of the highest rating that runs on the pin inside the sleeve.
+def _needle_cage(words: _Words, pin: float, outside: float, length: float) -> Bearing:
+    """The cage of the highest rating that runs on the pin inside sleeve or roller.
 
     Raises
     ------
@@ -97,28 +126,28 @@ def _needle_cage(pin: float, sleeve: float, length: float) -> Bearing:
         for one in bearings().values()
         if one.kind == "needle cage" and one.dynamic_rating is not None
     ]
-    key = 'output_pins.sleeve = "needle"'
+    name, plain = words.name, f'make {words.name} "plain"'
     on_pin = [one for one in cages if abs(one.bore_diameter - pin) < _SAME]
     if not on_pin:
         raise GeometryError(
-            f"{key}: the catalogue has no needle cage for pins of {millimetres(pin)}; make "
-            f"output_pins.diameter {_nearest(pin, [one.bore_diameter for one in cages])}, or "
-            'sleeve "plain".'
+            f'{words.kind} = "needle": the catalogue has no needle cage for pins of '
+            f"{millimetres(pin)}; make {words.pin} "
+            f"{_nearest(pin, [one.bore_diameter for one in cages])}, or {plain}."
         )
-    inside = [one for one in on_pin if one.outer_diameter + 2.0 * LEAST_WALL <= sleeve + _SAME]
+    inside = [one for one in on_pin if one.outer_diameter + 2.0 * LEAST_WALL <= outside + _SAME]
     if not inside:
         least = min(one.outer_diameter for one in on_pin) + 2.0 * LEAST_WALL
         raise GeometryError(
-            f"{key}: no needle cage for pins of {millimetres(pin)} fits inside a sleeve of "
-            f"{millimetres(sleeve)} with its wall of {millimetres(LEAST_WALL)}; raise "
-            f'output_pins.sleeve_diameter to {millimetres(least)}, or make sleeve "plain".'
+            f'{words.kind} = "needle": no needle cage for pins of {millimetres(pin)} fits inside '
+            f"a {name} of {millimetres(outside)} with its wall of {millimetres(LEAST_WALL)}; raise "
+            f"{words.kind}_diameter to {millimetres(least)}, or {plain}."
         )
     fitting = [one for one in inside if one.width <= length + _SAME]
     if not fitting:
         least = min(one.width for one in inside)
         raise GeometryError(
-            f"{key}: the needle cages that fit are wider than disc_thickness "
-            f'{millimetres(length)}; raise it to {millimetres(least)}, or make sleeve "plain".'
+            f'{words.kind} = "needle": the needle cages that fit are wider than disc_thickness '
+            f"{millimetres(length)}; raise it to {millimetres(least)}, or {plain}."
         )
     return max(fitting, key=lambda one: one.dynamic_rating or 0.0)
 

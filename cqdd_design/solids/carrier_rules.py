@@ -55,7 +55,7 @@ def lay_out_carrier(
     wall = pin_wall(diameter, unit)
     both = pins.support == "both"
     counterbore = counterbore_radius(pin, unit)
-    most_outer = pack.ledge_radius - 0.4 * unit
+    most_outer = pack.inner_radius - 0.4 * unit
     # A catalogue head may be too large for a dense pin circle; ground dowels always fit.
     crowded = 2.0 * circle * math.sin(math.pi / pins.count) < 2.0 * counterbore + 0.4 * unit
     inward = circle - counterbore - core < unit
@@ -74,6 +74,8 @@ def lay_out_carrier(
     lowest = min(cap_bottom, shoulder_bottom - pin.head_height)
 
     clamp = max(2.5 * unit, pack.gap + 1.5 * unit)
+    if pack.held_pins is not None:
+        clamp = max(clamp, pack.relief + pack.held_pins.depth + 0.8 * unit)
     shoulder = min(output.shoulder_radius, most_shoulder)
     if shoulder < 0.5 * output.bearing.bore_diameter + 0.05 * unit:
         raise GeometryError(

@@ -44,7 +44,16 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "encoder board",
             *counterweights.NAMES,
         ),
-        "discs and ring": ("disc", "disc 1", "disc 2", "disc 3", "ring", "ring pin"),
+        "discs and ring": (
+            "disc",
+            "disc 1",
+            "disc 2",
+            "disc 3",
+            "ring",
+            "ring pin",
+            "ring roller",
+            "ring needle cage",
+        ),
         "shaft and bearings": (
             "eccentric shaft",
             "eccentric cam",

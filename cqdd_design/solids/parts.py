@@ -6,13 +6,13 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_contour, disc_moments
 from cqdd_design.geometry.ring import ring_contour, ring_moments, ring_pins
-from cqdd_design.geometry.runners import Runner, pin_runner
+from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
 from cqdd_design.solids import carrier as carrier_shapes
 from cqdd_design.solids import housing as housing_shapes
 from cqdd_design.solids import rotating
@@ -20,7 +20,7 @@ from cqdd_design.solids.clocking import DiscGroup, disc_groups
 from cqdd_design.solids.counterweights import balance_weights
 from cqdd_design.solids.fits import seat_fits
 from cqdd_design.solids.layers import Stack, on_circle, prism
-from cqdd_design.solids.layout import Layout
+from cqdd_design.solids.layout import Layout, PackLayout
 from cqdd_design.solids.motor_parts import dowel_part, motor_parts
 from cqdd_design.solids.motor_shapes import (
     with_dowel_grooves,
@@ -126,11 +126,16 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
     )
     parts, pins = [ring], ring_pins(design)
     if pins:
-        diameter = 2.0 * pins[0].radius
-        shape = rotating.plain_pin(diameter, 0.0, height)
-        designation = f"ground pin {diameter * 1e3:g} x {height * 1e3:g} mm"
+        held, diameter = layout.pack.held_pins, design.reducer.ring_pin_diameter
+        beyond = 0.0 if held is None else layout.pack.relief + held.depth
+        shape = rotating.plain_pin(diameter, -beyond, height + beyond)
+        designation = f"ground pin {diameter * 1e3:g} x {(height + 2.0 * beyond) * 1e3:.6g} mm"
         pieces = around("ring pin", HOUSING, (pin.centre for pin in pins))
         parts.append(Part("ring pin", shape, material, _BEARING, "make", designation, pieces))
+    rollers = ring_runner(design)
+    if rollers is not None:
+        centres = [pin.centre for pin in pins]
+        parts += _runner_parts("ring", "roller", rollers, material, layout.pack, HOUSING, centres)
     return [*parts, *dowel_part(layout)]
 
 
@@ -203,7 +208,8 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
     ]
     runner = pin_runner(design)
     if runner is not None:
-        parts += _sleeve_parts(design, layout, runner)
+        steel, centres = design.reducer.output_pins.material, _pin_positions(layout)
+        parts += _runner_parts("pin", "sleeve", runner, steel, layout.pack, CARRIER, centres)
     seat = on_axis("output bearing", HOUSING, carrier.bearing_bottom)
     return [*parts, _bearing_part("output bearing", carrier.output, seat, CARRIER)]
 
@@ -235,43 +241,61 @@ def _pin_part(design: Design, layout: Layout) -> Part:
     )
 
 
-def _sleeve_parts(design: Design, layout: Layout, runner: Runner) -> list[Part]:
-    """One sleeve a pin and disc, and the needle cage in the middle of it."""
-    pack = layout.pack
+def _runner_parts(
+    where: str,
+    name: str,
+    runner: Runner,
+    material: str,
+    pack: PackLayout,
+    body: Body,
+    centres: Iterable[FloatArray],
+) -> list[Part]:
+    """One sleeve or roller a pin and disc, and the needle cage in the middle of it.
 
-    def at_every_disc(name: str, length: float) -> tuple[Instance, ...]:
+    Parameters
+    ----------
+    where, name : str
+        Of which pins, and what turns on them; the parts are called so.
+    body : Body
+        What the pins move with.
+    centres : iterable of array (2,)
+        Of the pins, m.
+    """
+    places = [(x, y) for x, y in centres]
+
+    def at_every_disc(called: str, length: float) -> tuple[Instance, ...]:
         above = 0.5 * (pack.disc_thickness - length)
-        places = [
+        standing = [
             transform(x=x, y=y, z=pack.disc_bottom(disc) + above)
             for disc in range(pack.disc_count)
-            for x, y in _pin_positions(layout)
+            for x, y in places
         ]
-        return placed(name, CARRIER, *places)
+        return placed(called, body, *standing)
 
     outer, inner, length = runner.diameter, runner.bore, runner.length
-    sleeve = Part(
-        "pin sleeve",
+    turning = Part(
+        f"{where} {name}",
         rotating.sleeve(inner, outer, length),
-        design.reducer.output_pins.material,
+        material,
         _BEARING,
         "make",
-        f"ground sleeve {inner * 1e3:g} x {outer * 1e3:g} x {length * 1e3:g} mm",
-        at_every_disc("pin sleeve", length),
+        f"ground {name} {inner * 1e3:g} x {outer * 1e3:g} x {length * 1e3:g} mm",
+        at_every_disc(f"{where} {name}", length),
     )
     cage = runner.cage
     if cage is None:
-        return [sleeve]
+        return [turning]
     needles = Part(
-        "pin needle cage",
+        f"{where} needle cage",
         rotating.sleeve(cage.bore_diameter, cage.outer_diameter, cage.width),
         BEARING_MATERIAL,
         _BEARING,
         "buy",
         cage.designation,
-        at_every_disc("pin needle cage", cage.width),
+        at_every_disc(f"{where} needle cage", cage.width),
         catalogue_mass=cage.mass,
     )
-    return [sleeve, needles]
+    return [turning, needles]
 
 
 def _housing_parts(design: Design, layout: Layout) -> list[Part]:

@@ -132,33 +132,4 @@ ROWS = (
         "Needles running in softer steel wear and pit it within hours.",
         f"ISO 76 and ISO 281 presume raceways of {limits.HARDENED_HRC:g} HRC and more",
     ),
-    CheckGuide(
-        "SLEEVE-STATIC",
-        "Needles of the sleeves, static safety at peak torque",
-        "",
-        "min",
-        f"C0/P >= {limits.STATIC_SAFETY:g}, P = {_UNEVEN} F of one pin on one disc",
-        "Beyond C0 the needles dent pin and sleeve, which then turn no more.",
-        "ISO 76:2006",
-    ),
-    CheckGuide(
-        "SLEEVE-LIFE",
-        "Needles of the sleeves, basic rating life at continuous torque",
-        "h",
-        "min",
-        f"L10h = 1e6 (C/P)^(10/3)/(60 rpm 2 e (1 + 1/n)/d_s) >= {limits.LIFE_HOURS:g} h, "
-        f"P = {_UNEVEN} F",
-        "A sleeve rolls in its hole, which passes at the speed of the throw.",
-        "ISO 281:2007",
-    ),
-    CheckGuide(
-        "SLEEVE-RACEWAY",
-        "Output pins hard enough to be a raceway",
-        "HRC",
-        "min",
-        f"hardness of the pins, and of sleeves of the same steel, >= {limits.HARDENED_HRC:g} HRC "
-        "where needles run on them",
-        "Needles running on softer steel wear and pit it within hours.",
-        f"ISO 76 and ISO 281 presume raceways of {limits.HARDENED_HRC:g} HRC and more",
-    ),
 )

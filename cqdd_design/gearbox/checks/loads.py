@@ -14,10 +14,10 @@ from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING, Allowable
 from cqdd_design.gearbox.checks.remedies import (
     MaterialRule,
     harder_parts,
+    lower_torque,
     softer_contact,
     stronger_capacity,
     stronger_pins,
-    torque_words,
 )
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.gearbox.loads import RigidMaxima
@@ -33,7 +33,7 @@ _SPREAD = {
 
 def load_checks(state: GearboxState) -> tuple[Check, ...]:
     """All checks of this chapter."""
-    return (*_contact(state), *_pins(state), *_bearing(state), *_sleeves(state))
+    return (*_contact(state), *_pins(state), *_bearing(state))
 
 
 def _contact(state: GearboxState) -> tuple[Check, ...]:
@@ -159,7 +159,7 @@ def _bearing(state: GearboxState) -> tuple[Check, ...]:
             allowables.STATIC_SAFETY,
             f"{bearing.designation}: {static:.0f} N/{cam.peak_load:.1f} N = {safety:.3f}",
             f"needs C0 of {cam.peak_load / 1e3 * allowables.STATIC_SAFETY:.3g} kN: {other}; or "
-            + _lower_torque(requirements.peak_torque, safety / allowables.STATIC_SAFETY),
+            + lower_torque(requirements.peak_torque, safety / allowables.STATIC_SAFETY),
         ),
         build_check(
             "BEARING-LIFE",
@@ -169,7 +169,7 @@ def _bearing(state: GearboxState) -> tuple[Check, ...]:
             f"{exponent:.3g}/(60 x {rpm:.0f} rpm) = {life:.0f} h",
             (f"needs C of {needed / 1e3:.3g} kN: " if math.isfinite(needed) else "")
             + f"{other}; or "
-            + _lower_torque(requirements.continuous_torque, at_life / cam.continuous_load),
+            + lower_torque(requirements.continuous_torque, at_life / cam.continuous_load),
         ),
     ]
     if bearing.kind == "needle cage":
@@ -184,48 +184,6 @@ def _bearing(state: GearboxState) -> tuple[Check, ...]:
             )
         )
     return tuple(checks)
-
-
-def _sleeves(state: GearboxState) -> tuple[Check, ...]:
-    """Check the needles inside the sleeves, where there are any."""
-    found, requirements = state.sleeves, state.design.requirements
-    if found is None:
-        return ()
-    cage, material = found.bearing, find_material(state.design.reducer.output_pins.material)
-    static, dynamic = cage.static_rating or 0.0, cage.dynamic_rating or 0.0
-    safety, life = found.static_safety or 0.0, found.life_hours or 0.0
-    at_life = float(load_for_life(dynamic, allowables.LIFE_HOURS, found.speed, found.exponent))
-    larger = "use larger output_pins and sleeves, or more of them; or "
-    return (
-        build_check(
-            "SLEEVE-STATIC",
-            safety,
-            allowables.STATIC_SAFETY,
-            f"{cage.designation}: {static:.0f} N/{found.peak_load:.1f} N = {safety:.3f}",
-            larger + _lower_torque(requirements.peak_torque, safety / allowables.STATIC_SAFETY),
-        ),
-        build_check(
-            "SLEEVE-LIFE",
-            life,
-            allowables.LIFE_HOURS,
-            f"{cage.designation}: 1e6 ({dynamic:.0f} N/{found.continuous_load:.1f} N)^"
-            f"{found.exponent:.3g}/(60 x {found.speed * 30.0 / math.pi:.0f} rpm) = {life:.0f} h",
-            larger + _lower_torque(requirements.continuous_torque, at_life / found.continuous_load),
-        ),
-        build_check(
-            "SLEEVE-RACEWAY",
-            material.rockwell_hardness or 0.0,
-            allowables.HARDENED_HRC,
-            f"{material.name}: {material.hardness or 'no hardness given'}",
-            "make output_pins.material 'AISI 52100 / 100Cr6 hardened', or the sleeves plain",
-        ),
-    )
-
-
-def _lower_torque(torque: float, share: float) -> str:
-    if share <= 0.0:
-        return "choose a bearing with catalogue ratings"
-    return f"lower the torque to {torque_words(torque * share)}"
 
 
 def _other_bearing(state: GearboxState) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.materials import Material, find_material
@@ -13,11 +14,11 @@ from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import Bodies, CamSpring, LineLaw, LineModel
 from cqdd_design.gearbox.contact.pin_beam import HELD, pin_in_stack, pin_section
 from cqdd_design.gearbox.hertz import conformal_equivalent_radius, pair_modulus
-from cqdd_design.gearbox.output_pins import hole_friction
+from cqdd_design.gearbox.rolling_contacts import hole_friction, tooth_friction
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.cycloid import CycloidDisc
-from cqdd_design.geometry.runners import pin_runner
+from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,13 +39,15 @@ class ContactModel(Stages):
         Between bore and cam.
     tooth_friction, hole_friction : float
         Coulomb friction at ring teeth, and at the walls of the holes
-        (:func:`.output_pins.hole_friction`).
+        (:mod:`..rolling_contacts`).
     carrier_stiffness : float or None
         Radial stiffness of the carrier's bearing, N/m; None where it is rigid.
-    sleeve_play : float
-        Radial play of sleeves on their pins, m; 0 without.
-    sleeve_coefficient : float
-        Between pin and sleeve, the c of ``delta = c F^0.9``, N and m; 0 without.
+    sleeve_play, roller_play : float
+        Radial play of sleeves on output pins, and of rollers on the ring's, m; 0 without.
+    sleeve_coefficient, roller_coefficient : float
+        Between pin and sleeve or roller, the c of ``delta = c F^0.9``, N and m; 0 without.
+    ring_pin_series : array (D, 1) or None
+        Compliance at every disc of ring pins that rollers leave free between their ends, m/N.
     """
 
     disc: CycloidDisc
@@ -59,6 +62,9 @@ class ContactModel(Stages):
     carrier_stiffness: float | None = None
     sleeve_play: float = 0.0
     sleeve_coefficient: float = 0.0
+    roller_play: float = 0.0
+    roller_coefficient: float = 0.0
+    ring_pin_series: FloatArray | None = None
 
     @classmethod
     def from_design(cls, design: Design, line_model: LineModel = "palmgren") -> ContactModel:
@@ -82,13 +88,15 @@ class ContactModel(Stages):
         tooth = find_material(reducer.ring_material)
         pin = find_material(pins.material)
         plate = find_material(design.housing.material)
-        runner = pin_runner(design)
+        runner, rollers = pin_runner(design), ring_runner(design)
         behind_flank = disc.valley_distance - 0.5 * bearing.outer_diameter
         ring_bodies = (
-            _body(0.5 * reducer.ring_pin_diameter, tooth),
-            _body(max(behind_flank, 0.5 * reducer.ring_pin_diameter), steel),
+            _body(stages.tooth_radius, tooth),
+            _body(max(behind_flank, stages.tooth_radius), steel),
         )
         pin_bodies = (_body(stages.pin_contact_radius, pin), _body(stages.hole_radius, steel))
+        # A pin that rollers leave free bends several times as far as its contact closes.
+        ring_model = "linear" if rollers and line_model == "palmgren" else line_model
         logarithms = (0.0, 0.0)
         if line_model == "johnson":
             length = reducer.disc_thickness
@@ -106,19 +114,20 @@ class ContactModel(Stages):
         return cls(
             **vars(stages),
             disc=disc,
-            ring_law=LineLaw(line_model, logarithms[0]),
+            ring_law=LineLaw(ring_model, logarithms[0]),
             pin_law=LineLaw(line_model, logarithms[1]),
             ring_bodies=ring_bodies,
             pin_bodies=pin_bodies,
             pin_series=np.diag(beam.influence).copy(),
             cam=laws.cam_spring(bearing, reducer.cam_bearing.radial_clearance),
-            tooth_friction=reducer.friction.tooth,
+            tooth_friction=tooth_friction(design),
             hole_friction=hole_friction(design),
             carrier_stiffness=reducer.carrier_bearing.stiffness or None,
             sleeve_play=0.0 if runner is None else 0.5 * runner.play,
-            sleeve_coefficient=0.0
-            if runner is None
-            else laws.runner_coefficient(runner.cage, runner.length, pair_modulus(pin, pin)),
+            sleeve_coefficient=_inside(runner, pin),
+            roller_play=0.0 if rollers is None else 0.5 * rollers.play,
+            roller_coefficient=_inside(rollers, tooth),
+            ring_pin_series=None if rollers is None else _ring_pin_series(design, tooth, plate),
         )
 
     @property
@@ -141,22 +150,33 @@ class ContactModel(Stages):
 
     def ring_coefficient(self, equivalent_radius: FloatArray) -> FloatArray:
         """Coefficient of the ring's law for contacts of the given R_eq (m)."""
-        return self._coefficient(
+        own = self._coefficient(
             self.ring_law, equivalent_radius, self.ring_modulus, self.ring_bodies
+        )
+        if self.ring_pin_series is None:
+            return own
+        # (D, 1) against (A, D, T): every disc has its place on the pins.
+        return np.asarray(
+            own
+            + self._behind(self.ring_law, self.roller_coefficient, 0.9)
+            + self._behind(self.ring_law, self.ring_pin_series, 1.0)
         )
 
     def pin_coefficient(self) -> float:
-        """Coefficient of the pins' law, the contact of pin and sleeve in series.
-
-        Both grow as F^0.9 by Palmgren; beside the other laws the pin in its sleeve is taken with
-        its secant at the line load that the linear law is made for.
-        """
+        """Coefficient of the pins' law, the contact of pin and sleeve in series."""
         radius = np.asarray(self.pin_equivalent_radius)
         own = float(self._coefficient(self.pin_law, radius, self.pin_modulus, self.pin_bodies))
-        if self.pin_law.model == "palmgren":
-            return own + self.sleeve_coefficient
-        secant = (_LINE_LOAD * self.contact_length) ** -0.1
-        return own + self.sleeve_coefficient * float(secant)
+        return own + float(self._behind(self.pin_law, self.sleeve_coefficient, 0.9))
+
+    def _behind(self, law: LineLaw, coefficient: ArrayLike, power: float) -> FloatArray:
+        """What gives as c F^power behind a contact, as a share of the contact's own coefficient.
+
+        Exact where both are of one power; else by the secant at the line load that the linear law
+        is made for.
+        """
+        own = 0.9 if law.model == "palmgren" else 1.0
+        load = _LINE_LOAD * self.contact_length
+        return np.asarray(np.asarray(coefficient, dtype=float) * load ** (power - own))
 
     def _coefficient(
         self, law: LineLaw, equivalent_radius: FloatArray, modulus: float, bodies: Bodies
@@ -174,6 +194,28 @@ class ContactModel(Stages):
 
 _LINE_LOAD = 50e3
 """Line load at which the linear law has Palmgren's secant stiffness, N/m."""
+
+
+def _inside(runner: Runner | None, steel: Material) -> float:
+    """Coefficient of the contact between a pin and what turns on it, of the same steel."""
+    if runner is None:
+        return 0.0
+    return laws.runner_coefficient(runner.cage, runner.length, pair_modulus(steel, steel))
+
+
+def _ring_pin_series(design: Design, pin: Material, plate: Material) -> FloatArray:
+    """Compliance of a ring pin, held beyond the discs by housing and clamp, at every disc."""
+    reducer = design.reducer
+    beam = pin_in_stack(
+        reducer.disc_count,
+        reducer.disc_thickness,
+        reducer.disc_spacing,
+        pin_section(
+            reducer.ring_pin_diameter, pin.youngs_modulus, pin.poisson_ratio, plate.youngs_modulus
+        ),
+        ("hinged", "hinged"),
+    )
+    return np.diag(beam.influence)[:, None].copy()
 
 
 def _body(depth: float, material: Material) -> tuple[float, float, float]:

@@ -23,7 +23,7 @@ from cqdd_design.gearbox.life import contacts, cycles, fatigue, pins
 from cqdd_design.gearbox.life.cam import CamLife, cam_life
 from cqdd_design.gearbox.life.contacts import Pressures
 from cqdd_design.gearbox.life.result import CaseLoads, DutyCase, LifeResult, PartLife
-from cqdd_design.gearbox.life.sleeves import sleeve_life
+from cqdd_design.gearbox.life.runners import RunnerDuty, RunnerLife, roller_life, sleeve_life
 from cqdd_design.gearbox.loads import rigid_maxima
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import kinematics
@@ -115,9 +115,7 @@ def life(design: Design, model: ContactModel, *, friction: bool = True) -> LifeR
         parts=parts,
         cam=_cam(duty),
         notes=_notes(parts),
-        sleeves=sleeve_life(
-            design, duty.sweeps, [case.share for case in cases], [case.speed for case in cases]
-        ),
+        runners=_runners(duty),
     )
 
 
@@ -249,6 +247,14 @@ def _pin_bending(duty: _Duty) -> tuple[PartLife, list[NDArray[np.complex128]]]:
     rate = max(rates, default=0.0)
     part = _part(name, place, stress, limit, count, rate, reserve, float(duty.turns.sum()))
     return part, stresses
+
+
+def _runners(duty: _Duty) -> tuple[RunnerLife, ...]:
+    """Lives of sleeves and rollers, where there are any."""
+    shares, speeds = np.array([(case.share, case.speed) for case in duty.cases]).T
+    turning = RunnerDuty(duty.design, duty.sweeps, shares, speeds)
+    found = (sleeve_life(turning), roller_life(turning))
+    return tuple(one for one in found if one is not None)
 
 
 def _cam(duty: _Duty) -> CamLife:

@@ -25,15 +25,14 @@ def life_view(result: LifeResult) -> Values:
     ]
     if len(loads) > 1 and cam.set_hours is not None:
         bearings.append(("all of them", "", _bearing(cam.set_hours, required)))
-    sleeves = result.sleeves
-    if sleeves is not None:
-        together = sleeves.set_hours
+    for runner in result.runners:
+        together = runner.set_hours
         lasts = "no end" if together is None else with_unit(together, "h", 3)
         bearings.append(
             (
-                f"{sleeves.designation or 'plain'}, all sleeves",
-                with_unit(sleeves.equivalent_load, "N"),
-                ("unknown" if sleeves.unknown else lasts, sleeves.lasts(required)),
+                f"{runner.designation or 'plain'}, all {runner.name}",
+                with_unit(runner.equivalent_load, "N"),
+                ("unknown" if runner.unknown else lasts, runner.lasts(required)),
             )
         )
     return {
@@ -48,7 +47,7 @@ def life_view(result: LifeResult) -> Values:
         "assumed": result.assumed,
         "required": with_unit(required, "h"),
         "rows": tuple(_row(part, required) for part in result.parts),
-        "seat": "Cam bearing" if sleeves is None else "Cam bearing, and sleeves",
+        "seat": ", ".join(["Cam bearing", *(one.name for one in result.runners)]),
         "bearings": tuple(bearings),
     }
 
