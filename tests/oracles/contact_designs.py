@@ -105,6 +105,7 @@ def contact_designs(
             "count": draw(st.integers(3, min(fits, 12))),
             "diameter": diameter,
             "sleeve_diameter": sleeve,
+            "sleeve_play": draw(gap),
             "circle_radius": circle,
             "hole_clocking": draw(st.floats(0.0, 2.0)),
             "hole_clearance": draw(gap),
