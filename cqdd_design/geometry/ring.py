@@ -203,7 +203,7 @@ def _pinwheel_chain(disc: CycloidDisc, clearance: float, pocket: float) -> ArcCh
     rollers = pocket > disc.tooth_radius
     half = math.pi / disc.ring_tooth_count
     corner = R + r * np.exp(1j * wrap)
-    if rollers and (max(r, float(corner.imag)) >= R * math.sin(half) or abs(cosine) >= 1.0):
+    if rollers and (r >= R * math.sin(half) or abs(cosine) >= 1.0):
         fix = "lower it, or raise ring_pitch_radius"
         if abs(cosine) >= 1.0:
             fix = "the disc sweeps past them; raise it, or lower eccentricity"

@@ -180,10 +180,12 @@ def test_a_sleeve_turns_as_often_as_its_rim_fits_the_path_of_its_hole() -> None:
     assert float(sleeve_turn(11, 1.5e-3, 8e-3)) == pytest.approx(turns * (1.0 + 1.0 / 11.0))
 
 
-def test_life_of_the_needles_is_that_of_a_whole_turn_of_every_pin() -> None:
+@pytest.mark.parametrize("count", [8, 11])
+def test_life_of_the_needles_is_that_of_a_whole_turn_of_every_pin(count: int) -> None:
     """Miner's sum over one turn of the crank against the carrier, every pin followed by itself."""
-    model = ContactModel.from_design(NEEDLES)
-    (found,) = life(NEEDLES, model).runners
+    design = pins(count=count)
+    model = ContactModel.from_design(design)
+    (found,) = life(design, model).runners
     assert found.designation == "needle cage K4x7x7"
     turn = 2.0 * math.pi / (1.0 + 1.0 / 11.0)
     angles = turn * np.arange(480) / 480
