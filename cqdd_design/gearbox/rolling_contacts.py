@@ -73,7 +73,7 @@ def greatest_roller_turn(
     Examples
     --------
     >>> print(round(greatest_roller_turn(10, 32e-3, 1.6e-3, 7e-3), 3))
-    1.314
+    1.317
     """
     reach = ring_pitch_radius + (lobe_count + 1) * eccentricity - 0.5 * roller_diameter
     return 2.0 * reach / (lobe_count * roller_diameter)

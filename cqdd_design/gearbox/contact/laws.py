@@ -271,7 +271,7 @@ def needle_coefficient(needles: NeedleSet) -> float:
 
     >>> needles = needle_set(4e-3, 7e-3, 7e-3, drawn_cup=False)
     >>> print(round(1e6 * needle_coefficient(needles) * 500.0**0.9, 2))
-    4.15
+    4.16
     """
     share = 4.08 / needles.count
     return float(7.68e-5 * share**0.9 / (needles.length * 1e3) ** 0.8 * 1e-3)
