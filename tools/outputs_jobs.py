@@ -1,9 +1,9 @@
 """What `outputs.py` runs: designs and commands.
 
-The designs vary together: nine cover rings (solid, conjugate, pinwheel), one to three discs, plain
-and sleeved pins, both supports, counterweights, a bearing left to the package, another motor, a
-duty, and two designs that ``size`` makes in the run. Dear commands run in one form (JSON or text)
-on most designs; variants of options run on one.
+The designs vary together: ten cover rings (solid, conjugate, pinwheel), one to three discs, pins
+plain, in sleeves and on needles, both supports, counterweights, a bearing left to the package,
+another motor, a duty, and two designs that ``size`` makes in the run. Dear commands run in one form
+(JSON or text) on most designs; variants of options run on one.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from outputs_inputs import BAD
 SIZED = {"sized-7": ("--ratio", "7"), "sized-20": ("--ratio", "20")}
 """Designs that ``size`` makes in the run, with its options."""
 WRITTEN = (
-    *("conjugate", "pinwheel", "one-disc", "three-discs", "sleeved", "small-motor", "columns"),
+    *("conjugate", "pinwheel", "one-disc", "three-discs", "sleeved", "rolling", "small-motor"),
+    "columns",
 )
 """Designs of ``tools/outputs_designs``."""
 TEXT = ("paper", "three-discs")

@@ -10,6 +10,17 @@ from cqdd_design.catalog.reader import column, find, read_records
 
 BearingKind = Literal["ball", "crossed roller", "needle", "needle cage"]
 
+FRICTION_COEFFICIENT: dict[BearingKind, float] = {
+    "ball": 0.0015,
+    "needle": 0.0025,
+    "needle cage": 0.0025,
+    "crossed roller": 0.0025,
+}
+"""mu on the bore. JTEKT (Koyo), Ball & Roller Bearings, friction coefficients: deep groove ball
+0.0010 to 0.0015 (the upper end; SKF prints 0.0015), needle roller with cage 0.0020 to 0.0030 (the
+middle). Crossed rollers are not in the table: the upper end of tapered rollers, which slide on
+their ends too."""
+
 
 @dataclass(frozen=True)
 class Bearing:

@@ -39,6 +39,8 @@ from cqdd_design.units import (
 
 CarrierJoint = Literal["clamped", "hinged", "columns"]
 RingType = Literal["solid", "conjugate", "pinwheel"]
+RunsOn = Literal["plain", "needle"]
+"""What a sleeve or roller turns on: its pin itself, or a needle cage between the two."""
 
 PIN_CIRCLE_SHARE = 0.61
 """Default radius of the pin circle over the ring's pitch radius: the paper's 19.5 mm on 32 mm."""
@@ -65,7 +67,13 @@ class Modification(FrozenModel):
 
 
 class OutputPins(FrozenModel):
-    """The output pins (shoulder screws, with or without sleeves) and their holes in the disc."""
+    """The output pins (shoulder screws, with or without sleeves) and their holes in the disc.
+
+    A sleeve of `sleeve_diameter` turns on its pin of `diameter`: plain, with `sleeve_play` between
+    the two, or on the needle cage of the catalogue that fits between them, with that play in it.
+    Its default is the mean of a G6 bore on an h5 pin of 3 to 6 mm (ISO 286), as makers of needle
+    cages ask for.
+    """
 
     count: Annotated[int, Whole(3, 60, "three pins hold a carrier")] = 6
     diameter: Annotated[
@@ -77,6 +85,11 @@ class OutputPins(FrozenModel):
     sleeve_diameter: Annotated[float, QuantityIn(LENGTH, "0 mm", "150 mm", "0 means no sleeve")] = (
         default("0 mm")
     )
+    sleeve: RunsOn = "plain"
+    sleeve_play: Annotated[
+        float,
+        QuantityIn(SMALL_LENGTH, "0 um", "500 um", "of a sleeve on its pin, on the diameter"),
+    ] = default("10 um")
     hole_clearance: Annotated[
         float,
         QuantityIn(SMALL_LENGTH, "-100 um", "1000 um", "on the diameter, to the pin's mean"),
@@ -86,6 +99,15 @@ class OutputPins(FrozenModel):
     ]
     support: Literal["both", "cantilever"] = "both"
     material: MaterialName = "Alloy steel 12.9 (ISO 7379)"
+
+    @model_validator(mode="after")
+    def _needles_in_a_sleeve(self) -> OutputPins:
+        if self.sleeve == "needle" and self.sleeve_diameter == 0.0:
+            raise ValueError(
+                'sleeve = "needle" needs a sleeve for the needles to run in; give '
+                'sleeve_diameter, or make sleeve "plain"'
+            )
+        return self
 
 
 class CamBearing(FrozenModel):
@@ -140,7 +162,12 @@ class CarrierBearing(FrozenModel):
 
 
 class Ring(FrozenModel):
-    """The fixed ring."""
+    """The fixed ring.
+
+    The pins of a pinwheel ring take rollers of `roller_diameter`, which then is what meshes with
+    the discs: plain, with `roller_play` between roller and pin, or on the needle cage of the
+    catalogue that fits between the two, with that play in it.
+    """
 
     outer_diameter: Annotated[
         float, QuantityIn(LENGTH, "5 mm", "2500 mm", "must leave a wall outside the teeth")
@@ -149,6 +176,23 @@ class Ring(FrozenModel):
         float,
         QuantityIn(LENGTH, "0.01 mm", "5 mm", "clears the lobe tips between the teeth"),
     ] = default("0.1 mm")
+    roller_diameter: Annotated[
+        float, QuantityIn(LENGTH, "0 mm", "500 mm", "0 means no rollers on the pins")
+    ] = default("0 mm")
+    roller: RunsOn = "plain"
+    roller_play: Annotated[
+        float,
+        QuantityIn(SMALL_LENGTH, "0 um", "500 um", "of a roller on its pin, on the diameter"),
+    ] = default("10 um")
+
+    @model_validator(mode="after")
+    def _needles_in_a_roller(self) -> Ring:
+        if self.roller == "needle" and self.roller_diameter == 0.0:
+            raise ValueError(
+                'roller = "needle" needs a roller for the needles to run in; give '
+                'roller_diameter, or make roller "plain"'
+            )
+        return self
 
 
 class ReducerFriction(FrozenModel):
@@ -202,6 +246,16 @@ class Reducer(FrozenModel):
     balance: Balance = Balance()
 
     @property
+    def tooth_diameter(self) -> float:
+        """What meshes with the discs, m: the rollers where there are any, else the ring's pins."""
+        return self.ring.roller_diameter or self.ring_pin_diameter
+
+    @property
+    def tooth_key(self) -> str:
+        """The key that says it."""
+        return "ring.roller_diameter" if self.ring.roller_diameter else "ring_pin_diameter"
+
+    @property
     def ring_tooth_count(self) -> int:
         """Teeth of the ring, one more than lobes on the disc."""
         return self.ratio + 1
@@ -229,6 +283,15 @@ class Reducer(FrozenModel):
                 f"carrier.column_count {count} must be a divisor of output_pins.count {pins}, "
                 f"{_FEWEST_COLUMNS} or more, so that columns stand evenly midway between pins; the "
                 f"nearest is {min(even, key=lambda n: (abs(n - count), n))}"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _rollers_on_pins(self) -> Reducer:
+        if self.ring.roller_diameter > 0.0 and self.ring_type != "pinwheel":
+            raise ValueError(
+                f"ring.roller_diameter: rollers turn on the pins of a pinwheel ring, and this one "
+                f'is "{self.ring_type}"; make ring_type "pinwheel", or roller_diameter "0 mm"'
             )
         return self
 
@@ -267,6 +330,12 @@ class Reducer(FrozenModel):
             ring = dict(ring)
             if "outer_diameter" not in ring and lengths is not None:
                 pitch, throw, pin = lengths
+                rollers = _readable_lengths(
+                    ring,
+                    ("roller_diameter",),
+                    si=bool(info.context and info.context.get("si")),
+                )
+                pin = max(pin, rollers[0]) if rollers else pin
                 root = pitch + max(2.0 * throw - 0.5 * pin, 0.5 * pin)
                 ring["outer_diameter"] = format_quantity(2.0 * (root + RING_WALL), LENGTH)
             filled["ring"] = ring

@@ -13,11 +13,13 @@ from cqdd_design.gearbox.cam_bearing import cam_bearing
 from cqdd_design.gearbox.checks.allowables import HARDENED_HRC
 from cqdd_design.gearbox.checks.drive import drive_checks
 from cqdd_design.gearbox.checks.loads import load_checks
+from cqdd_design.gearbox.checks.runners import runner_checks
 from cqdd_design.gearbox.checks.shape import shape_checks
 from cqdd_design.gearbox.checks.state import GearboxState
 from cqdd_design.gearbox.geometry_summary import summarise_geometry
 from cqdd_design.gearbox.loads import RigidMaxima, RigidSeries, rigid_maxima, rigid_series
 from cqdd_design.gearbox.pin_strength import pin_strength
+from cqdd_design.gearbox.runner_needles import roller_needles, sleeve_needles
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.validate import validate_geometry
@@ -56,7 +58,11 @@ class GearboxAnalysis(GearboxState):
             "rigid_continuous": self.rigid_continuous.to_dict(),
             "rigid_series": self.series.to_dict(),
             "output_pins": self.output_pins.to_dict(),
-            "bearings": {"cam": self.cam_bearing.to_dict()},
+            "bearings": {
+                "cam": self.cam_bearing.to_dict(),
+                **({} if self.sleeves is None else {"sleeves": self.sleeves.to_dict()}),
+                **({} if self.rollers is None else {"rollers": self.rollers.to_dict()}),
+            },
             "balance": self.balance.to_dict(),
         }
 
@@ -108,6 +114,8 @@ def analyse_gearbox(
         rigid_continuous=continuous,
         output_pins=pin_strength(design, peak, continuous),
         cam_bearing=cam,
+        sleeves=sleeve_needles(design, peak, continuous),
+        rollers=roller_needles(design, peak, continuous),
         balance=balance,
     )
     drive, warnings = drive_checks(state)
@@ -118,7 +126,7 @@ def analyse_gearbox(
         rigid=shown,
         # The rigid law's sense is the drive's; a torque on the carrier loads the other flanks.
         series=replace(rigid_series(stages, -shown.torque, crank), torque=shown.torque),
-        checks=(*shape_checks(state), *load_checks(state), *drive),
+        checks=(*shape_checks(state), *load_checks(state), *runner_checks(state), *drive),
         warnings=(*_valley_warning(state), *_raceway_warning(state), *warnings),
     )
 

@@ -9,10 +9,10 @@ from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox import hertz, rigid
-from cqdd_design.gearbox.checks.allowables import SLEEVE_WALL
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import hole_diameter
+from cqdd_design.geometry.runners import pin_runner, ring_runner
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +63,7 @@ class Stages:
             pin_count=pins.count,
             ring_pitch_radius=reducer.ring_pitch_radius,
             eccentricity=reducer.eccentricity,
-            tooth_radius=0.5 * reducer.ring_pin_diameter,
+            tooth_radius=0.5 * reducer.tooth_diameter,
             pin_circle_radius=pins.circle_radius,
             hole_clocking=pins.hole_clocking,
             pin_contact_radius=0.5 * contact_diameter,
@@ -130,14 +130,10 @@ class Stages:
 
 
 def _refuse_tight_hole(design: Design, contact_diameter: float, hole: float) -> None:
-    """Raise where a sleeve does not go over its pin, or the hole over what runs in it."""
+    """Raise where sleeve or roller does not go over its pin, or the hole over what runs in it."""
     pins = design.reducer.output_pins
-    if 0.0 < pins.sleeve_diameter <= pins.diameter:
-        raise GeometryError(
-            f"output_pins.sleeve_diameter {pins.sleeve_diameter * 1e3:g} mm does not go over the "
-            f"{pins.diameter * 1e3:g} mm pin; make it at least "
-            f"{(pins.diameter + 2.0 * SLEEVE_WALL) * 1e3:g} mm, or 0 mm for no sleeve."
-        )
+    pin_runner(design)
+    ring_runner(design)
     if hole <= contact_diameter:
         raise GeometryError(
             f"output_pins.hole_clearance {pins.hole_clearance * 1e6:g} um makes the holes no "

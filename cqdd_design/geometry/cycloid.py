@@ -95,15 +95,21 @@ class CycloidDisc:
     def from_design(cls, design: Design) -> CycloidDisc:
         """Read the disc outline of a design; equal outlines are made, and searched, once."""
         reducer, change = design.reducer, design.reducer.modification
-        return _disc_of(
-            reducer.ratio,
-            reducer.ring_pitch_radius,
-            reducer.eccentricity,
-            reducer.ring_pin_diameter / 2.0,
-            change.equidistant,
-            change.radial,
-            change.rotation,
-        )
+        try:
+            return _disc_of(
+                reducer.ratio,
+                reducer.ring_pitch_radius,
+                reducer.eccentricity,
+                reducer.tooth_diameter / 2.0,
+                change.equidistant,
+                change.radial,
+                change.rotation,
+            )
+        except GeometryError as error:
+            # A disc knows its teeth, not which key of a design has their size.
+            raise GeometryError(
+                str(error).replace("ring_pin_diameter", reducer.tooth_key)
+            ) from None
 
     @property
     def ring_tooth_count(self) -> int:

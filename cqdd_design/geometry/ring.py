@@ -7,7 +7,8 @@
     contact with every tooth twice, and nothing is relieved.
 ``pinwheel``
     A body with a bore that clears the disc and a round pocket for each pin; the pins are parts of
-    their own and touch the disc.
+    their own and touch the disc. With rollers on the pins it is these that touch, the pockets
+    clear them, and the pins are held beyond the discs.
 
 The teeth are nominal: clearance comes from the modification of the disc.
 """
@@ -47,11 +48,11 @@ _PANEL_POINTS = 40
 def ring_root_radius(design: Design) -> float:
     """Farthest the ring's inner contour reaches from its centre, m.
 
-    Solid: R + 2 e - r + clearance. Conjugate: R + 2 e - r. Pinwheel: R + r, the pockets' bottom.
+    Solid: R + 2 e - r + clearance. Conjugate: R + 2 e - r. Pinwheel: R and the pockets' radius.
     """
     disc = CycloidDisc.from_design(design)
     if design.reducer.ring_type == "pinwheel":
-        return disc.ring_pitch_radius + disc.tooth_radius
+        return disc.ring_pitch_radius + pocket_radius(design)
     if design.reducer.ring_type == "conjugate":
         return swept_radius(disc)
     return swept_radius(disc) + design.reducer.ring.relief_clearance
@@ -61,11 +62,11 @@ def ring_min_concave_radius(design: Design) -> float:
     """Least concave radius of the inner contour, m: the wire and its gap must be finer.
 
     Solid: the fillet beside the teeth. Conjugate: the second envelope's sharpest place. Pinwheel:
-    the pockets, of the pin's own radius.
+    the pockets.
     """
     disc = CycloidDisc.from_design(design).unmodified
     if design.reducer.ring_type == "pinwheel":
-        return disc.tooth_radius
+        return pocket_radius(design)
     if design.reducer.ring_type == "conjugate":
         return 1.0 / _sharpest_bend(disc)
     return solid_relief(disc, design.reducer.ring.relief_clearance).fillet_radius
@@ -103,14 +104,25 @@ def ring_contour(design: Design, tolerance: float | None = None) -> PlanarPart:
     _refuse_thin_ring(design)
     disc = CycloidDisc.from_design(design).unmodified
     inner = _inner_contour(
-        disc, design.reducer.ring_type, design.reducer.ring.relief_clearance, allowed
+        disc,
+        design.reducer.ring_type,
+        design.reducer.ring.relief_clearance,
+        pocket_radius(design),
+        allowed,
     )
     outer = Circle(np.zeros(2), design.reducer.ring.outer_diameter / 2.0)
     return PlanarPart("ring", outer, (inner,))
 
 
+def pocket_radius(design: Design) -> float:
+    """Radius of the pockets of a pinwheel ring, m: of its pins, or clear of the rollers on them."""
+    reducer = design.reducer
+    clear = reducer.ring.relief_clearance if reducer.ring.roller_diameter else 0.0
+    return 0.5 * reducer.tooth_diameter + clear
+
+
 def ring_pins(design: Design) -> tuple[Circle, ...]:
-    """Separate pins of a pinwheel ring; empty for the other types."""
+    """What touches the disc of a pinwheel ring, pins or their rollers; empty for other types."""
     if design.reducer.ring_type != "pinwheel":
         return ()
     disc = CycloidDisc.from_design(design)
@@ -131,12 +143,12 @@ def _refuse_thin_ring(design: Design) -> None:
 
 @lru_cache(maxsize=64)
 def _inner_contour(
-    disc: CycloidDisc, ring_type: str, clearance: float, tolerance: float
+    disc: CycloidDisc, ring_type: str, clearance: float, pocket: float, tolerance: float
 ) -> ArcContour:
     if ring_type == "conjugate":
         chain = _conjugate_chain(disc, tolerance)
     elif ring_type == "pinwheel":
-        chain = _pinwheel_chain(disc, clearance)
+        chain = _pinwheel_chain(disc, clearance, pocket)
     else:
         chain = _solid_chain(disc, clearance)
     return mirrored_contour(chain, disc.ring_tooth_count)
@@ -180,14 +192,26 @@ def _conjugate_chain(disc: CycloidDisc, tolerance: float) -> ArcChain:
     )
 
 
-def _pinwheel_chain(disc: CycloidDisc, clearance: float) -> ArcChain:
+def _pinwheel_chain(disc: CycloidDisc, clearance: float, pocket: float) -> ArcChain:
     """Half of a pin's pocket, then half of the bore to the next."""
-    R, r = disc.ring_pitch_radius, disc.tooth_radius
+    R, r = disc.ring_pitch_radius, pocket
     bore = swept_radius(disc) + clearance
     cosine = (bore * bore - R * R - r * r) / (2.0 * R * r)
     wrap = math.acos(min(max(cosine, -1.0), 1.0))
     # Forces on a pin lean up to asin(K1) from the outward radial; the pocket must lie behind them.
-    if wrap <= active_angle(disc):
+    # A pocket that clears a roller bears none, and need only be there.
+    rollers = pocket > disc.tooth_radius
+    half = math.pi / disc.ring_tooth_count
+    corner = R + r * np.exp(1j * wrap)
+    if rollers and (r >= R * math.sin(half) or abs(cosine) >= 1.0):
+        fix = "lower it, or raise ring_pitch_radius"
+        if abs(cosine) >= 1.0:
+            fix = "the disc sweeps past them; raise it, or lower eccentricity"
+        raise GeometryError(
+            f"ring.roller_diameter {millimetres(2.0 * disc.tooth_radius)} leaves no ring between "
+            f"the pockets that clear the rollers by {millimetres(clearance)}: {fix}."
+        )
+    if not rollers and wrap <= active_angle(disc):
         most = math.sqrt(R * R + r * r + 2.0 * R * r * math.cos(active_angle(disc))) - R + r
         raise GeometryError(
             f"ring_pin_diameter {millimetres(2.0 * r)} is too small for pockets in a pinwheel "
@@ -197,8 +221,6 @@ def _pinwheel_chain(disc: CycloidDisc, clearance: float) -> ArcChain:
             f"ring.relief_clearance must be below {rounded_down(most * 1e3):.6g} mm; raise "
             f'ring_pin_diameter, lower eccentricity, or use ring_type = "solid".'
         )
-    corner = R + r * np.exp(1j * wrap)
-    half = math.pi / disc.ring_tooth_count
     points = np.array([complex(R + r), corner, bore * np.exp(1j * half)])
     bulges = np.array([_quarter(wrap), _quarter(half - float(np.angle(corner)))])
     return ArcChain(points, bulges, 0.0)

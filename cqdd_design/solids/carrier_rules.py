@@ -77,7 +77,7 @@ def lay_out_carrier(
     both, joint = pins.support == "both", design.reducer.carrier.joint
     counterbore = counterbore_radius(pin, unit)
     beside = column_head_radius(design.reducer, unit)
-    most_outer = pack.ledge_radius - 0.4 * unit
+    most_outer = pack.inner_radius - 0.4 * unit
     # A catalogue head may be too large for a dense pin circle; ground dowels always fit.
     apart = 2.0 * circle * math.sin(math.pi / pins.count)
     crowded = apart < 2.0 * counterbore + 0.4 * unit
@@ -104,6 +104,8 @@ def lay_out_carrier(
     lowest = min(cap_bottom, shoulder_bottom - pin.head_height)
 
     clamp = max(2.5 * unit, pack.gap + 1.5 * unit)
+    if pack.held_pins is not None:
+        clamp = max(clamp, pack.relief + pack.held_pins.depth + 0.8 * unit)
     shoulder = min(output.shoulder_radius, most_shoulder)
     if shoulder < 0.5 * output.bearing.bore_diameter + 0.05 * unit:
         raise GeometryError(

@@ -21,7 +21,7 @@ import math
 from itertools import pairwise
 
 from cqdd_design.solids.layers import Annulus, Drilling, Stack, on_circle, turned
-from cqdd_design.solids.layout import HousingLayout, Layout
+from cqdd_design.solids.layout import HeldPins, HousingLayout, Layout
 
 _CLEARANCE_SHARE = 1.1
 """Clearance hole over thread, the medium series of ISO 273 to a tenth of a millimetre."""
@@ -57,7 +57,11 @@ def housing_body(layout: Layout) -> Stack:
     seat_bottom = seat_top - support.bearing.width
     flange = housing.flange_bottom
     levels = sorted(
-        {housing.bottom, housing.floor_top, seat_bottom, seat_top, 0.0, flange, pack.top}
+        {
+            *(housing.bottom, housing.floor_top, seat_bottom, seat_top),
+            *((-pack.relief,) if pack.held_pins is not None else ()),
+            *(0.0, flange, pack.top),
+        }
     )
     rings = []
     for bottom, top in pairwise(levels):
@@ -69,10 +73,15 @@ def housing_body(layout: Layout) -> Stack:
             rings.append(Annulus(bottom, top, bore, outside))
             continue
         cavity = pack.ring_radius if middle > 0.0 else pack.ledge_radius
+        if pack.held_pins is not None and middle < -pack.relief:
+            cavity = pack.inner_radius
         rings.append(Annulus(bottom, top, cavity, outside))
         if middle < seat_top:
             rings.append(Annulus(bottom, top, bore, housing.boss_radius))
-    holes = _flange_drillings(housing, flange, pack.top, 0.5 * housing.screw.thread)
+    holes = [
+        *_flange_drillings(housing, flange, pack.top, 0.5 * housing.screw.thread),
+        *_pin_seats(pack.held_pins, -pack.relief, downward=True),
+    ]
     return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], holes)
 
 
@@ -80,13 +89,26 @@ def ring_clamp(layout: Layout) -> Stack:
     """The plate between flange and cover that clamps the ring and carries the output bearing."""
     housing, pack = layout.housing, layout.pack
     bottom, top = pack.top, layout.carrier.bearing_bottom
-    relief = bottom + housing.clamp_relief
+    relief = bottom + pack.relief
     rings = [
         Annulus(bottom, relief, max(pack.ledge_radius, housing.clamp_inner), housing.flange_radius),
         Annulus(relief, top, housing.clamp_inner, housing.flange_radius),
     ]
     clearance = _clearance_radius(housing.screw.thread)
-    return turned(rings, _flange_drillings(housing, bottom, top, clearance))
+    holes = [
+        *_flange_drillings(housing, bottom, top, clearance),
+        *_pin_seats(pack.held_pins, relief, downward=False),
+    ]
+    return turned(rings, holes)
+
+
+def _pin_seats(pins: HeldPins | None, mouth: float, *, downward: bool) -> list[Drilling]:
+    """Seats of the ends of ring pins that rollers leave free along the discs."""
+    if pins is None:
+        return []
+    bottom, top = (mouth - pins.depth, mouth) if downward else (mouth, mouth + pins.depth)
+    centres = on_circle(pins.count, pins.circle_radius, 0.0)
+    return [Drilling(centres, 0.5 * pins.diameter, bottom, top)]
 
 
 def output_cover(layout: Layout) -> Stack:

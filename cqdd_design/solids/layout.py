@@ -34,6 +34,22 @@ from cqdd_design.solids.selection import CapScrew, ChosenBearing, OutputPin
 
 
 @dataclass(frozen=True)
+class HeldPins:
+    """Ring pins that rollers leave free along the discs: housing and clamp hold their ends, m.
+
+    Attributes
+    ----------
+    depth : float
+        Of either end in its seat.
+    """
+
+    count: int
+    circle_radius: float
+    diameter: float
+    depth: float
+
+
+@dataclass(frozen=True)
 class PackLayout:
     """Discs, ring and cam bearings, m.
 
@@ -47,6 +63,13 @@ class PackLayout:
         Radius that the orbiting lobes sweep.
     ledge_radius : float
         Inner radius of the faces between which the ring is clamped.
+    relief : float
+        Height by which housing and clamp stand off the discs inside these faces.
+    inner_radius : float
+        Inner radius of housing and clamp beyond the relief; where they hold ring pins, they reach
+        in over the discs.
+    held_pins : HeldPins or None
+        Of a ring with rollers.
     ring_radius : float
         Outside radius of the ring.
     """
@@ -60,6 +83,9 @@ class PackLayout:
     cam: ChosenBearing
     reach: float
     ledge_radius: float
+    relief: float
+    inner_radius: float
+    held_pins: HeldPins | None
     ring_radius: float
 
     def disc_bottom(self, disc: int) -> float:
@@ -212,8 +238,8 @@ class HousingLayout:
         Holds cover and ring clamp to the flange.
     screw_count : int
         And as many mounting holes between them.
-    clamp_relief, clamp_inner : float
-        Height of the relief over the discs under the ring clamp; its bore.
+    clamp_inner : float
+        Bore of the ring clamp.
     cover_flange_top, cover_hub_radius, cover_top : float
         Of the output cover.
     boss_radius, floor_top, bottom : float
@@ -227,7 +253,6 @@ class HousingLayout:
     bolt_circle_radius: float
     screw: CapScrew
     screw_count: int
-    clamp_relief: float
     clamp_inner: float
     cover_flange_top: float
     cover_hub_radius: float

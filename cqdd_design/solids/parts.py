@@ -6,13 +6,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from cqdd_design.design import Design
 from cqdd_design.geometry.columns import COLUMN_MATERIAL
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_contour, disc_moments
 from cqdd_design.geometry.ring import ring_contour, ring_moments, ring_pins
+from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
 from cqdd_design.solids import carrier as carrier_shapes
 from cqdd_design.solids import housing as housing_shapes
 from cqdd_design.solids import rotating
@@ -20,7 +21,7 @@ from cqdd_design.solids.clocking import DiscGroup, disc_groups
 from cqdd_design.solids.counterweights import balance_weights
 from cqdd_design.solids.fits import seat_fits
 from cqdd_design.solids.layers import Stack, on_circle, prism
-from cqdd_design.solids.layout import Layout
+from cqdd_design.solids.layout import Layout, PackLayout
 from cqdd_design.solids.motor_parts import dowel_part, motor_parts
 from cqdd_design.solids.motor_shapes import (
     with_dowel_grooves,
@@ -30,7 +31,7 @@ from cqdd_design.solids.motor_shapes import (
 )
 from cqdd_design.solids.part import Colour, Instance, Part, around, on_axis, placed
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
-from cqdd_design.solids.selection import ChosenBearing
+from cqdd_design.solids.selection import BEARING_MATERIAL, ChosenBearing
 from cqdd_design.solids.throw import shaft_material
 
 NUT_MATERIAL = "AISI 4140 Q&T 540C"
@@ -126,11 +127,16 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
     )
     parts, pins = [ring], ring_pins(design)
     if pins:
-        diameter = 2.0 * pins[0].radius
-        shape = rotating.plain_pin(diameter, 0.0, height)
-        designation = f"ground pin {diameter * 1e3:g} x {height * 1e3:g} mm"
+        held, diameter = layout.pack.held_pins, design.reducer.ring_pin_diameter
+        beyond = 0.0 if held is None else layout.pack.relief + held.depth
+        shape = rotating.plain_pin(diameter, -beyond, height + beyond)
+        designation = f"ground pin {diameter * 1e3:g} x {(height + 2.0 * beyond) * 1e3:.6g} mm"
         pieces = around("ring pin", HOUSING, (pin.centre for pin in pins))
         parts.append(Part("ring pin", shape, material, _BEARING, "make", designation, pieces))
+    rollers = ring_runner(design)
+    if rollers is not None:
+        centres = [pin.centre for pin in pins]
+        parts += _runner_parts("ring", "roller", rollers, material, layout.pack, HOUSING, centres)
     return [*parts, *dowel_part(layout)]
 
 
@@ -207,8 +213,10 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
         _pin_part(design, layout),
         *_column_parts(layout),
     ]
-    if design.reducer.output_pins.sleeve_diameter > 0.0:
-        parts.append(_sleeve_part(design, layout))
+    runner = pin_runner(design)
+    if runner is not None:
+        steel, centres = design.reducer.output_pins.material, _pin_positions(layout)
+        parts += _runner_parts("pin", "sleeve", runner, steel, layout.pack, CARRIER, centres)
     seat = on_axis("output bearing", HOUSING, carrier.bearing_bottom)
     return [*parts, _bearing_part("output bearing", carrier.output, seat, CARRIER)]
 
@@ -271,23 +279,61 @@ def _pin_part(design: Design, layout: Layout) -> Part:
     )
 
 
-def _sleeve_part(design: Design, layout: Layout) -> Part:
-    pins, pack = design.reducer.output_pins, layout.pack
-    outer, inner, length = pins.sleeve_diameter, pins.diameter, pack.disc_thickness
-    places = [
-        transform(x=x, y=y, z=pack.disc_bottom(disc))
-        for disc in range(pack.disc_count)
-        for x, y in _pin_positions(layout)
-    ]
-    return Part(
-        "pin sleeve",
+def _runner_parts(
+    where: str,
+    name: str,
+    runner: Runner,
+    material: str,
+    pack: PackLayout,
+    body: Body,
+    centres: Iterable[FloatArray],
+) -> list[Part]:
+    """One sleeve or roller a pin and disc, and the needle cage in the middle of it.
+
+    Parameters
+    ----------
+    where, name : str
+        Of which pins, and what turns on them; the parts are called so.
+    body : Body
+        What the pins move with.
+    centres : iterable of array (2,)
+        Of the pins, m.
+    """
+    places = [(x, y) for x, y in centres]
+
+    def at_every_disc(called: str, length: float) -> tuple[Instance, ...]:
+        above = 0.5 * (pack.disc_thickness - length)
+        standing = [
+            transform(x=x, y=y, z=pack.disc_bottom(disc) + above)
+            for disc in range(pack.disc_count)
+            for x, y in places
+        ]
+        return placed(called, body, *standing)
+
+    outer, inner, length = runner.diameter, runner.bore, runner.length
+    turning = Part(
+        f"{where} {name}",
         rotating.sleeve(inner, outer, length),
-        pins.material,
+        material,
         _BEARING,
         "make",
-        f"ground sleeve {inner * 1e3:g} x {outer * 1e3:g} x {length * 1e3:g} mm",
-        placed("pin sleeve", CARRIER, *places),
+        f"ground {name} {inner * 1e3:g} x {outer * 1e3:g} x {length * 1e3:g} mm",
+        at_every_disc(f"{where} {name}", length),
     )
+    cage = runner.cage
+    if cage is None:
+        return [turning]
+    needles = Part(
+        f"{where} needle cage",
+        rotating.sleeve(cage.bore_diameter, cage.outer_diameter, cage.width),
+        BEARING_MATERIAL,
+        _BEARING,
+        "buy",
+        cage.designation,
+        at_every_disc(f"{where} needle cage", cage.width),
+        catalogue_mass=cage.mass,
+    )
+    return [turning, needles]
 
 
 def _housing_parts(design: Design, layout: Layout) -> list[Part]:

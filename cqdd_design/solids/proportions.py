@@ -9,6 +9,8 @@ from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.ring import ring_root_radius
+from cqdd_design.geometry.runners import pin_runner, ring_runner
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.solids.carrier_rules import (
     column_head_radius,
@@ -19,6 +21,7 @@ from cqdd_design.solids.carrier_rules import (
 )
 from cqdd_design.solids.layout import (
     CarrierLayout,
+    HeldPins,
     HousingLayout,
     Layout,
     MotorLayout,
@@ -58,7 +61,7 @@ def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
         eccentrics leave no shaft.
     """
     pin = output_pin(design.reducer.output_pins.diameter)
-    _refuse_small_sleeve(design)
+    pin_runner(design)
     validate_geometry(design, bore_diameter=cam_bearing.outer_diameter)
     unit = millimetre_unit(design.reducer.ring.outer_diameter)
     pack = _pack(design, cam_bearing, unit)
@@ -127,20 +130,21 @@ def _seats(
     return support, output
 
 
-def _refuse_small_sleeve(design: Design) -> None:
-    pins = design.reducer.output_pins
-    if 0.0 < pins.sleeve_diameter <= pins.diameter:
-        raise GeometryError(
-            f"output_pins.sleeve_diameter {pins.sleeve_diameter * 1e3:g} mm does not go over the "
-            f"{pins.diameter * 1e3:g} mm pin; make it at least "
-            f"{pins.diameter * 1e3 + 1.0:g} mm, or 0 mm for no sleeve."
-        )
-
-
 def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:
     reducer = design.reducer
     reach = CycloidDisc.from_design(design).tip_distance + reducer.eccentricity
     ring_radius = 0.5 * reducer.ring.outer_diameter
+    relief = max(reducer.disc_spacing, 0.3 * unit)
+    seat, held = reach, None
+    if ring_runner(design) is not None:
+        # The ring is clamped outside the rollers' pockets, and the pins span what they bend over.
+        seat, held = ring_root_radius(design), _held_pins(design, unit)
+        relief = reducer.disc_spacing or relief
+    ledge = min(seat + 0.15 * unit, 0.5 * (seat + ring_radius))
+    inner = ledge
+    if held is not None:
+        wall = max(unit, 0.25 * held.diameter)
+        inner = held.circle_radius - 0.5 * held.diameter - wall
     return PackLayout(
         disc_thickness=reducer.disc_thickness,
         pitch=reducer.disc_thickness + reducer.disc_spacing,
@@ -150,9 +154,19 @@ def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:
         eccentricity=reducer.eccentricity,
         cam=ChosenBearing(cam_bearing),
         reach=reach,
-        ledge_radius=min(reach + 0.15 * unit, 0.5 * (reach + ring_radius)),
+        ledge_radius=ledge,
+        relief=relief,
+        inner_radius=inner,
+        held_pins=held,
         ring_radius=ring_radius,
     )
+
+
+def _held_pins(design: Design, unit: float) -> HeldPins:
+    reducer = design.reducer
+    diameter = reducer.ring_pin_diameter
+    depth = max(1.5 * unit, 0.5 * diameter)
+    return HeldPins(reducer.ring_tooth_count, reducer.ring_pitch_radius, diameter, depth)
 
 
 def _refuse_wide_cam(design: Design, cam_bearing: Bearing) -> None:
@@ -198,7 +212,12 @@ def _refuse_no_shaft(pack: PackLayout) -> None:
 
 
 def _most_clamp_radius(pack: PackLayout) -> float:
-    """Largest bore of the ring clamp that still presses on three quarters of the ring's wall."""
+    """Largest bore of the ring clamp that still presses on three quarters of the ring's wall.
+
+    Where it holds pins of the ring, one that leaves a wall inside them.
+    """
+    if pack.held_pins is not None:
+        return pack.inner_radius
     return pack.ring_radius - 0.25 * (pack.ring_radius - pack.ledge_radius)
 
 
@@ -254,7 +273,6 @@ def _housing(
         bolt_circle_radius=bolt_circle,
         screw=screw,
         screw_count=6 if design.reducer.ring.outer_diameter < 50e-3 else 8,
-        clamp_relief=max(pack.gap, 0.3 * unit),
         clamp_inner=min(carrier.output.lip_radius, _most_clamp_radius(pack)),
         cover_flange_top=cover_flange_top,
         cover_hub_radius=hub,

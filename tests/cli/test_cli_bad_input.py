@@ -172,6 +172,26 @@ def test_unknown_table(complaint):
     assert "did you mean 'reducer'" in complaint(MINIMAL.replace("[reducer]", "[reducers]"))
 
 
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ('output_pins]\nsleeve = "needle"', "needs a sleeve for the needles"),
+        ('output_pins]\nsleeve_diameter = "3 mm"', "make it at least 5 mm"),
+        ('output_pins]\nsleeve = "needle"\nsleeve_diameter = "6 mm"', "_diameter to 8 mm"),
+        ('output_pins]\nsleeve = "ball"', "must be 'plain' or 'needle'"),
+        ('ring]\nroller = "needle"', "needs a roller for the needles"),
+        ('ring]\nroller_diameter = "9 mm"', 'make ring_type "pinwheel"'),
+    ],
+)
+def test_sleeves_and_rollers_that_cannot_be(complaint, table, said):
+    assert said in complaint(f"{MINIMAL}[reducer.{table}\n")
+
+
+def test_a_roller_smaller_than_its_pin(complaint):
+    text = MINIMAL + 'ring_type = "pinwheel"\n[reducer.ring]\nroller_diameter = "6 mm"\n'
+    assert "ring.roller_diameter 6 mm does not go over the 7 mm pin" in complaint(text)
+
+
 def test_missing_key(complaint):
     text = complaint(with_line('eccentricity = "1.6 mm"\n', ""))
     assert "reducer.eccentricity is missing" in text

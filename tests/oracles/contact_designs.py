@@ -105,6 +105,7 @@ def contact_designs(
             "count": draw(st.integers(3, min(fits, 12))),
             "diameter": diameter,
             "sleeve_diameter": sleeve,
+            "sleeve_play": draw(gap),
             "circle_radius": circle,
             "hole_clocking": draw(st.floats(0.0, 2.0)),
             "hole_clearance": draw(gap),
@@ -165,17 +166,25 @@ def machine_of(model: ContactModel, errors: GearboxErrors | None = None) -> Mach
         bodies: tuple[tuple[float, float, float], tuple[float, float, float]],
         radius: np.ndarray,
         series: float,
+        inside: float = 0.0,
     ) -> Spring:
         b = model.contact_length
-        if kind == "johnson":
-            (d1, E1, nu1), (d2, E2, nu2) = bodies
-            return johnson(b, radius, ((E1, nu1, d1), (E2, nu2, d2)), series)
-        softness = 206e9 / (2.0 * (1.0 - 0.3**2)) / modulus(bodies)
-        if kind == "palmgren":
-            return palmgren(b, series, softness)
         # The secant of Palmgren's law at 50 N/mm.
         load = 50.0 * 1e3 * b
-        return linear(load**0.1 / (3.84e-8 / (1e3 * b) ** 0.8 * softness), series)
+        secant = 3.84e-8 / (1e3 * b) ** 0.8 * load**-0.1
+        if kind == "johnson":
+            (d1, E1, nu1), (d2, E2, nu2) = bodies
+            more = series + inside * secant
+            return johnson(b, radius, ((E1, nu1, d1), (E2, nu2, d2)), more)
+        softness = steel / modulus(bodies) + inside
+        if kind == "palmgren":
+            return palmgren(b, series, softness)
+        return linear(1.0 / (secant * softness), series)
+
+    # A plain sleeve is one more line contact, of the pin's steel on itself.
+    steel = 206e9 / (2.0 * (1.0 - 0.3**2))
+    pin = (model.pin_bodies[0], model.pin_bodies[0])
+    inside = steel / modulus(pin) if model.sleeve_coefficient else 0.0
 
     between = 1.0 / (1.0 / model.pin_contact_radius - 1.0 / model.hole_radius)
     return Machine(
@@ -184,11 +193,11 @@ def machine_of(model: ContactModel, errors: GearboxErrors | None = None) -> Mach
         pin_count=model.pin_count,
         pin_circle_radius=model.pin_circle_radius,
         clocking=model.hole_clocking,
-        hole_radius=model.hole_radius,
+        hole_radius=model.hole_radius + model.sleeve_play,
         pin_radius=model.pin_contact_radius,
         ring_spring=lambda radius: spring(model.ring_law.model, model.ring_bodies, radius, 0.0),
         pin_springs=tuple(
-            spring(model.pin_law.model, model.pin_bodies, np.asarray(between), float(c))
+            spring(model.pin_law.model, model.pin_bodies, np.asarray(between), float(c), inside)
             for c in model.pin_series
         ),
         cam_stiffness=model.cam.stiffness,
@@ -216,7 +225,7 @@ def rigid_of(model: ContactModel, errors: GearboxErrors | None = None) -> Rigid:
         pin_count=model.pin_count,
         pin_circle_radius=model.pin_circle_radius,
         clocking=model.hole_clocking,
-        hole_radius=model.hole_radius,
+        hole_radius=model.hole_radius + model.sleeve_play,
         pin_radius=model.pin_contact_radius,
         cam_play=model.cam.play,
         faults=faults_of(errors),

@@ -253,8 +253,11 @@ class _Following(_Balance):
             )
             gap = np.concatenate(
                 [
-                    ((seen - foot) * np.conj(outward)).real - disc.tooth_radius,
-                    model.hole_radius - model.pin_contact_radius - np.abs(apart),
+                    ((seen - foot) * np.conj(outward)).real - disc.tooth_radius + model.roller_play,
+                    model.hole_radius
+                    + model.sleeve_play
+                    - model.pin_contact_radius
+                    - np.abs(apart),
                 ]
             )
             tangent = 1j * normal

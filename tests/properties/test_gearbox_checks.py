@@ -481,7 +481,17 @@ def test_guide_and_checks_speak_of_the_same_things() -> None:
     for design in (
         SOUND,
         SOUND.replacing(
-            {"reducer.output_pins.sleeve_diameter": "6 mm", "reducer.output_pins.count": 8}
+            {
+                "reducer.output_pins.diameter": "3 mm",
+                "reducer.output_pins.sleeve_diameter": "6 mm",
+                "reducer.output_pins.sleeve": "needle",
+                "reducer.output_pins.count": 8,
+                "reducer.ring_type": "pinwheel",
+                "reducer.ring_pin_diameter": "4 mm",
+                "reducer.ring.roller_diameter": "8 mm",
+                "reducer.ring.roller": "needle",
+                "reducer.ring.outer_diameter": "80 mm",
+            }
         ),
         SOUND.replacing(
             {

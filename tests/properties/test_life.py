@@ -190,7 +190,7 @@ def test_pin_histories_are_those_of_a_whole_turn(lobes: int, pin_count: int, dis
     model = modelled(lobes, pin_count, discs)
     period = contact_sweep(model, 20.0, cycles.crank_angles(lobes, pin_count))
     whole, steps = whole_turn(model, 20.0)
-    history = pins.pin_moment_histories(period)
+    history = pins.pin_histories(model, period.pin_moment)
     shared = math.gcd(lobes, pin_count)
     assert history.shape == (steps * lobes, discs + 2, pin_count // shared)
     for pin in range(pin_count // shared):

@@ -47,6 +47,8 @@ def designs(draw: st.DrawFn) -> dict[str, object]:
             mostly(lengths(0.5 * radius, 0.7 * radius), lengths(1.0, 1.2 * radius))
         ),
         "sleeve_diameter": draw(mostly(st.just("0 mm"), lengths(0.8 * pin, 3.0 * pin))),
+        "sleeve": draw(mostly(st.just("plain"), st.just("needle"))),
+        "sleeve_play": draw(micrometres(0, 100)),
         "hole_clearance": draw(mostly(micrometres(0, 60), micrometres(-100, 1000))),
         "support": draw(st.sampled_from(["both", "cantilever"])),
         "material": draw(st.sampled_from(sorted(materials()))),
@@ -64,12 +66,19 @@ def designs(draw: st.DrawFn) -> dict[str, object]:
             )
         ),
     }
+    tooth = draw(mostly(lengths(pitch, 3.0 * pitch), lengths(0.1, 8.0 * pitch)))
+    kind = draw(st.sampled_from(["solid", "conjugate", "pinwheel"]))
+    size = float(tooth.split()[0])
+    rollers = {
+        "roller_diameter": draw(lengths(0.9 * size, 2.0 * size)),
+        "roller": draw(st.sampled_from(["plain", "needle"])),
+    }
     reducer = {
         "ratio": ratio,
         "ring_pitch_radius": f"{radius:.6g} mm",
         "eccentricity": draw(mostly(lengths(0.3 * pitch, 0.8 * pitch), lengths(0.01, 1.3 * pitch))),
-        "ring_pin_diameter": draw(mostly(lengths(pitch, 3.0 * pitch), lengths(0.1, 8.0 * pitch))),
-        "ring_type": draw(st.sampled_from(["solid", "conjugate", "pinwheel"])),
+        "ring_pin_diameter": tooth,
+        "ring_type": kind,
         "disc_count": draw(st.integers(1, 3)),
         "disc_thickness": draw(lengths(0.5, 50.0)),
         "disc_material": draw(st.sampled_from(sorted(materials()))),
@@ -83,7 +92,8 @@ def designs(draw: st.DrawFn) -> dict[str, object]:
         "ring": {
             "outer_diameter": draw(
                 mostly(lengths(2.3 * radius, 3.0 * radius), lengths(5.0, 3.0 * radius))
-            )
+            ),
+            **(rollers if kind == "pinwheel" and draw(st.booleans()) else {}),
         },
     }
     peak = draw(st.floats(0.01, 2000.0))

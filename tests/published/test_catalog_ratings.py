@@ -84,9 +84,9 @@ def test_computed_rows_are_the_iso_formulas(bearing):
     assert int(stated.group(1)) == needles.count
 
 
-def test_computed_rows_span_15_to_30_mm():
+def test_computed_rows_span_3_to_30_mm():
     bores = {round(b.bore_diameter * 1e3) for b in _computed()}
-    assert min(bores) == 15
+    assert min(bores) == 3
     assert max(bores) == 30
 
 

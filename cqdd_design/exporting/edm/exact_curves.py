@@ -20,6 +20,7 @@ from cqdd_design.geometry.contours import as_complex, gauss_rule
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.disc import profile_moments, profile_perimeter
 from cqdd_design.geometry.relief import solid_relief
+from cqdd_design.geometry.ring import pocket_radius
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
@@ -125,7 +126,7 @@ def ring_curve(design: Design) -> ExactCurve:
     if kind == "conjugate":
         pieces = _conjugate_pieces(disc)
     elif kind == "pinwheel":
-        pieces, corners = _pinwheel_pieces(disc, clearance), 2
+        pieces, corners = _pinwheel_pieces(disc, clearance, pocket_radius(design)), 2
     else:
         pieces = _solid_pieces(disc, clearance)
     return mirrored_curve(pieces, disc.ring_tooth_count, corners)
@@ -167,9 +168,9 @@ def _conjugate_pieces(disc: CycloidDisc) -> list[Piece]:
     ]
 
 
-def _pinwheel_pieces(disc: CycloidDisc, clearance: float) -> list[Piece]:
+def _pinwheel_pieces(disc: CycloidDisc, clearance: float, pocket: float) -> list[Piece]:
     """Half a pocket about pin 0, then the bore from where the two circles meet."""
-    R, r = disc.ring_pitch_radius, disc.tooth_radius
+    R, r = disc.ring_pitch_radius, pocket
     bore = swept_radius(disc) + clearance
     x = (bore * bore - r * r + R * R) / (2.0 * R)
     corner = complex(x, math.sqrt(bore * bore - x * x))

@@ -139,11 +139,12 @@ def _disc_remarks(group: DiscGroup, discs: int) -> tuple[str, ...]:
 
 def _ring(design: Design) -> FlatPart:
     reducer = design.reducer
+    pieces = "ROLLERS" if reducer.ring.roller_diameter else "PINS"
     kinds = {
         "solid": "TEETH ARE PART OF THE RING",
         "conjugate": "TEETH ARE PART OF THE RING",
-        "pinwheel": f"POCKETS FOR {reducer.ring_tooth_count} PINS OF DIA "
-        f"{1e3 * reducer.ring_pin_diameter:g}",
+        "pinwheel": f"POCKETS FOR {reducer.ring_tooth_count} {pieces} OF DIA "
+        f"{1e3 * reducer.tooth_diameter:g}",
     }
     return FlatPart(
         label="ring",

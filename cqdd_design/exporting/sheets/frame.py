@@ -163,7 +163,7 @@ def _curve(facts: CutFacts) -> str:
     """The shape in the numbers of the design, for whoever wants to check it."""
     reducer = facts.design.reducer
     teeth = (
-        f"{reducer.ring_tooth_count} teeth \u00d8{_MM * reducer.ring_pin_diameter:g} mm on "
+        f"{reducer.ring_tooth_count} teeth \u00d8{_MM * reducer.tooth_diameter:g} mm on "
         f"\u00d8{2.0 * _MM * reducer.ring_pitch_radius:g} mm"
     )
     if facts.flat.label == "ring":

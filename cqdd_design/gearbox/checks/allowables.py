@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cqdd_design.catalog.materials import Material
+from cqdd_design.geometry.runners import LEAST_WALL
 
 UNEVEN_SHARING = 1.15
 """Factor on rigid-law ring and pin forces for unequal discs, pitch errors and deflection (design
@@ -30,7 +31,7 @@ RING_WALL = 2.5e-3
 """Least wall of the ring outside its deepest relief, m (house rule for 60 to 90 mm rings)."""
 LIGAMENT = 1.5e-3
 """Least material between holes, bore and lobes of a disc, m (house rule; ten EDM cuts)."""
-SLEEVE_WALL = 0.5e-3
+SLEEVE_WALL = LEAST_WALL
 """Least wall of a sleeve on an output pin, m (thinnest drawn or ground bush commonly sold)."""
 SHAFT_CORE_SHARE = 0.25
 """Least core radius common to neighbouring eccentrics, as a share of the cam bearing's bore."""

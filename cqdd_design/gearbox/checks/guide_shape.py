@@ -127,15 +127,6 @@ ROWS = (
     ),
     *_LIGAMENTS,
     CheckGuide(
-        "GEO-SLEEVE-WALL",
-        "Wall of the sleeves",
-        "mm",
-        "min",
-        f"(d_sleeve - d_pin)/2 >= {1e3 * limits.SLEEVE_WALL:g} mm",
-        "Thinner bushes cannot be bought or ground, and crack under line load.",
-        HOUSE,
-    ),
-    CheckGuide(
         "FIT-PIN-HOLE",
         "Tightest fit of pin in hole",
         "um",

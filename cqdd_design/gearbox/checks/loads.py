@@ -14,10 +14,10 @@ from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING, Allowable
 from cqdd_design.gearbox.checks.remedies import (
     MaterialRule,
     harder_parts,
+    lower_torque,
     softer_contact,
     stronger_capacity,
     stronger_pins,
-    torque_words,
 )
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.gearbox.loads import RigidMaxima
@@ -160,7 +160,7 @@ def _bearing(state: GearboxState) -> tuple[Check, ...]:
             allowables.STATIC_SAFETY,
             f"{bearing.designation}: {static:.0f} N/{cam.peak_load:.1f} N = {safety:.3f}",
             f"needs C0 of {cam.peak_load / 1e3 * allowables.STATIC_SAFETY:.3g} kN: {other}; or "
-            + _lower_torque(requirements.peak_torque, safety / allowables.STATIC_SAFETY),
+            + lower_torque(requirements.peak_torque, safety / allowables.STATIC_SAFETY),
         ),
         build_check(
             "BEARING-LIFE",
@@ -170,7 +170,7 @@ def _bearing(state: GearboxState) -> tuple[Check, ...]:
             f"{exponent:.3g}/(60 x {rpm:.0f} rpm) = {life:.0f} h",
             (f"needs C of {needed / 1e3:.3g} kN: " if math.isfinite(needed) else "")
             + f"{other}; or "
-            + _lower_torque(requirements.continuous_torque, at_life / cam.continuous_load),
+            + lower_torque(requirements.continuous_torque, at_life / cam.continuous_load),
         ),
     ]
     if bearing.kind == "needle cage":
@@ -185,12 +185,6 @@ def _bearing(state: GearboxState) -> tuple[Check, ...]:
             )
         )
     return tuple(checks)
-
-
-def _lower_torque(torque: float, share: float) -> str:
-    if share <= 0.0:
-        return "choose a bearing with catalogue ratings"
-    return f"lower the torque to {torque_words(torque * share)}"
 
 
 def _other_bearing(state: GearboxState) -> str:

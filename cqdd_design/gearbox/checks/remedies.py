@@ -32,6 +32,13 @@ def torque_words(value: float) -> str:
     return f"{rounded_down(value):g} N*m"
 
 
+def lower_torque(torque: float, share: float) -> str:
+    """What to do where a bearing carries but a share of a torque (N m)."""
+    if share <= 0.0:
+        return "choose a bearing with catalogue ratings"
+    return f"lower the torque to {torque_words(torque * share)}"
+
+
 def softer_contact(thickness: float, torque: float, pressure: float, limit: float) -> str:
     """Say what brings a Hertz pressure down to a limit: it grows with sqrt(T/b)."""
     if limit <= 0.0:

@@ -34,6 +34,7 @@ def _mm(length: float) -> float:
 def _profile(state: GearboxState) -> tuple[Check, ...]:
     n, radius = state.stages.lobe_count, state.stages.ring_pitch_radius
     e, r = state.stages.eccentricity, state.stages.tooth_radius
+    key = state.design.reducer.tooth_key
     k1, undercut = state.geometry.shortening_coefficient, state.geometry.undercut_radius_limit
     substituted = f"K1 = {_mm(e):.4g} mm x {n + 1}/{_mm(radius):.4g} mm = {k1:.4f}"
 
@@ -64,7 +65,7 @@ def _profile(state: GearboxState) -> tuple[Check, ...]:
             _mm(most_undercut),
             f"r = {_mm(r):.4g} mm, {allowables.UNDERCUT_SHARE:g} x {_mm(undercut):.4f} mm = "
             f"{_mm(most_undercut):.4f} mm",
-            f"lower ring_pin_diameter to {rounded_down(2.0 * _mm(most_undercut)):g} mm",
+            f"lower {key} to {rounded_down(2.0 * _mm(most_undercut)):g} mm",
         ),
         build_check(
             "GEO-TOOTH-OVERLAP",
@@ -72,7 +73,7 @@ def _profile(state: GearboxState) -> tuple[Check, ...]:
             _mm(most_overlap),
             f"{allowables.TOOTH_OVERLAP_SHARE:g} x {_mm(radius):.4g} mm x sin(180/{n + 1} deg) = "
             f"{_mm(most_overlap):.4f} mm",
-            f"lower ring_pin_diameter to {rounded_down(2.0 * _mm(most_overlap)):g} mm",
+            f"lower {key} to {rounded_down(2.0 * _mm(most_overlap)):g} mm",
         ),
     )
 
@@ -165,7 +166,7 @@ def _fits(state: GearboxState) -> tuple[Check, ...]:
     tightest = pins.hole_clearance - spread
     if abs(tightest) < _SLACK:
         tightest = 0.0
-    checks = [
+    return (
         build_check(
             "FIT-PIN-HOLE",
             tightest * 1e6,
@@ -189,21 +190,7 @@ def _fits(state: GearboxState) -> tuple[Check, ...]:
             "use a cam bearing with a bore of at least "
             f"{rounded_up(_mm(least_bore(reducer.eccentricity))):g} mm",
         ),
-    ]
-    if sleeved:
-        wall = 0.5 * (pins.sleeve_diameter - pins.diameter)
-        enough = pins.diameter + 2.0 * allowables.SLEEVE_WALL
-        checks.append(
-            build_check(
-                "GEO-SLEEVE-WALL",
-                _mm(wall),
-                _mm(allowables.SLEEVE_WALL),
-                f"({_mm(pins.sleeve_diameter):g} mm - {_mm(pins.diameter):g} mm)/2 = "
-                f"{_mm(wall):.4g} mm",
-                f"raise output_pins.sleeve_diameter to {_mm(enough):g} mm",
-            )
-        )
-    return tuple(checks)
+    )
 
 
 def _space(state: GearboxState) -> tuple[Check, ...]:

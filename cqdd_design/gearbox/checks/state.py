@@ -27,6 +27,8 @@ class GearboxState:
         Raw maxima at the peak and at the continuous torque of the requirements.
     output_pins : PinStrength
         At the same torques.
+    sleeves, rollers : BearingResult or None
+        Needle cage of one sleeve on an output pin, and of one roller on a ring pin.
     balance : StackBalance
         Of everything that goes round with the crank, at the required input speed.
     """
@@ -39,6 +41,8 @@ class GearboxState:
     rigid_continuous: RigidMaxima
     output_pins: PinStrength
     cam_bearing: BearingResult
+    sleeves: BearingResult | None
+    rollers: BearingResult | None
     balance: StackBalance
 
 

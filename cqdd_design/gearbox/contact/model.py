@@ -5,20 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.materials import Material, find_material
-from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.gearbox.carrier import pin_of, tie_of
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import Bodies, CamSpring, LineLaw, LineModel
-from cqdd_design.gearbox.hertz import conformal_equivalent_radius
-from cqdd_design.gearbox.output_pins import sleeve_share
-from cqdd_design.gearbox.pin_beam import HELD, PinBeam
+from cqdd_design.gearbox.hertz import conformal_equivalent_radius, pair_modulus
+from cqdd_design.gearbox.pin_beam import HELD, PinBeam, pin_in_stack, pin_section
+from cqdd_design.gearbox.rolling_contacts import hole_friction, tooth_friction
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,9 +40,8 @@ class ContactModel(Stages):
     cam : CamSpring
         Between bore and cam.
     tooth_friction, hole_friction : float
-        Coulomb friction at ring teeth, and at the walls of the holes: that of plain pins, or what
-        sleeves leave of it (a sleeve turns where the moments of both of its faces balance,
-        t r_sleeve = mu F r_pin).
+        Coulomb friction at ring teeth, and at the walls of the holes
+        (:mod:`..rolling_contacts`).
     carrier_stiffness : float or None
         Radial stiffness of the carrier's bearing, N/m; None where it is rigid.
     pin : PinBeam or None
@@ -50,6 +50,12 @@ class ContactModel(Stages):
         Nominal, with which a pin's strength counts, m.
     tie : float
         Torque over turn between plate and cap by all but the pins, N m/rad.
+    sleeve_play, roller_play : float
+        Radial play of sleeves on output pins, and of rollers on the ring's, m; 0 without.
+    sleeve_coefficient, roller_coefficient : float
+        Between pin and sleeve or roller, the c of ``delta = c F^0.9``, N and m; 0 without.
+    ring_pin_series : array (D, 1) or None
+        Compliance at every disc of ring pins that rollers leave free between their ends, m/N.
     """
 
     disc: CycloidDisc
@@ -65,6 +71,11 @@ class ContactModel(Stages):
     pin: PinBeam | None = None
     pin_diameter: float = 0.0
     tie: float = 0.0
+    sleeve_play: float = 0.0
+    sleeve_coefficient: float = 0.0
+    roller_play: float = 0.0
+    roller_coefficient: float = 0.0
+    ring_pin_series: FloatArray | None = None
 
     @classmethod
     def from_design(cls, design: Design, line_model: LineModel = "palmgren") -> ContactModel:
@@ -87,12 +98,16 @@ class ContactModel(Stages):
         steel = find_material(reducer.disc_material)
         tooth = find_material(reducer.ring_material)
         pin = find_material(pins.material)
+        plate = find_material(design.housing.material)
+        runner, rollers = pin_runner(design), ring_runner(design)
         behind_flank = disc.valley_distance - 0.5 * bearing.outer_diameter
         ring_bodies = (
-            _body(0.5 * reducer.ring_pin_diameter, tooth),
-            _body(max(behind_flank, 0.5 * reducer.ring_pin_diameter), steel),
+            _body(stages.tooth_radius, tooth),
+            _body(max(behind_flank, stages.tooth_radius), steel),
         )
         pin_bodies = (_body(stages.pin_contact_radius, pin), _body(stages.hole_radius, steel))
+        # A pin that rollers leave free bends several times as far as its contact closes.
+        ring_model = "linear" if rollers and line_model == "palmgren" else line_model
         logarithms = (0.0, 0.0)
         if line_model == "johnson":
             length = reducer.disc_thickness
@@ -103,19 +118,23 @@ class ContactModel(Stages):
         return cls(
             **vars(stages),
             disc=disc,
-            ring_law=LineLaw(line_model, logarithms[0]),
+            ring_law=LineLaw(ring_model, logarithms[0]),
             pin_law=LineLaw(line_model, logarithms[1]),
             ring_bodies=ring_bodies,
             pin_bodies=pin_bodies,
             pin_series=np.diag(pin_of(design, HELD[pins.support]).influence).copy(),
             cam=laws.cam_spring(bearing, reducer.cam_bearing.radial_clearance),
-            tooth_friction=reducer.friction.tooth,
-            hole_friction=reducer.friction.pin
-            * sleeve_share(mean_pin_diameter(pins.diameter), pins.sleeve_diameter),
+            tooth_friction=tooth_friction(design),
+            hole_friction=hole_friction(design),
             carrier_stiffness=reducer.carrier_bearing.stiffness or None,
             pin=pin_of(design),
             pin_diameter=pins.diameter,
             tie=tie_of(design),
+            sleeve_play=0.0 if runner is None else 0.5 * runner.play,
+            sleeve_coefficient=_inside(runner, pin),
+            roller_play=0.0 if rollers is None else 0.5 * rollers.play,
+            roller_coefficient=_inside(rollers, tooth),
+            ring_pin_series=None if rollers is None else _ring_pin_series(design, tooth, plate),
         )
 
     @property
@@ -125,8 +144,11 @@ class ContactModel(Stages):
 
     @property
     def pin_gap(self) -> float:
-        """Gap at an output pin in the nominal pose, half of the hole clearance, m."""
-        return self.hole_radius - self.pin_contact_radius - self.eccentricity
+        """Gap at an output pin in the nominal pose, m: half of the clearance of the hole.
+
+        A sleeve's play opens it further: pin and hole can part by both.
+        """
+        return self.hole_radius - self.pin_contact_radius - self.eccentricity + self.sleeve_play
 
     @property
     def pin_equivalent_radius(self) -> float:
@@ -135,14 +157,33 @@ class ContactModel(Stages):
 
     def ring_coefficient(self, equivalent_radius: FloatArray) -> FloatArray:
         """Coefficient of the ring's law for contacts of the given R_eq (m)."""
-        return self._coefficient(
+        own = self._coefficient(
             self.ring_law, equivalent_radius, self.ring_modulus, self.ring_bodies
+        )
+        if self.ring_pin_series is None:
+            return own
+        # (D, 1) against (A, D, T): every disc has its place on the pins.
+        return np.asarray(
+            own
+            + self._behind(self.ring_law, self.roller_coefficient, 0.9)
+            + self._behind(self.ring_law, self.ring_pin_series, 1.0)
         )
 
     def pin_coefficient(self) -> float:
-        """Coefficient of the pins' law."""
+        """Coefficient of the pins' law, the contact of pin and sleeve in series."""
         radius = np.asarray(self.pin_equivalent_radius)
-        return float(self._coefficient(self.pin_law, radius, self.pin_modulus, self.pin_bodies))
+        own = float(self._coefficient(self.pin_law, radius, self.pin_modulus, self.pin_bodies))
+        return own + float(self._behind(self.pin_law, self.sleeve_coefficient, 0.9))
+
+    def _behind(self, law: LineLaw, coefficient: ArrayLike, power: float) -> FloatArray:
+        """What gives as c F^power behind a contact, as a share of the contact's own coefficient.
+
+        Exact where both are of one power; else by the secant at the line load that the linear law
+        is made for.
+        """
+        own = 0.9 if law.model == "palmgren" else 1.0
+        load = _LINE_LOAD * self.contact_length
+        return np.asarray(np.asarray(coefficient, dtype=float) * load ** (power - own))
 
     def _coefficient(
         self, law: LineLaw, equivalent_radius: FloatArray, modulus: float, bodies: Bodies
@@ -160,6 +201,28 @@ class ContactModel(Stages):
 
 _LINE_LOAD = 50e3
 """Line load at which the linear law has Palmgren's secant stiffness, N/m."""
+
+
+def _inside(runner: Runner | None, steel: Material) -> float:
+    """Coefficient of the contact between a pin and what turns on it, of the same steel."""
+    if runner is None:
+        return 0.0
+    return laws.runner_coefficient(runner.cage, runner.length, pair_modulus(steel, steel))
+
+
+def _ring_pin_series(design: Design, pin: Material, plate: Material) -> FloatArray:
+    """Compliance of a ring pin, held beyond the discs by housing and clamp, at every disc."""
+    reducer = design.reducer
+    beam = pin_in_stack(
+        reducer.disc_count,
+        reducer.disc_thickness,
+        reducer.disc_spacing,
+        pin_section(
+            reducer.ring_pin_diameter, pin.youngs_modulus, pin.poisson_ratio, plate.youngs_modulus
+        ),
+        ("hinged", "hinged"),
+    )
+    return np.diag(beam.influence)[:, None].copy()
 
 
 def _body(depth: float, material: Material) -> tuple[float, float, float]:

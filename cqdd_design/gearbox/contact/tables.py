@@ -118,7 +118,7 @@ def ring_table(model: ContactModel, crank_angle: FloatArray) -> RingTable:
     radius = 1.0 / (1.0 / disc.tooth_radius + bend)
     return RingTable(
         rows=np.stack([normal.real, normal.imag, arm], axis=-1),
-        gap=distance - disc.tooth_radius,
+        gap=distance - disc.tooth_radius + model.roller_play,
         rates=np.stack([spin, arm_rate, (drift * np.conj(outward)).real], axis=-1),
         parameter=np.asarray(np.mod(t, 2.0 * np.pi)),
         parameter_rate=along / speed,

@@ -23,6 +23,7 @@ from cqdd_design.gearbox.life import contacts, cycles, fatigue, pins
 from cqdd_design.gearbox.life.cam import CamLife, cam_life
 from cqdd_design.gearbox.life.contacts import Pressures
 from cqdd_design.gearbox.life.result import CaseLoads, DutyCase, LifeResult, PartLife
+from cqdd_design.gearbox.life.runners import RunnerDuty, RunnerLife, roller_life, sleeve_life
 from cqdd_design.gearbox.loads import rigid_maxima
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import kinematics
@@ -78,7 +79,8 @@ def life(design: Design, model: ContactModel, *, friction: bool = True) -> LifeR
     -----
     Every place of a flank, tooth, hole and pin sums the damage of its own pressures over the
     duty; the worst place is given. Perfect parts are assumed; forces are those of the contact
-    equilibrium. Plain pins and fixed sleeves are meant: a sleeve that turns spreads its load.
+    equilibrium. The contact of pin and hole is that of bare pins and of sleeves that stand still:
+    a sleeve that turns spreads its load over its rim. What turns inside it is judged on its own.
     """
     cases, assumed = duty_cases(design)
     angles = cycles.crank_angles(model.lobe_count, model.pin_count)
@@ -113,6 +115,7 @@ def life(design: Design, model: ContactModel, *, friction: bool = True) -> LifeR
         parts=parts,
         cam=_cam(duty),
         notes=_notes(parts),
+        runners=_runners(duty),
     )
 
 
@@ -240,6 +243,14 @@ def _pin_bending(duty: _Duty) -> tuple[PartLife, list[NDArray[np.complex128]]]:
     rate = max(rates, default=0.0)
     part = _part(name, place, stress, limit, count, rate, reserve, float(duty.turns.sum()))
     return part, stresses
+
+
+def _runners(duty: _Duty) -> tuple[RunnerLife, ...]:
+    """Lives of sleeves and rollers, where there are any."""
+    shares, speeds = np.array([(case.share, case.speed) for case in duty.cases]).T
+    turning = RunnerDuty(duty.design, duty.sweeps, shares, speeds)
+    found = (sleeve_life(turning), roller_life(turning))
+    return tuple(one for one in found if one is not None)
 
 
 def _cam(duty: _Duty) -> CamLife:

@@ -14,14 +14,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
+from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.life import fatigue
 from cqdd_design.gearbox.output_pins import bending_modulus
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
+AnyArray = TypeVar("AnyArray", FloatArray, ComplexArray)
 Cycle = tuple[float, float, float]
 """Lowest and highest stress, Pa, and how many of them an hour."""
 
@@ -58,26 +61,24 @@ class FibreCycles:
         return float(fatigue.goodman_reversed(low, high, ultimate).max())
 
 
-def pin_moment_histories(sweep: ContactSweep) -> ComplexArray:
-    """Bending moments of a pin over one turn of the crank against the carrier.
+def pin_histories(model: ContactModel, values: AnyArray) -> AnyArray:
+    """What a pin meets over one turn of the crank against the carrier.
 
     Parameters
     ----------
-    sweep : ContactSweep
-        Over the mesh period, which is 1/g of that turn, g = gcd(n, N_w). A period later each pin
-        carries what the one N_w/g before it carried, so a history runs over g pins.
+    values : array (A, S, N_w)
+        Of every pin over the mesh period, which is 1/g of that turn, g = gcd(n, N_w). A period
+        later each pin carries what the one N_w/g before it carried, so a history runs over g pins.
 
     Returns
     -------
-    array (g A, D + 2, N_w/g)
-        As :attr:`.ContactSweep.pin_moment`, N m. The other pins of the circle differ from these in
-        nothing but the time.
+    array (g A, S, N_w/g)
+        The other pins of the circle differ from these in nothing but the time.
     """
-    model, moment = sweep.model, sweep.pin_moment
     shared = math.gcd(model.lobe_count, model.pin_count)
     different = model.pin_count // shared
     pin = np.arange(different) - different * np.arange(shared)[:, None]
-    return np.concatenate([moment[:, :, row] for row in np.mod(pin, model.pin_count)])
+    return np.concatenate([values[:, :, row] for row in np.mod(pin, model.pin_count)])
 
 
 def bending_histories(sweep: ContactSweep) -> ComplexArray:
@@ -87,7 +88,8 @@ def bending_histories(sweep: ContactSweep) -> ComplexArray:
     the stress of the fibre at that angle from the outward radius.
     """
     modulus = float(bending_modulus(sweep.model.pin_diameter))
-    return np.moveaxis(pin_moment_histories(sweep), (2, 1, 0), (0, 1, 2)) / modulus
+    moment = pin_histories(sweep.model, sweep.pin_moment)
+    return np.moveaxis(moment, (2, 1, 0), (0, 1, 2)) / modulus
 
 
 def worst_fibres(

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cqdd_design.gearbox.life.cam import CamLife
+from cqdd_design.gearbox.life.runners import RunnerLife
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.rubbing import PowerSense
@@ -143,6 +144,8 @@ class LifeResult:
         Contact fatigue of ring, discs, holes and pins, and bending of the pins.
     notes : tuple of str
         What of it stands outside its source.
+    runners : tuple of RunnerLife
+        Of sleeves and rollers, where there are any.
     """
 
     duty: tuple[DutyCase, ...]
@@ -152,6 +155,7 @@ class LifeResult:
     parts: tuple[PartLife, ...]
     cam: CamLife
     notes: tuple[str, ...]
+    runners: tuple[RunnerLife, ...] = ()
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -178,7 +182,22 @@ class LifeResult:
                 f"no life is given for the cam bearings {self.cam.designation}: the catalogue has "
                 "no dynamic rating or the duty never turns."
             )
+        found += [
+            self._shortfall(one) for one in self.runners if not one.lasts(self.required_hours)
+        ]
         return (*found, *self.notes)
+
+    def _shortfall(self, runner: RunnerLife) -> str:
+        """What is short or unknown of sleeves or rollers."""
+        if not runner.unknown:
+            return (
+                f"the {runner.name} on {runner.designation} would together last "
+                f"{runner.set_hours:.3g} h under this duty (L10), less than the "
+                f"{self.required_hours:g} h required."
+            )
+        pv = runner.pressure_velocity
+        bears = "" if pv is None else f"; they bear p v = {pv / 1e6:.3g} MPa m/s"
+        return f"no life is given for the {runner.name} on their pins: {runner.unknown}{bears}."
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form (``life``)."""
@@ -196,4 +215,5 @@ class LifeResult:
             "required_hours": self.required_hours,
             "parts": [part.to_dict() for part in self.parts],
             "cam_bearings": self.cam.to_dict(),
+            **{runner.name: runner.to_dict() for runner in self.runners},
         }

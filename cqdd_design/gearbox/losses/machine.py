@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import find_bearing
-from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.gearbox.losses.lubricant import Lubricant, find_lubricant
 from cqdd_design.gearbox.losses.rolling import BearingFriction
@@ -24,9 +23,16 @@ from cqdd_design.gearbox.losses.sliding import (
     pin_sliding,
     ring_sliding,
 )
-from cqdd_design.gearbox.output_pins import disc_positions, pin_span, sleeve_share
+from cqdd_design.gearbox.output_pins import disc_positions, pin_span
+from cqdd_design.gearbox.rolling_contacts import (
+    greatest_roller_turn,
+    hole_friction,
+    sleeve_turn,
+    tooth_friction,
+)
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_moments
+from cqdd_design.geometry.runners import pin_runner, ring_runner
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.solved import ContactSweep
@@ -48,6 +54,18 @@ _OUTPUT_HEIGHT = 0.75
 
 
 @dataclass(frozen=True)
+class NeedleDrag:
+    """Needle cages of one kind: one of them, how many, and its turn per radian of crank.
+
+    All of them are taken to turn all the time, those of rollers at the fastest.
+    """
+
+    cage: BearingFriction
+    count: int
+    turn: float
+
+
+@dataclass(frozen=True)
 class FrictionMachine:
     """Friction of one gearbox, SI.
 
@@ -58,9 +76,7 @@ class FrictionMachine:
     eccentricity : float
         e.
     tooth_coefficient, pin_coefficient : float
-        mu of Coulomb friction at ring teeth and output pins.
-    sleeve_share : float
-        Share of the path that sleeves leave on the pins, 1 without.
+        mu felt at ring teeth and at output pins, sliding or rolling (:mod:`..rolling_contacts`).
     disc_heights : tuple of float
         Mid-planes of the discs from the first carrier plate.
     span : float
@@ -69,6 +85,8 @@ class FrictionMachine:
         Of every disc; at both ends of the shaft; of the carrier.
     face_area, face_gap : float
         One face of a disc, and the gap filled with grease in front of it.
+    needles : mapping
+        Cages under rollers and sleeves, by where they lose power; empty without.
     """
 
     lobe_count: int
@@ -76,7 +94,6 @@ class FrictionMachine:
     eccentricity: float
     tooth_coefficient: float
     pin_coefficient: float
-    sleeve_share: float
     disc_heights: tuple[float, ...]
     span: float
     cam: BearingFriction
@@ -85,6 +102,7 @@ class FrictionMachine:
     lubricant: Lubricant
     face_area: float
     face_gap: float
+    needles: Mapping[str, NeedleDrag]
     warnings: tuple[str, ...] = ()
 
     @classmethod
@@ -100,7 +118,7 @@ class FrictionMachine:
         support, output : BearingFriction
             At either end of the shaft, and of the carrier.
         """
-        reducer, pins = design.reducer, design.reducer.output_pins
+        reducer = design.reducer
         cam = find_bearing(reducer.cam_bearing.designation)
         lubricant, warning = find_lubricant(reducer.friction.lubricant)
         stack = (reducer.disc_count, reducer.disc_thickness, reducer.disc_spacing)
@@ -108,9 +126,8 @@ class FrictionMachine:
             lobe_count=reducer.ratio,
             disc_count=reducer.disc_count,
             eccentricity=reducer.eccentricity,
-            tooth_coefficient=reducer.friction.tooth,
-            pin_coefficient=reducer.friction.pin,
-            sleeve_share=sleeve_share(mean_pin_diameter(pins.diameter), pins.sleeve_diameter),
+            tooth_coefficient=tooth_friction(design),
+            pin_coefficient=hole_friction(design),
             disc_heights=tuple(float(z) for z in disc_positions(*stack)),
             span=float(pin_span(*stack)),
             cam=BearingFriction.of(cam),
@@ -119,6 +136,7 @@ class FrictionMachine:
             lubricant=lubricant,
             face_area=disc_moments(design, 0, bore_diameter=cam.outer_diameter).area,
             face_gap=max(reducer.disc_spacing, _LEAST_FILM),
+            needles=_needles(design),
             warnings=() if warning is None else (warning,),
         )
 
@@ -143,7 +161,7 @@ class FrictionMachine:
             (n + 1) * np.asarray(forces.disc_centre)[:, :, None, :],
         )
         ring = friction_work(self.tooth_coefficient, forces.ring_force, sliding)
-        path = self.sleeve_share * pin_sliding(n, self.eccentricity)
+        path = pin_sliding(n, self.eccentricity)
         pins = friction_work(self.pin_coefficient, forces.pin_force, path)
         cam = self.cam.load_torque(np.linalg.norm(forces.cam_force, axis=-1))
         first, second, carrier = self._seat_loads(forces)
@@ -198,10 +216,14 @@ class FrictionMachine:
         cam = self.cam.drag_torque(viscosity, speed * turn)
         first = self.support.drag_torque(viscosity, speed)
         second = self.support.drag_torque(viscosity, speed * turn)
+        rolling = {
+            source: cages.count * cages.turn * cages.cage.drag_torque(viscosity, speed * cages.turn)
+            for source, cages in self.needles.items()
+        }
         none = np.zeros(speed.shape)
         return {
-            "ring_teeth": none,
-            "output_pins": none,
+            "ring_teeth": rolling.get("ring_teeth", none),
+            "output_pins": rolling.get("output_pins", none),
             "cam_bearings": self.disc_count * turn * cam,
             "support_bearings": first + turn * second,
             "output_bearing": self.output.drag_torque(viscosity, speed / n) / n,
@@ -223,6 +245,22 @@ class FrictionMachine:
         shear_rate = speed[..., None] * paths / self.face_gap
         stress = self.lubricant.yield_stress + self.lubricant.dynamic_viscosity * shear_rate
         return np.asarray(np.sum(stress * self.face_area * paths, axis=-1))
+
+
+def _needles(design: Design) -> dict[str, NeedleDrag]:
+    """Cages of rollers and sleeves, where there are any."""
+    reducer, found = design.reducer, {}
+    n, e = reducer.ratio, reducer.eccentricity
+    rollers, sleeves = ring_runner(design), pin_runner(design)
+    if rollers is not None and rollers.cage is not None:
+        turn = greatest_roller_turn(n, reducer.ring_pitch_radius, e, rollers.diameter)
+        count = reducer.disc_count * reducer.ring_tooth_count
+        found["ring_teeth"] = NeedleDrag(BearingFriction.of(rollers.cage), count, turn)
+    if sleeves is not None and sleeves.cage is not None:
+        turn = float(sleeve_turn(n, e, sleeves.diameter))
+        count = reducer.disc_count * reducer.output_pins.count
+        found["output_pins"] = NeedleDrag(BearingFriction.of(sleeves.cage), count, turn)
+    return found
 
 
 def total(parts: Mapping[str, ArrayLike]) -> FloatArray:

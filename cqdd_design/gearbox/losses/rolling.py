@@ -11,19 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cqdd_design.catalog.bearings import Bearing, BearingKind
+from cqdd_design.catalog.bearings import FRICTION_COEFFICIENT, Bearing, BearingKind
 from cqdd_design.geometry.contours import FloatArray
-
-FRICTION_COEFFICIENT: dict[BearingKind, float] = {
-    "ball": 0.0015,
-    "needle": 0.0025,
-    "needle cage": 0.0025,
-    "crossed roller": 0.0025,
-}
-"""mu on the bore. JTEKT (Koyo), Ball & Roller Bearings, friction coefficients: deep groove ball
-0.0010 to 0.0015 (the upper end; SKF prints 0.0015), needle roller with cage 0.0020 to 0.0030 (the
-middle). Crossed rollers are not in the table: the upper end of tapered rollers, which slide on
-their ends too."""
 
 DRAG_FACTOR: dict[BearingKind, float] = {
     "ball": 1.4,

@@ -10,9 +10,8 @@ the same speed e (1 + 1/n), across the crank direction in which the pins push::
           v = e w (1 + 1/n)            the sleeve rolls in the hole at v and slides on
                                        the pin at v d_pin/d_sleeve
 
-A ring pin that is free to turn in its pocket gains nothing: it rolls on the disc, and slides in
-the pocket at the same surface speed under the same force. A pinwheel ring without sleeves is
-therefore counted like a solid one. Every function broadcasts.
+What rolls is felt as a lower coefficient under the same path (:mod:`..rolling_contacts`). Every
+function broadcasts.
 """
 
 from __future__ import annotations

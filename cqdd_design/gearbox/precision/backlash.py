@@ -205,7 +205,9 @@ def _exact_and_modelled(
     seen = (moved_tooth - centre - shift) / (rotation * np.exp(1j * turn))
     foot = nearest_parameter(model.disc, as_points(seen), states.ring.parameter)
     point, outward = model.disc.profile(foot)
-    exact = ((seen - point) * np.conj(outward)).real - model.tooth_radius - radius
+    exact = (
+        ((seen - point) * np.conj(outward)).real - model.tooth_radius - radius + model.roller_play
+    )
     if errors is not None:
         exact = exact - profile_error(errors.disc_profile, foot)[0]
     return exact, modelled

@@ -187,7 +187,7 @@ def evaluate_gearboxes(
             nominal, springs, load, tables.start, tables.shared, errors, values[which]
         )
 
-    with ThreadPoolExecutor(threads or numba.config.NUMBA_NUM_THREADS) as pool:
+    with ThreadPoolExecutor(threads or numba.get_num_threads()) as pool:
         for _ in pool.map(work, range(count)):
             pass
     if np.any(failed >= 0):

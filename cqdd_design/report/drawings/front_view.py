@@ -120,7 +120,7 @@ def _named_left(outlines: Outlines, view: View) -> list[Leader]:
     """Columns, ring and profile."""
     reducer, profile = outlines.design.reducer, outlines.profile
     centre = outlines.disc_pose(0, 0.0)[1]
-    pitch, radius = reducer.ring_pitch_radius, 0.5 * reducer.ring_pin_diameter
+    pitch, radius = reducer.ring_pitch_radius, 0.5 * reducer.tooth_diameter
     tooth = _nearest(0.0, reducer.ring_tooth_count, 140.0)
     # The tooth's flank, seen from the middle of the gearbox.
     at_tooth = (pitch * math.cos(tooth), pitch * math.sin(tooth))
@@ -130,8 +130,9 @@ def _named_left(outlines: Outlines, view: View) -> list[Leader]:
         *_named_columns(outlines, view),
         Leader(
             view.polar(-radius, tooth - 0.5, at_tooth),
-            f"Z_p = \u2300 {millimetres(reducer.ring_pin_diameter)}",
-            f"ring teeth, {reducer.ring_tooth_count} of them",
+            f"Z_p = \u2300 {millimetres(reducer.tooth_diameter)}",
+            f"ring {'rollers' if reducer.ring.roller_diameter else 'teeth'}, "
+            f"{reducer.ring_tooth_count} of them",
         ),
         Leader(
             view.polar(profile.tip_distance, lobe, centre),

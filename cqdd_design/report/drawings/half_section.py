@@ -11,8 +11,10 @@ import math
 
 import numpy as np
 
+from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.gearbox.output_pins import disc_positions, pin_span
 from cqdd_design.geometry.contours import Circle, Contour
+from cqdd_design.geometry.runners import pin_runner, ring_runner
 from cqdd_design.report.drawings.outlines import DRAWING_TOLERANCE, Outlines
 from cqdd_design.report.ink.dimensions import (
     Leader,
@@ -96,6 +98,9 @@ class _Section:
         pack = (reducer.disc_count, reducer.disc_thickness, reducer.disc_spacing)
         self.outlines, self.reducer, self.bearing = outlines, reducer, outlines.bearing
         self.pins = reducer.output_pins
+        runner = pin_runner(outlines.design)
+        self.cage = None if runner is None else runner.cage
+        self.rollers = ring_runner(outlines.design)
         self.both = self.pins.support == "both"
         self.outer = 0.5 * reducer.ring.outer_diameter
         self.half = 0.5 * float(pin_span(*pack))
@@ -145,8 +150,7 @@ class _Section:
         pieces = [self._cut(self.pack, (inner, self.outer), "ring")]
         if self.outlines.ring_pins:
             # Tooth 0 stands on +x: its pin lies in the plane of the section.
-            tooth, radius = self.reducer.ring_pitch_radius, 0.5 * self.reducer.ring_pin_diameter
-            pieces.append(self.box(self.pack, (tooth - radius, tooth + radius), "ring-pin"))
+            pieces += self._ring_pin()
         return group(pieces)
 
     def _cut(self, z: Extent, x: Extent, kind: str) -> str:
@@ -214,6 +218,27 @@ class _Section:
                 pieces.append(rectangle(x - 0.5 * long, y - 0.5 * size, long, size, "roller"))
         return group(pieces)
 
+    def _ring_pin(self) -> list[str]:
+        """A pin of the ring, with the rollers on it and their needles where it has them."""
+        middle, radius = self.reducer.ring_pitch_radius, 0.5 * self.reducer.ring_pin_diameter
+        pin = self.box(self.pack, (middle - radius, middle + radius), "ring-pin")
+        if self.rollers is None:
+            return [pin]
+        pieces, outside = [], 0.5 * self.rollers.diameter
+        for disc, z in enumerate(self.middles):
+            length = self.disc_extent(disc)
+            pieces.append(self.box(length, (middle - outside, middle + outside), "sleeve"))
+            pieces += self._needles(self.rollers.cage, z, middle)
+        return [*pieces, pin]
+
+    def _needles(self, cage: Bearing | None, z: float, middle: float) -> list[str]:
+        """A needle cage about a pin at one disc, where there is one."""
+        if cage is None:
+            return []
+        around = 0.5 * cage.outer_diameter
+        across = (z - 0.5 * cage.width, z + 0.5 * cage.width)
+        return [self.box(across, (middle - around, middle + around), "roller")]
+
     def pin(self) -> str:
         pins, half = self.pins, self.half
         radius, sleeve, middle = 0.5 * pins.diameter, 0.5 * pins.sleeve_diameter, pins.circle_radius
@@ -222,6 +247,8 @@ class _Section:
         pieces = []
         if sleeve > 0.0:
             pieces.append(self.box((-half, half), (middle - sleeve, middle + sleeve), "sleeve"))
+        for z in self.middles:
+            pieces += self._needles(self.cage, z, middle)
         pieces.append(self.box((-half - into, right), (middle - radius, middle + radius), "pin"))
         ends = (self.at(-half - into - 1.2e-3, middle), self.at(right + 1.2e-3, middle))
         return group([*pieces, line(*ends, "centre-line")])
@@ -289,6 +316,7 @@ class _Section:
         runs_in = _short(pins.material)
         if pins.sleeve_diameter > 0.0:
             runs_in = f"in sleeves of {millimetres(pins.sleeve_diameter)}"
+            runs_in += " on needles" if pins.sleeve == "needle" else ""
         long_name = len(bearing.designation) > _LONG_DESIGNATION
         in_disc = 0.5 * (self.hole(last)[1] + self.tip(last))
         right = [

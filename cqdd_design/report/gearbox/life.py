@@ -25,6 +25,16 @@ def life_view(result: LifeResult) -> Values:
     ]
     if len(loads) > 1 and cam.set_hours is not None:
         bearings.append(("all of them", "", _bearing(cam.set_hours, required)))
+    for runner in result.runners:
+        together = runner.set_hours
+        lasts = "no end" if together is None else with_unit(together, "h", 3)
+        bearings.append(
+            (
+                f"{runner.designation or 'plain'}, all {runner.name}",
+                with_unit(runner.equivalent_load, "N"),
+                ("unknown" if runner.unknown else lasts, runner.lasts(required)),
+            )
+        )
     return {
         "duty": tuple(
             (
@@ -37,6 +47,7 @@ def life_view(result: LifeResult) -> Values:
         "assumed": result.assumed,
         "required": with_unit(required, "h"),
         "rows": tuple(_row(part, required) for part in result.parts),
+        "seat": ", ".join(["Cam bearing", *(one.name for one in result.runners)]),
         "bearings": tuple(bearings),
     }
 

@@ -72,8 +72,8 @@ def paper_symbols(design: Design) -> tuple[tuple[str, str, str, str], ...]:
         (
             "Z_p",
             "diameter of an outer pin, here of a ring tooth",
-            "ring_pin_diameter",
-            reducer.ring_pin_diameter,
+            reducer.tooth_key,
+            reducer.tooth_diameter,
         ),
         ("Z_o", "diameter of an output pin", "output_pins.diameter", pins.diameter),
     )

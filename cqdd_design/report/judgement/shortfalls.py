@@ -68,6 +68,15 @@ def _lives(results: ReportInput) -> Iterator[Shortfall]:
             "basic rating life over the duty, by the contact equilibrium",
             "life",
         )
+    for runner in life.runners:
+        if not runner.lasts(life.required_hours):
+            yield Shortfall(
+                f"life of the {runner.name} on their pins",
+                "unknown" if runner.set_hours is None else with_unit(runner.set_hours, "h", 3),
+                asked,
+                "basic rating life over the duty, by the contact equilibrium",
+                "life",
+            )
 
 
 def _bench(results: ReportInput) -> Iterator[Shortfall]:

@@ -1,0 +1,159 @@
+"""What turns on a pin: a sleeve on an output pin, a roller on a ring's pin, plain or on needles.
+
+needle cage between pin and sleeve
+  __ _ ____
+ |  |:|    |    Its wall is what stands outside the cage, or outside the pin where
+ |  |:|    |    there is none.
+ |__|:|____|
+ pin   sleeve or roller
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+from cqdd_design.catalog.bearings import Bearing, bearings
+from cqdd_design.errors import GeometryError
+from cqdd_design.geometry.limits import millimetres
+
+if TYPE_CHECKING:
+    from cqdd_design.design import Design
+
+LEAST_WALL = 0.5e-3
+"""Least wall of what turns on a pin, m (thinnest drawn or ground bush commonly sold)."""
+
+_SAME = 1e-9
+"""Lengths nearer than this are equal, m."""
+
+
+@dataclass(frozen=True)
+class Runner:
+    """A sleeve or roller that turns on a pin, m.
+
+    Attributes
+    ----------
+    pin_diameter : float
+        Nominal, of the pin inside.
+    diameter, length : float
+        Of the sleeve.
+    play : float
+        Of it on its pin, on the diameter.
+    cage : Bearing or None
+        The needle cage between the two; None where the sleeve turns on the pin itself.
+    """
+
+    pin_diameter: float
+    diameter: float
+    length: float
+    play: float
+    cage: Bearing | None
+
+    @property
+    def bore(self) -> float:
+        """Inside diameter of the sleeve: the pin's, or the cage's outside."""
+        return self.pin_diameter if self.cage is None else self.cage.outer_diameter
+
+    @property
+    def wall(self) -> float:
+        """Of the sleeve."""
+        return 0.5 * (self.diameter - self.bore)
+
+
+def pin_runner(design: Design) -> Runner | None:
+    """The sleeves on the output pins of a design; None where the pins are bare.
+
+    Raises
+    ------
+    GeometryError
+        When a sleeve does not go over its pin, or no needle cage of the catalogue fits inside it.
+    """
+    pins = design.reducer.output_pins
+    words = _Words("sleeve", "output_pins.sleeve", "output_pins.diameter")
+    return _runner(design, words, pins.diameter, pins.sleeve_diameter, pins.sleeve_play)
+
+
+def ring_runner(design: Design) -> Runner | None:
+    """The rollers on the pins of a pinwheel ring, one a disc; None where there are none.
+
+    Raises
+    ------
+    GeometryError
+        When a roller does not go over its pin, or no needle cage of the catalogue fits inside it.
+    """
+    pin, ring = design.reducer.ring_pin_diameter, design.reducer.ring
+    words = _Words("roller", "ring.roller", "ring_pin_diameter")
+    return _runner(design, words, pin, ring.roller_diameter, ring.roller_play)
+
+
+class _Words(NamedTuple):
+    """What a runner is called, the key of its kind (and, with _diameter, size), and its pin's."""
+
+    name: str
+    kind: str
+    pin: str
+
+
+def _runner(
+    design: Design, words: _Words, pin: float, diameter: float, play: float
+) -> Runner | None:
+    if diameter <= 0.0:
+        return None
+    if diameter <= pin:
+        raise GeometryError(
+            f"{words.kind}_diameter {diameter * 1e3:g} mm does not go over the {pin * 1e3:g} mm "
+            f"pin; make it at least {(pin + 2.0 * LEAST_WALL) * 1e3:g} mm, or 0 mm for no "
+            f"{words.name}."
+        )
+    reducer = design.reducer
+    kind = reducer.output_pins.sleeve if words.name == "sleeve" else reducer.ring.roller
+    length = reducer.disc_thickness
+    cage = _needle_cage(words, pin, diameter, length) if kind == "needle" else None
+    return Runner(pin, diameter, length, play, cage)
+
+
+def _needle_cage(words: _Words, pin: float, outside: float, length: float) -> Bearing:
+    """The cage of the highest rating that runs on the pin inside sleeve or roller.
+
+    Raises
+    ------
+    GeometryError
+        With the nearest pin, sleeve or disc that one fits.
+    """
+    cages = [
+        one
+        for one in bearings().values()
+        if one.kind == "needle cage" and one.dynamic_rating is not None
+    ]
+    name, plain = words.name, f'make {words.name} "plain"'
+    on_pin = [one for one in cages if abs(one.bore_diameter - pin) < _SAME]
+    if not on_pin:
+        raise GeometryError(
+            f'{words.kind} = "needle": the catalogue has no needle cage for pins of '
+            f"{millimetres(pin)}; make {words.pin} "
+            f"{_nearest(pin, [one.bore_diameter for one in cages])}, or {plain}."
+        )
+    inside = [one for one in on_pin if one.outer_diameter + 2.0 * LEAST_WALL <= outside + _SAME]
+    if not inside:
+        least = min(one.outer_diameter for one in on_pin) + 2.0 * LEAST_WALL
+        raise GeometryError(
+            f'{words.kind} = "needle": no needle cage for pins of {millimetres(pin)} fits inside '
+            f"a {name} of {millimetres(outside)} with its wall of {millimetres(LEAST_WALL)}; raise "
+            f"{words.kind}_diameter to {millimetres(least)}, or {plain}."
+        )
+    fitting = [one for one in inside if one.width <= length + _SAME]
+    if not fitting:
+        least = min(one.width for one in inside)
+        raise GeometryError(
+            f'{words.kind} = "needle": the needle cages that fit are wider than disc_thickness '
+            f"{millimetres(length)}; raise it to {millimetres(least)}, or {plain}."
+        )
+    return max(fitting, key=lambda one: one.dynamic_rating or 0.0)
+
+
+def _nearest(wanted: float, sizes: Sequence[float]) -> str:
+    """The sizes next to `wanted`, in words."""
+    below = max((one for one in sizes if one < wanted), default=None)
+    above = min((one for one in sizes if one > wanted), default=None)
+    return " or ".join(millimetres(one) for one in (below, above) if one is not None)
