@@ -89,7 +89,9 @@ def test_calibration_goes_from_one_command_into_the_others(cqdd, tmp_path):
     ("arguments", "says"),
     [
         (["bench", DESIGN, "--only", "backlsh"], "did you mean 'backlash'"),
-        (["bench", DESIGN, "--voltage", "0 V"], "not above zero"),
+        pytest.param(
+            ["bench", DESIGN, "--voltage", "0 V"], "not above zero", marks=pytest.mark.deep
+        ),
         (["bench", DESIGN, "--voltage", "24"], "has no unit"),
         (["bench", DESIGN, "--beside", "Some Motor"], "no motor 'Some Motor'"),
         (["bench", DESIGN, "--beside", "CubeMars RO100 KV55"], "geared"),
@@ -98,7 +100,11 @@ def test_calibration_goes_from_one_command_into_the_others(cqdd, tmp_path):
             ["calibrate", DESIGN, "--to", "mass"], "decides no unknown", marks=pytest.mark.deep
         ),
         (["calibrate", DESIGN, "--measured", "none.csv"], "cannot read none.csv"),
-        (["calibrate", DESIGN, "--unknowns", "fricton_level"], "did you mean 'friction_level'"),
+        pytest.param(
+            ["calibrate", DESIGN, "--unknowns", "fricton_level"],
+            "did you mean 'friction_level'",
+            marks=pytest.mark.deep,
+        ),
     ],
 )
 def test_wrong_usage(arguments, says, capfd):

@@ -30,6 +30,7 @@ GIVEN = {
 }
 
 
+@pytest.mark.deep
 def test_every_option_reaches_the_rating(cqdd):
     words = [word for name, (text, *_) in GIVEN.items() for word in (name, text)]
     told = cqdd("compare", DESIGN, "--json", *words).document["results"]["planetary"]

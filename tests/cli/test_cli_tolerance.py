@@ -213,7 +213,10 @@ def test_interference_is_told_as_preload(cqdd, tmp_path: Path) -> None:
     assert any("preloaded" in sentence for sentence in document["warnings"])
 
 
-@pytest.mark.parametrize(("torque", "kept"), [("1e-6 N*m", True), ("1e9 N*m", False)])
+@pytest.mark.parametrize(
+    ("torque", "kept"),
+    [pytest.param("1e-6 N*m", True, marks=pytest.mark.deep), ("1e9 N*m", False)],
+)
 def test_any_torque_gives_an_answer_or_says_why(cqdd, torque: str, kept: bool) -> None:
     done = cqdd("analyse", str(DESIGN), "--torque", torque, "--json")
     assert done.code == 0, done.err

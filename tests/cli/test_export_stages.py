@@ -12,7 +12,14 @@ def stages_told(err: str) -> list[tuple[int, int]]:
     return [(int(one), int(all_)) for one, all_ in re.findall(r"^\[(\d+)/(\d+)\]", err, re.M)]
 
 
-@pytest.mark.parametrize("kinds", ["gcode", "edm,mjcf", "dxf,bom"])
+@pytest.mark.parametrize(
+    "kinds",
+    [
+        pytest.param("gcode", marks=pytest.mark.deep),
+        "edm,mjcf",
+        pytest.param("dxf,bom", marks=pytest.mark.deep),
+    ],
+)
 def test_size_counts_the_stages_that_it_tells(cqdd, tmp_path, kinds):
     done = cqdd("size", "--ratio", "10", "--export", kinds, "--out", str(tmp_path / "found.toml"))
     assert done.code == 0, done.err

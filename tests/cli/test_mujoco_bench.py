@@ -145,7 +145,7 @@ def mujoco_orders(p: ActuatorParameters, torque: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("share", [1.0, 0.5])
+@pytest.mark.parametrize("share", [1.0, pytest.param(0.5, marks=pytest.mark.deep)])
 def test_ripple_orders(
     actuators: dict[str, ActuatorParameters], validated: Validated, kind: str, share: float
 ) -> None:

@@ -223,6 +223,7 @@ def test_other_designs_draw_as_cleanly(name: str, tmp_path: Path) -> None:
     _draws_cleanly(build_report(report_input(Design.from_mapping(OTHERS[name]))), tmp_path)
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize(
     "ratio", [12, *(pytest.param(ratio, marks=pytest.mark.deep) for ratio in (6, 10, 24))]
 )

@@ -59,6 +59,7 @@ def _write(flat, design, folder, options, *, wire=True):
     return path
 
 
+@pytest.mark.deep
 def test_every_dialect_reads_back_to_the_same_loops(parts, tmp_path, monkeypatch):
     design, flats = parts
     measured = []

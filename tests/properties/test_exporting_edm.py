@@ -115,12 +115,12 @@ def _assert_legible(canvas):
     "change",
     [
         {},
-        {"reducer.ring_type": "conjugate"},
+        pytest.param({"reducer.ring_type": "conjugate"}, marks=pytest.mark.deep),
         {"reducer.ring_type": "pinwheel"},
-        {"reducer.disc_count": 3},
-        {"reducer.output_pins.hole_clocking": "0 deg"},
-        {"reducer.output_pins.hole_clocking": "-40 deg"},
-        COLUMNS,
+        pytest.param({"reducer.disc_count": 3}, marks=pytest.mark.deep),
+        pytest.param({"reducer.output_pins.hole_clocking": "0 deg"}, marks=pytest.mark.deep),
+        pytest.param({"reducer.output_pins.hole_clocking": "-40 deg"}, marks=pytest.mark.deep),
+        pytest.param(COLUMNS, marks=pytest.mark.deep),
         {**COLUMNS, "reducer.output_pins.count": 8, "reducer.carrier.column_count": 4},
     ],
 )

@@ -111,6 +111,7 @@ def test_one_file_for_the_machine_and_one_for_every_part(tmp_path: Path) -> None
     assert {path.name for path in tmp_path.iterdir()} == set(names)
 
 
+@pytest.mark.deep
 def test_ap242_says_so_and_the_next_file_does_not(tmp_path: Path) -> None:
     import cadquery
 

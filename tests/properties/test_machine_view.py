@@ -163,6 +163,7 @@ def test_section_cuts_what_the_plane_meets() -> None:
     assert any("shoulder screw" in face for face in faces)
 
 
+@pytest.mark.deep
 def test_hidden_lines_of_a_tube() -> None:
     """Along the axis only circles are left; from the side a rectangle, the bore hidden."""
     from cqdd_design.solids.cad import build_solid

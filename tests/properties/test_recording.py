@@ -170,6 +170,7 @@ def test_a_command_is_recorded_in_its_own_unit(mode, column):
     assert np.all(columns[column] == 2.0)
 
 
+@pytest.mark.deep
 def test_sets_stand_one_after_the_other_and_come_of_their_seeds():
     many = recorded(LOCKED, 0.1, step=1e-5, seed=3, samples=2)
     alone = recorded(LOCKED, 0.1, step=1e-5, seed=4)

@@ -72,6 +72,7 @@ def test_the_defaults_give_a_design_that_passes_every_check(ratio):
     assert {check.status for check in result.checks} == {"pass"}
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize(
     "ratio",
     [4, *(pytest.param(ratio, marks=pytest.mark.deep) for ratio in (5, 31, 60)), 119],

@@ -84,7 +84,12 @@ def pointer_to(values: np.ndarray):
 
 @compiled
 @pytest.mark.parametrize(
-    "flags", [("-O0",), ("-O3", "-march=native"), ("-O2", "-ffp-contract=off")]
+    "flags",
+    [
+        pytest.param(("-O0",), marks=pytest.mark.deep),
+        ("-O3", "-march=native"),
+        pytest.param(("-O2", "-ffp-contract=off"), marks=pytest.mark.deep),
+    ],
 )
 def test_ten_thousand_steps_equal_numpy_and_the_acceleration_is_made_inside(tmp_path, flags):
     artefact = network()
@@ -211,7 +216,11 @@ def test_the_swing_meets_the_supply_and_the_current_limit():
 
 
 @compiled
-@pytest.mark.parametrize("way", [-1.0, 1.0], ids=["against the motor", "with the motor"])
+@pytest.mark.parametrize(
+    "way",
+    [-1.0, pytest.param(1.0, marks=pytest.mark.deep)],
+    ids=["against the motor", "with the motor"],
+)
 @pytest.mark.parametrize("mode", ["streaming", pytest.param("window", marks=pytest.mark.deep)])
 def test_balance_friction_and_ripple_are_made_inside(tmp_path, mode, way):
     parameters, episode = small_drive(way), swing()

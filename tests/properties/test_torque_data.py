@@ -360,6 +360,7 @@ def test_more_episodes_leave_the_first_ones_as_they_are():
             assert one.start < one.wall_angle < one.start + one.amplitude
 
 
+@pytest.mark.deep
 def test_held_mass_and_other_gearboxes_stand_apart_and_answer_differently():
     few = dataclasses.replace(SMALL, episodes=1, unit_gearboxes=2, seconds=0.6)
     data, _ = generate(resolve(DESIGN), few)
@@ -380,6 +381,7 @@ def test_held_mass_and_other_gearboxes_stand_apart_and_answer_differently():
     assert 0.01 < np.std(difference) < 0.5 * np.std(first.columns["torque"])
 
 
+@pytest.mark.deep
 def test_the_same_seed_gives_the_same_data_and_the_ripple_is_never_adjusted(small):
     data, warnings = generate(
         resolve(DESIGN), SMALL, specimen=Specimen(factors={"tolerance_scale": 7.0})
