@@ -128,7 +128,9 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
         chapter(
             "tolerances",
             "Tolerances",
-            None if tolerance is None else {"tolerances": tolerance_view(tolerance)},
+            None
+            if tolerance is None
+            else {"tolerances": tolerance_view(tolerance, results.clearances)},
         ),
         chapter("actuator", "Actuator", _actuator(results)),
         chapter(

@@ -17,6 +17,7 @@ from cqdd_design.results import Provenance
 if TYPE_CHECKING:
     from cqdd_design.actuator.bench import BenchResult
     from cqdd_design.actuator.parameters import ActuatorParameters
+    from cqdd_design.gearbox.tolerance.clearance import ClearancePoint
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
     from cqdd_design.machine.contact_analysis import ContactAnalysis
     from cqdd_design.report.machine_view.model import ViewerData
@@ -50,6 +51,8 @@ class ReportInput:
         At the torques of the requirements: contact, precision, losses and life.
     tolerance : ToleranceResult or None
         An ensemble of toleranced gearboxes.
+    clearances : tuple of ClearancePoint
+        What other clearances would make of it.
     pictures : (MachineViews, ViewerData) or None
         Pictures of the solids, and their model in three dimensions.
     bench : (ActuatorParameters, BenchResult) or None
@@ -69,6 +72,7 @@ class ReportInput:
     files: tuple[WrittenFile, ...] = ()
     contact: ContactAnalysis | None = None
     tolerance: ToleranceResult | None = None
+    clearances: tuple[ClearancePoint, ...] = ()
     pictures: tuple[MachineViews, ViewerData] | None = None
     bench: tuple[ActuatorParameters, BenchResult] | None = None
     bench_missing: str = ""

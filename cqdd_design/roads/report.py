@@ -10,6 +10,7 @@ from cqdd_design.design import Design
 from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.files import WrittenFile, refuse_overwrite, write_atomically
 from cqdd_design.gearbox import GearboxAnalysis
+from cqdd_design.gearbox.tolerance.clearance import ClearancePoint, clearance_study
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
 from cqdd_design.machine import Machine
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
@@ -28,6 +29,7 @@ REPORT_STAGES = 6
 #: Toleranced gearboxes of a report, fewer of those with many teeth: percentiles to a few per
 #: cent in some seconds, and never too few for a ranking.
 REPORT_SAMPLES, LEAST_REPORT_SAMPLES = 400, 128
+_CLEARANCE_SAMPLES = 24
 _REPORT_ANGLES = 1000
 
 
@@ -85,6 +87,11 @@ def write_report(
     bodies, notes = weigh_if_possible(machine)
     drawing = start_drawing(machine) if bodies else None
     contact, ensemble, unsolved = _contact_and_tolerances(machine, samples, progress)
+    clearances: tuple[ClearancePoint, ...] = ()
+    if ensemble is not None:
+        angles = ensemble.ensemble.angles
+        fitting = max(_CLEARANCE_SAMPLES * _REPORT_ANGLES // max(angles, _REPORT_ANGLES), 8)
+        clearances = clearance_study(machine.design, fitting, angles)
     progress("measuring the actuator on the test bench")
     measured, unmeasured = measured_actuator(machine, specimen)
     progress("drawing the machine")
@@ -103,6 +110,7 @@ def write_report(
         files=files,
         contact=contact,
         tolerance=ensemble,
+        clearances=clearances,
         pictures=pictures,
         bench=measured,
         bench_missing=unmeasured,

@@ -10,7 +10,7 @@ from cqdd_design.gearbox.bearing_life import load_for_life
 from cqdd_design.gearbox.cam_bearing import cam_bearing
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.life import cycles
-from cqdd_design.gearbox.life.fatigue import contact_cycle_factor
+from cqdd_design.gearbox.life.fatigue import contact_cycle_factor, contact_cycles
 
 BINDING_SHARE = 0.05
 """Torque that turns a gearbox without load, over the continuous torque, from which it binds."""
@@ -21,14 +21,28 @@ def lasting_pressure(design: Design) -> float:
 
     Every point of a flank is met n + 1 times an output turn. 0 where the catalogue knows no limit.
     """
-    reducer, speed = design.reducer, design.requirements.input_speed
-    limit = allowables.weaker(
-        allowables.contact_limit_fatigue(find_material(reducer.disc_material)),
-        allowables.contact_limit_fatigue(find_material(reducer.ring_material)),
-    )
-    output_turns = 3600.0 * allowables.LIFE_HOURS * speed / (2.0 * math.pi)
-    met = output_turns / reducer.ratio * cycles.disc_cycles(reducer.ratio)
-    return limit.value * float(contact_cycle_factor(met))
+    met = allowables.LIFE_HOURS * _met_per_hour(design)
+    return _pressure_limit(design) * float(contact_cycle_factor(met))
+
+
+def lasting_hours(design: Design, pressure: float) -> float | None:
+    """Hours that disc and ring bear a pressure (Pa) at the input speed; None where not known."""
+    limit = _pressure_limit(design)
+    if limit <= 0.0:
+        return None
+    return float(contact_cycles(pressure, limit)) / _met_per_hour(design)
+
+
+def _met_per_hour(design: Design) -> float:
+    turns = 3600.0 * design.requirements.input_speed / (2.0 * math.pi) / design.reducer.ratio
+    return turns * cycles.disc_cycles(design.reducer.ratio)
+
+
+def _pressure_limit(design: Design) -> float:
+    """Contact fatigue limit of the weaker of disc and ring, Pa."""
+    disc, ring = design.reducer.disc_material, design.reducer.ring_material
+    of = allowables.contact_limit_fatigue
+    return allowables.weaker(of(find_material(disc)), of(find_material(ring))).value
 
 
 def limits(design: Design) -> dict[str, float]:

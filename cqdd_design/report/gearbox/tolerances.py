@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from cqdd_design.report.ink.bars import bar_chart, histogram
+from cqdd_design.report.ink.charts import Curve, Level, line_chart
 from cqdd_design.report.ink.numbers import significant, with_unit
 from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Figure, Words
 
 if TYPE_CHECKING:
+    from cqdd_design.gearbox.tolerance.clearance import ClearancePoint
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
 
 _NAMES = {
@@ -27,7 +32,7 @@ _SHOWN = ("backlash_arcmin", "torque_ripple_pp_Nm", "ring_pressure_max_MPa")
 _STATISTICS = ("mean", "std", "p5", "p50", "p95", "p99")
 
 
-def tolerance_view(result: ToleranceResult) -> Values:
+def tolerance_view(result: ToleranceResult, clearances: Sequence[ClearancePoint] = ()) -> Values:
     """Figures, and rows of (name, mean, std, p5, p50, p95, p99, limit)."""
     ensemble, count = result.ensemble, len(result.values)
     lead = (
@@ -51,7 +56,77 @@ def tolerance_view(result: ToleranceResult) -> Values:
     lead += "".join(f" {words[0].upper()}{words[1:]}" for words in result.warnings)
     histograms = [_histogram(result, name) for name in _SHOWN]
     rankings = [_ranking(result, name) for name in _SHOWN if result.ranking(name)]
-    return {"lead": lead, "figures": (*histograms, *rankings), "rows": rows}
+    return {
+        "lead": lead,
+        "figures": (*histograms, *rankings),
+        "rows": rows,
+        "clearances": [_clearance_row(point) for point in clearances],
+        "clearance_figures": tuple(_clearance_figures(clearances)),
+    }
+
+
+def _clearance_row(point: ClearancePoint) -> tuple[str, ...]:
+    """Offset, hole clearance, hours, reserve, backlash, binding, stiffness."""
+    name = f"{1e6 * point.equidistant:g}" + (", the design" if point.own else "")
+    hole = f"{1e6 * point.hole_clearance:g}"
+    if point.missing:
+        return name, hole, "no equilibrium", "", "", "", ""
+    known = point.hours is not None and point.reserve is not None
+    return (
+        name,
+        hole,
+        significant(point.hours, 2) if known and point.hours is not None else "not known",
+        significant(point.reserve, 3) if known and point.reserve is not None else "not known",
+        significant(point.backlash, 3),
+        f"{100.0 * point.binding:.0f}\u202f%",
+        significant(point.stiffness, 3),
+    )
+
+
+def _clearance_figures(points: Sequence[ClearancePoint]) -> Iterator[Figure]:
+    """Reserve of pressure, and backlash, over the flank's offset, a line for a hole clearance."""
+    holes = sorted({point.hole_clearance for point in points})
+    x = np.array(sorted({1e6 * point.equidistant for point in points}))
+    if len(holes) < 2 or any(point.missing or point.reserve is None for point in points):
+        return
+
+    def curves(values: Sequence[float]) -> list[Curve]:
+        by_hole = np.array(values).reshape(len(holes), -1)
+        return [
+            Curve(f"hole clearance {1e6 * hole:g} \u00b5m", row, f"series-{k + 1}")
+            for k, (hole, row) in enumerate(zip(holes, by_hole, strict=True))
+        ]
+
+    note = "Medians and means of small ensembles with the same draws at every point."
+    x_label, ticks = "offset of the flank, \u00b5m", [float(value) for value in x]
+    yield line_chart(
+        Words(
+            "clearance-reserve",
+            "Reserve of pressure over clearance",
+            "Pressure that lasts the required hours over the greatest pressure at the continuous "
+            "torque, over the offset of the flank; below 1 the ring does not last.",
+            note,
+        ),
+        x,
+        curves([point.reserve or 0.0 for point in points]),
+        [Level("lasts", 1.0)],
+        x_label=x_label,
+        y_label="reserve of pressure",
+        x_ticks=ticks,
+    )
+    yield line_chart(
+        Words(
+            "clearance-backlash",
+            "Backlash over clearance",
+            "Mean backlash over the offset of the flank.",
+            note,
+        ),
+        x,
+        curves([point.backlash for point in points]),
+        x_label=x_label,
+        y_label="backlash, arcmin",
+        x_ticks=ticks,
+    )
 
 
 def _histogram(result: ToleranceResult, name: str) -> Figure:
