@@ -1,0 +1,180 @@
+"""A disc as an elastic body: its places, its loops, and its influence matrix."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.catalog.materials import find_material
+from cqdd_design.design import Design
+from cqdd_design.gearbox.bodies.bore import OuterRing
+from cqdd_design.gearbox.bodies.loops import Loop, circle, lobed
+from cqdd_design.gearbox.bodies.point_load import Places, Plate
+from cqdd_design.geometry.contours import ComplexArray, FloatArray
+from cqdd_design.geometry.cycloid import CycloidDisc
+from cqdd_design.geometry.disc import first_hole_angle, hole_diameter
+
+PER_LOBE = 16
+PER_HOLE = 24
+STATIONS = 48
+"""Places on a lobe and on a hole's edge, and the fewest round the raceway."""
+
+
+@dataclass(frozen=True)
+class DiscShape:
+    """Numbers that a disc's influence matrix depends on, SI.
+
+    Attributes
+    ----------
+    outline : CycloidDisc
+    hole_count : int
+    hole_circle, hole_radius, first_hole : float
+        m, m, rad.
+    bearing : OuterRing
+    plate : Plate
+    side : float
+        Longest side of a triangle, m.
+    """
+
+    outline: CycloidDisc
+    hole_count: int
+    hole_circle: float
+    hole_radius: float
+    first_hole: float
+    bearing: OuterRing
+    plate: Plate
+    side: float
+
+    @classmethod
+    def from_design(cls, design: Design, disc_index: int) -> DiscShape:
+        """Disc `disc_index` of a design that names its cam bearing."""
+        reducer = design.reducer
+        steel = find_material(reducer.disc_material)
+        outline = CycloidDisc.from_design(design)
+        return cls(
+            outline,
+            reducer.output_pins.count,
+            reducer.output_pins.circle_radius,
+            0.5 * hole_diameter(design),
+            first_hole_angle(design, disc_index),
+            OuterRing.of(find_bearing(reducer.cam_bearing.designation)),
+            Plate(steel.youngs_modulus, steel.poisson_ratio, reducer.disc_thickness),
+            outline.tip_distance / 20.0,
+        )
+
+    @property
+    def sectors(self) -> int:
+        """Turns of the disc that leave it as it is."""
+        return math.gcd(self.outline.lobe_count, self.hole_count)
+
+    @property
+    def holes(self) -> ComplexArray:
+        """Centres of the holes, m."""
+        turns = self.first_hole + 2.0 * np.pi * np.arange(self.hole_count) / self.hole_count
+        return np.asarray(self.hole_circle * np.exp(1j * turns))
+
+    def loops(self) -> tuple[Loop, ...]:
+        """Outline, holes, and the bore with the bearing's ring in it; the last is the raceway."""
+        outside = Loop(lobed(self.outline), 1)
+        holes = tuple(Loop(circle(complex(c), self.hole_radius), -1) for c in self.holes)
+        ring = self.bearing
+        if ring.raceway == ring.outer:
+            return (outside, *holes, Loop(circle(0j, ring.outer), -1))
+        factor = self.ring_factor
+        seat = Loop(circle(0j, ring.outer), -1, 1.0 - factor, inner=True)
+        return (outside, *holes, seat, Loop(circle(0j, ring.raceway), -1, factor))
+
+    @property
+    def ring_factor(self) -> float:
+        """Stiffness of the bearing's ring over the disc's, by modulus and width."""
+        ring = self.bearing
+        return ring.modulus * ring.width / (self.plate.modulus * self.plate.thickness)
+
+    @property
+    def lobe_parameters(self) -> FloatArray:
+        """Parameters (PER_LOBE,) of the first lobe's places, evenly by arc length, rad."""
+        grid, length = lobe_length(self.outline)
+        wanted = length[-1] * np.arange(PER_LOBE) / PER_LOBE
+        return np.asarray(np.interp(wanted, length, grid))
+
+    def places(self) -> Places:
+        """Lobes from the valley on +x, then holes from the direction of +x."""
+        lobes = self.outline.lobe_count
+        t = (2.0 * np.pi * np.arange(lobes)[:, None] / lobes + self.lobe_parameters).ravel()
+        point, normal = self.outline.profile(t)
+        wall = np.exp(2j * np.pi * np.arange(PER_HOLE) / PER_HOLE)
+        # Turned with its hole, so that a turn of the disc carries places into places.
+        turned = (self.holes / np.abs(self.holes))[:, None] * wall
+        centre = np.broadcast_to(self.holes[:, None], turned.shape)
+        return Places(
+            np.concatenate([point, (centre + self.hole_radius * turned).ravel()]),
+            np.concatenate([-normal, turned.ravel()]),
+            np.concatenate([np.full(len(t), np.nan + 0j), centre.ravel()]),
+        )
+
+    @property
+    def stations(self) -> FloatArray:
+        """Angles of the stations round the raceway, a whole number for each lobe, rad."""
+        lobes = self.outline.lobe_count
+        count = lobes * math.ceil(STATIONS / lobes)
+        return 2.0 * np.pi * np.arange(count) / count
+
+    def tents(self, point: ComplexArray) -> ComplexArray:
+        """Outward tractions (Q, B) of unit loads on stations, N/m; `point` on the raceway."""
+        width = 2.0 * np.pi / len(self.stations)
+        away = np.angle(point[:, None] * np.exp(-1j * self.stations))
+        tent = np.clip(1.0 - np.abs(away) / width, 0.0, None) / (width * self.bearing.raceway)
+        return np.asarray(tent * (point / np.abs(point))[:, None])
+
+    def standard(self) -> tuple[DiscShape, float, bool]:
+        """The disc of its kind with the least angle to its first hole, and how it comes from this.
+
+        Returns
+        -------
+        shape, turn, mirrored
+            A point z of this disc is ``exp(1j * turn)`` times z, or times its conjugate, of that.
+        """
+        lobes, pitch = self.outline.lobe_count, 2.0 * np.pi / self.hole_count
+        found = []
+        for mirrored in (False, True):
+            for lobe in range(lobes):
+                turn = 2.0 * np.pi * lobe / lobes
+                first = np.mod((-1 if mirrored else 1) * self.first_hole + turn, pitch)
+                # Rounded, so that what differs by the last digit is one disc, and the last is none.
+                rounded = round(float(first), 12)
+                found.append((rounded % round(pitch, 12), mirrored, turn))
+        first, mirrored, turn = min(found)
+        return replace(self, first_hole=first), turn, mirrored
+
+    def turned(self, sector: int) -> NDArray[np.int64]:
+        """Where every load goes when the disc turns on by sectors."""
+        lobes, share = self.outline.lobe_count, sector / self.sectors
+        first = 0
+        found = []
+        for count, each in ((lobes, 2 * PER_LOBE), (self.hole_count, 2 * PER_HOLE)):
+            total = count * each
+            found.append(first + (np.arange(total) + round(share * count) * each) % total)
+            first += total
+        count = len(self.stations)
+        found.append(first + (np.arange(count) + round(share * count)) % count)
+        return np.concatenate(found)
+
+    def of_one_sector(self) -> NDArray[np.int64]:
+        """Loads of the first sector."""
+        lobes = self.outline.lobe_count
+        first, found = 0, []
+        for total in (2 * PER_LOBE * lobes, 2 * PER_HOLE * self.hole_count, len(self.stations)):
+            found.append(first + np.arange(total // self.sectors))
+            first += total
+        return np.concatenate(found)
+
+
+def lobe_length(outline: CycloidDisc) -> tuple[FloatArray, FloatArray]:
+    """Parameters over one lobe and the arc length to each, rad and m."""
+    grid = np.linspace(0.0, 2.0 * outline.half_pitch, 513)
+    speed = outline.speed(0.5 * (grid[1:] + grid[:-1]))
+    return grid, np.concatenate([[0.0], np.cumsum(speed * np.diff(grid))])

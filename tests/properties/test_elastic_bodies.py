@@ -1,0 +1,433 @@
+"""Elastic discs and ring: against patches on a fine mesh, reciprocity, what must not matter."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import logging
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import plane_stress
+import pytest
+
+from cqdd_design.design import Design
+from cqdd_design.errors import GeometryError
+from cqdd_design.gearbox.bodies import bore, cache
+from cqdd_design.gearbox.bodies.compliance import (
+    ElasticBodies,
+    compliance,
+    disc_compliance,
+    disc_spots,
+    ring_compliance,
+    under_disc,
+)
+from cqdd_design.gearbox.bodies.depths import ring_depths
+from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape
+from cqdd_design.gearbox.bodies.made import elastic_bodies
+from cqdd_design.gearbox.bodies.model import Body, disc_body, of_standard, standard_loads
+from cqdd_design.gearbox.bodies.point_load import DEPTH
+from cqdd_design.gearbox.bodies.stress import disc_regions, disc_stress, ring_stress
+from cqdd_design.gearbox.contact import laws
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
+from cqdd_design.gearbox.contact.sweep import contact_sweep
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr(cache, "folder", lambda: tmp_path / "bodies")
+    return tmp_path / "bodies"
+
+
+@functools.cache
+def reference_s() -> Design:
+    return Design.model_validate(
+        {
+            "schema_version": 1,
+            "name": "reference-s",
+            "requirements": {
+                "ratio": 10,
+                "peak_torque": "90 N*m",
+                "continuous_torque": "34.2 N*m",
+                "input_speed": "1286 rpm",
+            },
+            "reducer": {
+                "ratio": 10,
+                "ring_pitch_radius": "32.75 mm",
+                "eccentricity": "1.97 mm",
+                "ring_pin_diameter": "6.6 mm",
+                "ring_type": "solid",
+                "disc_count": 2,
+                "disc_thickness": "8 mm",
+                "disc_spacing": "0.5 mm",
+                "disc_material": "AISI 4140 Q&T 540C",
+                "ring_material": "AISI 4140 Q&T 540C",
+                "modification": {"equidistant": "6 um"},
+                "output_pins": {
+                    "count": 10,
+                    "diameter": "4 mm",
+                    "circle_radius": "23 mm",
+                    "hole_clearance": "16 um",
+                    "hole_clocking": "9 deg",
+                    "support": "both",
+                    "material": "Alloy steel 12.9 (ISO 7379)",
+                },
+                "cam_bearing": {"designation": "16003", "radial_clearance": "5 um"},
+                "ring": {"outer_diameter": "72 mm"},
+            },
+            "motor": {"name": "CubeMars RO100 KV55"},
+        }
+    )
+
+
+@functools.cache
+def bodies_of_s() -> ElasticBodies:
+    return elastic_bodies(reference_s())
+
+
+@functools.cache
+def states_of_s() -> tuple[ContactModel, NominalStates]:
+    model = ContactModel.from_design(reference_s())
+    return model, nominal_states(model, np.linspace(0.0, 2.0 * np.pi, 36, endpoint=False))
+
+
+def changed(**reducer: object) -> Design:
+    design = reference_s()
+    return design.model_copy(update={"reducer": design.reducer.model_copy(update=reducer)})
+
+
+def bare(shape: DiscShape) -> DiscShape:
+    """The disc without the bearing's ring, as the oracle has it."""
+    ring = dataclasses.replace(shape.bearing, raceway=shape.bearing.outer)
+    return dataclasses.replace(shape, bearing=ring)
+
+
+def patched(shape: DiscShape, ids: list[int], half_width: float, coarse: float) -> np.ndarray:
+    """Compliance between places by Hertzian pressures on patches, reactions round the bore."""
+    outline, places, plate = shape.outline, shape.places(), shape.plate
+    R = shape.bearing.outer
+
+    def outside(u: np.ndarray) -> np.ndarray:
+        return outline.profile(2.0 * np.pi * np.asarray(u))[0]
+
+    def round_hole(centre: complex, radius: float):
+        return lambda u: centre + radius * np.exp(2j * np.pi * np.asarray(u))
+
+    rim = outside(np.linspace(0.0, 1.0, 20_001))
+    angle = np.unwrap(np.angle(rim))
+
+    def inside(z: np.ndarray) -> np.ndarray:
+        good = np.abs(z) < np.interp(np.mod(np.angle(z), 2.0 * np.pi), angle, np.abs(rim))
+        for centre in shape.holes:
+            good &= np.abs(z - centre) > shape.hole_radius
+        return good & (np.abs(z) > R)
+
+    curves = [outside, *(round_hole(c, shape.hole_radius) for c in shape.holes), round_hole(0j, R)]
+    made = plane_stress.lattice(
+        plane_stress.Domain(curves, inside), coarse, places.point[ids], half_width / 6.0
+    )
+    matrix = plane_stress.stiffness(made, plate.modulus, plate.poisson, plate.thickness)
+    columns, lobes = [], PER_LOBE * outline.lobe_count
+    for i in ids:
+
+        def hertz(z: np.ndarray, i: int = i) -> np.ndarray:
+            away = np.abs(z - places.point[i])
+            width = np.sqrt(np.clip(half_width**2 - away**2, 0.0, None))
+            return 2.0 / (np.pi * half_width**2) * width * places.inward[i]
+
+        edge = 0 if i < lobes else 1 + (i - lobes) // PER_HOLE
+        force = plane_stress.nodal(made, edge, hertz)
+        force /= abs(complex(force[0::2].sum(), force[1::2].sum()))
+        total = complex(force[0::2].sum(), force[1::2].sum())
+        moment = (np.conj(made.nodes) * (force[0::2] + 1j * force[1::2])).imag.sum()
+        length = 2.0 * np.pi * R
+
+        def reaction(
+            z: np.ndarray, total: complex = total, moment: float = moment, length: float = length
+        ) -> np.ndarray:
+            return total / length + 1j * z / np.abs(z) * moment / (length * R)
+
+        columns.append(force - plane_stress.nodal(made, len(curves) - 1, reaction))
+    forces, rim_nodes = np.array(columns).T, made.edges[-1]
+    half = rim_nodes[len(rim_nodes) // 2]
+    held = [2 * rim_nodes[0], 2 * rim_nodes[0] + 1, 2 * half + 1]
+    moved = plane_stress.solve(matrix, forces, held)
+    found = forces.T @ moved
+    for k, i in enumerate(ids):
+        # Its own place: the middle of the patch, less what a half plane gives down to the depth.
+        read = forces[:, k].copy()
+        near = np.abs(made.nodes - places.point[i]) < 3.0 * half_width
+        read[0::2][near] = read[1::2][near] = 0.0
+        middle = int(np.abs(made.nodes - places.point[i]).argmin())
+        read[2 * middle] = places.inward[i].real
+        read[2 * middle + 1] = places.inward[i].imag
+        found[k, k] = read @ moved[:, k] - float(plate.approach(DEPTH, half_width))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("half_width", "coarse"),
+    [(0.3e-3, 0.6e-3), pytest.param(0.15e-3, 0.4e-3, marks=pytest.mark.deep)],
+)
+def test_influence_agrees_with_patches_on_a_fine_mesh_whatever_their_width(
+    half_width: float, coarse: float
+) -> None:
+    """Flank over a hole, flank over a bridge, tip, and two edges of a hole: 1 %, 3 % asked."""
+    shape = bare(DiscShape.from_design(reference_s(), 0))
+    lobes = PER_LOBE * shape.outline.lobe_count
+    ids = [3, PER_LOBE + 3, PER_LOBE // 2, lobes + 7, lobes]
+    loads = 2 * np.array(ids)
+    ours = disc_body(shape).matrix[np.ix_(loads, loads)]
+    theirs = patched(shape, ids, half_width, coarse)
+    assert ours == pytest.approx(theirs, abs=1e-2 * float(np.abs(theirs).max()))
+    assert np.diag(ours) == pytest.approx(np.diag(theirs), rel=1.5e-2)
+
+
+def test_matrices_are_reciprocal_and_so_are_the_two_ways_to_compute_them() -> None:
+    bodies = bodies_of_s()
+    for body in (bodies.discs[0][1], bodies.discs[1][1], bodies.ring[1]):
+        scale = np.abs(body.matrix).max()
+        assert np.abs(body.matrix - body.matrix.T).max() <= 1e-9 * scale
+        assert body.reciprocity < 1e-2
+
+
+def test_mesh_does_not_matter() -> None:
+    shape = DiscShape.from_design(reference_s(), 0)
+    coarse, fine = (
+        disc_body(dataclasses.replace(shape, side=f * shape.side)).matrix for f in (1.5, 0.6)
+    )
+    assert np.diag(coarse) == pytest.approx(np.diag(fine), rel=3e-2)
+    assert np.abs(coarse - fine).max() < 1e-2 * np.abs(fine).max()
+
+
+def test_the_depth_of_the_cut_does_not_matter_to_law_and_body_together() -> None:
+    """Johnson's law at 1 kN and the body under it, cut at 2 to 6 mm in tooth, ring and disc."""
+    bodies, (palmgren, states) = bodies_of_s(), states_of_s()
+    shape, body = bodies.discs[0]
+    model = ContactModel.from_design(reference_s(), "johnson")
+    stiffness = under_disc(shape, model, states, 0, np.full((36, 2), 700.0))
+    totals = []
+    for depth in (2e-3, 3.5e-3, 6e-3):
+        cut = tuple((depth, *rest[1:]) for rest in model.ring_bodies)
+        one = dataclasses.replace(model, ring_bodies=cut)
+        radius = states.ring.equivalent_radius[:, 0]
+        a, B = laws.johnson_coefficients(model.contact_length, radius, model.ring_modulus, cut)
+        law = a - B * (np.log(1000.0) + 1.0)
+        parts = (
+            disc_compliance(shape, body, one, states, 0, stiffness)[:, :11, :11],
+            ring_compliance(*bodies.ring, one, states, 0),
+        )
+        totals.append(law + sum(np.diagonal(part, axis1=1, axis2=2) for part in parts))
+    assert totals[0] == pytest.approx(totals[1], rel=3e-2)
+    assert totals[2] == pytest.approx(totals[1], rel=3e-2)
+    assert palmgren.ring_law.model == "palmgren"
+
+
+def test_palmgren_counts_to_where_johnson_agrees_with_him() -> None:
+    model, states = states_of_s()
+    radius = states.ring.equivalent_radius[:, 0]
+    tooth, disc = ring_depths(model, radius)
+    force = 50e3 * model.contact_length
+    free = disc < model.ring_bodies[1][0]
+    assert free.any()
+    for k in np.flatnonzero(free.ravel())[:5]:
+        cut = tuple((disc.flat[k], *rest[1:]) for rest in model.ring_bodies)
+        a, B = laws.johnson_coefficients(
+            model.contact_length, radius.flat[k], model.ring_modulus, cut
+        )
+        johnson = force * (a - B * np.log(force))
+        palmgren = model.ring_coefficient(radius).flat[k] * force**0.9
+        assert johnson == pytest.approx(palmgren, rel=1e-9)
+    assert (tooth <= model.tooth_radius).all()
+
+
+def test_compliance_of_s_lies_where_a_second_implementation_has_it() -> None:
+    """5 to 6 nm/N with the bore free and 2.2 to 4.5 held round, by place under loaded teeth."""
+    bodies, (model, states) = bodies_of_s(), states_of_s()
+    shape, body = bodies.discs[0]
+    force = model.ring_forces(17.1, states.crank_angle)
+    loaded = force > 0.3 * force.max(axis=1, keepdims=True)
+    even = np.ones((36, len(shape.stations)))
+    free, held = (
+        1e9
+        * np.diagonal(disc_compliance(shape, body, model, states, 0, k * even), axis1=1, axis2=2)[
+            :, :11
+        ][loaded]
+        for k in (1e-2, 1e13)
+    )
+    assert 5.0 < free.mean() < 6.0
+    assert 2.2 < held.mean() < 4.5
+    assert (held < free).all()
+    sweep = contact_sweep(model, 34.2, states.crank_angle, states=states)
+    full = compliance(bodies, model, states, sweep.cam_force)
+    assert np.abs(full - np.swapaxes(full, 2, 3)).max() <= 1e-9 * np.abs(full).max()
+    assert np.linalg.eigvalsh(full).min() > 0.0
+
+
+def test_forces_in_balance_feel_no_reaction_round_the_raceway() -> None:
+    """What the elements push back with, and what the rigid disc on them is given, is statics."""
+    shape, body = bodies_of_s().discs[0]
+    model, states = states_of_s()
+    spots = disc_spots(shape, model, states, 0)
+    count = len(shape.stations)
+    first = len(body.matrix) - count
+    reading = np.einsum("ackb,ack->acb", body.matrix[0:first:2, first:][spots.near], spots.share)
+    direction = np.stack([spots.normal.real, spots.normal.imag], axis=-1)
+    radial = np.stack([np.cos(shape.stations), np.sin(shape.stations)], axis=-1)
+    stiffness = under_disc(shape, model, states, 0, np.full((36, 2), 700.0))
+    found = bore.reactions(reading, body.matrix[first:, first:], direction, radial, stiffness)
+    pushed = np.swapaxes(found.stations, 1, 2) @ radial
+    assert pushed == pytest.approx(-direction, abs=1e-9)
+    assert (np.where(stiffness == 0.0, np.abs(found.stations).max(axis=2), 0.0) == 0.0).all()
+
+
+def test_discs_of_one_kind_are_one_computation() -> None:
+    shape = DiscShape.from_design(reference_s(), 1)
+    standard, _, mirrored = shape.standard()
+    assert mirrored
+    assert standard.first_hole == DiscShape.from_design(reference_s(), 0).standard()[0].first_hole
+    ours, direct = of_standard(disc_body(standard), *standard_loads(shape)), disc_body(shape)
+    scale = np.abs(direct.matrix).max()
+    assert np.abs(ours.matrix - direct.matrix).max() < 1e-2 * scale
+
+
+def test_stress_of_s_away_from_contacts() -> None:
+    """A second implementation has 136 MPa at most in the disc at 90 N m."""
+    bodies, (model, states) = bodies_of_s(), states_of_s()
+    sweep = contact_sweep(model, 90.0, states.crank_angle, states=states)
+    forces = np.concatenate([sweep.ring_force, sweep.pin_force], axis=2)
+    greatest = 0.0
+    for index, (shape, body) in enumerate(bodies.discs):
+        found = disc_stress(
+            shape, body, model, states, index, forces[:, index], sweep.cam_force[:, index]
+        )
+        assert len(disc_regions(shape)) == found.shape[1]
+        greatest = max(greatest, float(np.nanmax(np.abs(found))))
+    assert 100e6 < greatest < 140e6
+    ring = ring_stress(*bodies.ring, states, 0, forces[:, 0, : model.tooth_count])
+    assert np.nanmax(np.abs(ring)) < 60e6
+
+
+def tiny(matrix: float = 1.0) -> Body:
+    return Body(np.full((2, 2), matrix), np.zeros((1, 2)), 0.0)
+
+
+@pytest.mark.parametrize("damage", ["cut", "flipped", "empty", "other", "text", "folder"])
+def test_spoilt_cache_is_computed_anew(
+    damage: str, own_cache: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    shape = DiscShape.from_design(reference_s(), 0)
+    made = cache.cached(shape, lambda _: tiny())
+    (entry,) = own_cache.glob("*.body")
+    content = entry.read_bytes()
+    if damage == "cut":
+        entry.write_bytes(content[:-3])
+    elif damage == "flipped":
+        entry.write_bytes(content[:-9] + bytes([content[-9] ^ 1]) + content[-8:])
+    elif damage == "empty":
+        entry.write_bytes(b"")
+    elif damage == "text":
+        entry.write_text("not an entry\n\n\n")
+    elif damage == "folder":
+        entry.unlink()
+        entry.mkdir()
+    else:
+        other = dataclasses.replace(shape, hole_circle=shape.hole_circle * 1.01)
+        cache.cached(other, lambda _: tiny(7.0))
+        (wrong,) = set(own_cache.glob("*.body")) - {entry}
+        entry.write_bytes(wrong.read_bytes())
+    with caplog.at_level(logging.WARNING):
+        again = cache.cached(shape, lambda _: tiny())
+    assert (again.matrix == made.matrix).all()
+    assert "spoilt" in caplog.text
+    if damage != "folder":
+        kept = cache.cached(shape, lambda _: pytest.fail("was computed again"))
+        assert (kept.matrix == made.matrix).all()
+
+
+def test_every_number_of_a_shape_names_its_own_entry(own_cache: Path) -> None:
+    shape = DiscShape.from_design(reference_s(), 0)
+    others = [
+        dataclasses.replace(shape, plate=dataclasses.replace(shape.plate, poisson=0.31)),
+        dataclasses.replace(shape, side=shape.side * (1.0 + 1e-15)),
+        bare(shape),
+        dataclasses.replace(shape, outline=dataclasses.replace(shape.outline, radial=1e-9)),
+    ]
+    for one in (shape, *others):
+        cache.cached(one, lambda _: tiny())
+    assert len(list(own_cache.glob("*.body"))) == 1 + len(others)
+
+
+def test_a_folder_that_cannot_be_written_to_is_no_harm(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").write_text("")
+    monkeypatch.setattr(cache, "folder", lambda: tmp_path / "file" / "bodies")
+    shape = DiscShape.from_design(reference_s(), 0)
+    assert (cache.cached(shape, lambda _: tiny()).matrix == 1.0).all()
+
+
+_TWICE = """
+import sys
+from pathlib import Path
+import numpy as np
+from cqdd_design.gearbox.bodies import cache
+from cqdd_design.gearbox.bodies.model import Body
+from cqdd_design.gearbox.bodies.point_load import Plate
+cache.folder = lambda: Path(sys.argv[1])
+for k in range(200):
+    plate = Plate(1.0, 0.3, float(k % 3 + 1))
+    made = Body(np.full((200, 200), plate.thickness), np.zeros((1, 2)), 0.0)
+    assert (cache.cached(plate, lambda _: made).matrix == plate.thickness).all()
+    if k % 5 == 0:
+        for one in Path(sys.argv[1]).glob("*.body"):
+            one.unlink(missing_ok=True)
+"""
+
+
+def test_two_processes_make_one_entry(tmp_path: Path) -> None:
+    runs = [
+        subprocess.Popen(
+            [sys.executable, "-c", _TWICE, str(tmp_path)], stderr=subprocess.PIPE, text=True
+        )
+        for _ in range(2)
+    ]
+    for run in runs:
+        errors = run.communicate(timeout=120)[1]
+        assert run.returncode == 0, errors
+        assert "spoilt" not in errors
+    assert not list(tmp_path.glob(".*"))
+
+
+def test_disc_too_thin_to_mesh_is_refused_with_a_sentence() -> None:
+    pins = reference_s().reducer.output_pins.model_copy(update={"circle_radius": 21.5e-3})
+    with pytest.raises(GeometryError, match=r"disc .* too thin"):
+        disc_body(DiscShape.from_design(changed(output_pins=pins), 0))
+
+
+@pytest.mark.parametrize(
+    "reducer",
+    [
+        {"ring_type": "pinwheel"},
+        {"ring_type": "conjugate"},
+        {"disc_count": 3},
+        {"disc_count": 1},
+    ],
+    ids=["pinwheel", "conjugate", "three discs", "one disc"],
+)
+def test_other_gearboxes_have_bodies_too(reducer: dict[str, object]) -> None:
+    ring = reference_s().reducer.ring.model_copy(update={"outer_diameter": 80e-3})
+    design = changed(ring=ring, **reducer)
+    bodies, model = elastic_bodies(design), ContactModel.from_design(design)
+    states = nominal_states(model, np.linspace(0.0, 6.0, 5))
+    cam = np.full((5, model.disc_count, 2), 700.0)
+    found = compliance(bodies, model, states, cam)
+    assert found.shape == (5, model.disc_count, 21, 21)
+    assert np.linalg.eigvalsh(0.5 * (found + np.swapaxes(found, 2, 3))).min() > -0.1e-9
+    assert 1e-9 < np.median(np.diagonal(found, axis1=2, axis2=3)) < 10e-9
+    slip = np.full((5, model.disc_count, 21), 0.08)
+    rubbing = compliance(bodies, model, states, cam, slip)
+    assert 0.0 < np.abs(rubbing - found).max() < 0.2 * np.abs(found).max()
