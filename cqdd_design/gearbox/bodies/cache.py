@@ -75,16 +75,16 @@ def _read(path: Path, text: str) -> Body | None:
         return None
     try:
         content = read_regular_file(path, _MOST_BYTES)
-        digest, line, rest = content.split(b"\n", 2)
-        if hashlib.sha256(line + rest).hexdigest().encode() != digest:
+        if hashlib.sha256(memoryview(content)[65:]).hexdigest().encode() != content[:64]:
             raise ValueError("its checksum is wrong")
-        told = json.loads(line)
+        end = content.index(b"\n", 65)
+        told = json.loads(content[65:end])
         if told["of"] != text:
             raise ValueError("it is of another body")
-        arrays, first = [], 0
+        arrays, first = [], end + 1
         for shape in told["shapes"]:
             count = int(np.prod(shape))
-            arrays.append(np.frombuffer(rest, "<f8", count, first).reshape(shape))
+            arrays.append(np.frombuffer(content, "<f8", count, first).reshape(shape))
             first += 8 * count
         return Body(arrays[0], arrays[1], told["reciprocity"])
     except (CqddError, ValueError, KeyError, TypeError) as error:
@@ -101,10 +101,10 @@ def _write(path: Path, text: str, body: Body) -> None:
         "reciprocity": body.reciprocity,
     }
     line = json.dumps(told, sort_keys=True).encode()
-    rest = b"".join(one.tobytes() for one in arrays)
-    digest = hashlib.sha256(line + rest).hexdigest().encode()
+    told_and_arrays = b"\n".join([line, b"".join(one.tobytes() for one in arrays)])
+    digest = hashlib.sha256(told_and_arrays).hexdigest().encode()
     try:
-        write_atomically(path, b"\n".join([digest, line, rest]), "body")
+        write_atomically(path, b"\n".join([digest, told_and_arrays]), "body")
         entries = sorted(path.parent.glob("*.body"), key=lambda one: one.stat().st_mtime)
         for old in entries[:-_MOST_ENTRIES]:
             old.unlink(missing_ok=True)

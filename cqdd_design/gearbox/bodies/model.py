@@ -50,8 +50,6 @@ def standard_loads(shape: DiscShape) -> tuple[NDArray[np.int64], FloatArray]:
     array (L,), array (L,)
         Index, and 1 or -1: a mirror turns tangents round.
     """
-    from scipy.spatial import cKDTree
-
     standard, turn, mirrored = shape.standard()
     sense = np.array([1.0, -1.0 if mirrored else 1.0])
     found, first, senses = [], 0, []
@@ -60,8 +58,7 @@ def standard_loads(shape: DiscShape) -> tuple[NDArray[np.int64], FloatArray]:
         (np.exp(1j * shape.stations), np.exp(1j * standard.stations), 1),
     ):
         moved = np.exp(1j * turn) * (np.conj(own) if mirrored else own)
-        tree = cKDTree(np.stack([other.real, other.imag], axis=-1))
-        near = tree.query(np.stack([moved.real, moved.imag], axis=-1))[1]
+        near = np.abs(moved[:, None] - other).argmin(axis=1)
         found.append((first + each * near[:, None] + np.arange(each)).ravel())
         senses.append(np.tile(sense[:each], len(near)))
         first += each * len(near)
@@ -70,13 +67,17 @@ def standard_loads(shape: DiscShape) -> tuple[NDArray[np.int64], FloatArray]:
 
 def of_standard(body: Body, index: NDArray[np.int64], sense: FloatArray) -> Body:
     """The body of a disc from that of the standard disc of its kind."""
+    if sense.min() > 0.0 and (index == np.arange(len(index))).all():
+        return body
     count = len(body.stress)
     place = index[: 2 * count : 2] // 2
-    return Body(
-        sense[:, None] * body.matrix[np.ix_(index, index)] * sense,
-        body.stress[np.ix_(place, index)] * sense,
-        body.reciprocity,
-    )
+    matrix = body.matrix.take(index, axis=0).take(index, axis=1)
+    stress = body.stress.take(place, axis=0).take(index, axis=1)
+    if sense.min() < 0.0:
+        matrix *= sense[:, None]
+        matrix *= sense
+        stress *= sense
+    return Body(matrix, stress, body.reciprocity)
 
 
 def disc_body(shape: DiscShape) -> Body:
