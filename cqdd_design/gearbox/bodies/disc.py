@@ -79,8 +79,15 @@ class DiscShape:
 
     def loops(self) -> tuple[Loop, ...]:
         """Outline, holes, and the bore with the bearing's ring in it; the last is the raceway."""
-        outside = Loop(lobed(self.outline), 1)
-        holes = tuple(Loop(circle(complex(c), self.hole_radius), -1) for c in self.holes)
+        # A vertex on every place: the half plane's field is sharp there, between vertices not.
+        places, lobes = self.places(), PER_LOBE * self.outline.lobe_count
+        outside = Loop(lobed(self.outline), 1, joints=self.lobe_places / (2.0 * np.pi))
+        on_wall = (places.point[lobes:] - places.void[lobes:]).reshape(-1, PER_HOLE)
+        turns = np.sort(np.mod(np.angle(on_wall) / (2.0 * np.pi), 1.0), axis=1)
+        holes = tuple(
+            Loop(circle(complex(c), self.hole_radius), -1, joints=u)
+            for c, u in zip(self.holes, turns, strict=True)
+        )
         ring = self.bearing
         if ring.raceway == ring.outer:
             return (outside, *holes, Loop(circle(0j, ring.outer), -1))
@@ -101,10 +108,16 @@ class DiscShape:
         wanted = length[-1] * np.arange(PER_LOBE) / PER_LOBE
         return np.asarray(np.interp(wanted, length, grid))
 
+    @property
+    def lobe_places(self) -> FloatArray:
+        """Parameters of the places on all lobes, rad."""
+        lobes = self.outline.lobe_count
+        first = 2.0 * np.pi * np.arange(lobes)[:, None] / lobes
+        return np.asarray((first + self.lobe_parameters).ravel())
+
     def places(self) -> Places:
         """Lobes from the valley on +x, then holes from the direction of +x."""
-        lobes = self.outline.lobe_count
-        t = (2.0 * np.pi * np.arange(lobes)[:, None] / lobes + self.lobe_parameters).ravel()
+        t = self.lobe_places
         point, normal = self.outline.profile(t)
         wall = np.exp(2j * np.pi * np.arange(PER_HOLE) / PER_HOLE)
         # Turned with its hole, so that a turn of the disc carries places into places.

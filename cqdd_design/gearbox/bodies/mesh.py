@@ -127,7 +127,12 @@ def _spacing(
         size = flat[index * _SAMPLES : (index + 1) * _SAMPLES]
         placed = _placed(loop, size)
         parameters.append(placed)
-        sizes.append(np.interp(placed[:-1], u, size, period=1.0))
+        chord = np.abs(np.diff(loop.curve(placed)[0]))
+        sizes.append(
+            np.minimum(
+                np.interp(placed[:-1], u, size, period=1.0), np.maximum(chord, np.roll(chord, 1))
+            )
+        )
     if sum(map(len, parameters)) > _MOST_VERTICES // 6:
         raise GeometryError(
             f"{what} has material too thin beside its size to be meshed; widen its thinnest "

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,10 +14,12 @@ from cqdd_design.gearbox.bodies.point_load import Places, Plate
 from cqdd_design.geometry.contours import ArcContour, FloatArray
 from cqdd_design.geometry.ring import ring_contour
 
-PER_TOOTH = 13
+PER_TOOTH = 9
 """Places on a tooth."""
 _HELD = 500.0
 """Stiffness of the seat over E/R of the ring: it gives way by less than a hundredth of the ring."""
+_KINK = 1e-3
+"""Turn of the contour at a joint from which it is a corner, rad."""
 _ROOTS = 24
 """Places of a tooth's pitch where stress is found."""
 
@@ -79,13 +81,21 @@ class RingShape:
 
     def loops(self) -> tuple[Loop, ...]:
         """Outside, and toothed contour."""
-        curve, joints = arcs(self.contour)
-        return Loop(circle(0j, self.outer), 1), Loop(curve, -1, joints=joints)
+        curve, corners = arcs(self.contour)
+        around = Loop(curve, -1)
+        before, after = (curve(corners + s * 1e-9)[1] for s in (-1.0, 1.0))
+        kinks = corners[np.abs(np.angle(after / before)) > _KINK]
+        joints = np.mod(around.parameter(self.places().point), 1.0)
+        if len(kinks):
+            apart = np.abs(np.mod(joints[:, None] - kinks + 0.5, 1.0) - 0.5)
+            joints = joints[apart.min(axis=1) * self.contour.length() > 0.05 * self.tooth_radius]
+        vertices = np.unique(np.concatenate([joints, kinks]))
+        return Loop(circle(0j, self.outer), 1), replace(around, joints=vertices)
 
     @property
     def angles(self) -> FloatArray:
         """Angles of the places on a tooth: of the force on it, from the outward radial, rad."""
-        return 1.05 * self.lean * np.linspace(-1.0, 1.0, PER_TOOTH)
+        return self.lean * np.linspace(-1.0, 1.0, PER_TOOTH)
 
     def places(self) -> Places:
         """Teeth from the one on +x; of each its places by rising angle of the force."""
