@@ -88,7 +88,9 @@ def _read(path: Path, text: str) -> Body | None:
             first += 8 * count
         return Body(arrays[0], arrays[1], told["reciprocity"])
     except (CqddError, ValueError, KeyError, TypeError) as error:
-        _log.warning("%s is spoilt (%s); computing it anew", path, error)
+        # Another process may have cleared it away in between.
+        if path.exists():
+            _log.warning("%s is spoilt (%s); computing it anew", path, error)
         return None
 
 
