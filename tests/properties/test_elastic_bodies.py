@@ -431,3 +431,19 @@ def test_other_gearboxes_have_bodies_too(reducer: dict[str, object]) -> None:
     slip = np.full((5, model.disc_count, 21), 0.08)
     rubbing = compliance(bodies, model, states, cam, slip)
     assert 0.0 < np.abs(rubbing - found).max() < 0.2 * np.abs(found).max()
+
+
+@pytest.mark.parametrize("torque", [34.2, -90.0])
+def test_energy_of_a_disc_lies_between_a_bore_held_round_and_a_free_one(torque: float) -> None:
+    """Under the forces of an equilibrium; elements on the wrong side store more."""
+    bodies, (model, states) = bodies_of_s(), states_of_s()
+    shape, body = bodies.discs[0]
+    sweep = contact_sweep(model, torque, states.crank_angle, states=states)
+    force = np.concatenate([sweep.ring_force, sweep.pin_force], axis=2)[:, 0]
+    under = under_disc(shape, model, states, 0, sweep.cam_force[:, 0])
+    held, modelled, free = (
+        np.einsum("ac,acd,ad->a", force, disc_compliance(shape, body, model, states, 0, k), force)
+        for k in (np.full_like(under, 1e13), under, np.full_like(under, 1e-2))
+    )
+    assert (held < modelled).all()
+    assert (modelled < free).all()
