@@ -26,7 +26,9 @@ from processes import CONTACT_HEADING, machine, write_section
 
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.contact import laws
+from cqdd_design.gearbox.contact.friction_sweep_kernel import rub_sweep
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.rubbing import ContactFriction, rubbing
 from cqdd_design.gearbox.contact.states import error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, sweep_problem
 from cqdd_design.gearbox.contact.sweep_kernel import solve_sweep
@@ -69,6 +71,25 @@ def kernel_rate(model: ContactModel, torque: float, angle: np.ndarray) -> tuple[
         best = min(best, time.perf_counter() - began)
         assert failed < 0
     return len(angle) / best, float(problem[-1].steps.mean())
+
+
+def friction_rate(model: ContactModel, torque: float, angle: np.ndarray) -> tuple[float, float]:
+    """The same with friction, the motor driving; states without it, which it may need, apart."""
+    states = nominal_states(model, angle)
+    perfect = error_states(model, states, None)
+    smooth = sweep_problem(model, torque, states, perfect)
+    solve_sweep(*smooth)
+    contacts, springs, load, turns, result = sweep_problem(model, torque, states, perfect)
+    friction = ContactFriction.of(model, "drive")
+    assert friction is not None
+    rubs = rubbing(model, states, friction, torque)
+    best = np.inf
+    for _ in range(7):
+        began = time.perf_counter()
+        failed = rub_sweep(contacts, springs, load, rubs, turns, smooth[-1], result)
+        best = min(best, time.perf_counter() - began)
+        assert failed < 0
+    return len(angle) / best, float(result.steps.mean())
 
 
 def worst_imbalance(model: ContactModel, torque: float, angle: np.ndarray) -> float:
@@ -211,6 +232,15 @@ def measure(cycloidgen: str | None) -> list[tuple[str, str, str]]:
     rows.append(("the same at 1\u00b0, Johnson's law", f"{johnson:,.0f}", ""))
     worst = worst_imbalance(model, 40.0, degree)
     rows.append(("greatest imbalance of those states, share of the load", f"{worst:.1g}", "1e-9"))
+    friction_rate(model, 40.0, degree[:10])
+    rubbed, steps = friction_rate(model, 40.0, degree)
+    rows.append(
+        (
+            "the same at 1\u00b0 with friction, the motor driving, beside those without",
+            f"{rubbed:,.0f} ({steps:.2f} Newton steps each)",
+            "at least 50,000",
+        )
+    )
     for name, found in scipy_rates(model, 40.0).items():
         words = "root, analytic Jacobian" if name == "root" else "minimize, trust-exact"
         rows.append(

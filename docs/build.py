@@ -116,7 +116,7 @@ def _recorded(*names: str) -> str:
 
 def _validated() -> str:
     """Table of the contact engine's validations."""
-    return _recorded("properties/test_contact_validation.py")
+    return _recorded("properties/test_contact_validation.py", "published/test_contact_reference.py")
 
 
 def _actuator_validated() -> str:

@@ -25,6 +25,7 @@ from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.losses import LossModel
+from cqdd_design.gearbox.losses.model import SENSES
 from cqdd_design.machine import Machine
 from cqdd_design.solids.inertia import ROTOR, GearboxInertia
 
@@ -288,14 +289,18 @@ def friction_parameters(losses: LossModel, torque: float, input_speed: float) ->
 
     Notes
     -----
-    The loss torque at the output is ``c + mu T``: mu from the Coulomb work at the torque, c such
+    The loss torque at the output is ``c + mu T``: mu from the Coulomb work at the torque, of its
+    own while the motor drives and while the output does, c such
     that the slow dynamic backdrive torque ``c/(1 - mu)`` is that of the loss model, which knows
     that the first loads are carried by fewer teeth. The static one, ``(1 + x) c/(1 - (1 + x) mu)``,
     gives the Stribeck share x. Where friction holds any torque, c is the drag itself.
     """
     machine, n = losses.machine, losses.machine.lobe_count
-    at_rest, none = losses.coulomb_work([torque, 0.0]).sum(axis=-1)
-    load = n * float(at_rest - none) / torque
+    loads = []
+    for sense in SENSES:
+        loaded, none = losses.coulomb_work([torque, 0.0], sense).sum(axis=-1)
+        loads.append(n * float(loaded - none) / torque)
+    forward, load = loads
     slow, fast = machine.drag(0.0), machine.drag(input_speed)
     preload = float(none)
     output = float(slow["output_bearing"]) * n
@@ -318,7 +323,7 @@ def friction_parameters(losses: LossModel, torque: float, input_speed: float) ->
         output_viscous=output_rise / (input_speed / n),
         stribeck_extra=extra,
         stribeck_speed=STRIBECK_SPEED,
-        load_forward=load,
+        load_forward=forward,
         load_backward=load,
     )
 

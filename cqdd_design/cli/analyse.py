@@ -47,7 +47,7 @@ def analyse(
         typer.Option(
             "--friction", help="Contact forces with friction while the crank or the output drives."
         ),
-    ] = Friction.off,
+    ] = Friction.drive,
 ) -> None:
     """Loads, contact equilibrium, precision, losses and life."""
     from cqdd_design.cli.tables import verdict

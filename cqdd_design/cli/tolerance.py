@@ -68,7 +68,7 @@ def _lines(result: ToleranceResult) -> list[str]:
     ]
     lines = [
         f"{len(result.values)} gearboxes over one output turn at "
-        f"{number(result.ensemble.torque)} N*m, {result.solves:,} equilibria in "
+        f"{number(result.ensemble.torque)} N*m, {result.solves:,} equilibria without friction in "
         f"{result.seconds:.1f} s",
         "",
         table(rows, head=("", *columns), right=tuple(range(1, len(columns) + 1))),

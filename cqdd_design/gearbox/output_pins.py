@@ -159,3 +159,20 @@ def shared_torque_capacity(
     radius = np.asarray(pin_circle_radius, dtype=float)
     force = np.asarray(allowable_pin_force, dtype=float)
     return np.asarray(force * disc_count * pin_count * radius / peak_factor)
+
+
+def sleeve_share(pin_diameter: float, sleeve_diameter: float) -> float:
+    """Share of the sliding path that a sleeve leaves: d_pin/d_sleeve, or 1 without a sleeve.
+
+    The sleeve (radius r_s) turns on the pin (radius r_p), which stands still in the carrier's
+    frame. Rolling without slip in the hole gives it the hole's speed at its rim, v = w_s r_s; it
+    slides on the pin at w_s r_p = v r_p/r_s under the same force. It rolls rather than slips
+    because slipping in the hole would take the moment mu F r_s and turning on the pin takes only
+    mu F r_p.
+
+    Examples
+    --------
+    >>> sleeve_share(4e-3, 6.4e-3), sleeve_share(4e-3, 0.0)
+    (0.625, 1.0)
+    """
+    return pin_diameter / sleeve_diameter if sleeve_diameter > 0.0 else 1.0

@@ -8,6 +8,7 @@ from scipy.optimize import brentq
 
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
 from cqdd_design.gearbox.contact.sweep import ANGLES, contact_sweep, perfect_angles
 
@@ -19,10 +20,14 @@ _TOLERANCE = 1e-6
 
 
 class LoadedContacts:
-    """Greatest forces and pressures of perfect parts over their period, in both senses."""
+    """Greatest forces and pressures of perfect parts over their period, in both senses.
+
+    With friction at teeth and pins while the motor drives, which loads them most.
+    """
 
     def __init__(self, model: ContactModel) -> None:
         self._model = model
+        self._friction = ContactFriction.of(model, "drive")
         self._states: dict[int, NominalStates] = {}
         self._found: dict[tuple[float, int], dict[str, float]] = {}
 
@@ -39,7 +44,9 @@ class LoadedContacts:
             self._states[angles] = nominal_states(self._model, points)
         if (torque, angles) not in self._found:
             forward, back = (
-                contact_sweep(self._model, one, states=self._states[angles]).maxima
+                contact_sweep(
+                    self._model, one, states=self._states[angles], friction=self._friction
+                ).maxima
                 for one in (torque, -torque)
             )
             self._found[torque, angles] = {

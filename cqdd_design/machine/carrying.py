@@ -1,9 +1,10 @@
 """What torque a gearbox carries, by the best model there is for each of its limits.
 
-Pressures, pin forces and cam loads come from the contact equilibrium of perfect parts without
-friction, over the period and in both senses of torque; strengths are those of the checks. Where
-the equilibrium has no answer, the rigid law with its factor for uneven sharing stands in, and the
-limit says so. Of what a gearbox lasts only the cam bearing's basic life is asked here.
+Pressures, pin forces and cam loads come from the contact equilibrium of perfect parts with the
+motor driving against friction, over the period and in both senses of torque; strengths are those
+of the checks. Where the equilibrium has no answer, the rigid law with its factor for uneven sharing
+stands in, and the limit says so. Of what a gearbox lasts only the cam bearing's basic life is asked
+here.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from cqdd_design.gearbox.checks.allowables import LIFE_HOURS, STATIC_SAFETY, UNE
 from cqdd_design.machine.capacity import LoadedContacts
 from cqdd_design.machine.machine import Machine
 
-EQUILIBRIUM = "contact equilibrium of perfect parts, without friction"
+EQUILIBRIUM = "contact equilibrium of perfect parts, driving with friction"
 RIGID = f"rigid law x {UNEVEN_SHARING:g}"
 OUT_OF_REACH = "the parts would have to move farther than they reach"
 

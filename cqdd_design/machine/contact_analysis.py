@@ -85,7 +85,7 @@ def analyse_contact(
     torque: float | None = None,
     angles: int = ANGLES,
     line_model: LineModel = "palmgren",
-    friction: FrictionChoice = "off",
+    friction: FrictionChoice = "drive",
 ) -> ContactAnalysis:
     """Solve the contact equilibrium of a machine over its period, and what follows from it.
 
@@ -99,8 +99,9 @@ def analyse_contact(
     line_model : {"palmgren", "johnson", "linear"}
         Approach of teeth and pins.
     friction : {"drive", "backdrive", "off"}
-        Which way power goes through the forces of `sweep`, `reversed` and `preload`, with Coulomb
-        friction at teeth and pins, or ``off`` without it, as everything else is.
+        Which way power goes through forces and precision, with Coulomb friction at teeth and pins;
+        the duty's life takes the sense of each case. ``off`` leaves friction out of all three, and
+        out of no losses.
 
     Raises
     ------
@@ -113,21 +114,18 @@ def analyse_contact(
     asked = design.requirements
     peak = asked.peak_torque if torque is None else torque
     steady = asked.continuous_torque if torque is None else torque
-    parts = machine.friction
-    rubbed = None
-    if friction != "off":
-        rubbed = ContactFriction(friction, parts.tooth_coefficient, parts.hole_coefficient)
+    rubbed = ContactFriction.of(model, friction)
     sweep = contact_sweep(model, peak, states=states, friction=rubbed)
     tight = bool(states.gaps.min() < 0.0)
-    losses = machine.losses if usual else loss_model(model, parts, asked.peak_torque)
+    losses = machine.losses if usual else loss_model(model, machine.friction, asked.peak_torque)
     shares = np.arange(1, _MAP_STEPS + 1) / _MAP_STEPS
     return ContactAnalysis(
         model=model,
         sweep=sweep,
         reversed=contact_sweep(model, -peak, states=states, friction=rubbed),
         preload=contact_sweep(model, 0.0, states=states, friction=rubbed) if tight else None,
-        precision=precision(model, steady, angles=angles),
+        precision=precision(model, steady, angles=angles, friction=friction),
         losses=losses.at(asked.input_speed, steady),
         map=losses.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),
-        life=life(design, model),
+        life=life(design, model, friction=friction != "off"),
     )

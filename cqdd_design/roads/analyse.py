@@ -52,7 +52,7 @@ def analyse(
     speed: float | None = None,
     angles: int,
     line_model: LineModel = "palmgren",
-    friction: FrictionChoice = "off",
+    friction: FrictionChoice = "drive",
 ) -> Analysis:
     """Analyse a design; one that cannot carry the torque as far as closed forms go.
 
@@ -67,7 +67,7 @@ def analyse(
     line_model : {"palmgren", "johnson", "linear"}
         Approach of teeth and pins.
     friction : {"drive", "backdrive", "off"}
-        Of the contact forces; see `analyse_contact`.
+        Of contact forces and precision; see `analyse_contact`.
 
     Raises
     ------

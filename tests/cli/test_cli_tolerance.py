@@ -186,11 +186,16 @@ def _balances(contact: dict[str, list]) -> None:
             cx, cy = contact["disc_centre_mm"][angle][disc]
             for kind in ("ring", "output_pin"):
                 forces = contact[f"{kind}_force_N"][angle][disc]
+                along = contact[f"{kind}_tangential_N"][angle][disc]
                 normals = contact[f"{kind}_normal"][angle][disc]
                 points = contact[f"{kind}_point_mm"][angle][disc]
-                for force, (nx, ny), (px, py) in zip(forces, normals, points, strict=True):
-                    x, y = x + force * nx, y + force * ny
-                    moment += force * ((px - cx) * ny - (py - cy) * nx)
+                for force, rub, (nx, ny), (px, py) in zip(
+                    forces, along, normals, points, strict=True
+                ):
+                    # Friction acts along the normal turned a quarter turn counter-clockwise.
+                    own_x, own_y = force * nx - rub * ny, force * ny + rub * nx
+                    x, y = x + own_x, y + own_y
+                    moment += (px - cx) * own_y - (py - cy) * own_x
                     load = max(load, force)
             fx, fy = contact["cam_force_N"][angle][disc]
             assert abs(x + fx) < 1e-9 * load

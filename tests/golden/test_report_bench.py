@@ -180,11 +180,15 @@ def test_a_weak_motor_binds_before_its_driver(actuator: ActuatorParameters) -> N
 def test_the_envelope_is_what_the_bench_measures(
     actuator: ActuatorParameters, measured: BenchResult
 ) -> None:
-    """The bench simulates; the figure computes."""
+    """The bench simulates; the figure computes.
+
+    A locked motor creeps in jumps, in which Stribeck's friction is less than at rest.
+    """
     stalled = metric_of(measured, "stall_torque").value
-    assert float(envelope_torque(actuator, 0.0, 25.0)[0]) == pytest.approx(stalled, rel=0.01)
+    assert float(envelope_torque(actuator, 0.0, 25.0)[0]) == pytest.approx(stalled, rel=0.015)
+    assert float(envelope_torque(actuator, 0.0, 25.0)[0]) < stalled
     forever = metric_of(measured, "continuous_torque").value
-    assert float(held_torque(actuator, 0.0)[0]) == pytest.approx(forever, rel=0.01)
+    assert float(held_torque(actuator, 0.0)[0]) == pytest.approx(forever, rel=0.015)
 
 
 def test_held_torque_heats_the_winding_to_its_limit(actuator: ActuatorParameters) -> None:

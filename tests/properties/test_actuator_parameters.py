@@ -18,7 +18,7 @@ from cqdd_design.actuator import motor as motors
 from cqdd_design.actuator import operating
 from cqdd_design.actuator import thermal as thermals
 from cqdd_design.actuator import transmission as transmissions
-from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.build import actuator_parameters, friction_parameters
 from cqdd_design.actuator.packing import gear_table, kinematic_error, stiffness_share
 from cqdd_design.actuator.parameters import (
     ActuatorParameters,
@@ -29,6 +29,7 @@ from cqdd_design.actuator.parameters import (
 from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Start
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.actuator.specimen import Specimen
+from cqdd_design.catalog.motors import find_motor
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import ContactError, DesignError
 from cqdd_design.gearbox.contact.model import ContactModel
@@ -193,6 +194,28 @@ def test_friction_keeps_efficiencies_and_backdrive_torques() -> None:
     rise = 1.0 + friction.stribeck_extra
     static = rise * constant / (1.0 - rise * friction.load_backward)
     assert static == pytest.approx(back.static_torque)
+
+
+def test_a_rotor_of_unknown_inertia_is_a_ring_of_part_of_the_motors_mass() -> None:
+    """Of 30 % of the mass at 95 % of the radius, where the rotor is neither drawn nor listed."""
+    row = find_motor("CubeMars RI100 KV105")
+    assert row.rotor_inertia is None
+    one = actuator_parameters(resolve(PAPER.replacing({"motor.name": row.name})))
+    assert one.origins["motor.rotor_inertia"].startswith("assumed: ring of 30 %")
+    ring = 0.3 * 0.5 * (0.95 * 0.052) ** 2
+    assert one.motor.rotor_inertia == pytest.approx(ring, rel=1e-12)
+
+
+def test_preload_is_friction_without_load() -> None:
+    """Work that is there without any torque belongs to the motor's own friction."""
+    tight = resolve(PAPER.replacing({"reducer.output_pins.hole_clearance": -8e-6})).losses
+    torque, speed = PAPER.requirements.continuous_torque, PAPER.requirements.input_speed
+    friction = friction_parameters(tight, torque, speed)
+    for sense, share in (("drive", friction.load_forward), ("backdrive", friction.load_backward)):
+        loaded, free = tight.coulomb_work([torque, 0.0], sense).sum(axis=-1)
+        assert free > 0.0
+        assert share == pytest.approx(10.0 * (loaded - free) / torque, rel=1e-12)
+    assert friction.motor_coulomb > 2.0 * built().friction.motor_coulomb
 
 
 def test_simulated_backdrive_is_that_of_the_losses() -> None:

@@ -14,6 +14,7 @@ from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.checks.allowables import contact_limit_static
+from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.machine import resolve
 from cqdd_design.machine.carrying import EQUILIBRIUM, RIGID, carried_torque
@@ -112,7 +113,11 @@ def test_at_its_limits_the_equilibrium_reaches_what_the_parts_stand() -> None:
     angles = perfect_angles(machine.contact, 360)
 
     def most(torque: float, key: str) -> float:
-        both = (contact_sweep(machine.contact, s * torque, angles) for s in (1.0, -1.0))
+        friction = ContactFriction.of(machine.contact, "drive")
+        both = (
+            contact_sweep(machine.contact, s * torque, angles, friction=friction)
+            for s in (1.0, -1.0)
+        )
         return max(sweep.maxima[key] for sweep in both)
 
     steel = contact_limit_static(find_material(PAPER.reducer.disc_material)).value / 1e6

@@ -263,4 +263,26 @@ def test_json_lets_a_reader_add_up_every_disc() -> None:
         total = total + (pressed + along).sum(axis=2)
     assert np.abs(total).max() < 1e-9 * told["cam_bearing_load_max_N"]
     without = contact_sweep(model, 40.0, angle).to_dict()
-    assert not {"friction", "ring_tangential_N", "output_pin_tangential_N"} & set(without)
+    assert without["friction"] == "off"
+    assert without["efficiency"] == 1.0
+    assert not np.any(without["ring_tangential_N"])
+    assert not np.any(without["output_pin_tangential_N"])
+
+
+@pytest.mark.parametrize("sense", ["drive", "backdrive"])
+@pytest.mark.parametrize("torque", [40.0, -40.0])
+def test_the_ripple_is_that_of_the_crank_torque(sense: PowerSense, torque: float) -> None:
+    """By virtual work of the contacts, and read at the cams: two ways to one figure.
+
+    The crank torque of the sweep is that of the nominal pose, so the cams' displacements add to
+    it; what is left is of second order.
+    """
+    model = ContactModel.from_design(paper_design())
+    friction = ContactFriction.of(model, sense)
+    sweep = contact_sweep(model, torque, perfect_angles(model, 90), friction=friction)
+    read = sweep.crank_torque
+    assert read.mean() == pytest.approx(
+        torque / 10.0 + friction.crank_sense(torque) * sweep.friction_work.mean(), rel=1e-9
+    )
+    assert sweep.crank_ripple == pytest.approx(read - read.mean(), abs=2e-3 * abs(read.mean()))
+    assert np.ptp(sweep.crank_ripple) > 1e-3 * abs(read.mean())

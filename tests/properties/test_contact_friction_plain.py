@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,43 +20,21 @@ from examples import examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from cqdd_design.design import Design
+from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import NominalStates, error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.hertz import line_contact_pressure
 
+DESIGN_S = Path(__file__).resolve().parents[2] / "designs" / "reference-s.toml"
 SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much]
 SENSES = st.sampled_from([DRIVE, BACKDRIVE])
 
 
 def reference_s() -> ContactModel:
-    """Reference design S: what the two contact laws and the cam need of it."""
-    reducer = {
-        "ratio": 10,
-        "ring_pitch_radius": 32.75e-3,
-        "eccentricity": 1.97e-3,
-        "ring_pin_diameter": 6.6e-3,
-        "disc_count": 2,
-        "disc_thickness": 8e-3,
-        "disc_spacing": 0.5e-3,
-        "disc_material": "AISI 4140 Q&T 540C",
-        "ring_material": "AISI 4140 Q&T 540C",
-        "modification": {"equidistant": 6e-6},
-        "output_pins": {
-            "count": 10,
-            "diameter": 4e-3,
-            "circle_radius": 23e-3,
-            "hole_clearance": 16e-6,
-            "hole_clocking": math.radians(9.0),
-            "support": "both",
-            "material": "Alloy steel 12.9 (ISO 7379)",
-        },
-        "cam_bearing": {"designation": "16003", "radial_clearance": 5e-6},
-        "ring": {"outer_diameter": 72e-3},
-    }
-    return ContactModel.from_design(Design.from_mapping({"reducer": reducer}, si=True))
+    """Reference design S."""
+    return ContactModel.from_design(load_design(DESIGN_S))
 
 
 def rubbed(

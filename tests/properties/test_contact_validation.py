@@ -23,7 +23,7 @@ from cqdd_design.gearbox.contact.laws import CamSpring, LineLaw
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles, perfect_angles
-from cqdd_design.gearbox.losses import loss_model
+from cqdd_design.gearbox.losses import LossModel
 from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.geometry import kinematics
 from cqdd_design.machine import resolve
@@ -188,9 +188,9 @@ def test_input_torque(validated: Callable[..., None]) -> None:
 def test_friction_of_the_ring(validated: Callable[..., None]) -> None:
     design = paper_design()
     model = _rigid_limit(ContactModel.from_design(design))
-    losses = loss_model(model, resolve(design).friction, design.requirements.peak_torque).at(
-        100.0, 40.0
-    )
+    machine = resolve(design).friction
+    smooth = contact_sweep(model, 40.0)
+    losses = LossModel.from_sweeps(machine, [smooth], [smooth]).at(100.0, 40.0)
     disc = model.disc
     closed = (
         4.0
@@ -201,7 +201,7 @@ def test_friction_of_the_ring(validated: Callable[..., None]) -> None:
     # Loss torque over output torque; the closed form takes sums over teeth as integrals.
     found = losses.by_source["ring_teeth"] / (40.0 * 100.0 / model.lobe_count)
     validated(
-        "power lost at the teeth in the rigid limit, relative",
+        "power lost at the teeth in the rigid limit by forces without friction, relative",
         "4 μ (R - r)/(π n e)",
         abs(found / closed - 1.0),
         1e-3,

@@ -17,6 +17,7 @@ from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox import output_pins
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.sweep import contact_sweep
 from cqdd_design.gearbox.contact.tables import pin_table, ring_table
@@ -240,7 +241,8 @@ def test_a_reversing_duty_is_harder_on_pins_and_easier_on_flanks() -> None:
 def test_equivalent_load_lies_between_least_and_greatest() -> None:
     result = lived((40.0, 10.0, 1.0))
     design = load_design(PAPER)
-    load = contact_sweep(ContactModel.from_design(design), 40.0).cam_load
+    model = ContactModel.from_design(design)
+    load = contact_sweep(model, 40.0, friction=ContactFriction.of(model, "drive")).cam_load
     for disc, equal in enumerate(result.cam.equivalent_load):
         assert load[:, disc].min() < equal < load[:, disc].max()
     assert min(result.cam.hours) > result.cam.hours_at_greatest
@@ -312,12 +314,30 @@ def test_one_sense_pulsates_at_the_stress_of_the_check(support: str) -> None:
             "reducer.output_pins.material": "Alloy steel 12.9 (ISO 7379)",
         }
     )
-    sweep = contact_sweep(ContactModel.from_design(design), 15.0)
+    model = ContactModel.from_design(design)
+    sweep = contact_sweep(model, 15.0, friction=ContactFriction.of(model, "drive"))
     arms = pins.moment_arms(2, 8e-3, 0.5e-3, support).max(axis=0)
-    each = output_pins.bending_stress(sweep.pin_force.max(axis=(0, 2)), arms, 4e-3)
+    force = np.hypot(sweep.pin_force, sweep.pin_tangential)
+    each = output_pins.bending_stress(force.max(axis=(0, 2)), arms, 4e-3)
     wanted = float(each.max())
     assert part(result, "output pins, bending").stress == pytest.approx(wanted, rel=5e-3)
     assert result.loads[0].pin_bending == pytest.approx(wanted, rel=5e-3)
+
+
+def test_who_drives_decides_on_the_forces_of_a_duty() -> None:
+    """A case whose torque and speed oppose each other is driven by the output: friction helps."""
+    driving, driven = lived((40.0, 10.0, 1.0)), lived((40.0, -10.0, 1.0))
+    model = ContactModel.from_design(load_design(PAPER))
+    for result, sense in ((driving, "drive"), (driven, "backdrive")):
+        friction = ContactFriction.of(model, sense)
+        sweep = contact_sweep(model, 40.0, friction=friction)
+        assert result.loads[0].cam_load == pytest.approx(sweep.cam_load.max(), rel=5e-3)
+    assert driven.loads[0].cam_load < 0.7 * driving.loads[0].cam_load
+    for name in ("ring teeth", "disc flanks"):
+        assert part(driven, name).damage_per_hour < 0.5 * part(driving, name).damage_per_hour
+    both = lived((40.0, 10.0, 0.5), (40.0, -10.0, 0.5))
+    each = [part(one, "ring teeth").damage_per_hour for one in (driving, driven)]
+    assert 0.9 < part(both, "ring teeth").damage_per_hour / (0.5 * sum(each)) <= 1.0 + 1e-9
 
 
 def test_limits_of_pins_lie_on_one_goodman_line() -> None:

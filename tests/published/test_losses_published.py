@@ -22,7 +22,7 @@ import pytest
 from lone_disc import lone_disc
 from published_rows import Row, inputs, label, published_rows
 
-from cqdd_design.gearbox import rigid
+from cqdd_design.gearbox import output_pins, rigid
 from cqdd_design.gearbox.losses import sliding
 from cqdd_design.geometry import kinematics
 
@@ -61,7 +61,7 @@ class Reducer:
 
     def efficiency(self, mu: float, pin_mu: float, wall: float) -> float:
         pin = self.g["dsw"]
-        sleeve = sliding.sleeve_share(pin, pin + 2.0 * wall)
+        sleeve = output_pins.sleeve_share(pin, pin + 2.0 * wall)
         return BEARINGS / (1.0 + mu * self.tooth_share) / (1.0 + pin_mu * sleeve * self.pin_share)
 
 

@@ -91,7 +91,7 @@ SHAKING_SHARE = 0.1
 REDUCER_EFFICIENCY = 0.88
 """Assumed forward efficiency in the motor check: the low end of measured steel cycloid drives, 88
 to 94 % (cycloidgen, efficiency guide)."""
-COMPUTED_EFFICIENCIES = (0.74, 0.77)
+COMPUTED_EFFICIENCIES = (0.71, 0.76)
 """What the loss model gives instead for designs of ratio 10 with the default friction of 0.08, at
 peak and at continuous torque: said with the check, not used by it."""
 

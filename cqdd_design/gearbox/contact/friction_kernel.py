@@ -4,7 +4,8 @@ Every contact slides in a direction that the kinematics gives (:mod:`.rubbing`),
 is f (n + m t), t the normal n turned a quarter turn counter-clockwise and m known. It closes along
 n and pushes along n + m t: the matrix is not symmetric, and no energy exists whose minimum would be
 the equilibrium. Newton's method therefore starts near it, at the neighbouring angle or at the state
-without friction, and lowers the residual; where that fails, friction is raised in steps.
+without friction, and lowers the residual; where that fails, :mod:`.friction_sweep_kernel` raises
+friction in steps.
 
 A plain numpy twin stands in ``tests/oracles/contact_friction_plain.py``.
 """
@@ -32,17 +33,18 @@ from cqdd_design.gearbox.contact.kernel_values import (
     Rubbing,
     RubbingWork,
     Springs,
-    SweepResult,
 )
 from cqdd_design.gearbox.contact.laws_kernel import line_force, radial_force
-from cqdd_design.gearbox.contact.sweep_kernel import contacts_at, predict
 
-_STEPS = 60
+_STEPS, _HELD_STEPS = 60, 240
+"""Newton steps before a state is given up: plain ones, and where slack discs are held."""
 _HALVINGS = 12
 _GOOD = 1e-11
 _NEARLY = 1e-6
-_LEAST_RISE = 2.0**-8
-"""Share of the friction below which no further rise is tried: the machine jams."""
+RIDGES = (1e-10, 1e-6, 1e-5, 1e-4)
+"""Stiffness that is added to every displacement in a step, in typical stiffnesses. The least one
+leaves Newton's method as it is; the others hold a disc that hangs slack between tooth and pin,
+which friction may wedge in more places than one."""
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -258,17 +260,20 @@ def solve_rubbed(
     state: Any,
     forces: Forces,
     scratch: RubbingWork,
+    held: float = RIDGES[0],
 ) -> tuple[int, int, float]:
     """Find the equilibrium with friction near `state`, and into it.
 
-    Arguments and returns are those of :func:`.equilibrium_kernel.solve_state`, with the friction.
+    Arguments and returns are those of :func:`.equilibrium_kernel.solve_state`, with the friction;
+    `held` is one of `RIDGES`.
     """
     work = scratch.work
     gradient, step, trial = work.gradient, work.step, work.trial
-    ridge = 1e-10 * load.scale_stiffness
+    ridge = held * load.scale_stiffness
     torsional, previous = 0.0, np.inf
     largest = evaluate_rubbed(contacts, springs, load.pull, rubbing, state, forces, scratch)
-    for iteration in range(_STEPS):
+    most = _STEPS if held == RIDGES[0] else _HELD_STEPS
+    for iteration in range(most):
         residual = np.abs(gradient).max()
         square = np.sum(gradient * gradient)
         if not math.isfinite(square):
@@ -297,88 +302,4 @@ def solve_rubbed(
             share *= 0.5
         for i in range(state.size):
             state[i] = trial[i]
-    return NOT_CONVERGED, _STEPS, torsional
-
-
-@numba.njit(cache=True, error_model="numpy")
-def solve_raised(
-    contacts: Contacts,
-    springs: Springs,
-    load: Load,
-    rubbing: Rubbing,
-    smooth: Any,
-    state: Any,
-    forces: Forces,
-    scratch: RubbingWork,
-) -> tuple[int, int, float]:
-    """Solve one state by raising friction from the state `smooth` without it."""
-    reached, rise, steps, torsional = 0.0, 1.0, 0, 0.0
-    held = smooth.copy()
-    while reached < 1.0:
-        share = min(reached + rise, 1.0)
-        some = Rubbing(share * rubbing.share, rubbing.disc_arm, rubbing.carrier_arm)
-        state[:] = held
-        status, used, torsional = solve_rubbed(
-            contacts, springs, load, some, state, forces, scratch
-        )
-        steps += used
-        if status == CONVERGED:
-            held[:] = state
-            reached = share
-            continue
-        rise *= 0.5
-        if rise < _LEAST_RISE:
-            return NOT_CONVERGED, steps, torsional
-    return CONVERGED, steps, torsional
-
-
-@numba.njit(cache=True, error_model="numpy")
-def rub_sweep(
-    contacts: Contacts,
-    springs: Springs,
-    load: Load,
-    rubbing: Rubbing,
-    turns: Any,
-    smooth: Any,
-    result: SweepResult,
-) -> int:
-    """Equilibria with friction at consecutive crank angles, each from the ones before.
-
-    Parameters
-    ----------
-    contacts, rubbing : Contacts, Rubbing
-        With a leading axis A.
-    springs, load
-        Of all angles.
-    turns : array (A,)
-        Crank angle since the state before, rad.
-    smooth : array (A, 3 + 3 D)
-        States without friction.
-    result : SweepResult
-        Out.
-
-    Returns
-    -------
-    int
-        -1, or the index of the first angle at which no forces carry the load.
-    """
-    count, discs, each = contacts.gaps.shape
-    states = result.states
-    scratch = rubbing_work(discs, each)
-    for a in range(count):
-        here = contacts_at(contacts, a)
-        rubs = Rubbing(rubbing.share[a], rubbing.disc_arm[a], rubbing.carrier_arm[a])
-        forces = Forces(result.force[a], result.cam_force[a])
-        status, used, left = NOT_CONVERGED, 0, 0.0
-        if a > 0:
-            predict(states[a - 1], states[max(a - 2, 0)], turns[a], a, states[a])
-            status, used, left = solve_rubbed(here, springs, load, rubs, states[a], forces, scratch)
-        if status != CONVERGED:
-            status, used, left = solve_raised(
-                here, springs, load, rubs, smooth[a], states[a], forces, scratch
-            )
-        if status != CONVERGED:
-            return a
-        result.torsional[a] = left
-        result.steps[a] = used
-    return -1
+    return NOT_CONVERGED, most, torsional

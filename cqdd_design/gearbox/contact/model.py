@@ -8,11 +8,13 @@ import numpy as np
 
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.materials import Material, find_material
+from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import Bodies, CamSpring, LineLaw, LineModel
 from cqdd_design.gearbox.contact.pin_compliance import pin_compliance
 from cqdd_design.gearbox.hertz import conformal_equivalent_radius
+from cqdd_design.gearbox.output_pins import sleeve_share
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.cycloid import CycloidDisc
@@ -34,6 +36,10 @@ class ContactModel(Stages):
         Compliance of a pin at every disc, m/N.
     cam : CamSpring
         Between bore and cam.
+    tooth_friction, hole_friction : float
+        Coulomb friction at ring teeth, and at the walls of the holes: that of plain pins, or what
+        sleeves leave of it (a sleeve turns where the moments of both of its faces balance,
+        t r_sleeve = mu F r_pin).
     carrier_stiffness : float or None
         Radial stiffness of the carrier's bearing, N/m; None where it is rigid.
     """
@@ -45,6 +51,8 @@ class ContactModel(Stages):
     pin_bodies: Bodies
     pin_series: FloatArray
     cam: CamSpring
+    tooth_friction: float
+    hole_friction: float
     carrier_stiffness: float | None = None
 
     @classmethod
@@ -100,6 +108,9 @@ class ContactModel(Stages):
                 plate.youngs_modulus,
             ),
             cam=laws.cam_spring(bearing, reducer.cam_bearing.radial_clearance),
+            tooth_friction=reducer.friction.tooth,
+            hole_friction=reducer.friction.pin
+            * sleeve_share(mean_pin_diameter(pins.diameter), pins.sleeve_diameter),
             carrier_stiffness=reducer.carrier_bearing.stiffness or None,
         )
 

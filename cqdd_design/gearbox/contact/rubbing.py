@@ -42,6 +42,13 @@ class ContactFriction:
     tooth: float
     pin: float
 
+    @classmethod
+    def of(cls, model: ContactModel, choice: FrictionChoice) -> ContactFriction | None:
+        """The friction of a gearbox in one sense of power; None where it is off."""
+        if choice == "off":
+            return None
+        return cls(choice, model.tooth_friction, model.hole_friction)
+
     def crank_sense(self, torque: float) -> float:
         """Sense in which the crank turns under a torque on the carrier, 1 or -1."""
         along = 1.0 if torque >= 0.0 else -1.0

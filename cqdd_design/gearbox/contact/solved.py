@@ -15,6 +15,11 @@ from cqdd_design.geometry.contours import FloatArray
 IntArray = NDArray[np.int64]
 
 
+def _load(force: FloatArray, tangential: FloatArray, normal: FloatArray) -> FloatArray:
+    across = np.stack([-normal[..., 1], normal[..., 0]], axis=-1)
+    return np.asarray(force[..., None] * normal + tangential[..., None] * across)
+
+
 @dataclass(frozen=True, eq=False)
 class ContactSweep:
     """Contact equilibria at A crank angles, D discs, T = n + 1 ring teeth, P output pins.
@@ -97,6 +102,16 @@ class ContactSweep:
         return np.concatenate([carrier, discs.reshape(len(carrier), -1)], axis=1)
 
     @property
+    def ring_load(self) -> FloatArray:
+        """Force of every ring tooth on a disc, friction included, (A, D, T, 2), N."""
+        return _load(self.ring_force, self.ring_tangential, self.ring_normal)
+
+    @property
+    def pin_load(self) -> FloatArray:
+        """Force of every pin on a disc, likewise, (A, D, P, 2), N."""
+        return _load(self.pin_force, self.pin_tangential, self.pin_normal)
+
+    @property
     def ring_pressure(self) -> FloatArray:
         """Peak Hertz pressure at every tooth, (A, D, T), Pa."""
         return line_contact_pressure(
@@ -139,6 +154,18 @@ class ContactSweep:
         at, force = self.disc_centre, self.cam_force
         moment = at[..., 0] * force[..., 1] - at[..., 1] * force[..., 0]
         return np.asarray(np.sum(moment, axis=-1))
+
+    @property
+    def crank_ripple(self) -> FloatArray:
+        """Crank torque that holds the load, less its mean, (A,), N m.
+
+        By virtual work at held displacements: the rate of closing of the contacts under their
+        forces, and in the sense that the crank turns the work of friction.
+        """
+        if self.friction is None:
+            return self.energy_slope
+        rubbed = self.friction_work - self.friction_work.mean()
+        return np.asarray(self.energy_slope + self.friction.crank_sense(self.torque) * rubbed)
 
     @property
     def efficiency(self) -> float | None:
@@ -197,21 +224,13 @@ class ContactSweep:
             "disc_displacement_um": shown.tolist(),
             "carrier_angle_error_arcmin": (np.degrees(self.carrier_angle_error) * 60.0).tolist(),
             "teeth_in_contact": self.teeth_in_contact.tolist(),
-            **self._friction_dict(),
-            **self.maxima,
-            "disc_torque_share": (share / share.sum()).tolist() if share.sum() > 0.0 else None,
-        }
-
-    def _friction_dict(self) -> dict[str, object]:
-        """What friction adds to the JSON form."""
-        if self.friction is None:
-            return {}
-        return {
-            "friction": self.friction.sense,
-            "friction_tooth": self.friction.tooth,
-            "friction_pin": self.friction.pin,
+            "friction": "off" if self.friction is None else self.friction.sense,
+            "friction_tooth": 0.0 if self.friction is None else self.friction.tooth,
+            "friction_pin": 0.0 if self.friction is None else self.friction.pin,
             "ring_tangential_N": self.ring_tangential.tolist(),
             "output_pin_tangential_N": self.pin_tangential.tolist(),
             "crank_torque_Nm": self.crank_torque.tolist(),
             "efficiency": self.efficiency,
+            **self.maxima,
+            "disc_torque_share": (share / share.sum()).tolist() if share.sum() > 0.0 else None,
         }

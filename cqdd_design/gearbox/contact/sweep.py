@@ -146,12 +146,12 @@ def _with_friction(
     smooth: SweepResult,
 ) -> tuple[SweepResult, _Rubbed]:
     """Equilibria with friction, from those without it."""
-    from cqdd_design.gearbox.contact.friction_kernel import rub_sweep
+    from cqdd_design.gearbox.contact.friction_sweep_kernel import rub_sweep
 
     contacts, springs, load, turns, result = sweep_problem(model, torque, states, changed)
     rubs = rubbing(model, states, friction, torque)
     solve: Any = rub_sweep
-    failed = solve(contacts, springs, load, rubs, turns, smooth.states, result)
+    failed = solve(contacts, springs, load, rubs, turns, smooth, result)
     if failed >= 0:
         raise ContactError(
             f"at crank angle {math.degrees(states.crank_angle[failed]):.6g} deg and {torque:g} N*m "

@@ -15,6 +15,7 @@ from cqdd_design.design import Design
 from cqdd_design.gearbox.cam_bearing import cam_bearing
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.rubbing import ContactFriction, FrictionChoice
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep
@@ -49,19 +50,24 @@ def duty_cases(design: Design) -> tuple[tuple[DutyCase, ...], bool]:
     """Load cases of a design, and whether they are assumed."""
     asked = design.requirements
     if asked.duty:
-        cases = tuple(DutyCase(p.torque, abs(p.speed), p.share) for p in asked.duty)
+        cases = tuple(
+            DutyCase(p.torque, abs(p.speed), p.share, p.torque * p.speed < 0.0) for p in asked.duty
+        )
         return cases, False
     speed = asked.input_speed / design.reducer.ratio
     return (DutyCase(asked.continuous_torque, speed, 1.0),), True
 
 
-def life(design: Design, model: ContactModel) -> LifeResult:
+def life(design: Design, model: ContactModel, *, friction: bool = True) -> LifeResult:
     """Life of contacts, output pins and cam bearings under the duty of the requirements.
 
     Parameters
     ----------
     model : ContactModel
         Of the same design.
+    friction : bool
+        Whether teeth and pins rub: the crank drives where torque and speed of a case agree, and
+        where it stands still, and is driven where they oppose each other.
 
     Raises
     ------
@@ -77,11 +83,17 @@ def life(design: Design, model: ContactModel) -> LifeResult:
     cases, assumed = duty_cases(design)
     angles = cycles.crank_angles(model.lobe_count, model.pin_count)
     states = nominal_states(model, angles)
+
+    def key(case: DutyCase) -> tuple[float, FrictionChoice]:
+        return case.torque, case.power_sense if friction else "off"
+
     solved = {
-        torque: contact_sweep(model, torque, states=states)
-        for torque in dict.fromkeys(case.torque for case in cases)
+        (torque, choice): contact_sweep(
+            model, torque, states=states, friction=ContactFriction.of(model, choice)
+        )
+        for torque, choice in dict.fromkeys(key(case) for case in cases)
     }
-    duty = _Duty(design, cases, [solved[case.torque] for case in cases])
+    duty = _Duty(design, cases, [solved[key(case)] for case in cases])
     bending, stresses = _pin_bending(duty)
     parts = (*_contacts(duty), bending)
     return LifeResult(

@@ -95,8 +95,9 @@ def pin_force_histories(sweep: ContactSweep) -> ComplexArray:
     different = model.pin_count // shared
     middle = sweep.pin_point - model.pin_contact_radius * sweep.pin_normal
     outward = middle[..., 0] + 1j * middle[..., 1]
-    on_disc = sweep.pin_normal[..., 0] + 1j * sweep.pin_normal[..., 1]
-    force = -sweep.pin_force * on_disc * np.conj(outward) / np.abs(outward)
+    load = sweep.pin_load
+    on_disc = load[..., 0] + 1j * load[..., 1]
+    force = -on_disc * np.conj(outward) / np.abs(outward)
     pin = np.arange(different) - different * np.arange(shared)[:, None]
     return np.concatenate([force[:, :, row] for row in np.mod(pin, model.pin_count)])
 

@@ -3,17 +3,37 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from cqdd_design.gearbox.life.cam import CamLife
+
+if TYPE_CHECKING:
+    from cqdd_design.gearbox.contact.rubbing import PowerSense
 
 
 @dataclass(frozen=True)
 class DutyCase:
-    """One load case: output torque (N m, signed), output speed (rad/s, size), share of time."""
+    """One load case.
+
+    Attributes
+    ----------
+    torque, speed : float
+        At the output, N m with its sign and rad/s without.
+    share : float
+        Of the time.
+    driven : bool
+        Whether the output drives the motor: its torque and speed oppose each other.
+    """
 
     torque: float
     speed: float
     share: float
+    driven: bool = False
+
+    @property
+    def power_sense(self) -> PowerSense:
+        """Which way power goes; at a standstill as when the motor drives."""
+        return "backdrive" if self.driven else "drive"
 
 
 @dataclass(frozen=True)
@@ -147,6 +167,12 @@ class LifeResult:
             for part in self.parts
             if part.hours is not None and part.hours < self.required_hours
         ]
+        if self.cam.set_hours is not None and self.cam.set_hours < self.required_hours:
+            found.append(
+                f"the cam bearings {self.cam.designation} would together last "
+                f"{self.cam.set_hours:.3g} h under this duty (L10), less than the "
+                f"{self.required_hours:g} h required."
+            )
         if self.cam.hours is None:
             found.append(
                 f"no life is given for the cam bearings {self.cam.designation}: the catalogue has "

@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
-from cqdd_design.gearbox import output_pins
 from cqdd_design.gearbox.losses.lubricant import Lubricant, find_lubricant
 from cqdd_design.gearbox.losses.rolling import BearingFriction
 from cqdd_design.gearbox.losses.shaft import equivalent_load, support_reactions
@@ -24,8 +23,8 @@ from cqdd_design.gearbox.losses.sliding import (
     friction_work,
     pin_sliding,
     ring_sliding,
-    sleeve_share,
 )
+from cqdd_design.gearbox.output_pins import disc_positions, pin_span, sleeve_share
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.disc import disc_moments
 
@@ -112,8 +111,8 @@ class FrictionMachine:
             tooth_coefficient=reducer.friction.tooth,
             pin_coefficient=reducer.friction.pin,
             sleeve_share=sleeve_share(mean_pin_diameter(pins.diameter), pins.sleeve_diameter),
-            disc_heights=tuple(float(z) for z in output_pins.disc_positions(*stack)),
-            span=float(output_pins.pin_span(*stack)),
+            disc_heights=tuple(float(z) for z in disc_positions(*stack)),
+            span=float(pin_span(*stack)),
             cam=BearingFriction.of(cam),
             support=support,
             output=output,
@@ -128,21 +127,13 @@ class FrictionMachine:
         """Turn of the crank against disc and carrier per radian of crank, 1 + 1/n."""
         return 1.0 + 1.0 / self.lobe_count
 
-    @property
-    def hole_coefficient(self) -> float:
-        """Force along the wall of a hole over the one across it: mu, or what sleeves leave of it.
-
-        A sleeve turns where the moments of both of its faces balance, t r_sleeve = mu F r_pin.
-        """
-        return self.pin_coefficient * self.sleeve_share
-
     def coulomb_work(self, forces: ContactSweep) -> dict[str, float]:
         """Mean Coulomb friction work per radian of crank over a sweep, by source, N m.
 
         Parameters
         ----------
         forces : ContactSweep
-            Frictionless forces at evenly spaced crank angles over a whole period.
+            At evenly spaced crank angles over a whole period, with or without friction.
         """
         n = self.lobe_count
         sliding = ring_sliding(
@@ -167,29 +158,6 @@ class FrictionMachine:
             "grease": 0.0,
         }
 
-    def tooth_force_change(self, forces: ContactSweep) -> float:
-        """Share q by which tooth friction changes the tooth forces, which the losses leave out.
-
-        The friction on a disc has a moment about the disc's centre C, mu sum F a with the arm
-        a = (c - C).(c - P)/|c - P|; q is its ratio to the moment of the normal forces. With the
-        pattern of forces unchanged and the output torque kept, the teeth press 1/(1 - q) times
-        as hard while the motor drives and 1/(1 + q) times while the output drives.
-
-        Returns
-        -------
-        float
-            q over a period, 0 where nothing is loaded.
-        """
-        centre = np.asarray(forces.disc_centre)[:, :, None, :]
-        arm = forces.ring_point - centre
-        slip = forces.ring_point - (self.lobe_count + 1) * centre
-        normal = forces.ring_normal
-        lever = np.sum(arm * slip, axis=-1) / np.linalg.norm(slip, axis=-1)
-        moment = arm[..., 0] * normal[..., 1] - arm[..., 1] * normal[..., 0]
-        turned = abs(float(np.sum(forces.ring_force * moment)))
-        rubbed = abs(float(np.sum(forces.ring_force * lever)))
-        return self.tooth_coefficient * rubbed / turned if turned > 0.0 else 0.0
-
     def _seat_loads(self, forces: ContactSweep) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Loads (A,) of the first and second support and of the output bearing, N.
 
@@ -200,7 +168,7 @@ class FrictionMachine:
         """
         first, second = -0.5 * self.support.width, self.span + 0.5 * self.support.width
         reactions = support_reactions(-forces.cam_force, self.disc_heights, first, second)
-        on_pins = -np.sum(forces.pin_force[..., None] * forces.pin_normal, axis=2)
+        on_pins = -np.sum(forces.pin_load, axis=2)
         # The shaft pushes back on the carrier through the second support.
         on_carrier = np.concatenate([on_pins, -reactions[:, 1:]], axis=1)
         carrier = equivalent_load(

@@ -1,7 +1,8 @@
-"""Losses over speed and torque from contact sweeps at a few torques.
+"""Losses over speed and torque from contact sweeps with friction at a few torques.
 
 Coulomb work is very nearly proportional to the torque, but not quite: the higher the load, the more
-teeth share it. It is computed at the torques of the sweeps and taken straight between them.
+teeth share it. It is computed at the torques of the sweeps and taken straight between them, once
+with the motor driving and once with the output driving, whose forces differ.
 """
 
 from __future__ import annotations
@@ -22,9 +23,12 @@ from cqdd_design.geometry.contours import FloatArray
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.model import ContactModel
+    from cqdd_design.gearbox.contact.rubbing import PowerSense
     from cqdd_design.gearbox.contact.solved import ContactSweep
 
 
+SENSES: tuple[PowerSense, PowerSense] = ("drive", "backdrive")
+"""Which way power goes, in the order of `LossModel.work`."""
 TORQUE_SHARES = (0.0, *(10.0 ** (0.125 * k) for k in range(-24, 1)))
 """Torques of the sweeps of :func:`loss_model`, as shares of the largest: zero, then eight to a
 decade over three decades. Straight lines between them are then good to 0.3 %."""
@@ -43,9 +47,9 @@ class EfficiencyMap:
     torque : array (T,)
         N m.
     power : array (S, T)
-        Lost, W.
+        Lost while the motor drives, W.
     loss_torque : array (S, T)
-        At the output, N m.
+        At the output, likewise, N m.
     forward, backward : array (S, T)
         Efficiencies, the motor or the output driving; 0 at zero torque, where no power passes,
         and 0 backward where the output does not turn the gearbox.
@@ -87,56 +91,62 @@ class LossModel:
     torque : array (K,)
         Of the sweeps, rising from zero, N m (sizes; both senses lose alike within the asymmetry
         of the hole clocking).
-    work : array (K, 6)
-        Coulomb work per radian of crank at those torques, by source, N m.
-    force_change : array (K,)
-        :meth:`.FrictionMachine.tooth_force_change` at those torques.
+    work : array (2, K, 6)
+        Coulomb work per radian of crank at those torques, by source, N m: the motor driving, and
+        the output.
     """
 
     machine: FrictionMachine
     torque: FloatArray
     work: FloatArray
-    force_change: FloatArray
 
     @classmethod
     def from_sweeps(
-        cls, machine: FrictionMachine, sweeps: ContactSweep | Sequence[ContactSweep]
+        cls,
+        machine: FrictionMachine,
+        driving: Sequence[ContactSweep],
+        driven: Sequence[ContactSweep],
     ) -> LossModel:
         """Read the friction work of one or more sweeps of the same gearbox.
 
         Parameters
         ----------
-        sweeps : ContactSweep or sequence of them
-            At torques of one sense and different sizes. Without one at zero torque the work is
-            taken to vanish there, as it does without preload.
+        driving, driven : sequence of ContactSweep
+            With the motor driving, and with the output driving, at the same torques: of one sense
+            and different sizes. Without one at zero torque the work is taken to vanish there, as
+            it does without preload.
 
         Raises
         ------
         UsageError
-            With no sweep, torques of both senses, or the same torque twice.
+            With no sweep, torques of both senses, the same torque twice, or other torques driven.
         """
-        several = list(sweeps) if isinstance(sweeps, Sequence) else [sweeps]
-        if not several:
+        if not driving:
             raise UsageError("losses need at least one contact sweep; there is none.")
-        given = [float(sweep.torque) for sweep in several]
+        given = [float(sweep.torque) for sweep in driving]
         if min(given) < 0.0 < max(given):
             raise UsageError(
                 f"losses need sweeps of one sense of torque, not from {min(given):g} to "
                 f"{max(given):g} N*m; compute the two senses apart."
             )
-        found = {abs(sweep.torque): machine.coulomb_work(sweep) for sweep in several}
-        change = {abs(sweep.torque): machine.tooth_force_change(sweep) for sweep in several}
-        if len(found) < len(several):
+        if len({abs(torque) for torque in given}) < len(given):
             raise UsageError(f"two of the sweeps have the same torque; leave one out of {given}.")
-        found.setdefault(0.0, dict.fromkeys(SOURCES, 0.0))
-        if len(found) == 1:
-            # A lone sweep at zero torque: the work there is all that is known.
-            found[1.0] = found[0.0]
-        torque = np.array(sorted(found))
-        work = np.array([[found[size][name] for name in SOURCES] for size in torque])
-        return cls(machine, torque, work, np.array([change.get(size, 0.0) for size in torque]))
+        if [float(sweep.torque) for sweep in driven] != given:
+            raise UsageError(f"losses need sweeps with the output driving at {given} N*m too.")
+        found = [
+            {abs(sweep.torque): machine.coulomb_work(sweep) for sweep in sweeps}
+            for sweeps in (driving, driven)
+        ]
+        for sense in found:
+            sense.setdefault(0.0, dict.fromkeys(SOURCES, 0.0))
+            if len(sense) == 1:
+                # A lone sweep at zero torque: the work there is all that is known.
+                sense[1.0] = sense[0.0]
+        torque = np.array(sorted(found[0]))
+        work = [[[sense[size][name] for name in SOURCES] for size in torque] for sense in found]
+        return cls(machine, torque, np.array(work))
 
-    def coulomb_work(self, torque: ArrayLike) -> FloatArray:
+    def coulomb_work(self, torque: ArrayLike, sense: PowerSense = "drive") -> FloatArray:
         """Coulomb work per radian of crank by source, (..., 6), N m.
 
         Straight between the sweeps; beyond the largest, the part that came with the torque goes on
@@ -145,15 +155,18 @@ class LossModel:
         size = np.abs(np.asarray(torque, dtype=float))
         within = np.minimum(size, self.torque[-1])
         beyond = np.maximum(size / self.torque[-1], 1.0)
-        columns = [np.interp(within, self.torque, column) for column in self.work.T]
-        at_rest, found = self.work[0], np.stack(columns, axis=-1)
+        work = self.work[SENSES.index(sense)]
+        columns = [np.interp(within, self.torque, column) for column in work.T]
+        at_rest, found = work[0], np.stack(columns, axis=-1)
         return np.asarray(at_rest + (found - at_rest) * beyond[..., None])
 
-    def _crank_torque(self, speed: FloatArray, torque: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _crank_torque(
+        self, speed: FloatArray, torque: FloatArray, sense: PowerSense
+    ) -> tuple[FloatArray, FloatArray]:
         """Friction torque at the crank by source (S, T, 6), and its load-independent part (S,)."""
         drag = self.machine.drag(speed)
         columns = np.stack([drag[name] for name in SOURCES], axis=-1)
-        return columns[:, None, :] + self.coulomb_work(torque), total(drag)
+        return columns[:, None, :] + self.coulomb_work(torque, sense), total(drag)
 
     def efficiency_map(self, input_speeds: ArrayLike, torques: ArrayLike) -> EfficiencyMap:
         """Losses and efficiencies over a grid.
@@ -166,9 +179,11 @@ class LossModel:
             N m, either sense, 0 allowed.
         """
         speed, torque = _finite("speed", input_speeds), _finite("torque", torques)
-        by_source, _ = self._crank_torque(speed, torque)
-        crank = by_source.sum(axis=-1)
-        loss, size = self.machine.lobe_count * crank, np.abs(torque)
+        crank, driven = (
+            self._crank_torque(speed, torque, sense)[0].sum(axis=-1) for sense in SENSES
+        )
+        loss, back = self.machine.lobe_count * crank, self.machine.lobe_count * driven
+        size = np.abs(torque)
         some = size > 0.0
         safe = np.where(some, size, 1.0)
         return EfficiencyMap(
@@ -177,7 +192,7 @@ class LossModel:
             power=np.abs(speed)[:, None] * crank,
             loss_torque=loss,
             forward=np.where(some, safe / (safe + loss), 0.0),
-            backward=np.where(some, np.maximum(1.0 - loss / safe, 0.0), 0.0),
+            backward=np.where(some, np.maximum(1.0 - back / safe, 0.0), 0.0),
         )
 
     def at(
@@ -198,17 +213,19 @@ class LossModel:
             As for :meth:`backdrive`.
         """
         grid = self.efficiency_map([input_speed], [torque])
-        by_source, drag = self._crank_torque(grid.input_speed, grid.torque)
+        by_source, drag = self._crank_torque(grid.input_speed, grid.torque, "drive")
+        driven, _ = self._crank_torque(grid.input_speed, grid.torque, "backdrive")
         size = abs(input_speed)
         power = dict(zip(SOURCES, (size * by_source[0, 0]).tolist(), strict=True))
         loss, some = float(grid.loss_torque[0, 0]), torque != 0.0
+        back = self.machine.lobe_count * float(driven.sum())
         warnings = list(self.machine.warnings)
         if not some:
             warnings.append("efficiency does not exist at zero torque, where no power passes.")
-        elif loss >= abs(torque):
+        elif back >= abs(torque):
             warnings.append(
                 f"{abs(torque):g} N*m at the output does not backdrive the gearbox: friction "
-                f"takes {loss:.3g} N*m."
+                f"takes {back:.3g} N*m."
             )
         if some and size == 0.0:
             warnings.append("efficiency at zero speed is the limit of slow motion; no power flows.")
@@ -224,10 +241,10 @@ class LossModel:
             by_source=power,
             load_independent=size * float(drag[0]),
             loss_torque=loss,
-            tooth_force_change=float(np.interp(abs(torque), self.torque, self.force_change)),
+            loss_torque_backward=back,
             efficiency_forward=float(grid.forward[0, 0]) if some else None,
             efficiency_backward=float(grid.backward[0, 0]) if some else None,
-            backdrives=loss < abs(torque) if some else None,
+            backdrives=back < abs(torque) if some else None,
             backdrive=self.backdrive(static_ratio=static_ratio, output_speed=backdrive_speed),
             bearings={
                 "cam": self.machine.cam.name,
@@ -251,12 +268,6 @@ class LossModel:
         output_speed : float
             Of the dynamic torque, rad/s; the default is the limit of slow motion, because drag
             grows with speed.
-
-        Notes
-        -----
-        The friction at a torque T is that of the frictionless forces which carry T through to the
-        crank. What friction takes on the way loads the crank no more, so this is on the high side,
-        by a share c1 of itself at most.
         """
         if not (math.isfinite(static_ratio) and static_ratio >= 1.0):
             raise UsageError(f"static_ratio {static_ratio:g} must be at least 1.")
@@ -264,7 +275,7 @@ class LossModel:
         running = total(self.machine.drag(n * _finite("speed", output_speed)))
         resting = total(self.machine.drag(0.0))
         grease = self.machine.grease_torque(0.0)
-        work = self.work.sum(axis=1)
+        work = self.work[SENSES.index("backdrive")].sum(axis=1)
         dynamic = n * (work + running)
         static = n * (static_ratio * (work + resting - grease) + grease)
         return Backdrive(
@@ -297,11 +308,23 @@ def loss_model(model: ContactModel, machine: FrictionMachine, peak_torque: float
     Raises
     ------
     ContactError
-        When a sweep has no equilibrium.
+        When a sweep has no equilibrium, friction that jams the gearbox included.
     """
+    from cqdd_design.gearbox.contact.rubbing import ContactFriction
     from cqdd_design.gearbox.contact.states import nominal_states
     from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 
     states = nominal_states(model, perfect_angles(model, SWEEP_ANGLES))
-    sweeps = [contact_sweep(model, share * peak_torque, states=states) for share in TORQUE_SHARES]
-    return LossModel.from_sweeps(machine, sweeps)
+    driving, driven = (
+        [
+            contact_sweep(
+                model,
+                share * peak_torque,
+                states=states,
+                friction=ContactFriction.of(model, sense),
+            )
+            for share in TORQUE_SHARES
+        ]
+        for sense in SENSES
+    )
+    return LossModel.from_sweeps(machine, driving, driven)

@@ -18,14 +18,13 @@ class Losses:
     output_speed : float
         rad/s, size only.
     by_source : mapping
-        Mean power by the names of :data:`.machine.SOURCES`, in the order of the tables, W.
+        Mean power while the motor drives, W, by the names of :data:`.machine.SOURCES` in the order
+        of the tables.
     load_independent : float
         Part of the total that does not depend on the load, W.
-    loss_torque : float
-        Loss as a torque at the output, N m; finite at zero speed, the limit of slow motion.
-    tooth_force_change : float
-        Share by which friction itself raises the tooth forces while the motor drives, and lowers
-        them while the output drives; not in the other numbers.
+    loss_torque, loss_torque_backward : float
+        Loss as a torque at the output, N m, the motor driving and the output; finite at zero speed,
+        the limit of slow motion.
     efficiency_forward : float or None
         T w/(T w + P), the motor driving; None at zero torque.
     efficiency_backward : float or None
@@ -46,7 +45,7 @@ class Losses:
     by_source: dict[str, float]
     load_independent: float
     loss_torque: float
-    tooth_force_change: float
+    loss_torque_backward: float
     efficiency_forward: float | None
     efficiency_backward: float | None
     backdrives: bool | None
@@ -73,7 +72,7 @@ class Losses:
             "total_W": self.total,
             "load_independent_W": self.load_independent,
             "loss_torque_Nm": self.loss_torque,
-            "tooth_force_change": self.tooth_force_change,
+            "loss_torque_backward_Nm": self.loss_torque_backward,
             "bearings": dict(self.bearings),
             "lubricant": self.lubricant,
             **self.backdrive.to_dict(),

@@ -59,23 +59,6 @@ def pin_sliding(lobe_count: int, eccentricity: ArrayLike) -> FloatArray:
     return np.asarray(np.asarray(eccentricity, dtype=float) * (1.0 + 1.0 / lobe_count))
 
 
-def sleeve_share(pin_diameter: float, sleeve_diameter: float) -> float:
-    """Share of the sliding path that a sleeve leaves: d_pin/d_sleeve, or 1 without a sleeve.
-
-    The sleeve (radius r_s) turns on the pin (radius r_p), which stands still in the carrier's
-    frame. Rolling without slip in the hole gives it the hole's speed at its rim, v = w_s r_s; it
-    slides on the pin at w_s r_p = v r_p/r_s under the same force. It rolls rather than slips
-    because slipping in the hole would take the moment mu F r_s and turning on the pin takes only
-    mu F r_p.
-
-    Examples
-    --------
-    >>> sleeve_share(4e-3, 6.4e-3), sleeve_share(4e-3, 0.0)
-    (0.625, 1.0)
-    """
-    return pin_diameter / sleeve_diameter if sleeve_diameter > 0.0 else 1.0
-
-
 def friction_work(coefficient: ArrayLike, force: ArrayLike, sliding: ArrayLike) -> FloatArray:
     """Coulomb friction work of a row of contacts per radian of crank, N m.
 

@@ -10,6 +10,7 @@ import numpy as np
 from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.rubbing import ContactFriction, FrictionChoice
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles, perfect_angles
@@ -56,6 +57,8 @@ class Precision:
     ----------
     torque : float
         N m; the continuous torque unless asked otherwise.
+    friction : {"drive", "backdrive", "off"}
+        Which way power goes through teeth and pins that rub, but for `free` and `lost_motion`.
     free : Backlash
         Of rigid parts at every angle.
     lost_motion : float
@@ -65,7 +68,7 @@ class Precision:
     loaded, unloaded : array (A,)
         Carrier's angle error under the torque, and of rigid parts under a vanishing one, rad.
     ripple : array (A,)
-        n dPi/dphi, output torque ripple, N m.
+        n times that of the crank torque which holds the load, N m.
     curve : tuple of LoadPoint
         Over torque.
     orders : tuple of Order
@@ -75,6 +78,7 @@ class Precision:
     """
 
     torque: float
+    friction: FrictionChoice
     free: Backlash
     lost_motion: float
     stiffness: float
@@ -112,6 +116,7 @@ class Precision:
         free = self.free.free * _ARCMIN
         return {
             "torque_Nm": self.torque,
+            "friction": self.friction,
             "backlash_arcmin": float(free.mean()),
             "backlash_min_arcmin": float(free.min()),
             "backlash_max_arcmin": float(free.max()),
@@ -154,6 +159,7 @@ def precision(
     *,
     angles: int = 360,
     errors: GearboxErrors | None = None,
+    friction: FrictionChoice = "off",
 ) -> Precision:
     """Precision of a gearbox at one torque.
 
@@ -166,6 +172,8 @@ def precision(
         turn are used.
     errors : GearboxErrors, optional
         Default a perfect gearbox.
+    friction : {"drive", "backdrive", "off"}
+        Which way power goes through teeth and pins that rub.
 
     Raises
     ------
@@ -178,7 +186,9 @@ def precision(
     -----
     Stiffness is the secant between 50 % and 100 % of the torque, beyond the take-up of the
     clearances, as makers of cycloidal reducers state it; carrier, shaft and housing are rigid.
-    The ripple is that of the energy, Pi(phi, T) = min(E - T gamma): n times dPi/dphi.
+    The ripple is n times that of the crank torque which holds the load; without friction it is
+    that of the energy, n dPi/dphi with Pi(phi, T) = min(E - T gamma). Backlash and lost motion are
+    those of a crank that stands still, whose friction has no known sense, and leave it out.
     """
     if torque == 0.0:
         raise UsageError("precision is stated at a torque; give one that is not zero.")
@@ -188,24 +198,26 @@ def precision(
     span = kinematics.mesh_period(n, pins) if perfect else kinematics.imperfect_period(n)
     states = nominal_states(model, angle)
 
-    def solve(load: float) -> ContactSweep:
-        return contact_sweep(model, load, errors=errors, states=states)
+    def solve(load: float, rubbed: ContactFriction | None = None) -> ContactSweep:
+        return contact_sweep(model, load, errors=errors, states=states, friction=rubbed)
 
     free = backlash(model, errors=errors, states=states)
-    full = solve(torque)
+    rubbing = ContactFriction.of(model, friction)
+    full = solve(torque, rubbing)
     small = LOST_MOTION_SHARE * torque
     lost = solve(small).carrier_angle_error - solve(-small).carrier_angle_error
-    sweeps = {share: solve(share * torque) for share in _PART_LOADS} | {1.0: full}
+    sweeps = {share: solve(share * torque, rubbing) for share in _PART_LOADS} | {1.0: full}
     for share in _OVERLOADS:
         try:
-            sweeps[share] = solve(share * torque)
+            sweeps[share] = solve(share * torque, rubbing)
         except ContactError:
             # The curve ends where the gearbox does.
             break
     windup = {share: float(s.carrier_angle_error.mean()) for share, s in sweeps.items()}
-    ripple = n * full.energy_slope
+    ripple = n * full.crank_ripple
     return Precision(
         torque=torque,
+        friction=friction,
         free=free,
         lost_motion=abs(float(lost.mean())),
         stiffness=0.5 * torque / (windup[1.0] - windup[0.5]),
@@ -217,7 +229,7 @@ def precision(
                 torque=share * torque,
                 windup=windup[share],
                 transmission_error=float(np.ptp(s.carrier_angle_error)),
-                ripple=n * float(np.ptp(s.energy_slope)),
+                ripple=n * float(np.ptp(s.crank_ripple)),
             )
             for share, s in sweeps.items()
         ),

@@ -179,6 +179,7 @@ class ToleranceResult:
             "sensitivity_base": self.base,
             "angles": self.ensemble.angles,
             "torque_Nm": self.ensemble.torque,
+            "friction": "off",
             "seed": self.ensemble.seed,
             "solves": self.solves,
             "seconds": self.seconds,

@@ -43,8 +43,23 @@ def contact_view(analysis: ContactAnalysis, outlines: Outlines, law: RigidMaxima
         "worst": force_picture(turn, outlines),
         "rows": _rows(analysis, law),
         "torque": with_unit(analysis.sweep.torque, "N*m"),
+        "friction": _friction(analysis.sweep),
         "preload": _preload(analysis),
     }
+
+
+def _friction(sweep: ContactSweep) -> str:
+    """The friction of a sweep, as a sentence goes on."""
+    if sweep.friction is None:
+        return ", without friction"
+    driver = "motor" if sweep.friction.sense == "drive" else "output"
+    tooth, pin = (f"{one:.3g}" for one in (sweep.friction.tooth, sweep.friction.pin))
+    each = (
+        f"a friction of {tooth}"
+        if tooth == pin
+        else f"friction of {tooth} at teeth and {pin} at holes"
+    )
+    return f", the {driver} driving against {each}"
 
 
 def _heat_map(turn: ContactSweep, disc: int) -> Figure:
@@ -77,14 +92,15 @@ def force_picture(turn: ContactSweep, outlines: Outlines) -> Figure:
     load = float(np.hypot(*cam))
     greatest = max(float(turn.ring_force[at, disc].max()), load, 1e-12)
     scale = 95.0 / greatest
-    for kind, forces, normals, points in (
-        ("ring", turn.ring_force, turn.ring_normal, turn.ring_point),
-        ("pin", turn.pin_force, turn.pin_normal, turn.pin_point),
+    for kind, loads, points in (
+        ("ring", turn.ring_load, turn.ring_point),
+        ("pin", turn.pin_load, turn.pin_point),
     ):
-        for k, force in enumerate(forces[at, disc].tolist()):
-            if force > 0.0:
+        sizes = np.hypot(loads[at, disc, :, 0], loads[at, disc, :, 1])
+        for k, size in enumerate(sizes.tolist()):
+            if size > 0.0:
                 tip = view.point(points[at, disc, k])
-                body += _arrow(tip, normals[at, disc, k], force, scale, f"force-{kind}")
+                body += _arrow(tip, loads[at, disc, k] / size, size, scale, f"force-{kind}")
     if load > 0.0:
         tip = view.point(turn.disc_centre[at, disc])
         body += _arrow(tip, cam / load, load, scale, "force-cam")
@@ -96,8 +112,8 @@ def force_picture(turn: ContactSweep, outlines: Outlines) -> Figure:
         f"Forces on disc {disc + 1} at crank angle {degrees:.0f} degrees, where tooth "
         f"{tooth + 1} carries {shown:.0f} N.",
         f"Disc {disc + 1} at crank angle {decimals(degrees, 0)}\u00b0, where tooth {tooth + 1} "
-        "carries the greatest force. Arrows are forces on the disc, in N: ring teeth red, output "
-        "pins green, cam bearing violet.",
+        "carries the greatest force. Arrows are forces on the disc, friction included, in N: ring "
+        "teeth red, output pins green, cam bearing violet.",
     )
     return words.figure(width, width, body)
 

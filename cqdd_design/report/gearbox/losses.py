@@ -61,11 +61,6 @@ def _rows(analysis: ContactAnalysis) -> tuple[tuple[str, str, str], ...]:
         ("backward efficiency", _share(found.efficiency_backward), f"the output drives; {turns}"),
         ("backdrive torque, breakaway", torques[0], at_output),
         ("backdrive torque, running", torques[1], at_output),
-        (
-            "friction's own effect on the tooth forces",
-            _share(found.tooth_force_change),
-            "left out of every other figure",
-        ),
     )
 
 

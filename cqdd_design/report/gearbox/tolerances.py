@@ -29,7 +29,7 @@ def tolerance_view(result: ToleranceResult) -> Values:
     lead = (
         f"{count} gearboxes drawn from the tolerances of the design (seed {ensemble.seed}) and "
         f"solved at {with_unit(ensemble.torque, 'N*m')} over a whole output turn, "
-        f"{ensemble.angles} angles each."
+        f"{ensemble.angles} angles each, without friction."
     )
     rows = tuple(
         (", ".join(_NAMES[name]), *(significant(told[key]) for key in _STATISTICS))

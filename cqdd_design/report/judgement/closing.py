@@ -103,8 +103,9 @@ def model_assumptions(design: Design) -> tuple[str, ...]:
         sharing,
         "Rigid load law: bodies are rigid, every tooth and pin is an equal spring without a gap, "
         "one side is loaded. Contact deflection, clearances and errors change the sharing.",
-        "Contacts are Hertz line contacts over the whole thickness of a disc, without friction or "
-        "edge stress.",
+        "Contacts are Hertz line contacts over the whole thickness of a disc, without edge stress. "
+        "The rigid law knows no friction; contact equilibrium, life and losses have it at teeth "
+        "and holes, the motor driving.",
         "Maxima are taken over the whole period, all discs and both senses of torque.",
         pins,
         "The cam bearing carries ring and output-pin forces together, at its greatest load over "

@@ -50,14 +50,24 @@ def _lives(results: ReportInput) -> Iterator[Shortfall]:
     life = results.contact.life
     asked = with_unit(life.required_hours, "h")
     for part in life.parts:
-        if part.hours is not None and part.hours < life.required_hours:
+        if not part.lasts(life.required_hours):
             yield Shortfall(
                 f"life of the {part.part}",
-                with_unit(part.hours, "h", 3),
+                "unknown" if part.hours is None else with_unit(part.hours, "h", 3),
                 asked,
                 "fatigue over the duty, by the contact equilibrium",
                 "life",
             )
+    cam = life.cam
+    unknown = cam.hours is None and cam.speed > 0.0
+    if unknown or (cam.set_hours is not None and cam.set_hours < life.required_hours):
+        yield Shortfall(
+            "life of the cam bearings together",
+            "unknown" if cam.set_hours is None else with_unit(cam.set_hours, "h", 3),
+            asked,
+            "basic rating life over the duty, by the contact equilibrium",
+            "life",
+        )
 
 
 def _bench(results: ReportInput) -> Iterator[Shortfall]:
