@@ -36,6 +36,7 @@ from cqdd_design.units import (
     format_quantity,
 )
 
+CarrierJoint = Literal["clamped", "hinged", "columns"]
 RingType = Literal["solid", "conjugate", "pinwheel"]
 
 PIN_CIRCLE_SHARE = 0.61
@@ -91,6 +92,21 @@ class CamBearing(FrozenModel):
     radial_clearance: Annotated[
         float, QuantityIn(SMALL_LENGTH, "0 um", "500 um", "total play by ISO 5753")
     ] = default("5 um")
+
+
+class Carrier(FrozenModel):
+    """How the carrier's plate and cap are joined, where both hold the output pins.
+
+    clamped: the pins sit tight in both and keep their slope there; hinged: tight in the plate,
+    free to slide and turn in the cap; columns: as hinged, and columns between the pins, through
+    holes of the discs, tie the cap to the plate.
+    """
+
+    joint: CarrierJoint = "clamped"
+    column_count: Annotated[int, Whole(0, 60, "columns stand between the output pins")] = 0
+    column_diameter: Annotated[
+        float, QuantityIn(LENGTH, "0 mm", "100 mm", "0 where there are no columns")
+    ] = default("0 mm")
 
 
 class CarrierBearing(FrozenModel):
@@ -158,6 +174,7 @@ class Reducer(FrozenModel):
     modification: Modification = Modification()
     output_pins: OutputPins
     cam_bearing: CamBearing = CamBearing()
+    carrier: Carrier = Carrier()
     carrier_bearing: CarrierBearing = CarrierBearing()
     ring: Ring
     friction: ReducerFriction = ReducerFriction()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from contact_checks import BALANCE, cross, some_angles, swept
@@ -19,22 +17,17 @@ from contact_friction_plain import (
 from examples import examples
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from reference_design import reference_s
 
-from cqdd_design.design import Design, load_design
+from cqdd_design.design import Design
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import NominalStates, error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.hertz import line_contact_pressure
 
-DESIGN_S = Path(__file__).resolve().parents[2] / "designs" / "reference-s.toml"
 SLOW = [HealthCheck.too_slow, HealthCheck.filter_too_much]
 SENSES = st.sampled_from([DRIVE, BACKDRIVE])
-
-
-def reference_s() -> ContactModel:
-    """Reference design S."""
-    return ContactModel.from_design(load_design(DESIGN_S))
 
 
 def rubbed(

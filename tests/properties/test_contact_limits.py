@@ -24,7 +24,6 @@ from cqdd_design.gearbox import rigid
 from cqdd_design.gearbox.contact.laws import CamSpring, LineLaw
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
-from cqdd_design.gearbox.contact.pin_compliance import pin_compliance
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.geometry import kinematics
@@ -381,27 +380,3 @@ def test_moving_the_whole_ring_moves_the_whole_mechanism(design: Design, seed: i
     change = moved.disc_displacement[0, :, :2] - still.disc_displacement[0, :, :2]
     loaded = still.ring_force[0].max(axis=1) > 1e-3 * load
     assert np.abs(change[loaded] - shift).max() < 1e-9
-
-
-@pytest.mark.parametrize("disc", [0, 1, 2])
-def test_the_seat_of_a_cantilever_is_an_even_elastic_bed(disc: int) -> None:
-    """Deflection at a disc by a rigid pin on a bed of springs, solved by numbers, plus the beam."""
-    d, b, s = 4e-3, 8e-3, 0.5e-3
-    found = pin_compliance(3, b, s, d, "cantilever", 205e9, 0.29, 70e9)[disc]
-    arm = s + 0.5 * b + disc * (b + s)
-    # A unit force at `arm` in front of the plate; springs evenly over one diameter behind it.
-    per_length = 1.0 / (1.0 / 205e9 + 1.0 / 70e9)
-    count = 4000
-    depth = (np.arange(count) + 0.5) * d / count
-    springs = np.full(count, per_length * d / count)
-    stiffness = np.array(
-        [
-            [springs.sum(), -(springs @ depth)],
-            [-(springs @ depth), springs @ depth**2],
-        ]
-    )
-    shift, turn = np.linalg.solve(stiffness, [1.0, arm])
-    inertia, area, shear = np.pi / 64.0 * d**4, np.pi / 4.0 * d**2, 205e9 / (2.0 * 1.29)
-    cowper = (7.0 + 6.0 * 0.29) / (6.0 * 1.29)
-    beam = arm**3 / (3.0 * 205e9 * inertia) + cowper * arm / (shear * area)
-    assert found == pytest.approx(beam + shift + turn * arm, rel=1e-6)

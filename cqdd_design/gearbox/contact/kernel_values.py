@@ -109,6 +109,73 @@ class RubbingWork(NamedTuple):
     """(3 + 3 D,) Displacements by a unit torque."""
 
 
+class Compliance(NamedTuple):
+    """What yields in series with the contacts, and how the pins join the carrier's plate and cap.
+
+    A contact closes by its own law's approach and by what the bodies behind it yield under the
+    forces of all contacts.
+    """
+
+    pins: FloatArray
+    """(D, D) Deflection of a pin at a disc by a unit force of another, plate and cap held, m/N."""
+    at_cap: FloatArray
+    """(D,) Share of a disc's force on a pin that the cap bears, and of its motion that the pin has
+    there; none where both plates are one body."""
+    join: float
+    """Torque between plate and cap over their turn, /length^2, N/m; above 0."""
+    bodies: FloatArray
+    """(D, C, C), with a leading axis A over angles: what a unit force of one contact of a disc
+    (last axis but one) takes from the closing of another (last axis), m/N; of no length along
+    every axis where bodies are rigid."""
+
+
+class YieldingWork(NamedTuple):
+    """Scratch of one equilibrium with compliance, made by :func:`.compliant_kernel.yielding_work`.
+
+    U = 4 + 3 D motions: carrier X and Y, turns of plate and cap, then every disc.
+    """
+
+    gradient: FloatArray
+    step: FloatArray
+    trial: FloatArray
+    unit: FloatArray
+    """(U,)"""
+    stiff: FloatArray
+    lack: FloatArray
+    yielded: FloatArray
+    change: FloatArray
+    trial_approach: FloatArray
+    """(D, C) Stiffness of every law; closing that approach and bodies exceed; what bodies yield;
+    step of the approach."""
+    push: FloatArray
+    """(D, C, 4) Force on the disc by a unit normal force, x and y; its arms about the disc's centre
+    and at the carrier, over length."""
+    touching: NDArray[np.int64]
+    """(D, C) Contacts of a disc that bear a force."""
+    first: NDArray[np.int64]
+    """(D + 1,) Place of a disc's first force in the system, and the number of all."""
+    matrix: FloatArray
+    """(D C + U, D C + 1 + U) Forces and motions; the right-hand side stands between their
+    columns."""
+
+
+class YieldingResult(NamedTuple):
+    """Equilibria with compliance at A crank angles, filled by `compliant_kernel.yield_sweep`."""
+
+    states: FloatArray
+    """(A, 4 + 3 D)"""
+    approach: FloatArray
+    """(A, D, C) Of every contact by its own law; below zero is a gap, m."""
+    force: FloatArray
+    """(A, D, C) N."""
+    cam_force: FloatArray
+    """(A, D, 2) N."""
+    torsional: FloatArray
+    """(A,) dT/dgamma/length^2 at the plate, N/m."""
+    steps: NDArray[np.int64]
+    """(A,) Newton steps."""
+
+
 class SweepResult(NamedTuple):
     """Equilibria at A crank angles, filled by :func:`.sweep_kernel.solve_sweep`."""
 

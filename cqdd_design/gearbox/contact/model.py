@@ -12,7 +12,7 @@ from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import Bodies, CamSpring, LineLaw, LineModel
-from cqdd_design.gearbox.contact.pin_compliance import pin_compliance
+from cqdd_design.gearbox.contact.pin_beam import HELD, pin_in_stack, pin_section
 from cqdd_design.gearbox.hertz import conformal_equivalent_radius
 from cqdd_design.gearbox.output_pins import sleeve_share
 from cqdd_design.gearbox.stages import Stages
@@ -90,6 +90,13 @@ class ContactModel(Stages):
                 laws.johnson_coefficients(length, 1.0, stages.ring_modulus, ring_bodies)[1],
                 laws.johnson_coefficients(length, 1.0, stages.pin_modulus, pin_bodies)[1],
             )
+        beam = pin_in_stack(
+            reducer.disc_count,
+            reducer.disc_thickness,
+            reducer.disc_spacing,
+            pin_section(pins.diameter, pin.youngs_modulus, pin.poisson_ratio, plate.youngs_modulus),
+            HELD[pins.support],
+        )
         return cls(
             **vars(stages),
             disc=disc,
@@ -97,16 +104,7 @@ class ContactModel(Stages):
             pin_law=LineLaw(line_model, logarithms[1]),
             ring_bodies=ring_bodies,
             pin_bodies=pin_bodies,
-            pin_series=pin_compliance(
-                reducer.disc_count,
-                reducer.disc_thickness,
-                reducer.disc_spacing,
-                pins.diameter,
-                pins.support,
-                pin.youngs_modulus,
-                pin.poisson_ratio,
-                plate.youngs_modulus,
-            ),
+            pin_series=np.diag(beam.influence).copy(),
             cam=laws.cam_spring(bearing, reducer.cam_bearing.radial_clearance),
             tooth_friction=reducer.friction.tooth,
             hole_friction=reducer.friction.pin
