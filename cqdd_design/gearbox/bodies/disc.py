@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
+from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox.bodies.bore import OuterRing
 from cqdd_design.gearbox.bodies.loops import Loop, circle, lobed
 from cqdd_design.gearbox.bodies.point_load import Places, Plate
@@ -22,6 +23,8 @@ PER_LOBE = 16
 PER_HOLE = 24
 STATIONS = 48
 """Places on a lobe and on a hole's edge, and the fewest round the raceway."""
+MOST_PLACES = 1500
+"""Places of a disc up to which its matrix is computed: 80 MB of it, and 2 GB on the way."""
 
 
 @dataclass(frozen=True)
@@ -51,9 +54,21 @@ class DiscShape:
 
     @classmethod
     def from_design(cls, design: Design, disc_index: int) -> DiscShape:
-        """Disc `disc_index` of a design that names its cam bearing."""
+        """Disc `disc_index` of a design that names its cam bearing.
+
+        Raises
+        ------
+        GeometryError
+            Where it has too many lobes and holes to be computed.
+        """
         reducer = design.reducer
         steel = find_material(reducer.disc_material)
+        lobes, holes = reducer.ratio, reducer.output_pins.count
+        if PER_LOBE * lobes + PER_HOLE * holes > MOST_PLACES:
+            raise GeometryError(
+                f"a disc of {lobes} lobes and {holes} holes has more than the {MOST_PLACES} places "
+                "up to which it is computed as an elastic body."
+            )
         outline = CycloidDisc.from_design(design)
         return cls(
             outline,
@@ -65,11 +80,6 @@ class DiscShape:
             Plate(steel.youngs_modulus, steel.poisson_ratio, reducer.disc_thickness),
             outline.tip_distance / 20.0,
         )
-
-    @property
-    def sectors(self) -> int:
-        """Turns of the disc that leave it as it is."""
-        return math.gcd(self.outline.lobe_count, self.hole_count)
 
     @property
     def holes(self) -> ComplexArray:
@@ -163,27 +173,50 @@ class DiscShape:
         first, mirrored, turn = min(found)
         return replace(self, first_hole=first), turn, mirrored
 
-    def turned(self, sector: int) -> NDArray[np.int64]:
-        """Where every load goes when the disc turns on by sectors."""
-        lobes, share = self.outline.lobe_count, sector / self.sectors
-        first = 0
+    def symmetries(self) -> list[tuple[NDArray[np.int64], FloatArray]]:
+        """Where every load goes, and its sense there, when the disc is carried into itself."""
+        lobes, pitch = self.outline.lobe_count, 2.0 * np.pi / self.hole_count
         found = []
-        for count, each in ((lobes, 2 * PER_LOBE), (self.hole_count, 2 * PER_HOLE)):
-            total = count * each
-            found.append(first + (np.arange(total) + round(share * count) * each) % total)
-            first += total
-        count = len(self.stations)
-        found.append(first + (np.arange(count) + round(share * count)) % count)
-        return np.concatenate(found)
+        for mirrored in (False, True):
+            first = (-1 if mirrored else 1) * self.first_hole
+            for turn in 2.0 * np.pi * np.arange(lobes) / lobes:
+                if (
+                    abs(
+                        np.remainder(first + turn - self.first_hole + 0.5 * pitch, pitch)
+                        - 0.5 * pitch
+                    )
+                    < 1e-9
+                ):
+                    found.append(self.carried(self, float(turn), mirrored))
+        return found
 
-    def of_one_sector(self) -> NDArray[np.int64]:
-        """Loads of the first sector."""
-        lobes = self.outline.lobe_count
-        first, found = 0, []
-        for total in (2 * PER_LOBE * lobes, 2 * PER_HOLE * self.hole_count, len(self.stations)):
-            found.append(first + np.arange(total // self.sectors))
-            first += total
-        return np.concatenate(found)
+    def carried(
+        self, other: DiscShape, turn: float, mirrored: bool
+    ) -> tuple[NDArray[np.int64], FloatArray]:
+        """Which load of another disc each load of this one is, and its sense.
+
+        Parameters
+        ----------
+        other : DiscShape
+            Whose places are ``exp(1j * turn)`` times those of this one, or of their mirror image.
+
+        Returns
+        -------
+        array (L,), array (L,)
+            Index, and 1 or -1: a mirror turns tangents round.
+        """
+        sense = np.array([1.0, -1.0 if mirrored else 1.0])
+        found, first, senses = [], 0, []
+        for own, its, each in (
+            (self.places().point, other.places().point, 2),
+            (np.exp(1j * self.stations), np.exp(1j * other.stations), 1),
+        ):
+            moved = np.exp(1j * turn) * (np.conj(own) if mirrored else own)
+            near = np.abs(moved[:, None] - its).argmin(axis=1)
+            found.append((first + each * near[:, None] + np.arange(each)).ravel())
+            senses.append(np.tile(sense[:each], len(near)))
+            first += each * len(near)
+        return np.concatenate(found), np.concatenate(senses)
 
 
 def lobe_length(outline: CycloidDisc) -> tuple[FloatArray, FloatArray]:

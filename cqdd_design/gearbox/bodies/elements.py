@@ -63,7 +63,7 @@ class Elements:
     unknowns: tuple[IntArray, ...]
 
     def solver(self, fixed: IntArray, springs: FloatArray | None = None) -> Any:
-        """One factorisation: a function from loads (unknowns, N) to displacements.
+        """One factorisation: from loads (R, N) on some unknowns (R,) to their displacements.
 
         Parameters
         ----------
@@ -87,11 +87,18 @@ class Elements:
             options={"SymmetricMode": True},
         )
 
-        def solve(loads: FloatArray) -> FloatArray:
+        place = np.full(matrix.shape[0], -1)
+        place[free] = np.arange(len(free))
+
+        def solve(loads: FloatArray, rows: IntArray) -> FloatArray:
+            loose = np.flatnonzero(place[rows] >= 0)
+            at = place[rows[loose]]
             found = np.zeros(loads.shape)
             for first in range(0, loads.shape[1], _SOLVED_AT_ONCE):
-                some = slice(first, first + _SOLVED_AT_ONCE)
-                found[free, some] = factors.solve(np.ascontiguousarray(loads[free, some]))
+                some = loads[loose, first : first + _SOLVED_AT_ONCE]
+                given = np.zeros((some.shape[1], len(free)))
+                given[:, at] = some.T
+                found[loose, first : first + some.shape[1]] = factors.solve(given.T)[at]
             return found
 
         return solve

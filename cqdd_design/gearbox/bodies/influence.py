@@ -59,7 +59,7 @@ class Influence:
     matrix : array (N + B, M)
         Displacement (m/N) along every load by the loads of the columns solved.
     fields : array (unknowns, M)
-        Their finite-element part.
+        Their finite-element part on the body's edges; zero inside it.
     """
 
     matrix: FloatArray
@@ -92,9 +92,10 @@ def self_balanced(
     total = np.concatenate([force, given])
     turning = np.concatenate([(np.conj(points.point) * force).imag, moment])
     around = 1j * edges.point / np.abs(edges.point)
-    reaction = total / length + around[:, None] * turning / (length * radius)
-    loads = np.concatenate([np.zeros((len(edges.point), len(force))), smooth], axis=1)
-    return np.asarray(loads - np.where(on[:, None], reaction, 0.0))
+    loads = np.zeros((len(edges.point), len(total)), dtype=complex)
+    loads[:, len(force) :] = smooth
+    loads[on] -= total / length + around[on, None] * turning / (length * radius)
+    return loads
 
 
 def influence(
@@ -146,12 +147,18 @@ def influence(
     matrix[:count, : len(sharp)] += (np.conj(loads.force[sharp])[:, None] * at_columns).real.T
     matrix[:count, : len(sharp)] -= _work(field, of_columns)
     smooth[:, :count] -= field
-    forces = edges.trace.T @ np.concatenate([smooth.real, smooth.imag])
-    fields = body.solver(fixed, springs)(forces[:, columns])
-    return Influence(matrix + forces.T @ fields, fields)
+    # Along the edges alone there are loads, and alone there anything is read.
+    rows = np.unique(edges.trace.indices)
+    forces = edges.trace[:, rows].T @ np.concatenate([smooth.real, smooth.imag])
+    found = body.solver(fixed, springs)(forces[:, columns], rows)
+    fields = np.zeros((edges.trace.shape[1], len(columns)))
+    fields[rows] = found
+    return Influence(matrix + forces.T @ found, fields)
 
 
 def _work(tractions: ComplexArray, displacements: ComplexArray) -> FloatArray:
     """Work of every traction on every displacement, (N, M)."""
-    work = tractions.real.T @ displacements.real + tractions.imag.T @ displacements.imag
-    return np.asarray(work)
+    # Side by side, since parts of complex numbers are no operands of a fast product.
+    left = np.concatenate([tractions.real, tractions.imag])
+    right = np.concatenate([displacements.real, displacements.imag])
+    return np.asarray(left.T @ right)

@@ -22,7 +22,7 @@ def elastic_bodies(design: Design) -> ElasticBodies:
     Raises
     ------
     GeometryError
-        Where a part's material is too thin to mesh.
+        Where a part's material is too thin to mesh, or a disc has too many lobes.
     """
     made: dict[float, Body] = {}
     discs = []

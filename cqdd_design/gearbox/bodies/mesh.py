@@ -119,8 +119,8 @@ def _spacing(
     everywhere = cKDTree(_plane(np.concatenate(points)))
     flat = np.concatenate(wanted)
     # The least of the neighbours' sizes, grown with distance: a few sweeps carry it all round.
+    apart, near = everywhere.query(_plane(np.concatenate(points)), k=24)
     for _ in range(6):
-        apart, near = everywhere.query(_plane(np.concatenate(points)), k=24)
         flat = np.minimum(flat, (flat[near] + _GRADING * apart).min(axis=1))
     parameters, sizes = [], []
     for index, loop in enumerate(loops):
@@ -183,9 +183,10 @@ def _fill(edge: ComplexArray, bounds: IntArray, size: _Size) -> ComplexArray:
         centre, radius = _circumcircles(vertices[triangles])
         side, to_edge = size(centre)
         excess = radius / (0.62 * side)
-        good = (excess > 1.0) & (to_edge > 0.7 * side) & _within(centre, edge, bounds)
-        order = np.argsort(-excess[good], kind="stable")
-        taken = _apart(centre[good][order], 0.85 * side[good][order])
+        large = np.flatnonzero((excess > 1.0) & (to_edge > 0.7 * side))
+        good = large[_within(centre[large], edge, bounds)]
+        order = good[np.argsort(-excess[good], kind="stable")]
+        taken = _apart(centre[order], 0.85 * side[order])
         if not len(taken) or len(vertices) > _MOST_VERTICES:
             break
         vertices = np.concatenate([vertices, taken])

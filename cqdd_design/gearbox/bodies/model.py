@@ -43,26 +43,9 @@ class Body:
 
 
 def standard_loads(shape: DiscShape) -> tuple[NDArray[np.int64], FloatArray]:
-    """Which load of the standard disc each load of a disc is, and its sense.
-
-    Returns
-    -------
-    array (L,), array (L,)
-        Index, and 1 or -1: a mirror turns tangents round.
-    """
+    """Which load of the standard disc each load of a disc is, and its sense."""
     standard, turn, mirrored = shape.standard()
-    sense = np.array([1.0, -1.0 if mirrored else 1.0])
-    found, first, senses = [], 0, []
-    for own, other, each in (
-        (shape.places().point, standard.places().point, 2),
-        (np.exp(1j * shape.stations), np.exp(1j * standard.stations), 1),
-    ):
-        moved = np.exp(1j * turn) * (np.conj(own) if mirrored else own)
-        near = np.abs(moved[:, None] - other).argmin(axis=1)
-        found.append((first + each * near[:, None] + np.arange(each)).ravel())
-        senses.append(np.tile(sense[:each], len(near)))
-        first += each * len(near)
-    return np.concatenate(found), np.concatenate(senses)
+    return shape.carried(standard, turn, mirrored)
 
 
 def of_standard(body: Body, index: NDArray[np.int64], sense: FloatArray) -> Body:
@@ -100,7 +83,8 @@ def disc_body(shape: DiscShape) -> Body:
     tents = np.zeros((len(on), len(shape.stations)), dtype=complex)
     tents[on] = shape.tents(body.edges.point[on])
     smooth = self_balanced(body.edges, raceway, points, force, tents)
-    columns = shape.of_one_sector()
+    symmetries = shape.symmetries()
+    columns = np.unique(np.min([index for index, _ in symmetries], axis=0))
     loads = Loads(points, force, smooth)
     found = influence(body, loops, shape.plate, loads, body.rigid(), columns)
     where = np.concatenate(
@@ -112,11 +96,11 @@ def disc_body(shape: DiscShape) -> Body:
     stress = _edge_stress(body, loops, places, where, loads, shape.plate, found, columns)
     total = len(loads.smooth[0])
     matrix, stresses = np.empty((total, total)), np.empty((len(places), total))
-    for sector in range(shape.sectors):
-        turned = shape.turned(sector)
-        place = turned[: 2 * len(places) : 2] // 2
-        matrix[np.ix_(turned, turned[columns])] = found.matrix
-        stresses[np.ix_(place, turned[columns])] = stress
+    for index, sense in symmetries:
+        place = index[: 2 * len(places) : 2] // 2
+        same = sense[columns]
+        matrix[np.ix_(index, index[columns])] = sense[:, None] * found.matrix * same
+        stresses[np.ix_(place, index[columns])] = stress * same
     return _body(matrix, stresses)
 
 
