@@ -17,6 +17,7 @@ from typing import TypeVar
 
 import numpy as np
 
+from cqdd_design.environment import cache_folder
 from cqdd_design.errors import CqddError
 from cqdd_design.files import read_regular_file, write_atomically
 from cqdd_design.gearbox.bodies.model import Body
@@ -32,10 +33,8 @@ _MOST_ENTRIES = 40
 
 
 def folder() -> Path:
-    """Where entries are kept: in the user's cache folder."""
-    from platformdirs import user_cache_path
-
-    return user_cache_path("cqdd-design", appauthor=False) / "bodies"
+    """Where entries are kept."""
+    return cache_folder() / "bodies"
 
 
 def cached(shape: Shape, compute: Callable[[Shape], Body]) -> Body:
@@ -102,7 +101,9 @@ def _write(path: Path, text: str, body: Body) -> None:
         "shapes": [one.shape for one in arrays],
         "reciprocity": body.reciprocity,
     }
-    line = json.dumps(told, sort_keys=True).encode()
+    # Spaces up to where the arrays stand as a processor wants them; after checksum and line ends.
+    text_of = json.dumps(told, sort_keys=True)
+    line = (text_of + " " * (-(len(text_of) + 66) % 16)).encode()
     told_and_arrays = b"\n".join([line, b"".join(one.tobytes() for one in arrays)])
     digest = hashlib.sha256(told_and_arrays).hexdigest().encode()
     try:

@@ -33,6 +33,8 @@ from cqdd_design.geometry.contours import ComplexArray, FloatArray
 _ANGLES_AT_ONCE = 48
 _LEAST_CAM_FORCE = 1.0
 """Below it the bearing's springs are taken at this load, N."""
+_LEAST_EIGENVALUE = 1e-9
+"""Least eigenvalue of a compliance over its largest entry."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,8 +78,36 @@ def compliance(
         both = disc_compliance(shape, body, model, states, index, stiffness, slip)
         ring_slip = None if slip is None else slip[:, :teeth]
         both[:, :teeth, :teeth] += ring_compliance(*bodies.ring, model, states, index, ring_slip)
-        found.append(both)
+        plain = both
+        if slip is not None:
+            plain = disc_compliance(shape, body, model, states, index, stiffness)
+            plain[:, :teeth, :teeth] += ring_compliance(*bodies.ring, model, states, index)
+        found.append(without_gain(both, plain))
     return np.stack(found, axis=1)
+
+
+def without_gain(matrix: FloatArray, plain: FloatArray) -> FloatArray:
+    """A compliance whose own terms are raised until no forces draw energy out of the bodies.
+
+    Where a law counts deeper than there is material, what is left would give energy back. Raised
+    own terms are a lesser depth, by one factor at all contacts of an angle; the terms between
+    contacts, and reciprocity, stay as they are.
+
+    Parameters
+    ----------
+    matrix : array (A, C, C)
+        With friction or without.
+    plain : array (A, C, C)
+        Without friction, whose energy counts.
+    """
+    try:
+        np.linalg.cholesky(plain)
+    except np.linalg.LinAlgError:
+        least = np.linalg.eigvalsh(plain)[:, 0]
+        floor = _LEAST_EIGENVALUE * np.abs(plain).max(axis=(1, 2))
+        lift = np.clip(floor - least, 0.0, None)
+        return np.asarray(matrix + lift[:, None, None] * np.eye(matrix.shape[1]))
+    return matrix
 
 
 def rigid_cam_force(model: ContactModel, states: NominalStates, torque: float) -> FloatArray:
