@@ -10,12 +10,13 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import plane_stress
 import pytest
+from disc_patches import DiscPatches
 
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox.bodies import bore, cache
+from cqdd_design.gearbox.bodies import compliance as compliance_module
 from cqdd_design.gearbox.bodies.compliance import (
     ElasticBodies,
     compliance,
@@ -25,10 +26,11 @@ from cqdd_design.gearbox.bodies.compliance import (
     under_disc,
 )
 from cqdd_design.gearbox.bodies.depths import ring_depths
-from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape
+from cqdd_design.gearbox.bodies.disc import PER_LOBE, DiscShape
 from cqdd_design.gearbox.bodies.made import elastic_bodies
-from cqdd_design.gearbox.bodies.model import Body, disc_body, of_standard, standard_loads
-from cqdd_design.gearbox.bodies.point_load import DEPTH
+from cqdd_design.gearbox.bodies.mesh import mesh
+from cqdd_design.gearbox.bodies.model import Body, disc_body
+from cqdd_design.gearbox.bodies.ring import RingShape
 from cqdd_design.gearbox.bodies.stress import disc_regions, disc_stress, ring_stress
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.model import ContactModel
@@ -105,67 +107,16 @@ def bare(shape: DiscShape) -> DiscShape:
     return dataclasses.replace(shape, bearing=ring)
 
 
-def patched(shape: DiscShape, ids: list[int], half_width: float, coarse: float) -> np.ndarray:
-    """Compliance between places by Hertzian pressures on patches, reactions round the bore."""
-    outline, places, plate = shape.outline, shape.places(), shape.plate
-    R = shape.bearing.outer
-
-    def outside(u: np.ndarray) -> np.ndarray:
-        return outline.profile(2.0 * np.pi * np.asarray(u))[0]
-
-    def round_hole(centre: complex, radius: float):
-        return lambda u: centre + radius * np.exp(2j * np.pi * np.asarray(u))
-
-    rim = outside(np.linspace(0.0, 1.0, 20_001))
-    angle = np.unwrap(np.angle(rim))
-
-    def inside(z: np.ndarray) -> np.ndarray:
-        good = np.abs(z) < np.interp(np.mod(np.angle(z), 2.0 * np.pi), angle, np.abs(rim))
-        for centre in shape.holes:
-            good &= np.abs(z - centre) > shape.hole_radius
-        return good & (np.abs(z) > R)
-
-    curves = [outside, *(round_hole(c, shape.hole_radius) for c in shape.holes), round_hole(0j, R)]
-    made = plane_stress.lattice(
-        plane_stress.Domain(curves, inside), coarse, places.point[ids], half_width / 6.0
-    )
-    matrix = plane_stress.stiffness(made, plate.modulus, plate.poisson, plate.thickness)
-    columns, lobes = [], PER_LOBE * outline.lobe_count
-    for i in ids:
-
-        def hertz(z: np.ndarray, i: int = i) -> np.ndarray:
-            away = np.abs(z - places.point[i])
-            width = np.sqrt(np.clip(half_width**2 - away**2, 0.0, None))
-            return 2.0 / (np.pi * half_width**2) * width * places.inward[i]
-
-        edge = 0 if i < lobes else 1 + (i - lobes) // PER_HOLE
-        force = plane_stress.nodal(made, edge, hertz)
-        force /= abs(complex(force[0::2].sum(), force[1::2].sum()))
-        total = complex(force[0::2].sum(), force[1::2].sum())
-        moment = (np.conj(made.nodes) * (force[0::2] + 1j * force[1::2])).imag.sum()
-        length = 2.0 * np.pi * R
-
-        def reaction(
-            z: np.ndarray, total: complex = total, moment: float = moment, length: float = length
-        ) -> np.ndarray:
-            return total / length + 1j * z / np.abs(z) * moment / (length * R)
-
-        columns.append(force - plane_stress.nodal(made, len(curves) - 1, reaction))
-    forces, rim_nodes = np.array(columns).T, made.edges[-1]
-    half = rim_nodes[len(rim_nodes) // 2]
-    held = [2 * rim_nodes[0], 2 * rim_nodes[0] + 1, 2 * half + 1]
-    moved = plane_stress.solve(matrix, forces, held)
-    found = forces.T @ moved
-    for k, i in enumerate(ids):
-        # Its own place: the middle of the patch, less what a half plane gives down to the depth.
-        read = forces[:, k].copy()
-        near = np.abs(made.nodes - places.point[i]) < 3.0 * half_width
-        read[0::2][near] = read[1::2][near] = 0.0
-        middle = int(np.abs(made.nodes - places.point[i]).argmin())
-        read[2 * middle] = places.inward[i].real
-        read[2 * middle + 1] = places.inward[i].imag
-        found[k, k] = read @ moved[:, k] - float(plate.approach(DEPTH, half_width))
-    return found
+def on_springs(shape: DiscShape, body: Body, ids: list[int], stiffness: np.ndarray) -> np.ndarray:
+    """Our compliance between places of a disc on springs under its stations."""
+    first, loads = len(body.matrix) - len(shape.stations), 2 * np.array(ids)
+    inward = shape.places().inward[ids]
+    push = np.stack([inward.real, inward.imag], axis=-1)
+    radial = np.stack([np.cos(shape.stations), np.sin(shape.stations)], axis=-1)
+    reading = body.matrix[np.ix_(loads, np.arange(first, len(body.matrix)))]
+    found = bore.reactions(reading, body.matrix[first:, first:], push, radial, stiffness)
+    contacts = body.matrix[np.ix_(loads, loads)]
+    return bore.held(contacts, reading, push, push, radial, stiffness, found)
 
 
 @pytest.mark.parametrize(
@@ -175,15 +126,31 @@ def patched(shape: DiscShape, ids: list[int], half_width: float, coarse: float) 
 def test_influence_agrees_with_patches_on_a_fine_mesh_whatever_their_width(
     half_width: float, coarse: float
 ) -> None:
-    """Flank over a hole, flank over a bridge, tip, and two edges of a hole: 1 %, 3 % asked."""
+    """Flank over a hole, flank over a bridge, tip, and two edges of a hole: 1.5 %, 3 % asked.
+
+    With even reactions, with the bore held round, and on rolling elements under one side of it.
+    """
     shape = bare(DiscShape.from_design(reference_s(), 0))
     lobes = PER_LOBE * shape.outline.lobe_count
     ids = [3, PER_LOBE + 3, PER_LOBE // 2, lobes + 7, lobes]
+
+    def round_all(angle: np.ndarray) -> np.ndarray:
+        return np.full(angle.shape, 1e13)
+
+    def one_side(angle: np.ndarray) -> np.ndarray:
+        return 5e9 * np.sqrt(np.clip(np.cos(angle - 2.0), 0.0, None))
+
+    body = disc_body(shape)
     loads = 2 * np.array(ids)
-    ours = disc_body(shape).matrix[np.ix_(loads, loads)]
-    theirs = patched(shape, ids, half_width, coarse)
-    assert ours == pytest.approx(theirs, abs=1e-2 * float(np.abs(theirs).max()))
-    assert np.diag(ours) == pytest.approx(np.diag(theirs), rel=1.5e-2)
+    step = 2.0 * np.pi * shape.bearing.outer / len(shape.stations)
+    ours = [body.matrix[np.ix_(loads, loads)]] + [
+        on_springs(shape, body, ids, step * hold(shape.stations)) for hold in (round_all, one_side)
+    ]
+    patches = DiscPatches(shape, ids, half_width, coarse)
+    for own, hold in zip(ours, (None, round_all, one_side), strict=True):
+        other = patches.compliance(hold)
+        assert own == pytest.approx(other, abs=1.5e-2 * float(np.abs(other).max()))
+        assert np.diag(own) == pytest.approx(np.diag(other), rel=1.5e-2)
 
 
 def test_matrices_are_reciprocal_and_so_are_the_two_ways_to_compute_them() -> None:
@@ -194,13 +161,12 @@ def test_matrices_are_reciprocal_and_so_are_the_two_ways_to_compute_them() -> No
         assert body.reciprocity < 2e-3
 
 
-def test_mesh_does_not_matter() -> None:
-    shape = DiscShape.from_design(reference_s(), 0)
-    coarse, fine = (
-        disc_body(dataclasses.replace(shape, side=f * shape.side)).matrix for f in (1.5, 0.6)
-    )
-    assert np.diag(coarse) == pytest.approx(np.diag(fine), rel=3e-2)
-    assert np.abs(coarse - fine).max() < 1e-2 * np.abs(fine).max()
+@pytest.mark.parametrize("factor", [1.5, pytest.param(0.6, marks=pytest.mark.deep)])
+def test_mesh_does_not_matter(factor: float) -> None:
+    shape, body = bodies_of_s().discs[0]
+    other = disc_body(dataclasses.replace(shape, side=factor * shape.side)).matrix
+    assert np.diag(other) == pytest.approx(np.diag(body.matrix), rel=3e-2)
+    assert np.abs(other - body.matrix).max() < 1e-2 * np.abs(body.matrix).max()
 
 
 def test_the_depth_of_the_cut_does_not_matter_to_law_and_body_together() -> None:
@@ -244,27 +210,92 @@ def test_palmgren_counts_to_where_johnson_agrees_with_him() -> None:
     assert (tooth <= model.tooth_radius).all()
 
 
-def test_compliance_of_s_lies_where_a_second_implementation_has_it() -> None:
-    """5 to 6 nm/N with the bore free and 2.2 to 4.5 held round, by place under loaded teeth."""
+def own_terms(k: float | None, depth: float | None, monkeypatch: pytest.MonkeyPatch) -> np.ndarray:
+    """Own terms of S's discs at loaded teeth, both senses of torque, nm/N."""
     bodies, (model, states) = bodies_of_s(), states_of_s()
-    shape, body = bodies.discs[0]
-    force = model.ring_forces(17.1, states.crank_angle)
-    loaded = force > 0.3 * force.max(axis=1, keepdims=True)
-    even = np.ones((36, len(shape.stations)))
-    free, held = (
-        1e9
-        * np.diagonal(disc_compliance(shape, body, model, states, 0, k * even), axis1=1, axis2=2)[
-            :, :11
-        ][loaded]
-        for k in (1e-2, 1e13)
-    )
+    if depth is not None:
+        cut = lambda model, radius: 2 * (np.full(radius.shape, depth),)  # noqa: E731
+        monkeypatch.setattr(compliance_module, "ring_depths", cut)
+    found = []
+    for torque in (34.2, -34.2):
+        sweep = contact_sweep(model, torque, states.crank_angle, states=states)
+        for index, (shape, body) in enumerate(bodies.discs):
+            force = sweep.ring_force[:, index]
+            loaded = force > 0.3 * force.max(axis=1, keepdims=True)
+            under = under_disc(shape, model, states, index, sweep.cam_force[:, index])
+            held = under if k is None else np.full_like(under, k)
+            matrix = disc_compliance(shape, body, model, states, index, held)
+            found.append(np.diagonal(matrix, axis1=1, axis2=2)[:, : model.tooth_count][loaded])
+    return 1e9 * np.concatenate(found)
+
+
+def test_compliance_of_s_is_a_second_implementation_s_at_one_depth(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It has 2.2 to 4.5 nm/N by place with the bore held round, and 5 to 6 with the bore free.
+
+    It does not tell down to which depth its local part was taken out. One depth, 0.7 mm, gives both
+    of its ranges; what remains beside Palmgren's law, which counts deeper, is 0.8 nm/N less.
+    """
+    held, free = (own_terms(k, 0.7e-3, monkeypatch) for k in (1e13, 1e-2))
+    assert held.min() == pytest.approx(2.2, abs=0.1)
+    assert held.max() == pytest.approx(4.5, abs=0.1)
     assert 5.0 < free.mean() < 6.0
-    assert 2.2 < held.mean() < 4.5
+    assert 4.7 < free.min() < free.max() < 6.3
+
+
+def test_compliance_of_s_beside_palmgren(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On its bearing between free and held round in the mean; the matrix has no way to gain."""
+    held, modelled, free = (own_terms(k, None, monkeypatch) for k in (1e13, None, 1e-2))
+    assert 2.2 < held.mean() < modelled.mean() < free.mean()
+    assert held.mean() == pytest.approx(2.3, abs=0.1)
+    assert modelled.mean() == pytest.approx(3.7, abs=0.2)
+    assert free.mean() == pytest.approx(4.6, abs=0.1)
     assert (held < free).all()
+    bodies, (model, states) = bodies_of_s(), states_of_s()
     sweep = contact_sweep(model, 34.2, states.crank_angle, states=states)
     full = compliance(bodies, model, states, sweep.cam_force)
     assert np.abs(full - np.swapaxes(full, 2, 3)).max() <= 1e-9 * np.abs(full).max()
     assert np.linalg.eigvalsh(full).min() > 0.0
+
+
+def test_no_forces_draw_energy_out_of_bodies_however_deep_a_law_counts(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Own terms rise by one amount an angle; what is between contacts stays."""
+    bodies, (model, states) = bodies_of_s(), states_of_s()
+    cam = np.full((36, 2, 2), 700.0)
+    deep = lambda model, radius: 2 * (np.full(radius.shape, 1.0),)  # noqa: E731
+    monkeypatch.setattr(compliance_module, "ring_depths", deep)
+    found = compliance(bodies, model, states, cam)
+    slip = np.full(found.shape[:3], 0.08)
+    rubbing = compliance(bodies, model, states, cam, slip)
+    monkeypatch.setattr(compliance_module, "without_gain", lambda matrix, plain: matrix)
+    raw, raw_rubbing = (compliance(bodies, model, states, cam, *more) for more in ((), (slip,)))
+    assert np.linalg.eigvalsh(raw).min() < -0.5e-9
+    assert np.linalg.eigvalsh(found).min() > 0.0
+    assert np.abs(found - np.swapaxes(found, 2, 3)).max() <= 1e-9 * np.abs(found).max()
+    lift = found - raw
+    own = np.einsum("adcc->adc", lift)
+    assert own == pytest.approx(np.broadcast_to(own[..., :1], own.shape), rel=1e-6)
+    assert np.abs(lift - own[..., None] * np.eye(found.shape[2])).max() < 1e-20
+    assert rubbing - raw_rubbing == pytest.approx(lift, abs=1e-20)
+
+
+def test_every_place_is_a_vertex_so_that_no_field_is_read_where_it_is_sharp() -> None:
+    """Between vertices a point of quadrature may fall on a place: tractions of 1e24 N/m."""
+    design = reference_s()
+    for shape in (DiscShape.from_design(design, 0), RingShape.from_design(design)):
+        loops = shape.loops()
+        parameters = mesh(loops, shape.side, "the body").parameters
+        vertices = np.concatenate(
+            [loop.curve(u)[0] for loop, u in zip(loops, parameters, strict=True)]
+        )
+        places = shape.places().point
+        apart = np.abs(places[:, None] - vertices).min(axis=1)
+        # Beside a corner of the ring's contour, where no tooth touches, a place may have none.
+        assert np.quantile(apart, 0.9) < 1e-9
+        assert apart[apart > 1e-9].min(initial=1.0) > 1e-6
 
 
 def test_forces_in_balance_feel_no_reaction_round_the_raceway() -> None:
@@ -289,7 +320,7 @@ def test_discs_of_one_kind_are_one_computation() -> None:
     standard, _, mirrored = shape.standard()
     assert mirrored
     assert standard.first_hole == DiscShape.from_design(reference_s(), 0).standard()[0].first_hole
-    ours, direct = of_standard(disc_body(standard), *standard_loads(shape)), disc_body(shape)
+    ours, direct = bodies_of_s().discs[1][1], disc_body(shape)
     scale = np.abs(direct.matrix).max()
     assert np.abs(ours.matrix - direct.matrix).max() < 1e-2 * scale
 
@@ -375,6 +406,7 @@ import sys
 from pathlib import Path
 import numpy as np
 from cqdd_design.gearbox.bodies import cache
+from cqdd_design.gearbox.bodies.mesh import mesh
 from cqdd_design.gearbox.bodies.model import Body
 from cqdd_design.gearbox.bodies.point_load import Plate
 cache.folder = lambda: Path(sys.argv[1])
@@ -412,9 +444,9 @@ def test_disc_too_thin_to_mesh_is_refused_with_a_sentence() -> None:
     "reducer",
     [
         {"ring_type": "pinwheel"},
-        {"ring_type": "conjugate"},
-        {"disc_count": 3},
-        {"disc_count": 1},
+        pytest.param({"ring_type": "conjugate"}, marks=pytest.mark.deep),
+        pytest.param({"disc_count": 3}, marks=pytest.mark.deep),
+        pytest.param({"disc_count": 1}, marks=pytest.mark.deep),
     ],
     ids=["pinwheel", "conjugate", "three discs", "one disc"],
 )
@@ -426,7 +458,7 @@ def test_other_gearboxes_have_bodies_too(reducer: dict[str, object]) -> None:
     cam = np.full((5, model.disc_count, 2), 700.0)
     found = compliance(bodies, model, states, cam)
     assert found.shape == (5, model.disc_count, 21, 21)
-    assert np.linalg.eigvalsh(0.5 * (found + np.swapaxes(found, 2, 3))).min() > -0.1e-9
+    assert np.linalg.eigvalsh(found).min() > 0.0
     assert 1e-9 < np.median(np.diagonal(found, axis1=2, axis2=3)) < 10e-9
     slip = np.full((5, model.disc_count, 21), 0.08)
     rubbing = compliance(bodies, model, states, cam, slip)
