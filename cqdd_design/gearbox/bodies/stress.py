@@ -21,7 +21,8 @@ from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import NominalStates
 from cqdd_design.geometry.contours import FloatArray
 
-Region = Literal["root", "hole to profile", "hole to hole", "hole to bore"]
+Region = Literal["hole to profile", "hole to hole", "hole to bore", "root", "ring"]
+"""Of a disc by the nearest edge across the material, its lobes (root); the ring's teeth."""
 
 _STEPS = 2.5
 """Steps of the grid round a loaded contact in which stress is the contact's."""
