@@ -16,11 +16,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.gearbox.bodies.compliance import ElasticBodies, disc_compliance, under_disc
+from cqdd_design.gearbox.bodies.compliance import ElasticBodies
 from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE
+from cqdd_design.gearbox.bodies.give import ToothGive, tooth_gives
 from cqdd_design.gearbox.bodies.stress import Region, disc_regions, disc_stress, ring_stress
 from cqdd_design.gearbox.contact.solved import ContactSweep
-from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
+from cqdd_design.gearbox.contact.states import NominalStates
 from cqdd_design.gearbox.life.fatigue import goodman_reversed
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
@@ -33,10 +34,6 @@ REGIONS: tuple[Region, ...] = (
 )
 LIGAMENTS = REGIONS[:3]
 
-_FREE, _ROUND = 1e-2, 1e13
-"""Stiffness of springs all round a raceway that hold it evenly, and that keep it round, N/m."""
-_GIVE_STEP = 4
-"""Crank angles from one at which the give of the teeth is taken to the next."""
 _BROKEN = 100.0
 """Of S_u: written where a mean stress reaches it, which no reversed amplitude stands for."""
 
@@ -111,33 +108,6 @@ class Swing:
 
 def _where(disc: int, place: complex) -> dict[str, object]:
     return {"disc": disc, "point_mm": [1e3 * place.real, 1e3 * place.imag]}
-
-
-@dataclass(frozen=True)
-class ToothGive:
-    """How much a disc gives under one unit force at a tooth that carries, m/N.
-
-    Without what the contact law counts, without the ring, and less the rigid disc on its bearing.
-
-    Attributes
-    ----------
-    mean : float
-        Over discs, angles and teeth, weighed with the squares of their forces.
-    least, greatest : float
-        At any tooth with at least `LOADED` of the greatest force of its angle.
-    """
-
-    mean: float
-    least: float
-    greatest: float
-
-    def to_dict(self) -> dict[str, float]:
-        """The JSON form, nm/N."""
-        return {f"{name}_nm_per_N": 1e9 * value for name, value in vars(self).items()}
-
-
-LOADED = 0.3
-"""Share of the greatest tooth force of an angle from which a tooth counts as loaded."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -296,7 +266,7 @@ def body_strength(
             )
         )
     disc_peak = max(peaks[:-1], key=_size)
-    give, free, held_round = _gives(bodies, states, peak)
+    give, free, held_round = tooth_gives(bodies, states, peak)
     return BodyStrength(
         tuple(peaks),
         tuple(swings),
@@ -371,29 +341,6 @@ def _swing(edge: _Edge, region: Region, turns: Sequence[FloatArray], ultimate: f
     return Swing(
         region, float(low[worst]), float(high[worst]), float(harm[worst]), edge.disc, place
     )
-
-
-def _gives(
-    bodies: ElasticBodies, states: NominalStates, sweeps: Sequence[ContactSweep]
-) -> list[ToothGive]:
-    """Give of the discs on their bearings, with the bore free, and with it held round."""
-    states = nominal_states(sweeps[0].model, states.crank_angle[::_GIVE_STEP])
-    total, weights = np.zeros(3), 0.0
-    least, greatest = np.full(3, np.inf), np.full(3, -np.inf)
-    for sweep, (index, (shape, body)) in itertools.product(sweeps, enumerate(bodies.discs)):
-        model, teeth = sweep.model, sweep.model.tooth_count
-        force = sweep.ring_force[::_GIVE_STEP, index]
-        counted = force > LOADED * force.max(axis=1, keepdims=True)
-        under = under_disc(shape, model, states, index, sweep.cam_force[::_GIVE_STEP, index])
-        weights += float(np.sum(force**2))
-        for k, stiffness in enumerate((under, *(np.full_like(under, s) for s in (_FREE, _ROUND)))):
-            matrix = disc_compliance(shape, body, model, states, index, stiffness)
-            own = np.diagonal(matrix, axis1=1, axis2=2)[:, :teeth]
-            total[k] += np.sum(own * force**2)
-            least[k] = min(least[k], own[counted].min(initial=np.inf))
-            greatest[k] = max(greatest[k], own[counted].max(initial=-np.inf))
-    mean = total / weights
-    return [ToothGive(*map(float, one)) for one in zip(mean, least, greatest, strict=True)]
 
 
 def _picture(
