@@ -79,7 +79,7 @@ def stress_picture(picture: EdgePicture, outlines: Outlines) -> Figure:
     )
     greatest = max(float(np.nanmax(np.abs(stress), initial=0.0)) for _, stress in picture.edges)
     body = [
-        part_shape(outlines.ring, view, "ring"),
+        *outlines.ring_shapes(view),
         part_shape(outlines.posed_disc(picture.disc, picture.crank_angle), view, "disc-body"),
         *outlines.pin_shapes(view, picture.crank_angle),
     ]
