@@ -93,11 +93,10 @@ def test_unit_loads_that_stand_for_contacts_leave_no_moment(friction: str) -> No
     model = machine.contact
     states = nominal_states(model, perfect_angles(model, 7))
     sweep = contact_sweep(model, 90.0, states=states, friction=ContactFriction.of(model, friction))
+    forces, slips = strength_module._pushes(sweep)
     for index in range(2):
         shape = DiscShape.from_design(machine.design, index)
-        force = np.concatenate([sweep.ring_force, sweep.pin_force], axis=2)[:, index]
-        along = np.concatenate([sweep.ring_tangential, sweep.pin_tangential], axis=2)[:, index]
-        slip = np.divide(along, force, out=np.zeros(force.shape), where=force > 0.0)
+        force, slip = forces[:, index], slips[:, index]
         spots = disc_spots(shape, model, states, index)
         places = shape.places()
         loads = stress_module._loads(spots, force, slip, 2 * len(places))
@@ -146,6 +145,10 @@ def test_stress_of_s_with_friction_is_reported_where_it_is() -> None:
     plain = analyse_bodies(machine_of_s(), friction="off")
     assert found.peak(*LIGAMENTS).stress > 1.05 * plain.peak(*LIGAMENTS).stress
     assert 100e6 < plain.peak(*LIGAMENTS, "root").stress < 140e6
+    assert found.peak("hole to hole").stress == pytest.approx(-98e6, rel=0.05)
+    assert found.peak("ring").stress == pytest.approx(-20e6, rel=0.1)
+    # At 34.2 N m, of which a place has its share: the peaks are those at 90.
+    assert 0.3 < found.swing("root").high / found.peak("root").stress < 0.5
     shape = DiscShape.from_design(machine_of_s().design, 0)
     for one in (*found.peaks, *found.swings):
         radius = abs(one.place)
@@ -197,6 +200,11 @@ def test_checks_hold_stress_against_yield_and_endurance() -> None:
     assert checks["ROOT-STRESS"].limit == pytest.approx(834.0 / 1.2)
     # Shigley: half of S_u, and 4.51 S_u^-0.265 of it for a machined edge.
     assert checks["ROOT-FATIGUE"].limit == pytest.approx(0.5 * 951.0 * 4.51 * 951.0**-0.265)
+    softer = design.replacing({"reducer.ring_material": "AISI 4140 annealed"})
+    limits = {one.id: one.limit for one in body_checks(softer, strength_of_s())}
+    assert limits["RING-STRESS"] == pytest.approx(417.0 / 1.2)
+    assert limits["ROOT-STRESS"] == pytest.approx(834.0 / 1.2)
+    assert limits["RING-FATIGUE"] < limits["LIGAMENT-FATIGUE"] == limits["ROOT-FATIGUE"]
     strong = {one.id: one for one in body_checks(design, with_stress(-800e6, 0.0, 9e8, 500e6))}
     assert not any(one.satisfied for one in strong.values())
     assert strong["LIGAMENT-STRESS"].value == pytest.approx(800.0)

@@ -297,9 +297,7 @@ def _stresses(
     bodies: ElasticBodies, states: NominalStates, sweep: ContactSweep
 ) -> list[FloatArray]:
     """Stress (A, S) along the edges of every disc and of the ring under it, Pa."""
-    force = np.concatenate([sweep.ring_force, sweep.pin_force], axis=2)
-    along = np.concatenate([sweep.ring_tangential, sweep.pin_tangential], axis=2)
-    slip = np.divide(along, force, out=np.zeros(force.shape), where=force > 0.0)
+    force, slip = _pushes(sweep)
     teeth = sweep.model.tooth_count
     found = []
     for index, disc in enumerate(bodies.discs):
@@ -309,6 +307,13 @@ def _stresses(
         )
         found.append(ring_stress(*bodies.ring, states, index, own[:, :teeth], rubbed[:, :teeth]))
     return found
+
+
+def _pushes(sweep: ContactSweep) -> tuple[FloatArray, FloatArray]:
+    """Normal forces (A, D, C), N, and tangential ones over them; ring teeth first."""
+    force = np.concatenate([sweep.ring_force, sweep.pin_force], axis=2)
+    along = np.concatenate([sweep.ring_tangential, sweep.pin_tangential], axis=2)
+    return force, np.divide(along, force, out=np.zeros(force.shape), where=force > 0.0)
 
 
 def _peak(edge: _Edge, region: Region, sweep: ContactSweep, stress: FloatArray) -> Peak:
