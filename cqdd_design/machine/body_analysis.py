@@ -8,6 +8,8 @@ from cqdd_design.catalog.materials import find_material
 from cqdd_design.gearbox.bodies.made import elastic_bodies
 from cqdd_design.gearbox.bodies.strength import BodyStrength, body_strength
 from cqdd_design.gearbox.checks.bodies import body_checks
+from cqdd_design.gearbox.contact.laws import LineModel
+from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, FrictionChoice
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
@@ -20,7 +22,11 @@ _ANGLES = 96
 
 
 def analyse_bodies(
-    machine: Machine, *, torque: float | None = None, friction: FrictionChoice = "drive"
+    machine: Machine,
+    *,
+    torque: float | None = None,
+    line_model: LineModel = "palmgren",
+    friction: FrictionChoice = "drive",
 ) -> BodyStrength:
     """Stress of discs and ring, and give of the teeth.
 
@@ -29,6 +35,8 @@ def analyse_bodies(
     torque : float, optional
         Output torque, N m. Where left out, peaks are those at the peak torque of the requirements,
         cycles those at the continuous one.
+    line_model : {"palmgren", "johnson", "linear"}
+        Approach of teeth and pins.
     friction : {"drive", "backdrive", "off"}
         Which way power goes.
 
@@ -39,7 +47,8 @@ def analyse_bodies(
     GeometryError
         When material is too thin to mesh.
     """
-    design, model = machine.design, machine.contact
+    design, usual = machine.design, line_model == "palmgren"
+    model = machine.contact if usual else ContactModel.from_design(design, line_model)
     asked = design.requirements
     peak = asked.peak_torque if torque is None else torque
     steady = asked.continuous_torque if torque is None else torque
@@ -66,7 +75,7 @@ def analyse_bodies(
 
 
 def judged_bodies(
-    machine: Machine, friction: FrictionChoice = "drive"
+    machine: Machine, line_model: LineModel = "palmgren", friction: FrictionChoice = "drive"
 ) -> tuple[tuple[Check, ...], BodyStrength]:
     """Checks of the stress at the torques of the requirements, and what they judge.
 
@@ -75,5 +84,5 @@ def judged_bodies(
     ContactError, GeometryError
         As :func:`analyse_bodies`.
     """
-    strength = analyse_bodies(machine, friction=friction)
+    strength = analyse_bodies(machine, line_model=line_model, friction=friction)
     return body_checks(machine.design, strength), strength

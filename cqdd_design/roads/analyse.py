@@ -103,9 +103,11 @@ def analyse(
     except ContactError as error:
         return Analysis(machine, gearbox, None, error.message)
     try:
-        checks, bodies = judged_bodies(machine, friction)
+        checks, bodies = judged_bodies(machine, line_model, friction)
         if torque is not None:
-            bodies = analyse_bodies(machine, torque=torque, friction=friction)
+            bodies = analyse_bodies(
+                machine, torque=torque, line_model=line_model, friction=friction
+            )
     except (ContactError, GeometryError) as error:
         return Analysis(machine, gearbox, contact, "", None, error.message)
     return Analysis(machine, gearbox, contact, "", bodies, "", checks)
