@@ -35,10 +35,11 @@ _REPORT_ANGLES = 1000
 
 
 class WrittenReport(NamedTuple):
-    """A report's file, the analysis it shows, and where closer models say less than is asked."""
+    """A report's file, analysis and checks, and where closer models say less than is asked."""
 
     file: WrittenFile
     analysis: GearboxAnalysis
+    checks: tuple[Check, ...]
     short: tuple[str, ...]
 
 
@@ -116,7 +117,7 @@ def write_report(
     progress("writing the report")
     file = write_atomically(target, build_report(results), "report")
     short = tuple(one.sentence for one in shortfalls(results))
-    return WrittenReport(file, analysis, short)
+    return WrittenReport(file, analysis, results.checks, short)
 
 
 def _stress(
