@@ -90,7 +90,17 @@ def traction(
 
 
 def _radial(away: ComplexArray, normal: ComplexArray, force: ComplexArray) -> ComplexArray:
-    return np.asarray(-2.0 / np.pi * away * (force / away).real * (normal / away).real)
+    square = _square(away)
+    along = _dot(force, away) * _dot(normal, away) / (square * square)
+    return np.asarray(-2.0 / np.pi * along * away)
+
+
+def _dot(first: ComplexArray, second: ComplexArray) -> FloatArray:
+    return np.asarray(first.real * second.real + first.imag * second.imag)
+
+
+def _square(z: ComplexArray) -> FloatArray:
+    return np.asarray(z.real * z.real + z.imag * z.imag)
 
 
 def stress(z: ComplexArray, loads: Places, force: ComplexArray, along: ComplexArray) -> FloatArray:
@@ -116,7 +126,11 @@ def displacement(z: ComplexArray, loads: Places, force: ComplexArray, plate: Pla
     over = np.where(hole, from_void, -loads.point)
     # On the edge itself the angle is the mean of both sides: that of the inward normal, which
     # `away` has been given.
-    log = np.log(away / over)
-    field = plate.kappa * A * log + A * np.conj(log) - np.conj(A) * away / np.conj(away)
-    back = np.conj(A) * from_void / np.conj(from_void)
-    return np.asarray((field + np.where(hole, back, 0.0)) / plate.shear)
+    square = _square(away)
+    size, turn = 0.5 * np.log(square / _square(over)), np.angle(away * np.conj(over))
+    field = A * ((plate.kappa + 1.0) * size + 1j * (plate.kappa - 1.0) * turn)
+    field -= np.conj(A) * (away * away / square)
+    if hole.any():
+        back = from_void[:, hole]
+        field[:, hole] += np.conj(A[hole]) * (back * back / _square(back))
+    return np.asarray(field / plate.shear)
