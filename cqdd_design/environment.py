@@ -95,6 +95,16 @@ def source_date() -> datetime | None:
     return datetime.fromtimestamp(int(told), UTC)
 
 
+def cache_folder() -> Path:
+    """Where costly results are kept: ``CQDD_DESIGN_CACHE``, or the user's cache folder."""
+    told = os.environ.get("CQDD_DESIGN_CACHE", "")
+    if told:
+        return Path(told)
+    from platformdirs import user_cache_path
+
+    return user_cache_path(DISTRIBUTION, appauthor=False)
+
+
 def missing_dependency(error: ImportError) -> DependencyError | None:
     """The error to show for a failed import of something foreign, or None for one of our own.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -48,6 +49,11 @@ def pytest_configure(config: pytest.Config) -> None:
     """Tell `examples.py` how many examples a property test draws in this run."""
     os.environ["CQDD_TEST_DEPTH"] = "deep" if _is_deep(config) else "daily"
     config.option.loadscopereorder = False
+    if "CQDD_DESIGN_CACHE" not in os.environ:
+        # One for all workers and processes of a run, and never the user's own.
+        folder = tempfile.mkdtemp(prefix="cqdd-cache-")
+        os.environ["CQDD_DESIGN_CACHE"] = folder
+        config.add_cleanup(lambda: shutil.rmtree(folder, ignore_errors=True))
 
 
 @pytest.hookimpl(tryfirst=True)

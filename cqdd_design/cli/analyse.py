@@ -49,7 +49,7 @@ def analyse(
         ),
     ] = Friction.drive,
 ) -> None:
-    """Loads, contact equilibrium, precision, losses and life."""
+    """Loads, contact equilibrium, precision, losses, life, and stress of discs and ring."""
     from cqdd_design.cli.tables import verdict
     from cqdd_design.design import load_design
     from cqdd_design.roads.analyse import analyse as analysed
@@ -67,7 +67,7 @@ def analyse(
         line_model=law.value,
         friction=friction.value,
     )
-    results, checks = found.to_dict(), found.gearbox.checks
+    results, checks = found.to_dict(), found.checks
     lines = _lines(found.gearbox, results)
     out.say(*lines, "", f"checks: {verdict(checks)} (see `check`)")
     out.warn(*found.warnings)
@@ -86,6 +86,7 @@ def _lines(analysis: GearboxAnalysis, results: dict[str, object]) -> list[str]:
         "precision": "precision",
         "losses": "losses",
         "life": "life",
+        "bodies": "discs and ring under these forces",
     }
     for key, title in titles.items():
         values = results[key]

@@ -37,7 +37,7 @@ def report(
         force=force,
         progress=out.stages(REPORT_STAGES),
     )
-    checks = written.analysis.checks
+    checks = written.checks
     out.wrote([written.file])
     out.say(f"{loaded.name}: {verdict(checks)}")
     out.warn(*written.analysis.warnings, *written.short)

@@ -19,6 +19,7 @@ from cqdd_design.report.gearbox.load_charts import load_charts
 from cqdd_design.report.gearbox.losses import losses_view
 from cqdd_design.report.gearbox.masses import bodies_view
 from cqdd_design.report.gearbox.precision import precision_view
+from cqdd_design.report.gearbox.stress import stress_view
 from cqdd_design.report.gearbox.tolerances import tolerance_view
 from cqdd_design.report.ink.numbers import RPM, significant, with_unit
 from cqdd_design.report.ink.page import Values, environment
@@ -57,7 +58,7 @@ def build_report(results: ReportInput) -> str:
     str
         HTML, to be written as UTF-8.
     """
-    judged = verdict(results.design, results.gearbox.checks, shortfalls(results))
+    judged = verdict(results.design, results.checks, shortfalls(results))
     shown = [chapter for chapter in _chapters(results) if chapter.values is not None]
     context: Values = {
         "design": results.design,
@@ -119,9 +120,10 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
         chapter(
             "values", "Design values", {"values": groups[1:], "derived": derived_values(results)}
         ),
-        chapter("checks", "Checks", {"check_groups": check_groups(gearbox.checks)}),
+        chapter("checks", "Checks", {"check_groups": check_groups(results.checks)}),
         chapter("loads", "Forces", {"load_charts": load_charts(gearbox)}),
         of_contact("contact", "Contact", lambda found: contact_view(found, outlines, law)),
+        chapter("stress", "Stress", _stress(results, outlines)),
         of_contact("precision", "Precision", lambda found: precision_view(found, design)),
         of_contact("losses", "Losses", losses_view),
         of_contact("life", "Life", lambda found: life_view(found.life)),
@@ -161,6 +163,12 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
     ]
 
 
+def _stress(results: ReportInput, outlines: Outlines) -> Values | None:
+    if results.stress is None:
+        return None
+    return {"stress": stress_view(results.stress, results.stress_checks, outlines)}
+
+
 def _actuator(results: ReportInput) -> Values | None:
     if results.bench is None:
         missing = results.bench_missing
@@ -182,7 +190,7 @@ def _bodies(results: ReportInput) -> Values | None:
 def _closing(results: ReportInput, groups: tuple[tuple[str, tuple[Value, ...]], ...]) -> Values:
     design, analysis = results.design, results.gearbox
     parts = () if results.bodies is None else results.bodies.parts
-    literature, catalogue = sources_used(analysis, parts)
+    literature, catalogue = sources_used(analysis, parts, results.stress_checks)
     return {
         "symbols": paper_symbols(design),
         "errata": ERRATA,

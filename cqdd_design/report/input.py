@@ -12,11 +12,12 @@ from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.machine import Machine
 from cqdd_design.machine.weighing import Bodies
 from cqdd_design.planetary.compare import PlanetaryComparison
-from cqdd_design.results import Provenance
+from cqdd_design.results import Check, Provenance
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.bench import BenchResult
     from cqdd_design.actuator.parameters import ActuatorParameters
+    from cqdd_design.gearbox.bodies.strength import BodyStrength
     from cqdd_design.gearbox.tolerance.clearance import ClearancePoint
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
     from cqdd_design.machine.contact_analysis import ContactAnalysis
@@ -49,6 +50,10 @@ class ReportInput:
         Written in the same run.
     contact : ContactAnalysis or None
         At the torques of the requirements: contact, precision, losses and life.
+    stress : BodyStrength or None
+        Of discs and ring, at the torques of the requirements.
+    stress_checks : tuple of Check
+        Of that stress.
     tolerance : ToleranceResult or None
         An ensemble of toleranced gearboxes.
     clearances : tuple of ClearancePoint
@@ -71,11 +76,18 @@ class ReportInput:
     sizing: SizingResult | None = None
     files: tuple[WrittenFile, ...] = ()
     contact: ContactAnalysis | None = None
+    stress: BodyStrength | None = None
+    stress_checks: tuple[Check, ...] = ()
     tolerance: ToleranceResult | None = None
     clearances: tuple[ClearancePoint, ...] = ()
     pictures: tuple[MachineViews, ViewerData] | None = None
     bench: tuple[ActuatorParameters, BenchResult] | None = None
     bench_missing: str = ""
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Those of the closed forms, and those of discs and ring where there are any."""
+        return (*self.gearbox.checks, *self.stress_checks)
 
     @property
     def design(self) -> Design:

@@ -5,17 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cqdd_design.design import Design
-from cqdd_design.errors import ContactError
+from cqdd_design.errors import ContactError, GeometryError
 from cqdd_design.gearbox import GearboxAnalysis
+from cqdd_design.gearbox.bodies.strength import BodyStrength
 from cqdd_design.gearbox.contact.laws import LineModel
 from cqdd_design.gearbox.contact.rubbing import FrictionChoice
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.body_analysis import analyse_bodies, judged_bodies
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
+from cqdd_design.results import Check
 
 
 @dataclass(frozen=True, eq=False)
 class Analysis:
-    """Closed forms of a gearbox, and its contact equilibrium.
+    """Closed forms of a gearbox, its contact equilibrium, and the stress in its bodies.
 
     Attributes
     ----------
@@ -23,26 +26,42 @@ class Analysis:
         None for a gearbox that cannot carry the torque.
     missing : str
         Why there is none.
+    bodies : BodyStrength or None
+        Stress in discs and ring under the forces of the equilibrium.
+    bodies_missing : str
+        Why there is none.
+    body_checks : tuple of Check
+        Of that stress, at the torques of the requirements.
     """
 
     machine: Machine
     gearbox: GearboxAnalysis
     contact: ContactAnalysis | None
     missing: str
+    bodies: BodyStrength | None = None
+    bodies_missing: str = ""
+    body_checks: tuple[Check, ...] = ()
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Those of the closed forms, and those of discs and ring where there are any."""
+        return (*self.gearbox.checks, *self.body_checks)
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """What was not checked or cannot be relied on."""
         if self.contact is None:
             return (*self.gearbox.warnings, f"no contact analysis: {self.missing}")
-        return (*self.gearbox.warnings, *self.contact.warnings)
+        bodies = (f"no stress of discs and ring: {self.bodies_missing}",) if not self.bodies else ()
+        return (*self.gearbox.warnings, *self.contact.warnings, *bodies)
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form (``results`` of ``analyse``)."""
         if self.contact is None:
-            absent = dict.fromkeys(("contact", "precision", "losses", "life"))
+            absent = dict.fromkeys(("contact", "precision", "losses", "life", "bodies"))
             return self.gearbox.to_dict() | absent
-        return self.gearbox.to_dict() | self.contact.to_dict()
+        bodies = None if self.bodies is None else self.bodies.to_dict()
+        return self.gearbox.to_dict() | self.contact.to_dict() | {"bodies": bodies}
 
 
 def analyse(
@@ -83,4 +102,12 @@ def analyse(
         )
     except ContactError as error:
         return Analysis(machine, gearbox, None, error.message)
-    return Analysis(machine, gearbox, contact, "")
+    try:
+        checks, bodies = judged_bodies(machine, line_model, friction)
+        if torque is not None:
+            bodies = analyse_bodies(
+                machine, torque=torque, line_model=line_model, friction=friction
+            )
+    except (ContactError, GeometryError) as error:
+        return Analysis(machine, gearbox, contact, "", None, error.message)
+    return Analysis(machine, gearbox, contact, "", bodies, "", checks)

@@ -7,17 +7,20 @@ from typing import NamedTuple
 
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
-from cqdd_design.errors import ContactError, UsageError
+from cqdd_design.errors import ContactError, GeometryError, UsageError
 from cqdd_design.files import WrittenFile, refuse_overwrite, write_atomically
 from cqdd_design.gearbox import GearboxAnalysis
+from cqdd_design.gearbox.bodies.strength import BodyStrength
 from cqdd_design.gearbox.tolerance.clearance import ClearancePoint, clearance_study
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
 from cqdd_design.machine import Machine
+from cqdd_design.machine.body_analysis import judged_bodies
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
 from cqdd_design.machine.weighing import weigh_if_possible
 from cqdd_design.report import ReportInput, build_report, read_comments
 from cqdd_design.report.judgement.shortfalls import shortfalls
 from cqdd_design.report.machine_view.apart import start_drawing
+from cqdd_design.results import Check
 from cqdd_design.roads.bench import measured_actuator
 from cqdd_design.roads.telling import Progress, provenance, silent
 from cqdd_design.sizing import SizingResult
@@ -34,10 +37,11 @@ _REPORT_ANGLES = 1000
 
 
 class WrittenReport(NamedTuple):
-    """A report's file, the analysis it shows, and where closer models say less than is asked."""
+    """A report's file, analysis and checks, and where closer models say less than is asked."""
 
     file: WrittenFile
     analysis: GearboxAnalysis
+    checks: tuple[Check, ...]
     short: tuple[str, ...]
 
 
@@ -87,6 +91,7 @@ def write_report(
     bodies, notes = weigh_if_possible(machine)
     drawing = start_drawing(machine) if bodies else None
     contact, ensemble, unsolved = _contact_and_tolerances(machine, samples, progress)
+    stress, stress_checks, unstressed = _stress(machine, contact)
     clearances: tuple[ClearancePoint, ...] = ()
     if ensemble is not None:
         angles = ensemble.ensemble.angles
@@ -105,10 +110,12 @@ def write_report(
         provenance=provenance(design),
         comments={} if source is None else read_comments(source),
         bodies=bodies,
-        notes=(*specimen.remarks, *notes, *unsolved),
+        notes=(*specimen.remarks, *notes, *unsolved, *unstressed),
         sizing=sizing,
         files=files,
         contact=contact,
+        stress=stress,
+        stress_checks=stress_checks,
         tolerance=ensemble,
         clearances=clearances,
         pictures=pictures,
@@ -118,7 +125,20 @@ def write_report(
     progress("writing the report")
     file = write_atomically(target, build_report(results), "report")
     short = tuple(one.sentence for one in shortfalls(results))
-    return WrittenReport(file, analysis, short)
+    return WrittenReport(file, analysis, results.checks, short)
+
+
+def _stress(
+    machine: Machine, contact: ContactAnalysis | None
+) -> tuple[BodyStrength | None, tuple[Check, ...], tuple[str, ...]]:
+    """Stress of discs and ring with its checks, or a sentence on why there is none."""
+    if contact is None:
+        return None, (), ()
+    try:
+        checks, strength = judged_bodies(machine)
+    except (ContactError, GeometryError) as error:
+        return None, (), (f"no stress of discs and ring: {error.message}",)
+    return strength, checks, ()
 
 
 def _contact_and_tolerances(

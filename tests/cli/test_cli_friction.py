@@ -14,7 +14,7 @@ def told(cqdd, design, *options):
 def test_friction_changes_forces_precision_and_life(cqdd, paper_design_file, sense):
     without = told(cqdd, paper_design_file, "--friction", "off")
     rubbed = told(cqdd, paper_design_file, "--friction", sense)
-    same = set(rubbed) - {"contact", "precision", "life"}
+    same = set(rubbed) - {"contact", "precision", "life", "bodies"}
     assert {key: rubbed[key] for key in same} == {key: without[key] for key in same}
     contact, plain = rubbed["contact"], without["contact"]
     assert (contact["friction"], plain["friction"]) == (sense, "off")
@@ -39,3 +39,25 @@ def test_a_sense_that_is_none_is_refused(cqdd, paper_design_file):
     done = cqdd("analyse", paper_design_file, "--friction", "sideways")
     assert done.code == 2
     assert "'sideways' is not one of" in done.err
+
+
+def test_stress_of_discs_and_ring_stands_beside_its_checks(cqdd, paper_design_file):
+    done = cqdd("analyse", paper_design_file, "--angles", "8", "--json").document
+    bodies, checks = done["results"]["bodies"], {one["id"]: one for one in done["checks"]}
+    give = bodies["tooth_compliance"]
+    assert bodies["tooth_compliance_nm_per_N"] == give["on_bearing"]["mean_nm_per_N"]
+    held, on_bearing, free = (
+        give[how]["mean_nm_per_N"] for how in ("bore_round", "on_bearing", "bore_free")
+    )
+    assert 0.0 < held < on_bearing < free
+    for part in ("ligament", "root", "ring"):
+        check = checks[f"{part.upper()}-STRESS"]
+        assert check["value"] == pytest.approx(bodies[f"{part}_stress_max_MPa"])
+        assert check["status"] == ("pass" if check["value"] <= check["limit"] else "fail")
+        assert checks[f"{part.upper()}-FATIGUE"]["value"] > 0.0
+    told_checks = cqdd("check", paper_design_file, "--json").document["checks"]
+    assert not any("ROOT" in one["id"] for one in told_checks)
+    less = told(cqdd, paper_design_file)["bodies"]
+    assert less["root_stress_max_MPa"] < 0.5 * bodies["root_stress_max_MPa"]
+    lines = cqdd("analyse", paper_design_file, "--angles", "8").out
+    assert "ligament_stress_max_MPa" in lines

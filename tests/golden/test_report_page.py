@@ -16,6 +16,7 @@ from cqdd_design.actuator.bench import run_bench
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.design import Design
 from cqdd_design.machine import resolve
+from cqdd_design.machine.body_analysis import judged_bodies
 from cqdd_design.machine.contact_analysis import analyse_contact
 from cqdd_design.report import ReportInput, build_report
 from cqdd_design.report.judgement.shortfalls import shortfalls
@@ -294,6 +295,29 @@ def test_no_report_is_green_where_its_own_models_say_less(tmp_path_factory):
         (f"life of the {pins.part}", "unknown")
     ]
     assert 'class="badge pass"' not in build_report(unsure)
+
+
+def test_stress_of_discs_and_ring_is_a_chapter_and_its_checks_count(
+    paper_input: ReportInput, page: str
+) -> None:
+    checks, strength = judged_bodies(paper_input.machine)
+    shown = build_report(replace(paper_input, stress=strength, stress_checks=checks))
+    assert 'id="stress"' not in page
+    chapter = shown[shown.index('<section id="stress"') :]
+    chapter = chapter[: chapter.index("</section>")]
+    assert 'id="disc-stress-svg"' in chapter
+    words = text_of(chapter)
+    for check in checks:
+        assert f"{check.value:.3g} MPa" in words
+        assert f'<tbody id="{check.id}">' in shown
+    assert "is not in its forces" in words
+    total = len(paper_input.gearbox.checks)
+    assert f"of {total} checks" in text_of(page)
+    assert f"of {total + 6} checks" in text_of(shown)
+    weak = tuple(replace(check, value=2.0 * check.limit) for check in checks)
+    failed = sum(check.status == "fail" for check in paper_input.gearbox.checks)
+    broken = text_of(build_report(replace(paper_input, stress=strength, stress_checks=weak)))
+    assert f"{failed + 6} of {total + 6} checks fail" in broken
 
 
 def test_a_sized_design_shows_what_is_closest(tmp_path_factory: pytest.TempPathFactory) -> None:

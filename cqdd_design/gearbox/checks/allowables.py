@@ -75,6 +75,14 @@ PIN_FATIGUE_SHARE = 0.25
 """Pulsating bending stress over ultimate strength where the catalogue tables none: the share that
 the tabled shoulder screws have."""
 
+# Edges of discs and ring ------------------------------------------------------------------------
+STEEL_ENDURANCE_SHARE, STEEL_ENDURANCE_MOST = 0.5, 700e6
+"""Endurance limit of a polished steel specimen in rotating bending over its ultimate strength, and
+the most of it, Pa (Budynas and Nisbett 2020, section 6-7): used where the catalogue has none."""
+MACHINED_FACTOR, MACHINED_EXPONENT = 4.51, -0.265
+"""Surface factor of machined steel, 4.51 S_u^-0.265 with MPa (Budynas and Nisbett 2015, table 6-2),
+for edges that were wire-cut and trimmed."""
+
 # Cam bearing ------------------------------------------------------------------------------------
 STATIC_SAFETY = 1.0
 """Least C0/P at the peak torque (ISO 76: normal operation without shocks)."""
@@ -269,3 +277,36 @@ def pin_bending_limit_continuous(material: Material, *, duty_reverses: bool) -> 
         f"{reversed_value / 1e6:.0f} MPa reversed, on the Goodman line of "
         f"{value / 1e6:.0f} MPa pulsating ({words})",
     )
+
+
+def edge_limit_peak(material: Material) -> Allowable:
+    """Stress along an edge of a disc or ring at the peak torque: S_y/1.2, as for pins."""
+    return _yield_share(material, 1.0, "S_y")
+
+
+def edge_limit_fatigue(material: Material) -> Allowable:
+    """Reversed stress that an edge of a disc or ring bears for ever.
+
+    The endurance limit of the catalogue, or half the ultimate strength of a steel that has none
+    there; of a steel times the surface factor of a machined part.
+
+    Examples
+    --------
+    >>> from cqdd_design.catalog.materials import find_material
+    >>> round(edge_limit_fatigue(find_material("AISI 4140 Q&T 540C")).value / 1e6)
+    348
+    """
+    ultimate, endurance = material.ultimate_strength, material.fatigue_strength
+    words = "endurance limit"
+    if endurance is None and ultimate is not None and is_steel(material):
+        share = STEEL_ENDURANCE_SHARE * ultimate
+        endurance, words = share, f"{STEEL_ENDURANCE_SHARE:g} S_u"
+        if share > STEEL_ENDURANCE_MOST:
+            endurance, words = STEEL_ENDURANCE_MOST, "endurance limit of strong steels"
+    if endurance is None or ultimate is None:
+        return Allowable(0.0, f"no endurance limit is known for {material.name}")
+    told = f"{words} {endurance / 1e6:.0f} MPa ({material.name})"
+    if not is_steel(material):
+        return Allowable(endurance, told)
+    surface = min(MACHINED_FACTOR * (ultimate / 1e6) ** MACHINED_EXPONENT, 1.0)
+    return Allowable(surface * endurance, f"{surface:.2f} (machined) x {told}")

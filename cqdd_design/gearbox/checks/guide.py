@@ -7,12 +7,24 @@ the two cannot disagree.
 from __future__ import annotations
 
 from cqdd_design.errors import UsageError, did_you_mean
-from cqdd_design.gearbox.checks import guide_drive, guide_loads, guide_runners, guide_shape
+from cqdd_design.gearbox.checks import (
+    guide_bodies,
+    guide_drive,
+    guide_loads,
+    guide_runners,
+    guide_shape,
+)
 from cqdd_design.gearbox.checks.guide_row import CheckGuide
 
 CHECK_GUIDE: dict[str, CheckGuide] = {
     row.id: row
-    for row in (*guide_shape.ROWS, *guide_loads.ROWS, *guide_runners.ROWS, *guide_drive.ROWS)
+    for row in (
+        *guide_shape.ROWS,
+        *guide_loads.ROWS,
+        *guide_runners.ROWS,
+        *guide_bodies.ROWS,
+        *guide_drive.ROWS,
+    )
 }
 
 

@@ -12,6 +12,12 @@ PITTING = "Johnson 1985, eq. 4.45; AGMA 2101-D04 grade 1, ISO 6336-5 MQ (strengt
 WANG = "Wang, Luo and Su 2016, Mech. Mach. Theory 102, 135-148"
 SHIGLEY = "Budynas and Nisbett, Shigley's Mechanical Engineering Design, pinned joints"
 
+BODIES = (
+    "plane stress by finite elements under the contact equilibrium's forces, "
+    "cqdd_design.gearbox.bodies"
+)
+GOODMAN = "Budynas and Nisbett 2020, Shigley's Mechanical Engineering Design, sections 6-7 to 6-14"
+
 
 @dataclass(frozen=True)
 class CheckGuide:

@@ -195,11 +195,11 @@ class ContactModel(Stages):
         c = laws.palmgren_coefficient(self.contact_length, modulus)
         if law.model == "linear":
             # Palmgren's secant at a line load of 50 N/mm, a usual one at the rated torque.
-            c *= (_LINE_LOAD * self.contact_length) ** -0.1
+            c *= (LINE_LOAD * self.contact_length) ** -0.1
         return np.full(np.shape(equivalent_radius), c)
 
 
-_LINE_LOAD = 50e3
+LINE_LOAD = 50e3
 """Line load at which the linear law has Palmgren's secant stiffness, N/m."""
 
 

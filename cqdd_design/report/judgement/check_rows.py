@@ -15,6 +15,9 @@ from cqdd_design.results import Check, Status, worst_status
 _HEADINGS = {
     "CONTACT": "Contact pressure",
     "PIN": "Output pins",
+    "LIGAMENT": "Discs and ring",
+    "ROOT": "Discs and ring",
+    "RING": "Discs and ring",
     "BEARING": "Cam bearing",
     "MOTOR": "Motor",
     "SPACE": "Space",

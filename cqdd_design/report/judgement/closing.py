@@ -15,6 +15,7 @@ from cqdd_design.gearbox.balance import paper_disc_count
 from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
 from cqdd_design.geometry import kinematics
 from cqdd_design.report.ink.numbers import MINUS, millimetres
+from cqdd_design.results import Check
 from cqdd_design.solids.part import Part
 
 _JOINTS = {
@@ -128,7 +129,7 @@ Source = tuple[str, str]
 
 
 def sources_used(
-    analysis: GearboxAnalysis, parts: Sequence[Part] = ()
+    analysis: GearboxAnalysis, parts: Sequence[Part] = (), checks: Sequence[Check] = ()
 ) -> tuple[tuple[Source, ...], tuple[Source, ...]]:
     """Literature behind the checks and the comparison, and catalogue rows, as used here.
 
@@ -138,6 +139,8 @@ def sources_used(
         Its checks tell their sources, and it names materials, bearing, screws and motor.
     parts : sequence of Part
         Of the machine, where they have been weighed.
+    checks : sequence of Check
+        Besides those of the analysis.
 
     Returns
     -------
@@ -145,7 +148,7 @@ def sources_used(
         Literature and catalogue rows, each sorted by first use.
     """
     used: dict[str, list[str]] = {}
-    for check in analysis.checks:
+    for check in (*analysis.checks, *checks):
         literature = check.source.partition("; limit: ")[0]
         for part in _parts(literature):
             used.setdefault(part, []).append(check.id)

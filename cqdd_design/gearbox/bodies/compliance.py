@@ -1,0 +1,323 @@
+"""Compliance between the contacts of the nominal states, from the bodies' influence matrices.
+
+Order and senses are those of :class:`.kernel_values.Contacts`: ring teeth first, then output pins;
+a force is positive along the contact's normal, which pushes the disc, and so is a displacement of
+the disc (at its places) or of the ring (at its own, along what pushes the ring). Compliance times
+forces is therefore what elasticity takes from a contact's closing, beside its law; disc and ring
+add up.
+
+A disc's part leaves out how it moves as a whole: translation is the cam spring's (:mod:`.bore`),
+and rotation is that of tractions spread evenly round the raceway, which forces in balance call up
+none of.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.gearbox.bodies import bore
+from cqdd_design.gearbox.bodies.depths import pin_depth, ring_depths
+from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape, lobe_length
+from cqdd_design.gearbox.bodies.model import Body
+from cqdd_design.gearbox.bodies.point_load import DEPTH, Plate
+from cqdd_design.gearbox.bodies.ring import PER_TOOTH, RingShape
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.states import NominalStates
+from cqdd_design.gearbox.disc_forces import disc_forces
+from cqdd_design.geometry.contours import ComplexArray, FloatArray
+
+_ANGLES_AT_ONCE = 48
+_LEAST_CAM_FORCE = 1.0
+"""Below it the bearing's springs are taken at this load, N."""
+_LEAST_EIGENVALUE = 1e-9
+"""Least eigenvalue of a compliance over its largest entry."""
+
+
+@dataclass(frozen=True, eq=False)
+class ElasticBodies:
+    """Shapes of a gearbox's discs and ring, and what unit loads do to them."""
+
+    discs: tuple[tuple[DiscShape, Body], ...]
+    ring: tuple[RingShape, Body]
+
+
+def compliance(
+    bodies: ElasticBodies,
+    model: ContactModel,
+    states: NominalStates,
+    cam_force: FloatArray,
+    tangential: FloatArray | None = None,
+) -> FloatArray:
+    """Compliance between the contacts of every disc, of disc and ring together.
+
+    Parameters
+    ----------
+    bodies : ElasticBodies
+    model, states
+        Of the perfect gearbox; A crank angles, D discs, C contacts.
+    cam_force : array (A, D, 2)
+        Force of the cam on every disc, N: under which of its rolling elements the bearing carries,
+        and how stiffly. :func:`rigid_cam_force` is near enough.
+    tangential : array (A, D, C), optional
+        Force along the tangent over the normal force, signed; the matrix is symmetric without.
+
+    Returns
+    -------
+    array (A, D, C, C)
+        Displacement along each contact's normal by unit normal forces, m/N.
+    """
+    teeth = model.tooth_count
+    found = []
+    for index, (shape, body) in enumerate(bodies.discs):
+        slip = None if tangential is None else tangential[:, index]
+        stiffness = under_disc(shape, model, states, index, cam_force[:, index])
+        both = disc_compliance(shape, body, model, states, index, stiffness, slip)
+        ring_slip = None if slip is None else slip[:, :teeth]
+        both[:, :teeth, :teeth] += ring_compliance(*bodies.ring, model, states, index, ring_slip)
+        plain = both
+        if slip is not None:
+            plain = disc_compliance(shape, body, model, states, index, stiffness)
+            plain[:, :teeth, :teeth] += ring_compliance(*bodies.ring, model, states, index)
+        found.append(without_gain(both, plain))
+    return np.stack(found, axis=1)
+
+
+def without_gain(matrix: FloatArray, plain: FloatArray) -> FloatArray:
+    """A compliance whose own terms are raised until no forces draw energy out of the bodies.
+
+    Where a law counts deeper than there is material, what is left would give energy back. Raised
+    own terms are a lesser depth, by one factor at all contacts of an angle; the terms between
+    contacts, and reciprocity, stay as they are.
+
+    Parameters
+    ----------
+    matrix : array (A, C, C)
+        With friction or without.
+    plain : array (A, C, C)
+        Without friction, whose energy counts.
+    """
+    try:
+        np.linalg.cholesky(plain)
+    except np.linalg.LinAlgError:
+        least = np.linalg.eigvalsh(plain)[:, 0]
+        floor = _LEAST_EIGENVALUE * np.abs(plain).max(axis=(1, 2))
+        lift = np.clip(floor - least, 0.0, None)
+        return np.asarray(matrix + lift[:, None, None] * np.eye(matrix.shape[1]))
+    return matrix
+
+
+def rigid_cam_force(model: ContactModel, states: NominalStates, torque: float) -> FloatArray:
+    """Force (A, D, 2) of the cam on every disc by the rigid law, N; torque on the carrier, N m."""
+    # The rigid law's torque is that of the drive, which balances what the carrier is loaded with.
+    discs = range(model.disc_count)
+    found = [disc_forces(model, -torque, states.crank_angle, one).cam_force for one in discs]
+    return np.stack(found, axis=1)
+
+
+def under_disc(
+    shape: DiscShape,
+    model: ContactModel,
+    states: NominalStates,
+    disc_index: int,
+    cam_force: FloatArray,
+) -> FloatArray:
+    """Stiffness (A, B) of the rolling elements at the raceway's stations under a cam force."""
+    own = states.crank_angle + model.phases[disc_index]
+    direction = np.arctan2(cam_force[:, 1], cam_force[:, 0]) + own / model.lobe_count
+    force = np.maximum(np.hypot(cam_force[:, 0], cam_force[:, 1]), _LEAST_CAM_FORCE)
+    return bore.element_stiffness(model.cam, force, shape.stations, direction)
+
+
+class Spots(NamedTuple):
+    """Contacts of one disc (or of the ring) between its places.
+
+    Attributes
+    ----------
+    near : array (..., C, 4)
+        Places.
+    share : array (..., C, 4)
+        Of each, adding up to 1.
+    normal : complex array (..., C)
+        Direction of a unit force, in the frame of the body.
+    """
+
+    near: NDArray[np.int64]
+    share: FloatArray
+    normal: ComplexArray
+
+
+def disc_spots(
+    shape: DiscShape, model: ContactModel, states: NominalStates, disc_index: int
+) -> Spots:
+    """Contacts (A, C) of a disc in its own frame."""
+    outline = shape.outline
+    pitch = 2.0 * outline.half_pitch
+    t = states.ring.parameter[:, disc_index]
+    grid, length = lobe_length(outline)
+    lobe = np.floor(t / pitch)
+    along = np.interp(t - lobe * pitch, grid, length) / length[-1]
+    lobes = outline.lobe_count
+    near, share = _cubic(PER_LOBE * (lobe + along), PER_LOBE * lobes)
+    own = states.crank_angle + model.phases[disc_index]
+    wall = own * (1.0 + 1.0 / lobes) + np.pi
+    holes = shape.holes
+    turned = wall[:, None] - np.angle(holes)
+    on_hole, hole_share = _cubic(PER_HOLE * turned / (2.0 * np.pi), PER_HOLE)
+    first = PER_LOBE * lobes + PER_HOLE * np.arange(len(holes))
+    inward = np.broadcast_to(np.exp(1j * wall)[:, None], turned.shape)
+    return Spots(
+        np.concatenate([near, on_hole + first[:, None]], axis=1),
+        np.concatenate([share, hole_share], axis=1),
+        np.concatenate([-outline.profile(t)[1], inward], axis=1),
+    )
+
+
+def _cubic(place: FloatArray, count: int) -> tuple[NDArray[np.int64], FloatArray]:
+    """Four places round `place` (in places, periodic by `count`) and Lagrange's weights."""
+    base = np.floor(place)
+    near = np.mod(base[..., None] + np.arange(-1, 3), count).astype(np.int64)
+    return near, _lagrange(place - base)
+
+
+def _lagrange(part: FloatArray) -> FloatArray:
+    """Weights (..., 4) of values at -1, 0, 1 and 2 for one at `part`."""
+    x = part[..., None]
+    return np.concatenate(
+        [
+            -x * (x - 1.0) * (x - 2.0) / 6.0,
+            (x * x - 1.0) * (x - 2.0) / 2.0,
+            -x * (x + 1.0) * (x - 2.0) / 2.0,
+            x * (x * x - 1.0) / 6.0,
+        ],
+        axis=-1,
+    )
+
+
+def _between(
+    matrix: FloatArray, plate: Plate, spots: Spots, depth: FloatArray, tangential: FloatArray
+) -> FloatArray:
+    """Compliance (A, C, C) along the normals by unit forces along normal + tangential x tangent."""
+    near, share = spots.near, spots.share
+    found = np.empty((*near.shape[:2], near.shape[1]))
+    deeper = np.log(depth / DEPTH) * 2.0 / (np.pi * plate.modulus * plate.thickness)
+    size = 2 * (matrix.shape[0] // 2)
+    normal, shear = matrix[0:size:2, 0:size:2], matrix[0:size:2, 1:size:2]
+    rubbing = bool(np.any(tangential))
+    for first in range(0, len(near), _ANGLES_AT_ONCE):
+        some = slice(first, first + _ANGLES_AT_ONCE)
+        rows, columns = near[some, :, None, :, None], near[some, None, :, None, :]
+        weights = (share[some, :, None, :], share[some, None, :, :])
+        path = np.einsum("aijkl,aijk,aijl->aij", normal[rows, columns], *_spread(*weights))
+        if rubbing:
+            across = np.einsum("aijkl,aijk,aijl->aij", shear[rows, columns], *_spread(*weights))
+            path = path + across * tangential[some, None, :]
+        found[some] = path
+    own = np.einsum("ack,ack->ac", np.diag(normal)[near], share)
+    if rubbing:
+        own = own + tangential * np.einsum("ack,ack->ac", np.diag(shear)[near], share)
+    diagonal = np.arange(near.shape[1])
+    found[:, diagonal, diagonal] = own - deeper
+    return found
+
+
+def _spread(left: FloatArray, right: FloatArray) -> tuple[FloatArray, FloatArray]:
+    angles, count = left.shape[0], left.shape[1]
+    shape = (angles, count, count, 4)
+    return np.broadcast_to(left, shape), np.broadcast_to(right, shape)
+
+
+def disc_compliance(
+    shape: DiscShape,
+    body: Body,
+    model: ContactModel,
+    states: NominalStates,
+    disc_index: int,
+    stiffness: FloatArray,
+    tangential: FloatArray | None = None,
+) -> FloatArray:
+    """Compliance between the contacts of one disc.
+
+    Parameters
+    ----------
+    shape, body
+        Of the disc.
+    model, states
+        Of the perfect gearbox.
+    disc_index : int
+    stiffness : array (A, B)
+        Of the rolling elements under the raceway's stations, from :func:`.bore.element_stiffness`.
+    tangential : array (A, C), optional
+        Force along the tangent over the normal force, signed; the matrix is symmetric without.
+
+    Returns
+    -------
+    array (A, C, C)
+        Displacement along each contact's normal by unit normal forces, m/N.
+    """
+    matrix = body.matrix
+    spots = disc_spots(shape, model, states, disc_index)
+    slip = np.zeros(spots.normal.shape) if tangential is None else tangential
+    depth = np.concatenate(
+        [
+            ring_depths(model, states.ring.equivalent_radius[:, disc_index])[1],
+            np.full((len(states.crank_angle), shape.hole_count), pin_depth(model)),
+        ],
+        axis=1,
+    )
+    contacts = _between(matrix, shape.plate, spots, depth, slip)
+    count = len(shape.stations)
+    loads = matrix.shape[0] - count
+    normal, shear = matrix[0:loads:2, loads:], matrix[1:loads:2, loads:]
+    near, share = spots.near, spots.share
+    reading = np.einsum("ackb,ack->acb", normal[near], share)
+    acting, pushed = reading, spots.normal
+    if tangential is not None:
+        acting = reading + slip[..., None] * np.einsum("ackb,ack->acb", shear[near], share)
+        pushed = spots.normal * (1.0 + 1j * slip)
+    radial = np.stack([np.cos(shape.stations), np.sin(shape.stations)], axis=-1)
+    load = np.stack([pushed.real, pushed.imag], axis=-1)
+    read = np.stack([spots.normal.real, spots.normal.imag], axis=-1)
+    found = bore.reactions(acting, matrix[loads:, loads:], load, radial, stiffness)
+    return bore.held(contacts, reading, read, load, radial, stiffness, found)
+
+
+def ring_spots(shape: RingShape, states: NominalStates, disc_index: int) -> Spots:
+    """Contacts (A, T) of the ring with one disc."""
+    normal = -(
+        states.rows[:, disc_index, : shape.tooth_count, 0]
+        + 1j * states.rows[:, disc_index, : shape.tooth_count, 1]
+    )
+    turn = np.exp(2j * np.pi * np.arange(shape.tooth_count) / shape.tooth_count)
+    angles = shape.angles
+    step = angles[1] - angles[0]
+    place = (np.clip(np.angle(normal / turn), angles[0], angles[-1]) - angles[0]) / step
+    base = np.clip(np.floor(place), 1.0, PER_TOOTH - 3.0)
+    share = _lagrange(place - base)
+    first = base.astype(np.int64) + PER_TOOTH * np.arange(shape.tooth_count)
+    return Spots(first[..., None] + np.arange(-1, 3), share, normal)
+
+
+def ring_compliance(
+    shape: RingShape,
+    body: Body,
+    model: ContactModel,
+    states: NominalStates,
+    disc_index: int,
+    tangential: FloatArray | None = None,
+) -> FloatArray:
+    """Compliance (A, T, T) of the ring between the teeth that one disc works on, m/N.
+
+    The teeth of other discs' planes are left out: each disc has its own slice of the ring.
+    """
+    spots = ring_spots(shape, states, disc_index)
+    slip = np.zeros(spots.normal.shape) if tangential is None else tangential
+    if shape.pockets:
+        # The pocket is no contact of the law's: a pin of radius r spreads its force over it.
+        depth = np.full(spots.normal.shape, shape.tooth_radius)
+    else:
+        depth = ring_depths(model, states.ring.equivalent_radius[:, disc_index])[0]
+    return _between(body.matrix, shape.plate, spots, depth, slip)

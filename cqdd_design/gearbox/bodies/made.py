@@ -1,0 +1,36 @@
+"""The elastic bodies of a design, each made once."""
+
+from __future__ import annotations
+
+from cqdd_design.design import Design
+from cqdd_design.gearbox.bodies.cache import cached
+from cqdd_design.gearbox.bodies.compliance import ElasticBodies
+from cqdd_design.gearbox.bodies.disc import DiscShape
+from cqdd_design.gearbox.bodies.model import (
+    Body,
+    disc_body,
+    of_standard,
+    ring_body,
+    standard_loads,
+)
+from cqdd_design.gearbox.bodies.ring import RingShape
+
+
+def elastic_bodies(design: Design) -> ElasticBodies:
+    """Discs and ring of a design that names its cam bearing; discs of one kind are computed once.
+
+    Raises
+    ------
+    GeometryError
+        Where a part's material is too thin to mesh, or a disc has too many lobes.
+    """
+    made: dict[float, Body] = {}
+    discs = []
+    for index in range(design.reducer.disc_count):
+        shape = DiscShape.from_design(design, index)
+        standard = shape.standard()[0]
+        if standard.first_hole not in made:
+            made[standard.first_hole] = cached(standard, disc_body)
+        discs.append((shape, of_standard(made[standard.first_hole], *standard_loads(shape))))
+    ring = RingShape.from_design(design)
+    return ElasticBodies(tuple(discs), (ring, cached(ring, ring_body)))

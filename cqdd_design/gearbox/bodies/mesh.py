@@ -1,0 +1,297 @@
+"""Triangles in a plane body, graded to its ligaments, with sides that follow its curves.
+
+scipy's Delaunay triangulation with points of its own: netgen's wheel (6.2.2608) brings a second
+OpenCASCADE, 100 MB, and loads its symbols for the whole process, where CadQuery has another version
+of the same; gmsh and Triangle have licences that do not fit. Loads here are smooth (see
+:mod:`.point_load`), so a mesh of a few thousand triangles does, and the same numbers give the same
+mesh on every machine.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.errors import GeometryError
+from cqdd_design.gearbox.bodies.loops import Loop
+from cqdd_design.geometry.contours import ComplexArray, FloatArray
+
+IntArray = NDArray[np.int64]
+
+_SAMPLES = 600
+"""Samples of a loop from which its spacing is found."""
+_GRADING = 0.3
+"""Growth of the size of triangles per distance."""
+_PER_LIGAMENT = 2.0
+"""Sides over the thinnest material between two loops."""
+_THINNEST = 5e-3
+"""Least material between two loops, over the body's radius."""
+_LEAST_ANGLE = np.radians(12.0)
+_MOST_VERTICES = 60_000
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Triangles and the sides of them that lie on loops.
+
+    Attributes
+    ----------
+    vertices : complex array (V,)
+        m.
+    triangles : array (3, K)
+        Counter-clockwise.
+    sides : tuple of array (S, 2)
+        Of every loop: vertices of its sides, in its sense.
+    parameters : tuple of array (S + 1,)
+        Of every loop: parameters of their ends, rising through one turn.
+    """
+
+    vertices: ComplexArray
+    triangles: IntArray
+    sides: tuple[IntArray, ...]
+    parameters: tuple[FloatArray, ...]
+
+
+def mesh(loops: tuple[Loop, ...], largest: float, what: str) -> Mesh:
+    """Triangles between loops, of which the first bounds the body.
+
+    Parameters
+    ----------
+    loops : tuple of Loop
+    largest : float
+        Longest side, m.
+    what : str
+        Names the body in messages.
+
+    Raises
+    ------
+    GeometryError
+        Where material is too thin for triangles.
+    """
+    parameters, sizes = _spacing(loops, largest, what)
+    starts = np.cumsum([0] + [len(one) - 1 for one in parameters])
+    edge = np.concatenate(
+        [loop.curve(u[:-1])[0] for loop, u in zip(loops, parameters, strict=True)]
+    )
+    sides = tuple(
+        np.stack([first + np.arange(count), first + (np.arange(count) + 1) % count], axis=1)
+        for first, count in zip(starts[:-1], np.diff(starts), strict=True)
+    )
+    bounds = np.concatenate([s for s, loop in zip(sides, loops, strict=True) if not loop.inner])
+    size = _Size(edge, np.concatenate(sizes), largest)
+    vertices = _fill(edge, bounds, size)
+    triangles = _inside(vertices, edge, bounds)
+    _refuse_broken(vertices, triangles, np.concatenate(sides), bounds, what)
+    return Mesh(vertices, triangles, sides, parameters)
+
+
+def _spacing(
+    loops: tuple[Loop, ...], largest: float, what: str
+) -> tuple[tuple[FloatArray, ...], list[FloatArray]]:
+    """Parameters of the vertices on every loop, and the size wanted at each."""
+    from scipy.spatial import cKDTree
+
+    u = np.arange(_SAMPLES) / _SAMPLES
+    points = [loop.curve(u)[0] for loop in loops]
+    reach = float(np.abs(points[0]).max())
+    wanted = []
+    for index, (loop, own) in enumerate(zip(loops, points, strict=True)):
+        slope = loop.curve(u)[1]
+        length = np.abs(slope).mean()
+        turn = np.abs(np.angle(np.roll(slope, -1) / slope)) * _SAMPLES
+        # A kink is a joint, not a bend: it would ask for sides of no length.
+        bend = np.where(turn < 0.05 * _SAMPLES, turn / np.abs(slope), 0.0)
+        size = np.minimum(largest, 0.45 / np.maximum(bend, 0.45 / largest))
+        size = np.minimum(size, length / 24.0)
+        others = [p for other, p in enumerate(points) if other != index]
+        if others:
+            gap = cKDTree(_plane(np.concatenate(others))).query(_plane(own))[0]
+            if gap.min() < _THINNEST * reach:
+                raise GeometryError(
+                    f"{what} has {1e3 * gap.min():.3g} mm of material at its thinnest place, "
+                    "which is too thin for an elastic body; widen the ligament."
+                )
+            size = np.minimum(size, gap / _PER_LIGAMENT)
+        wanted.append(size)
+    everywhere = cKDTree(_plane(np.concatenate(points)))
+    flat = np.concatenate(wanted)
+    # The least of the neighbours' sizes, grown with distance: a few sweeps carry it all round.
+    apart, near = everywhere.query(_plane(np.concatenate(points)), k=24)
+    for _ in range(6):
+        flat = np.minimum(flat, (flat[near] + _GRADING * apart).min(axis=1))
+    parameters, sizes = [], []
+    for index, loop in enumerate(loops):
+        size = flat[index * _SAMPLES : (index + 1) * _SAMPLES]
+        placed = _placed(loop, size)
+        parameters.append(placed)
+        chord = np.abs(np.diff(loop.curve(placed)[0]))
+        sizes.append(
+            np.minimum(
+                np.interp(placed[:-1], u, size, period=1.0), np.maximum(chord, np.roll(chord, 1))
+            )
+        )
+    if sum(map(len, parameters)) > _MOST_VERTICES // 6:
+        raise GeometryError(
+            f"{what} has material too thin beside its size to be meshed; widen its thinnest "
+            "ligament."
+        )
+    return tuple(parameters), sizes
+
+
+def _placed(loop: Loop, size: FloatArray) -> FloatArray:
+    """Parameters at equal counts of the wanted size, with a vertex on every joint."""
+    u = np.arange(_SAMPLES + 1) / _SAMPLES
+    speed = np.abs(loop.curve(0.5 * (u[1:] + u[:-1]))[1])
+    steps = speed / _SAMPLES / (0.5 * (size + np.roll(size, -1)))
+    grown = np.concatenate([[0.0], np.cumsum(steps)])
+    joints = np.array([0.0]) if loop.joints is None else loop.joints
+    ends = np.concatenate([joints, [joints[0] + 1.0]])
+    at = np.interp(
+        ends, np.concatenate([u, u[1:] + 1.0]), np.concatenate([grown, grown[1:] + grown[-1]])
+    )
+    pieces = []
+    for begin, end in pairwise(at):
+        count = max(int(np.ceil(end - begin - 1e-6)), 1)
+        pieces.append(begin + (end - begin) * np.arange(count) / count)
+    counted = np.concatenate([*pieces, at[-1:]])
+    twice = np.concatenate([grown, grown[1:] + grown[-1]])
+    return np.asarray(np.interp(counted, twice, np.concatenate([u, u[1:] + 1.0])))
+
+
+class _Size:
+    """Side wanted at a point: that of the nearest edge, grown with distance."""
+
+    def __init__(self, edge: ComplexArray, size: FloatArray, largest: float) -> None:
+        from scipy.spatial import cKDTree
+
+        self._tree, self._size, self._largest = cKDTree(_plane(edge)), size, largest
+
+    def __call__(self, z: ComplexArray) -> tuple[FloatArray, FloatArray]:
+        """Side, and distance to the nearest vertex on an edge."""
+        apart, near = self._tree.query(_plane(z))
+        return np.minimum(self._size[near] + _GRADING * apart, self._largest), apart
+
+
+def _fill(edge: ComplexArray, bounds: IntArray, size: _Size) -> ComplexArray:
+    """Vertices: the edge's, and centres of circumcircles that are too large, evened out."""
+    vertices = edge
+    for _ in range(40):
+        triangles = _inside(vertices, edge, bounds)
+        centre, radius = _circumcircles(vertices[triangles])
+        side, to_edge = size(centre)
+        excess = radius / (0.62 * side)
+        large = np.flatnonzero((excess > 1.0) & (to_edge > 0.7 * side))
+        good = large[_within(centre[large], edge, bounds)]
+        order = good[np.argsort(-excess[good], kind="stable")]
+        taken = _apart(centre[order], 0.85 * side[order])
+        if not len(taken) or len(vertices) > _MOST_VERTICES:
+            break
+        vertices = np.concatenate([vertices, taken])
+    for _ in range(6):
+        triangles = _inside(vertices, edge, bounds)
+        corner = vertices[triangles]
+        middle = corner.mean(axis=0)
+        area = _area(corner)
+        weight = np.zeros(len(vertices))
+        total = np.zeros(len(vertices), dtype=complex)
+        for row in triangles:
+            np.add.at(weight, row, area)
+            np.add.at(total, row, area * middle)
+        moved = total / np.where(weight > 0.0, weight, 1.0)
+        free = (np.arange(len(vertices)) >= len(edge)) & (weight > 0.0)
+        vertices = np.where(free, moved, vertices)
+    return np.asarray(vertices)
+
+
+def _apart(candidates: ComplexArray, distance: FloatArray) -> ComplexArray:
+    """Those candidates, in their order, that keep their distance from the ones taken before."""
+    from scipy.spatial import cKDTree
+
+    if not len(candidates):
+        return candidates
+    near = cKDTree(_plane(candidates)).query_ball_point(_plane(candidates), distance)
+    taken = np.zeros(len(candidates), dtype=bool)
+    barred = np.zeros(len(candidates), dtype=bool)
+    for index, close in enumerate(near):
+        if not barred[index]:
+            taken[index] = True
+            barred[close] = True
+    return candidates[taken]
+
+
+def _inside(vertices: ComplexArray, edge: ComplexArray, bounds: IntArray) -> IntArray:
+    """Delaunay triangles in the material, (3, K), counter-clockwise."""
+    from scipy.spatial import Delaunay
+
+    triangles = Delaunay(_plane(vertices)).simplices.T.astype(np.int64)
+    area = _area(vertices[triangles])
+    triangles = np.where(area < 0.0, triangles[[0, 2, 1]], triangles)
+    # A triangle with a vertex off the edges lies in the material, where alone such vertices are.
+    kept = (triangles >= len(edge)).any(axis=0)
+    doubtful = np.flatnonzero(~kept)
+    kept[doubtful] = _within(vertices[triangles[:, doubtful]].mean(axis=0), edge, bounds)
+    return np.ascontiguousarray(triangles[:, kept])
+
+
+def _within(z: ComplexArray, edge: ComplexArray, bounds: IntArray) -> NDArray[np.bool_]:
+    """Whether points lie in the material, by the number of edges to their right."""
+    begin, end = edge[bounds[:, 0]], edge[bounds[:, 1]]
+    inside = np.zeros(len(z), dtype=bool)
+    for first in range(0, len(z), 2048):
+        some = z[first : first + 2048, None]
+        spans = (begin.imag > some.imag) != (end.imag > some.imag)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            part = (some.imag - begin.imag) / (end.imag - begin.imag)
+            crossing = begin.real + part * (end.real - begin.real)
+        inside[first : first + 2048] = (spans & (some.real < crossing)).sum(axis=1) % 2 == 1
+    return inside
+
+
+def _circumcircles(corner: ComplexArray) -> tuple[ComplexArray, FloatArray]:
+    b, c = corner[1] - corner[0], corner[2] - corner[0]
+    twice = 2.0 * (np.conj(b) * c).imag
+    with np.errstate(divide="ignore", invalid="ignore"):
+        centre = 1j * (b * np.abs(c) ** 2 - c * np.abs(b) ** 2) / twice
+    centre = np.where(np.isfinite(centre), centre, 0.0)
+    return corner[0] + centre, np.abs(centre)
+
+
+def _area(corner: ComplexArray) -> FloatArray:
+    return np.asarray(0.5 * (np.conj(corner[1] - corner[0]) * (corner[2] - corner[0])).imag)
+
+
+def _plane(z: ComplexArray) -> FloatArray:
+    return np.stack([z.real, z.imag], axis=-1)
+
+
+def _refuse_broken(
+    vertices: ComplexArray, triangles: IntArray, sides: IntArray, bounds: IntArray, what: str
+) -> None:
+    """Raise where the triangles do not end on the loops, or are slivers."""
+    corner = vertices[triangles]
+    least = (
+        min(
+            float(
+                np.abs(
+                    np.angle((corner[(k + 1) % 3] - corner[k]) / (corner[(k + 2) % 3] - corner[k]))
+                ).min()
+            )
+            for k in range(3)
+        )
+        if triangles.size
+        else 0.0
+    )
+    pairs = np.sort(np.concatenate([triangles[[k, (k + 1) % 3]].T for k in range(3)]), axis=1)
+    found, count = np.unique(pairs, axis=0, return_counts=True)
+    single = {tuple(pair) for pair in found[count == 1].tolist()}
+    wanted = {tuple(pair) for pair in np.sort(bounds, axis=1).tolist()}
+    there = {tuple(pair) for pair in found.tolist()}
+    complete = {tuple(pair) for pair in np.sort(sides, axis=1).tolist()} <= there
+    if least < _LEAST_ANGLE or single != wanted or not complete:
+        raise GeometryError(
+            f"{what} cannot be meshed as an elastic body: its thinnest material is too thin beside "
+            "what is round it; widen the ligament between its edges."
+        )

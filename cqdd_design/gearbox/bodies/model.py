@@ -1,0 +1,171 @@
+"""Elastic bodies with their influence matrices: one disc, and the ring in its seat."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.gearbox.bodies import point_load
+from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape
+from cqdd_design.gearbox.bodies.elements import Elements, elements
+from cqdd_design.gearbox.bodies.influence import Influence, Loads, influence, self_balanced
+from cqdd_design.gearbox.bodies.loops import Loop
+from cqdd_design.gearbox.bodies.mesh import mesh
+from cqdd_design.gearbox.bodies.point_load import Places, Plate
+from cqdd_design.gearbox.bodies.ring import RingShape
+from cqdd_design.geometry.contours import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """What unit loads do to a body.
+
+    Attributes
+    ----------
+    matrix : array (L, L)
+        Displacement along every load by every unit load, m/N, symmetric. Two loads for each place:
+        along the normal into the material, and along that turned a quarter turn counter-clockwise.
+        On a disc, outward radial loads on stations of the raceway follow. The loads of a disc are
+        in balance with tractions spread evenly round its raceway.
+    stress : array (S, L)
+        Stress along the edge at every place by every unit load, Pa/N. Meaningless where the load
+        itself stands.
+    reciprocity : float
+        Largest difference between the two halves of the matrix as they were computed, over its
+        largest entry.
+    """
+
+    matrix: FloatArray
+    stress: FloatArray
+    reciprocity: float
+
+
+def standard_loads(shape: DiscShape) -> tuple[NDArray[np.int64], FloatArray]:
+    """Which load of the standard disc each load of a disc is, and its sense."""
+    standard, turn, mirrored = shape.standard()
+    return shape.carried(standard, turn, mirrored)
+
+
+def of_standard(body: Body, index: NDArray[np.int64], sense: FloatArray) -> Body:
+    """The body of a disc from that of the standard disc of its kind."""
+    if sense.min() > 0.0 and (index == np.arange(len(index))).all():
+        return body
+    count = len(body.stress)
+    place = index[: 2 * count : 2] // 2
+    matrix = body.matrix.take(index, axis=0).take(index, axis=1)
+    stress = body.stress.take(place, axis=0).take(index, axis=1)
+    if sense.min() < 0.0:
+        matrix *= sense[:, None]
+        matrix *= sense
+        stress *= sense
+    return Body(matrix, stress, body.reciprocity)
+
+
+def disc_body(shape: DiscShape) -> Body:
+    """Compute a disc.
+
+    Raises
+    ------
+    GeometryError
+        Where its material is too thin to mesh.
+    """
+    loops = shape.loops()
+    made = mesh(loops, shape.side, "the disc")
+    radius = np.abs(made.vertices[made.triangles].mean(axis=0))
+    factor = np.where(radius < shape.bearing.outer, shape.ring_factor, 1.0)
+    body = elements(made, loops, shape.plate, factor)
+    places = shape.places()
+    points, force = places.loads(), places.directions
+    raceway = len(loops) - 1
+    on = body.edges.loop == raceway
+    tents = np.zeros((len(on), len(shape.stations)), dtype=complex)
+    tents[on] = shape.tents(body.edges.point[on])
+    smooth = self_balanced(body.edges, raceway, points, force, tents)
+    symmetries = shape.symmetries()
+    columns = np.unique(np.min([index for index, _ in symmetries], axis=0))
+    loads = Loads(points, force, smooth)
+    found = influence(body, loops, shape.plate, loads, body.rigid(), columns)
+    where = np.concatenate(
+        [
+            np.zeros(PER_LOBE * shape.outline.lobe_count, dtype=np.int64),
+            1 + np.repeat(np.arange(shape.hole_count), PER_HOLE),
+        ]
+    )
+    stress = _edge_stress(body, loops, places, where, loads, shape.plate, found, columns)
+    total = len(loads.smooth[0])
+    matrix, stresses = np.empty((total, total)), np.empty((len(places), total))
+    for index, sense in symmetries:
+        place = index[: 2 * len(places) : 2] // 2
+        same = sense[columns]
+        matrix[np.ix_(index, index[columns])] = sense[:, None] * found.matrix * same
+        stresses[np.ix_(place, index[columns])] = stress * same
+    return _body(matrix, stresses)
+
+
+def ring_body(shape: RingShape) -> Body:
+    """Compute a ring in its seat.
+
+    Raises
+    ------
+    GeometryError
+        Where its wall is too thin to mesh.
+    """
+    loops = shape.loops()
+    made = mesh(loops, shape.side, "the ring")
+    body = elements(made, loops, shape.plate)
+    places = shape.places()
+    points, force = places.loads(), places.directions
+    none = np.zeros((len(body.edges.point), len(force)), dtype=complex)
+    columns = np.arange(2 * len(shape.angles))
+    seat = np.where(body.edges.loop == 0, shape.seat, 0.0)
+    loads = Loads(points, force, none)
+    fixed = np.empty(0, dtype=np.int64)
+    found = influence(body, loops, shape.plate, loads, fixed, columns, seat)
+    total, each = len(force), len(columns)
+    matrix = np.empty((total, total))
+    for tooth in range(shape.tooth_count):
+        turned = (np.arange(total) + each * tooth) % total
+        matrix[np.ix_(turned, turned[columns])] = found.matrix
+    roots = shape.roots()
+    where = np.ones(len(roots), dtype=np.int64)
+    stress = _edge_stress(body, loops, roots, where, loads, shape.plate, found, columns)
+    stresses, shift = np.empty((len(roots), total)), len(roots) // shape.tooth_count
+    for tooth in range(shape.tooth_count):
+        rows = (np.arange(len(roots)) + shift * tooth) % len(roots)
+        stresses[np.ix_(rows, (columns + each * tooth) % total)] = stress
+    return _body(matrix, stresses)
+
+
+def _body(matrix: FloatArray, stress: FloatArray) -> Body:
+    error = float(np.abs(matrix - matrix.T).max() / np.abs(matrix).max())
+    return Body(0.5 * (matrix + matrix.T), stress, error)
+
+
+def _edge_stress(
+    body: Elements,
+    loops: tuple[Loop, ...],
+    places: Places,
+    where: NDArray[np.int64],
+    loads: Loads,
+    plate: Plate,
+    found: Influence,
+    columns: NDArray[np.int64],
+) -> FloatArray:
+    """Stress along a free edge, E times the strain along it; (S, M), Pa/N."""
+    u = np.empty(len(places))
+    for index in np.unique(where):
+        own = where == index
+        u[own] = loops[index].parameter(places.point[own])
+    stress = plate.modulus * (body.strain(loops, where, u) @ found.fields)
+    sharp = columns[columns < len(loads.force)]
+    points, force = loads.some(sharp)
+    along = 1j * places.inward
+    with np.errstate(divide="ignore", invalid="ignore"):
+        tangential = point_load.stress(places.point, points, force, along)
+        normal = point_load.stress(places.point, points, force, places.inward)
+    own = ~(np.isfinite(tangential) & np.isfinite(normal))
+    direct = np.where(own, 0.0, tangential - plate.poisson * normal) / plate.thickness
+    stress[:, : len(sharp)] += direct
+    return np.asarray(stress)

@@ -1,0 +1,141 @@
+"""Stress along the edges of disc and ring under contact forces, away from the contacts.
+
+An edge without load has one stress in the plane, along itself; its size is the greatest principal
+stress and von Mises' too. Near a contact the stress is the contact's, which its pressure judges:
+places within a few steps of the grid of a loaded contact are left out.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+
+from cqdd_design.gearbox.bodies import bore
+from cqdd_design.gearbox.bodies.compliance import Spots, disc_spots, ring_spots, under_disc
+from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape
+from cqdd_design.gearbox.bodies.model import Body
+from cqdd_design.gearbox.bodies.point_load import Places
+from cqdd_design.gearbox.bodies.ring import RingShape
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.states import NominalStates
+from cqdd_design.geometry.contours import FloatArray
+
+Region = Literal["hole to profile", "hole to hole", "hole to bore", "root", "ring"]
+"""Of a disc by the nearest edge across the material, its lobes (root); the ring's teeth."""
+
+_STEPS = 2.5
+"""Steps of the grid round a loaded contact in which stress is the contact's."""
+
+
+def disc_stress(
+    shape: DiscShape,
+    body: Body,
+    model: ContactModel,
+    states: NominalStates,
+    disc_index: int,
+    forces: FloatArray,
+    cam_force: FloatArray,
+    tangential: FloatArray | None = None,
+) -> FloatArray:
+    """Stress along the edges of a disc.
+
+    Parameters
+    ----------
+    shape, body
+        Of the disc.
+    model, states
+        Of the perfect gearbox.
+    disc_index : int
+    forces : array (A, C)
+        Normal forces of its contacts, ring teeth first, N.
+    cam_force : array (A, 2)
+        Of the cam on it, N; says under which rolling elements the bearing carries.
+    tangential : array (A, C), optional
+        Forces along the tangents over the normal forces, signed.
+
+    Returns
+    -------
+    array (A, S)
+        Pa, tension positive, at the places of `shape.places()`; nan near a loaded contact.
+    """
+    spots = disc_spots(shape, model, states, disc_index)
+    loads = _loads(spots, forces, tangential, len(body.matrix))
+    count = len(shape.stations)
+    first = len(body.matrix) - count
+    radial = np.stack([np.cos(shape.stations), np.sin(shape.stations)], axis=-1)
+    push = spots.normal * (1.0 + 1j * (0.0 if tangential is None else tangential))
+    total = np.sum(forces * push, axis=1)
+    direction = np.stack([total.real, total.imag], axis=-1)[:, None]
+    onto = (loads @ body.matrix[:, first:])[:, None]
+    stiffness = under_disc(shape, model, states, disc_index, cam_force)
+    found = bore.reactions(onto, body.matrix[first:, first:], direction, radial, stiffness)
+    loads[:, first:] = found.stations[..., 0]
+    steps = np.full(spots.normal.shape, 2.0 * np.pi * shape.hole_radius / PER_HOLE)
+    lobe = 2.0 * np.pi / shape.outline.lobe_count * shape.outline.tip_distance
+    steps[:, : model.tooth_count] = lobe / PER_LOBE
+    return _clear(loads @ body.stress.T, shape.places(), shape.places(), spots, forces, steps)
+
+
+def disc_regions(shape: DiscShape) -> list[Region]:
+    """What part of a disc each place belongs to: by the nearest edge across the material."""
+    lobes: list[Region] = ["root"] * (PER_LOBE * shape.outline.lobe_count)
+    outward = np.abs(np.angle(np.exp(2j * np.pi * np.arange(PER_HOLE) / PER_HOLE)))
+    wall: list[Region] = [
+        "hole to profile"
+        if a < 0.25 * np.pi
+        else "hole to bore"
+        if a > 0.75 * np.pi
+        else "hole to hole"
+        for a in outward
+    ]
+    return lobes + wall * shape.hole_count
+
+
+def ring_stress(
+    shape: RingShape,
+    body: Body,
+    states: NominalStates,
+    disc_index: int,
+    forces: FloatArray,
+    tangential: FloatArray | None = None,
+) -> FloatArray:
+    """Stress (A, S) along the toothed contour at `shape.roots()` under forces (A, T) of a disc.
+
+    Parameters and result as those of :func:`disc_stress`.
+    """
+    spots = ring_spots(shape, states, disc_index)
+    loads = _loads(spots, forces, tangential, len(body.matrix))
+    step = np.full(spots.normal.shape, shape.tooth_radius * (shape.angles[1] - shape.angles[0]))
+    # The contour's own places stand wider than the teeth's.
+    step = np.maximum(step, 0.25 * shape.tooth_radius)
+    return _clear(loads @ body.stress.T, shape.roots(), shape.places(), spots, forces, step)
+
+
+def _loads(
+    spots: Spots, forces: FloatArray, tangential: FloatArray | None, count: int
+) -> FloatArray:
+    """Unit loads (A, L) that stand for the forces at the contacts."""
+    loads = np.zeros((len(forces), count))
+    angle = np.broadcast_to(np.arange(len(forces))[:, None, None], spots.near.shape)
+    shared = spots.share * forces[..., None]
+    np.add.at(loads, (angle, 2 * spots.near), shared)
+    if tangential is not None:
+        np.add.at(loads, (angle, 2 * spots.near + 1), shared * tangential[..., None])
+    return loads
+
+
+def _clear(
+    stress: FloatArray,
+    seen: Places,
+    loaded: Places,
+    spots: Spots,
+    forces: FloatArray,
+    steps: FloatArray,
+) -> FloatArray:
+    """The same with nan where a loaded contact is near."""
+    contact = np.sum(spots.share * loaded.point[spots.near], axis=-1)
+    for k in range(contact.shape[1]):
+        near = np.abs(seen.point - contact[:, k, None]) < _STEPS * steps[:, k, None]
+        stress[near & (forces[:, k, None] > 0.0)] = np.nan
+    return stress

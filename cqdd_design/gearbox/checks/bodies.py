@@ -1,0 +1,105 @@
+"""Checks of the stress in discs and ring, for those who have had it computed."""
+
+from __future__ import annotations
+
+from cqdd_design.catalog.materials import Material, find_material
+from cqdd_design.design import Design
+from cqdd_design.gearbox.bodies.strength import LIGAMENTS, BodyStrength, Swing
+from cqdd_design.gearbox.bodies.stress import Region
+from cqdd_design.gearbox.checks.allowables import edge_limit_fatigue, edge_limit_peak
+from cqdd_design.gearbox.checks.remedies import torque_words
+from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.geometry.limits import rounded_up
+from cqdd_design.results import Check
+
+_MEGA = 1e6
+_PARTS: tuple[tuple[str, tuple[Region, ...], str], ...] = (
+    ("LIGAMENT", LIGAMENTS, "widen the ligament, or "),
+    ("ROOT", ("root",), ""),
+    ("RING", ("ring",), "raise ring.outer_diameter, or "),
+)
+
+
+def body_checks(design: Design, strength: BodyStrength) -> tuple[Check, ...]:
+    """Stress against yield at the peak torque, and over a turn against fatigue.
+
+    Parameters
+    ----------
+    strength : BodyStrength
+        At the torques of the requirements.
+    """
+    return tuple(
+        check
+        for part, regions, first in _PARTS
+        for check in (
+            _static(part, regions, first, design, strength),
+            _fatigue(part, regions, first, design, strength),
+        )
+    )
+
+
+def _static(
+    part: str, regions: tuple[Region, ...], first: str, design: Design, strength: BodyStrength
+) -> Check:
+    peak, material = strength.peak(*regions), _material(part, design)
+    allowed, stress = edge_limit_peak(material), abs(peak.stress)
+    kind = "tension" if peak.stress > 0.0 else "compression"
+    where = "" if part in {"ROOT", "RING"} else f" ({peak.region})"
+    return build_check(
+        f"{part}-STRESS",
+        stress / _MEGA,
+        allowed.value / _MEGA,
+        f"{stress / _MEGA:.1f} MPa in {kind} at disc {peak.disc + 1}{where}, "
+        f"b {design.reducer.disc_thickness * 1e3:g} mm, at {peak.torque:g} N*m",
+        _remedy(first, design, stress, allowed.value, "peak", design.requirements.peak_torque),
+        basis=allowed.basis,
+    )
+
+
+def _fatigue(
+    part: str, regions: tuple[Region, ...], first: str, design: Design, strength: BodyStrength
+) -> Check:
+    swing, material = strength.swing(*regions), _material(part, design)
+    allowed, stress = edge_limit_fatigue(material), swing.reversed_amplitude
+    return build_check(
+        f"{part}-FATIGUE",
+        stress / _MEGA,
+        allowed.value / _MEGA,
+        _cycle_words(swing, material, design.requirements.continuous_torque),
+        _remedy(
+            first,
+            design,
+            stress,
+            allowed.value,
+            "continuous",
+            design.requirements.continuous_torque,
+        ),
+        basis=allowed.basis,
+    )
+
+
+def _cycle_words(swing: Swing, material: Material, torque: float) -> str:
+    ultimate = material.ultimate_strength
+    strength = "" if ultimate is None else f", S_u {ultimate / _MEGA:.0f} MPa"
+    return (
+        f"{swing.low / _MEGA:.1f} to {swing.high / _MEGA:.1f} MPa a turn{strength}: "
+        f"{swing.reversed_amplitude / _MEGA:.1f} MPa reversed, at {torque:g} N*m"
+    )
+
+
+def _material(part: str, design: Design) -> Material:
+    reducer = design.reducer
+    return find_material(reducer.ring_material if part == "RING" else reducer.disc_material)
+
+
+def _remedy(
+    first: str, design: Design, stress: float, limit: float, load: str, torque: float
+) -> str:
+    """What lowers a stress, which goes with torque over thickness."""
+    if limit <= 0.0:
+        return "choose a material whose strength the catalogue has"
+    thickness = rounded_up(1e3 * design.reducer.disc_thickness * stress / limit)
+    return (
+        f"{first}raise disc_thickness to about {thickness:g} mm, or lower the {load} torque to "
+        f"about {torque_words(torque * limit / stress)}"
+    )

@@ -1,0 +1,39 @@
+"""Rule, reason and source of the checks of :mod:`.bodies`."""
+
+from __future__ import annotations
+
+from cqdd_design.gearbox.checks import allowables as limits
+from cqdd_design.gearbox.checks.guide_row import BODIES, GOODMAN, HOUSE, CheckGuide
+
+_PARTS = (
+    ("LIGAMENT", "round the holes of a disc", "A ligament that {} opens its hole"),
+    ("ROOT", "along the lobes of a disc", "A lobe that {} no longer meshes"),
+    ("RING", "along the teeth of the ring, in a rigid housing", "A ring that {} loses its teeth"),
+)
+
+ROWS = tuple(
+    row
+    for part, where, why in _PARTS
+    for row in (
+        CheckGuide(
+            f"{part}-STRESS",
+            f"Stress {where}, peak torque",
+            "MPa",
+            "max",
+            f"|sigma| <= S_y/{limits.PIN_SAFETY_AT_PEAK:g}",
+            f"{why.format('yields')}. Contacts and fits are left out: their pressure is judged by "
+            "itself. Found where finite elements are affordable, in `analyse` and in the report.",
+            f"{BODIES}; limit: {HOUSE}",
+        ),
+        CheckGuide(
+            f"{part}-FATIGUE",
+            f"Reversed stress {where}, continuous torque",
+            "MPa",
+            "max",
+            "sigma_a/(1 - sigma_m/S_u) <= S_e",
+            f"{why.format('cracks')}: the same place is pulled and pressed at every turn of the "
+            "crank. Compression is given no credit. Found in `analyse` and in the report.",
+            f"{BODIES}; {GOODMAN}",
+        ),
+    )
+)

@@ -1,0 +1,88 @@
+"""Elastic bodies of a machine under the forces of its contact equilibrium."""
+
+from __future__ import annotations
+
+import math
+
+from cqdd_design.catalog.materials import find_material
+from cqdd_design.gearbox.bodies.made import elastic_bodies
+from cqdd_design.gearbox.bodies.strength import BodyStrength, body_strength
+from cqdd_design.gearbox.checks.bodies import body_checks
+from cqdd_design.gearbox.contact.laws import LineModel
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.rubbing import ContactFriction, FrictionChoice
+from cqdd_design.gearbox.contact.solved import ContactSweep
+from cqdd_design.gearbox.contact.states import nominal_states
+from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.machine.machine import Machine
+from cqdd_design.results import Check
+
+_ANGLES = 96
+"""Crank angles over the period: stress along edges changes less over it than pressures do."""
+
+
+def analyse_bodies(
+    machine: Machine,
+    *,
+    torque: float | None = None,
+    line_model: LineModel = "palmgren",
+    friction: FrictionChoice = "drive",
+) -> BodyStrength:
+    """Stress of discs and ring, and give of the teeth.
+
+    Parameters
+    ----------
+    torque : float, optional
+        Output torque, N m. Where left out, peaks are those at the peak torque of the requirements,
+        cycles those at the continuous one.
+    line_model : {"palmgren", "johnson", "linear"}
+        Approach of teeth and pins.
+    friction : {"drive", "backdrive", "off"}
+        Which way power goes.
+
+    Raises
+    ------
+    ContactError
+        When the gearbox has no equilibrium at the torque.
+    GeometryError
+        When material is too thin to mesh.
+    """
+    design, usual = machine.design, line_model == "palmgren"
+    model = machine.contact if usual else ContactModel.from_design(design, line_model)
+    asked = design.requirements
+    peak = asked.peak_torque if torque is None else torque
+    steady = asked.continuous_torque if torque is None else torque
+    states = nominal_states(model, perfect_angles(model, _ANGLES))
+    rubbed = ContactFriction.of(model, friction)
+
+    def both(size: float) -> list[ContactSweep]:
+        return [contact_sweep(model, t, states=states, friction=rubbed) for t in (size, -size)]
+
+    at_peak = both(peak)
+    senses = [case.torque for case in asked.duty]
+    strengths = [
+        find_material(name).ultimate_strength or math.inf
+        for name in (design.reducer.disc_material, design.reducer.ring_material)
+    ]
+    return body_strength(
+        elastic_bodies(design),
+        states,
+        at_peak,
+        at_peak if steady == peak else both(steady),
+        reverses=min(senses, default=0.0) < 0.0 < max(senses, default=0.0),
+        ultimate=(strengths[0], strengths[1]),
+    )
+
+
+def judged_bodies(
+    machine: Machine, line_model: LineModel = "palmgren", friction: FrictionChoice = "drive"
+) -> tuple[tuple[Check, ...], BodyStrength]:
+    """Checks of the stress at the torques of the requirements, and what they judge.
+
+    Raises
+    ------
+    ContactError, GeometryError
+        As :func:`analyse_bodies`.
+    """
+    strength = analyse_bodies(machine, line_model=line_model, friction=friction)
+    return body_checks(machine.design, strength), strength

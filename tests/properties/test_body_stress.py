@@ -1,0 +1,266 @@
+"""Stress of discs and ring: a second mesh, statics, whole turns, the checks that stand on it."""
+
+from __future__ import annotations
+
+import functools
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from disc_patches import DiscPatches
+
+from cqdd_design.catalog.materials import find_material
+from cqdd_design.design import load_design
+from cqdd_design.errors import GeometryError
+from cqdd_design.gearbox.bodies import strength as strength_module
+from cqdd_design.gearbox.bodies import stress as stress_module
+from cqdd_design.gearbox.bodies.compliance import disc_spots
+from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape
+from cqdd_design.gearbox.bodies.made import elastic_bodies
+from cqdd_design.gearbox.bodies.model import disc_body
+from cqdd_design.gearbox.bodies.strength import (
+    LIGAMENTS,
+    REGIONS,
+    BodyStrength,
+    Peak,
+    Swing,
+)
+from cqdd_design.gearbox.checks.allowables import edge_limit_fatigue
+from cqdd_design.gearbox.checks.bodies import body_checks
+from cqdd_design.gearbox.contact.rubbing import ContactFriction
+from cqdd_design.gearbox.contact.states import nominal_states
+from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.body_analysis import analyse_bodies
+from cqdd_design.report.drawings.outlines import Outlines
+from cqdd_design.report.gearbox.stress import stress_picture, stress_view
+from cqdd_design.roads.analyse import analyse
+
+DESIGNS = Path(__file__).resolve().parents[2] / "designs"
+
+
+@functools.cache
+def machine_of_s() -> Machine:
+    return resolve(load_design(DESIGNS / "reference-s.toml"))
+
+
+@functools.cache
+def strength_of_s() -> BodyStrength:
+    return analyse_bodies(machine_of_s())
+
+
+@pytest.mark.parametrize("tangential", [False, True])
+@pytest.mark.parametrize(
+    ("coarse", "within"), [(0.5e-3, 5e-2), pytest.param(0.25e-3, 3e-2, marks=pytest.mark.deep)]
+)
+def test_stress_along_edges_agrees_with_elongations_on_a_second_mesh(
+    tangential: bool, coarse: float, within: float
+) -> None:
+    """Under a force on a flank, 4 mm and more away from it; at holes and along the lobes.
+
+    The second mesh, of straight sides, comes closer as it gets finer.
+    """
+    shape = DiscShape.from_design(machine_of_s().design, 0)
+    shape = replace(shape, bearing=replace(shape.bearing, raceway=shape.bearing.outer))
+    place = 3
+    ours = disc_body(shape).stress[:, 2 * place + tangential]
+    patches = DiscPatches(shape, [place], 0.3e-3, coarse, 1j if tangential else 1.0)
+    at = shape.places().point
+    lobes = PER_LOBE * shape.outline.lobe_count
+    for edge in (0, 1, 2, shape.hole_count):
+        first = 0 if edge == 0 else lobes + PER_HOLE * (edge - 1)
+        own = np.arange(first, first + (lobes if edge == 0 else PER_HOLE))
+        own = own[np.abs(at[own] - at[place]) > 4e-3]
+        centre = 0j if edge == 0 else shape.holes[edge - 1]
+        middle, theirs = patches.edge_stress(edge, None)
+        order = np.argsort(np.angle(middle - centre))
+        expected = np.interp(
+            np.angle(at[own] - centre),
+            np.angle(middle - centre)[order],
+            theirs[order, 0],
+            period=2.0 * np.pi,
+        )
+        scale = float(np.abs(expected).max())
+        assert ours[own] == pytest.approx(expected, abs=within * scale)
+
+
+@pytest.mark.parametrize("friction", ["drive", "backdrive"])
+def test_unit_loads_that_stand_for_contacts_leave_no_moment(friction: str) -> None:
+    """The equilibrium balances every disc; so do its forces, friction's too, put on its edges."""
+    machine = machine_of_s()
+    model = machine.contact
+    states = nominal_states(model, perfect_angles(model, 7))
+    sweep = contact_sweep(model, 90.0, states=states, friction=ContactFriction.of(model, friction))
+    forces, slips = strength_module._pushes(sweep)
+    for index in range(2):
+        shape = DiscShape.from_design(machine.design, index)
+        force, slip = forces[:, index], slips[:, index]
+        spots = disc_spots(shape, model, states, index)
+        places = shape.places()
+        loads = stress_module._loads(spots, force, slip, 2 * len(places))
+        vectors = loads * places.directions
+        point = np.repeat(places.point, 2)
+        arm = float(np.abs(point).max())
+        moment = (np.conj(point) * vectors).imag.sum(axis=1)
+        assert np.abs(moment).max() < 5e-3 * arm * force.sum(axis=1).max()
+        own = states.crank_angle + model.phases[index]
+        turn = np.exp(1j * own / model.lobe_count)
+        cam = (sweep.cam_force[:, index, 0] + 1j * sweep.cam_force[:, index, 1]) * turn
+        assert np.abs(vectors.sum(axis=1) + cam).max() < 5e-3 * np.abs(cam).max()
+
+
+def test_cycles_from_one_period_are_those_of_a_whole_turn() -> None:
+    """The paper's design: a period of a fifth of what a place of the disc lives through."""
+    machine = resolve(load_design(DESIGNS / "cqdd-10.toml"))
+    model, bodies = machine.contact, elastic_bodies(machine.design)
+    torque, count = 40.0, 40
+    period = perfect_angles(model, count)
+    whole = np.concatenate([period + k * period[1] * count for k in range(5)])
+    assert whole[-1] + period[1] == pytest.approx(
+        2.0 * math.pi * model.lobe_count / (model.lobe_count + 1)
+    )
+    found = []
+    for angles in (period, whole):
+        states = nominal_states(model, angles)
+        sweep = contact_sweep(model, torque, states=states)
+        found.append(
+            (strength_module._edges(bodies), strength_module._stresses(bodies, states, sweep))
+        )
+    (edges, short), (_, long) = found
+    for k in (0, 2):
+        low = np.full(len(edges[k].places), np.inf)
+        np.fmin.at(low, edges[k].orbit, np.fmin.reduce(short[k], axis=0))
+        high = np.full(len(edges[k].places), -np.inf)
+        np.fmax.at(high, edges[k].orbit, np.fmax.reduce(short[k], axis=0))
+        scale = np.nanmax(np.abs(long[k]))
+        assert low[edges[k].orbit] == pytest.approx(np.fmin.reduce(long[k]), abs=2e-2 * scale)
+        assert high[edges[k].orbit] == pytest.approx(np.fmax.reduce(long[k]), abs=2e-2 * scale)
+
+
+def test_stress_of_s_with_friction_is_reported_where_it_is() -> None:
+    """Friction raises the frictionless 125 MPa; the places lie on the edges that are named."""
+    found = strength_of_s()
+    plain = analyse_bodies(machine_of_s(), friction="off")
+    assert found.peak(*LIGAMENTS).stress > 1.05 * plain.peak(*LIGAMENTS).stress
+    assert 100e6 < plain.peak(*LIGAMENTS, "root").stress < 140e6
+    assert found.peak("hole to hole").stress == pytest.approx(-98e6, rel=0.05)
+    assert found.peak("ring").stress == pytest.approx(-20e6, rel=0.1)
+    # At 34.2 N m, of which a place has its share: the peaks are those at 90.
+    assert 0.3 < found.swing("root").high / found.peak("root").stress < 0.5
+    shape = DiscShape.from_design(machine_of_s().design, 0)
+    for one in (*found.peaks, *found.swings):
+        radius = abs(one.place)
+        if one.region == "ring":
+            assert radius > 29e-3
+        elif one.region == "root":
+            assert 27e-3 < radius < 32e-3
+        else:
+            holes = DiscShape.from_design(machine_of_s().design, one.disc).holes
+            assert np.abs(one.place - holes).min() == pytest.approx(shape.hole_radius, rel=1e-9)
+    document = found.to_dict()
+    assert document["ligament_stress_max_MPa"] == pytest.approx(
+        max(abs(one["stress_MPa"]) for one in document["stress"] if "hole" in one["region"])
+    )
+    assert {one["region"] for one in document["cycles"]} == set(REGIONS)
+    assert found.give_round.mean < found.give.mean < found.give_free.mean
+
+
+def test_a_duty_with_both_senses_swings_further() -> None:
+    machine = machine_of_s()
+    duty = [
+        {"torque": "34.2 N*m", "speed": "12 rad/s", "share": 0.5},
+        {"torque": "-34.2 N*m", "speed": "12 rad/s", "share": 0.5},
+    ]
+    both = machine.design.replacing({"requirements.duty": duty})
+    reversed_duty = analyse_bodies(resolve(both))
+    harm = [
+        [one.swing(region).reversed_amplitude for region in REGIONS]
+        for one in (strength_of_s(), reversed_duty)
+    ]
+    assert all(there >= here for here, there in zip(*harm, strict=True))
+    # At the bottom of a valley one sense does what the other does; round a hole it does not.
+    assert max(there / here for here, there in zip(*harm, strict=True)) > 1.1
+
+
+def with_stress(peak: float, low: float, high: float, reversed_amplitude: float) -> BodyStrength:
+    peaks = tuple(Peak(region, peak, 90.0, 0.0, 0, 0j) for region in REGIONS)
+    swings = tuple(Swing(region, low, high, reversed_amplitude, 0, 0j) for region in REGIONS)
+    return replace(strength_of_s(), peaks=peaks, swings=swings)
+
+
+def test_checks_hold_stress_against_yield_and_endurance() -> None:
+    design = machine_of_s().design
+    checks = {one.id: one for one in body_checks(design, strength_of_s())}
+    assert set(checks) == {
+        f"{part}-{kind}" for part in ("LIGAMENT", "ROOT", "RING") for kind in ("STRESS", "FATIGUE")
+    }
+    assert all(one.satisfied for one in checks.values())
+    assert checks["ROOT-STRESS"].limit == pytest.approx(834.0 / 1.2)
+    # Shigley: half of S_u, and 4.51 S_u^-0.265 of it for a machined edge.
+    assert checks["ROOT-FATIGUE"].limit == pytest.approx(0.5 * 951.0 * 4.51 * 951.0**-0.265)
+    softer = design.replacing({"reducer.ring_material": "AISI 4140 annealed"})
+    limits = {one.id: one.limit for one in body_checks(softer, strength_of_s())}
+    assert limits["RING-STRESS"] == pytest.approx(417.0 / 1.2)
+    assert limits["ROOT-STRESS"] == pytest.approx(834.0 / 1.2)
+    assert limits["RING-FATIGUE"] < limits["LIGAMENT-FATIGUE"] == limits["ROOT-FATIGUE"]
+    strong = {one.id: one for one in body_checks(design, with_stress(-800e6, 0.0, 9e8, 500e6))}
+    assert not any(one.satisfied for one in strong.values())
+    assert strong["LIGAMENT-STRESS"].value == pytest.approx(800.0)
+    assert "compression" in strong["LIGAMENT-STRESS"].substituted
+    assert "disc_thickness to about 9.21 mm" in strong["ROOT-STRESS"].remedy
+    assert "peak torque to about 78.1 N*m" in strong["ROOT-STRESS"].remedy
+    assert "continuous torque to about 23.8 N*m" in strong["ROOT-FATIGUE"].remedy
+
+
+def test_a_stronger_steel_and_one_without_figures() -> None:
+    catalogued = find_material("AISI 52100 / 100Cr6 hardened")
+    assert catalogued.fatigue_strength == 700e6
+    assert edge_limit_fatigue(catalogued).value == pytest.approx(4.51 * 2000.0**-0.265 * 700e6)
+    assert edge_limit_fatigue(find_material("AISI 4140 Q&T 205C")).value == pytest.approx(
+        4.51 * 1772.0**-0.265 * 700e6
+    )
+    assert edge_limit_fatigue(find_material("7075-T6")).value == 159e6
+    assert edge_limit_fatigue(find_material("PLA")).value == 0.0
+
+
+def test_a_disc_too_thin_to_mesh_is_a_sentence_and_the_rest_is_there() -> None:
+    design = machine_of_s().given
+    pins = design.reducer.output_pins.model_copy(update={"circle_radius": 21.5e-3})
+    thin = design.model_copy(
+        update={"reducer": design.reducer.model_copy(update={"output_pins": pins})}
+    )
+    with pytest.raises(GeometryError, match="too thin"):
+        analyse_bodies(resolve(thin))
+    found = analyse(thin, angles=8)
+    assert found.bodies is None
+    assert found.to_dict()["bodies"] is None
+    assert found.to_dict()["contact"] is not None
+    assert any("no stress of discs and ring" in one and "too thin" in one for one in found.warnings)
+    assert not any(one.id.startswith("ROOT") for one in found.checks)
+
+
+def test_a_disc_of_very_many_lobes_is_a_sentence() -> None:
+    design = machine_of_s().design
+    many = design.model_copy(update={"reducer": design.reducer.model_copy(update={"ratio": 100})})
+    with pytest.raises(GeometryError, match="100 lobes and 10 holes"):
+        elastic_bodies(many)
+
+
+def test_picture_has_its_colours_where_the_stress_is() -> None:
+    machine, strength = machine_of_s(), strength_of_s()
+    outlines = Outlines.from_design(machine.design, machine.cam)
+    picture = strength.picture
+    figure = stress_picture(picture, outlines).render()
+    assert "pull-5" in figure
+    assert "NaN" not in figure.replace("nan", "NaN")
+    greatest = max(np.nanmax(np.abs(stress)) for _, stress in picture.edges)
+    assert greatest == pytest.approx(max(abs(one.stress) for one in strength.peaks[:-1]))
+    # Every force is in balance with the cam's in the picture's own frame.
+    assert np.abs(picture.loads.sum(axis=0)).max() < 1e-6 * np.abs(picture.loads).max()
+    bare = [int(np.isnan(stress).sum()) for _, stress in picture.edges]
+    assert 0 < sum(bare) < 0.4 * sum(len(stress) for _, stress in picture.edges)
+    values = stress_view(strength, body_checks(machine.design, strength), outlines)
+    assert values["give"] == "3.7"
+    assert values["rows"][0][0] == "round the holes of a disc"
