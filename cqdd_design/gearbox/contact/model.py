@@ -182,7 +182,7 @@ class ContactModel(Stages):
         is made for.
         """
         own = 0.9 if law.model == "palmgren" else 1.0
-        load = _LINE_LOAD * self.contact_length
+        load = LINE_LOAD * self.contact_length
         return np.asarray(np.asarray(coefficient, dtype=float) * load ** (power - own))
 
     def _coefficient(
