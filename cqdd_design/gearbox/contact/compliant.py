@@ -57,8 +57,13 @@ def carrier_compliance(
     )
 
 
-def model_compliance(model: ContactModel) -> Compliance:
+def model_compliance(model: ContactModel, bodies: FloatArray | None = None) -> Compliance:
     """That of a gearbox whose plate and cap turn apart, :attr:`.ContactModel.pin`.
+
+    Parameters
+    ----------
+    bodies : array (A, D, C, C), optional
+        As in :func:`carrier_compliance`.
 
     Raises
     ------
@@ -67,7 +72,8 @@ def model_compliance(model: ContactModel) -> Compliance:
     """
     if model.pin is None:
         raise UsageError("a carrier whose plates are one body has no compliance of its own.")
-    return carrier_compliance(model.pin_count, model.pin, model.tie / model.pin_circle_radius**2)
+    tie = model.tie / model.pin_circle_radius**2
+    return carrier_compliance(model.pin_count, model.pin, tie, bodies)
 
 
 def new_result(count: int, discs: int, contacts: int) -> YieldingResult:

@@ -269,6 +269,9 @@ class Shared(NamedTuple):
     smooth: Rubbing
     """No friction, likewise."""
     compliance: Compliance
+    """Under that friction."""
+    idle: Compliance
+    """Without friction."""
     worn: Worn
 
 

@@ -73,7 +73,7 @@ def clearance_study(
     hole = design.reducer.output_pins.hole_clearance
     offsets = sorted({*EQUIDISTANTS, offset})
     return tuple(
-        _point(design, one, share * hole, (samples, angles, seed), (one, share) == (offset, 1.0))
+        _point(design, one, share * hole, (samples, angles, seed))
         for share in HOLE_SHARES
         for one in offsets
     )
@@ -84,9 +84,13 @@ def _point(
     equidistant: float,
     hole: float,
     draws: tuple[int, int | None, int],
-    own: bool,
 ) -> ClearancePoint:
     samples, angles, seed = draws
+    reducer = design.reducer
+    own = (equidistant, hole) == (
+        reducer.modification.equidistant,
+        reducer.output_pins.hole_clearance,
+    )
     try:
         changed = design.replacing(
             {
@@ -94,7 +98,7 @@ def _point(
                 "reducer.output_pins.hole_clearance": hole,
             }
         )
-        ensemble = make_ensemble(changed, angles=angles, seed=seed)
+        ensemble = make_ensemble(changed, angles=angles, seed=seed, bodies=design)
         found = run_ensemble(ensemble, samples, sensitivity=False)
     except (ContactError, DesignError) as error:
         return ClearancePoint(equidistant, hole, own, missing=error.message)

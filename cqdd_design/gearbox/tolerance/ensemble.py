@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from cqdd_design.design import Design
-from cqdd_design.errors import UsageError
+from cqdd_design.errors import GeometryError, UsageError
+from cqdd_design.gearbox.bodies.made import elastic_bodies
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import output_turn_count
 from cqdd_design.gearbox.tolerance.draws import GROUPS, draw_errors
@@ -52,6 +53,8 @@ class Ensemble:
     ----------
     design : Design
         With its cam bearing named.
+    bodies : Design or None
+        Whose discs and ring yield; None where bodies are rigid.
     torque : float
         N m.
     angles : int
@@ -60,6 +63,7 @@ class Ensemble:
     """
 
     design: Design
+    bodies: Design | None
     torque: float
     angles: int
     seed: int
@@ -90,7 +94,8 @@ Progress = Callable[[int, int], None]
 @functools.lru_cache(maxsize=2)
 def _tables(ensemble: Ensemble) -> EnsembleTables:
     model = ContactModel.from_design(ensemble.design)
-    return ensemble_tables(model, ensemble.torque, ensemble.angles)
+    bodies = None if ensemble.bodies is None else elastic_bodies(ensemble.bodies)
+    return ensemble_tables(model, ensemble.torque, ensemble.angles, bodies)
 
 
 def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
@@ -186,6 +191,11 @@ class ToleranceResult:
             done = len(self.values)
             return (f"interrupted after {done} of {self.asked} gearboxes; these are kept.",)
         told = []
+        if self.ensemble.bodies is None:
+            told.append(
+                "discs and ring cannot be meshed and count as rigid, which makes too much of what "
+                "part errors do."
+            )
         beyond = self.beyond()
         for name, words in _BEYOND.items():
             if beyond.get(name, 0.0) > 0.0:
@@ -212,6 +222,7 @@ class ToleranceResult:
             "angles": self.ensemble.angles,
             "torque_Nm": self.ensemble.torque,
             "friction": "drive",
+            "bodies": "rigid" if self.ensemble.bodies is None else "elastic",
             "limits": self.limits,
             "share_beyond_limit": self.beyond() if len(self.values) else None,
             "pressure_reserve": self.pressure_reserve(),
@@ -238,9 +249,22 @@ def _distribution(values: FloatArray) -> dict[str, float]:
 
 
 def make_ensemble(
-    design: Design, *, torque: float | None = None, angles: int | None = None, seed: int = 0
+    design: Design,
+    *,
+    torque: float | None = None,
+    angles: int | None = None,
+    seed: int = 0,
+    bodies: Design | None = None,
 ) -> Ensemble:
     """Complete an ensemble: continuous torque, and 8 n (n+1) angles over the output turn.
+
+    Discs and ring yield where they can be meshed, and are rigid where they cannot, which the result
+    says.
+
+    Parameters
+    ----------
+    bodies : Design, optional
+        Whose discs and ring yield, where another one's are near enough; default the design's own.
 
     Raises
     ------
@@ -256,7 +280,12 @@ def make_ensemble(
             f"--angles {_MOST_CONTACTS // contacts}."
         )
     load = design.requirements.continuous_torque if torque is None else torque
-    return Ensemble(design, load, wanted, seed)
+    yielding: Design | None = bodies or design
+    try:
+        elastic_bodies(bodies or design)
+    except GeometryError:
+        yielding = None
+    return Ensemble(design, yielding, load, wanted, seed)
 
 
 def run_ensemble(

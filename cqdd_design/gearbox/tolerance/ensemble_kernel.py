@@ -330,7 +330,7 @@ def _unloaded(
         springs,
         Load(0.0, load.scale_stiffness),
         shared.smooth,
-        shared.compliance,
+        shared.idle,
         (some, _turns(nominal, some)),
         np.zeros((nominal.gaps.shape[0], 3 + 3 * discs)),
         idle,

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import ContactError
+from cqdd_design.gearbox.bodies.compliance import ElasticBodies, compliance, rigid_cam_force
 from cqdd_design.gearbox.contact.compliant import model_compliance
 from cqdd_design.gearbox.contact.kernel_values import Load, Nominal, Shared, Start, Worn
 from cqdd_design.gearbox.contact.model import ContactModel
@@ -89,7 +90,10 @@ def marked_angles(lobe_count: int, count: int) -> NDArray[np.bool_]:
 
 
 def ensemble_tables(
-    model: ContactModel, torque: float, angles: int | None = None
+    model: ContactModel,
+    torque: float,
+    angles: int | None = None,
+    bodies: ElasticBodies | None = None,
 ) -> EnsembleTables:
     """Prepare an ensemble.
 
@@ -100,6 +104,9 @@ def ensemble_tables(
         secant between half of it and it.
     angles : int, optional
         Crank angles over the output turn, at least 8; default 8 n (n+1), which miss no order.
+    bodies : ElasticBodies, optional
+        Discs and ring, whose compliance counts at the contacts of the perfect gearbox; default
+        rigid.
     """
     states = nominal_states(model, output_turn_angles(model, angles))
     marked = marked_angles(model.lobe_count, len(states.crank_angle))
@@ -107,17 +114,25 @@ def ensemble_tables(
     perfect = contact_sweep(held, torque, states=states).state_vectors
     free_poses = backlash(model, states=states).poses
     start = Start(marked, perfect, free_poses, torque)
-    return EnsembleTables(model, states, start, _shared(model, states, torque))
+    return EnsembleTables(model, states, start, _shared(model, states, torque, bodies))
 
 
-def _shared(model: ContactModel, states: NominalStates, torque: float) -> Shared:
+def _shared(
+    model: ContactModel, states: NominalStates, torque: float, bodies: ElasticBodies | None
+) -> Shared:
     friction = ContactFriction("drive", model.tooth_friction, model.hole_friction)
     teeth = states.ring.equivalent_radius
     rubbed = rubbing(model, states, friction, torque)
+    given = idle = None
+    if bodies is not None:
+        cam_force = rigid_cam_force(model, states, torque)
+        given = compliance(bodies, model, states, cam_force, rubbed.share)
+        idle = compliance(bodies, model, states, cam_force)
     return Shared(
         rubbing=rubbed,
         smooth=rubbed._replace(share=np.zeros_like(rubbed.share)),
-        compliance=model_compliance(model),
+        compliance=model_compliance(model, given),
+        idle=model_compliance(model, idle),
         worn=Worn(
             slip=np.abs(slip(model, states)),
             pressing=line_contact_pressure(1.0, model.contact_length, teeth, model.ring_modulus)
