@@ -15,7 +15,7 @@ from cqdd_design.catalog.screws import LEAST_COLUMN, column_screw
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import CatalogError, DesignError, GeometryError
 from cqdd_design.gearbox.cam_bearing import largest_outer_diameter
-from cqdd_design.gearbox.carrier_columns import column_stiffness, join_stiffness
+from cqdd_design.gearbox.carrier_columns import column_stiffness, feet_compliance, join_stiffness
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.columns import (
     RUNNING_CLEARANCE,
@@ -284,13 +284,29 @@ def test_the_stiffness_of_a_column_is_what_its_shooting_says() -> None:
 
 
 def test_columns_join_cap_and_plate_as_springs_on_their_circle() -> None:
-    assert join_stiffness(PAPER.reducer) == 0.0
-    assert join_stiffness(PAPER.replacing({"reducer.carrier.joint": "hinged"}).reducer) == 0.0
+    assert join_stiffness(PAPER) == 0.0
+    assert join_stiffness(PAPER.replacing({"reducer.carrier.joint": "hinged"})) == 0.0
     design = with_columns(PAPER, "5 mm")
-    each = column_stiffness(17.5e-3, 5e-3, column_screw(5e-3).bore, 205e9, 0.29)
-    assert join_stiffness(design.reducer) == pytest.approx(5 * each * 19.5e-3**2, rel=0.01)
+    own = column_stiffness(17.5e-3, 5e-3, column_screw(5e-3).bore, 205e9, 0.29)
+    feet = feet_compliance(17.5e-3, 5e-3, 71.7e9, 0.33)
+    each = 1.0 / (1.0 / own + feet)
+    assert 0.4 * own < each < 0.6 * own
+    assert join_stiffness(design) == pytest.approx(5 * each * 19.5e-3**2, rel=0.01)
     wider = design.replacing({"reducer.output_pins.circle_radius": "39 mm"})
-    assert join_stiffness(wider.reducer) == pytest.approx(4.0 * join_stiffness(design.reducer))
+    assert join_stiffness(wider) == pytest.approx(4.0 * join_stiffness(design))
+
+
+def test_feet_of_columns_against_a_rigid_body_on_springs() -> None:
+    """A stiff column between two plates: it rocks on both feet, the plates kept parallel.
+
+    Statics: a force F across it needs the moment F L/2 at each foot. Aluminium, 6 mm, 17.5 mm.
+    """
+    shear, radius, length = 71.7e9 / 2.66, 3e-3, 17.5e-3
+    turns, slides = 8.0 * shear * radius**3 / (3.0 * 0.67), 8.0 * shear * radius / 1.67
+    force = 100.0
+    tilt = 0.5 * force * length / turns
+    moved = 2.0 * force / slides + tilt * length
+    assert feet_compliance(length, 6e-3, 71.7e9, 0.33) == pytest.approx(moved / force, rel=1e-12)
 
 
 @given(diameter=st.floats(LEAST_COLUMN, 0.1))

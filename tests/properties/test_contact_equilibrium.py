@@ -246,7 +246,7 @@ def test_energy_slope_integrates_to_zero_over_an_output_turn_with_errors() -> No
     assert len(angle) >= 8 * 10 * 11
     sweep = contact_sweep(model, 40.0, angle, errors=errors)
     assert_sound(sweep)
-    assert abs(sweep.energy_slope.mean()) < 1e-6 * 40.0 / 10.0
+    assert abs(sweep.energy_slope.mean()) < 2e-6 * 40.0 / 10.0
     # The energy itself comes back: the sum of slopes is the change of energy between samples.
     step = angle[1] - angle[0]
     trapezoid = 0.5 * step * (sweep.energy_slope[1:] + sweep.energy_slope[:-1])

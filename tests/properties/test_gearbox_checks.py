@@ -177,10 +177,11 @@ def test_the_papers_design_fails_where_it_should() -> None:
         "MOTOR-CONTINUOUS",
     }
     assert checks["CONTACT-RING-PEAK"].value == pytest.approx(math.sqrt(1.15) * 1526.855, abs=0.1)
-    assert checks["PIN-BENDING-PEAK"].value == pytest.approx(1.15 * 963.33, abs=0.1)
+    assert checks["PIN-BENDING-PEAK"].value == pytest.approx(1.15 * 2420.66, abs=0.1)
     cantilever = changed({"reducer.output_pins.support": "cantilever"}, PAPER)
     worse = cantilever["PIN-BENDING-PEAK"].value / checks["PIN-BENDING-PEAK"].value
-    assert worse == pytest.approx(13.0 / 2.342857, rel=1e-6)
+    arm = checks["PIN-BENDING-PEAK"].value / (1.15 * 963.33) * 2.342857
+    assert worse == pytest.approx(13.0 / arm, rel=1e-4)
 
 
 REMEDIES = [
@@ -281,10 +282,12 @@ def test_the_torque_named_is_the_most_that_passes(check_id: str, key: str) -> No
 
 
 def test_thicker_pins_named_by_the_remedy_pass_in_bending() -> None:
-    check = by_id(resolve(PAPER).analysis)["PIN-BENDING-PEAK"]
+    steel = {"reducer.output_pins.material": "Alloy steel 12.9 (ISO 7379)"}
+    check = changed(steel, PAPER)["PIN-BENDING-PEAK"]
     named = re.search(r"at least ([\d.]+) mm", check.remedy)
     assert named
-    thick = changed({"reducer.output_pins.diameter": f"{named.group(1)} mm"}, PAPER)
+    assert "clamp them in the cap too (reducer.carrier.joint)" in check.remedy
+    thick = changed({**steel, "reducer.output_pins.diameter": f"{named.group(1)} mm"}, PAPER)
     assert thick["PIN-BENDING-PEAK"].status == "pass"
 
 
@@ -350,16 +353,23 @@ def test_the_motor_checks_say_what_the_losses_compute(design: Design) -> None:
 
 @pytest.mark.parametrize("design", [PAPER, SOUND], ids=["paper", "sound"])
 def test_clearance_shares_less_evenly_than_the_checks_assume(design: Design) -> None:
-    """As docs/assumptions.md says of the factor 1.15: 1.3 at the peak, 1.5 to 1.6 at continuous."""
+    """As docs/assumptions.md says of the factor 1.15: 1.3 at the peak, 1.5 to 1.6 at continuous.
+
+    That is of clearance alone, between plates that are one body; a cap that hangs on the pins adds
+    a fifth where it is clamped, and a half on the soft pins of the paper's design.
+    """
     model, wanted = ContactModel.from_design(design), design.requirements
     rigid = resolve(design).analysis.rigid_peak
     found = []
-    for torque in (wanted.peak_torque, wanted.continuous_torque):
-        sweeps = [contact_sweep(model, sense * torque, perfect_angles(model)) for sense in (1, -1)]
-        most = max(float(sweep.ring_force.max()) for sweep in sweeps)
-        found.append(most / rigid.at(torque).ring_force)
+    for one in (dataclasses.replace(model, pin=None), model):
+        for torque in (wanted.peak_torque, wanted.continuous_torque):
+            sweeps = [contact_sweep(one, sense * torque, perfect_angles(one)) for sense in (1, -1)]
+            most = max(float(sweep.ring_force.max()) for sweep in sweeps)
+            found.append(most / rigid.at(torque).ring_force)
     assert 1.25 < found[0] < 1.4
     assert 1.45 < found[1] < 1.65
+    assert 1.1 < found[2] / found[0] < 1.6
+    assert 1.1 < found[3] / found[1] < 1.6
 
 
 def test_a_motor_without_data_is_said_not_guessed() -> None:
@@ -662,7 +672,8 @@ def test_more_pins_named_by_the_remedy_carry_the_load() -> None:
         {
             "reducer.output_pins.count": 6,
             "reducer.output_pins.diameter": "3 mm",
-            "requirements.peak_torque": "100 N*m",
+            "requirements.peak_torque": "50 N*m",
+            "requirements.continuous_torque": "15 N*m",
         }
     )
     check = by_id(resolve(few).analysis)["PIN-BENDING-PEAK"]

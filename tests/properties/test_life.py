@@ -228,8 +228,8 @@ def test_more_torque_wears_more() -> None:
 
 
 def test_a_reversing_duty_is_harder_on_pins_and_easier_on_flanks() -> None:
-    one = lived((60.0, 10.0, 1.0))
-    both = lived((60.0, 10.0, 0.5), (-60.0, 10.0, 0.5))
+    one = lived((30.0, 10.0, 1.0))
+    both = lived((30.0, 10.0, 0.5), (-30.0, 10.0, 0.5))
     assert part(both, "output pins, bending").limit < part(one, "output pins, bending").limit
     assert (
         part(both, "output pins, bending").damage_per_hour
@@ -356,31 +356,31 @@ def test_who_drives_decides_on_the_forces_of_a_duty() -> None:
 
 
 def test_limits_of_pins_lie_on_one_goodman_line() -> None:
-    one = part(lived((60.0, 10.0, 1.0)), "output pins, bending")
-    both = part(lived((60.0, 10.0, 0.5), (-60.0, 10.0, 0.5)), "output pins, bending")
+    one = part(lived((30.0, 10.0, 1.0)), "output pins, bending")
+    both = part(lived((30.0, 10.0, 0.5), (-30.0, 10.0, 0.5)), "output pins, bending")
     assert one.limit / 1e6 == pytest.approx(300.0)
     assert both.limit / 1e6 == pytest.approx(150.0 / (1.0 - 150.0 / 1220.0))
     # The same peak both ways is the amplitude; the senses differ a little in their peaks. One
     # sense alone never lets go of the pins: the cap that hangs on them keeps them bent.
-    peaks = [lived((sense * 60.0, 10.0, 1.0)).loads[0].pin_bending for sense in (1.0, -1.0)]
+    peaks = [lived((sense * 30.0, 10.0, 1.0)).loads[0].pin_bending for sense in (1.0, -1.0)]
     assert min(peaks) * 0.999 < both.stress < max(peaks) * 1.001
     assert 0.7 * both.stress < one.stress < both.stress
 
 
 def test_a_whisper_of_the_other_sense_changes_little() -> None:
-    one = lived((60.0, 10.0, 1.0))
-    nearly = lived((60.0, 10.0, 0.5), (-1e-4, 10.0, 0.5))
+    one = lived((30.0, 10.0, 1.0))
+    nearly = lived((30.0, 10.0, 0.5), (-1e-4, 10.0, 0.5))
     first, second = (part(one, "output pins, bending"), part(nearly, "output pins, bending"))
     # It lets the pins spring back, whatever its size.
-    other = part(lived((60.0, 10.0, 0.5), (-2e-4, 10.0, 0.5)), "output pins, bending")
+    other = part(lived((30.0, 10.0, 0.5), (-2e-4, 10.0, 0.5)), "output pins, bending")
     assert second.damage_per_hour > 0.5 * first.damage_per_hour
     assert second.damage_per_hour == pytest.approx(other.damage_per_hour, rel=0.01)
     assert second.reserve == pytest.approx(other.reserve, rel=0.01)
 
 
 def test_a_torque_held_the_other_way_reverses_the_pins() -> None:
-    pulsating = part(lived((60.0, 10.0, 0.5), (0.0, 0.0, 0.5)), "output pins, bending")
-    reversed_ = part(lived((60.0, 10.0, 0.5), (-60.0, 0.0, 0.5)), "output pins, bending")
+    pulsating = part(lived((30.0, 10.0, 0.5), (0.0, 0.0, 0.5)), "output pins, bending")
+    reversed_ = part(lived((30.0, 10.0, 0.5), (-30.0, 0.0, 0.5)), "output pins, bending")
     assert reversed_.damage_per_hour > 2.0 * pulsating.damage_per_hour > 0.0
 
 

@@ -45,12 +45,14 @@ def test_values_are_those_of_analyse():
     assert holes.value == pytest.approx(contact["output_pressure_max_MPa"], rel=1e-9)
     cam = found["cam bearing", "load for C0/P = 1"]
     assert cam.value == pytest.approx(contact["cam_bearing_load_max_N"], rel=1e-9)
-    # Stresses of pins go with their force: the rigid law's, less what it adds for sharing.
     bending = found["output pins", "Bending stress of the output pins, peak torque"]
+    assert bending.value == pytest.approx(contact["output_pin_bending_max_MPa"], rel=1e-9)
+    # Shear goes with the force: the rigid law's, less what it adds for sharing.
+    shear = found["output pins", "Shear stress of the output pins, peak torque"]
     rigid = machine.analysis
-    per_newton = rigid.output_pins.bending_stress_peak / rigid.rigid_peak.output_pin_force / 1e6
+    per_newton = rigid.output_pins.shear_stress_peak / rigid.rigid_peak.output_pin_force / 1e6
     expected = per_newton * contact["output_pin_force_max_N"]
-    assert bending.value == pytest.approx(expected, rel=1e-9)
+    assert shear.value == pytest.approx(expected, rel=1e-9)
     assert {one.model for one in found.values()} == {EQUILIBRIUM}
 
 

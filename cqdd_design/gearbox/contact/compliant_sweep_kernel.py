@@ -273,6 +273,53 @@ def solve_yielding_raised(
     return CONVERGED, steps, torsional
 
 
+@numba.njit(cache=True, error_model="numpy")
+def solve_yielding_rubbed(
+    contacts: Contacts,
+    springs: Springs,
+    load: Load,
+    rubbing: Rubbing,
+    compliance: Compliance,
+    start: Any,
+    u: Any,
+    approach: Any,
+    forces: Forces,
+    work: YieldingWork,
+    held: float,
+) -> tuple[int, int, float]:
+    """Solve one state by raising friction from the state with all compliance and none of it.
+
+    For where that jams on its way; arguments and returns are those of
+    :func:`solve_yielding_raised`.
+    """
+    none = Rubbing(np.zeros_like(rubbing.share), rubbing.disc_arm, rubbing.carrier_arm)
+    status, steps, torsional = solve_yielding_raised(
+        contacts, springs, load, none, compliance, start, u, approach, forces, work, held
+    )
+    if status != CONVERGED:
+        return status, steps, torsional
+    known, known_approach = u.copy(), approach.copy()
+    reached, rise = 0.0, 1.0
+    while reached < 1.0:
+        share = min(reached + rise, 1.0)
+        some = Rubbing(share * rubbing.share, rubbing.disc_arm, rubbing.carrier_arm)
+        u[:] = known
+        approach[:] = known_approach
+        status, used, torsional = solve_yielding(
+            contacts, springs, load, some, compliance, u, approach, forces, work, held
+        )
+        steps += used
+        if status == CONVERGED:
+            known[:] = u
+            known_approach[:] = approach
+            reached = share
+            continue
+        rise *= 0.5
+        if rise < _LEAST_RISE:
+            return NOT_CONVERGED, steps, torsional
+    return CONVERGED, steps, torsional
+
+
 @numba.njit(cache=True, error_model="numpy", forceinline=True)
 def predict_yielding(result: YieldingResult, turns: Any, a: int) -> None:
     """Start for angle `a` from up to four before it, by Lagrange's polynomial through them.
@@ -368,6 +415,12 @@ def yield_sweep(
             if status == CONVERGED:
                 break
             status, used, left = solve_yielding_raised(
+                here, springs, load, rubs, some, start[a], state, approach, forces, work, held
+            )
+        for held in RIDGES:
+            if status == CONVERGED:
+                break
+            status, used, left = solve_yielding_rubbed(
                 here, springs, load, rubs, some, start[a], state, approach, forces, work, held
             )
         if status != CONVERGED:

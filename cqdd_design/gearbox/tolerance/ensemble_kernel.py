@@ -19,6 +19,7 @@ from cqdd_design.gearbox.contact.compliant_sweep_kernel import (
     predict_yielding,
     solve_yielding,
     solve_yielding_raised,
+    solve_yielding_rubbed,
 )
 from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, NOT_CONVERGED, new_work
 from cqdd_design.gearbox.contact.gaps_kernel import fill_errors
@@ -149,6 +150,20 @@ def _follow(
                         work,
                         ridge,
                     )
+            if status != CONVERGED:
+                status, used, left = solve_yielding_rubbed(
+                    here,
+                    springs,
+                    load,
+                    rubs,
+                    some,
+                    smooth,
+                    state,
+                    approach,
+                    forces,
+                    work,
+                    RIDGES[0],
+                )
         if status != CONVERGED:
             return int(a)
         result.torsional[b] = left
