@@ -5,7 +5,7 @@ Made with this package and reproduced by hand formulas where a comment gives one
 
 Reference gearbox: R 40, r 3, e 1.5 mm, ratio 10, two 8 mm discs, 6 pins of 4 mm on 23 mm, 60 N m.
 Paper's design: R 32, r 3.5, e 1.6 mm, ratio 10, two 8 mm discs 0.5 mm apart, 5 pins of 4 mm on
-19.5 mm held at both ends, at 120 and 40 N m.
+19.5 mm, the cap hinged on them, at 120 and 40 N m.
 """
 
 from __future__ import annotations
@@ -110,12 +110,12 @@ GOLDEN = {
     "cqdd-10 ring_pressure_MPa": 1526.85533,
     "cqdd-10 output_pressure_MPa": 1584.47516,
     "cqdd-10 cam_load_N": 5003.02133,
-    "cqdd-10 pin_bending_peak_MPa": 963.334279,
-    "cqdd-10 pin_bending_continuous_MPa": 321.111426,
+    "cqdd-10 pin_bending_peak_MPa": 2420.66,
+    "cqdd-10 pin_bending_continuous_MPa": 806.886668,
     "cqdd-10 paper_torque_per_pin_Nm": 59.129172,
     "cqdd-10 paper_torque_total_Nm": 295.64586,
     "cqdd-10 shared_torque_capacity_Nm": 140.843678,
-    "cqdd-10 bending_torque_capacity_Nm": 21.2802559,
+    "cqdd-10 bending_torque_capacity_Nm": 8.46876471,
     "cqdd-10 profile_area_mm2": 2584.74703,
     "cqdd-10 thinnest_ligament_mm": 1.9045,
     "cqdd-10 L10h": 201.970139,

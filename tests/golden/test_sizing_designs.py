@@ -12,15 +12,15 @@ from cqdd_design.sizing import SizingInfeasibleError, size
 def test_ratio_10_with_the_defaults():
     result = size(Requirements(ratio=10))
     reducer, pins = result.design.reducer, result.design.reducer.output_pins
-    assert (reducer.ring_pitch_radius, reducer.eccentricity) == (32.75e-3, 1.97e-3)
-    assert (reducer.ring_pin_diameter, reducer.disc_thickness) == (6.6e-3, 8e-3)
-    assert (pins.count, pins.diameter, pins.circle_radius) == (10, 4e-3, 23e-3)
-    assert reducer.cam_bearing.designation == "16003"
+    assert (reducer.ring_pitch_radius, reducer.eccentricity) == (33.5e-3, 1.57e-3)
+    assert (reducer.ring_pin_diameter, reducer.disc_thickness) == (6.5e-3, 9e-3)
+    assert (pins.count, pins.diameter, pins.circle_radius) == (16, 4e-3, 23.6e-3)
+    assert reducer.cam_bearing.designation == "6904"
     assert result.objective.binding == "CONTACT-RING-PEAK"
-    assert result.objective.torque_reserve == pytest.approx(1.0521, abs=2e-4)
-    assert result.objective.mass == pytest.approx(0.3779, abs=1e-4)
+    assert result.objective.torque_reserve == pytest.approx(1.0536, abs=2e-4)
+    assert result.objective.mass == pytest.approx(0.4219, abs=1e-4)
     reserves = [one.objective.torque_reserve for one in result.alternatives]
-    assert reserves == pytest.approx([1.001, 1.128, 1.181], abs=2e-3)
+    assert reserves == pytest.approx([1.010, 1.090, 1.122], abs=2e-3)
 
 
 def test_ratio_10_carries_what_is_known_to_be_possible():
