@@ -45,6 +45,8 @@ from cqdd_design.gearbox.precision.backlash_kernel import OVERLAP, backlash_swee
 BACKLASH, TRANSMISSION_ERROR, RING_FORCE, STIFFNESS, RIPPLE = range(5)
 PRESSURE, CAM_LOAD, PRELOAD, IDLE_TORQUE = range(5, 9)
 RESULTS = 9
+_NEXT_TO_NOTHING = 1e-3
+"""Load of a gearbox without load, over the torque: what hangs loose then has its place."""
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -150,20 +152,21 @@ def _follow(
                         work,
                         ridge,
                     )
-            if status != CONVERGED:
-                status, used, left = solve_yielding_rubbed(
-                    here,
-                    springs,
-                    load,
-                    rubs,
-                    some,
-                    smooth,
-                    state,
-                    approach,
-                    forces,
-                    work,
-                    RIDGES[0],
-                )
+            for ridge in RIDGES:
+                if status != CONVERGED:
+                    status, used, left = solve_yielding_rubbed(
+                        here,
+                        springs,
+                        load,
+                        rubs,
+                        some,
+                        smooth,
+                        state,
+                        approach,
+                        forces,
+                        work,
+                        ridge,
+                    )
         if status != CONVERGED:
             return int(a)
         result.torsional[b] = left
@@ -343,7 +346,7 @@ def _unloaded(
         nominal,
         found,
         springs,
-        Load(0.0, load.scale_stiffness),
+        Load(_NEXT_TO_NOTHING * load.pull, load.scale_stiffness),
         shared.smooth,
         shared.idle,
         (some, _turns(nominal, some)),
