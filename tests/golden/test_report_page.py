@@ -92,7 +92,7 @@ def test_the_paper_s_design_is_told_plainly(page: str, paper_input: ReportInput)
     assert f"{failed} of {total} checks fail" in words
     # The paper's shear figure, and the same screws with shared shear and in bending.
     assert "The paper prints 59.13 N·m a pin and 295.65 N·m in all for these screws" in words
-    for capacity in ("295.65 N·m", "140.84 N·m", "8.469 N·m"):
+    for capacity in ("295.65 N·m", "140.84 N·m", "8.47 N·m"):
         assert capacity in words
 
 
@@ -270,7 +270,7 @@ def test_no_report_is_green_where_its_own_models_say_less(tmp_path_factory):
     short = {one.what: one for one in shortfalls(results)}
     ring = short["ring teeth: Hertz pressure at the ring, peak torque"]
     assert results.machine.design.requirements.peak_torque == 90.0
-    assert 60.0 < float(ring.found.partition("\u2009")[0].partition("\u202f")[0]) < 70.0
+    assert 45.0 < float(ring.found.partition("\u2009")[0].partition("\u202f")[0]) < 60.0
     assert any(what.startswith("life of the ring") for what in short)
     # Each bearing lasts 1000 h by the check, both together do not.
     assert "life of the cam bearings together" in short

@@ -144,9 +144,10 @@ def test_stress_of_s_with_friction_is_reported_where_it_is() -> None:
     found = strength_of_s()
     plain = analyse_bodies(machine_of_s(), friction="off")
     assert found.peak(*LIGAMENTS).stress > 1.05 * plain.peak(*LIGAMENTS).stress
-    assert 100e6 < plain.peak(*LIGAMENTS, "root").stress < 140e6
-    assert found.peak("hole to hole").stress == pytest.approx(-98e6, rel=0.05)
-    assert found.peak("ring").stress == pytest.approx(-20e6, rel=0.1)
+    # Between stiff plates 136 MPa at most; a clamped cap loads the first disc by a quarter more.
+    assert 130e6 < plain.peak(*LIGAMENTS, "root").stress < 170e6
+    assert found.peak("hole to hole").stress == pytest.approx(-118e6, rel=0.05)
+    assert found.peak("ring").stress == pytest.approx(-24.6e6, rel=0.1)
     # At 34.2 N m, of which a place has its share: the peaks are those at 90.
     assert 0.3 < found.swing("root").high / found.peak("root").stress < 0.5
     shape = DiscShape.from_design(machine_of_s().design, 0)

@@ -132,6 +132,8 @@ class ToleranceResult:
         Of every output over `GROUPS`; None where it was not computed.
     base : int
         Size of the sensitivity's base sample.
+    lost : int
+        Gearboxes without an equilibrium at some angle, of those that were worked.
     solves : int
         Equilibria under load.
     seconds : float
@@ -144,6 +146,7 @@ class ToleranceResult:
     values: FloatArray
     sensitivity: tuple[SobolIndices, ...] | None
     base: int
+    lost: int
     solves: int
     seconds: float
     interrupted: bool
@@ -191,6 +194,12 @@ class ToleranceResult:
             done = len(self.values)
             return (f"interrupted after {done} of {self.asked} gearboxes; these are kept.",)
         told = []
+        if self.lost:
+            told.append(
+                f"for {self.lost} of {self.asked} gearboxes no forces were found that carry the torque "
+                "at every angle while the contacts slide: they jam, or are beyond the solver. The "
+                "figures are of the others."
+            )
         if self.ensemble.bodies is None:
             told.append(
                 "discs and ring cannot be meshed and count as rigid, which makes too much of what "
@@ -218,6 +227,7 @@ class ToleranceResult:
         return body | {
             "samples": len(self.values),
             "samples_asked": self.asked,
+            "samples_without_equilibrium": self.lost,
             "sensitivity_base": self.base,
             "angles": self.ensemble.angles,
             "torque_Nm": self.ensemble.torque,
@@ -351,12 +361,14 @@ def run_ensemble(
     if base and not interrupted:
         indices = _sensitivity(values[:base], found[main:], base)
     coarse = int(marked_angles(ensemble.design.reducer.ratio, ensemble.angles).sum())
+    jams = np.isnan(values).any(axis=1)
     return ToleranceResult(
         ensemble=ensemble,
         asked=samples,
-        values=values,
+        values=values[~jams],
         sensitivity=indices,
         base=base,
+        lost=int(jams.sum()),
         solves=done * (ensemble.angles + coarse),
         seconds=time.perf_counter() - began,
         interrupted=interrupted,
@@ -373,6 +385,8 @@ def _sensitivity(
     """Indices of every output from the blocks of B and of every AB_i."""
     rest = np.concatenate([values for values in found if values is not None])
     several = rest.reshape(1 + len(GROUPS), base, len(OUTPUTS))
+    known = ~(np.isnan(a).any(axis=1) | np.isnan(several).any(axis=(0, 2)))
+    a, several = a[known], several[:, known]
     return tuple(
         sobol_indices(a[:, k], several[0, :, k], several[1:, :, k]) for k in range(len(OUTPUTS))
     )

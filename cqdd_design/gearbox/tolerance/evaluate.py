@@ -172,6 +172,8 @@ def evaluate_gearboxes(
 ) -> FloatArray:
     """Results (S, 9) of every gearbox of a batch, in the units and order of `OUTPUTS`.
 
+    Rows of gearboxes that jam at some angle are not numbers.
+
     Parameters
     ----------
     batch : GearboxErrors
@@ -182,7 +184,7 @@ def evaluate_gearboxes(
     Raises
     ------
     ContactError
-        Naming the gearbox and the angle that has no equilibrium.
+        When none of them has an equilibrium, naming an angle.
     """
     import numba
 
@@ -205,13 +207,14 @@ def evaluate_gearboxes(
     with ThreadPoolExecutor(threads or numba.get_num_threads()) as pool:
         for _ in pool.map(work, range(count)):
             pass
-    if np.any(failed >= 0):
+    values[failed >= 0] = np.nan
+    if np.all(failed >= 0):
         which = int(np.flatnonzero(failed >= 0)[0])
         angle = math.degrees(states.crank_angle[failed[which]])
         raise ContactError(
-            f"gearbox {which} of the batch has no contact equilibrium at crank angle {angle:.6g} "
-            f"deg and {torque:g} N*m; its errors are too large for these clearances: "
-            "lower [tolerances], or the clearances."
+            "no gearbox of the batch has a contact equilibrium at every crank angle (number "
+            f"{which} not at {angle:.6g} deg) and {torque:g} N*m; errors are too large for these "
+            "clearances: lower [tolerances], or the clearances."
         )
     n = float(model.lobe_count)
     scale = np.array([_ARCMIN, _ARCMIN, 1.0, 1.0 / _ARCMIN, n, 1e-6, 1.0, 1.0, n])

@@ -79,7 +79,17 @@ def _count(number: int, one: str, many: str = "") -> str:
     return f"{number} {one if number == 1 else many or one + 's'}"
 
 
-_HELD = {"both": "held at both ends", "cantilever": "held at one end"}
+_HELD = {
+    "clamped": "clamped in plate and cap",
+    "hinged": "clamped in the plate and pinned in the cap",
+    "columns": "clamped in the plate and pinned in the cap, with columns",
+}
+
+
+def _held(design: Design) -> str:
+    reducer = design.reducer
+    both = reducer.output_pins.support == "both"
+    return _HELD[reducer.carrier.joint] if both else "held at one end"
 
 
 def pin_figure(analysis: GearboxAnalysis) -> Values:
@@ -99,8 +109,7 @@ def pin_figure(analysis: GearboxAnalysis) -> Values:
             pins.shared_torque_capacity,
         ),
         (
-            "Bending at the peak limit, shared the same way, pins "
-            f"{_HELD[design.reducer.output_pins.support]}",
+            f"Bending at the peak limit, shared the same way, pins {_held(design)}",
             "shared",
             bending,
         ),
