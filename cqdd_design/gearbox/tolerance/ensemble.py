@@ -196,8 +196,8 @@ class ToleranceResult:
         told = []
         if self.lost:
             told.append(
-                f"for {self.lost} of {self.asked} gearboxes no forces were found that carry the torque "
-                "at every angle while the contacts slide: they jam, or are beyond the solver. The "
+                f"for {self.lost} of {self.asked} gearboxes no forces were found that carry the "
+                "torque at every angle while the contacts slide: they jam, or are beyond the solver. The "
                 "figures are of the others."
             )
         if self.ensemble.bodies is None:
