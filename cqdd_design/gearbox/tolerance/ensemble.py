@@ -197,8 +197,8 @@ class ToleranceResult:
         if self.lost:
             told.append(
                 f"for {self.lost} of {self.asked} gearboxes no forces were found that carry the "
-                "torque at every angle while the contacts slide: they jam, or are beyond the solver. The "
-                "figures are of the others."
+                "torque at every angle while the contacts slide: they jam, or are beyond the "
+                "solver. The figures are of the others."
             )
         if self.ensemble.bodies is None:
             told.append(
