@@ -32,7 +32,7 @@ REPORT_STAGES = 6
 #: Toleranced gearboxes of a report, fewer of those with many teeth: percentiles to a few per
 #: cent in some seconds, and never too few for a ranking.
 REPORT_SAMPLES, LEAST_REPORT_SAMPLES = 400, 128
-_CLEARANCE_SAMPLES = 24
+_CLEARANCE_SAMPLES = 16
 _REPORT_ANGLES = 1000
 
 

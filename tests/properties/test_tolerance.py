@@ -27,7 +27,12 @@ from cqdd_design.gearbox.tolerance.ensemble import (
     work_block,
     work_here,
 )
-from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS, ensemble_tables, evaluate_gearboxes
+from cqdd_design.gearbox.tolerance.evaluate import (
+    OUTPUTS,
+    body_compliance,
+    ensemble_tables,
+    evaluate_gearboxes,
+)
 from cqdd_design.gearbox.tolerance.sobol import sobol_indices
 
 PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
@@ -113,8 +118,9 @@ def test_exchanging_a_group_changes_only_it(model: ContactModel) -> None:
 
 def test_numbers_do_not_depend_on_threads_or_blocks() -> None:
     ensemble = make_ensemble(paper(), angles=88)
-    bodies = elastic_bodies(ensemble.design)
-    tables = ensemble_tables(ContactModel.from_design(ensemble.design), 40.0, 88, bodies)
+    model = ContactModel.from_design(ensemble.design)
+    bodies = body_compliance(elastic_bodies(ensemble.design), model, 40.0, 88)
+    tables = ensemble_tables(model, 40.0, 88, bodies)
     errors = draw_errors(tables.model, ensemble.design.tolerances, 0, 0, 12)
     one = evaluate_gearboxes(tables, errors, threads=1)
     assert np.array_equal(one, evaluate_gearboxes(tables, errors, threads=3))

@@ -12,7 +12,7 @@ from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
 from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS
 from cqdd_design.gearbox.tolerance.limits import lasting_hours
 
-EQUIDISTANTS = (0.0, 2e-6, 4e-6, 6e-6, 10e-6)
+EQUIDISTANTS = (0.0, 3e-6, 6e-6, 10e-6)
 """Offsets of the flank that are tried beside the design's own, m."""
 HOLE_SHARES = (0.5, 1.0, 1.5)
 """Hole clearances that are tried, over the design's own."""

@@ -17,7 +17,9 @@ from cqdd_design.gearbox.contact.sweep import output_turn_count
 from cqdd_design.gearbox.tolerance.draws import GROUPS, draw_errors
 from cqdd_design.gearbox.tolerance.evaluate import (
     OUTPUTS,
+    BodyCompliance,
     EnsembleTables,
+    body_compliance,
     ensemble_tables,
     evaluate_gearboxes,
     marked_angles,
@@ -33,6 +35,8 @@ _SENSITIVITY_SHARE, _LEAST_BASE = 8, 16
 once more; with fewer than this many gearboxes it would say nothing and is left out."""
 _MOST_CONTACTS = 6_000_000
 """Contacts times angles that fit into memory comfortably: about half a gigabyte."""
+_MOST_PAIRS = 30_000_000
+"""Pairs of contacts of a disc times angles, likewise: a gigabyte."""
 
 _BEYOND = {
     "unloaded_torque_Nm": f"bind: without load they take more than {BINDING_SHARE:.0%} of the "
@@ -94,8 +98,17 @@ Progress = Callable[[int, int], None]
 @functools.lru_cache(maxsize=2)
 def _tables(ensemble: Ensemble) -> EnsembleTables:
     model = ContactModel.from_design(ensemble.design)
-    bodies = None if ensemble.bodies is None else elastic_bodies(ensemble.bodies)
+    bodies = None
+    if ensemble.bodies is not None:
+        bodies = _yielding(ensemble.bodies, ensemble.torque, ensemble.angles)
     return ensemble_tables(model, ensemble.torque, ensemble.angles, bodies)
+
+
+@functools.lru_cache(maxsize=1)
+def _yielding(design: Design, torque: float, angles: int) -> BodyCompliance:
+    """Other clearances of the same design share it."""
+    model = ContactModel.from_design(design)
+    return body_compliance(elastic_bodies(design), model, torque, angles)
 
 
 def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
@@ -202,8 +215,8 @@ class ToleranceResult:
             )
         if self.ensemble.bodies is None:
             told.append(
-                "discs and ring cannot be meshed and count as rigid, which makes too much of what "
-                "part errors do."
+                "discs and ring count as rigid, because they cannot be meshed or have too many "
+                "contacts for memory; that makes too much of what part errors do."
             )
         beyond = self.beyond()
         for name, words in _BEYOND.items():
@@ -291,8 +304,12 @@ def make_ensemble(
         )
     load = design.requirements.continuous_torque if torque is None else torque
     yielding: Design | None = bodies or design
+    pairs = wanted * contacts**2 / reducer.disc_count
     try:
-        elastic_bodies(bodies or design)
+        if pairs > _MOST_PAIRS:
+            yielding = None
+        else:
+            elastic_bodies(bodies or design)
     except GeometryError:
         yielding = None
     return Ensemble(design, yielding, load, wanted, seed)

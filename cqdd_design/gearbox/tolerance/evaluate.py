@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,11 +89,37 @@ def marked_angles(lobe_count: int, count: int) -> NDArray[np.bool_]:
     return marked
 
 
+class BodyCompliance(NamedTuple):
+    """Compliance of discs and ring between the contacts of the perfect gearbox, (A, D, C, C)."""
+
+    rubbing: FloatArray
+    """With the friction of a motor that drives."""
+    smooth: FloatArray
+    """Without friction."""
+
+
+def body_compliance(
+    bodies: ElasticBodies, model: ContactModel, torque: float, angles: int | None = None
+) -> BodyCompliance:
+    """What discs and ring yield over the output turn; arguments as :func:`ensemble_tables`."""
+    states = nominal_states(model, output_turn_angles(model, angles))
+    share = rubbing(model, states, _driving(model), torque).share
+    cam_force = rigid_cam_force(model, states, torque)
+    return BodyCompliance(
+        compliance(bodies, model, states, cam_force, share),
+        compliance(bodies, model, states, cam_force),
+    )
+
+
+def _driving(model: ContactModel) -> ContactFriction:
+    return ContactFriction("drive", model.tooth_friction, model.hole_friction)
+
+
 def ensemble_tables(
     model: ContactModel,
     torque: float,
     angles: int | None = None,
-    bodies: ElasticBodies | None = None,
+    bodies: BodyCompliance | None = None,
 ) -> EnsembleTables:
     """Prepare an ensemble.
 
@@ -104,9 +130,8 @@ def ensemble_tables(
         secant between half of it and it.
     angles : int, optional
         Crank angles over the output turn, at least 8; default 8 n (n+1), which miss no order.
-    bodies : ElasticBodies, optional
-        Discs and ring, whose compliance counts at the contacts of the perfect gearbox; default
-        rigid.
+    bodies : BodyCompliance, optional
+        Of the same angles, from :func:`body_compliance`; default rigid.
     """
     states = nominal_states(model, output_turn_angles(model, angles))
     marked = marked_angles(model.lobe_count, len(states.crank_angle))
@@ -118,21 +143,17 @@ def ensemble_tables(
 
 
 def _shared(
-    model: ContactModel, states: NominalStates, torque: float, bodies: ElasticBodies | None
+    model: ContactModel, states: NominalStates, torque: float, bodies: BodyCompliance | None
 ) -> Shared:
-    friction = ContactFriction("drive", model.tooth_friction, model.hole_friction)
+    friction = _driving(model)
     teeth = states.ring.equivalent_radius
     rubbed = rubbing(model, states, friction, torque)
-    given = idle = None
-    if bodies is not None:
-        cam_force = rigid_cam_force(model, states, torque)
-        given = compliance(bodies, model, states, cam_force, rubbed.share)
-        idle = compliance(bodies, model, states, cam_force)
+    rubbing_too, alone = bodies or (None, None)
     return Shared(
         rubbing=rubbed,
         smooth=rubbed._replace(share=np.zeros_like(rubbed.share)),
-        compliance=model_compliance(model, given),
-        idle=model_compliance(model, idle),
+        compliance=model_compliance(model, rubbing_too),
+        idle=model_compliance(model, alone),
         worn=Worn(
             slip=np.abs(slip(model, states)),
             pressing=line_contact_pressure(1.0, model.contact_length, teeth, model.ring_modulus)
