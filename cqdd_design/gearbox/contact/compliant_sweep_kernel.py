@@ -320,6 +320,43 @@ def solve_yielding_rubbed(
     return CONVERGED, steps, torsional
 
 
+@numba.njit(cache=True, error_model="numpy")
+def solve_yielding_from(
+    contacts: Contacts,
+    springs: Springs,
+    load: Load,
+    rubbing: Rubbing,
+    compliance: Compliance,
+    start: Any,
+    u: Any,
+    approach: Any,
+    forces: Forces,
+    work: YieldingWork,
+) -> tuple[int, int, float]:
+    """Solve one state from `start`, of held plates and rigid bodies, by every road there is.
+
+    Returns are those of :func:`solve_yielding`.
+    """
+    status, used, left = NOT_CONVERGED, 0, 0.0
+    for held in RIDGES:
+        if status != CONVERGED:
+            status, used, left = solve_yielding_raised(
+                contacts, springs, load, rubbing, compliance, start, u, approach, forces, work, held
+            )
+    for held in RIDGES:
+        if status != CONVERGED:
+            status, used, left = solve_yielding_rubbed(
+                contacts, springs, load, rubbing, compliance, start, u, approach, forces, work, held
+            )
+    return status, used, left
+
+
+@numba.njit(cache=True, error_model="numpy", forceinline=True)
+def rubbing_at(rubbing: Rubbing, a: int) -> Rubbing:
+    """The friction at one of many crank angles."""
+    return Rubbing(rubbing.share[a], rubbing.disc_arm[a], rubbing.carrier_arm[a])
+
+
 @numba.njit(cache=True, error_model="numpy", forceinline=True)
 def predict_yielding(result: YieldingResult, turns: Any, a: int) -> None:
     """Start for angle `a` from up to four before it, by Lagrange's polynomial through them.
@@ -401,7 +438,7 @@ def yield_sweep(
     work = yielding_work(discs, each)
     for a in range(count):
         here = contacts_at(contacts, a)
-        rubs = Rubbing(rubbing.share[a], rubbing.disc_arm[a], rubbing.carrier_arm[a])
+        rubs = rubbing_at(rubbing, a)
         some = compliance_at(compliance, a)
         forces = Forces(result.force[a], result.cam_force[a])
         state, approach = result.states[a], result.approach[a]
@@ -411,17 +448,9 @@ def yield_sweep(
             status, used, left = solve_yielding(
                 here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0]
             )
-        for held in RIDGES:
-            if status == CONVERGED:
-                break
-            status, used, left = solve_yielding_raised(
-                here, springs, load, rubs, some, start[a], state, approach, forces, work, held
-            )
-        for held in RIDGES:
-            if status == CONVERGED:
-                break
-            status, used, left = solve_yielding_rubbed(
-                here, springs, load, rubs, some, start[a], state, approach, forces, work, held
+        if status != CONVERGED:
+            status, used, left = solve_yielding_from(
+                here, springs, load, rubs, some, start[a], state, approach, forces, work
             )
         if status != CONVERGED:
             return a

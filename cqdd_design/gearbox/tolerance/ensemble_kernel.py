@@ -17,9 +17,9 @@ from cqdd_design.gearbox.contact.compliant_sweep_kernel import (
     RIDGES,
     compliance_at,
     predict_yielding,
+    rubbing_at,
     solve_yielding,
-    solve_yielding_raised,
-    solve_yielding_rubbed,
+    solve_yielding_from,
 )
 from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, NOT_CONVERGED, new_work
 from cqdd_design.gearbox.contact.gaps_kernel import fill_errors
@@ -88,11 +88,6 @@ def _slope(
     return slope
 
 
-@numba.njit(cache=True, error_model="numpy", forceinline=True)
-def _rubbing_at(rubbing: Rubbing, a: int) -> Rubbing:
-    return Rubbing(rubbing.share[a], rubbing.disc_arm[a], rubbing.carrier_arm[a])
-
-
 @numba.njit(cache=True, error_model="numpy")
 def _follow(
     nominal: Nominal,
@@ -121,7 +116,7 @@ def _follow(
     smooth = np.empty(3 + 3 * discs)
     for b in range(chosen.size):
         a = chosen[b]
-        here, rubs = contacts_at(over_angles, a), _rubbing_at(rubbing, a)
+        here, rubs = contacts_at(over_angles, a), rubbing_at(rubbing, a)
         some = compliance_at(compliance, a)
         forces = Forces(result.force[b], result.cam_force[b])
         state, approach = result.states[b], result.approach[b]
@@ -136,37 +131,9 @@ def _follow(
             status, _, _ = solve_near(here, springs, load, smooth, forces, held_work)
             if status != CONVERGED:
                 return int(a)
-            status = NOT_CONVERGED
-            for ridge in RIDGES:
-                if status != CONVERGED:
-                    status, used, left = solve_yielding_raised(
-                        here,
-                        springs,
-                        load,
-                        rubs,
-                        some,
-                        smooth,
-                        state,
-                        approach,
-                        forces,
-                        work,
-                        ridge,
-                    )
-            for ridge in RIDGES:
-                if status != CONVERGED:
-                    status, used, left = solve_yielding_rubbed(
-                        here,
-                        springs,
-                        load,
-                        rubs,
-                        some,
-                        smooth,
-                        state,
-                        approach,
-                        forces,
-                        work,
-                        ridge,
-                    )
+            status, used, left = solve_yielding_from(
+                here, springs, load, rubs, some, smooth, state, approach, forces, work
+            )
         if status != CONVERGED:
             return int(a)
         result.torsional[b] = left
