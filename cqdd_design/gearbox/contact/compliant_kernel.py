@@ -9,7 +9,7 @@ W what bodies yield under the forces, and the springs of cams, carrier and pins 
     P' f(a) + K u = load            of every body
 
 Newton's method takes both at once: the contacts that touch are eliminated from
-[1/f' + W, -B; P', K], which leaves the motions alone. :mod:`.compliant_sweep_kernel` solves.
+[1/f' + W, -B; P', K], which leaves the motions alone. :mod:`.compliant_newton_kernel` solves.
 A plain numpy twin stands in ``tests/oracles/contact_carrier_plain.py``.
 """
 

@@ -13,13 +13,15 @@ import numpy as np
 
 from cqdd_design.files.kernel_cache import numba
 from cqdd_design.gearbox.contact.compliant_kernel import yielding_work
-from cqdd_design.gearbox.contact.compliant_sweep_kernel import (
+from cqdd_design.gearbox.contact.compliant_newton_kernel import (
     RIDGES,
+    solve_yielding,
+    solve_yielding_from,
+)
+from cqdd_design.gearbox.contact.compliant_sweep_kernel import (
     compliance_at,
     predict_yielding,
     rubbing_at,
-    solve_yielding,
-    solve_yielding_from,
 )
 from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, NOT_CONVERGED, new_work
 from cqdd_design.gearbox.contact.gaps_kernel import fill_errors
