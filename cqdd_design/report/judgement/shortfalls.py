@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from cqdd_design.report.ink.numbers import with_unit
+from cqdd_design.report.ink.numbers import significant, with_unit
 from cqdd_design.report.input import ReportInput
 
 
@@ -25,8 +25,8 @@ class Shortfall(NamedTuple):
 
 
 def shortfalls(results: ReportInput) -> tuple[Shortfall, ...]:
-    """Requirements that contact equilibrium, life or test bench find not to be met."""
-    return (*_torques(results), *_lives(results), *_bench(results))
+    """Requirements that contact equilibrium, life, ensemble or test bench find not to be met."""
+    return (*_torques(results), *_lives(results), *_ensemble(results), *_bench(results))
 
 
 def _torques(results: ReportInput) -> Iterator[Shortfall]:
@@ -77,6 +77,32 @@ def _lives(results: ReportInput) -> Iterator[Shortfall]:
                 "basic rating life over the duty, by the contact equilibrium",
                 "life",
             )
+
+
+def _ensemble(results: ReportInput) -> Iterator[Shortfall]:
+    """What part errors make of it: gearboxes that bind, and pressures that do not last."""
+    drawn = results.tolerance
+    if drawn is None or not len(drawn.values):
+        return
+    model = f"{len(drawn.values)} gearboxes drawn from the tolerances"
+    bind = drawn.beyond()["unloaded_torque_Nm"]
+    if bind > 0.0:
+        yield Shortfall(
+            "toleranced gearboxes that do not bind without load",
+            f"{100.0 * (1.0 - bind):.1f}\u202f%",
+            "100\u202f%",
+            model,
+            "tolerances",
+        )
+    reserve = drawn.pressure_reserve()
+    if reserve is not None and reserve["p50"] < 1.0:
+        yield Shortfall(
+            "reserve of pressure at the required hours, median of toleranced gearboxes",
+            significant(reserve["p50"], 3),
+            "1",
+            model,
+            "tolerances",
+        )
 
 
 def _bench(results: ReportInput) -> Iterator[Shortfall]:
