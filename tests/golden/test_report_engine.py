@@ -245,7 +245,7 @@ def test_life_tells_what_does_not_last(found: ContactAnalysis) -> None:
 def test_tolerances_show_the_ensemble(ensemble: ToleranceResult) -> None:
     view = tolerance_view(ensemble)
     assert "160 gearboxes" in view["lead"]
-    assert len(view["figures"]) == 4
+    assert len(view["figures"]) == 6
     ranked = ensemble.ranking("backlash_arcmin")
     names = [e.text for e in classed(view["figures"][2], "text", "name-dark")]
     assert names == [group.replace("_", " ") for group, _, _ in ranked]
