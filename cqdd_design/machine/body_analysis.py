@@ -9,7 +9,6 @@ from cqdd_design.gearbox.bodies.made import elastic_bodies
 from cqdd_design.gearbox.bodies.strength import BodyStrength, body_strength
 from cqdd_design.gearbox.checks.bodies import body_checks
 from cqdd_design.gearbox.contact.laws import LineModel
-from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, FrictionChoice
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
@@ -48,7 +47,7 @@ def analyse_bodies(
         When material is too thin to mesh.
     """
     design, usual = machine.design, line_model == "palmgren"
-    model = machine.contact if usual else ContactModel.from_design(design, line_model)
+    model = machine.contact if usual else machine.contact_by(line_model)
     asked = design.requirements
     peak = asked.peak_torque if torque is None else torque
     steady = asked.continuous_torque if torque is None else torque
@@ -65,13 +64,19 @@ def analyse_bodies(
         for name in (design.reducer.disc_material, design.reducer.ring_material)
     ]
     return body_strength(
-        elastic_bodies(design),
+        machine.bodies or elastic_bodies(design),
         states,
         at_peak,
         at_peak if steady == peak else both(steady),
         reverses=min(senses, default=0.0) < 0.0 < max(senses, default=0.0),
         ultimate=(strengths[0], strengths[1]),
     )
+
+
+def no_stress(machine: Machine, why: str) -> str:
+    """A sentence on bodies whose stress is not known."""
+    rigid = ", which count as rigid in the equilibrium" if machine.bodies is None else ""
+    return f"no stress of discs and ring{rigid}: {why}"
 
 
 def judged_bodies(

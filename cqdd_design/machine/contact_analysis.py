@@ -109,7 +109,7 @@ def analyse_contact(
         When the gearbox has no equilibrium at the torque, naming torque and angle.
     """
     design, usual = machine.design, line_model == "palmgren"
-    model = machine.contact if usual else ContactModel.from_design(design, line_model)
+    model = machine.contact if usual else machine.contact_by(line_model)
     states = nominal_states(model, perfect_angles(model, angles))
     asked = design.requirements
     peak = asked.peak_torque if torque is None else torque

@@ -22,6 +22,8 @@ from cqdd_design.solids.throw import throw_of
 if TYPE_CHECKING:
     from cqdd_design.gearbox.analysis import GearboxAnalysis
     from cqdd_design.gearbox.balance import StackBalance
+    from cqdd_design.gearbox.bodies.compliance import ElasticBodies
+    from cqdd_design.gearbox.contact.laws import LineModel
     from cqdd_design.gearbox.contact.model import ContactModel
     from cqdd_design.gearbox.losses import FrictionMachine, LossModel
     from cqdd_design.gearbox.losses.rolling import BearingFriction
@@ -127,9 +129,26 @@ class Machine:
     @cached_property
     def contact(self) -> ContactModel:
         """What the contact equilibrium needs."""
+        return self.contact_by("palmgren")
+
+    def contact_by(self, line_model: LineModel) -> ContactModel:
+        """The same with another law of approach at teeth and pins."""
         from cqdd_design.gearbox.contact.model import ContactModel
 
-        return ContactModel.from_design(self.design)
+        return replace(ContactModel.from_design(self.design, line_model), bodies=self.bodies)
+
+    @cached_property
+    def bodies(self) -> ElasticBodies | None:
+        """Discs and ring as elastic bodies; None where material is too thin to mesh.
+
+        Of discs with more lobes than there is memory for, likewise.
+        """
+        from cqdd_design.gearbox.bodies.made import elastic_bodies
+
+        try:
+            return elastic_bodies(self.design)
+        except GeometryError:
+            return None
 
     @cached_property
     def friction(self) -> FrictionMachine:

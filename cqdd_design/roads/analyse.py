@@ -11,7 +11,7 @@ from cqdd_design.gearbox.bodies.strength import BodyStrength
 from cqdd_design.gearbox.contact.laws import LineModel
 from cqdd_design.gearbox.contact.rubbing import FrictionChoice
 from cqdd_design.machine import Machine, resolve
-from cqdd_design.machine.body_analysis import analyse_bodies, judged_bodies
+from cqdd_design.machine.body_analysis import analyse_bodies, judged_bodies, no_stress
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
 from cqdd_design.results import Check
 
@@ -52,8 +52,10 @@ class Analysis:
         """What was not checked or cannot be relied on."""
         if self.contact is None:
             return (*self.gearbox.warnings, f"no contact analysis: {self.missing}")
-        bodies = (f"no stress of discs and ring: {self.bodies_missing}",) if not self.bodies else ()
-        return (*self.gearbox.warnings, *self.contact.warnings, *bodies)
+        if self.bodies is not None:
+            return (*self.gearbox.warnings, *self.contact.warnings)
+        told = no_stress(self.machine, self.bodies_missing)
+        return (*self.gearbox.warnings, *self.contact.warnings, told)
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form (``results`` of ``analyse``)."""

@@ -14,7 +14,7 @@ from cqdd_design.gearbox.bodies.strength import BodyStrength
 from cqdd_design.gearbox.tolerance.clearance import ClearancePoint, clearance_study
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
 from cqdd_design.machine import Machine
-from cqdd_design.machine.body_analysis import judged_bodies
+from cqdd_design.machine.body_analysis import judged_bodies, no_stress
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
 from cqdd_design.machine.weighing import weigh_if_possible
 from cqdd_design.report import ReportInput, build_report, read_comments
@@ -137,7 +137,7 @@ def _stress(
     try:
         checks, strength = judged_bodies(machine)
     except (ContactError, GeometryError) as error:
-        return None, (), (f"no stress of discs and ring: {error.message}",)
+        return None, (), (no_stress(machine, error.message),)
     return strength, checks, ()
 
 

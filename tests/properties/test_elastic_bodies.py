@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bodies_plain import held, plain_disc_compliance, plain_ring_compliance
 from disc_patches import DiscPatches
 
 from cqdd_design.design import Design
@@ -119,7 +120,7 @@ def on_springs(shape: DiscShape, body: Body, ids: list[int], stiffness: np.ndarr
     reading = body.matrix[np.ix_(loads, np.arange(first, len(body.matrix)))]
     found = bore.reactions(reading, body.matrix[first:, first:], push, radial, stiffness)
     contacts = body.matrix[np.ix_(loads, loads)]
-    return bore.held(contacts, reading, push, push, radial, stiffness, found)
+    return held(contacts, reading, push, push, radial, stiffness, found)
 
 
 @pytest.mark.parametrize(
@@ -170,6 +171,23 @@ def test_mesh_does_not_matter(factor: float) -> None:
     other = disc_body(dataclasses.replace(shape, side=factor * shape.side)).matrix
     assert np.diag(other) == pytest.approx(np.diag(body.matrix), rel=3e-2)
     assert np.abs(other - body.matrix).max() < 1e-2 * np.abs(body.matrix).max()
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.2])
+def test_kernels_agree_with_their_plain_twins(mu: float) -> None:
+    """On elements under one side, with friction that changes its sense from contact to contact."""
+    bodies, (model, states) = bodies_of_s(), states_of_s()
+    shape, body = bodies.discs[1]
+    slip = mu * np.sign(np.sin(np.arange(36 * 21).reshape(36, 21)))
+    stiffness = under_disc(shape, model, states, 1, np.full((36, 2), 700.0))
+    given = (model, states, 1)
+    ours = disc_compliance(shape, body, *given, stiffness, slip if mu else None)
+    plain = plain_disc_compliance(shape, body, *given, stiffness, slip)
+    assert np.abs(ours - plain).max() < 1e-12 * np.abs(plain).max()
+    teeth = slip[:, :11]
+    ours = ring_compliance(*bodies.ring, *given, teeth if mu else None)
+    plain = plain_ring_compliance(*bodies.ring, *given, teeth)
+    assert np.abs(ours - plain).max() < 1e-12 * np.abs(plain).max()
 
 
 def test_the_depth_of_the_cut_does_not_matter_to_law_and_body_together() -> None:
@@ -266,7 +284,9 @@ def test_no_forces_draw_energy_out_of_bodies_however_deep_a_law_counts(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Own terms rise by one amount an angle; what is between contacts stays."""
-    bodies, (model, states) = bodies_of_s(), states_of_s()
+    bodies, model = bodies_of_s(), states_of_s()[0]
+    # Of its own: what is found at the others' states is kept.
+    states = dataclasses.replace(states_of_s()[1])
     cam = np.full((36, 2, 2), 700.0)
     deep = lambda model, radius: 2 * (np.full(radius.shape, 1.0),)  # noqa: E731
     monkeypatch.setattr(compliance_module, "ring_depths", deep)

@@ -55,7 +55,7 @@ def model_of(changes: tuple[tuple[str, object], ...] = ()) -> LossModel:
 
 @lru_cache(maxsize=8)
 def paper_sweep(torque: float, sense: FrictionChoice = "drive") -> ContactSweep:
-    model = ContactModel.from_design(PAPER)
+    model = resolve(PAPER).contact
     return contact_sweep(model, torque, friction=ContactFriction.of(model, sense))
 
 
@@ -470,7 +470,7 @@ def test_map_holds_the_single_points() -> None:
 @given(st.floats(0.2, 120.0))
 @settings(max_examples=examples(25), deadline=None)
 def test_torques_between_the_sweeps_are_good_to_three_per_mille(torque: float) -> None:
-    contacts = ContactModel.from_design(PAPER)
+    contacts = resolve(PAPER).contact
     for sense in SENSES:
         sweep = contact_sweep(contacts, torque, friction=ContactFriction.of(contacts, sense))
         exact = sum(model_of().machine.coulomb_work(sweep).values())

@@ -140,37 +140,3 @@ def reactions(
     drift = np.linalg.solve(across @ by_motion, unbalanced)
     forces = -root[..., None] * (by_load + by_motion @ drift)
     return Reactions(np.asarray(forces, dtype=float), np.asarray(drift, dtype=float))
-
-
-def held(
-    contacts: FloatArray,
-    to_stations: FloatArray,
-    read: FloatArray,
-    load: FloatArray,
-    radial: FloatArray,
-    stiffness: FloatArray,
-    found: Reactions,
-) -> FloatArray:
-    """Compliance between loads of a disc on its rolling elements, less that of a rigid disc.
-
-    Parameters
-    ----------
-    contacts : array (..., C, C)
-        With the reactions spread evenly round the raceway, m/N.
-    to_stations : array (..., C, B)
-        The same between where displacements are read and the stations.
-    read, load : array (..., C, 2)
-        Directions in which displacements are read and unit loads act.
-    radial, stiffness
-        As in :func:`reactions`.
-    found : Reactions
-        To the unit loads.
-
-    Returns
-    -------
-    array (..., C, C)
-        m/N.
-    """
-    elastic = contacts + to_stations @ found.stations + read @ found.drift
-    seat = np.swapaxes(radial, -1, -2) @ (stiffness[..., None] * radial)
-    return np.asarray(elastic - read @ np.linalg.solve(seat, np.swapaxes(load, -1, -2)))

@@ -14,7 +14,8 @@ none of.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +31,6 @@ from cqdd_design.gearbox.contact.states import NominalStates
 from cqdd_design.gearbox.disc_forces import disc_forces
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
-_ANGLES_AT_ONCE = 48
 _LEAST_CAM_FORCE = 1.0
 """Below it the bearing's springs are taken at this load, N."""
 _LEAST_EIGENVALUE = 1e-9
@@ -43,6 +43,19 @@ class ElasticBodies:
 
     discs: tuple[tuple[DiscShape, Body], ...]
     ring: tuple[RingShape, Body]
+
+    def compliance(
+        self,
+        model: ContactModel,
+        states: NominalStates,
+        torque: float,
+        tangential: FloatArray | None = None,
+    ) -> FloatArray:
+        """Compliance between the contacts of every disc under a torque on the carrier, N m.
+
+        Arguments and result as :func:`compliance`; the cam forces are those of the rigid law.
+        """
+        return compliance(self, model, states, rigid_cam_force(model, states, torque), tangential)
 
 
 def compliance(
@@ -70,20 +83,72 @@ def compliance(
     array (A, D, C, C)
         Displacement along each contact's normal by unit normal forces, m/N.
     """
-    teeth = model.tooth_count
+    found = []
+    for index, direct in enumerate(_direct(bodies, model, states)):
+        shape, body = bodies.discs[index]
+        stiffness = under_disc(shape, model, states, index, cam_force[:, index])
+        slip = None if tangential is None else tangential[:, index]
+        smooth, rubbing = direct.held((shape, body), stiffness, slip)
+        found.append(smooth if rubbing is None else rubbing)
+        found[-1] = without_gain(found[-1], smooth)
+    return np.stack(found, axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class _Direct:
+    """Compliance between the contacts of one disc with the bore's reactions spread evenly.
+
+    Attributes
+    ----------
+    spots : Spots
+        On the disc.
+    pushed, rubbed : array (A, C, C)
+        Displacement along a contact's normal by a unit force along the normal of another, and along
+        its tangent, m/N; of the ring too where it is asked for.
+    """
+
+    spots: Spots
+    pushed: FloatArray
+    rubbed: FloatArray
+
+    def held(
+        self, disc: tuple[DiscShape, Body], stiffness: FloatArray, slip: FloatArray | None
+    ) -> tuple[FloatArray, FloatArray | None]:
+        """The same on the bearing's rolling elements, without friction and with it."""
+        from cqdd_design.gearbox.bodies.compliance_kernel import add_bearing
+
+        shape, matrix = disc[0], disc[1].matrix
+        loads = len(matrix) - len(shape.stations)
+        smooth, normal = self.pushed.copy(), self.spots.normal
+        rubbing = np.empty((0, 0, 0)) if slip is None else smooth + self.rubbed * slip[:, None, :]
+        hold: Any = add_bearing
+        hold(
+            self.spots.near,
+            self.spots.share,
+            np.ascontiguousarray(matrix[0:loads:2, loads:]),
+            np.ascontiguousarray(matrix[1:loads:2, loads:]),
+            np.ascontiguousarray(matrix[loads:, loads:]),
+            np.stack([np.cos(shape.stations), np.sin(shape.stations)], axis=-1),
+            np.ascontiguousarray(stiffness),
+            np.stack([normal.real, normal.imag], axis=-1),
+            np.zeros(normal.shape) if slip is None else np.ascontiguousarray(slip),
+            smooth,
+            rubbing,
+        )
+        return smooth, None if slip is None else rubbing
+
+
+@lru_cache(maxsize=2)
+def _direct(
+    bodies: ElasticBodies, model: ContactModel, states: NominalStates
+) -> tuple[_Direct, ...]:
+    """Of every disc and the ring; many torques at the same angles share it."""
     found = []
     for index, (shape, body) in enumerate(bodies.discs):
-        slip = None if tangential is None else tangential[:, index]
-        stiffness = under_disc(shape, model, states, index, cam_force[:, index])
-        both = disc_compliance(shape, body, model, states, index, stiffness, slip)
-        ring_slip = None if slip is None else slip[:, :teeth]
-        both[:, :teeth, :teeth] += ring_compliance(*bodies.ring, model, states, index, ring_slip)
-        plain = both
-        if slip is not None:
-            plain = disc_compliance(shape, body, model, states, index, stiffness)
-            plain[:, :teeth, :teeth] += ring_compliance(*bodies.ring, model, states, index)
-        found.append(without_gain(both, plain))
-    return np.stack(found, axis=1)
+        direct = _of_disc(shape, body, model, states, index)
+        _add_ring(bodies.ring, model, states, index, direct.pushed, direct.rubbed)
+        found.append(direct)
+    return tuple(found)
 
 
 def without_gain(matrix: FloatArray, plain: FloatArray) -> FloatArray:
@@ -197,37 +262,46 @@ def _lagrange(part: FloatArray) -> FloatArray:
     )
 
 
-def _between(
-    matrix: FloatArray, plate: Plate, spots: Spots, depth: FloatArray, tangential: FloatArray
-) -> FloatArray:
-    """Compliance (A, C, C) along the normals by unit forces along normal + tangential x tangent."""
-    near, share = spots.near, spots.share
-    found = np.empty((*near.shape[:2], near.shape[1]))
+def _add_contacts(
+    matrix: FloatArray,
+    plate: Plate,
+    spots: Spots,
+    depth: FloatArray,
+    pushed: FloatArray,
+    rubbed: FloatArray,
+) -> None:
+    """Add a body's compliance, by the loads of its matrix that stand at places."""
+    from cqdd_design.gearbox.bodies.compliance_kernel import add_contacts
+
+    to_normals = matrix[0::2]
     deeper = np.log(depth / DEPTH) * 2.0 / (np.pi * plate.modulus * plate.thickness)
-    size = 2 * (matrix.shape[0] // 2)
-    normal, shear = matrix[0:size:2, 0:size:2], matrix[0:size:2, 1:size:2]
-    rubbing = bool(np.any(tangential))
-    for first in range(0, len(near), _ANGLES_AT_ONCE):
-        some = slice(first, first + _ANGLES_AT_ONCE)
-        rows, columns = near[some, :, None, :, None], near[some, None, :, None, :]
-        weights = (share[some, :, None, :], share[some, None, :, :])
-        path = np.einsum("aijkl,aijk,aijl->aij", normal[rows, columns], *_spread(*weights))
-        if rubbing:
-            across = np.einsum("aijkl,aijk,aijl->aij", shear[rows, columns], *_spread(*weights))
-            path = path + across * tangential[some, None, :]
-        found[some] = path
-    own = np.einsum("ack,ack->ac", np.diag(normal)[near], share)
-    if rubbing:
-        own = own + tangential * np.einsum("ack,ack->ac", np.diag(shear)[near], share)
-    diagonal = np.arange(near.shape[1])
-    found[:, diagonal, diagonal] = own - deeper
-    return found
+    fill: Any = add_contacts
+    fill(
+        spots.near,
+        spots.share,
+        np.ascontiguousarray(to_normals[:, 0::2]),
+        np.ascontiguousarray(to_normals[:, 1::2]),
+        deeper,
+        pushed,
+        rubbed,
+    )
 
 
-def _spread(left: FloatArray, right: FloatArray) -> tuple[FloatArray, FloatArray]:
-    angles, count = left.shape[0], left.shape[1]
-    shape = (angles, count, count, 4)
-    return np.broadcast_to(left, shape), np.broadcast_to(right, shape)
+def _of_disc(
+    shape: DiscShape, body: Body, model: ContactModel, states: NominalStates, disc_index: int
+) -> _Direct:
+    spots = disc_spots(shape, model, states, disc_index)
+    depth = np.concatenate(
+        [
+            ring_depths(model, states.ring.equivalent_radius[:, disc_index])[1],
+            np.full((len(states.crank_angle), shape.hole_count), pin_depth(model)),
+        ],
+        axis=1,
+    )
+    loads, contacts = len(body.matrix) - len(shape.stations), depth.shape[1]
+    pushed, rubbed = np.zeros((2, len(depth), contacts, contacts))
+    _add_contacts(body.matrix[:loads, :loads], shape.plate, spots, depth, pushed, rubbed)
+    return _Direct(spots, pushed, rubbed)
 
 
 def disc_compliance(
@@ -258,31 +332,9 @@ def disc_compliance(
     array (A, C, C)
         Displacement along each contact's normal by unit normal forces, m/N.
     """
-    matrix = body.matrix
-    spots = disc_spots(shape, model, states, disc_index)
-    slip = np.zeros(spots.normal.shape) if tangential is None else tangential
-    depth = np.concatenate(
-        [
-            ring_depths(model, states.ring.equivalent_radius[:, disc_index])[1],
-            np.full((len(states.crank_angle), shape.hole_count), pin_depth(model)),
-        ],
-        axis=1,
-    )
-    contacts = _between(matrix, shape.plate, spots, depth, slip)
-    count = len(shape.stations)
-    loads = matrix.shape[0] - count
-    normal, shear = matrix[0:loads:2, loads:], matrix[1:loads:2, loads:]
-    near, share = spots.near, spots.share
-    reading = np.einsum("ackb,ack->acb", normal[near], share)
-    acting, pushed = reading, spots.normal
-    if tangential is not None:
-        acting = reading + slip[..., None] * np.einsum("ackb,ack->acb", shear[near], share)
-        pushed = spots.normal * (1.0 + 1j * slip)
-    radial = np.stack([np.cos(shape.stations), np.sin(shape.stations)], axis=-1)
-    load = np.stack([pushed.real, pushed.imag], axis=-1)
-    read = np.stack([spots.normal.real, spots.normal.imag], axis=-1)
-    found = bore.reactions(acting, matrix[loads:, loads:], load, radial, stiffness)
-    return bore.held(contacts, reading, read, load, radial, stiffness, found)
+    direct = _of_disc(shape, body, model, states, disc_index)
+    smooth, rubbing = direct.held((shape, body), stiffness, tangential)
+    return smooth if rubbing is None else rubbing
 
 
 def ring_spots(shape: RingShape, states: NominalStates, disc_index: int) -> Spots:
@@ -301,6 +353,25 @@ def ring_spots(shape: RingShape, states: NominalStates, disc_index: int) -> Spot
     return Spots(first[..., None] + np.arange(-1, 3), share, normal)
 
 
+def _add_ring(
+    ring: tuple[RingShape, Body],
+    model: ContactModel,
+    states: NominalStates,
+    disc_index: int,
+    pushed: FloatArray,
+    rubbed: FloatArray,
+) -> None:
+    """Add the ring between the teeth that a disc works on."""
+    shape, body = ring
+    spots = ring_spots(shape, states, disc_index)
+    if shape.pockets:
+        # The pocket is no contact of the law's: a pin of radius r spreads its force over it.
+        depth = np.full(spots.normal.shape, shape.tooth_radius)
+    else:
+        depth = ring_depths(model, states.ring.equivalent_radius[:, disc_index])[0]
+    _add_contacts(body.matrix, shape.plate, spots, depth, pushed, rubbed)
+
+
 def ring_compliance(
     shape: RingShape,
     body: Body,
@@ -313,11 +384,6 @@ def ring_compliance(
 
     The teeth of other discs' planes are left out: each disc has its own slice of the ring.
     """
-    spots = ring_spots(shape, states, disc_index)
-    slip = np.zeros(spots.normal.shape) if tangential is None else tangential
-    if shape.pockets:
-        # The pocket is no contact of the law's: a pin of radius r spreads its force over it.
-        depth = np.full(spots.normal.shape, shape.tooth_radius)
-    else:
-        depth = ring_depths(model, states.ring.equivalent_radius[:, disc_index])[0]
-    return _between(body.matrix, shape.plate, spots, depth, slip)
+    pushed, rubbed = np.zeros((2, len(states.crank_angle), shape.tooth_count, shape.tooth_count))
+    _add_ring((shape, body), model, states, disc_index, pushed, rubbed)
+    return pushed if tangential is None else pushed + rubbed * tangential[:, None, :]

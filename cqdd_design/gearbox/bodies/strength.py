@@ -184,7 +184,6 @@ class BodyStrength:
                 "bore_free": self.give_free.to_dict(),
                 "bore_round": self.give_round.to_dict(),
             },
-            "in_equilibrium": False,
             "reciprocity": self.reciprocity,
             "stress": [one.to_dict() for one in self.peaks],
             "cycles": [one.to_dict() for one in self.swings],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,6 +21,30 @@ from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
+
+
+class YieldingBodies(Protocol):
+    """Discs and ring that give way: :class:`..bodies.compliance.ElasticBodies`."""
+
+    def compliance(
+        self,
+        model: Any,
+        states: Any,
+        torque: float,
+        tangential: FloatArray | None = None,
+    ) -> FloatArray:
+        """Closing (A, D, C, C) that contacts of a disc lose by unit forces of others, m/N.
+
+        Parameters
+        ----------
+        model, states
+            A :class:`ContactModel`, and the :class:`.states.NominalStates` of its perfect gearbox.
+        torque : float
+            On the carrier, N m.
+        tangential : array (A, D, C), optional
+            Force along the tangent over the normal force, signed.
+        """
+        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +81,8 @@ class ContactModel(Stages):
         Between pin and sleeve or roller, the c of ``delta = c F^0.9``, N and m; 0 without.
     ring_pin_series : array (D, 1) or None
         Compliance at every disc of ring pins that rollers leave free between their ends, m/N.
+    bodies : YieldingBodies or None
+        Discs and ring, where plate and cap turn apart; None where they are rigid.
     """
 
     disc: CycloidDisc
@@ -76,6 +103,7 @@ class ContactModel(Stages):
     roller_play: float = 0.0
     roller_coefficient: float = 0.0
     ring_pin_series: FloatArray | None = None
+    bodies: YieldingBodies | None = None
 
     @classmethod
     def from_design(cls, design: Design, line_model: LineModel = "palmgren") -> ContactModel:

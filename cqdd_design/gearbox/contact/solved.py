@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,11 +11,15 @@ from numpy.typing import NDArray
 from cqdd_design.errors import UsageError
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
+from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.hertz import line_contact_pressure
 from cqdd_design.gearbox.output_pins import bending_modulus
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 IntArray = NDArray[np.int64]
+
+_STEP = 1e-3
+"""Half of the turn of the crank over which the change of a compliance is taken, rad."""
 
 
 def _load(force: FloatArray, tangential: FloatArray, normal: FloatArray) -> FloatArray:
@@ -63,9 +68,8 @@ class ContactSweep:
         m; zero where the carrier's bearing is rigid.
     energy : array (A,)
         Pi = E - T gamma, J.
-    energy_slope : array (A,)
-        Work of the contacts per radian of the crank at a held state, N m: without friction
-        dPi/dphi, and the input torque is T/n plus this.
+    contact_slope : array (A,)
+        Work of the contacts per radian of the crank at a held state, with bodies as they are, N m.
     stiffness : array (A,)
         Tangent dT/dgamma, N m/rad; zero where nothing touches.
     steps : array (A,)
@@ -94,7 +98,7 @@ class ContactSweep:
     cap_angle_error: FloatArray | None
     carrier_displacement: FloatArray
     energy: FloatArray
-    energy_slope: FloatArray
+    contact_slope: FloatArray
     stiffness: FloatArray
     steps: IntArray
 
@@ -111,6 +115,27 @@ class ContactSweep:
         """Angle errors of the carrier's plates, its own and the cap's, (A, 2) or (A, 1), rad."""
         both = (self.carrier_angle_error, self.cap_angle_error)
         return np.column_stack([angle for angle in both if angle is not None])
+
+    @cached_property
+    def energy_slope(self) -> FloatArray:
+        """Work of contacts and bodies per radian of the crank at a held state, (A,), N m.
+
+        Without friction dPi/dphi, and the input torque is T/n plus this. What bodies yield changes
+        with where they are pushed; friction is left out of that.
+        """
+        model, force = self.model, np.concatenate([self.ring_force, self.pin_force], axis=2)
+        if model.bodies is None or model.pin is None:
+            return self.contact_slope
+        slope = self.contact_slope.copy()
+        beside = [nominal_states(model, self.crank_angle + step) for step in (_STEP, -_STEP)]
+        each = beside[0].compliances_at_once
+        for some in (slice(first, first + each) for first in range(0, len(slope), each)):
+            ahead, behind = (
+                model.bodies.compliance(model, states.some(some), self.torque) for states in beside
+            )
+            rate = (ahead - behind) / (2.0 * _STEP)
+            slope[some] -= 0.5 * np.einsum("adc,adce,ade->a", force[some], rate, force[some])
+        return slope
 
     @property
     def ring_load(self) -> FloatArray:

@@ -14,6 +14,8 @@ from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.contours import FloatArray
 
 _ANGLES_AT_ONCE = 256
+_COMPLIANCES = 16_000_000
+"""Numbers of compliances that are kept at once: 128 MB, and twice that while they are made."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +47,22 @@ class NominalStates:
     coefficient: FloatArray
     rates: FloatArray
     length: float
+
+    def some(self, which: slice) -> NominalStates:
+        """Those of some of the crank angles."""
+        ring = RingTable(**{name: value[which] for name, value in vars(self.ring).items()})
+        parts = {
+            name: value if name == "length" else value[which]
+            for name, value in vars(self).items()
+            if name != "ring"
+        }
+        return NominalStates(ring=ring, **parts)
+
+    @property
+    def compliances_at_once(self) -> int:
+        """At how many angles compliances between all contacts of discs fit into memory."""
+        _, discs, contacts = self.gaps.shape
+        return max(int(_COMPLIANCES // (discs * contacts**2)), 1)
 
     @property
     def turns(self) -> FloatArray:

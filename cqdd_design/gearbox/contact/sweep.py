@@ -134,7 +134,7 @@ class _Found(NamedTuple):
     result: SweepResult
     cap_angle: FloatArray | None
     energy: FloatArray
-    energy_slope: FloatArray
+    contact_slope: FloatArray
 
 
 def _with_friction(
@@ -189,7 +189,49 @@ def _joined(
     """Equilibria of plates that turn apart as the carrier is built, from those of one body."""
     if model.pin is None:
         return _held(model, torque, states, changed, start)
-    compliance = model_compliance(model)
+    count = len(states.crank_angle)
+    each = count if model.bodies is None else states.compliances_at_once
+    if count <= each:
+        return _joined_some(model, torque, states, changed, friction, start)
+    # A compliance of bodies takes memory by the square of the contacts: a part of them at a time.
+    parts = []
+    for first in range(0, count, each):
+        some = slice(first, first + each)
+        of_errors = Toleranced(
+            gaps=changed.gaps[some],
+            gap_rates=changed.gap_rates[some],
+            offset=changed.offset[some],
+            offset_rates=changed.offset_rates[some],
+            half_play=changed.half_play,
+        )
+        near = SweepResult._make(array[some] for array in start)
+        parts.append(_joined_some(model, torque, states.some(some), of_errors, friction, near))
+    result = SweepResult._make(
+        np.concatenate(arrays) for arrays in zip(*(part.result for part in parts), strict=True)
+    )
+    caps = [part.cap_angle for part in parts if part.cap_angle is not None]
+    return _Found(
+        result,
+        np.concatenate(caps) if caps else None,
+        np.concatenate([part.energy for part in parts]),
+        np.concatenate([part.contact_slope for part in parts]),
+    )
+
+
+def _joined_some(
+    model: ContactModel,
+    torque: float,
+    states: NominalStates,
+    changed: Toleranced,
+    friction: ContactFriction | None,
+    start: SweepResult,
+) -> _Found:
+    """Equilibria of :func:`_joined` at so many angles that their compliance fits into memory."""
+    bodies = None
+    if model.bodies is not None:
+        share = None if friction is None else rubbing(model, states, friction, torque).share
+        bodies = model.bodies.compliance(model, states, torque, share)
+    compliance = model_compliance(model, bodies)
     found = compliant_states(model, torque, states, changed, start, compliance, friction)
     result = SweepResult(
         states=np.delete(found.states, 3, axis=1),
@@ -295,7 +337,7 @@ def _assemble(
         cap_angle_error=found.cap_angle,
         carrier_displacement=state[:, :2],
         energy=found.energy,
-        energy_slope=found.energy_slope,
+        contact_slope=found.contact_slope,
         stiffness=np.where(touching, np.maximum(result.torsional, 0.0) * length**2, 0.0),
         steps=result.steps,
     )
