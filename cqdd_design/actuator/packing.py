@@ -46,13 +46,20 @@ def table_points(gear: GearParameters) -> int:
 
 def gear_table(gear: GearParameters, points: int) -> FloatArray:
     """Kinematic error and stiffness share with their slopes per interval, (points, 4)."""
-    turn = 2.0 * math.pi * abs(gear.ratio)
-    angle = turn * np.arange(points) / points
-    error, error_slope = _series(gear, gear.error_cosine, gear.error_sine, angle)
-    share, share_slope = _series(gear, gear.stiffness_cosine, gear.stiffness_sine, angle)
-    interval = turn / points
-    columns = (error, error_slope * interval, 1.0 + share, share_slope * interval)
-    return np.ascontiguousarray(np.column_stack(columns))
+    orders = np.asarray(gear.error_orders, dtype=np.int64)
+    lines = np.stack(
+        [
+            gear.error_cosine - 1j * np.asarray(gear.error_sine),
+            gear.stiffness_cosine - 1j * np.asarray(gear.stiffness_sine),
+        ]
+    )
+    # Sums over evenly spaced points; an order beyond them falls on the one it looks like.
+    spectrum = np.zeros((2, 2, points), dtype=complex)
+    np.add.at(spectrum[:, 0].T, orders % points, lines.T)
+    np.add.at(spectrum[:, 1].T, orders % points, (2j * np.pi / points * orders * lines).T)
+    table = points * np.fft.ifft(spectrum).real.reshape(4, points)
+    table[2] += 1.0
+    return np.ascontiguousarray(table.T)
 
 
 def pack(parameters: ActuatorParameters, scenario: Scenario, step: float) -> Constants:

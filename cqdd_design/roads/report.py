@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import closing, nullcontext
 from pathlib import Path
 from typing import NamedTuple
 
@@ -31,8 +32,8 @@ REPORT_STAGES = 6
 
 #: Toleranced gearboxes of a report, fewer of those with many teeth: percentiles to a few per
 #: cent in some seconds, and never too few for a ranking.
-REPORT_SAMPLES, LEAST_REPORT_SAMPLES = 400, 128
-_CLEARANCE_SAMPLES = 16
+REPORT_SAMPLES, LEAST_REPORT_SAMPLES = 256, 128
+_CLEARANCE_SAMPLES = 12
 _REPORT_ANGLES = 1000
 
 
@@ -89,18 +90,18 @@ def write_report(
     machine = specimen.machine(design)
     analysis = machine.analysis
     bodies, notes = weigh_if_possible(machine)
-    drawing = start_drawing(machine) if bodies else None
-    contact, ensemble, unsolved = _contact_and_tolerances(machine, samples, progress)
-    stress, stress_checks, unstressed = _stress(machine, contact)
-    clearances: tuple[ClearancePoint, ...] = ()
-    if ensemble is not None:
-        angles = ensemble.ensemble.angles
-        fitting = max(_CLEARANCE_SAMPLES * _REPORT_ANGLES // max(angles, _REPORT_ANGLES), 8)
-        clearances = clearance_study(machine.design, fitting, angles)
-    progress("measuring the actuator on the test bench")
-    measured, unmeasured = measured_actuator(machine, specimen)
-    progress("drawing the machine")
-    pictures = None if drawing is None else drawing.fetch()
+    with closing(start_drawing(machine)) if bodies else nullcontext() as drawing:
+        contact, ensemble, unsolved = _contact_and_tolerances(machine, samples, progress)
+        stress, stress_checks, unstressed = _stress(machine, contact)
+        clearances: tuple[ClearancePoint, ...] = ()
+        if ensemble is not None:
+            angles = ensemble.ensemble.angles
+            fitting = max(_CLEARANCE_SAMPLES * _REPORT_ANGLES // max(angles, _REPORT_ANGLES), 8)
+            clearances = clearance_study(machine.design, fitting, angles)
+        progress("measuring the actuator on the test bench")
+        measured, unmeasured = measured_actuator(machine, specimen)
+        progress("drawing the machine")
+        pictures = None if drawing is None else drawing.fetch()
     if isinstance(pictures, str):
         notes, pictures = (*notes, pictures), None
     results = ReportInput(

@@ -13,7 +13,6 @@ from cqdd_design.gearbox.contact.tables import RingTable, pin_table, ring_table
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.contours import FloatArray
 
-_ANGLES_AT_ONCE = 256
 _COMPLIANCES = 16_000_000
 """Numbers of compliances that are kept at once: 128 MB, and twice that while they are made."""
 
@@ -175,14 +174,11 @@ def profile_error(harmonics: FloatArray, parameter: FloatArray) -> tuple[FloatAr
     material, slope : array (A, D, T)
         m and m/rad.
     """
-    order = np.arange(1, harmonics.shape[-1] + 1)
-    a, b = harmonics[:, 0, None, :], harmonics[:, 1, None, :]
-    material, slope = np.empty(parameter.shape), np.empty(parameter.shape)
-    # A few angles at a time: all harmonics of all teeth over a whole output turn take gigabytes.
-    for first in range(0, len(parameter), _ANGLES_AT_ONCE):
-        some = slice(first, first + _ANGLES_AT_ONCE)
-        angle = parameter[some, ..., None] * order
-        cosine, sine = np.cos(angle), np.sin(angle)
-        material[some] = np.sum(a * cosine + b * sine, axis=-1)
-        slope[some] = np.sum(order * (b * cosine - a * sine), axis=-1)
-    return material, slope
+    # The real part of a polynomial in z = exp(i t), by Horner's rule.
+    z = np.exp(1j * parameter)
+    total, slope = np.zeros((2, *parameter.shape), dtype=complex)
+    for order in range(harmonics.shape[-1], 0, -1):
+        line = (harmonics[:, 0, order - 1] - 1j * harmonics[:, 1, order - 1])[:, None]
+        total = (total + line) * z
+        slope = (slope + 1j * order * line) * z
+    return total.real, slope.real

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import pickle
 import subprocess
 import sys
@@ -19,15 +20,15 @@ class Drawing:
     """A machine being drawn."""
 
     process: subprocess.Popen[bytes]
-    job: bytes
+
+    def close(self) -> None:
+        """Stop it, where it still draws."""
+        self.process.kill()
+        self.process.communicate()
 
     def fetch(self) -> tuple[MachineViews, ViewerData] | str:
         """Wait for the views; a sentence on why there are none, where the process failed."""
-        try:
-            drawn, said = self.process.communicate(self.job)
-        except BaseException:
-            self.process.kill()
-            raise
+        drawn, said = self.process.communicate()
         if self.process.returncode == 0:
             found: tuple[MachineViews, ViewerData] = pickle.loads(drawn)
             return found
@@ -37,11 +38,19 @@ class Drawing:
 
 
 def start_drawing(machine: Machine) -> Drawing:
-    """Begin; a design that cannot be built is told by :meth:`Drawing.fetch`."""
+    """Begin; a design that cannot be built is told by :meth:`Drawing.fetch`.
+
+    Whoever begins it closes it.
+    """
     process = subprocess.Popen(
         [sys.executable, "-m", "cqdd_design.report.machine_view"],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     )
-    return Drawing(process, pickle.dumps((machine.design, machine.layout)))
+    assert process.stdin is not None
+    # The job now, and not when the views are fetched: it is to draw meanwhile.
+    with contextlib.suppress(BrokenPipeError), process.stdin:
+        process.stdin.write(pickle.dumps((machine.design, machine.layout)))
+    process.stdin = None
+    return Drawing(process)
