@@ -247,7 +247,7 @@ def test_simulated_no_load_speed_is_the_closed_form() -> None:
 @pytest.mark.parametrize("seed", [None, 1, 2])
 def test_virtual_work_gives_the_ripple_of_the_contact_engine(seed: int | None) -> None:
     """Motor torque that holds the output's load: shape of eps and stiffness, against dPi/dphi."""
-    one, model = built(seed), ContactModel.from_design(PAPER)
+    one, model = built(seed), resolve(PAPER).contact
     errors = None if seed is None else draw_errors(model, PAPER.tolerances, seed, 0, 1).one(0)
     gear, torque, angle = one.gear, one.gear.error_torque, output_turn_angles(model)
     d = 1e-5
