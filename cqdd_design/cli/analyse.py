@@ -86,6 +86,7 @@ def _lines(analysis: GearboxAnalysis, results: dict[str, object]) -> list[str]:
         "precision": "precision",
         "losses": "losses",
         "life": "life",
+        "bending": "shaft and tilt, bounded",
         "bodies": "discs and ring under these forces",
     }
     for key, title in titles.items():

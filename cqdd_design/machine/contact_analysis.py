@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox.contact.laws import LineModel
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, FrictionChoice
@@ -19,6 +20,7 @@ from cqdd_design.gearbox.life import LifeResult, life
 from cqdd_design.gearbox.losses import EfficiencyMap, Losses, loss_model
 from cqdd_design.gearbox.precision.precision import Precision, precision
 from cqdd_design.machine.machine import Machine
+from cqdd_design.machine.shaft import ShaftBending, shaft_bending
 
 _MAP_STEPS = 8
 _PICTURE_ANGLES = 180
@@ -42,6 +44,10 @@ class ContactAnalysis:
         From an eighth of the input speed and of the peak torque up to both.
     life : LifeResult
         Over the duty of the requirements.
+    bending : ShaftBending or None
+        Of the shaft, and tilt, under the forces of both sweeps.
+    bending_missing : str
+        Why there is none.
     """
 
     model: ContactModel
@@ -52,6 +58,8 @@ class ContactAnalysis:
     losses: Losses
     map: EfficiencyMap
     life: LifeResult
+    bending: ShaftBending | None
+    bending_missing: str
 
     @property
     def crank_turn(self) -> ContactSweep:
@@ -62,10 +70,13 @@ class ContactAnalysis:
     @property
     def warnings(self) -> tuple[str, ...]:
         """Everything the parts warn of."""
-        return (*self.precision.warnings, *self.losses.warnings, *self.life.warnings)
+        parts = (*self.precision.warnings, *self.losses.warnings, *self.life.warnings)
+        if self.bending is None:
+            return (*parts, f"no bound on bending and tilt: {self.bending_missing}")
+        return (*parts, *self.bending.warnings)
 
     def to_dict(self) -> dict[str, object]:
-        """Return the JSON form: ``contact``, ``precision``, ``losses``, ``life``."""
+        """Return the JSON form: ``contact``, ``precision``, ``losses``, ``life``, ``bending``."""
         back = self.reversed.maxima
         greatest = {key: max(here, back[key]) for key, here in self.sweep.maxima.items()}
         contact = self.sweep.to_dict() | greatest
@@ -76,6 +87,7 @@ class ContactAnalysis:
             "precision": self.precision.to_dict(),
             "losses": self.losses.to_dict() | {"efficiency_map": self.map.to_dict()},
             "life": self.life.to_dict(),
+            "bending": None if self.bending is None else self.bending.to_dict(),
         }
 
 
@@ -118,14 +130,26 @@ def analyse_contact(
     sweep = contact_sweep(model, peak, states=states, friction=rubbed)
     tight = bool(states.gaps.min() < 0.0)
     losses = machine.losses if usual else loss_model(model, machine.friction, asked.peak_torque)
+    back = contact_sweep(model, -peak, states=states, friction=rubbed)
+    bending, missing = _bending(machine, sweep, back)
     shares = np.arange(1, _MAP_STEPS + 1) / _MAP_STEPS
     return ContactAnalysis(
         model=model,
         sweep=sweep,
-        reversed=contact_sweep(model, -peak, states=states, friction=rubbed),
+        reversed=back,
         preload=contact_sweep(model, 0.0, states=states) if tight else None,
         precision=precision(model, steady, angles=angles, friction=friction),
         losses=losses.at(asked.input_speed, steady),
         map=losses.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),
         life=life(design, model, friction=friction != "off"),
+        bending=bending,
+        bending_missing=missing,
     )
+
+
+def _bending(machine: Machine, *sweeps: ContactSweep) -> tuple[ShaftBending | None, str]:
+    """What shaft and carrier bend and tilt, or why that is not known."""
+    try:
+        return shaft_bending(machine, sweeps), ""
+    except GeometryError as error:
+        return None, error.message

@@ -60,7 +60,8 @@ class Analysis:
     def to_dict(self) -> dict[str, object]:
         """The JSON form (``results`` of ``analyse``)."""
         if self.contact is None:
-            absent = dict.fromkeys(("contact", "precision", "losses", "life", "bodies"))
+            names = ("contact", "precision", "losses", "life", "bending", "bodies")
+            absent = dict.fromkeys(names)
             return self.gearbox.to_dict() | absent
         bodies = None if self.bodies is None else self.bodies.to_dict()
         return self.gearbox.to_dict() | self.contact.to_dict() | {"bodies": bodies}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -177,6 +178,25 @@ def test_the_darkest_cell_is_the_most_loaded_tooth(
     law, here = rows["greatest load of a cam bearing"]
     assert "5003" in law
     assert f"{found.sweep.cam_load.max():.0f}"[:3] in here.replace("\u202f", "")
+
+
+def test_what_the_plane_problem_leaves_out_is_a_sentence(
+    found: ContactAnalysis, outlines: Outlines, design: Design
+) -> None:
+    law = resolve(design).analysis.rigid
+    told = contact_view(found, outlines, law)["bending"]
+    assert found.bending is not None
+    closing = found.bending.edge_closing
+    assert closing is not None
+    for value in (found.bending.deflection, closing, found.bending.ring_approach):
+        assert f"{1e6 * value:.3g}\u202f\u00b5m" in told
+    assert f"{found.bending.carrier_moment:.3g}\u202fN" in told
+    bushed = replace(found.bending, support_deflection=None, support_slope=None, edge_closing=None)
+    assert (
+        "bearings let" not in contact_view(replace(found, bending=bushed), outlines, law)["bending"]
+    )
+    missing = replace(found, bending=None, bending_missing="nothing fits")
+    assert contact_view(missing, outlines, law)["bending"].endswith("tilt: nothing fits")
 
 
 def test_arrows_point_where_the_forces_do(found: ContactAnalysis, outlines: Outlines) -> None:

@@ -45,6 +45,7 @@ def contact_view(analysis: ContactAnalysis, outlines: Outlines, law: RigidMaxima
         "torque": with_unit(analysis.sweep.torque, "N*m"),
         "friction": _friction(analysis.sweep),
         "preload": _preload(analysis),
+        "bending": _bending(analysis),
     }
 
 
@@ -163,4 +164,30 @@ def _preload(analysis: ContactAnalysis) -> str:
     return (
         "The fits are of interference: without any torque the teeth already press with up to "
         f"{force}\u202fN."
+    )
+
+
+def _bending(analysis: ContactAnalysis) -> str:
+    """What the plane problem leaves out, in two sentences."""
+    bound = analysis.bending
+    if bound is None:
+        return f"No bound on bending and tilt: {analysis.bending_missing}"
+
+    def um(value: float) -> str:
+        return with_unit(1e6 * value, "\u00b5m", 3)
+
+    moment = with_unit(bound.carrier_moment, "N*m", 3)
+    supports, edge = "", ""
+    if bound.support_deflection is not None:
+        supports = f", and its two bearings let it move by {um(bound.support_deflection)}"
+    if bound.edge_closing is not None:
+        edge = (
+            f"; if the discs followed its slope, the teeth would close by {um(bound.edge_closing)} "
+            f"more at one face than at the other, where the busiest tooth approaches by "
+            f"{um(bound.ring_approach)}"
+        )
+    return (
+        "Left out of this plane problem, and bounded from its forces: at a disc the shaft bends by "
+        f"{um(bound.deflection)}{supports}{edge}. A moment of {moment} tilts the carrier in its "
+        "output bearing, by an angle that no catalogue value tells."
     )
