@@ -57,6 +57,8 @@ class ShaftBending:
         With its round core alone.
     support_load : (float, float)
         On the shaft's bearings at the housing's and at the output's end, N.
+    support_rating : float or None
+        Their basic static rating, N; None for bushes.
     support_deflection, support_slope : float or None
         Of a straight shaft as these bearings yield; None where they are bushes.
     cam_approach : float
@@ -74,6 +76,7 @@ class ShaftBending:
     core_deflection: float
     core_slope: float
     support_load: tuple[float, float]
+    support_rating: float | None
     support_deflection: float | None
     support_slope: float | None
     cam_approach: float
@@ -90,7 +93,20 @@ class ShaftBending:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """That a line contact may leave one end, where it may."""
+        """Of support bearings beyond their rating, and lines that may leave one end."""
+        return (*self._overloaded(), *self._uneven())
+
+    def _overloaded(self) -> tuple[str, ...]:
+        most, rating = max(self.support_load), self.support_rating
+        if rating is None or most <= rating:
+            return ()
+        return (
+            f"a support bearing of the shaft carries {most:.0f} N, more than its static rating of "
+            f"{rating:.0f} N, and takes dents. No check judges it yet: lower the torque, or leave "
+            "room for larger support bearings (a cam bearing with a larger bore).",
+        )
+
+    def _uneven(self) -> tuple[str, ...]:
         closing = self.edge_closing
         if closing is None or closing <= 2.0 * self.ring_approach:
             return ()
@@ -111,6 +127,7 @@ class ShaftBending:
             "core_deflection_um": 1e6 * self.core_deflection,
             "core_slope_mrad": 1e3 * self.core_slope,
             "support_load_N": list(self.support_load),
+            "support_static_rating_N": self.support_rating,
             "support_deflection_um": _scaled(1e6, self.support_deflection),
             "support_slope_mrad": _scaled(1e3, self.support_slope),
             "cam_approach_um": 1e6 * self.cam_approach,
@@ -161,6 +178,9 @@ def shaft_bending(machine: Machine, sweeps: Sequence[ContactSweep]) -> ShaftBend
         core_deflection=_greatest(pushed @ core.deflection.T),
         core_slope=core_slope,
         support_load=(_greatest(carried[:, 0]), _greatest(carried[:, 1])),
+        support_rating=None
+        if shaft.support.source == "bush"
+        else shaft.support.bearing.static_rating,
         support_deflection=sunk,
         support_slope=turned,
         cam_approach=float(_yield(sweeps[0].model.cam, np.abs(pushed)).max()),

@@ -8,6 +8,7 @@ KEYS = {
     "core_deflection_um",
     "core_slope_mrad",
     "support_load_N",
+    "support_static_rating_N",
     "support_deflection_um",
     "support_slope_mrad",
     "cam_approach_um",
@@ -32,7 +33,8 @@ def test_bending_is_bounded_in_the_document_and_in_the_text(cqdd, paper_design_f
     assert len(bending["support_load_N"]) == 2
     less = cqdd("analyse", paper_design_file, "--torque", "60 N*m", "--angles", "24", "--json")
     assert less.document["results"]["bending"]["shaft_deflection_um"] > 0.0
-    for key in KEYS - {"carrier_tilt_mrad", "model", "support_load_N", "edge_load_factor"}:
+    other = {"model", "support_load_N", "support_static_rating_N", "edge_load_factor"}
+    for key in KEYS - other - {"carrier_tilt_mrad"}:
         assert less.document["results"]["bending"][key] < bending[key]
     text = cqdd("analyse", paper_design_file, "--angles", "24").out
     assert "shaft and tilt, bounded" in text
@@ -48,6 +50,17 @@ def test_a_line_that_may_leave_an_end_is_warned_of(cqdd, paper_design_file):
     assert any("leave one end of the line" in one for one in done.document["warnings"])
     full = cqdd("analyse", paper_design_file, "--angles", "24", "--json").document
     assert not any("leave one end of the line" in one for one in full["warnings"])
+
+
+def test_a_support_bearing_beyond_its_static_rating_is_warned_of(cqdd, paper_design_file):
+    """SKF 61900: 1270 N, where the peak torque of the paper's gearbox asks for four times that."""
+    for torque, beyond in (("120 N*m", True), ("10 N*m", False)):
+        done = cqdd("analyse", paper_design_file, "--torque", torque, "--angles", "24", "--json")
+        bending = done.document["results"]["bending"]
+        assert bending["support_static_rating_N"] == pytest.approx(1270.0)
+        assert (max(bending["support_load_N"]) > 1270.0) is beyond
+        told = [one for one in done.document["warnings"] if "support bearing" in one]
+        assert bool(told) is beyond
 
 
 def test_a_machine_that_cannot_be_laid_out_is_still_analysed(cqdd, paper_design_file, tmp_path):
