@@ -125,8 +125,10 @@ def _lines(design: Design, sizing: SizingResult) -> list[str]:
         f"counted: {sizing.objective.scope};",
         "`inertia` weighs the whole machine.",
         "",
-        f"{design.name}: {verdict(sizing.checks)}; {sizing.objective.binding} binds, "
+        f"{design.name}: {verdict(sizing.checks)} by closed forms; {sizing.objective.binding} "
+        "binds, "
         f"{number(sizing.objective.torque_reserve)} times the torque is its limit",
+        "stress, contact equilibrium, life and tolerances: see `check` and `report`",
     ]
 
 

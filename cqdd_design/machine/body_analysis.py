@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from cqdd_design.catalog.materials import find_material
+from cqdd_design.errors import ContactError, GeometryError
 from cqdd_design.gearbox.bodies.made import elastic_bodies
 from cqdd_design.gearbox.bodies.strength import BodyStrength, body_strength
 from cqdd_design.gearbox.checks.bodies import body_checks
@@ -91,3 +92,14 @@ def judged_bodies(
     """
     strength = analyse_bodies(machine, line_model=line_model, friction=friction)
     return body_checks(machine.design, strength), strength
+
+
+def judged_or_told(
+    machine: Machine,
+) -> tuple[BodyStrength | None, tuple[Check, ...], tuple[str, ...]]:
+    """Stress of discs and ring with its checks, or a sentence on why there is none."""
+    try:
+        checks, strength = judged_bodies(machine)
+    except (ContactError, GeometryError) as error:
+        return None, (), (no_stress(machine, error.message),)
+    return strength, checks, ()

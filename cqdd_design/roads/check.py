@@ -40,7 +40,7 @@ def check(
     assembly_angles: int | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Judgement:
-    """Judge a design.
+    """Judge a design: loads by closed forms, stress of discs and ring by the contact equilibrium.
 
     Parameters
     ----------
@@ -56,10 +56,14 @@ def check(
     GeometryError
         When disc, ring or holes cannot exist, or, looked at as solids, the parts.
     """
+    from cqdd_design.machine.body_analysis import judged_or_told
+
     machine = specimen.machine(design)
     found = machine.analysis
+    _, stress, unstressed = judged_or_told(machine)
+    checks, warnings = (*found.checks, *stress), (*found.warnings, *unstressed)
     if assembly_angles is None:
-        return Judgement(found.checks, found.warnings)
+        return Judgement(checks, warnings)
     from cqdd_design.solids.clearances import assembly_motion, output_revolution
 
     motion = assembly_motion(
@@ -68,7 +72,7 @@ def check(
         output_revolution(machine.design, assembly_angles),
         progress=progress,
     )
-    return Judgement((*found.checks, assembly_check(motion)), found.warnings, motion)
+    return Judgement((*checks, assembly_check(motion)), warnings, motion)
 
 
 def assembly_check(motion: AssemblyMotion) -> Check:

@@ -8,14 +8,13 @@ from typing import NamedTuple
 
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
-from cqdd_design.errors import ContactError, GeometryError, UsageError
+from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.files import WrittenFile, refuse_overwrite, write_atomically
 from cqdd_design.gearbox import GearboxAnalysis
-from cqdd_design.gearbox.bodies.strength import BodyStrength
 from cqdd_design.gearbox.tolerance.clearance import ClearancePoint, clearance_study
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
 from cqdd_design.machine import Machine
-from cqdd_design.machine.body_analysis import judged_bodies, no_stress
+from cqdd_design.machine.body_analysis import judged_or_told
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
 from cqdd_design.machine.weighing import weigh_if_possible
 from cqdd_design.report import ReportInput, build_report, read_comments
@@ -92,7 +91,9 @@ def write_report(
     bodies, notes = weigh_if_possible(machine)
     with closing(start_drawing(machine)) if bodies else nullcontext() as drawing:
         contact, ensemble, unsolved = _contact_and_tolerances(machine, samples, progress)
-        stress, stress_checks, unstressed = _stress(machine, contact)
+        stress, stress_checks, unstressed = (
+            (None, (), ()) if contact is None else judged_or_told(machine)
+        )
         clearances: tuple[ClearancePoint, ...] = ()
         if ensemble is not None:
             angles = ensemble.ensemble.angles
@@ -127,19 +128,6 @@ def write_report(
     file = write_atomically(target, build_report(results), "report")
     short = tuple(one.sentence for one in shortfalls(results))
     return WrittenReport(file, analysis, results.checks, short)
-
-
-def _stress(
-    machine: Machine, contact: ContactAnalysis | None
-) -> tuple[BodyStrength | None, tuple[Check, ...], tuple[str, ...]]:
-    """Stress of discs and ring with its checks, or a sentence on why there is none."""
-    if contact is None:
-        return None, (), ()
-    try:
-        checks, strength = judged_bodies(machine)
-    except (ContactError, GeometryError) as error:
-        return None, (), (no_stress(machine, error.message),)
-    return strength, checks, ()
 
 
 def _contact_and_tolerances(
