@@ -24,7 +24,7 @@ from cqdd_design.gearbox.bodies.model import Body
 
 _log = logging.getLogger("cqdd_design")
 
-VERSION = 1
+VERSION = 2
 """Of the method: raised whenever the same shape would give other numbers."""
 Shape = TypeVar("Shape")
 

@@ -99,11 +99,14 @@ class DiscShape:
             for c, u in zip(self.holes, turns, strict=True)
         )
         ring = self.bearing
+        # And on every station, where a tent's slope jumps.
+        stations = self.stations / (2.0 * np.pi)
         if ring.raceway == ring.outer:
-            return (outside, *holes, Loop(circle(0j, ring.outer), -1))
+            return (outside, *holes, Loop(circle(0j, ring.outer), -1, joints=stations))
         factor = self.ring_factor
         seat = Loop(circle(0j, ring.outer), -1, 1.0 - factor, inner=True)
-        return (outside, *holes, seat, Loop(circle(0j, ring.raceway), -1, factor))
+        raceway = Loop(circle(0j, ring.raceway), -1, factor, joints=stations)
+        return (outside, *holes, seat, raceway)
 
     @property
     def ring_factor(self) -> float:

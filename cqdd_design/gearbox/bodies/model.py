@@ -77,15 +77,11 @@ def disc_body(shape: DiscShape) -> Body:
     factor = np.where(radius < shape.bearing.outer, shape.ring_factor, 1.0)
     body = elements(made, loops, shape.plate, factor)
     places = shape.places()
-    points, force = places.loads(), places.directions
     raceway = len(loops) - 1
-    on = body.edges.loop == raceway
-    tents = np.zeros((len(on), len(shape.stations)), dtype=complex)
-    tents[on] = shape.tents(body.edges.point[on])
-    smooth = self_balanced(body.edges, raceway, points, force, tents)
+    tents = shape.tents(body.edges.point[body.edges.loop == raceway])
+    loads = self_balanced(body.edges, raceway, places, tents)
     symmetries = shape.symmetries()
     columns = np.unique(np.min([index for index, _ in symmetries], axis=0))
-    loads = Loads(points, force, smooth)
     found = influence(body, loops, shape.plate, loads, body.rigid(), columns)
     where = np.concatenate(
         [
@@ -93,8 +89,8 @@ def disc_body(shape: DiscShape) -> Body:
             1 + np.repeat(np.arange(shape.hole_count), PER_HOLE),
         ]
     )
-    stress = _edge_stress(body, loops, places, where, loads, shape.plate, found, columns)
-    total = len(loads.smooth[0])
+    stress = _edge_stress(body, loops, places, where, places, shape.plate, found, columns)
+    total = loads.smooth.shape[1]
     matrix, stresses = np.empty((total, total)), np.empty((len(places), total))
     for index, sense in symmetries:
         place = index[: 2 * len(places) : 2] // 2
@@ -116,21 +112,19 @@ def ring_body(shape: RingShape) -> Body:
     made = mesh(loops, shape.side, "the ring")
     body = elements(made, loops, shape.plate)
     places = shape.places()
-    points, force = places.loads(), places.directions
-    none = np.zeros((len(body.edges.point), len(force)), dtype=complex)
+    none, held = np.zeros((0, 2 * len(places)), dtype=complex), np.empty(0, dtype=np.int64)
     columns = np.arange(2 * len(shape.angles))
     seat = np.where(body.edges.loop == 0, shape.seat, 0.0)
-    loads = Loads(points, force, none)
-    fixed = np.empty(0, dtype=np.int64)
-    found = influence(body, loops, shape.plate, loads, fixed, columns, seat)
-    total, each = len(force), len(columns)
+    loads = Loads(places, held, none)
+    found = influence(body, loops, shape.plate, loads, held, columns, seat)
+    total, each = 2 * len(places), len(columns)
     matrix = np.empty((total, total))
     for tooth in range(shape.tooth_count):
         turned = (np.arange(total) + each * tooth) % total
         matrix[np.ix_(turned, turned[columns])] = found.matrix
     roots = shape.roots()
     where = np.ones(len(roots), dtype=np.int64)
-    stress = _edge_stress(body, loops, roots, where, loads, shape.plate, found, columns)
+    stress = _edge_stress(body, loops, roots, where, places, shape.plate, found, columns)
     stresses, shift = np.empty((len(roots), total)), len(roots) // shape.tooth_count
     for tooth in range(shape.tooth_count):
         rows = (np.arange(len(roots)) + shift * tooth) % len(roots)
@@ -146,25 +140,24 @@ def _body(matrix: FloatArray, stress: FloatArray) -> Body:
 def _edge_stress(
     body: Elements,
     loops: tuple[Loop, ...],
-    places: Places,
+    seen: Places,
     where: NDArray[np.int64],
-    loads: Loads,
+    places: Places,
     plate: Plate,
     found: Influence,
     columns: NDArray[np.int64],
 ) -> FloatArray:
     """Stress along a free edge, E times the strain along it; (S, M), Pa/N."""
-    u = np.empty(len(places))
+    u = np.empty(len(seen))
     for index in np.unique(where):
         own = where == index
-        u[own] = loops[index].parameter(places.point[own])
+        u[own] = loops[index].parameter(seen.point[own])
     stress = plate.modulus * (body.strain(loops, where, u) @ found.fields)
-    sharp = columns[columns < len(loads.force)]
-    points, force = loads.some(sharp)
-    along = 1j * places.inward
+    sharp = columns[columns < 2 * len(places)]
+    chosen = places.some(sharp[::2] // 2)
     with np.errstate(divide="ignore", invalid="ignore"):
-        tangential = point_load.stress(places.point, points, force, along)
-        normal = point_load.stress(places.point, points, force, places.inward)
+        tangential = point_load.stress(seen.point, chosen, 1j * seen.inward)
+        normal = point_load.stress(seen.point, chosen, seen.inward)
     own = ~(np.isfinite(tangential) & np.isfinite(normal))
     direct = np.where(own, 0.0, tangential - plate.poisson * normal) / plate.thickness
     stress[:, : len(sharp)] += direct

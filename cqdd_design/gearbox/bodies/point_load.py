@@ -12,14 +12,21 @@ where the opposite field ends it.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 DEPTH = 1e-3
 """Depth under a point force from which bodies count, m; other depths follow by a logarithm."""
+
+
+_AT_ONCE = 8192
+"""Points times places whose fields are found together: what a processor keeps at hand."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,13 +49,18 @@ class Places:
         """Number of places."""
         return len(self.point)
 
-    def loads(self) -> Places:
-        """Two unit loads a place: along the normal, then along the tangent (i times the normal)."""
-        return Places(*(np.repeat(one, 2) for one in (self.point, self.inward, self.void)))
+    def some(self, which: NDArray[np.int64]) -> Places:
+        """The places `which`, an array of any shape."""
+        return Places(self.point[which], self.inward[which], self.void[which])
+
+    @property
+    def bored(self) -> bool:
+        """Whether they lie in holes: all of them, where not outside."""
+        return not np.isnan(self.void).any()
 
     @property
     def directions(self) -> ComplexArray:
-        """Directions of :meth:`loads`, (2 N,)."""
+        """Of two unit loads a place, (2 N,): along the normal, then along i times the normal."""
         return np.asarray(np.repeat(self.inward, 2) * np.tile([1.0, 1.0j], len(self)))
 
 
@@ -79,58 +91,116 @@ class Plate:
         return np.asarray(apart / (np.pi * self.modulus * self.thickness))
 
 
-def traction(
-    z: ComplexArray, normal: ComplexArray, loads: Places, force: ComplexArray
-) -> ComplexArray:
-    """Force per length on edges of outward `normal` at `z` (Q,), by every load, (Q, N), N/m."""
-    total = _radial(z[:, None] - loads.point, normal[:, None], force)
-    hole = ~np.isnan(loads.void)
-    total[:, hole] -= _radial(z[:, None] - loads.void[hole], normal[:, None], force[hole])
-    return total
+def traction(z: ComplexArray, normal: ComplexArray, places: Places) -> FloatArray:
+    """Force per length on edges of outward `normal` at `z` (Q,) by the loads of places, N/m.
+
+    Returns
+    -------
+    array (2, Q, 2 N)
+        Along x, and along y; of every place the loads along :attr:`Places.directions`.
+    """
+
+    def field(z: ComplexArray, normal: ComplexArray, some: Places) -> Field:
+        total = _radial(z - some.point, normal, some.inward)
+        if not some.bored:
+            return total
+        back = _radial(z - some.void, normal, some.inward)
+        return Field(*(one - other for one, other in zip(total, back, strict=True)))
+
+    return _everywhere(field, places, z, normal)
 
 
-def _radial(away: ComplexArray, normal: ComplexArray, force: ComplexArray) -> ComplexArray:
-    square = _square(away)
-    along = _dot(force, away) * _dot(normal, away) / (square * square)
-    return np.asarray(-2.0 / np.pi * along * away)
+def displacement(z: ComplexArray, places: Places, plate: Plate) -> FloatArray:
+    """Displacement at `z` (Q,) by the loads of places, m.
+
+    At the load itself it is that of the point :data:`DEPTH` under it in the half plane: what is
+    nearer to the load is the contact law's.
+
+    Returns
+    -------
+    array (2, Q, 2 N)
+        As :func:`traction`.
+    """
+    return _everywhere(lambda z, some: displaced(z, some, plate), places, z)
 
 
-def _dot(first: ComplexArray, second: ComplexArray) -> FloatArray:
-    return np.asarray(first.real * second.real + first.imag * second.imag)
+class Field(NamedTuple):
+    """A field's parts along x and y by the normal loads, and by the tangential ones."""
+
+    normal_x: FloatArray
+    normal_y: FloatArray
+    tangential_x: FloatArray
+    tangential_y: FloatArray
+
+
+def displaced(z: ComplexArray, places: Places, plate: Plate) -> Field:
+    """Displacement at `z` by either load of places that are all in holes or all outside, m.
+
+    `z` and the places may have any shapes that go together.
+    """
+    # In real numbers, since numpy's complex ones take four times as long.
+    A = -places.inward / (2.0 * np.pi * plate.shear)
+    ax, ay = A.real, A.imag
+    away = z - places.point
+    dx, dy = away.real.copy(), away.imag.copy()
+    square = dx * dx + dy * dy
+    own = square < 1e-18 * _square(places.point)
+    if own.any():
+        # On the edge itself the angle is the mean of both sides: that of the inward normal.
+        dx, dy = (
+            np.where(own, DEPTH * part, given)
+            for part, given in ((places.inward.real, dx), (places.inward.imag, dy))
+        )
+        square = dx * dx + dy * dy
+    over = z - places.void if places.bored else -places.point
+    ox, oy = over.real.copy(), over.imag.copy()
+    over_square = ox * ox + oy * oy
+    size = (0.5 * (plate.kappa + 1.0)) * np.log(square / over_square)
+    turn = (plate.kappa - 1.0) * np.arctan2(dy * ox - dx * oy, dx * ox + dy * oy)
+    # (z - z0)^2 over its size
+    twist_x, twist_y = (dx * dx - dy * dy) / square, 2.0 * dx * dy / square
+    if places.bored:
+        twist_x -= (ox * ox - oy * oy) / over_square
+        twist_y -= 2.0 * ox * oy / over_square
+    # A (size + i turn), and conj(A) twist, which changes its sign when A is turned to i A.
+    even_x, even_y = ax * size - ay * turn, ay * size + ax * turn
+    odd_x, odd_y = ax * twist_x + ay * twist_y, ax * twist_y - ay * twist_x
+    return Field(even_x - odd_x, even_y - odd_y, -even_y - odd_y, even_x + odd_x)
+
+
+def stress(z: ComplexArray, places: Places, along: ComplexArray) -> FloatArray:
+    """Normal stress times thickness in the direction `along` at `z` (Q,), (Q, 2 N), N/m."""
+    x, y = traction(z, along, places)
+    return np.asarray(x * along.real[:, None] + y * along.imag[:, None])
+
+
+def _everywhere(field: Callable[..., Field], places: Places, *at: ComplexArray) -> FloatArray:
+    """A field of both loads of places at points (Q,), block by block, (2, Q, 2 N)."""
+    count = len(at[0])
+    found = np.empty((2, count, len(places), 2))
+    rows = max(_AT_ONCE // max(len(places), 1), 1)
+    for bored in (False, True):
+        which = np.flatnonzero(np.isnan(places.void) != bored)
+        some = places.some(which)
+        # A slice where it can be one: it is written far faster.
+        one_run = len(which) > 0 and which[-1] - which[0] == len(which) - 1
+        columns = slice(which[0], which[-1] + 1) if one_run else which
+        for first in range(0, count if len(which) else 0, rows):
+            block = slice(first, first + rows)
+            parts = field(*(one[block, None] for one in at), some)
+            for k, part in enumerate(parts):
+                found[k % 2, block, columns, k // 2] = part
+    return found.reshape(2, count, 2 * len(places))
+
+
+def _radial(away: ComplexArray, normal: ComplexArray, inward: ComplexArray) -> Field:
+    dx, dy, ix, iy = away.real.copy(), away.imag.copy(), inward.real, inward.imag
+    square = dx * dx + dy * dy
+    common = (-2.0 / np.pi * normal.real) * dx + (-2.0 / np.pi * normal.imag) * dy
+    common /= square * square
+    along, across = common * (ix * dx + iy * dy), common * (ix * dy - iy * dx)
+    return Field(along * dx, along * dy, across * dx, across * dy)
 
 
 def _square(z: ComplexArray) -> FloatArray:
     return np.asarray(z.real * z.real + z.imag * z.imag)
-
-
-def stress(z: ComplexArray, loads: Places, force: ComplexArray, along: ComplexArray) -> FloatArray:
-    """Normal stress times thickness in the direction `along` at `z` (Q,), (Q, N), N/m."""
-    total = _radial(z[:, None] - loads.point, along[:, None], force)
-    hole = ~np.isnan(loads.void)
-    total[:, hole] -= _radial(z[:, None] - loads.void[hole], along[:, None], force[hole])
-    return np.asarray((total * np.conj(along)[:, None]).real)
-
-
-def displacement(z: ComplexArray, loads: Places, force: ComplexArray, plate: Plate) -> ComplexArray:
-    """Displacement at `z` (Q,) by every load (N,), (Q, N), m.
-
-    At the load itself it is that of the point :data:`DEPTH` under it in the half plane: what is
-    nearer to the load is the contact law's.
-    """
-    A = -force / (2.0 * np.pi)
-    away = z[:, None] - loads.point
-    own = np.abs(away) < 1e-9 * np.abs(loads.point)
-    away = np.where(own, DEPTH * loads.inward, away)
-    hole = ~np.isnan(loads.void)
-    from_void = z[:, None] - np.where(hole, loads.void, 0.0)
-    over = np.where(hole, from_void, -loads.point)
-    # On the edge itself the angle is the mean of both sides: that of the inward normal, which
-    # `away` has been given.
-    square = _square(away)
-    size, turn = 0.5 * np.log(square / _square(over)), np.angle(away * np.conj(over))
-    field = A * ((plate.kappa + 1.0) * size + 1j * (plate.kappa - 1.0) * turn)
-    field -= np.conj(A) * (away * away / square)
-    if hole.any():
-        back = from_void[:, hole]
-        field[:, hole] += np.conj(A[hole]) * (back * back / _square(back))
-    return np.asarray(field / plate.shear)
