@@ -20,6 +20,8 @@ from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 _PER_WEDGE = 40
 """Fewest triangles a wedge: fewer make more shares, more make larger blocks."""
+_QUIET = 1
+"""Merges before edges are eliminated: what lies off them is best gone in smaller pieces."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,8 +30,8 @@ class Front:
 
     Attributes
     ----------
-    own : array (O,)
-        They, as rows of the unknowns that are kept.
+    own : slice
+        They, as O rows of the unknowns that are kept.
     border : array (B,)
         Those kept till later that they are joined to.
     inverse : array (O, O)
@@ -38,7 +40,7 @@ class Front:
         Share of their loads that is carried on to the border.
     """
 
-    own: IntArray
+    own: slice
     border: IntArray
     inverse: FloatArray
     across: FloatArray
@@ -72,7 +74,8 @@ class Factors:
             moved[front.border] -= front.across @ moved[front.own]
         for front in reversed(self.fronts):
             own = front.inverse @ moved[front.own]
-            moved[front.own] = own - front.across.T @ moved[front.border]
+            own -= front.across.T @ moved[front.border]
+            moved[front.own] = own
         found = np.zeros(loads.shape)
         found[free] = moved[rows[free]]
         return found
@@ -103,25 +106,27 @@ def factors(
         Unknowns at zero.
     """
     wedges = 2 ** max(int(np.log2(triangles.shape[1] / _PER_WEDGE)), 0)
-    level, index = _shared(place, triangles, wedges)
-    loud = np.zeros(stiffness.shape[0], dtype=bool)
-    loud[read] = True
-    todo = _Elimination(stiffness.tocsr(), held)
-    inside = (level == 0) & ~loud
-    shares = [todo.step(inside & (index == k), [], False) for k in range(wedges)]
-    at_edge = (level == 0) & loud
-    shares = [todo.step(at_edge & (index == k), shares[k : k + 1]) for k in range(wedges)]
-    for merged in range(1, wedges.bit_length()):
-        own = level == merged
-        shares = [
-            todo.step(own & (index == k), shares[2 * k : 2 * k + 2])
-            for k in range(wedges >> merged)
-        ]
+    loud, free = np.zeros(stiffness.shape[0], dtype=bool), np.ones(stiffness.shape[0], dtype=bool)
+    loud[read], free[held] = True, False
+    level, low = _shared(place, triangles, wedges)
+    quiet = min(_QUIET, wedges.bit_length() - 1)
+    level = np.where(loud, np.maximum(level, quiet), level)
+    index = low >> level
+    # By merges, then by pieces, and of a piece first what is never met again.
+    loud |= level > quiet
+    order = np.lexsort((loud, index, level))
+    order = order[free[order]]
+    todo = _Elimination(stiffness.tocsr()[order], order, loud)
+    shares: list[_Share] = [_Share(np.empty(0, dtype=np.int64), np.empty((0, 0)))] * (2 * wedges)
+    for merged in range(wedges.bit_length()):
+        own = order[level[order] == merged]
+        counts = np.bincount(index[own], minlength=wedges >> merged)
+        shares = [todo.step(int(n), shares[2 * k : 2 * k + 2]) for k, n in enumerate(counts)]
     return todo.factors()
 
 
 def _shared(place: ComplexArray, triangles: IntArray, wedges: int) -> tuple[IntArray, IntArray]:
-    """Of every unknown: after how many merges by twos one piece has all its triangles, and which.
+    """Of every unknown: after how many merges by twos one piece has its triangles; its first wedge.
 
     Wedges have as many triangles each, so that a disc's thin and its massive parts take as long.
     """
@@ -133,51 +138,74 @@ def _shared(place: ComplexArray, triangles: IntArray, wedges: int) -> tuple[IntA
         np.minimum.at(low, corner, wedge)
         np.maximum.at(high, corner, wedge)
     level = np.frexp(low ^ high)[1].astype(np.int64)
-    return np.repeat(level, 2), np.repeat(low >> level, 2)
+    return np.repeat(level, 2), np.repeat(low, 2)
 
 
 class _Elimination:
-    """Eliminates unknowns group by group."""
+    """Eliminates unknowns in their order, some at a time.
 
-    def __init__(self, matrix: Any, held: IntArray) -> None:
-        self._matrix = matrix
-        self._done = np.zeros(matrix.shape[0], dtype=bool)
-        self._done[held] = True
-        self._at = np.full(matrix.shape[0], -1)
-        self._fronts: list[tuple[IntArray, IntArray, FloatArray, FloatArray]] = []
+    Parameters
+    ----------
+    rows : sparse matrix
+        Of the stiffness, in that order.
+    order : array
+        Unknowns of the rows.
+    loud : array of bool
+        Which of all unknowns are loaded or read, or take loads on from others.
+    """
 
-    def step(self, group: NDArray[np.bool_], shares: list[_Share], kept: bool = True) -> _Share:
-        """Eliminate a group; what it and the shares of those before it leave for later ones."""
+    def __init__(self, rows: Any, order: IntArray, loud: NDArray[np.bool_]) -> None:
+        self._rows, self._order, self._loud = rows, order, loud
+        self._first = 0
+        self._kept = np.full(len(loud), -1)
+        self._kept[order[loud[order]]] = np.arange(np.count_nonzero(loud[order]))
+        self._left = np.zeros(len(loud), dtype=bool)
+        self._left[order] = True
+        self._at = np.full(len(loud), -1)
+        self._fronts: list[Front] = []
+
+    def step(self, count: int, shares: list[_Share]) -> _Share:
+        """Eliminate the next; what they and the shares of earlier ones leave for later ones."""
         from scipy.linalg.lapack import dtrtri
 
-        own = np.flatnonzero(group & ~self._done)
-        rows = self._matrix[own]
-        self._done[own] = True
-        met = np.unique(np.concatenate([rows.indices, *(share.border for share in shares)]))
-        border = met[~self._done[met]]
-        count = len(own)
+        some = slice(self._first, self._first + count)
+        self._first = some.stop
+        own, ends = self._order[some], self._rows.indptr[some.start : some.stop + 1]
+        joined, values = (one[ends[0] : ends[-1]] for one in (self._rows.indices, self._rows.data))
+        self._left[own] = False
+        met = np.zeros(len(self._left), dtype=bool)
+        for near in (joined, *(share.border for share in shares)):
+            met[near] = True
+        border = np.flatnonzero(met & self._left)
         self._at[own] = np.arange(count)
         self._at[border] = count + np.arange(len(border))
         front = np.zeros((count + len(border),) * 2)
-        line, column = np.repeat(np.arange(count), np.diff(rows.indptr)), self._at[rows.indices]
-        joined = column >= 0
-        front[column[joined], line[joined]] = rows.data[joined]
+        line, column = np.repeat(np.arange(count), np.diff(ends)), self._at[joined]
+        here = column >= 0
+        front[column[here], line[here]] = values[here]
         for share in shares:
             where = self._at[share.border]
-            front[np.ix_(where, where)] += share.stiffness
+            front[where[:, None], where] += share.stiffness
         self._at[own] = self._at[border] = -1
-        if count == 0:
-            return _Share(border, front)
-        root = dtrtri(np.linalg.cholesky(front[:count, :count]), lower=1)[0]
-        coupling = front[count:, :count] @ root.T
-        if kept:
-            self._fronts.append((own, border, root.T @ root, coupling @ root))
-        return _Share(border, front[count:, count:] - coupling @ coupling.T)
+        left = front[count:, count:]
+        if count:
+            root = dtrtri(np.linalg.cholesky(front[:count, :count]), lower=1)[0]
+            coupling = front[count:, :count] @ root.T
+            left -= coupling @ coupling.T
+            self._keep(own, border, root, coupling)
+        return _Share(border, left)
+
+    def _keep(
+        self, own: IntArray, border: IntArray, root: FloatArray, coupling: FloatArray
+    ) -> None:
+        """Of a step what its loud unknowns, its last, take part in."""
+        silent = int(np.count_nonzero(~self._loud[own]))
+        root, coupling = root[silent:, silent:], coupling[:, silent:]
+        if silent < len(own):
+            rows = slice(int(self._kept[own[silent]]), int(self._kept[own[-1]]) + 1)
+            across = coupling @ root
+            self._fronts.append(Front(rows, self._kept[border], root.T @ root, across))
 
     def factors(self) -> Factors:
         """What has been eliminated and kept."""
-        kept = np.full(len(self._at), -1)
-        order = np.concatenate([own for own, *_ in self._fronts])
-        kept[order] = np.arange(len(order))
-        fronts = [Front(kept[own], kept[b], *blocks) for own, b, *blocks in self._fronts]
-        return Factors(kept, tuple(fronts))
+        return Factors(self._kept, tuple(self._fronts))

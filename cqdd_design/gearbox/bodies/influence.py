@@ -29,7 +29,6 @@ from cqdd_design.gearbox.bodies.point_load import (
 )
 from cqdd_design.geometry.contours import ComplexArray, FloatArray, gauss_rule
 
-
 _GRADED = 3
 """Power by which points of quadrature crowd towards a point load on a side or beside it."""
 _GRADED_POINTS = 16
@@ -47,13 +46,17 @@ class Loads:
         N of them, of two point forces each.
     where : array (R,)
         The edges' quadrature points where there are any smooth tractions.
-    smooth : complex array (R, 2 N + B)
-        They, N/m: reactions of the point forces, then B loads that are smooth themselves.
+    smooth : complex array (R, K)
+        They, of a few kinds, N/m.
+    share : array (K, 2 N + B)
+        How much of each kind is with each load: with the point forces their reactions, and B loads
+        that are smooth themselves.
     """
 
     places: Places
     where: NDArray[np.int64]
     smooth: ComplexArray
+    share: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,14 +91,19 @@ def self_balanced(edges: Edges, circle: int, places: Places, smooth: ComplexArra
     point, weight = edges.point[on], edges.weight[on]
     length = weight.sum()
     radius = length / (2.0 * np.pi)
-    force = places.directions
-    moment = (np.conj(np.repeat(places.point, 2)) * force).imag
-    total = np.concatenate([force, weight @ smooth])
-    turning = np.concatenate([moment, weight @ (np.conj(point)[:, None] * smooth).imag])
     around = 1j * point / np.abs(point)
-    reaction = -total / length - around[:, None] * turning / (length * radius)
-    reaction[:, len(force) :] += smooth
-    return Loads(places, on, reaction)
+    even = np.ones(len(on)) / length
+    kinds = np.stack([-even, -1j * even, -around / (length * radius)], axis=1)
+    force = np.concatenate([places.directions, weight @ smooth])
+    moment = np.concatenate(
+        [
+            (np.conj(np.repeat(places.point, 2)) * places.directions).imag,
+            weight @ (np.conj(point)[:, None] * smooth).imag,
+        ]
+    )
+    own = np.eye(smooth.shape[1], len(force), len(force) - smooth.shape[1])
+    share = np.concatenate([[force.real, force.imag, moment], own])
+    return Loads(places, on, np.concatenate([kinds, smooth], axis=1), share)
 
 
 def influence(
@@ -123,13 +131,13 @@ def influence(
         Springs to the ground along the edges in both directions, N/m^2.
     """
     edges, places = body.edges, loads.places
-    count, total = 2 * len(places), loads.smooth.shape[1]
+    count, total = 2 * len(places), loads.share.shape[1]
     columns = np.arange(total) if solved is None else solved
     sharp = columns[: np.searchsorted(columns, count)]
     chosen = places.some(sharp[::2] // 2)
     # R_i with its sign, per length; then L_j as nodal forces.
-    left = traction(edges.point, edges.normal, places)
-    left *= -np.array([loop.weight for loop in loops])[edges.loop, None]
+    counted = -np.array([loop.weight for loop in loops])[edges.loop]
+    left = traction(edges.point, counted * edges.normal, places)
     springs = None
     if foundation is not None:
         on = np.flatnonzero(foundation)
@@ -138,24 +146,20 @@ def influence(
     left = left.reshape(2 * len(edges.point), count)
     weight = np.tile(edges.weight, 2)
     weighed = edges.trace[:, edges.unknowns].multiply(weight[:, None]).tocsr()
-    some = loads.smooth[:, columns]
-    smooth = np.concatenate([some.real, some.imag])
     where = np.concatenate([loads.where, loads.where + len(edges.point)])
-    forces = weighed[where].T @ smooth
+    smooth = np.concatenate([loads.smooth.real, loads.smooth.imag])
+    share = loads.share[:, columns]
+    forces = (weighed[where].T @ smooth) @ share
     forces[:, : len(sharp)] += weighed.T @ (left if len(sharp) == count else left[:, sharp])
     # L_i (s_j + w_j)
     found = body.factors(held, springs).solve(forces, edges.unknowns)
     moved = weighed @ found
     moved[:, : len(sharp)] += _integrated(body, loops, chosen, plate)
-    matrix = np.empty((total, len(columns)))
-    np.matmul(left.T, moved, out=matrix[:count])
-    matrix[count:] = 0.0
-    every = np.concatenate([loads.smooth.real, loads.smooth.imag])
-    matrix += every.T @ moved[where]
+    matrix = loads.share.T @ (smooth.T @ moved[where])
+    matrix[:count] += left.T @ moved
     # p_j(s_i)
-    met = displacement(edges.point[loads.where], places, plate)
-    met = met.reshape(len(where), count)
-    matrix[:count] += met.T @ (weight[where, None] * smooth)
+    met = displacement(edges.point[loads.where], places, plate).reshape(len(where), count)
+    matrix[:count] += ((weight[where, None] * smooth).T @ met).T @ share
     # s_i(j)
     x, y = displacement(chosen.point, places, plate).repeat(2, axis=1)
     along = chosen.directions

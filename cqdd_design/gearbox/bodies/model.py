@@ -90,7 +90,7 @@ def disc_body(shape: DiscShape) -> Body:
         ]
     )
     stress = _edge_stress(body, loops, places, where, places, shape.plate, found, columns)
-    total = loads.smooth.shape[1]
+    total = loads.share.shape[1]
     matrix, stresses = np.empty((total, total)), np.empty((len(places), total))
     for index, sense in symmetries:
         place = index[: 2 * len(places) : 2] // 2
@@ -112,11 +112,11 @@ def ring_body(shape: RingShape) -> Body:
     made = mesh(loops, shape.side, "the ring")
     body = elements(made, loops, shape.plate)
     places = shape.places()
-    none, held = np.zeros((0, 2 * len(places)), dtype=complex), np.empty(0, dtype=np.int64)
+    held = np.empty(0, dtype=np.int64)
+    alone = Loads(places, held, np.empty((0, 0), dtype=complex), np.empty((0, 2 * len(places))))
     columns = np.arange(2 * len(shape.angles))
     seat = np.where(body.edges.loop == 0, shape.seat, 0.0)
-    loads = Loads(places, held, none)
-    found = influence(body, loops, shape.plate, loads, held, columns, seat)
+    found = influence(body, loops, shape.plate, alone, held, columns, seat)
     total, each = 2 * len(places), len(columns)
     matrix = np.empty((total, total))
     for tooth in range(shape.tooth_count):

@@ -25,7 +25,7 @@ DEPTH = 1e-3
 """Depth under a point force from which bodies count, m; other depths follow by a logarithm."""
 
 
-_AT_ONCE = 8192
+_AT_ONCE = 12000
 """Points times places whose fields are found together: what a processor keeps at hand."""
 
 
