@@ -215,7 +215,8 @@ class DiscShape:
             (np.exp(1j * self.stations), np.exp(1j * other.stations), 1),
         ):
             moved = np.exp(1j * turn) * (np.conj(own) if mirrored else own)
-            near = np.abs(moved[:, None] - its).argmin(axis=1)
+            apart = moved[:, None] - its
+            near = (apart.real**2 + apart.imag**2).argmin(axis=1)
             found.append((first + each * near[:, None] + np.arange(each)).ravel())
             senses.append(np.tile(sense[:each], len(near)))
             first += each * len(near)

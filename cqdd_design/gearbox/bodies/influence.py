@@ -23,8 +23,8 @@ from cqdd_design.gearbox.bodies.loops import Loop
 from cqdd_design.gearbox.bodies.point_load import (
     Places,
     Plate,
-    displaced,
     displacement,
+    displacement_of,
     traction,
 )
 from cqdd_design.geometry.contours import ComplexArray, FloatArray, gauss_rule
@@ -208,14 +208,12 @@ def _integrated(
     at, _ = gauss_rule(EDGE_POINTS)
     rows = EDGE_POINTS * side[:, None] + np.arange(EDGE_POINTS)
     total = total.reshape(2, len(edges.point), len(places), 2)
-    shapes = np.stack([_through(at, k, part) for k in range(EDGE_POINTS)]) * (share * speed)
-    for bored in (False, True):
-        own = np.isnan(places.void[place]) != bored
-        if own.any():
-            parts = displaced(z[own], places.some(place[own, None]), plate)
-            for k, part in enumerate(parts):
-                found = np.sum(shapes[:, own] * part, axis=2).T
-                total[k % 2, rows[own], place[own, None], k // 2] = found
+    shapes = np.stack([_through(at, k, part) for k in range(EDGE_POINTS)], axis=1)
+    fields = displacement_of(place[:, None], z, places, plate)
+    # (near, 2, EDGE_POINTS, 2)
+    found = np.matmul((shapes * (share * speed)[:, None])[:, None], fields)
+    for k in range(2):
+        total[:, rows, place[:, None], k] = found[..., k].transpose(1, 0, 2)
     return total.reshape(2 * len(edges.point), 2 * len(places))
 
 

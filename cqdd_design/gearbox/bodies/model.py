@@ -41,6 +41,10 @@ class Body:
     stress: FloatArray
     reciprocity: float
 
+    def widened(self) -> Body:
+        """The same in double precision, from the single one in which the cache keeps it."""
+        return Body(self.matrix.astype(float), self.stress.astype(float), self.reciprocity)
+
 
 def standard_loads(shape: DiscShape) -> tuple[NDArray[np.int64], FloatArray]:
     """Which load of the standard disc each load of a disc is, and its sense."""
@@ -49,18 +53,19 @@ def standard_loads(shape: DiscShape) -> tuple[NDArray[np.int64], FloatArray]:
 
 
 def of_standard(body: Body, index: NDArray[np.int64], sense: FloatArray) -> Body:
-    """The body of a disc from that of the standard disc of its kind."""
+    """The body of a disc from that of the standard disc of its kind, as the cache keeps it."""
     if sense.min() > 0.0 and (index == np.arange(len(index))).all():
-        return body
+        return body.widened()
     count = len(body.stress)
     place = index[: 2 * count : 2] // 2
     matrix = body.matrix.take(index, axis=0).take(index, axis=1)
     stress = body.stress.take(place, axis=0).take(index, axis=1)
     if sense.min() < 0.0:
-        matrix *= sense[:, None]
-        matrix *= sense
-        stress *= sense
-    return Body(matrix, stress, body.reciprocity)
+        signs = sense.astype(matrix.dtype)
+        matrix *= signs[:, None]
+        matrix *= signs
+        stress *= signs
+    return Body(matrix, stress, body.reciprocity).widened()
 
 
 def disc_body(shape: DiscShape) -> Body:

@@ -12,21 +12,16 @@ where the opposite field ends it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.gearbox.bodies.point_load_kernel import Spread, displacements, tractions
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 DEPTH = 1e-3
 """Depth under a point force from which bodies count, m; other depths follow by a logarithm."""
-
-
-_AT_ONCE = 12000
-"""Points times places whose fields are found together: what a processor keeps at hand."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,18 +45,18 @@ class Places:
         return len(self.point)
 
     def some(self, which: NDArray[np.int64]) -> Places:
-        """The places `which`, an array of any shape."""
+        """The places `which`."""
         return Places(self.point[which], self.inward[which], self.void[which])
-
-    @property
-    def bored(self) -> bool:
-        """Whether they lie in holes: all of them, where not outside."""
-        return not np.isnan(self.void).any()
 
     @property
     def directions(self) -> ComplexArray:
         """Of two unit loads a place, (2 N,): along the normal, then along i times the normal."""
         return np.asarray(np.repeat(self.inward, 2) * np.tile([1.0, 1.0j], len(self)))
+
+    def spread(self) -> Spread:
+        """The same as kernels read it."""
+        void = np.where(np.isnan(self.void), np.nan, self.void)
+        return Spread(*(_plane(one)[k] for one in (self.point, self.inward, void) for k in (0, 1)))
 
 
 @dataclass(frozen=True)
@@ -99,15 +94,9 @@ def traction(z: ComplexArray, normal: ComplexArray, places: Places) -> FloatArra
     array (2, Q, 2 N)
         Along x, and along y; of every place the loads along :attr:`Places.directions`.
     """
-
-    def field(z: ComplexArray, normal: ComplexArray, some: Places) -> Field:
-        total = _radial(z - some.point, normal, some.inward)
-        if not some.bored:
-            return total
-        back = _radial(z - some.void, normal, some.inward)
-        return Field(*(one - other for one, other in zip(total, back, strict=True)))
-
-    return _everywhere(field, places, z, normal)
+    found = np.empty((2, len(z), 2 * len(places)))
+    tractions(_plane(z), _plane(normal), places.spread(), found)
+    return found
 
 
 def displacement(z: ComplexArray, places: Places, plate: Plate) -> FloatArray:
@@ -121,51 +110,30 @@ def displacement(z: ComplexArray, places: Places, plate: Plate) -> FloatArray:
     array (2, Q, 2 N)
         As :func:`traction`.
     """
-    return _everywhere(lambda z, some: displaced(z, some, plate), places, z)
+    return displacement_of(np.arange(len(places))[None], z[None], places, plate)[0]
 
 
-class Field(NamedTuple):
-    """A field's parts along x and y by the normal loads, and by the tangential ones."""
+def displacement_of(
+    which: NDArray[np.int64], z: ComplexArray, places: Places, plate: Plate
+) -> FloatArray:
+    """Displacement at points of their own by the loads of some places each time, m.
 
-    normal_x: FloatArray
-    normal_y: FloatArray
-    tangential_x: FloatArray
-    tangential_y: FloatArray
+    Parameters
+    ----------
+    which : array (P, M)
+        Places, P times.
+    z : complex array (P, Q)
+        Points, P times.
 
-
-def displaced(z: ComplexArray, places: Places, plate: Plate) -> Field:
-    """Displacement at `z` by either load of places that are all in holes or all outside, m.
-
-    `z` and the places may have any shapes that go together.
+    Returns
+    -------
+    array (P, 2, Q, 2 M)
+        As :func:`displacement`.
     """
-    # In real numbers, since numpy's complex ones take four times as long.
-    A = -places.inward / (2.0 * np.pi * plate.shear)
-    ax, ay = A.real, A.imag
-    away = z - places.point
-    dx, dy = away.real.copy(), away.imag.copy()
-    square = dx * dx + dy * dy
-    own = square < 1e-18 * _square(places.point)
-    if own.any():
-        # On the edge itself the angle is the mean of both sides: that of the inward normal.
-        dx, dy = (
-            np.where(own, DEPTH * part, given)
-            for part, given in ((places.inward.real, dx), (places.inward.imag, dy))
-        )
-        square = dx * dx + dy * dy
-    over = z - places.void if places.bored else -places.point
-    ox, oy = over.real.copy(), over.imag.copy()
-    over_square = ox * ox + oy * oy
-    size = (0.5 * (plate.kappa + 1.0)) * np.log(square / over_square)
-    turn = (plate.kappa - 1.0) * np.arctan2(dy * ox - dx * oy, dx * ox + dy * oy)
-    # (z - z0)^2 over its size
-    twist_x, twist_y = (dx * dx - dy * dy) / square, 2.0 * dx * dy / square
-    if places.bored:
-        twist_x -= (ox * ox - oy * oy) / over_square
-        twist_y -= 2.0 * ox * oy / over_square
-    # A (size + i turn), and conj(A) twist, which changes its sign when A is turned to i A.
-    even_x, even_y = ax * size - ay * turn, ay * size + ax * turn
-    odd_x, odd_y = ax * twist_x + ay * twist_y, ax * twist_y - ay * twist_x
-    return Field(even_x - odd_x, even_y - odd_y, -even_y - odd_y, even_x + odd_x)
+    found = np.empty((len(z), 2, z.shape[1], 2 * which.shape[1]))
+    at = np.stack([z.real, z.imag], axis=1)
+    displacements(at, which, places.spread(), plate.kappa, plate.shear, DEPTH, found)
+    return found
 
 
 def stress(z: ComplexArray, places: Places, along: ComplexArray) -> FloatArray:
@@ -174,33 +142,5 @@ def stress(z: ComplexArray, places: Places, along: ComplexArray) -> FloatArray:
     return np.asarray(x * along.real[:, None] + y * along.imag[:, None])
 
 
-def _everywhere(field: Callable[..., Field], places: Places, *at: ComplexArray) -> FloatArray:
-    """A field of both loads of places at points (Q,), block by block, (2, Q, 2 N)."""
-    count = len(at[0])
-    found = np.empty((2, count, len(places), 2))
-    rows = max(_AT_ONCE // max(len(places), 1), 1)
-    for bored in (False, True):
-        which = np.flatnonzero(np.isnan(places.void) != bored)
-        some = places.some(which)
-        # A slice where it can be one: it is written far faster.
-        one_run = len(which) > 0 and which[-1] - which[0] == len(which) - 1
-        columns = slice(which[0], which[-1] + 1) if one_run else which
-        for first in range(0, count if len(which) else 0, rows):
-            block = slice(first, first + rows)
-            parts = field(*(one[block, None] for one in at), some)
-            for k, part in enumerate(parts):
-                found[k % 2, block, columns, k // 2] = part
-    return found.reshape(2, count, 2 * len(places))
-
-
-def _radial(away: ComplexArray, normal: ComplexArray, inward: ComplexArray) -> Field:
-    dx, dy, ix, iy = away.real.copy(), away.imag.copy(), inward.real, inward.imag
-    square = dx * dx + dy * dy
-    common = (-2.0 / np.pi * normal.real) * dx + (-2.0 / np.pi * normal.imag) * dy
-    common /= square * square
-    along, across = common * (ix * dx + iy * dy), common * (ix * dy - iy * dx)
-    return Field(along * dx, along * dy, across * dx, across * dy)
-
-
-def _square(z: ComplexArray) -> FloatArray:
-    return np.asarray(z.real * z.real + z.imag * z.imag)
+def _plane(z: ComplexArray) -> FloatArray:
+    return np.stack([z.real, z.imag])
