@@ -2,8 +2,8 @@
 
 An entry is the SHA-256 of what follows, a line of JSON (what it is of, the shapes of its arrays),
 and the arrays, in single precision: 6e-8 is a thousandth of what the mesh leaves, and reading and
-checking take half as long. What is not whole, or is of something else, is computed anew and written over;
-entries appear under their name whole, so two processes may make the same one.
+checking take half as long. What is not whole, or is of something else, is computed anew and
+written over; entries appear under their name whole, so two processes may make the same one.
 """
 
 from __future__ import annotations

@@ -166,6 +166,7 @@ class _Elimination:
 
     def step(self, count: int, shares: list[_Share]) -> _Share:
         """Eliminate the next; what they and the shares of earlier ones leave for later ones."""
+        from scipy.linalg import cholesky
         from scipy.linalg.lapack import dtrtri
 
         some = slice(self._first, self._first + count)
@@ -189,7 +190,8 @@ class _Elimination:
         self._at[own] = self._at[border] = -1
         left = front[count:, count:]
         if count:
-            root = dtrtri(np.linalg.cholesky(front[:count, :count]), lower=1)[0]
+            factor = cholesky(front[:count, :count], lower=True, check_finite=False)
+            root = dtrtri(factor, lower=1, overwrite_c=1)[0]
             coupling = front[count:, :count] @ root.T
             left -= coupling @ coupling.T
             self._keep(own, border, root, coupling)

@@ -31,7 +31,7 @@ from cqdd_design.geometry.contours import ComplexArray, FloatArray, gauss_rule
 
 _GRADED = 3
 """Power by which points of quadrature crowd towards a point load on a side or beside it."""
-_GRADED_POINTS = 16
+_GRADED_POINTS = 8
 _NEAR = 1.0
 """Distance of a point load from a side, over its length, up to which they do."""
 
@@ -67,8 +67,8 @@ class Influence:
     ----------
     matrix : array (2 N + B, M)
         Displacement (m/N) along every load by the loads of the columns solved.
-    fields : array (unknowns, M)
-        Their finite-element part on the body's edges; zero inside it.
+    fields : array (U, M)
+        Their finite-element part, at the unknowns along the body's edges, m/N.
     """
 
     matrix: FloatArray
@@ -164,9 +164,7 @@ def influence(
     x, y = displacement(chosen.point, places, plate).repeat(2, axis=1)
     along = chosen.directions
     matrix[:count, : len(sharp)] += x.T * along.real + y.T * along.imag
-    fields = np.zeros((edges.trace.shape[1], len(columns)))
-    fields[edges.unknowns] = found
-    return Influence(matrix, fields)
+    return Influence(matrix, found)
 
 
 def _integrated(
@@ -209,11 +207,11 @@ def _integrated(
     rows = EDGE_POINTS * side[:, None] + np.arange(EDGE_POINTS)
     total = total.reshape(2, len(edges.point), len(places), 2)
     shapes = np.stack([_through(at, k, part) for k in range(EDGE_POINTS)], axis=1)
-    fields = displacement_of(place[:, None], z, places, plate)
-    # (near, 2, EDGE_POINTS, 2)
-    found = np.matmul((shapes * (share * speed)[:, None])[:, None], fields)
+    fields = displacement_of(place[:, None], z.ravel(), places, plate)
+    # (2, near, EDGE_POINTS, 2)
+    found = np.matmul(shapes * (share * speed)[:, None], fields.reshape(2, *z.shape, 2))
     for k in range(2):
-        total[:, rows, place[:, None], k] = found[..., k].transpose(1, 0, 2)
+        total[:, rows, place[:, None], k] = found[..., k]
     return total.reshape(2 * len(edges.point), 2 * len(places))
 
 

@@ -157,7 +157,8 @@ def _edge_stress(
     for index in np.unique(where):
         own = where == index
         u[own] = loops[index].parameter(seen.point[own])
-    stress = plate.modulus * (body.strain(loops, where, u) @ found.fields)
+    strain = body.strain(loops, where, u)[:, body.edges.unknowns]
+    stress = plate.modulus * (strain @ found.fields)
     sharp = columns[columns < 2 * len(places)]
     chosen = places.some(sharp[::2] // 2)
     with np.errstate(divide="ignore", invalid="ignore"):

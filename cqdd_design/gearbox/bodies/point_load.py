@@ -17,11 +17,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.gearbox.bodies.point_load_kernel import Spread, displacements, tractions
+from cqdd_design.gearbox.bodies.point_load_kernel import (
+    Spread,
+    displacements,
+    separations,
+    tractions,
+)
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 DEPTH = 1e-3
 """Depth under a point force from which bodies count, m; other depths follow by a logarithm."""
+
+
+_AT_ONCE = 8192
+"""Points times places whose fields are found together: what a processor keeps at hand."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,29 +119,40 @@ def displacement(z: ComplexArray, places: Places, plate: Plate) -> FloatArray:
     array (2, Q, 2 N)
         As :func:`traction`.
     """
-    return displacement_of(np.arange(len(places))[None], z[None], places, plate)[0]
+    return displacement_of(np.arange(len(places))[None], z, places, plate)
 
 
 def displacement_of(
     which: NDArray[np.int64], z: ComplexArray, places: Places, plate: Plate
 ) -> FloatArray:
-    """Displacement at points of their own by the loads of some places each time, m.
+    """Displacement at points by the loads of some places each, m.
 
     Parameters
     ----------
-    which : array (P, M)
-        Places, P times.
-    z : complex array (P, Q)
-        Points, P times.
+    which : array (W, M)
+        Places.
+    z : complex array (W Q,)
+        Points, Q of them for each row of `which`.
 
     Returns
     -------
-    array (P, 2, Q, 2 M)
+    array (2, W Q, 2 M)
         As :func:`displacement`.
     """
-    found = np.empty((len(z), 2, z.shape[1], 2 * which.shape[1]))
-    at = np.stack([z.real, z.imag], axis=1)
-    displacements(at, which, places.spread(), plate.kappa, plate.shear, DEPTH, found)
+    at, spread, count = _plane(z), places.spread(), which.shape[1]
+    found = np.empty((2, len(z), 2 * count))
+    rows = max(_AT_ONCE // max(count, 1), 1)
+    unit = 1.0 / (2.0 * np.pi * plate.shear)
+    for first in range(0, len(z), rows):
+        apart = np.empty((3, min(rows, len(z) - first), count))
+        separations(at, which, spread, DEPTH, first, apart)
+        # numpy's logarithms and angles, many at once, take a tenth of compiled ones, one by one.
+        even = apart[:2]
+        np.arctan2(apart[1], apart[2], out=even[1])
+        np.log(apart[0], out=even[0])
+        even[0] *= 0.5 * (plate.kappa + 1.0)
+        even[1] *= plate.kappa - 1.0
+        displacements(at, which, spread, DEPTH, first, even, unit, found)
     return found
 
 
