@@ -7,8 +7,10 @@ along load i, the form that is stationary in both fields is
 
     G_ij = p_i(s_j) + p_j(s_i) + s_i(j) - R_i(s_j) + L_i K^-1 L_j,
 
-whose error is that of the energy. Its last term is symmetric because K is; the others are by
-Betti's theorem, and as far as the quadrature along the edges is exact.
+whose error is that of the energy. Its last term is symmetric because K is, and the first two are
+one sum; s_i(j) - R_i(s_j) is by Betti's theorem, as far as the quadrature along the edges is exact.
+By the rules below that is to 1e-6 of the largest entry: sides end wherever a traction or its slope
+jumps, and beside a place the logarithm in s_j is integrated as what it is.
 """
 
 from __future__ import annotations
