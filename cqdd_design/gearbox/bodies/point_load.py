@@ -13,16 +13,11 @@ where the opposite field ends it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.gearbox.bodies.point_load_kernel import (
-    Spread,
-    displacements,
-    separations,
-    tractions,
-)
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 DEPTH = 1e-3
@@ -31,6 +26,20 @@ DEPTH = 1e-3
 
 _AT_ONCE = 8192
 """Points times places whose fields are found together: what a processor keeps at hand."""
+
+
+class Spread(NamedTuple):
+    """Places as a kernel reads them, real parts and imaginary ones apart, (N,).
+
+    A place outside has nan as its void.
+    """
+
+    point_x: FloatArray
+    point_y: FloatArray
+    inward_x: FloatArray
+    inward_y: FloatArray
+    void_x: FloatArray
+    void_y: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,6 +112,9 @@ def traction(z: ComplexArray, normal: ComplexArray, places: Places) -> FloatArra
     array (2, Q, 2 N)
         Along x, and along y; of every place the loads along :attr:`Places.directions`.
     """
+    # numba takes its time to come in, and `size` and `check` do without.
+    from cqdd_design.gearbox.bodies.point_load_kernel import tractions
+
     found = np.empty((2, len(z), 2 * len(places)))
     tractions(_plane(z), _plane(normal), places.spread(), found)
     return found
@@ -139,6 +151,8 @@ def displacement_of(
     array (2, W Q, 2 M)
         As :func:`displacement`.
     """
+    from cqdd_design.gearbox.bodies.point_load_kernel import displacements, separations
+
     at, spread, count = _plane(z), places.spread(), which.shape[1]
     found = np.empty((2, len(z), 2 * count))
     rows = max(_AT_ONCE // max(count, 1), 1)

@@ -8,25 +8,11 @@ with A turns with it, and what goes with its conjugate turns back.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from cqdd_design.files.kernel_cache import numba
 from cqdd_design.gearbox.bodies.mesh import IntArray
+from cqdd_design.gearbox.bodies.point_load import Spread
 from cqdd_design.geometry.contours import FloatArray
-
-
-class Spread(NamedTuple):
-    """Places as a kernel reads them, real parts and imaginary ones apart, (N,).
-
-    A place outside has nan as its void.
-    """
-
-    point_x: FloatArray
-    point_y: FloatArray
-    inward_x: FloatArray
-    inward_y: FloatArray
-    void_x: FloatArray
-    void_y: FloatArray
 
 
 @numba.njit(cache=True, error_model="numpy")
