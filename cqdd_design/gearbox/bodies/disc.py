@@ -99,11 +99,14 @@ class DiscShape:
             for c, u in zip(self.holes, turns, strict=True)
         )
         ring = self.bearing
+        # And on every station, where a tent's slope jumps.
+        stations = self.stations / (2.0 * np.pi)
         if ring.raceway == ring.outer:
-            return (outside, *holes, Loop(circle(0j, ring.outer), -1))
+            return (outside, *holes, Loop(circle(0j, ring.outer), -1, joints=stations))
         factor = self.ring_factor
         seat = Loop(circle(0j, ring.outer), -1, 1.0 - factor, inner=True)
-        return (outside, *holes, seat, Loop(circle(0j, ring.raceway), -1, factor))
+        raceway = Loop(circle(0j, ring.raceway), -1, factor, joints=stations)
+        return (outside, *holes, seat, raceway)
 
     @property
     def ring_factor(self) -> float:
@@ -212,7 +215,8 @@ class DiscShape:
             (np.exp(1j * self.stations), np.exp(1j * other.stations), 1),
         ):
             moved = np.exp(1j * turn) * (np.conj(own) if mirrored else own)
-            near = np.abs(moved[:, None] - its).argmin(axis=1)
+            apart = moved[:, None] - its
+            near = (apart.real**2 + apart.imag**2).argmin(axis=1)
             found.append((first + each * near[:, None] + np.arange(each)).ravel())
             senses.append(np.tile(sense[:each], len(near)))
             first += each * len(near)

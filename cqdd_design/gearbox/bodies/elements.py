@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from cqdd_design.gearbox.bodies.fronts import Factors, factors
 from cqdd_design.gearbox.bodies.loops import Loop
 from cqdd_design.gearbox.bodies.mesh import IntArray, Mesh
 from cqdd_design.gearbox.bodies.point_load import Plate
 from cqdd_design.geometry.contours import ComplexArray, FloatArray, gauss_rule
 
-_EDGE_POINTS = 5
-_SOLVED_AT_ONCE = 4
-"""Right-hand sides SuperLU takes together: more and its threads wait for each other tenfold."""
+EDGE_POINTS = 5
+"""Of quadrature, on a side."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +31,8 @@ class Edges:
         Length, m.
     trace : sparse matrix (2 Q, unknowns)
         Displacements x and y at the points from the unknowns; x first.
+    unknowns : array
+        Those along the loops, where alone there are loads and anything is read.
     """
 
     loop: IntArray
@@ -38,6 +40,7 @@ class Edges:
     normal: ComplexArray
     weight: FloatArray
     trace: Any
+    unknowns: IntArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,62 +49,42 @@ class Elements:
 
     Attributes
     ----------
-    basis : skfem.Basis
+    place : complex array (nodes,)
+        m. Node k has the unknowns 2 k along x and 2 k + 1 along y.
+    triangles : array (6, K)
+        Nodes of every triangle: corners, then middles of its sides.
     stiffness : sparse matrix
         N/m; free of supports.
     edges : Edges
     sides : tuple of array (S + 1,)
         Of every loop: parameters of its sides' ends.
-    unknowns : tuple of array (3, 2, S)
-        Of every loop: unknowns x and y at the begin, end and middle of its sides.
+    nodes : tuple of array (3, S)
+        Of every loop: nodes at the begin, end and middle of its sides.
     """
 
-    basis: Any
+    place: ComplexArray
+    triangles: IntArray
     stiffness: Any
     edges: Edges
     sides: tuple[FloatArray, ...]
-    unknowns: tuple[IntArray, ...]
+    nodes: tuple[IntArray, ...]
 
-    def solver(self, fixed: IntArray, springs: FloatArray | None = None) -> Any:
-        """One factorisation: from loads (R, N) on some unknowns (R,) to their displacements.
+    def factors(self, held: IntArray, springs: FloatArray | None = None) -> Factors:
+        """Factors of the stiffness, for loads along the edges.
 
         Parameters
         ----------
-        fixed : array
+        held : array
             Unknowns at zero.
         springs : array (Q,), optional
             To the ground at the edges' quadrature points, in both directions, N/m.
         """
         from scipy.sparse import diags
-        from scipy.sparse.linalg import splu
 
-        matrix = self.stiffness
+        matrix, trace = self.stiffness, self.edges.trace
         if springs is not None:
-            trace = self.edges.trace
             matrix = matrix + trace.T @ diags(np.tile(springs, 2)) @ trace
-        free = np.setdiff1d(np.arange(matrix.shape[0]), fixed)
-        factors = splu(
-            matrix[free][:, free].tocsc(),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        )
-
-        place = np.full(matrix.shape[0], -1)
-        place[free] = np.arange(len(free))
-
-        def solve(loads: FloatArray, rows: IntArray) -> FloatArray:
-            loose = np.flatnonzero(place[rows] >= 0)
-            at = place[rows[loose]]
-            found = np.zeros(loads.shape)
-            for first in range(0, loads.shape[1], _SOLVED_AT_ONCE):
-                some = loads[loose, first : first + _SOLVED_AT_ONCE]
-                given = np.zeros((some.shape[1], len(free)))
-                given[:, at] = some.T
-                found[loose, first : first + some.shape[1]] = factors.solve(given.T)[at]
-            return found
-
-        return solve
+        return factors(matrix, self.place, self.triangles, self.edges.unknowns, held)
 
     def strain(self, loops: tuple[Loop, ...], loop: IntArray, u: FloatArray) -> Any:
         """Sparse matrix (P, unknowns) of strains along the edges at parameters `u` of loops.
@@ -141,18 +124,16 @@ class Elements:
         slope = loop.curve(at)[1]
         along = slope / np.abs(slope) / (np.abs(slope) * step)
         shapes = np.stack([4.0 * part - 3.0, 4.0 * part - 1.0, 4.0 - 8.0 * part])
-        columns = self.unknowns[index][:, :, side]
+        columns = 2 * self.nodes[index][:, None, side] + np.arange(2)[:, None]
         values = np.stack([shapes * along.real, shapes * along.imag], axis=1)
         rows = np.broadcast_to(np.arange(len(at)), columns.shape)
         triples = (values.ravel(), (rows.ravel(), columns.ravel()))
-        return at, csr_matrix(triples, shape=(len(at), self.basis.N))
+        return at, csr_matrix(triples, shape=(len(at), self.stiffness.shape[0]))
 
     def rigid(self) -> IntArray:
         """Three unknowns that hold the body against moving as a whole."""
-        x = self.basis.doflocs[0, self.basis.nodal_dofs[0]]
-        left, right = int(x.argmin()), int(x.argmax())
-        nodal = self.basis.nodal_dofs
-        return np.array([nodal[0, left], nodal[1, left], nodal[1, right]])
+        left, right = int(self.place.real.argmin()), int(self.place.real.argmax())
+        return np.array([2 * left, 2 * left + 1, 2 * right + 1])
 
 
 def elements(
@@ -170,64 +151,62 @@ def elements(
     factor : array (K,), optional
         Stiffness of every triangle over the plate's.
     """
-    from skfem import (
-        Basis,
-        BilinearForm,
-        ElementTriP0,
-        ElementTriP2,
-        ElementVector,
-        MeshTri,
-        MeshTri2,
-    )
-    from skfem.helpers import ddot, sym_grad, trace
+    from skfem import Basis, ElementTriP2, MeshTri, MeshTri2
 
     corners = np.stack([mesh.vertices.real, mesh.vertices.imag])
     curved = MeshTri2.from_mesh(MeshTri(corners, mesh.triangles))
-    facets = {tuple(pair): k for k, pair in enumerate(np.sort(curved.facets, axis=0).T.tolist())}
-    own = [
-        np.array([facets[tuple(pair)] for pair in np.sort(sides, axis=1).tolist()])
-        for sides in mesh.sides
-    ]
-    locations = curved.doflocs.copy()
-    count = corners.shape[1]
-    for loop, u, facet in zip(loops, mesh.parameters, own, strict=True):
+    locations, count = curved.doflocs.copy(), corners.shape[1]
+    number = np.sort(curved.facets, axis=0).T @ [count, 1]
+    order = np.argsort(number)
+    nodes = []
+    for loop, u, sides in zip(loops, mesh.parameters, mesh.sides, strict=True):
+        wanted = np.sort(sides, axis=1) @ [count, 1]
+        middles = count + order[np.searchsorted(number, wanted, sorter=order)]
         middle = loop.curve(0.5 * (u[1:] + u[:-1]))[0]
-        locations[:, count + facet] = np.stack([middle.real, middle.imag])
-    curved = MeshTri2(locations, curved.t)
-    basis = Basis(curved, ElementVector(ElementTriP2()), intorder=4)
-    shear = plate.shear
-    lame = plate.modulus * plate.thickness * plate.poisson / (1.0 - plate.poisson**2)
-    stiff = np.ones(mesh.triangles.shape[1]) if factor is None else factor
-    per_triangle = basis.with_element(ElementTriP0()).interpolate(stiff)
-
-    def strain_energy(u: Any, v: Any, w: Any) -> Any:
-        e, d = sym_grad(u), sym_grad(v)
-        return w.factor * (shear * ddot(e, d) + lame * trace(e) * trace(d))
-
-    matrix = BilinearForm(strain_energy).assemble(basis, factor=per_triangle)
-    unknowns = tuple(
-        np.stack(
-            [
-                basis.nodal_dofs[:, sides[:, 0]],
-                basis.nodal_dofs[:, sides[:, 1]],
-                basis.facet_dofs[:, facet],
-            ]
-        )
-        for sides, facet in zip(mesh.sides, own, strict=True)
-    )
-    edges = _edges(mesh, loops, unknowns, basis.N)
-    return Elements(basis, 0.5 * (matrix + matrix.T), edges, mesh.parameters, unknowns)
+        locations[:, middles] = np.stack([middle.real, middle.imag])
+        nodes.append(np.stack([*sides.T, middles]))
+    basis = Basis(MeshTri2(locations, curved.t), ElementTriP2(), intorder=4)
+    triangles = np.asarray(basis.element_dofs)
+    stiff = np.ones(triangles.shape[1]) if factor is None else factor
+    matrix = _stiffness(basis, plate, stiff)
+    edges = _edges(mesh, loops, tuple(nodes), matrix.shape[0])
+    place = basis.doflocs[0] + 1j * basis.doflocs[1]
+    return Elements(place, triangles, matrix, edges, mesh.parameters, tuple(nodes))
 
 
-def _edges(mesh: Mesh, loops: tuple[Loop, ...], unknowns: tuple[IntArray, ...], size: int) -> Edges:
+def _stiffness(basis: Any, plate: Plate, factor: FloatArray) -> Any:
+    """Stiffness of all triangles (each `factor` times the plate's) between their unknowns, N/m."""
     from scipy.sparse import csr_matrix
 
-    nodes, weights = gauss_rule(_EDGE_POINTS)
+    slopes = np.stack([one[0].grad for one in basis.basis])
+    corners, axes, count, points = slopes.shape
+    weighed = slopes * (basis.dx * factor[:, None])
+    # Of slope i of shape a and slope j of shape b: (K, a, i, b, j).
+    flat = (corners * axes, count, points)
+    products = np.matmul(
+        weighed.reshape(flat).transpose(1, 0, 2), slopes.reshape(flat).transpose(1, 2, 0)
+    ).reshape(count, corners, axes, corners, axes)
+    lame = plate.modulus * plate.thickness * plate.poisson / (1.0 - plate.poisson**2)
+    each = lame * products + 0.5 * plate.shear * products.transpose(0, 1, 4, 3, 2)
+    both = 0.5 * plate.shear * np.trace(products, axis1=2, axis2=4)
+    for k in range(axes):
+        each[:, :, k, :, k] += both
+    size = axes * basis.N
+    own = axes * basis.element_dofs.T[:, :, None] + np.arange(axes)
+    own = own.reshape(count, corners * axes)
+    rows, columns = np.repeat(own, corners * axes, axis=1), np.tile(own, corners * axes)
+    return csr_matrix((each.ravel(), (rows.ravel(), columns.ravel())), shape=(size, size))
+
+
+def _edges(mesh: Mesh, loops: tuple[Loop, ...], own: tuple[IntArray, ...], size: int) -> Edges:
+    from scipy.sparse import csr_matrix
+
+    nodes, weights = gauss_rule(EDGE_POINTS)
     shapes = np.stack(
         [(1 - nodes) * (1 - 2 * nodes), nodes * (2 * nodes - 1), 4 * nodes * (1 - nodes)]
     )
     which, points, normals, lengths, columns = [], [], [], [], []
-    for index, (loop, u, own) in enumerate(zip(loops, mesh.parameters, unknowns, strict=True)):
+    for index, (loop, u, nodes_of) in enumerate(zip(loops, mesh.parameters, own, strict=True)):
         step = np.diff(u)[:, None]
         at = (u[:-1, None] + step * nodes).ravel()
         point, slope = loop.curve(at)
@@ -235,9 +214,9 @@ def _edges(mesh: Mesh, loops: tuple[Loop, ...], unknowns: tuple[IntArray, ...], 
         normals.append(loop.normal(at))
         lengths.append((np.abs(slope).reshape(step.shape[0], -1) * step * weights).ravel())
         which.append(np.full(len(at), index))
-        columns.append(np.repeat(own, len(nodes), axis=2))
-    dofs = np.concatenate(columns, axis=2)
-    total = dofs.shape[2]
+        columns.append(np.repeat(nodes_of, len(nodes), axis=1))
+    dofs = 2 * np.concatenate(columns, axis=1)
+    total = dofs.shape[1]
     values = np.tile(shapes, (1, total // len(nodes)))
     rows = np.arange(total)
     trace = csr_matrix(
@@ -245,7 +224,7 @@ def _edges(mesh: Mesh, loops: tuple[Loop, ...], unknowns: tuple[IntArray, ...], 
             np.concatenate([values.ravel(), values.ravel()]),
             (
                 np.concatenate([np.tile(rows, 3), np.tile(rows, 3) + total]),
-                np.concatenate([dofs[:, 0].ravel(), dofs[:, 1].ravel()]),
+                np.concatenate([dofs.ravel(), dofs.ravel() + 1]),
             ),
         ),
         shape=(2 * total, size),
@@ -256,4 +235,5 @@ def _edges(mesh: Mesh, loops: tuple[Loop, ...], unknowns: tuple[IntArray, ...], 
         np.concatenate(normals),
         np.concatenate(lengths),
         trace,
+        np.unique(trace.indices),
     )

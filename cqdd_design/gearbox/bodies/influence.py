@@ -7,8 +7,10 @@ along load i, the form that is stationary in both fields is
 
     G_ij = p_i(s_j) + p_j(s_i) + s_i(j) - R_i(s_j) + L_i K^-1 L_j,
 
-whose error is that of the energy. Its last term is symmetric because K is; the others are by
-Betti's theorem, and as far as the quadrature along the edges is exact.
+whose error is that of the energy. Its last term is symmetric because K is, and the first two are
+one sum; s_i(j) - R_i(s_j) is by Betti's theorem, as far as the quadrature along the edges is exact.
+By the rules below that is to 1e-6 of the largest entry: sides end wherever a traction or its slope
+jumps, and beside a place the logarithm in s_j is integrated as what it is.
 """
 
 from __future__ import annotations
@@ -18,10 +20,22 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.gearbox.bodies.elements import Edges, Elements
+from cqdd_design.gearbox.bodies.elements import EDGE_POINTS, Edges, Elements
 from cqdd_design.gearbox.bodies.loops import Loop
-from cqdd_design.gearbox.bodies.point_load import Places, Plate, displacement, traction
-from cqdd_design.geometry.contours import ComplexArray, FloatArray
+from cqdd_design.gearbox.bodies.point_load import (
+    Places,
+    Plate,
+    displacement,
+    displacement_of,
+    traction,
+)
+from cqdd_design.geometry.contours import ComplexArray, FloatArray, gauss_rule
+
+_GRADED = 3
+"""Power by which points of quadrature crowd towards a point load on a side or beside it."""
+_GRADED_POINTS = 8
+_NEAR = 1.0
+"""Distance of a point load from a side, over its length, up to which they do."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,24 +44,21 @@ class Loads:
 
     Attributes
     ----------
-    points : Places
-        Of the point forces, two for each place.
-    force : complex array (N,)
-        Direction of every point force.
-    smooth : complex array (Q, N + B)
-        Tractions at the edges' quadrature points, N/m: reactions of the point forces, then B loads
+    places : Places
+        N of them, of two point forces each.
+    where : array (R,)
+        The edges' quadrature points where there are any smooth tractions.
+    smooth : complex array (R, K)
+        They, of a few kinds, N/m.
+    share : array (K, 2 N + B)
+        How much of each kind is with each load: with the point forces their reactions, and B loads
         that are smooth themselves.
     """
 
-    points: Places
-    force: ComplexArray
+    places: Places
+    where: NDArray[np.int64]
     smooth: ComplexArray
-
-    def some(self, which: NDArray[np.int64]) -> tuple[Places, ComplexArray]:
-        """The point forces `which`: their places and directions."""
-        points = self.points
-        chosen = Places(points.point[which], points.inward[which], points.void[which])
-        return chosen, self.force[which]
+    share: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,46 +67,45 @@ class Influence:
 
     Attributes
     ----------
-    matrix : array (N + B, M)
+    matrix : array (2 N + B, M)
         Displacement (m/N) along every load by the loads of the columns solved.
-    fields : array (unknowns, M)
-        Their finite-element part on the body's edges; zero inside it.
+    fields : array (U, M)
+        Their finite-element part, at the unknowns along the body's edges, m/N.
     """
 
     matrix: FloatArray
     fields: FloatArray
 
 
-def self_balanced(
-    edges: Edges, circle: int, points: Places, force: ComplexArray, smooth: ComplexArray
-) -> ComplexArray:
-    """Smooth tractions of loads with their reactions on a loop: shear and normal, evenly round it.
+def self_balanced(edges: Edges, circle: int, places: Places, smooth: ComplexArray) -> Loads:
+    """Loads with their reactions on a loop: shear and normal, evenly round it.
 
     Parameters
     ----------
     circle : int
         Loop that takes the reactions: a circle about the origin.
-    points, force
-        Point forces (N,).
-    smooth : complex array (Q, B)
-        Loads that are smooth themselves.
-
-    Returns
-    -------
-    complex array (Q, N + B)
+    places : Places
+        Of point forces.
+    smooth : complex array (R, B)
+        Loads along that loop that are smooth themselves.
     """
-    on = edges.loop == circle
-    length = edges.weight[on].sum()
+    on = np.flatnonzero(edges.loop == circle)
+    point, weight = edges.point[on], edges.weight[on]
+    length = weight.sum()
     radius = length / (2.0 * np.pi)
-    given = edges.weight @ smooth
-    moment = edges.weight @ (np.conj(edges.point)[:, None] * smooth).imag
-    total = np.concatenate([force, given])
-    turning = np.concatenate([(np.conj(points.point) * force).imag, moment])
-    around = 1j * edges.point / np.abs(edges.point)
-    loads = np.zeros((len(edges.point), len(total)), dtype=complex)
-    loads[:, len(force) :] = smooth
-    loads[on] -= total / length + around[on, None] * turning / (length * radius)
-    return loads
+    around = 1j * point / np.abs(point)
+    even = np.ones(len(on)) / length
+    kinds = np.stack([-even, -1j * even, -around / (length * radius)], axis=1)
+    force = np.concatenate([places.directions, weight @ smooth])
+    moment = np.concatenate(
+        [
+            (np.conj(np.repeat(places.point, 2)) * places.directions).imag,
+            weight @ (np.conj(point)[:, None] * smooth).imag,
+        ]
+    )
+    own = np.eye(smooth.shape[1], len(force), len(force) - smooth.shape[1])
+    share = np.concatenate([[force.real, force.imag, moment], own])
+    return Loads(places, on, np.concatenate([kinds, smooth], axis=1), share)
 
 
 def influence(
@@ -103,7 +113,7 @@ def influence(
     loops: tuple[Loop, ...],
     plate: Plate,
     loads: Loads,
-    fixed: NDArray[np.int64],
+    held: NDArray[np.int64],
     solved: NDArray[np.int64] | None = None,
     foundation: FloatArray | None = None,
 ) -> Influence:
@@ -114,51 +124,100 @@ def influence(
     body, loops, plate
         The elements and what they were made of.
     loads : Loads
-        Each in balance with its reaction unless `fixed` supports the body.
-    fixed : array
+        Each in balance with its reaction unless `held` supports the body.
+    held : array
         Unknowns held at zero.
     solved : array (M,), optional
-        Columns wanted, rising; all where left out.
+        Columns wanted, rising, of a place both or none; all where left out.
     foundation : array (Q,), optional
         Springs to the ground along the edges in both directions, N/m^2.
     """
-    edges = body.edges
-    count, total = len(loads.force), loads.smooth.shape[1]
+    edges, places = body.edges, loads.places
+    count, total = 2 * len(places), loads.share.shape[1]
     columns = np.arange(total) if solved is None else solved
-    sharp = columns[columns < count]
-    weight = np.array([loop.weight for loop in loops])[edges.loop] * edges.weight
-    field = weight[:, None] * traction(edges.point, edges.normal, loads.points, loads.force)
+    sharp = columns[: np.searchsorted(columns, count)]
+    chosen = places.some(sharp[::2] // 2)
+    # R_i with its sign, per length; then L_j as nodal forces.
+    counted = -np.array([loop.weight for loop in loops])[edges.loop]
+    left = traction(edges.point, counted * edges.normal, places)
     springs = None
     if foundation is not None:
         on = np.flatnonzero(foundation)
         springs = edges.weight * foundation
-        ground = displacement(edges.point[on], loads.points, loads.force, plate)
-        field[on] += springs[on, None] * ground
-    smooth = edges.weight[:, None] * loads.smooth
-    given = np.flatnonzero(np.abs(smooth).max(axis=1) > 0.0)
-    # p_i(s_j) for all i and the columns j, then p_j(s_i) for all i.
-    of_columns = displacement(edges.point, *loads.some(sharp), plate)
-    on_given = displacement(edges.point[given], loads.points, loads.force, plate)
-    matrix = np.zeros((total, len(columns)))
-    matrix[:count] += _work(on_given, smooth[np.ix_(given, columns)])
-    matrix[:, : len(sharp)] += _work(smooth[given], of_columns[given])
-    # s_i(j) - R_i(s_j)
-    at_columns = displacement(loads.points.point[sharp], loads.points, loads.force, plate)
-    matrix[:count, : len(sharp)] += (np.conj(loads.force[sharp])[:, None] * at_columns).real.T
-    matrix[:count, : len(sharp)] -= _work(field, of_columns)
-    smooth[:, :count] -= field
-    # Along the edges alone there are loads, and alone there anything is read.
-    rows = np.unique(edges.trace.indices)
-    forces = edges.trace[:, rows].T @ np.concatenate([smooth.real, smooth.imag])
-    found = body.solver(fixed, springs)(forces[:, columns], rows)
-    fields = np.zeros((edges.trace.shape[1], len(columns)))
-    fields[rows] = found
-    return Influence(matrix + forces.T @ found, fields)
+        left[:, on] -= foundation[on, None] * displacement(edges.point[on], places, plate)
+    left = left.reshape(2 * len(edges.point), count)
+    weight = np.tile(edges.weight, 2)
+    weighed = edges.trace[:, edges.unknowns].multiply(weight[:, None]).tocsr()
+    where = np.concatenate([loads.where, loads.where + len(edges.point)])
+    smooth = np.concatenate([loads.smooth.real, loads.smooth.imag])
+    share = loads.share[:, columns]
+    forces = (weighed[where].T @ smooth) @ share
+    forces[:, : len(sharp)] += weighed.T @ (left if len(sharp) == count else left[:, sharp])
+    # L_i (s_j + w_j)
+    found = body.factors(held, springs).solve(forces, edges.unknowns)
+    moved = weighed @ found
+    moved[:, : len(sharp)] += _integrated(body, loops, chosen, plate)
+    matrix = loads.share.T @ (smooth.T @ moved[where])
+    matrix[:count] += left.T @ moved
+    # p_j(s_i)
+    met = displacement(edges.point[loads.where], places, plate).reshape(len(where), count)
+    matrix[:count] += ((weight[where, None] * smooth).T @ met).T @ share
+    # s_i(j)
+    x, y = displacement(chosen.point, places, plate).repeat(2, axis=1)
+    along = chosen.directions
+    matrix[:count, : len(sharp)] += x.T * along.real + y.T * along.imag
+    return Influence(matrix, found)
 
 
-def _work(tractions: ComplexArray, displacements: ComplexArray) -> FloatArray:
-    """Work of every traction on every displacement, (N, M)."""
-    # Side by side, since parts of complex numbers are no operands of a fast product.
-    left = np.concatenate([tractions.real, tractions.imag])
-    right = np.concatenate([displacements.real, displacements.imag])
-    return np.asarray(left.T @ right)
+def _integrated(
+    body: Elements, loops: tuple[Loop, ...], places: Places, plate: Plate
+) -> FloatArray:
+    """Displacements by the loads of places at the edges' points, times these' weights.
+
+    On sides that end at a place or near one, where the field has a logarithm, weights are those
+    that integrate it right with whatever is smooth: by a graded rule, with polynomials through the
+    side's points for the other factor.
+
+    Returns
+    -------
+    array (2 Q, 2 N)
+    """
+    edges = body.edges
+    total = displacement(edges.point, places, plate)
+    total *= edges.weight[:, None]
+    nodes = np.concatenate(body.nodes, axis=1)
+    begin, end, middle = body.place[nodes]
+    length = np.abs(middle - begin) + np.abs(end - middle)
+    apart = np.abs(places.point[:, None, None] - np.stack([begin, end, middle])).min(axis=1)
+    place, side = np.nonzero(apart < _NEAR * length)
+    chord = (end - begin)[side]
+    nearest = ((places.point[place] - begin[side]) * np.conj(chord)).real / np.abs(chord) ** 2
+    nearest = np.clip(nearest, 0.0, 1.0)[:, None]
+    fine, weight = gauss_rule(_GRADED_POINTS)
+    crowded, share = fine**_GRADED, weight * _GRADED * fine ** (_GRADED - 1)
+    part = np.concatenate([nearest * (1.0 - crowded), nearest + (1.0 - nearest) * crowded], axis=1)
+    share = np.concatenate([nearest * share, (1.0 - nearest) * share], axis=1)
+    first = np.concatenate([u[:-1] for u in body.sides])[side, None]
+    step = np.concatenate([np.diff(u) for u in body.sides])[side, None]
+    loop = np.repeat(np.arange(len(loops)), [len(u) - 1 for u in body.sides])[side]
+    z, speed = np.empty(part.shape, dtype=complex), np.empty(part.shape)
+    for index in np.unique(loop):
+        own = loop == index
+        z[own], slope = loops[index].curve((first + part * step)[own])
+        speed[own] = np.abs(slope) * step[own]
+    at, _ = gauss_rule(EDGE_POINTS)
+    rows = EDGE_POINTS * side[:, None] + np.arange(EDGE_POINTS)
+    total = total.reshape(2, len(edges.point), len(places), 2)
+    shapes = np.stack([_through(at, k, part) for k in range(EDGE_POINTS)], axis=1)
+    fields = displacement_of(place[:, None], z.ravel(), places, plate)
+    # (2, near, EDGE_POINTS, 2)
+    found = np.matmul(shapes * (share * speed)[:, None], fields.reshape(2, *z.shape, 2))
+    for k in range(2):
+        total[:, rows, place[:, None], k] = found[..., k]
+    return total.reshape(2 * len(edges.point), 2 * len(places))
+
+
+def _through(points: FloatArray, which: int, at: FloatArray) -> FloatArray:
+    """Lagrange's polynomial that is 1 at one of the points and 0 at the others."""
+    others = np.delete(points, which)
+    return np.asarray(np.prod((at[..., None] - others) / (points[which] - others), axis=-1))

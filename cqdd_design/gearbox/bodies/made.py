@@ -33,4 +33,4 @@ def elastic_bodies(design: Design) -> ElasticBodies:
             made[standard.first_hole] = cached(standard, disc_body)
         discs.append((shape, of_standard(made[standard.first_hole], *standard_loads(shape))))
     ring = RingShape.from_design(design)
-    return ElasticBodies(tuple(discs), (ring, cached(ring, ring_body)))
+    return ElasticBodies(tuple(discs), (ring, cached(ring, ring_body).widened()))

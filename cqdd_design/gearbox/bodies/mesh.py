@@ -31,6 +31,8 @@ _THINNEST = 5e-3
 """Least material between two loops, over the body's radius."""
 _LEAST_ANGLE = np.radians(12.0)
 _MOST_VERTICES = 60_000
+_EVENED = 6
+"""Times every vertex inside moves to the middle of the triangles round it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,8 +84,7 @@ def mesh(loops: tuple[Loop, ...], largest: float, what: str) -> Mesh:
     )
     bounds = np.concatenate([s for s, loop in zip(sides, loops, strict=True) if not loop.inner])
     size = _Size(edge, np.concatenate(sizes), largest)
-    vertices = _fill(edge, bounds, size)
-    triangles = _inside(vertices, edge, bounds)
+    vertices, triangles = _fill(edge, bounds, size)
     _refuse_broken(vertices, triangles, np.concatenate(sides), bounds, what)
     return Mesh(vertices, triangles, sides, parameters)
 
@@ -175,11 +176,10 @@ class _Size:
         return np.minimum(self._size[near] + _GRADING * apart, self._largest), apart
 
 
-def _fill(edge: ComplexArray, bounds: IntArray, size: _Size) -> ComplexArray:
+def _fill(edge: ComplexArray, bounds: IntArray, size: _Size) -> tuple[ComplexArray, IntArray]:
     """Vertices: the edge's, and centres of circumcircles that are too large, evened out."""
-    vertices = edge
+    vertices, triangles = edge, _inside(edge, edge, bounds)
     for _ in range(40):
-        triangles = _inside(vertices, edge, bounds)
         centre, radius = _circumcircles(vertices[triangles])
         side, to_edge = size(centre)
         excess = radius / (0.62 * side)
@@ -190,8 +190,8 @@ def _fill(edge: ComplexArray, bounds: IntArray, size: _Size) -> ComplexArray:
         if not len(taken) or len(vertices) > _MOST_VERTICES:
             break
         vertices = np.concatenate([vertices, taken])
-    for _ in range(6):
         triangles = _inside(vertices, edge, bounds)
+    for _ in range(_EVENED):
         corner = vertices[triangles]
         middle = corner.mean(axis=0)
         area = _area(corner)
@@ -203,7 +203,8 @@ def _fill(edge: ComplexArray, bounds: IntArray, size: _Size) -> ComplexArray:
         moved = total / np.where(weight > 0.0, weight, 1.0)
         free = (np.arange(len(vertices)) >= len(edge)) & (weight > 0.0)
         vertices = np.where(free, moved, vertices)
-    return np.asarray(vertices)
+        triangles = _inside(vertices, edge, bounds)
+    return np.asarray(vertices), triangles
 
 
 def _apart(candidates: ComplexArray, distance: FloatArray) -> ComplexArray:
@@ -239,14 +240,20 @@ def _inside(vertices: ComplexArray, edge: ComplexArray, bounds: IntArray) -> Int
 def _within(z: ComplexArray, edge: ComplexArray, bounds: IntArray) -> NDArray[np.bool_]:
     """Whether points lie in the material, by the number of edges to their right."""
     begin, end = edge[bounds[:, 0]], edge[bounds[:, 1]]
-    inside = np.zeros(len(z), dtype=bool)
-    for first in range(0, len(z), 2048):
-        some = z[first : first + 2048, None]
-        spans = (begin.imag > some.imag) != (end.imag > some.imag)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            part = (some.imag - begin.imag) / (end.imag - begin.imag)
-            crossing = begin.real + part * (end.real - begin.real)
-        inside[first : first + 2048] = (spans & (some.real < crossing)).sum(axis=1) % 2 == 1
+    order = np.argsort(z.imag)
+    height = z.imag[order]
+    # Every edge with the points between its ends' heights: few of all pairs.
+    first, last = (
+        np.searchsorted(height, at(begin.imag, end.imag)) for at in (np.minimum, np.maximum)
+    )
+    count = last - first
+    side = np.repeat(np.arange(len(begin)), count)
+    point = np.arange(len(side)) + np.repeat(first - np.cumsum(count) + count, count)
+    rise = (end - begin)[side]
+    part = (height[point] - begin.imag[side]) / rise.imag
+    hit = z.real[order[point]] < begin.real[side] + part * rise.real
+    inside = np.empty(len(z), dtype=bool)
+    inside[order] = np.bincount(point[hit], minlength=len(z)) % 2 == 1
     return inside
 
 

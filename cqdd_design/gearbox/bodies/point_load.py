@@ -13,13 +13,33 @@ where the opposite field ends it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 DEPTH = 1e-3
 """Depth under a point force from which bodies count, m; other depths follow by a logarithm."""
+
+
+_AT_ONCE = 8192
+"""Points times places whose fields are found together: what a processor keeps at hand."""
+
+
+class Spread(NamedTuple):
+    """Places as a kernel reads them, real parts and imaginary ones apart, (N,).
+
+    A place outside has nan as its void.
+    """
+
+    point_x: FloatArray
+    point_y: FloatArray
+    inward_x: FloatArray
+    inward_y: FloatArray
+    void_x: FloatArray
+    void_y: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,14 +62,19 @@ class Places:
         """Number of places."""
         return len(self.point)
 
-    def loads(self) -> Places:
-        """Two unit loads a place: along the normal, then along the tangent (i times the normal)."""
-        return Places(*(np.repeat(one, 2) for one in (self.point, self.inward, self.void)))
+    def some(self, which: NDArray[np.int64]) -> Places:
+        """The places `which`."""
+        return Places(self.point[which], self.inward[which], self.void[which])
 
     @property
     def directions(self) -> ComplexArray:
-        """Directions of :meth:`loads`, (2 N,)."""
+        """Of two unit loads a place, (2 N,): along the normal, then along i times the normal."""
         return np.asarray(np.repeat(self.inward, 2) * np.tile([1.0, 1.0j], len(self)))
+
+    def spread(self) -> Spread:
+        """The same as kernels read it."""
+        void = np.where(np.isnan(self.void), np.nan, self.void)
+        return Spread(*(_plane(one)[k] for one in (self.point, self.inward, void) for k in (0, 1)))
 
 
 @dataclass(frozen=True)
@@ -79,58 +104,77 @@ class Plate:
         return np.asarray(apart / (np.pi * self.modulus * self.thickness))
 
 
-def traction(
-    z: ComplexArray, normal: ComplexArray, loads: Places, force: ComplexArray
-) -> ComplexArray:
-    """Force per length on edges of outward `normal` at `z` (Q,), by every load, (Q, N), N/m."""
-    total = _radial(z[:, None] - loads.point, normal[:, None], force)
-    hole = ~np.isnan(loads.void)
-    total[:, hole] -= _radial(z[:, None] - loads.void[hole], normal[:, None], force[hole])
-    return total
+def traction(z: ComplexArray, normal: ComplexArray, places: Places) -> FloatArray:
+    """Force per length on edges of outward `normal` at `z` (Q,) by the loads of places, N/m.
+
+    Returns
+    -------
+    array (2, Q, 2 N)
+        Along x, and along y; of every place the loads along :attr:`Places.directions`.
+    """
+    # numba takes its time to come in, and `size` and `check` do without.
+    from cqdd_design.gearbox.bodies.point_load_kernel import tractions
+
+    found = np.empty((2, len(z), 2 * len(places)))
+    tractions(_plane(z), _plane(normal), places.spread(), found)
+    return found
 
 
-def _radial(away: ComplexArray, normal: ComplexArray, force: ComplexArray) -> ComplexArray:
-    square = _square(away)
-    along = _dot(force, away) * _dot(normal, away) / (square * square)
-    return np.asarray(-2.0 / np.pi * along * away)
-
-
-def _dot(first: ComplexArray, second: ComplexArray) -> FloatArray:
-    return np.asarray(first.real * second.real + first.imag * second.imag)
-
-
-def _square(z: ComplexArray) -> FloatArray:
-    return np.asarray(z.real * z.real + z.imag * z.imag)
-
-
-def stress(z: ComplexArray, loads: Places, force: ComplexArray, along: ComplexArray) -> FloatArray:
-    """Normal stress times thickness in the direction `along` at `z` (Q,), (Q, N), N/m."""
-    total = _radial(z[:, None] - loads.point, along[:, None], force)
-    hole = ~np.isnan(loads.void)
-    total[:, hole] -= _radial(z[:, None] - loads.void[hole], along[:, None], force[hole])
-    return np.asarray((total * np.conj(along)[:, None]).real)
-
-
-def displacement(z: ComplexArray, loads: Places, force: ComplexArray, plate: Plate) -> ComplexArray:
-    """Displacement at `z` (Q,) by every load (N,), (Q, N), m.
+def displacement(z: ComplexArray, places: Places, plate: Plate) -> FloatArray:
+    """Displacement at `z` (Q,) by the loads of places, m.
 
     At the load itself it is that of the point :data:`DEPTH` under it in the half plane: what is
     nearer to the load is the contact law's.
+
+    Returns
+    -------
+    array (2, Q, 2 N)
+        As :func:`traction`.
     """
-    A = -force / (2.0 * np.pi)
-    away = z[:, None] - loads.point
-    own = np.abs(away) < 1e-9 * np.abs(loads.point)
-    away = np.where(own, DEPTH * loads.inward, away)
-    hole = ~np.isnan(loads.void)
-    from_void = z[:, None] - np.where(hole, loads.void, 0.0)
-    over = np.where(hole, from_void, -loads.point)
-    # On the edge itself the angle is the mean of both sides: that of the inward normal, which
-    # `away` has been given.
-    square = _square(away)
-    size, turn = 0.5 * np.log(square / _square(over)), np.angle(away * np.conj(over))
-    field = A * ((plate.kappa + 1.0) * size + 1j * (plate.kappa - 1.0) * turn)
-    field -= np.conj(A) * (away * away / square)
-    if hole.any():
-        back = from_void[:, hole]
-        field[:, hole] += np.conj(A[hole]) * (back * back / _square(back))
-    return np.asarray(field / plate.shear)
+    return displacement_of(np.arange(len(places))[None], z, places, plate)
+
+
+def displacement_of(
+    which: NDArray[np.int64], z: ComplexArray, places: Places, plate: Plate
+) -> FloatArray:
+    """Displacement at points by the loads of some places each, m.
+
+    Parameters
+    ----------
+    which : array (W, M)
+        Places.
+    z : complex array (W Q,)
+        Points, Q of them for each row of `which`.
+
+    Returns
+    -------
+    array (2, W Q, 2 M)
+        As :func:`displacement`.
+    """
+    from cqdd_design.gearbox.bodies.point_load_kernel import displacements, separations
+
+    at, spread, count = _plane(z), places.spread(), which.shape[1]
+    found = np.empty((2, len(z), 2 * count))
+    rows = max(_AT_ONCE // max(count, 1), 1)
+    unit = 1.0 / (2.0 * np.pi * plate.shear)
+    for first in range(0, len(z), rows):
+        apart = np.empty((3, min(rows, len(z) - first), count))
+        separations(at, which, spread, DEPTH, first, apart)
+        # numpy's logarithms and angles, many at once, take a tenth of compiled ones, one by one.
+        even = apart[:2]
+        np.arctan2(apart[1], apart[2], out=even[1])
+        np.log(apart[0], out=even[0])
+        even[0] *= 0.5 * (plate.kappa + 1.0)
+        even[1] *= plate.kappa - 1.0
+        displacements(at, which, spread, DEPTH, first, even, unit, found)
+    return found
+
+
+def stress(z: ComplexArray, places: Places, along: ComplexArray) -> FloatArray:
+    """Normal stress times thickness in the direction `along` at `z` (Q,), (Q, 2 N), N/m."""
+    x, y = traction(z, along, places)
+    return np.asarray(x * along.real[:, None] + y * along.imag[:, None])
+
+
+def _plane(z: ComplexArray) -> FloatArray:
+    return np.stack([z.real, z.imag])

@@ -20,6 +20,8 @@ _HELD = 500.0
 """Stiffness of the seat over E/R of the ring: it gives way by less than a hundredth of the ring."""
 _KINK = 1e-3
 """Turn of the contour at a joint from which it is a corner, rad."""
+_CLOSE = 0.05
+"""Distance between vertices asked for, over the tooth's radius, at which one stands for both."""
 _ROOTS = 24
 """Places of a tooth's pitch where stress is found."""
 
@@ -85,12 +87,15 @@ class RingShape:
         around = Loop(curve, -1)
         before, after = (curve(corners + s * 1e-9)[1] for s in (-1.0, 1.0))
         kinks = corners[np.abs(np.angle(after / before)) > _KINK]
-        joints = np.mod(around.parameter(self.places().point), 1.0)
-        if len(kinks):
-            apart = np.abs(np.mod(joints[:, None] - kinks + 0.5, 1.0) - 0.5)
-            joints = joints[apart.min(axis=1) * self.contour.length() > 0.05 * self.tooth_radius]
-        vertices = np.unique(np.concatenate([joints, kinks]))
-        return Loop(circle(0j, self.outer), 1), replace(around, joints=vertices)
+        # On every kink, on every place, and where only the curvature jumps, and with it tractions.
+        vertices = kinks
+        for more in (np.mod(around.parameter(self.places().point), 1.0), corners):
+            apart = np.abs(np.mod(more[:, None] - vertices + 0.5, 1.0) - 0.5)
+            far = (
+                apart.min(axis=1, initial=1.0) * self.contour.length() > _CLOSE * self.tooth_radius
+            )
+            vertices = np.concatenate([vertices, more[far]])
+        return Loop(circle(0j, self.outer), 1), replace(around, joints=np.sort(vertices))
 
     @property
     def angles(self) -> FloatArray:
