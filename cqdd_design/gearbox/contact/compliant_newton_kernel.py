@@ -225,6 +225,47 @@ def _from_held(contacts: Contacts, springs: Springs, start: Any, u: Any, approac
 
 
 @numba.njit(cache=True, error_model="numpy")
+def _raise(
+    contacts: Contacts,
+    springs: Springs,
+    load: Load,
+    rubbing: Rubbing,
+    compliance: Compliance,
+    of_friction: bool,
+    u: Any,
+    approach: Any,
+    forces: Forces,
+    work: YieldingWork,
+    held: float,
+) -> tuple[int, int, float]:
+    """Follow the state in `u` and `approach` while friction, or else compliance, rises to all."""
+    reached, rise, steps, torsional = 0.0, 1.0, 0, 0.0
+    known, known_approach = u.copy(), approach.copy()
+    rubs, some = rubbing, compliance
+    while reached < 1.0:
+        share = min(reached + rise, 1.0)
+        if of_friction:
+            rubs = Rubbing(share * rubbing.share, rubbing.disc_arm, rubbing.carrier_arm)
+        else:
+            some = _some(compliance, springs.pin_series, share)
+        u[:] = known
+        approach[:] = known_approach
+        status, used, torsional = solve_yielding(
+            contacts, springs, load, rubs, some, u, approach, forces, work, held
+        )
+        steps += used
+        if status == CONVERGED:
+            known[:] = u
+            known_approach[:] = approach
+            reached = share
+            continue
+        rise *= 0.5
+        if rise < _LEAST_RISE:
+            return NOT_CONVERGED, steps, torsional
+    return CONVERGED, steps, torsional
+
+
+@numba.njit(cache=True, error_model="numpy")
 def solve_yielding_raised(
     contacts: Contacts,
     springs: Springs,
@@ -242,27 +283,10 @@ def solve_yielding_raised(
 
     A start without friction, where there is some, is put right at the first share.
     """
-    reached, rise, steps, torsional = 0.0, 1.0, 0, 0.0
-    known, known_approach = np.empty_like(u), np.empty_like(approach)
-    _from_held(contacts, springs, start, known, known_approach)
-    while reached < 1.0:
-        share = min(reached + rise, 1.0)
-        some = _some(compliance, springs.pin_series, share)
-        u[:] = known
-        approach[:] = known_approach
-        status, used, torsional = solve_yielding(
-            contacts, springs, load, rubbing, some, u, approach, forces, work, held
-        )
-        steps += used
-        if status == CONVERGED:
-            known[:] = u
-            known_approach[:] = approach
-            reached = share
-            continue
-        rise *= 0.5
-        if rise < _LEAST_RISE:
-            return NOT_CONVERGED, steps, torsional
-    return CONVERGED, steps, torsional
+    _from_held(contacts, springs, start, u, approach)
+    return _raise(
+        contacts, springs, load, rubbing, compliance, False, u, approach, forces, work, held
+    )
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -290,26 +314,10 @@ def solve_yielding_rubbed(
     )
     if status != CONVERGED:
         return status, steps, torsional
-    known, known_approach = u.copy(), approach.copy()
-    reached, rise = 0.0, 1.0
-    while reached < 1.0:
-        share = min(reached + rise, 1.0)
-        some = Rubbing(share * rubbing.share, rubbing.disc_arm, rubbing.carrier_arm)
-        u[:] = known
-        approach[:] = known_approach
-        status, used, torsional = solve_yielding(
-            contacts, springs, load, some, compliance, u, approach, forces, work, held
-        )
-        steps += used
-        if status == CONVERGED:
-            known[:] = u
-            known_approach[:] = approach
-            reached = share
-            continue
-        rise *= 0.5
-        if rise < _LEAST_RISE:
-            return NOT_CONVERGED, steps, torsional
-    return CONVERGED, steps, torsional
+    status, more, torsional = _raise(
+        contacts, springs, load, rubbing, compliance, True, u, approach, forces, work, held
+    )
+    return status, steps + more, torsional
 
 
 @numba.njit(cache=True, error_model="numpy")
