@@ -310,7 +310,7 @@ def test_stress_of_discs_and_ring_is_a_chapter_and_its_checks_count(
     for check in checks:
         assert f"{check.value:.3g} MPa" in words
         assert f'<tbody id="{check.id}">' in shown
-    assert "is not in its forces" in words
+    assert "has it in all of its forces" in words
     total = len(paper_input.gearbox.checks)
     assert f"of {total} checks" in text_of(page)
     assert f"of {total + 6} checks" in text_of(shown)
