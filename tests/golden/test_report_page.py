@@ -280,7 +280,12 @@ def test_no_report_is_green_where_its_own_models_say_less(tmp_path_factory):
     for one in short.values():
         assert text_of(one.found) in verdict
     assert 'class="badge pass"' not in page
-    # What holds is not told: the same gearbox asked for a third of the torques.
+
+
+@pytest.mark.deep
+def test_what_holds_is_not_told_and_what_is_not_known_does_not_pass(tmp_path_factory):
+    """The same gearbox asked for a third of the torques."""
+    results = report_input(sized(tmp_path_factory, 10).design)
     mild = results.machine.design.replacing(
         {"requirements.peak_torque": 25.0, "requirements.continuous_torque": 8.0}
     )

@@ -273,7 +273,7 @@ def test_a_line_that_one_end_leaves_is_a_warning_with_a_remedy() -> None:
     assert softer.edge_load_factor == pytest.approx(2.0, rel=1e-3)
 
 
-@pytest.mark.parametrize("discs", [1, 2, 3])
+@pytest.mark.parametrize("discs", [1, 2, pytest.param(3, marks=pytest.mark.deep)])
 def test_any_number_of_discs_is_bounded(discs: int) -> None:
     changes = {"reducer__disc_count": discs, "requirements__peak_torque": 45.0}
     found = bound(machine_of("cqdd-10", **changes), 8)
