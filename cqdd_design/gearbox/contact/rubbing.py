@@ -12,6 +12,7 @@ carrier, and one which is driven turns against it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -72,6 +73,14 @@ def rubbing(
 
     A force along the tangent t = i n at c has the moment (c - C) x t = (c - C).n about C.
     """
+    return _rubbing(model, states, friction, friction.crank_sense(torque))
+
+
+@lru_cache(maxsize=2)
+def _rubbing(
+    model: ContactModel, states: NominalStates, friction: ContactFriction, crank_sense: float
+) -> Rubbing:
+    """Asked for several times by one sweep, and by sweeps at other torques."""
     teeth = model.tooth_count
     normal = states.rows[..., :2]
     at = model.pin_circle_radius * np.stack(
@@ -82,7 +91,7 @@ def rubbing(
     mu = np.full(states.gaps.shape[2], friction.pin)
     mu[:teeth] = friction.tooth
     return Rubbing(
-        share=-friction.crank_sense(torque) * mu * np.sign(slip(model, states)),
+        share=-crank_sense * mu * np.sign(slip(model, states)),
         disc_arm=np.sum((point - _centre(model, states)) * normal, axis=-1) / states.length,
         carrier_arm=np.sum(point * normal, axis=-1) / states.length,
     )
