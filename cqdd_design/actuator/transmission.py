@@ -99,9 +99,7 @@ def transmission(
     if seed is None:
         errors = None
         angle = perfect_angles(model, _PERFECT_ANGLES)
-        per_turn = round(
-            kinematics.imperfect_period(n) / kinematics.mesh_period(n, model.pin_count)
-        )
+        per_turn = round(kinematics.imperfect_period(n) / model.period)
     else:
         _refuse_too_many(model)
         errors = draw_errors(model, design.tolerances, seed, 0, 1).one(0)

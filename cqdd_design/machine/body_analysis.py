@@ -14,11 +14,12 @@ from cqdd_design.gearbox.contact.rubbing import ContactFriction, FrictionChoice
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.geometry.kinematics import mesh_period
 from cqdd_design.machine.machine import Machine
 from cqdd_design.results import Check
 
 _ANGLES = 96
-"""Crank angles over the period: stress along edges changes less over it than pressures do."""
+"""Crank angles over both stages' period: stress along edges changes less than pressures do."""
 
 
 def analyse_bodies(
@@ -52,7 +53,9 @@ def analyse_bodies(
     asked = design.requirements
     peak = asked.peak_torque if torque is None else torque
     steady = asked.continuous_torque if torque is None else torque
-    states = nominal_states(model, perfect_angles(model, _ANGLES))
+    # Fewer columns than pins: several of these periods until a place has met all of its forces.
+    periods = round(model.period / mesh_period(model.lobe_count, model.pin_count))
+    states = nominal_states(model, perfect_angles(model, periods * _ANGLES))
     rubbed = ContactFriction.of(model, friction)
 
     def both(size: float) -> list[ContactSweep]:

@@ -53,10 +53,13 @@ class DiscPatches:
             good = np.abs(z) < np.interp(np.mod(np.angle(z), 2.0 * np.pi), angle, np.abs(rim))
             for centre in shape.holes:
                 good &= np.abs(z - centre) > shape.hole_radius
+            for centre in shape.columns:
+                good &= np.abs(z - centre) > shape.column_radius
             return good & (np.abs(z) > R)
 
         holes = [round_hole(c, shape.hole_radius) for c in shape.holes]
-        curves = [outside, *holes, round_hole(0j, R)]
+        columns = [round_hole(c, shape.column_radius) for c in shape.columns]
+        curves = [outside, *holes, *columns, round_hole(0j, R)]
         self.mesh = plane_stress.lattice(
             plane_stress.Domain(curves, inside), coarse, places.point[self.ids], half_width / 6.0
         )

@@ -40,6 +40,9 @@ from cqdd_design.roads.analyse import analyse
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 
+PLAIN = tuple(region for region in REGIONS if not region.startswith("column"))
+"""Of a disc without columns."""
+
 
 @functools.cache
 def machine_of_s() -> Machine:
@@ -164,7 +167,7 @@ def test_stress_of_s_with_friction_is_reported_where_it_is() -> None:
     assert document["ligament_stress_max_MPa"] == pytest.approx(
         max(abs(one["stress_MPa"]) for one in document["stress"] if "hole" in one["region"])
     )
-    assert {one["region"] for one in document["cycles"]} == set(REGIONS)
+    assert {one["region"] for one in document["cycles"]} == set(PLAIN)
     assert found.give_round.mean < found.give.mean < found.give_free.mean
 
 
@@ -177,7 +180,7 @@ def test_a_duty_with_both_senses_swings_further() -> None:
     both = machine.design.replacing({"requirements.duty": duty})
     reversed_duty = analyse_bodies(resolve(both))
     harm = [
-        [one.swing(region).reversed_amplitude for region in REGIONS]
+        [one.swing(region).reversed_amplitude for region in PLAIN]
         for one in (strength_of_s(), reversed_duty)
     ]
     assert all(there >= here for here, there in zip(*harm, strict=True))

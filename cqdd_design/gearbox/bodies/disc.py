@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox.bodies.bore import OuterRing
 from cqdd_design.gearbox.bodies.loops import Loop, circle, lobed
 from cqdd_design.gearbox.bodies.point_load import Places, Plate
+from cqdd_design.geometry.columns import column_hole_diameter, column_offsets
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.disc import first_hole_angle, hole_diameter
@@ -27,6 +29,24 @@ MOST_PLACES = 1500
 """Places of a disc up to which its matrix is computed: 80 MB of it, and 2 GB on the way."""
 
 
+class Carried(NamedTuple):
+    """Where loads and places of a disc come to stand on another, or on itself.
+
+    Attributes
+    ----------
+    load : array (L,)
+        Which load of the other each load is.
+    sense : array (L,)
+        1 or -1: a mirror turns tangents round.
+    place : array (S,)
+        Which place where stress is read each of them is.
+    """
+
+    load: NDArray[np.int64]
+    sense: FloatArray
+    place: NDArray[np.int64]
+
+
 @dataclass(frozen=True)
 class DiscShape:
     """Numbers that a disc's influence matrix depends on, SI.
@@ -37,6 +57,10 @@ class DiscShape:
     hole_count : int
     hole_circle, hole_radius, first_hole : float
         m, m, rad.
+    column_count : int
+        Of the holes that columns pass through, on the holes' circle; nothing pushes on them.
+    column_radius, first_column : float
+        m, rad; 0 without columns.
     bearing : OuterRing
     plate : Plate
     side : float
@@ -48,6 +72,9 @@ class DiscShape:
     hole_circle: float
     hole_radius: float
     first_hole: float
+    column_count: int
+    column_radius: float
+    first_column: float
     bearing: OuterRing
     plate: Plate
     side: float
@@ -64,10 +91,13 @@ class DiscShape:
         reducer = design.reducer
         steel = find_material(reducer.disc_material)
         lobes, holes = reducer.ratio, reducer.output_pins.count
-        if PER_LOBE * lobes + PER_HOLE * holes > MOST_PLACES:
+        offsets = column_offsets(reducer)
+        columns, first = len(offsets), first_hole_angle(design, disc_index)
+        if PER_LOBE * lobes + PER_HOLE * (holes + columns) > MOST_PLACES:
+            beside = f", {columns} of them for columns," if columns else ""
             raise GeometryError(
-                f"a disc of {lobes} lobes and {holes} holes has more than the {MOST_PLACES} places "
-                "up to which it is computed as an elastic body."
+                f"a disc of {lobes} lobes and {holes + columns} holes{beside} has more than the "
+                f"{MOST_PLACES} places up to which it is computed as an elastic body."
             )
         outline = CycloidDisc.from_design(design)
         return cls(
@@ -75,7 +105,10 @@ class DiscShape:
             reducer.output_pins.count,
             reducer.output_pins.circle_radius,
             0.5 * hole_diameter(design),
-            first_hole_angle(design, disc_index),
+            first,
+            columns,
+            0.5 * column_hole_diameter(reducer),
+            first + float(offsets[0]) if columns else 0.0,
             OuterRing.of(find_bearing(reducer.cam_bearing.designation)),
             Plate(steel.youngs_modulus, steel.poisson_ratio, reducer.disc_thickness),
             outline.tip_distance / 20.0,
@@ -83,12 +116,23 @@ class DiscShape:
 
     @property
     def holes(self) -> ComplexArray:
-        """Centres of the holes, m."""
-        turns = self.first_hole + 2.0 * np.pi * np.arange(self.hole_count) / self.hole_count
+        """Centres of the output pins' holes, m."""
+        return self._evenly(self.first_hole, self.hole_count)
+
+    @property
+    def columns(self) -> ComplexArray:
+        """Centres of the columns' holes, m."""
+        return self._evenly(self.first_column, self.column_count)
+
+    def _evenly(self, first: float, count: int) -> ComplexArray:
+        turns = first + 2.0 * np.pi * np.arange(count) / max(count, 1)
         return np.asarray(self.hole_circle * np.exp(1j * turns))
 
     def loops(self) -> tuple[Loop, ...]:
-        """Outline, holes, and the bore with the bearing's ring in it; the last is the raceway."""
+        """Outline, holes, columns' holes, and the bore with the bearing's ring in it.
+
+        The last is the raceway.
+        """
         # A vertex on every place: the half plane's field is sharp there, between vertices not.
         places, lobes = self.places(), PER_LOBE * self.outline.lobe_count
         outside = Loop(lobed(self.outline), 1, joints=self.lobe_places / (2.0 * np.pi))
@@ -98,15 +142,25 @@ class DiscShape:
             Loop(circle(complex(c), self.hole_radius), -1, joints=u)
             for c, u in zip(self.holes, turns, strict=True)
         )
+        # Twice as many beside a column, where no half plane's field carries what is sharp.
+        even = np.arange(2 * PER_HOLE) / (2 * PER_HOLE)
+        columns = tuple(
+            Loop(
+                circle(complex(c), self.column_radius),
+                -1,
+                joints=np.sort(np.mod(np.angle(c) / (2.0 * np.pi) + even, 1.0)),
+            )
+            for c in self.columns
+        )
         ring = self.bearing
         # And on every station, where a tent's slope jumps.
         stations = self.stations / (2.0 * np.pi)
         if ring.raceway == ring.outer:
-            return (outside, *holes, Loop(circle(0j, ring.outer), -1, joints=stations))
+            return (outside, *holes, *columns, Loop(circle(0j, ring.outer), -1, joints=stations))
         factor = self.ring_factor
         seat = Loop(circle(0j, ring.outer), -1, 1.0 - factor, inner=True)
         raceway = Loop(circle(0j, ring.raceway), -1, factor, joints=stations)
-        return (outside, *holes, seat, raceway)
+        return (outside, *holes, *columns, seat, raceway)
 
     @property
     def ring_factor(self) -> float:
@@ -129,17 +183,23 @@ class DiscShape:
         return np.asarray((first + self.lobe_parameters).ravel())
 
     def places(self) -> Places:
-        """Lobes from the valley on +x, then holes from the direction of +x."""
+        """Places of loads: lobes from the valley on +x, then holes from the direction outward."""
         t = self.lobe_places
         point, normal = self.outline.profile(t)
-        wall = np.exp(2j * np.pi * np.arange(PER_HOLE) / PER_HOLE)
-        # Turned with its hole, so that a turn of the disc carries places into places.
-        turned = (self.holes / np.abs(self.holes))[:, None] * wall
-        centre = np.broadcast_to(self.holes[:, None], turned.shape)
+        walls = _walls(self.holes, self.hole_radius)
         return Places(
-            np.concatenate([point, (centre + self.hole_radius * turned).ravel()]),
-            np.concatenate([-normal, turned.ravel()]),
-            np.concatenate([np.full(len(t), np.nan + 0j), centre.ravel()]),
+            np.concatenate([point, walls.point]),
+            np.concatenate([-normal, walls.inward]),
+            np.concatenate([np.full(len(t), np.nan + 0j), walls.void]),
+        )
+
+    def seen(self) -> Places:
+        """Places where stress is read: those of loads, then round the columns' holes."""
+        loaded, more = self.places(), _walls(self.columns, self.column_radius)
+        return Places(
+            np.concatenate([loaded.point, more.point]),
+            np.concatenate([loaded.inward, more.inward]),
+            np.concatenate([loaded.void, more.void]),
         )
 
     @property
@@ -159,68 +219,95 @@ class DiscShape:
     def standard(self) -> tuple[DiscShape, float, bool]:
         """The disc of its kind with the least angle to its first hole, and how it comes from this.
 
+        With columns the least to its first column's too.
+
         Returns
         -------
         shape, turn, mirrored
             A point z of this disc is ``exp(1j * turn)`` times z, or times its conjugate, of that.
         """
-        lobes, pitch = self.outline.lobe_count, 2.0 * np.pi / self.hole_count
+        lobes = self.outline.lobe_count
         found = []
         for mirrored in (False, True):
             for lobe in range(lobes):
                 turn = 2.0 * np.pi * lobe / lobes
-                first = np.mod((-1 if mirrored else 1) * self.first_hole + turn, pitch)
-                # Rounded, so that what differs by the last digit is one disc, and the last is none.
-                rounded = round(float(first), 12)
-                found.append((rounded % round(pitch, 12), mirrored, turn))
-        first, mirrored, turn = min(found)
-        return replace(self, first_hole=first), turn, mirrored
+                hole, column = (_first(first, count, turn, mirrored) for first, count in self._rows)
+                found.append((hole, column, mirrored, turn))
+        hole, column, mirrored, turn = min(found)
+        return replace(self, first_hole=hole, first_column=column), turn, mirrored
 
-    def symmetries(self) -> list[tuple[NDArray[np.int64], FloatArray]]:
-        """Where every load goes, and its sense there, when the disc is carried into itself."""
-        lobes, pitch = self.outline.lobe_count, 2.0 * np.pi / self.hole_count
-        found = []
-        for mirrored in (False, True):
-            first = (-1 if mirrored else 1) * self.first_hole
-            for turn in 2.0 * np.pi * np.arange(lobes) / lobes:
-                if (
-                    abs(
-                        np.remainder(first + turn - self.first_hole + 0.5 * pitch, pitch)
-                        - 0.5 * pitch
-                    )
-                    < 1e-9
-                ):
-                    found.append(self.carried(self, float(turn), mirrored))
-        return found
+    @property
+    def _rows(self) -> tuple[tuple[float, int], ...]:
+        """Angle of the first and number, of output pins' holes and of columns'."""
+        return (self.first_hole, self.hole_count), (self.first_column, self.column_count)
 
-    def carried(
-        self, other: DiscShape, turn: float, mirrored: bool
-    ) -> tuple[NDArray[np.int64], FloatArray]:
-        """Which load of another disc each load of this one is, and its sense.
+    def symmetries(self) -> list[Carried]:
+        """Where loads and places go when the disc is carried into itself."""
+        lobes = self.outline.lobe_count
+        return [
+            self.carried(self, float(turn), mirrored)
+            for mirrored in (False, True)
+            for turn in 2.0 * np.pi * np.arange(lobes) / lobes
+            if all(_same(first, count, float(turn), mirrored) for first, count in self._rows)
+        ]
+
+    def carried(self, other: DiscShape, turn: float, mirrored: bool) -> Carried:
+        """Which load and place of another disc each one of this is.
 
         Parameters
         ----------
         other : DiscShape
             Whose places are ``exp(1j * turn)`` times those of this one, or of their mirror image.
-
-        Returns
-        -------
-        array (L,), array (L,)
-            Index, and 1 or -1: a mirror turns tangents round.
         """
-        sense = np.array([1.0, -1.0 if mirrored else 1.0])
-        found, first, senses = [], 0, []
-        for own, its, each in (
-            (self.places().point, other.places().point, 2),
-            (np.exp(1j * self.stations), np.exp(1j * other.stations), 1),
-        ):
-            moved = np.exp(1j * turn) * (np.conj(own) if mirrored else own)
-            apart = moved[:, None] - its
-            near = (apart.real**2 + apart.imag**2).argmin(axis=1)
-            found.append((first + each * near[:, None] + np.arange(each)).ravel())
-            senses.append(np.tile(sense[:each], len(near)))
-            first += each * len(near)
-        return np.concatenate(found), np.concatenate(senses)
+        place, station = (
+            _nearest(np.exp(1j * turn) * (np.conj(own) if mirrored else own), its)
+            for own, its in (
+                (self.seen().point, other.seen().point),
+                (np.exp(1j * self.stations), np.exp(1j * other.stations)),
+            )
+        )
+        loaded = place[: len(self.places())]
+        point = (2 * loaded[:, None] + np.arange(2)).ravel()
+        sense = np.tile([1.0, -1.0 if mirrored else 1.0], len(loaded))
+        return Carried(
+            np.concatenate([point, len(point) + station]),
+            np.concatenate([sense, np.ones(len(station))]),
+            place,
+        )
+
+
+def _walls(centres: ComplexArray, radius: float) -> Places:
+    """Places round holes, of each from the direction away from the disc's middle."""
+    wall = np.exp(2j * np.pi * np.arange(PER_HOLE) / PER_HOLE)
+    # Turned with its hole, so that a turn of the disc carries places into places.
+    turned = (centres / np.abs(centres))[:, None] * wall
+    centre = np.broadcast_to(centres[:, None], turned.shape)
+    return Places((centre + radius * turned).ravel(), turned.ravel(), centre.ravel())
+
+
+def _nearest(own: ComplexArray, its: ComplexArray) -> NDArray[np.int64]:
+    """Which of other points each point is."""
+    apart = own[:, None] - its
+    return np.asarray((apart.real**2 + apart.imag**2).argmin(axis=1))
+
+
+def _first(first: float, count: int, turn: float, mirrored: bool) -> float:
+    """Angle of the first of `count` holes evenly round after a turn; 0 where there are none."""
+    if count == 0:
+        return 0.0
+    pitch = 2.0 * np.pi / count
+    # Rounded, so that what differs by the last digit is one disc, and the last is none.
+    rounded = round(float(np.mod((-1 if mirrored else 1) * first + turn, pitch)), 12)
+    return rounded % round(pitch, 12)
+
+
+def _same(first: float, count: int, turn: float, mirrored: bool) -> bool:
+    """Whether a turn carries `count` holes evenly round into themselves."""
+    if count == 0:
+        return True
+    pitch = 2.0 * np.pi / count
+    moved = (-1 if mirrored else 1) * first + turn - first + 0.5 * pitch
+    return bool(abs(np.remainder(moved, pitch) - 0.5 * pitch) < 1e-9)
 
 
 def lobe_length(outline: CycloidDisc) -> tuple[FloatArray, FloatArray]:

@@ -11,7 +11,7 @@ from cqdd_design.gearbox.bodies.model import (
     disc_body,
     of_standard,
     ring_body,
-    standard_loads,
+    to_standard,
 )
 from cqdd_design.gearbox.bodies.ring import RingShape
 
@@ -24,13 +24,13 @@ def elastic_bodies(design: Design) -> ElasticBodies:
     GeometryError
         Where a part's material is too thin to mesh, or a disc has too many lobes.
     """
-    made: dict[float, Body] = {}
+    made: dict[DiscShape, Body] = {}
     discs = []
     for index in range(design.reducer.disc_count):
         shape = DiscShape.from_design(design, index)
         standard = shape.standard()[0]
-        if standard.first_hole not in made:
-            made[standard.first_hole] = cached(standard, disc_body)
-        discs.append((shape, of_standard(made[standard.first_hole], *standard_loads(shape))))
+        if standard not in made:
+            made[standard] = cached(standard, disc_body)
+        discs.append((shape, of_standard(made[standard], to_standard(shape))))
     ring = RingShape.from_design(design)
     return ElasticBodies(tuple(discs), (ring, cached(ring, ring_body).widened()))

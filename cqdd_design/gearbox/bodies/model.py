@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.gearbox.bodies import point_load
-from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape
+from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, Carried, DiscShape
 from cqdd_design.gearbox.bodies.elements import Elements, elements
 from cqdd_design.gearbox.bodies.influence import Influence, Loads, influence, self_balanced
 from cqdd_design.gearbox.bodies.loops import Loop
@@ -30,8 +30,8 @@ class Body:
         On a disc, outward radial loads on stations of the raceway follow. The loads of a disc are
         in balance with tractions spread evenly round its raceway.
     stress : array (S, L)
-        Stress along the edge at every place by every unit load, Pa/N. Meaningless where the load
-        itself stands.
+        Stress along the edge by every unit load, Pa/N, at `seen()` of a disc and `roots()` of a
+        ring. Meaningless where the load itself stands.
     reciprocity : float
         Largest difference between the two halves of the matrix as they were computed, over its
         largest entry; their mean is kept. On one mesh it is 1e-6, of quadrature. Where a symmetry
@@ -48,18 +48,17 @@ class Body:
         return Body(self.matrix.astype(float), self.stress.astype(float), self.reciprocity)
 
 
-def standard_loads(shape: DiscShape) -> tuple[NDArray[np.int64], FloatArray]:
-    """Which load of the standard disc each load of a disc is, and its sense."""
+def to_standard(shape: DiscShape) -> Carried:
+    """Which loads and places of the standard disc those of a disc are."""
     standard, turn, mirrored = shape.standard()
     return shape.carried(standard, turn, mirrored)
 
 
-def of_standard(body: Body, index: NDArray[np.int64], sense: FloatArray) -> Body:
+def of_standard(body: Body, carried: Carried) -> Body:
     """The body of a disc from that of the standard disc of its kind, as the cache keeps it."""
+    index, sense, place = carried
     if sense.min() > 0.0 and (index == np.arange(len(index))).all():
         return body.widened()
-    count = len(body.stress)
-    place = index[: 2 * count : 2] // 2
     matrix = body.matrix.take(index, axis=0).take(index, axis=1)
     stress = body.stress.take(place, axis=0).take(index, axis=1)
     if sense.min() < 0.0:
@@ -83,24 +82,23 @@ def disc_body(shape: DiscShape) -> Body:
     radius = np.abs(made.vertices[made.triangles].mean(axis=0))
     factor = np.where(radius < shape.bearing.outer, shape.ring_factor, 1.0)
     body = elements(made, loops, shape.plate, factor)
-    places = shape.places()
+    places, seen = shape.places(), shape.seen()
     raceway = len(loops) - 1
     tents = shape.tents(body.edges.point[body.edges.loop == raceway])
     loads = self_balanced(body.edges, raceway, places, tents)
     symmetries = shape.symmetries()
-    columns = np.unique(np.min([index for index, _ in symmetries], axis=0))
+    columns = np.unique(np.min([one.load for one in symmetries], axis=0))
     found = influence(body, loops, shape.plate, loads, body.rigid(), columns)
     where = np.concatenate(
         [
             np.zeros(PER_LOBE * shape.outline.lobe_count, dtype=np.int64),
-            1 + np.repeat(np.arange(shape.hole_count), PER_HOLE),
+            1 + np.repeat(np.arange(shape.hole_count + shape.column_count), PER_HOLE),
         ]
     )
-    stress = _edge_stress(body, loops, places, where, places, shape.plate, found, columns)
+    stress = _edge_stress(body, loops, seen, where, places, shape.plate, found, columns)
     total = loads.share.shape[1]
-    matrix, stresses = np.empty((total, total)), np.empty((len(places), total))
-    for index, sense in symmetries:
-        place = index[: 2 * len(places) : 2] // 2
+    matrix, stresses = np.empty((total, total)), np.empty((len(seen), total))
+    for index, sense, place in symmetries:
         same = sense[columns]
         matrix[np.ix_(index, index[columns])] = sense[:, None] * found.matrix * same
         stresses[np.ix_(place, index[columns])] = stress * same

@@ -29,10 +29,14 @@ REGIONS: tuple[Region, ...] = (
     "hole to profile",
     "hole to hole",
     "hole to bore",
+    "column to profile",
+    "column to hole",
+    "column to bore",
     "root",
     "ring",
 )
-LIGAMENTS = REGIONS[:3]
+"""Of all discs and rings: one with columns between all of its holes lacks ``hole to hole``."""
+LIGAMENTS = REGIONS[:6]
 
 _BROKEN = 100.0
 """Of S_u: written where a mean stress reaches it, which no reversed amplitude stands for."""
@@ -120,8 +124,8 @@ class EdgePicture:
     torque, crank_angle : float
         N m, rad.
     edges : tuple of (array (S,), array (S,))
-        Of the lobed outline and of every hole, in order round it: places in the frame of the disc
-        (complex, m), and stress there (Pa), nan near a loaded contact.
+        Of the lobed outline and of every hole, those for columns last, in order round it: places in
+        the frame of the disc (complex, m), and stress there (Pa), nan near a loaded contact.
     points, loads : array (N, 2)
         Of what pushes the disc, its cam last; in the ring's frame, m and N.
     """
@@ -141,10 +145,10 @@ class BodyStrength:
     Attributes
     ----------
     peaks : tuple of Peak
-        Of every region, at the peak torque in both senses.
+        Of every region that there is, at the peak torque in both senses.
     swings : tuple of Swing
-        Of every region, over a turn at the continuous torque: in the worse sense, or from one to
-        the other where the duty has both.
+        Of every region that there is, over a turn at the continuous torque: in the worse sense, or
+        from one to the other where the duty has both.
     give, give_free, give_round : ToothGive
         With the bore on the bearing's rolling elements; held by radial springs too soft to matter,
         evenly all round; held round.
@@ -247,6 +251,8 @@ def body_strength(
     peaks, swings = [], []
     for region in REGIONS:
         own = [k for k, edge in enumerate(edges) if region in edge.regions]
+        if not own:
+            continue
         strength = ultimate[1] if region == "ring" else ultimate[0]
         peaks.append(
             max(
@@ -284,10 +290,9 @@ def _edges(bodies: ElasticBodies) -> list[_Edge]:
     on_pitch = np.arange(len(roots)) % (len(roots) // ring.tooth_count)
     found = []
     for index, (shape, _) in enumerate(bodies.discs):
-        places = shape.places().point
-        turns = [where for where, sense in shape.symmetries() if sense.min() > 0.0]
-        orbit = np.min([where[: 2 * len(places) : 2] // 2 for where in turns], axis=0)
-        found.append(_Edge(index, np.array(disc_regions(shape)), places, orbit))
+        turns = [one.place for one in shape.symmetries() if one.sense.min() > 0.0]
+        regions, orbit = np.array(disc_regions(shape)), np.min(turns, axis=0)
+        found.append(_Edge(index, regions, shape.seen().point, orbit))
         found.append(_Edge(index, np.full(len(roots), "ring"), roots, on_pitch))
     return found
 

@@ -21,9 +21,26 @@ from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import NominalStates
 from cqdd_design.geometry.contours import FloatArray
 
-Region = Literal["hole to profile", "hole to hole", "hole to bore", "root", "ring"]
-"""Of a disc by the nearest edge across the material, its lobes (root); the ring's teeth."""
+Region = Literal[
+    "hole to profile",
+    "hole to hole",
+    "hole to bore",
+    "column to profile",
+    "column to hole",
+    "column to bore",
+    "root",
+    "ring",
+]
+"""Of a disc by the nearest edge across the material, its lobes (root); the ring's teeth.
 
+Where columns pass through a disc, ``column to hole`` is what stands between a column's hole and an
+output pin's, on either edge of it.
+"""
+
+_BETWEEN: dict[bool, Region] = {False: "hole to hole", True: "column to hole"}
+"""What parts an output pin's hole from the next, and from a column's that stands between."""
+_THERE = 1e-6
+"""Distance over the holes' circle within which a column's hole stands where one is looked for."""
 _STEPS = 2.5
 """Steps of the grid round a loaded contact in which stress is the contact's."""
 
@@ -57,7 +74,8 @@ def disc_stress(
     Returns
     -------
     array (A, S)
-        Pa, tension positive, at the places of `shape.places()`; nan near a loaded contact.
+        Pa, tension positive, at the places of `shape.seen()`; nan near a loaded contact, but not
+        round the holes for columns: they have none, and a contact across a ligament bends it.
     """
     spots = disc_spots(shape, model, states, disc_index)
     loads = _loads(spots, forces, tangential, len(body.matrix))
@@ -74,22 +92,40 @@ def disc_stress(
     steps = np.full(spots.normal.shape, 2.0 * np.pi * shape.hole_radius / PER_HOLE)
     lobe = 2.0 * np.pi / shape.outline.lobe_count * shape.outline.tip_distance
     steps[:, : model.tooth_count] = lobe / PER_LOBE
-    return _clear(loads @ body.stress.T, shape.places(), shape.places(), spots, forces, steps)
+    stress, places = loads @ body.stress.T, shape.places()
+    _clear(stress[:, : len(places)], places, places, spots, forces, steps)
+    return stress
 
 
 def disc_regions(shape: DiscShape) -> list[Region]:
     """What part of a disc each place belongs to: by the nearest edge across the material."""
-    lobes: list[Region] = ["root"] * (PER_LOBE * shape.outline.lobe_count)
-    outward = np.abs(np.angle(np.exp(2j * np.pi * np.arange(PER_HOLE) / PER_HOLE)))
-    wall: list[Region] = [
-        "hole to profile"
-        if a < 0.25 * np.pi
-        else "hole to bore"
-        if a > 0.75 * np.pi
-        else "hole to hole"
-        for a in outward
+    found: list[Region] = ["root"] * (PER_LOBE * shape.outline.lobe_count)
+    half_pitch = np.exp(1j * np.pi / shape.hole_count)
+    for hole in shape.holes:
+        beside = [
+            bool((np.abs(shape.columns - at) < _THERE * shape.hole_circle).any())
+            for at in (hole * half_pitch, hole / half_pitch)
+        ]
+        after, before = (_BETWEEN[one] for one in beside)
+        found += _wall("hole to profile", after, "hole to bore", before)
+    across = _BETWEEN[True]
+    column = _wall("column to profile", across, "column to bore", across)
+    return found + column * shape.column_count
+
+
+def _wall(profile: Region, after: Region, bore: Region, before: Region) -> list[Region]:
+    """Regions round a hole, from the direction outward, with the next and the one before."""
+    angles = np.angle(np.exp(2j * np.pi * np.arange(PER_HOLE) / PER_HOLE))
+    return [
+        profile
+        if abs(a) < 0.25 * np.pi
+        else bore
+        if abs(a) > 0.75 * np.pi
+        else after
+        if a > 0.0
+        else before
+        for a in angles
     ]
-    return lobes + wall * shape.hole_count
 
 
 def ring_stress(

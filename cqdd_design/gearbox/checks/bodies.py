@@ -43,6 +43,7 @@ def _static(
 ) -> Check:
     peak, material = strength.peak(*regions), _material(part, design)
     allowed, stress = edge_limit_peak(material), abs(peak.stress)
+    first = _at_columns(peak.region) or first
     kind = "tension" if peak.stress > 0.0 else "compression"
     where = "" if part in {"ROOT", "RING"} else f" ({peak.region})"
     return build_check(
@@ -61,6 +62,7 @@ def _fatigue(
 ) -> Check:
     swing, material = strength.swing(*regions), _material(part, design)
     allowed, stress = edge_limit_fatigue(material), swing.reversed_amplitude
+    first = _at_columns(swing.region) or first
     return build_check(
         f"{part}-FATIGUE",
         stress / _MEGA,
@@ -81,10 +83,16 @@ def _fatigue(
 def _cycle_words(swing: Swing, material: Material, torque: float) -> str:
     ultimate = material.ultimate_strength
     strength = "" if ultimate is None else f", S_u {ultimate / _MEGA:.0f} MPa"
+    where = f" ({swing.region})" if _at_columns(swing.region) else ""
     return (
-        f"{swing.low / _MEGA:.1f} to {swing.high / _MEGA:.1f} MPa a turn{strength}: "
+        f"{swing.low / _MEGA:.1f} to {swing.high / _MEGA:.1f} MPa a turn{where}{strength}: "
         f"{swing.reversed_amplitude / _MEGA:.1f} MPa reversed, at {torque:g} N*m"
     )
+
+
+def _at_columns(region: Region) -> str:
+    """What lowers a stress beside the columns' holes; nothing elsewhere."""
+    return "lower carrier.column_diameter, or " if region.startswith("column") else ""
 
 
 def _material(part: str, design: Design) -> Material:

@@ -18,6 +18,8 @@ from cqdd_design.gearbox.hertz import conformal_equivalent_radius, pair_modulus
 from cqdd_design.gearbox.pin_beam import HELD, PinBeam, pin_in_stack, pin_section
 from cqdd_design.gearbox.rolling_contacts import hole_friction, tooth_friction
 from cqdd_design.gearbox.stages import Stages
+from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.columns import column_offsets
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
@@ -83,6 +85,8 @@ class ContactModel(Stages):
         Compliance at every disc of ring pins that rollers leave free between their ends, m/N.
     bodies : YieldingBodies or None
         Discs and ring, where plate and cap turn apart; None where they are rigid.
+    column_count : int
+        Columns that pass through the discs, a divisor of the pins' number; 0 without.
     """
 
     disc: CycloidDisc
@@ -104,6 +108,7 @@ class ContactModel(Stages):
     roller_coefficient: float = 0.0
     ring_pin_series: FloatArray | None = None
     bodies: YieldingBodies | None = None
+    column_count: int = 0
 
     @classmethod
     def from_design(cls, design: Design, line_model: LineModel = "palmgren") -> ContactModel:
@@ -163,12 +168,18 @@ class ContactModel(Stages):
             roller_play=0.0 if rollers is None else 0.5 * rollers.play,
             roller_coefficient=_inside(rollers, tooth),
             ring_pin_series=None if rollers is None else _ring_pin_series(design, tooth, plate),
+            column_count=len(column_offsets(reducer)),
         )
 
     @property
     def tooth_count(self) -> int:
         """Ring teeth n + 1."""
         return self.lobe_count + 1
+
+    @property
+    def period(self) -> float:
+        """Crank angle after which a perfect gearbox repeats, holes for columns included, rad."""
+        return kinematics.mesh_period(self.lobe_count, self.column_count or self.pin_count)
 
     @property
     def pin_gap(self) -> float:

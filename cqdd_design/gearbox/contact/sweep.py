@@ -38,8 +38,7 @@ _REACH = 0.25
 
 def perfect_angles(model: ContactModel, count: int = ANGLES) -> FloatArray:
     """Crank angles over the period of a perfect gearbox, its end left out, (count,), rad."""
-    period = kinematics.mesh_period(model.lobe_count, model.pin_count)
-    return np.asarray(period * np.arange(count) / count)
+    return np.asarray(model.period * np.arange(count) / count)
 
 
 def output_turn_count(lobe_count: int) -> int:

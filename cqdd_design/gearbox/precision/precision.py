@@ -195,7 +195,7 @@ def precision(
     n, pins = model.lobe_count, model.pin_count
     perfect = errors is None
     angle = perfect_angles(model, angles) if perfect else output_turn_angles(model)
-    span = kinematics.mesh_period(n, pins) if perfect else kinematics.imperfect_period(n)
+    span = model.period if perfect else kinematics.imperfect_period(n)
     states = nominal_states(model, angle)
 
     def solve(load: float, rubbed: ContactFriction | None = None) -> ContactSweep:
