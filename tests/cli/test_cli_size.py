@@ -81,12 +81,11 @@ def test_motor_that_does_not_exist(cqdd):
     assert "CubeMars RO100 KV55" in done.err
 
 
-@pytest.mark.deep
 def test_the_file_names_the_design(cqdd, tmp_path):
-    done = cqdd("size", "--ratio", "10", "--out", "knee.toml", "--report")
+    done = cqdd("size", "--ratio", "10", "--out", "knee.toml", "--export", "dxf")
     assert done.code == 0
     assert load_design(tmp_path / "knee.toml").name == "knee"
-    assert (tmp_path / "reports" / "knee.html").exists()
+    assert (tmp_path / "exports" / "knee" / "knee-disc.dxf").exists()
 
 
 def test_a_named_file_is_not_overwritten_without_force(cqdd, tmp_path):
