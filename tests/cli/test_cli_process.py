@@ -209,7 +209,8 @@ print("LOADED", *loaded, file=sys.stderr)
     )
     loaded = set(done.stderr.partition("LOADED")[2].split())
     assert "cqdd_design" in loaded
-    assert loaded.isdisjoint(HEAVY)
+    # Stress of discs and ring is judged by the compiled equilibrium.
+    assert loaded.isdisjoint(set(HEAVY) - ({"numba"} if "check" in arguments else set()))
     if "--help" in arguments:
         assert loaded.isdisjoint({"numpy", "pint", "rich", "scipy", "jinja2"})
     if given == ["--help"]:
