@@ -13,11 +13,11 @@ where the opposite field ends it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.gearbox.bodies.point_load_values import Spread
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 DEPTH = 1e-3
@@ -26,20 +26,6 @@ DEPTH = 1e-3
 
 _AT_ONCE = 8192
 """Points times places whose fields are found together: what a processor keeps at hand."""
-
-
-class Spread(NamedTuple):
-    """Places as a kernel reads them, real parts and imaginary ones apart, (N,).
-
-    A place outside has nan as its void.
-    """
-
-    point_x: FloatArray
-    point_y: FloatArray
-    inward_x: FloatArray
-    inward_y: FloatArray
-    void_x: FloatArray
-    void_y: FloatArray
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ import math
 
 from cqdd_design.files.kernel_cache import numba
 from cqdd_design.gearbox.bodies.mesh import IntArray
-from cqdd_design.gearbox.bodies.point_load import Spread
+from cqdd_design.gearbox.bodies.point_load_values import Spread
 from cqdd_design.geometry.contours import FloatArray
 
 
