@@ -270,4 +270,4 @@ def test_tolerances_show_the_ensemble(ensemble: ToleranceResult) -> None:
     (figure,) = (one for one in view["figures"] if one.id == "ranking-backlash")
     names = [e.text for e in classed(figure, "text", "name-dark")]
     assert names == [group.replace("_", " ") for group, _, _ in ranked]
-    assert len(view["rows"]) == 5
+    assert len(view["rows"]) == 10
