@@ -6,12 +6,12 @@ import numpy as np
 
 from cqdd_design.gearbox.bodies import bore
 from cqdd_design.gearbox.bodies.bore import Reactions
-from cqdd_design.gearbox.bodies.compliance import Spots, disc_spots, ring_spots
 from cqdd_design.gearbox.bodies.depths import pin_depth, ring_depths
 from cqdd_design.gearbox.bodies.disc import DiscShape
 from cqdd_design.gearbox.bodies.model import Body
 from cqdd_design.gearbox.bodies.point_load import DEPTH, Plate
 from cqdd_design.gearbox.bodies.ring import RingShape
+from cqdd_design.gearbox.bodies.spots import Spots, disc_spots, ring_spots
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import NominalStates
 

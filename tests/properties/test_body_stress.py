@@ -16,10 +16,10 @@ from cqdd_design.design import load_design
 from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox.bodies import strength as strength_module
 from cqdd_design.gearbox.bodies import stress as stress_module
-from cqdd_design.gearbox.bodies.compliance import disc_spots
 from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape
 from cqdd_design.gearbox.bodies.made import elastic_bodies
 from cqdd_design.gearbox.bodies.model import disc_body
+from cqdd_design.gearbox.bodies.spots import disc_spots
 from cqdd_design.gearbox.bodies.strength import (
     LIGAMENTS,
     REGIONS,

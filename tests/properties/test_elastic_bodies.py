@@ -25,7 +25,6 @@ from cqdd_design.gearbox.bodies.compliance import (
     ElasticBodies,
     compliance,
     disc_compliance,
-    disc_spots,
     ring_compliance,
     under_disc,
 )
@@ -37,6 +36,7 @@ from cqdd_design.gearbox.bodies.mesh import mesh
 from cqdd_design.gearbox.bodies.model import Body, disc_body
 from cqdd_design.gearbox.bodies.point_load import displacement, traction
 from cqdd_design.gearbox.bodies.ring import RingShape
+from cqdd_design.gearbox.bodies.spots import disc_spots
 from cqdd_design.gearbox.bodies.stress import disc_regions, disc_stress, ring_stress
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.compliant import carrier_compliance, compliant_states

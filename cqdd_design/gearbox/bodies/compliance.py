@@ -15,21 +15,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cqdd_design.gearbox.bodies import bore
 from cqdd_design.gearbox.bodies.depths import pin_depth, ring_depths
-from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape, lobe_length
+from cqdd_design.gearbox.bodies.disc import DiscShape
 from cqdd_design.gearbox.bodies.model import Body
 from cqdd_design.gearbox.bodies.point_load import DEPTH, Plate
-from cqdd_design.gearbox.bodies.ring import PER_TOOTH, RingShape
+from cqdd_design.gearbox.bodies.ring import RingShape
+from cqdd_design.gearbox.bodies.spots import Spots, disc_spots, ring_spots
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import NominalStates
 from cqdd_design.gearbox.disc_forces import disc_forces
-from cqdd_design.geometry.contours import ComplexArray, FloatArray
+from cqdd_design.geometry.contours import FloatArray
 
 _LEAST_CAM_FORCE = 1.0
 """Below it the bearing's springs are taken at this load, N."""
@@ -89,8 +89,7 @@ def compliance(
         stiffness = under_disc(shape, model, states, index, cam_force[:, index])
         slip = None if tangential is None else tangential[:, index]
         smooth, rubbing = direct.held((shape, body), stiffness, slip)
-        found.append(smooth if rubbing is None else rubbing)
-        found[-1] = without_gain(found[-1], smooth)
+        found.append(without_gain(smooth if rubbing is None else rubbing, smooth))
     return np.stack(found, axis=1)
 
 
@@ -197,71 +196,6 @@ def under_disc(
     return bore.element_stiffness(model.cam, force, shape.stations, direction)
 
 
-class Spots(NamedTuple):
-    """Contacts of one disc (or of the ring) between its places.
-
-    Attributes
-    ----------
-    near : array (..., C, 4)
-        Places.
-    share : array (..., C, 4)
-        Of each, adding up to 1.
-    normal : complex array (..., C)
-        Direction of a unit force, in the frame of the body.
-    """
-
-    near: NDArray[np.int64]
-    share: FloatArray
-    normal: ComplexArray
-
-
-def disc_spots(
-    shape: DiscShape, model: ContactModel, states: NominalStates, disc_index: int
-) -> Spots:
-    """Contacts (A, C) of a disc in its own frame."""
-    outline = shape.outline
-    pitch = 2.0 * outline.half_pitch
-    t = states.ring.parameter[:, disc_index]
-    grid, length = lobe_length(outline)
-    lobe = np.floor(t / pitch)
-    along = np.interp(t - lobe * pitch, grid, length) / length[-1]
-    lobes = outline.lobe_count
-    near, share = _cubic(PER_LOBE * (lobe + along), PER_LOBE * lobes)
-    own = states.crank_angle + model.phases[disc_index]
-    wall = own * (1.0 + 1.0 / lobes) + np.pi
-    holes = shape.holes
-    turned = wall[:, None] - np.angle(holes)
-    on_hole, hole_share = _cubic(PER_HOLE * turned / (2.0 * np.pi), PER_HOLE)
-    first = PER_LOBE * lobes + PER_HOLE * np.arange(len(holes))
-    inward = np.broadcast_to(np.exp(1j * wall)[:, None], turned.shape)
-    return Spots(
-        np.concatenate([near, on_hole + first[:, None]], axis=1),
-        np.concatenate([share, hole_share], axis=1),
-        np.concatenate([-outline.profile(t)[1], inward], axis=1),
-    )
-
-
-def _cubic(place: FloatArray, count: int) -> tuple[NDArray[np.int64], FloatArray]:
-    """Four places round `place` (in places, periodic by `count`) and Lagrange's weights."""
-    base = np.floor(place)
-    near = np.mod(base[..., None] + np.arange(-1, 3), count).astype(np.int64)
-    return near, _lagrange(place - base)
-
-
-def _lagrange(part: FloatArray) -> FloatArray:
-    """Weights (..., 4) of values at -1, 0, 1 and 2 for one at `part`."""
-    x = part[..., None]
-    return np.concatenate(
-        [
-            -x * (x - 1.0) * (x - 2.0) / 6.0,
-            (x * x - 1.0) * (x - 2.0) / 2.0,
-            -x * (x + 1.0) * (x - 2.0) / 2.0,
-            x * (x * x - 1.0) / 6.0,
-        ],
-        axis=-1,
-    )
-
-
 def _add_contacts(
     matrix: FloatArray,
     plate: Plate,
@@ -335,22 +269,6 @@ def disc_compliance(
     direct = _of_disc(shape, body, model, states, disc_index)
     smooth, rubbing = direct.held((shape, body), stiffness, tangential)
     return smooth if rubbing is None else rubbing
-
-
-def ring_spots(shape: RingShape, states: NominalStates, disc_index: int) -> Spots:
-    """Contacts (A, T) of the ring with one disc."""
-    normal = -(
-        states.rows[:, disc_index, : shape.tooth_count, 0]
-        + 1j * states.rows[:, disc_index, : shape.tooth_count, 1]
-    )
-    turn = np.exp(2j * np.pi * np.arange(shape.tooth_count) / shape.tooth_count)
-    angles = shape.angles
-    step = angles[1] - angles[0]
-    place = (np.clip(np.angle(normal / turn), angles[0], angles[-1]) - angles[0]) / step
-    base = np.clip(np.floor(place), 1.0, PER_TOOTH - 3.0)
-    share = _lagrange(place - base)
-    first = base.astype(np.int64) + PER_TOOTH * np.arange(shape.tooth_count)
-    return Spots(first[..., None] + np.arange(-1, 3), share, normal)
 
 
 def _add_ring(

@@ -12,6 +12,7 @@ import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,16 +26,7 @@ from cqdd_design.gearbox.contact.states import NominalStates
 from cqdd_design.gearbox.life.fatigue import goodman_reversed
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
-REGIONS: tuple[Region, ...] = (
-    "hole to profile",
-    "hole to hole",
-    "hole to bore",
-    "column to profile",
-    "column to hole",
-    "column to bore",
-    "root",
-    "ring",
-)
+REGIONS: tuple[Region, ...] = get_args(Region)
 """Of all discs and rings: one with columns between all of its holes lacks ``hole to hole``."""
 LIGAMENTS = REGIONS[:6]
 

@@ -12,11 +12,12 @@ from typing import Literal
 import numpy as np
 
 from cqdd_design.gearbox.bodies import bore
-from cqdd_design.gearbox.bodies.compliance import Spots, disc_spots, ring_spots, under_disc
+from cqdd_design.gearbox.bodies.compliance import under_disc
 from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape
 from cqdd_design.gearbox.bodies.model import Body
 from cqdd_design.gearbox.bodies.point_load import Places
 from cqdd_design.gearbox.bodies.ring import RingShape
+from cqdd_design.gearbox.bodies.spots import Spots, disc_spots, ring_spots
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import NominalStates
 from cqdd_design.geometry.contours import FloatArray
