@@ -144,3 +144,10 @@ class DiscPatches:
         side, longer = np.roll(z, -1) - z, np.roll(u, -1, axis=0) - u
         strain = (np.conj(side)[:, None] * longer).real / (np.abs(side) ** 2)[:, None]
         return z + 0.5 * side, self.shape.plate.modulus * strain
+
+    def stress_at(self, curve: int, centre: complex, at: np.ndarray) -> np.ndarray:
+        """The same by the first force, at places of a curve that goes round `centre`."""
+        middle, stress = self.edge_stress(curve, None)
+        around = np.angle(middle - centre)
+        order = np.argsort(around)
+        return np.interp(np.angle(at - centre), around[order], stress[order, 0], period=2.0 * np.pi)
