@@ -17,8 +17,8 @@ _CLOSEST = 6
 """Checks shown for a design that fails none."""
 
 _SCREEN = (
-    " The checks are a first screen, in which rigid parts share the load: the contact equilibrium, "
-    "the life and the test bench below judge the same loads more closely, and where they say less, "
+    " The checks are a first screen: but for the stress of discs and ring, rigid parts share the "
+    "load there. The contact equilibrium, the life and the test bench below judge the same loads more closely, and where they say less, "
     "they count."
 )
 
