@@ -18,8 +18,8 @@ _CLOSEST = 6
 
 _SCREEN = (
     " The checks are a first screen: but for the stress of discs and ring, rigid parts share the "
-    "load there. The contact equilibrium, the life and the test bench below judge the same loads more closely, and where they say less, "
-    "they count."
+    "load there. The contact equilibrium, the life and the test bench below judge the same loads "
+    "more closely, and where they say less, they count."
 )
 
 
