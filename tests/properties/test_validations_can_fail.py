@@ -21,6 +21,7 @@ from wrong_by_half import name_of, wrong_by_half
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.actuator.thermal import response
 from cqdd_design.gearbox import rigid
+from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.sweep import contact_sweep
 from cqdd_design.gearbox.losses.sliding import friction_work, ring_sliding
 from cqdd_design.gearbox.precision.backlash import Backlash
@@ -49,7 +50,8 @@ VALIDATED: dict[Callable[..., None], list[tuple[Any, str]]] = {
     CONTACT.test_energy_slope_integrates_to_zero: [(mesh_period, "")],
     CONTACT.test_energy_slope_is_the_derivative: [
         (contact_sweep, "energy"),
-        (contact_sweep, "energy_slope"),
+        (contact_sweep, "contact_slope"),
+        (ContactSweep.energy_slope, ""),
     ],
     CONTACT.test_rigid_limit: [(contact_sweep, "ring_force"), (rigid.ring_forces, "")],
     CONTACT.test_plain_twin: [(contact_sweep, "ring_force"), (contact_sweep, "pin_force")],
