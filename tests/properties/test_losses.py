@@ -20,6 +20,7 @@ from hypothesis import strategies as st
 from lone_disc import lone_disc
 from solids_designs import machines
 
+from cqdd_design.catalog.lubricants import find_lubricant
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import UsageError
 from cqdd_design.gearbox import rigid
@@ -31,7 +32,6 @@ from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.disc_forces import DiscForces, disc_forces
 from cqdd_design.gearbox.losses import LossModel
 from cqdd_design.gearbox.losses.backdrive import balance_torque
-from cqdd_design.gearbox.losses.lubricant import find_lubricant
 from cqdd_design.gearbox.losses.machine import SOURCES, total
 from cqdd_design.gearbox.losses.model import SENSES
 from cqdd_design.gearbox.losses.rolling import drag_torque
@@ -71,6 +71,7 @@ class RigidForces:
     pin_normal: np.ndarray
     cam_force: np.ndarray
     disc_centre: np.ndarray
+    friction: None = None
 
     @property
     def pin_load(self) -> np.ndarray:
