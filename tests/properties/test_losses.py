@@ -609,7 +609,8 @@ def test_random_machines_have_sound_losses(machine: tuple[Design, object], torqu
     assert 0.0 < (found.efficiency_forward or 0.0) < 1.0
     # For rigid forces the mean loss at the teeth has the closed form 4 mu (R - r)/(pi n e).
     reducer = design.reducer
-    closed = 4.0 * reducer.friction.tooth * (reducer.ring_pitch_radius - friction_radius(design))
+    mu = friction.tooth_coefficient
+    closed = 4.0 * mu * (reducer.ring_pitch_radius - friction_radius(design))
     closed *= torque / (math.pi * reducer.ratio * reducer.eccentricity)
     assert reducer.ratio * found.by_source["ring_teeth"] / 100.0 == pytest.approx(closed, rel=0.02)
     assert (found.efficiency_backward or 0.0) <= (found.efficiency_forward or 0.0)

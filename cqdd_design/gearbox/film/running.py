@@ -169,7 +169,7 @@ def running(
         teeth=_running(teeth, model.tooth_film, sweep.ring_force, sweep.mean_friction[0]),
         pins=_running(pins, model.hole_film, sweep.pin_force, sweep.mean_friction[1]),
         wear=_wear(design, model, losses, sweep, states),
-        warnings=_plastics(design, model, sweep, speed),
+        warnings=plastics(design, model, sweep, speed),
     )
 
 
@@ -233,7 +233,7 @@ def _perimeter(model: ContactModel) -> float:
     return float(model.lobe_count * 2.0 * pitch * np.mean(np.abs(speed)))
 
 
-def _plastics(
+def plastics(
     design: Design, model: ContactModel, sweep: ContactSweep, speed: float
 ) -> tuple[str, ...]:
     """Sentences on plastics that rub: pressure on the projected area times speed, and friction."""
