@@ -36,7 +36,7 @@ TORQUE_SHARES = (0.0, *(10.0 ** (0.125 * k) for k in range(-24, 1)))
 decade over three decades. Straight lines between them are then good to 0.3 %."""
 SWEEP_ANGLES = 120
 """Crank angles of each of its sweeps over a period."""
-_EVERY = 3
+_EVERY = 6
 """Torques between those at which friction without films is solved too: its ratio to that with them
 hardly changes."""
 
