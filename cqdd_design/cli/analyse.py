@@ -85,6 +85,8 @@ def _lines(analysis: GearboxAnalysis, results: dict[str, object]) -> list[str]:
         "contact": "contact equilibrium",
         "precision": "precision",
         "losses": "losses",
+        "film": "films at the ring teeth and output pins",
+        "wear": "wear over the required life",
         "life": "life",
         "bending": "shaft and tilt, bounded",
         "bodies": "discs and ring under these forces",

@@ -160,10 +160,11 @@ class Machine:
 
     def _seat_friction(self, seat: ChosenBearing) -> BearingFriction:
         from cqdd_design.gearbox.losses.rolling import BearingFriction
+        from cqdd_design.gearbox.rolling_contacts import at_rest
 
         row = seat.bearing
         if seat.source == "bush":
-            coefficient = self.design.reducer.friction.pin
+            coefficient = at_rest(self.design.reducer.friction.pin)
             return BearingFriction.bush(row.bore_diameter, row.width, coefficient)
         return BearingFriction.of(row)
 

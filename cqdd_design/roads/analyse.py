@@ -60,7 +60,16 @@ class Analysis:
     def to_dict(self) -> dict[str, object]:
         """The JSON form (``results`` of ``analyse``)."""
         if self.contact is None:
-            names = ("contact", "precision", "losses", "life", "bending", "bodies")
+            names = (
+                "contact",
+                "precision",
+                "losses",
+                "film",
+                "wear",
+                "life",
+                "bending",
+                "bodies",
+            )
             absent = dict.fromkeys(names)
             return self.gearbox.to_dict() | absent
         bodies = None if self.bodies is None else self.bodies.to_dict()

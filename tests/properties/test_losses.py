@@ -20,6 +20,7 @@ from hypothesis import strategies as st
 from lone_disc import lone_disc
 from solids_designs import machines
 
+from cqdd_design.catalog.lubricants import find_lubricant
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import UsageError
 from cqdd_design.gearbox import rigid
@@ -31,7 +32,6 @@ from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.disc_forces import DiscForces, disc_forces
 from cqdd_design.gearbox.losses import LossModel, loss_model
 from cqdd_design.gearbox.losses.backdrive import balance_torque
-from cqdd_design.gearbox.losses.lubricant import find_lubricant
 from cqdd_design.gearbox.losses.machine import SOURCES, total
 from cqdd_design.gearbox.losses.model import SENSES
 from cqdd_design.gearbox.losses.rolling import drag_torque
@@ -79,6 +79,7 @@ class RigidForces:
     pin_normal: np.ndarray
     cam_force: np.ndarray
     disc_centre: np.ndarray
+    friction: None = None
 
     @property
     def pin_load(self) -> np.ndarray:
@@ -616,7 +617,8 @@ def test_random_machines_have_sound_losses(machine: tuple[Design, object], torqu
     assert 0.0 < (found.efficiency_forward or 0.0) < 1.0
     # For rigid forces the mean loss at the teeth has the closed form 4 mu (R - r)/(pi n e).
     reducer = design.reducer
-    closed = 4.0 * reducer.friction.tooth * (reducer.ring_pitch_radius - friction_radius(design))
+    mu = friction.tooth_coefficient
+    closed = 4.0 * mu * (reducer.ring_pitch_radius - friction_radius(design))
     closed *= torque / (math.pi * reducer.ratio * reducer.eccentricity)
     assert reducer.ratio * found.by_source["ring_teeth"] / 100.0 == pytest.approx(closed, rel=0.02)
     assert (found.efficiency_backward or 0.0) <= (found.efficiency_forward or 0.0)
