@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cqdd_design.errors import UsageError
+from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.losses.backdrive import STATIC_RATIO, Backdrive, balance_torque
 from cqdd_design.gearbox.losses.machine import SOURCES, FrictionMachine, total
 from cqdd_design.gearbox.losses.result import Losses
@@ -32,6 +32,8 @@ SENSES: tuple[PowerSense, PowerSense] = ("drive", "backdrive")
 TORQUE_SHARES = (0.0, *(10.0 ** (0.125 * k) for k in range(-24, 1)))
 """Torques of the sweeps of :func:`loss_model`, as shares of the largest: zero, then eight to a
 decade over three decades. Straight lines between them are then good to 0.3 %."""
+_SPARED = 0.05
+"""Share up to which a sweep without an equilibrium is left out."""
 SWEEP_ANGLES = 120
 """Crank angles of each of its sweeps over a period."""
 
@@ -308,23 +310,27 @@ def loss_model(model: ContactModel, machine: FrictionMachine, peak_torque: float
     Raises
     ------
     ContactError
-        When a sweep has no equilibrium, friction that jams the gearbox included.
+        When a sweep has no equilibrium, friction that jams the gearbox included. At small torques
+        alone, where clearances are nearly used up, that sweep is left out.
     """
     from cqdd_design.gearbox.contact.rubbing import ContactFriction
     from cqdd_design.gearbox.contact.states import nominal_states
-    from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+    from cqdd_design.gearbox.contact.sweep import contact_sweep, idle_sweep, perfect_angles
 
     states = nominal_states(model, perfect_angles(model, SWEEP_ANGLES))
-    driving, driven = (
-        [
-            contact_sweep(
-                model,
-                share * peak_torque,
-                states=states,
-                friction=ContactFriction.of(model, sense),
-            )
-            for share in TORQUE_SHARES
-        ]
-        for sense in SENSES
-    )
+
+    def solve(share: float, sense: PowerSense) -> ContactSweep:
+        rubbing, torque = ContactFriction.of(model, sense), share * peak_torque
+        if torque == 0.0:
+            return idle_sweep(model, peak_torque, states, rubbing)
+        return contact_sweep(model, torque, states=states, friction=rubbing)
+
+    found = []
+    for share in TORQUE_SHARES:
+        try:
+            found.append([solve(share, sense) for sense in SENSES])
+        except ContactError:
+            if share > _SPARED:
+                raise
+    driving, driven = zip(*found, strict=True)
     return LossModel.from_sweeps(machine, driving, driven)
