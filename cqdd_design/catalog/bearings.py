@@ -21,6 +21,12 @@ FRICTION_COEFFICIENT: dict[BearingKind, float] = {
 middle). Crossed rollers are not in the table: the upper end of tapered rollers, which slide on
 their ends too."""
 
+BEARING_MATERIAL = "AISI 52100 / 100Cr6 hardened"
+"""Rings and rolling elements."""
+SHAFT_MATERIAL = "AISI 4140 Q&T 540C"
+RACEWAY_MATERIAL = "SCM415/16MnCr5 case hardened"
+"""Shaft whose lobes are raceways of a needle cage: they must be hard."""
+
 
 @dataclass(frozen=True)
 class Bearing:
@@ -52,6 +58,11 @@ class Bearing:
     static_rating: float | None = column("C0_kN", 1e3)
     mass: float | None = column("mass_kg")
     source: str = column("source")
+
+
+def shaft_material(cam: Bearing) -> str:
+    """Catalogue name of what shaft and loose cams are made of, for a cam bearing on them."""
+    return RACEWAY_MATERIAL if cam.kind == "needle cage" else SHAFT_MATERIAL
 
 
 @functools.lru_cache(maxsize=1)

@@ -10,6 +10,7 @@ from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.gearbox.bodies.strength import BodyStrength
 from cqdd_design.gearbox.contact.laws import LineModel
 from cqdd_design.gearbox.contact.rubbing import FrictionChoice
+from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.body_analysis import analyse_bodies, judged_bodies, no_stress
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
@@ -50,12 +51,13 @@ class Analysis:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What was not checked or cannot be relied on."""
+        closed = (*self.gearbox.warnings, *self.machine.too_warm)
         if self.contact is None:
-            return (*self.gearbox.warnings, f"no contact analysis: {self.missing}")
+            return (*closed, f"no contact analysis: {self.missing}")
         if self.bodies is not None:
-            return (*self.gearbox.warnings, *self.contact.warnings)
+            return (*closed, *self.contact.warnings)
         told = no_stress(self.machine, self.bodies_missing)
-        return (*self.gearbox.warnings, *self.contact.warnings, told)
+        return (*closed, *self.contact.warnings, told)
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form (``results`` of ``analyse``)."""
@@ -84,6 +86,7 @@ def analyse(
     angles: int,
     line_model: LineModel = "palmgren",
     friction: FrictionChoice = "drive",
+    temperature: float | None = None,
 ) -> Analysis:
     """Analyse a design; one that cannot carry the torque as far as closed forms go.
 
@@ -99,14 +102,23 @@ def analyse(
         Approach of teeth and pins.
     friction : {"drive", "backdrive", "off"}
         Of contact forces and precision; see `analyse_contact`.
+    temperature : float, optional
+        Of all parts of the gearbox, deg C; default 20, at which dimensions hold. Closed forms and
+        checks are as drawn.
 
     Raises
     ------
     GeometryError
         When disc, ring or holes cannot exist.
+    DesignError
+        When the thermal expansion of a part is not known.
+    UsageError
+        For a temperature outside the range that is worked with.
     """
     asked = design if speed is None else design.replacing({"requirements.input_speed": speed})
     machine = resolve(asked)
+    if temperature is not None:
+        machine = machine.at(PartTemperatures.even(temperature))
     gearbox = machine.analyse(torque=torque, angles=angles)
     try:
         contact = analyse_contact(

@@ -14,6 +14,7 @@ from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.states import (
     NominalStates,
     error_states,
+    hole_off_pin,
     nominal_states,
     profile_error,
 )
@@ -145,11 +146,13 @@ def free_poses(model: ContactModel, states: NominalStates) -> FloatArray:
 
 
 def _apart(model: ContactModel, states: NominalStates, errors: GearboxErrors | None) -> FloatArray:
-    """Hole off its pin by position errors, turned with the carrier, (A, D, P, 2)."""
+    """Hole off its pin by heat and by position errors, turned with the carrier, (A, D, P, 2)."""
+    shape = (len(states.crank_angle), model.disc_count, model.pin_count, 2)
+    warm = hole_off_pin(model, states.pin_angle)
     if errors is None:
-        return np.zeros((len(states.crank_angle), model.disc_count, model.pin_count, 2))
+        return np.broadcast_to(warm, shape).copy()
     apart = errors.hole_position - errors.pin_position
-    return turned_with_carrier(model.lobe_count, states.crank_angle, apart)
+    return warm + turned_with_carrier(model.lobe_count, states.crank_angle, apart)
 
 
 def _push(
