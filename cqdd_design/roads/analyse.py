@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
+from cqdd_design.actuator.shock import Shock, shocks
 from cqdd_design.design import Design
 from cqdd_design.errors import ContactError, GeometryError
 from cqdd_design.gearbox import GearboxAnalysis
@@ -33,6 +35,10 @@ class Analysis:
         Why there is none.
     body_checks : tuple of Check
         Of that stress, at the torques of the requirements.
+    shocks : mapping of str to Shock
+        Stops of the output from the rated speed, and from a given one.
+    shock_missing : str
+        Why there are none.
     """
 
     machine: Machine
@@ -42,6 +48,8 @@ class Analysis:
     bodies: BodyStrength | None = None
     bodies_missing: str = ""
     body_checks: tuple[Check, ...] = ()
+    shocks: Mapping[str, Shock] = field(default_factory=dict)
+    shock_missing: str = ""
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -54,28 +62,23 @@ class Analysis:
         closed = (*self.gearbox.warnings, *self.machine.too_warm)
         if self.contact is None:
             return (*closed, f"no contact analysis: {self.missing}")
-        if self.bodies is not None:
-            return (*closed, *self.contact.warnings)
-        told = no_stress(self.machine, self.bodies_missing)
-        return (*closed, *self.contact.warnings, told)
+        told = () if self.bodies else (no_stress(self.machine, self.bodies_missing),)
+        no_stop = (self.shock_missing,) if self.shock_missing else ()
+        return (*closed, *self.contact.warnings, *told, *no_stop)
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form (``results`` of ``analyse``)."""
         if self.contact is None:
             names = (
-                "contact",
-                "precision",
-                "losses",
-                "film",
-                "wear",
-                "life",
-                "bending",
-                "bodies",
+                *("contact", "precision", "losses", "film", "wear"),
+                *("life", "bending", "bodies", "shock"),
             )
             absent = dict.fromkeys(names)
             return self.gearbox.to_dict() | absent
         bodies = None if self.bodies is None else self.bodies.to_dict()
-        return self.gearbox.to_dict() | self.contact.to_dict() | {"bodies": bodies}
+        shock = {name: one.to_dict() for name, one in self.shocks.items()} or None
+        found = {"bodies": bodies, "shock": shock}
+        return self.gearbox.to_dict() | self.contact.to_dict() | found
 
 
 def analyse(
@@ -126,6 +129,7 @@ def analyse(
         )
     except ContactError as error:
         return Analysis(machine, gearbox, None, error.message)
+    stops, unknown = shocks(machine)
     try:
         checks, bodies = judged_bodies(machine, line_model, friction)
         if torque is not None:
@@ -133,5 +137,5 @@ def analyse(
                 machine, torque=torque, line_model=line_model, friction=friction
             )
     except (ContactError, GeometryError) as error:
-        return Analysis(machine, gearbox, contact, "", None, error.message)
-    return Analysis(machine, gearbox, contact, "", bodies, "", checks)
+        return Analysis(machine, gearbox, contact, "", None, error.message, (), stops, unknown)
+    return Analysis(machine, gearbox, contact, "", bodies, "", checks, stops, unknown)
