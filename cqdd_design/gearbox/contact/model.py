@@ -280,7 +280,8 @@ def _inside(runner: Runner | None, steel: Material) -> float:
     """Coefficient of the contact between a pin and what turns on it, of the same steel."""
     if runner is None:
         return 0.0
-    return laws.runner_coefficient(runner.cage, runner.length, pair_modulus(steel, steel))
+    own = laws.runner_coefficient(runner.cage, runner.length, pair_modulus(steel, steel))
+    return own if runner.cage is None else float(own / runner.rows**0.9)
 
 
 def _ring_pin_series(design: Design, pin: Material, plate: Material) -> FloatArray:
