@@ -15,7 +15,7 @@ from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, FrictionChoice
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
-from cqdd_design.gearbox.contact.sweep import ANGLES, contact_sweep, perfect_angles
+from cqdd_design.gearbox.contact.sweep import ANGLES, contact_sweep, idle_sweep, perfect_angles
 from cqdd_design.gearbox.film.running import Running, running
 from cqdd_design.gearbox.life import LifeResult, life
 from cqdd_design.gearbox.losses import EfficiencyMap, Losses, loss_model
@@ -38,7 +38,7 @@ class ContactAnalysis:
     sweep, reversed : ContactSweep
         Over the period, at the torque and at its negative.
     preload : ContactSweep or None
-        Without load and friction, where the fits are of interference.
+        Without load and friction, where parts overlap whatever they do.
     precision : Precision
         At the continuous torque, or at the one asked for.
     losses : Losses
@@ -144,7 +144,6 @@ def analyse_contact(
     steady = asked.continuous_torque if torque is None else torque
     rubbed = ContactFriction.of(model, friction)
     sweep = contact_sweep(model, peak, states=states, friction=rubbed)
-    tight = bool(states.gaps.min() < 0.0)
     losses = machine.losses if usual else loss_model(model, machine.friction, asked.peak_torque)
     back = contact_sweep(model, -peak, states=states, friction=rubbed)
     bending, missing = _bending(machine, sweep, back)
@@ -154,12 +153,14 @@ def analyse_contact(
     else:
         some, at_steady = states, sweep
     shares = np.arange(1, _MAP_STEPS + 1) / _MAP_STEPS
+    exact = precision(model, steady, angles=angles, friction=friction)
+    tight = exact.free.preloaded
     return ContactAnalysis(
         model=model,
         sweep=sweep,
         reversed=back,
-        preload=contact_sweep(model, 0.0, states=states) if tight else None,
-        precision=precision(model, steady, angles=angles, friction=friction),
+        preload=idle_sweep(model, peak, states) if tight else None,
+        precision=exact,
         losses=losses.at(asked.input_speed, steady),
         map=losses.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),
         life=life(design, model, friction=friction != "off"),

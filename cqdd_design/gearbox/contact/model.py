@@ -93,6 +93,9 @@ class ContactModel(Stages):
         Compliance at every disc of ring pins that rollers leave free between their ends, m/N.
     bodies : YieldingBodies or None
         Discs and ring, where plate and cap turn apart; None where they are rigid.
+    pin_reach : float
+        By how much further out pins stand than the middles of their holes, m: of a carrier that
+        grew more than the discs.
     column_count : int
         Columns that pass through the discs, a divisor of the pins' number; 0 without.
     """
@@ -120,6 +123,7 @@ class ContactModel(Stages):
     roller_coefficient: float = 0.0
     ring_pin_series: FloatArray | None = None
     bodies: YieldingBodies | None = None
+    pin_reach: float = 0.0
     column_count: int = 0
 
     @classmethod
@@ -214,7 +218,8 @@ class ContactModel(Stages):
     def pin_gap(self) -> float:
         """Gap at an output pin in the nominal pose, m: half of the clearance of the hole.
 
-        A sleeve's play opens it further: pin and hole can part by both.
+        A sleeve's play opens it further: pin and hole can part by both. What `pin_reach` does is
+        not in it, since that turns with the crank.
         """
         return self.hole_radius - self.pin_contact_radius - self.eccentricity + self.sleeve_play
 
@@ -275,7 +280,8 @@ def _inside(runner: Runner | None, steel: Material) -> float:
     """Coefficient of the contact between a pin and what turns on it, of the same steel."""
     if runner is None:
         return 0.0
-    return laws.runner_coefficient(runner.cage, runner.length, pair_modulus(steel, steel))
+    own = laws.runner_coefficient(runner.cage, runner.length, pair_modulus(steel, steel))
+    return own if runner.cage is None else float(own / runner.rows**0.9)
 
 
 def _ring_pin_series(design: Design, pin: Material, plate: Material) -> FloatArray:

@@ -34,6 +34,9 @@ from cqdd_design.geometry.contours import FloatArray
 ANGLES = 360
 """Default number of crank angles over the period of a perfect gearbox."""
 
+_NEXT_TO_NOTHING = (0.0, 1e-6, 1e-5, 1e-4, 1e-3)
+"""Shares of a usual torque that are tried for a gearbox without load."""
+
 _REACH = 0.25
 """Displacement, in eccentricities, beyond which the nominal pose says nothing any more."""
 
@@ -128,6 +131,39 @@ def contact_sweep(
     found = _joined(model, torque, states, changed, friction, result)
     _refuse_outside_law(model, torque, states, found.result.force)
     return _assemble(model, torque, states, found)
+
+
+def idle_sweep(
+    model: ContactModel,
+    torque: float,
+    states: NominalStates,
+    friction: ContactFriction | None = None,
+) -> ContactSweep:
+    """Equilibria without load; where that leaves parts without a place, under next to none.
+
+    Parts whose clearances warmth or a tight fit has nearly used up hang between contacts that
+    just touch, and then have no equilibrium under no load at all.
+
+    Parameters
+    ----------
+    torque : float
+        A usual one, N m, of which the load is up to a thousandth.
+    states : NominalStates
+    friction : ContactFriction, optional
+
+    Raises
+    ------
+    ContactError
+        As :func:`contact_sweep`, where neither has one.
+    """
+    for share in _NEXT_TO_NOTHING[:-1]:
+        try:
+            found = contact_sweep(model, share * torque, states=states, friction=friction)
+        except ContactError:
+            continue
+        return replace(found, torque=0.0)
+    last = _NEXT_TO_NOTHING[-1] * torque
+    return replace(contact_sweep(model, last, states=states, friction=friction), torque=0.0)
 
 
 class _Found(NamedTuple):

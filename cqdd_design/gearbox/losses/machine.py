@@ -289,11 +289,11 @@ def _needles(design: Design) -> dict[str, NeedleDrag]:
     rollers, sleeves = ring_runner(design), pin_runner(design)
     if rollers is not None and rollers.cage is not None:
         turn = greatest_roller_turn(n, reducer.ring_pitch_radius, e, rollers.diameter)
-        count = reducer.disc_count * reducer.ring_tooth_count
+        count = reducer.disc_count * reducer.ring_tooth_count * rollers.rows
         found["ring_teeth"] = NeedleDrag(BearingFriction.of(rollers.cage), count, turn)
     if sleeves is not None and sleeves.cage is not None:
         turn = float(sleeve_turn(n, e, sleeves.diameter))
-        count = reducer.disc_count * reducer.output_pins.count
+        count = reducer.disc_count * reducer.output_pins.count * sleeves.rows
         found["output_pins"] = NeedleDrag(BearingFriction.of(sleeves.cage), count, turn)
     return found
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cqdd_design.errors import UsageError
+from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.losses.backdrive import STATIC_RATIO, Backdrive, balance_torque
 from cqdd_design.gearbox.losses.film_work import FilmWork, lowered_friction
 from cqdd_design.gearbox.losses.machine import SOURCES, FrictionMachine, total
@@ -34,6 +34,8 @@ SENSES: tuple[PowerSense, PowerSense] = ("drive", "backdrive")
 TORQUE_SHARES = (0.0, *(10.0 ** (0.125 * k) for k in range(-24, 1)))
 """Torques of the sweeps of :func:`loss_model`, as shares of the largest: zero, then eight to a
 decade over three decades. Straight lines between them are then good to 0.3 %."""
+_SPARED = 0.05
+"""Share up to which a sweep without an equilibrium is left out."""
 SWEEP_ANGLES = 120
 """Crank angles of each of its sweeps over a period."""
 _EVERY = 6
@@ -363,33 +365,52 @@ def loss_model(model: ContactModel, machine: FrictionMachine, peak_torque: float
     Raises
     ------
     ContactError
-        When a sweep has no equilibrium, friction that jams the gearbox included.
+        When a sweep has no equilibrium, friction that jams the gearbox included. At small torques
+        alone, where clearances are nearly used up, that sweep is left out.
     """
     from cqdd_design.gearbox.contact.rubbing import ContactFriction
     from cqdd_design.gearbox.contact.states import nominal_states
-    from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+    from cqdd_design.gearbox.contact.sweep import contact_sweep, idle_sweep, perfect_angles
 
     states = nominal_states(model, perfect_angles(model, SWEEP_ANGLES))
 
-    def swept(sense: PowerSense, shares: Sequence[float], speed: float) -> list[ContactSweep]:
-        friction = ContactFriction.of(model, sense, speed)
-        return [
-            contact_sweep(model, share * peak_torque, states=states, friction=friction)
-            for share in shares
-        ]
+    def solve(share: float, sense: PowerSense, speed: float) -> ContactSweep:
+        friction, torque = ContactFriction.of(model, sense, speed), share * peak_torque
+        if torque == 0.0:
+            return idle_sweep(model, peak_torque, states, friction)
+        return contact_sweep(model, torque, states=states, friction=friction)
 
-    driving, driven = (swept(sense, TORQUE_SHARES, model.film_speed) for sense in SENSES)
-    found = LossModel.from_sweeps(machine, driving, driven)
+    def swept(shares: Sequence[float], speed: float) -> dict[float, list[ContactSweep]]:
+        """In both senses, by share, but for small ones without an equilibrium."""
+        found = {}
+        for share in shares:
+            try:
+                found[share] = [solve(share, sense, speed) for sense in SENSES]
+            except ContactError:
+                if share > _SPARED:
+                    raise
+        return found
+
+    def lossy(solved: dict[float, list[ContactSweep]]) -> LossModel:
+        driving, driven = zip(*solved.values(), strict=True)
+        return LossModel.from_sweeps(machine, driving, driven)
+
+    running = swept(TORQUE_SHARES, model.film_speed)
+    found = lossy(running)
     if not any(model.by_film):
         return found
-    few = [0, *range(1, len(TORQUE_SHARES), _EVERY)]
-    shares = [TORQUE_SHARES[k] for k in few]
-    rest = LossModel.from_sweeps(machine, *(swept(sense, shares, 0.0) for sense in SENSES))
+    given = list(running)
+    resting = swept([given[0], *given[1::_EVERY]], 0.0)
+    rest = lossy(resting)
+    # Where nothing is solved without load the least load stands for it.
+    few = ([] if 0.0 in resting else [min(resting)]) + list(resting)
     films = FilmWork(
         reference=model.film_speed,
         at_rest=_spread(found, rest),
         torque=rest.torque,
-        lowered=lowered_friction(model, states, [driving[k] for k in few], model.film_speed),
+        lowered=lowered_friction(
+            model, states, [running[share][0] for share in few], model.film_speed
+        ),
     )
     return replace(found, film=films)
 

@@ -26,7 +26,7 @@ from cqdd_design.gearbox.contact.sweep import (
     perfect_angles,
 )
 from cqdd_design.gearbox.hertz import line_contact_pressure
-from cqdd_design.gearbox.precision.backlash import backlash
+from cqdd_design.gearbox.precision.backlash import free_poses
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.meshing import tooth_centres
 
@@ -150,8 +150,7 @@ def ensemble_tables(
     marked = marked_angles(model.lobe_count, len(states.crank_angle))
     held = replace(model, pin=None)
     perfect = contact_sweep(held, torque, states=states).state_vectors
-    free_poses = backlash(model, states=states).poses
-    start = Start(marked, perfect, free_poses, torque)
+    start = Start(marked, perfect, free_poses(model, states), torque)
     return EnsembleTables(model, states, start, _shared(model, states, torque, bodies))
 
 

@@ -36,6 +36,7 @@ GROUPS = {
     "motor": "Motor",
     "drive": "Drive",
     "housing": "Housing",
+    "environment": "Surroundings",
     "tolerances": "Tolerances (standard deviations)",
     "edm": "Wire EDM",
 }
@@ -98,6 +99,8 @@ _LABELS = {
     "drive.velocity_gain": Label("velocity gain at the output"),
     "drive.thermal_resistance": Label("winding to ambient"),
     "housing.material": Label("housing material"),
+    "environment.ambient": Label("air round the actuator"),
+    "environment.coldest": Label("coldest start"),
     "edm.profile_tolerance": Label("files follow the exact curve within"),
 }
 
