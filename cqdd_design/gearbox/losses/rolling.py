@@ -26,8 +26,8 @@ re-read): deep groove ball 0.7 (light series) to 2 (heavy), the middle; needle 1
 taken for crossed rollers."""
 
 SEALS = ((52e-3, 0.028, 2.0), (80e-3, 0.018, 20.0), (100e-3, 0.018, 15.0), (np.inf, 0.018, 0.0))
-"""Outside diameter (m) up to which K_S1 and K_S2 hold, of contact seals on deep groove ball bearings
-on both sides: SKF 2013, Rolling bearings, table of seal friction, RSH and from 62 mm RS1 (handbook
+"""Outside diameter (m) up to which K_S1 and K_S2 hold, of contact seals on both sides of deep groove
+ball bearings: SKF 2013, Rolling bearings, table of seal friction, RSH and from 62 mm RS1 (handbook
 values not re-read); between 52 and 62 mm the next row is taken."""
 _SEAL_POWER = 2.25
 _SHOULDER = 1.0 / 3.0
@@ -94,7 +94,7 @@ def seal_torque(bore_diameter: float, outer_diameter: float) -> float:
     """
     lip = 1e3 * (bore_diameter + _SHOULDER * (outer_diameter - bore_diameter))
     slope, constant = next(row[1:] for row in SEALS if outer_diameter <= row[0] + 1e-9)
-    return 1e-3 * (slope * lip**_SEAL_POWER + constant)
+    return float(1e-3 * (slope * lip**_SEAL_POWER + constant))
 
 
 @dataclass(frozen=True)
