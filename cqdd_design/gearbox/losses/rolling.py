@@ -26,9 +26,9 @@ re-read): deep groove ball 0.7 (light series) to 2 (heavy), the middle; needle 1
 taken for crossed rollers."""
 
 SEALS = ((52e-3, 0.028, 2.0), (80e-3, 0.018, 20.0), (100e-3, 0.018, 15.0), (np.inf, 0.018, 0.0))
-"""Outside diameter (m) up to which K_S1 and K_S2 hold, of contact seals on both sides of deep groove
-ball bearings: SKF 2013, Rolling bearings, table of seal friction, RSH and from 62 mm RS1 (handbook
-values not re-read); between 52 and 62 mm the next row is taken."""
+"""Outside diameter (m) up to which K_S1 and K_S2 hold, of contact seals on both sides of ball
+bearings: SKF 2013, Rolling bearings, table of seal friction of deep groove ball bearings, RSH and
+from 62 mm RS1 (handbook values not re-read); between 52 and 62 mm the next row is taken."""
 _SEAL_POWER = 2.25
 _SHOULDER = 1.0 / 3.0
 """Of the way from bore to outside, where the seal's lip runs on the inner ring: 0.3 to 0.36 of deep
