@@ -103,8 +103,9 @@ def solved(p: Any, table: Any, h: float, begin: Any) -> Any:
         0 = tau(x) - 2 J_m/h (x - w) - b_m x - cogging - arm T - varying - friction
         0 = T + external - 2 J_o/h (y - v) - b_o y - sensor - gravity - wall - friction
 
-    T closes by h (arm x - y). Dry friction is given while a body slips and what is missing while it
-    sticks; once the speeds settle it is asked whether it agrees with the motion it allowed.
+    T closes by h (arm x - y). The motor's own drag is part of b_m and of its friction. Dry friction
+    is given while a body slips and what is missing while it sticks; once the speeds settle it is
+    asked whether it agrees with the motion it allowed.
     """
     motion, rub, electric = begin.motion, begin.rub, begin.electric
     speed, out_speed, driven = motion.speed, motion.out_speed, p.driven != 0.0

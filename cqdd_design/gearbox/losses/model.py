@@ -256,9 +256,14 @@ class LossModel:
         )
 
     def backdrive(
-        self, *, static_ratio: float = STATIC_RATIO, output_speed: float = 0.0
+        self,
+        *,
+        static_ratio: float = STATIC_RATIO,
+        output_speed: float = 0.0,
+        shaft_running: float = 0.0,
+        shaft_resting: float = 0.0,
     ) -> Backdrive:
-        """Torques at the output that break the gearbox away and keep it turning, with no motor.
+        """Torques at the output that break the gearbox away and keep it turning.
 
         Parameters
         ----------
@@ -268,6 +273,9 @@ class LossModel:
         output_speed : float
             Of the dynamic torque, rad/s; the default is the limit of slow motion, because drag
             grows with speed.
+        shaft_running, shaft_resting : float
+            What the gearbox has to turn with its shaft, in motion and from rest, N m at the shaft:
+            a motor's own drag; default none.
         """
         if not (math.isfinite(static_ratio) and static_ratio >= 1.0):
             raise UsageError(f"static_ratio {static_ratio:g} must be at least 1.")
@@ -276,8 +284,8 @@ class LossModel:
         resting = total(self.machine.drag(0.0))
         grease = self.machine.grease_torque(0.0)
         work = self.work[SENSES.index("backdrive")].sum(axis=1)
-        dynamic = n * (work + running)
-        static = n * (static_ratio * (work + resting - grease) + grease)
+        dynamic = n * (work + running + shaft_running)
+        static = n * (static_ratio * (work + resting - grease) + grease + shaft_resting)
         return Backdrive(
             static_torque=balance_torque(self.torque, static),
             dynamic_torque=balance_torque(self.torque, dynamic),
