@@ -330,12 +330,12 @@ def friction_parameters(
     Notes
     -----
     The loss torque at the output is ``c + mu T``: mu from the Coulomb work at the torque, of its
-    own while the motor drives and while the output does, c such
-    that the slow dynamic backdrive torque ``(c + D)/(1 - mu)`` with the motor's drag D is that of
-    the loss model, which knows that the first loads are carried by fewer teeth; it is not below
-    zero, where mu alone says too much. The static one, ``(D + C + (1 + x) c)/(1 - (1 + x) mu)``
-    with the motor's cogging C, gives the Stribeck share x. Where friction holds any torque, c is
-    the drag itself.
+    own while the motor drives and while the output does. Of c a share s is at the output, the rest
+    and the motor's drag D are behind the friction under load, so that the slow dynamic backdrive
+    torque is ``s c + ((1 - s) c + D)/(1 - mu)``; c is such that it is that of the loss model, which
+    knows that the first loads are carried by fewer teeth, and not below zero, where mu alone says
+    too much. The static one has all friction times r, 1 and Stribeck's share, and the cogging C
+    beside D, which gives r. Where friction holds any torque, c is the drag itself.
     """
     machine, n = losses.machine, losses.machine.lobe_count
     loads = []
@@ -354,11 +354,15 @@ def friction_parameters(
     constant = motor * n + output
     scale, extra = 1.0, found.static_ratio - 1.0
     if found.dynamic_torque and load < 1.0 and constant > 0.0:
-        wanted = max(found.dynamic_torque * (1.0 - load) - turned, 0.0)
-        scale = wanted / constant
+        share = output / constant
+        wanted = (found.dynamic_torque * (1.0 - load) - turned) / (1.0 - share * load)
+        scale = max(wanted, 0.0) / constant
         if found.static_torque:
-            share = (found.static_torque - climbed) / (wanted + found.static_torque * load)
-            extra = max(share - 1.0, 0.0)
+            kept = scale * constant
+            linear = kept + found.static_torque * load
+            left = found.static_torque - climbed
+            root = math.sqrt(max(linear**2 - 4.0 * share * kept * load * left, 0.0))
+            extra = max(2.0 * left / (linear + root) - 1.0, 0.0)
     return FrictionParameters(
         motor_coulomb=scale * motor,
         output_coulomb=scale * output,

@@ -193,9 +193,12 @@ def test_friction_keeps_efficiencies_and_backdrive_torques() -> None:
     backward = 1.0 - friction.load_backward - drag / torque
     assert backward == pytest.approx(found.efficiency_backward, abs=2e-3)
     back = losses.backdrive()
-    assert constant / (1.0 - friction.load_backward) == pytest.approx(back.dynamic_torque)
+    # The output's own part is none of what is brought through the gearbox.
+    at_motor = n * friction.motor_coulomb
+    dynamic = friction.output_coulomb + at_motor / (1.0 - friction.load_backward)
+    assert dynamic == pytest.approx(back.dynamic_torque)
     rise = 1.0 + friction.stribeck_extra
-    static = rise * constant / (1.0 - rise * friction.load_backward)
+    static = rise * (friction.output_coulomb + at_motor / (1.0 - rise * friction.load_backward))
     assert static == pytest.approx(back.static_torque)
 
 
@@ -211,9 +214,8 @@ def test_friction_with_the_motor_on_the_shaft_keeps_backdrive_torques() -> None:
         motor = replace(one.motor, coulomb=drag, viscous=0.0, cogging_amplitude=cogging)
         whole = replace(one, motor=motor, friction=friction)
         found = losses.backdrive(shaft_running=drag, shaft_resting=drag + cogging)
-        # Friction under load on the output side's own part is the only thing left out.
-        assert backdrive_dynamic(whole) == pytest.approx(found.dynamic_torque, rel=0.1)
-        assert backdrive_static(whole) == pytest.approx(found.static_torque, rel=0.1)
+        assert backdrive_dynamic(whole) == pytest.approx(found.dynamic_torque, rel=1e-9)
+        assert backdrive_static(whole) == pytest.approx(found.static_torque, rel=1e-9)
     # A motor that drags more than the gearbox: its friction under load says too much already.
     assert one.motor.dry_drag == 0.0999
     assert one.friction.motor_coulomb == one.friction.output_coulomb == 0.0
