@@ -127,7 +127,7 @@ def solved(p: Any, table: Any, h: float, begin: Any) -> Any:
         contact, end = meshed(p, table, begin.mesh, motion.angle, turn, h * y, h)
         torque, torque_slope, arm = contact.torque, contact.slope, contact.arm
         cut, change = contact.cut, contact.change
-        cog = cogging(p, motion.angle, turn)
+        cog, cog_slope = cogging(p, motion.angle, turn)
         pull = gravity_pull(p, motion.out_angle, h, y)
         push_mean, push_slope, wall_rub = wall_push(p, begin.wall, h, y)
         pushed = p.wall_side * (push_mean + wall_rub)
@@ -167,7 +167,7 @@ def solved(p: Any, table: Any, h: float, begin: Any) -> Any:
         elif driven and rub.output_level > 0.0:
             output_friction = rub.output_level * (1.0 if y > 0.0 else (-1.0 if y < 0.0 else 0.0))
         coupling = arm * h * torque_slope
-        a11 = d_motor + electric.slope + rub.viscous + arm * coupling
+        a11 = d_motor + electric.slope + rub.viscous + h * cog_slope + arm * coupling
         a22 = d_output + rub.output_viscous + p.sensor_damping + push_slope
         a22 += h * (0.5 * p.sensor_stiffness + torque_slope)
         dx = dy = 0.0
