@@ -330,12 +330,12 @@ def friction_parameters(
     Notes
     -----
     The loss torque at the output is ``c + mu T``: mu from the Coulomb work at the torque, of its
-    own while the motor drives and while the output does. Of c a share s is at the output, the rest
-    and the motor's drag D are behind the friction under load, so that the slow dynamic backdrive
-    torque is ``s c + ((1 - s) c + D)/(1 - mu)``; c is such that it is that of the loss model, which
-    knows that the first loads are carried by fewer teeth, and not below zero, where mu alone says
-    too much. The static one has all friction times r, 1 and Stribeck's share, and the cogging C
-    beside D, which gives r. Where friction holds any torque, c is the drag itself.
+    own while the motor drives and while the output does. Of c the part o at the output is its
+    drag, the rest m and the motor's drag D are behind the friction under load, so that the slow
+    dynamic backdrive torque is ``o + (m + D)/(1 - mu)``; m is such that it is that of the loss
+    model, which knows that the first loads are carried by fewer teeth, and not below zero, where
+    mu alone says too much. The static one has all friction times r, 1 and Stribeck's share, and
+    the cogging C beside D, which gives r. Where friction holds any torque, m is the drag itself.
     """
     machine, n = losses.machine, losses.machine.lobe_count
     loads = []
@@ -351,21 +351,17 @@ def friction_parameters(
     output_rise = float(fast["output_bearing"] - slow["output_bearing"]) * n
     turned, climbed = n * drag, n * (drag + cogging)
     found = losses.backdrive(shaft_running=drag, shaft_resting=drag + cogging)
-    constant = motor * n + output
-    scale, extra = 1.0, found.static_ratio - 1.0
-    if found.dynamic_torque and load < 1.0 and constant > 0.0:
-        share = output / constant
-        wanted = (found.dynamic_torque * (1.0 - load) - turned) / (1.0 - share * load)
-        scale = max(wanted, 0.0) / constant
+    extra = found.static_ratio - 1.0
+    if found.dynamic_torque and load < 1.0:
+        motor = max((found.dynamic_torque - output) * (1.0 - load) - turned, 0.0) / n
         if found.static_torque:
-            kept = scale * constant
-            linear = kept + found.static_torque * load
+            linear = output + n * motor + found.static_torque * load
             left = found.static_torque - climbed
-            root = math.sqrt(max(linear**2 - 4.0 * share * kept * load * left, 0.0))
+            root = math.sqrt(max(linear**2 - 4.0 * output * load * left, 0.0))
             extra = max(2.0 * left / (linear + root) - 1.0, 0.0)
     return FrictionParameters(
-        motor_coulomb=scale * motor,
-        output_coulomb=scale * output,
+        motor_coulomb=motor,
+        output_coulomb=output,
         motor_viscous=motor_rise / input_speed,
         output_viscous=output_rise / (input_speed / n),
         stribeck_extra=extra,

@@ -218,13 +218,14 @@ def test_friction_with_the_motor_on_the_shaft_keeps_backdrive_torques() -> None:
         assert backdrive_static(whole) == pytest.approx(found.static_torque, rel=1e-9)
     # A motor that drags more than the gearbox: its friction under load says too much already.
     assert one.motor.dry_drag == 0.0999
-    assert one.friction.motor_coulomb == one.friction.output_coulomb == 0.0
+    assert one.friction.motor_coulomb == 0.0
+    assert one.friction.output_coulomb > 0.01
     found = losses.backdrive(
         shaft_running=one.motor.dry_drag,
         shaft_resting=one.motor.dry_drag + one.motor.cogging_amplitude,
     )
     assert n * one.motor.dry_drag < found.dynamic_torque < backdrive_dynamic(one)
-    assert backdrive_dynamic(one) == pytest.approx(found.dynamic_torque, rel=0.05)
+    assert backdrive_dynamic(one) == pytest.approx(found.dynamic_torque, rel=0.06)
     assert backdrive_static(one) == pytest.approx(found.static_torque, rel=0.01)
 
 

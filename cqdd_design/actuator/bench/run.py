@@ -116,8 +116,8 @@ def run_bench(
     if hanging and not (parameters.motor.dry_drag or parameters.motor.drag_slope):
         warnings.append(
             f"nothing is known of the motor's own drag, and 0 is assumed: {', '.join(hanging)} "
-            f"{'is' if len(hanging) == 1 else 'are'} those of a motor that turns freely. Measure "
-            "it, and give coulomb and viscous in a motor file."
+            f"{'is that' if len(hanging) == 1 else 'are those'} of a motor that turns freely. "
+            "Measure it, and give coulomb and viscous in a motor file."
         )
     return BenchResult(
         name=parameters.name,
