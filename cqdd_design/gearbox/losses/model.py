@@ -38,7 +38,7 @@ _SPARED = 0.05
 """Share up to which a sweep without an equilibrium is left out."""
 SWEEP_ANGLES = 120
 """Crank angles of each of its sweeps over a period."""
-_EVERY = 3
+_EVERY = 6
 """Torques between those at which friction without films is solved too: its ratio to that with them
 hardly changes."""
 
