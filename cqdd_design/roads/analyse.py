@@ -14,6 +14,7 @@ from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.body_analysis import analyse_bodies, judged_bodies, no_stress
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
+from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
 
 
@@ -33,6 +34,12 @@ class Analysis:
         Why there is none.
     body_checks : tuple of Check
         Of that stress, at the torques of the requirements.
+    temperatures : MachineTemperatures or None
+        Of the parts, at the duty of the requirements or at the continuous torque.
+    heat_checks : tuple of Check
+        Of them, and of the clearances they leave.
+    heat_warnings : tuple of str
+        What they leave out, or why there are none.
     """
 
     machine: Machine
@@ -42,16 +49,19 @@ class Analysis:
     bodies: BodyStrength | None = None
     bodies_missing: str = ""
     body_checks: tuple[Check, ...] = ()
+    temperatures: MachineTemperatures | None = None
+    heat_checks: tuple[Check, ...] = ()
+    heat_warnings: tuple[str, ...] = ()
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Those of the closed forms, and those of discs and ring where there are any."""
-        return (*self.gearbox.checks, *self.body_checks)
+        """Those of the closed forms, of discs and ring, and of heat, where there are any."""
+        return (*self.gearbox.checks, *self.body_checks, *self.heat_checks)
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """What was not checked or cannot be relied on."""
-        closed = (*self.gearbox.warnings, *self.machine.too_warm)
+        closed = (*self.gearbox.warnings, *self.machine.too_warm, *self.heat_warnings)
         if self.contact is None:
             return (*closed, f"no contact analysis: {self.missing}")
         if self.bodies is not None:
@@ -63,10 +73,13 @@ class Analysis:
         """The JSON form (``results`` of ``analyse``)."""
         if self.contact is None:
             names = ("contact", "precision", "losses", "life", "bending", "bodies")
-            absent = dict.fromkeys(names)
+            absent = dict.fromkeys((*names, "temperatures_degC", "heat"))
             return self.gearbox.to_dict() | absent
         bodies = None if self.bodies is None else self.bodies.to_dict()
-        return self.gearbox.to_dict() | self.contact.to_dict() | {"bodies": bodies}
+        warm: dict[str, object] = dict.fromkeys(("temperatures_degC", "heat"))
+        if self.temperatures is not None:
+            warm = self.temperatures.to_dict()
+        return self.gearbox.to_dict() | self.contact.to_dict() | {"bodies": bodies} | warm
 
 
 def analyse(
@@ -107,16 +120,19 @@ def analyse(
         For a temperature outside the range that is worked with.
     """
     asked = design if speed is None else design.replacing({"requirements.input_speed": speed})
-    machine = resolve(asked)
+    drawn = resolve(asked)
+    machine = drawn
     if temperature is not None:
-        machine = machine.at(PartTemperatures.even(temperature))
+        machine = drawn.at(PartTemperatures.even(temperature))
     gearbox = machine.analyse(torque=torque, angles=angles)
+    # What settles is a matter of the duty, whatever temperature is asked for.
+    heat = judged_temperatures(drawn)
     try:
         contact = analyse_contact(
             machine, torque=torque, angles=angles, line_model=line_model, friction=friction
         )
     except ContactError as error:
-        return Analysis(machine, gearbox, None, error.message)
+        return Analysis(machine, gearbox, None, error.message, None, "", (), *heat)
     try:
         checks, bodies = judged_bodies(machine, line_model, friction)
         if torque is not None:
@@ -124,5 +140,5 @@ def analyse(
                 machine, torque=torque, line_model=line_model, friction=friction
             )
     except (ContactError, GeometryError) as error:
-        return Analysis(machine, gearbox, contact, "", None, error.message)
-    return Analysis(machine, gearbox, contact, "", bodies, "", checks)
+        return Analysis(machine, gearbox, contact, "", None, error.message, (), *heat)
+    return Analysis(machine, gearbox, contact, "", bodies, "", checks, *heat)
