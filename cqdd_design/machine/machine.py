@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from cqdd_design.catalog.bearings import Bearing, find_bearing
+from cqdd_design.catalog.bearings import AUTO, Bearing, find_bearing
 from cqdd_design.catalog.motors import Motor, find_motor
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
@@ -30,9 +30,6 @@ if TYPE_CHECKING:
     from cqdd_design.gearbox.losses.rolling import BearingFriction
     from cqdd_design.results import MassProperties
     from cqdd_design.solids.inertia import GearboxInertia
-
-AUTO = "auto"
-"""Designation of a cam bearing that is left to the catalogue."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,10 +176,11 @@ class Machine:
 
     def _seat_friction(self, seat: ChosenBearing) -> BearingFriction:
         from cqdd_design.gearbox.losses.rolling import BearingFriction
+        from cqdd_design.gearbox.rolling_contacts import at_rest
 
         row = seat.bearing
         if seat.source == "bush":
-            coefficient = self.design.reducer.friction.pin
+            coefficient = at_rest(self.design.reducer.friction.pin)
             return BearingFriction.bush(row.bore_diameter, row.width, coefficient)
         return BearingFriction.of(row)
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
+from cqdd_design.actuator.shock import Shock, shocks
 from cqdd_design.design import Design
 from cqdd_design.errors import ContactError, GeometryError
 from cqdd_design.gearbox import GearboxAnalysis
@@ -34,6 +36,10 @@ class Analysis:
         Why there is none.
     body_checks : tuple of Check
         Of that stress, at the torques of the requirements.
+    shocks : mapping of str to Shock
+        Stops of the output from the rated speed, and from a given one.
+    shock_missing : str
+        Why there are none.
     temperatures : MachineTemperatures or None
         Of the parts, at the duty of the requirements or at the continuous torque.
     heat_checks : tuple of Check
@@ -49,6 +55,8 @@ class Analysis:
     bodies: BodyStrength | None = None
     bodies_missing: str = ""
     body_checks: tuple[Check, ...] = ()
+    shocks: Mapping[str, Shock] = field(default_factory=dict)
+    shock_missing: str = ""
     temperatures: MachineTemperatures | None = None
     heat_checks: tuple[Check, ...] = ()
     heat_warnings: tuple[str, ...] = ()
@@ -64,22 +72,26 @@ class Analysis:
         closed = (*self.gearbox.warnings, *self.machine.too_warm, *self.heat_warnings)
         if self.contact is None:
             return (*closed, f"no contact analysis: {self.missing}")
-        if self.bodies is not None:
-            return (*closed, *self.contact.warnings)
-        told = no_stress(self.machine, self.bodies_missing)
-        return (*closed, *self.contact.warnings, told)
+        told = () if self.bodies else (no_stress(self.machine, self.bodies_missing),)
+        no_stop = (self.shock_missing,) if self.shock_missing else ()
+        return (*closed, *self.contact.warnings, *told, *no_stop)
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form (``results`` of ``analyse``)."""
         if self.contact is None:
-            names = ("contact", "precision", "losses", "life", "bending", "bodies")
-            absent = dict.fromkeys((*names, "temperatures_degC", "heat"))
+            names = (
+                *("contact", "precision", "losses", "film", "wear"),
+                *("life", "bending", "bodies", "shock", "temperatures_degC", "heat"),
+            )
+            absent = dict.fromkeys(names)
             return self.gearbox.to_dict() | absent
         bodies = None if self.bodies is None else self.bodies.to_dict()
+        shock = {name: one.to_dict() for name, one in self.shocks.items()} or None
         warm: dict[str, object] = dict.fromkeys(("temperatures_degC", "heat"))
         if self.temperatures is not None:
             warm = self.temperatures.to_dict()
-        return self.gearbox.to_dict() | self.contact.to_dict() | {"bodies": bodies} | warm
+        found = {"bodies": bodies, "shock": shock} | warm
+        return self.gearbox.to_dict() | self.contact.to_dict() | found
 
 
 def analyse(
@@ -126,13 +138,24 @@ def analyse(
         machine = drawn.at(PartTemperatures.even(temperature))
     gearbox = machine.analyse(torque=torque, angles=angles)
     # What settles is a matter of the duty, whatever temperature is asked for.
-    heat = judged_temperatures(drawn)
+    warm, heat_checks, heat_warnings = judged_temperatures(drawn)
+    found = Analysis(
+        machine,
+        gearbox,
+        contact=None,
+        missing="",
+        temperatures=warm,
+        heat_checks=heat_checks,
+        heat_warnings=heat_warnings,
+    )
     try:
         contact = analyse_contact(
             machine, torque=torque, angles=angles, line_model=line_model, friction=friction
         )
     except ContactError as error:
-        return Analysis(machine, gearbox, None, error.message, None, "", (), *heat)
+        return replace(found, missing=error.message)
+    stops, unknown = shocks(machine)
+    found = replace(found, contact=contact, shocks=stops, shock_missing=unknown)
     try:
         checks, bodies = judged_bodies(machine, line_model, friction)
         if torque is not None:
@@ -140,5 +163,5 @@ def analyse(
                 machine, torque=torque, line_model=line_model, friction=friction
             )
     except (ContactError, GeometryError) as error:
-        return Analysis(machine, gearbox, contact, "", None, error.message, (), *heat)
-    return Analysis(machine, gearbox, contact, "", bodies, "", checks, *heat)
+        return replace(found, bodies_missing=error.message)
+    return replace(found, bodies=bodies, body_checks=checks)

@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.catalog.lubricants import RUNNING_TEMPERATURE
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.design import Design
 from cqdd_design.gearbox.carrier import pin_of, tie_of
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import Bodies, CamSpring, LineLaw, LineModel
+from cqdd_design.gearbox.film.of_design import ContactFilm, pin_film, tooth_film
 from cqdd_design.gearbox.hertz import conformal_equivalent_radius, pair_modulus
 from cqdd_design.gearbox.pin_beam import HELD, PinBeam, pin_in_stack, pin_section
 from cqdd_design.gearbox.rolling_contacts import hole_friction, tooth_friction
@@ -67,8 +69,14 @@ class ContactModel(Stages):
     cam : CamSpring
         Between bore and cam.
     tooth_friction, hole_friction : float
-        Coulomb friction at ring teeth, and at the walls of the holes
-        (:mod:`..rolling_contacts`).
+        Coulomb friction at ring teeth, and at the walls of the holes, as the design states it or
+        without a film (:mod:`..rolling_contacts`).
+    tooth_film, hole_film : ContactFilm or None
+        What a film is made of there; None on needles.
+    by_film : tuple of bool
+        Whether the friction of teeth, and of holes, follows from the film.
+    film_speed : float
+        Speed of the crank at which it does unless asked otherwise, rad/s.
     carrier_stiffness : float or None
         Radial stiffness of the carrier's bearing, N/m; None where it is rigid.
     pin : PinBeam or None
@@ -101,6 +109,10 @@ class ContactModel(Stages):
     cam: CamSpring
     tooth_friction: float
     hole_friction: float
+    tooth_film: ContactFilm | None = None
+    hole_film: ContactFilm | None = None
+    by_film: tuple[bool, bool] = (False, False)
+    film_speed: float = 0.0
     carrier_stiffness: float | None = None
     pin: PinBeam | None = None
     pin_diameter: float = 0.0
@@ -115,18 +127,27 @@ class ContactModel(Stages):
     column_count: int = 0
 
     @classmethod
-    def from_design(cls, design: Design, line_model: LineModel = "palmgren") -> ContactModel:
+    def from_design(
+        cls,
+        design: Design,
+        line_model: LineModel = "palmgren",
+        temperature: float = RUNNING_TEMPERATURE,
+    ) -> ContactModel:
         """Read a design that names its cam bearing; a sleeve is of the pin's material.
 
         Parameters
         ----------
         line_model : {"palmgren", "johnson", "linear"}
             Approach of teeth and pins. ``linear`` takes the secant of Palmgren's law at 50 N/mm.
+        temperature : float
+            Of the lubricant, deg C.
 
         Raises
         ------
         GeometryError
             When disc or holes cannot exist.
+        UsageError
+            When the lubricant does not work at the temperature.
         """
         reducer, pins = design.reducer, design.reducer.output_pins
         disc = CycloidDisc.from_design(design)
@@ -137,6 +158,7 @@ class ContactModel(Stages):
         pin = find_material(pins.material)
         plate = find_material(design.housing.material)
         runner, rollers = pin_runner(design), ring_runner(design)
+        films = tooth_film(design, temperature), pin_film(design, temperature)
         behind_flank = disc.valley_distance - 0.5 * bearing.outer_diameter
         ring_bodies = (
             _body(stages.tooth_radius, tooth),
@@ -163,6 +185,13 @@ class ContactModel(Stages):
             cam=laws.cam_spring(bearing, reducer.cam_bearing.radial_clearance),
             tooth_friction=tooth_friction(design),
             hole_friction=hole_friction(design),
+            tooth_film=films[0],
+            hole_film=films[1],
+            by_film=(
+                reducer.friction.tooth == "film" and films[0] is not None,
+                reducer.friction.pin == "film" and films[1] is not None,
+            ),
+            film_speed=design.requirements.input_speed,
             carrier_stiffness=reducer.carrier_bearing.stiffness or None,
             pin=pin_of(design),
             pin_diameter=pins.diameter,
@@ -251,7 +280,8 @@ def _inside(runner: Runner | None, steel: Material) -> float:
     """Coefficient of the contact between a pin and what turns on it, of the same steel."""
     if runner is None:
         return 0.0
-    return laws.runner_coefficient(runner.cage, runner.length, pair_modulus(steel, steel))
+    own = laws.runner_coefficient(runner.cage, runner.length, pair_modulus(steel, steel))
+    return own if runner.cage is None else float(own / runner.rows**0.9)
 
 
 def _ring_pin_series(design: Design, pin: Material, plate: Material) -> FloatArray:

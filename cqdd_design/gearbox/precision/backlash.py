@@ -45,9 +45,6 @@ class Backlash:
         preloaded and have no backlash there.
     preload_limit : float
         m.
-    poses : array (2, A, 3 + 3 D)
-        Carrier (X, Y, gamma) and every disc (x, y, theta) at the least and at the greatest angle,
-        angles times the pin circle, m.
     """
 
     crank_angle: FloatArray
@@ -55,7 +52,6 @@ class Backlash:
     greatest: FloatArray
     overlap: FloatArray
     preload_limit: float
-    poses: FloatArray
 
     @property
     def free(self) -> FloatArray:
@@ -117,18 +113,35 @@ def backlash(
             gaps[:, :, : model.tooth_count] += exact - modelled
         ends.append(end)
         overlaps.append(overlap)
-        extremes.append(poses)
-    overlap, poses = np.maximum(*overlaps), np.stack(extremes)
+        extremes.append(poses[:, 2])
+    overlap = np.maximum(*overlaps)
     # Parts that overlap wherever they go rest where their overlaps balance.
     tight = (overlap > OVERLAP) | (ends[0] > ends[1])
-    rest = poses[:, :, 2].mean(axis=0) / states.length
+    rest = 0.5 * (extremes[0] + extremes[1]) / states.length
     return Backlash(
         crank_angle=states.crank_angle,
         least=np.where(tight, rest, ends[0]),
         greatest=np.where(tight, rest, ends[1]),
         overlap=overlap,
         preload_limit=OVERLAP,
-        poses=poses,
+    )
+
+
+def free_poses(model: ContactModel, states: NominalStates) -> FloatArray:
+    """Poses of a perfect gearbox close to the ends of its range, (2, A, 3 + 3 D), m.
+
+    Carrier (X, Y, gamma) and every disc (x, y, theta) near the least and the greatest angle of the
+    carrier, angles times the pin circle: flanks count as osculating circles, which is close enough
+    to start from.
+
+    Raises
+    ------
+    ContactError
+        As :func:`backlash`.
+    """
+    changed = error_states(model, states, None)
+    return np.stack(
+        [_push(model, states, changed, changed.gaps, None, sense)[2] for sense in (-1.0, 1.0)]
     )
 
 
