@@ -26,10 +26,12 @@ from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.actuator.transmission import Transmission, transmission
 from cqdd_design.catalog.motors import DRAG, Motor
 from cqdd_design.design import Design
-from cqdd_design.errors import DesignError
+from cqdd_design.errors import DesignError, GeometryError
 from cqdd_design.gearbox.losses import LossModel
 from cqdd_design.gearbox.losses.model import SENSES
 from cqdd_design.machine import Machine
+from cqdd_design.machine.temperatures import cooled_network, two_nodes
+from cqdd_design.machine.thermal_parts import COPPER_HEAT, WINDING_SHARE
 from cqdd_design.solids.inertia import GROUPS, ROTOR_SCOPE, GearboxInertia
 
 ELECTRICAL_TIME = 1e-3
@@ -39,9 +41,8 @@ PERIODS_PER_POLE_PAIR = 12
 """Of cogging in a turn, where the catalogue has no slots: lcm of 6 k slots and 7 k poles."""
 ROTOR_SHARE, ROTOR_RADIUS_SHARE = 0.3, 0.95
 """Rotor of an unknown motor: a ring of this share of its mass at this share of its radius."""
-WINDING_SHARE, COPPER_HEAT, METAL_HEAT = 0.15, 385.0, 600.0
-"""Copper's share of a motor's mass; specific heats of copper, and of steel with aluminium,
-J/(kg K)."""
+METAL_HEAT = 600.0
+"""Specific heat of steel with aluminium, J/(kg K)."""
 WINDING_RESISTANCE_SHARE = 1.0 / 3.0
 """Of the whole thermal resistance, between winding and housing."""
 STRIBECK_SPEED = 2.0
@@ -85,7 +86,7 @@ def actuator_parameters(
         When the motor's data do not make a machine, a limit can never bind, or the gearbox has no
         equilibrium or no solids.
     """
-    design, motor_row, inertia = machine.design, machine.motor, machine.inertia
+    design, inertia = machine.design, machine.inertia
     motor, drive, origins = motor_and_drive(machine, specimen, supply_voltage=supply_voltage)
     torque = design.requirements.continuous_torque
     found = transmission(machine.contact, design, torque, seed=specimen.seed)
@@ -115,7 +116,7 @@ def actuator_parameters(
     )
     origins["friction.bristle_deflection"] = "assumed"
     origins["friction.bristle_damping"] = "assumed: none"
-    thermal = _thermal(design, motor_row, inertia.mass, origins)
+    thermal = _thermal(machine, origins)
     origins["mass"] = f"computed: solids in closed form; {inertia.mass_scope}"
     origins["gear.output_inertia"] = "computed: solids in closed form"
     origins["gear.input_inertia"] = f"computed: solids in closed form; {inertia.crank_scope}"
@@ -402,25 +403,47 @@ def _stribeck_speed(losses: LossModel, torque: float, input_speed: float) -> flo
     return float(tried[np.argmin(np.sum(off**2, axis=1))])
 
 
-def _thermal(design: Design, row: Motor, mass: float, origins: dict[str, str]) -> ThermalParameters:
+def _thermal(machine: Machine, origins: dict[str, str]) -> ThermalParameters:
+    """Winding and housing of the machine's thermal network; by shares where it has none."""
+    design, row = machine.design, machine.motor
+    given = "drive.thermal_resistance" not in machine.given.assumed
+    origins["thermal.ambient"] = "design: environment.ambient"
+    for key in ("derating_begins", "most"):
+        origins[f"thermal.{key}"] = "assumed"
+    try:
+        found = two_nodes(cooled_network(machine))
+    except (DesignError, GeometryError) as error:
+        return _thermal_by_shares(design, row, machine.inertia.mass, given, error.message, origins)
+    way = "drive.thermal_resistance (design)" if given else "still air round the drawn parts"
+    for key in ("winding_to_housing", "housing_to_ambient"):
+        origins[f"thermal.{key}"] = f"computed: thermal network of the parts, {way}"
+    for key in ("winding_capacity", "housing_capacity"):
+        origins[f"thermal.{key}"] = "computed: thermal network of the parts"
+    return ThermalParameters(**found._asdict(), ambient=design.environment.ambient)
+
+
+def _thermal_by_shares(
+    design: Design, row: Motor, mass: float, given: bool, why: str, origins: dict[str, str]
+) -> ThermalParameters:
     whole = design.drive.thermal_resistance
     motor_mass = row.mass if row.mass is not None else 0.4 * mass
     winding = WINDING_SHARE * motor_mass
     share = WINDING_RESISTANCE_SHARE
-    given = "design" if "drive.thermal_resistance" not in design.assumed else "default"
+    said = "design" if given else "default"
     for key in ("winding_to_housing", "housing_to_ambient"):
-        origins[f"thermal.{key}"] = f"assumed: drive.thermal_resistance ({given}) split 1 to 2"
+        origins[f"thermal.{key}"] = (
+            f"assumed: drive.thermal_resistance ({said}) split 1 to 2; {why.rstrip('.')}"
+        )
     origins["thermal.winding_capacity"] = (
         f"assumed: copper of {100.0 * WINDING_SHARE:g} % of the motor's mass"
     )
     origins["thermal.housing_capacity"] = (
         f"assumed: the rest of the mass at {METAL_HEAT:g} J/(kg K)"
     )
-    for key in ("ambient", "derating_begins", "most"):
-        origins[f"thermal.{key}"] = "assumed"
     return ThermalParameters(
         winding_to_housing=share * whole,
         housing_to_ambient=(1.0 - share) * whole,
         winding_capacity=winding * COPPER_HEAT,
         housing_capacity=max(mass - winding, 0.5 * mass) * METAL_HEAT,
+        ambient=design.environment.ambient,
     )

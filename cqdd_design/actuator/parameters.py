@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import DesignError
+from cqdd_design.gearbox.checks.allowables import WINDING_MOST
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -180,7 +181,7 @@ class ThermalParameters:
     housing_capacity: float
     ambient: float = 25.0
     derating_begins: float = 100.0
-    most: float = 120.0
+    most: float = WINDING_MOST
 
     def __post_init__(self) -> None:
         """Refuse a network that cannot exist."""
