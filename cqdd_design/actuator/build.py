@@ -10,6 +10,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from cqdd_design.actuator.bench.unknowns import apply_factors
 from cqdd_design.actuator.parameters import (
     ActuatorParameters,
@@ -40,7 +42,9 @@ J/(kg K)."""
 WINDING_RESISTANCE_SHARE = 1.0 / 3.0
 """Of the whole thermal resistance, between winding and housing."""
 STRIBECK_SPEED = 2.0
-"""Motor speed by which breakaway has fallen off, rad/s."""
+"""Motor speed by which breakaway has fallen off where friction is stated as coefficients, rad/s."""
+_SPEEDS = 64
+"""Between rest and the input speed, over which a Stribeck curve follows that of the films."""
 DAMPING_RATIO = 0.03
 """Of the motor swinging on the gearbox's stiffness: greased steel joints, 0.01 to 0.05."""
 
@@ -95,7 +99,11 @@ def actuator_parameters(
             f"computed: drag of bearings and grease up to {speed:.4g} rad/s"
         )
     origins["friction.stribeck_extra"] = "computed: static over dynamic backdrive torque"
-    origins["friction.stribeck_speed"] = f"assumed: {STRIBECK_SPEED:g} rad/s of the motor"
+    origins["friction.stribeck_speed"] = (
+        f"assumed: {STRIBECK_SPEED:g} rad/s of the motor"
+        if machine.losses.film is None
+        else f"computed: nearest to the films' friction up to {speed:.4g} rad/s"
+    )
     origins["friction.bristle_deflection"] = "assumed"
     origins["friction.bristle_damping"] = "assumed: none"
     thermal = _thermal(design, motor_row, inertia.mass, origins)
@@ -293,11 +301,14 @@ def friction_parameters(losses: LossModel, torque: float, input_speed: float) ->
     that the slow dynamic backdrive torque ``c/(1 - mu)`` is that of the loss model, which knows
     that the first loads are carried by fewer teeth. The static one, ``(1 + x) c/(1 - (1 + x) mu)``,
     gives the Stribeck share x. Where friction holds any torque, c is the drag itself.
+
+    Where friction follows from films, mu and the dynamic torque are those of the films at the input
+    speed, the static one is that of none, and the Stribeck speed is fitted to what lies between.
     """
     machine, n = losses.machine, losses.machine.lobe_count
     loads = []
     for sense in SENSES:
-        loaded, none = losses.coulomb_work([torque, 0.0], sense).sum(axis=-1)
+        loaded, none = losses.coulomb_work([torque, 0.0], sense, input_speed).sum(axis=-1)
         loads.append(n * float(loaded - none) / torque)
     forward, load = loads
     slow, fast = machine.drag(0.0), machine.drag(input_speed)
@@ -306,7 +317,7 @@ def friction_parameters(losses: LossModel, torque: float, input_speed: float) ->
     motor = sum(float(v) for k, v in slow.items() if k != "output_bearing") + preload
     motor_rise = sum(float(fast[k] - slow[k]) for k in slow if k != "output_bearing")
     output_rise = float(fast["output_bearing"] - slow["output_bearing"]) * n
-    found = losses.backdrive()
+    found = losses.backdrive(film_speed=input_speed)
     constant = motor * n + output
     scale, extra = 1.0, found.static_ratio - 1.0
     if found.dynamic_torque and load < 1.0 and constant > 0.0:
@@ -321,10 +332,28 @@ def friction_parameters(losses: LossModel, torque: float, input_speed: float) ->
         motor_viscous=motor_rise / input_speed,
         output_viscous=output_rise / (input_speed / n),
         stribeck_extra=extra,
-        stribeck_speed=STRIBECK_SPEED,
+        stribeck_speed=_stribeck_speed(losses, torque, input_speed),
         load_forward=forward,
         load_backward=load,
     )
+
+
+def _stribeck_speed(losses: LossModel, torque: float, input_speed: float) -> float:
+    """Speed of the motor whose exp(-(w/w_s)^2) is nearest to how the films' friction falls, rad/s.
+
+    By least squares over the speeds from rest to the input speed, at a torque (N m).
+    """
+    if losses.film is None:
+        return STRIBECK_SPEED
+    speed = np.linspace(0.0, input_speed, _SPEEDS)
+    work = np.array([losses.coulomb_work(torque, "drive", float(w)).sum() for w in speed])
+    fall = work[0] - work[-1]
+    if fall <= 0.0:
+        return STRIBECK_SPEED
+    left = (work - work[-1]) / fall
+    tried = input_speed * np.geomspace(1e-3, 1.0, 601)
+    off = np.exp(-((speed / tried[:, None]) ** 2)) - left
+    return float(tried[np.argmin(np.sum(off**2, axis=1))])
 
 
 def _thermal(design: Design, row: Motor, mass: float, origins: dict[str, str]) -> ThermalParameters:

@@ -25,6 +25,12 @@ FRICTION_COEFFICIENT: dict[BearingKind, float] = {
 middle). Crossed rollers are not in the table: the upper end of tapered rollers, which slide on
 their ends too."""
 
+BEARING_MATERIAL = "AISI 52100 / 100Cr6 hardened"
+"""Rings and rolling elements."""
+SHAFT_MATERIAL = "AISI 4140 Q&T 540C"
+RACEWAY_MATERIAL = "SCM415/16MnCr5 case hardened"
+"""Shaft whose lobes are raceways of a needle cage: they must be hard."""
+
 
 @dataclass(frozen=True)
 class Bearing:
@@ -70,6 +76,11 @@ class Bearing:
             self.width,
             drawn_cup=self.kind == "needle",
         )
+
+
+def shaft_material(cam: Bearing) -> str:
+    """Catalogue name of what shaft and loose cams are made of, for a cam bearing on them."""
+    return RACEWAY_MATERIAL if cam.kind == "needle cage" else SHAFT_MATERIAL
 
 
 @functools.lru_cache(maxsize=1)

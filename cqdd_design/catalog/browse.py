@@ -7,7 +7,9 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from cqdd_design.catalog.bearings import bearings
+from cqdd_design.catalog.finishes import finishes, rubbing_limits
 from cqdd_design.catalog.fits import fit_zones
+from cqdd_design.catalog.lubricants import lubricants
 from cqdd_design.catalog.materials import materials
 from cqdd_design.catalog.motors import motors
 from cqdd_design.catalog.screws import shoulder_screws
@@ -24,6 +26,10 @@ _UNITS = {
     "pulsating_strength": ("MPa", 1e-6),
     "contact_allowable": ("MPa", 1e-6),
     "density": ("kg_m3", 1.0),
+    "expansion": ("um_mK", 1e6),
+    "conductivity": ("W_mK", 1.0),
+    "specific_heat": ("J_kgK", 1.0),
+    "service_limit": ("degC", 1.0),
     "speed_constant": ("rpm_V", 30.0 / 3.141592653589793),
     "no_load_speed": ("rpm", 30.0 / 3.141592653589793),
     "torque_constant_printed": ("Nm_A", 1.0),
@@ -41,6 +47,15 @@ _UNITS = {
     "upper": ("um", 1e6),
     "over": ("mm", 1e3),
     "up_to": ("mm", 1e3),
+    "viscosity": ("mm2_s", 1e6),
+    "hot_viscosity": ("mm2_s", 1e6),
+    "pressure_coefficient": ("1_GPa", 1e9),
+    "hot_pressure_coefficient": ("1_GPa", 1e9),
+    "coldest": ("degC", 1.0),
+    "hottest": ("degC", 1.0),
+    "mean_roughness": ("um", 1e6),
+    "rms_roughness": ("um", 1e6),
+    "limit": ("MPa_m_s", 1e-6),
 }
 _LENGTH_ENDINGS = ("diameter", "diameter_max", "diameter_min", "length", "width", "height", "depth")
 _LENGTHS = {"socket_size"}
@@ -59,6 +74,9 @@ COLUMNS = {
     ),
     "screws": ("thread", "shoulder_diameter_mm", "head_diameter_mm", "standard_lengths"),
     "fits": ("lower_um", "upper_um", "source"),
+    "lubricants": ("viscosity_mm2_s", "hot_viscosity_mm2_s", "coldest_degC", "hottest_degC"),
+    "finishes": ("mean_roughness_um", "rms_roughness_um", "source"),
+    "rubbing": ("limit_MPa_m_s", "source"),
 }
 
 
@@ -82,6 +100,9 @@ def catalogues() -> dict[str, dict[str, Row]]:
         "bearings": _rows(bearings()),
         "screws": _rows(shoulder_screws()),
         "fits": _rows(fits),
+        "lubricants": _rows(lubricants()),
+        "finishes": _rows(finishes()),
+        "rubbing": _rows(rubbing_limits()),
     }
 
 

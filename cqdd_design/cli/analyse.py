@@ -7,11 +7,20 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, option, parse_positive, quantity_option
+from cqdd_design.cli.options import (
+    DesignFile,
+    option,
+    parse_option,
+    parse_positive,
+    quantity_option,
+)
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from cqdd_design.actuator.shock import Shock
     from cqdd_design.gearbox import GearboxAnalysis
 
 
@@ -48,17 +57,22 @@ def analyse(
             "--friction", help="Contact forces with friction while the crank or the output drives."
         ),
     ] = Friction.drive,
+    temperature: Annotated[
+        str | None,
+        quantity_option('Of all parts of the gearbox, as in "60 degC"; default 20 degC, as drawn.'),
+    ] = None,
 ) -> None:
-    """Loads, contact equilibrium, precision, losses, life, and stress of discs and ring."""
+    """Loads, contact equilibrium, precision, losses, life, stress of discs and ring, and shock."""
     from cqdd_design.cli.tables import verdict
     from cqdd_design.design import load_design
     from cqdd_design.roads.analyse import analyse as analysed
-    from cqdd_design.units import SPEED, TORQUE
+    from cqdd_design.units import SPEED, TEMPERATURE, TORQUE
 
     asked_torque = parse_positive("--torque", torque, TORQUE)
+    parts_at = parse_option("--temperature", temperature, TEMPERATURE)
     asked_speed = parse_positive("--speed", speed, SPEED)
     loaded = load_design(design)
-    out.note_compilation()
+    out.note_compilation(simulation=True)
     found = analysed(
         loaded,
         torque=asked_torque,
@@ -66,9 +80,10 @@ def analyse(
         angles=angles,
         line_model=law.value,
         friction=friction.value,
+        temperature=parts_at,
     )
     results, checks = found.to_dict(), found.checks
-    lines = _lines(found.gearbox, results)
+    lines = [*_lines(found.gearbox, results), *_shock_lines(found.shocks)]
     out.say(*lines, "", f"checks: {verdict(checks)} (see `check`)")
     out.warn(*found.warnings)
     out.document(results, design=found.machine.given, checks=checks)
@@ -85,6 +100,8 @@ def _lines(analysis: GearboxAnalysis, results: dict[str, object]) -> list[str]:
         "contact": "contact equilibrium",
         "precision": "precision",
         "losses": "losses",
+        "film": "films at the ring teeth and output pins",
+        "wear": "wear over the required life",
         "life": "life",
         "bending": "shaft and tilt, bounded",
         "bodies": "discs and ring under these forces",
@@ -98,6 +115,20 @@ def _lines(analysis: GearboxAnalysis, results: dict[str, object]) -> list[str]:
         rows = [[f"  {name}", _shown(value)] for name, value in _single(flat).items()]
         lines += [title, table(rows), ""]
     return lines[:-1]
+
+
+def _shock_lines(shocks: Mapping[str, Shock]) -> list[str]:
+    from cqdd_design.actuator.shock import METHODS
+    from cqdd_design.cli.tables import told
+
+    lines = []
+    for name, one in shocks.items():
+        head = (
+            f"into a rigid stop from {number(one.speed)} rad/s ({name} speed), "
+            f"{number(one.energy)} J"
+        )
+        lines += ["", head, told([(METHODS[key], stop.told) for key, stop in one.stops.items()])]
+    return lines
 
 
 def _single(values: dict[str, object]) -> dict[str, object]:

@@ -19,10 +19,12 @@ from pydantic import ValidationInfo, model_validator
 from cqdd_design.catalog.screws import LEAST_COLUMN
 from cqdd_design.design.fields import (
     BearingName,
+    FinishName,
     FreeText,
     FrozenModel,
     MaterialName,
     Share,
+    ShareOr,
     Whole,
     default,
 )
@@ -54,7 +56,9 @@ _FEWEST_COLUMNS = 3
 _Shift = Annotated[
     float, QuantityIn(SMALL_LENGTH, "-500 um", "500 um", "a profile shift, not a new profile")
 ]
-_Friction = Annotated[float, Share(0.0, 1.0, "a coefficient of friction")]
+_Friction = Annotated[
+    float | Literal["film"], ShareOr(Share(0.0, 1.0, "a coefficient of friction"), "film")
+]
 
 
 class Modification(FrozenModel):
@@ -208,11 +212,23 @@ class Ring(FrozenModel):
 
 
 class ReducerFriction(FrozenModel):
-    """Coulomb friction at teeth and pins."""
+    """Friction at teeth and pins.
 
-    tooth: _Friction = 0.08
-    pin: _Friction = 0.08
+    A number is a coefficient by Coulomb, of any speed and load; "film" takes it from the film that
+    the lubricant builds between surfaces as `finish` says they are made.
+    """
+
+    tooth: _Friction = "film"
+    pin: _Friction = "film"
     lubricant: FreeText = "NLGI 2 grease"
+
+
+class Finish(FrozenModel):
+    """How the surfaces that rub are made: names of the catalogue of finishes."""
+
+    disc: FinishName = "wire EDM, three skim cuts"
+    ring: FinishName = "wire EDM, three skim cuts"
+    pin: FinishName = "shoulder screw"
 
 
 class Balance(FrozenModel):
@@ -255,6 +271,7 @@ class Reducer(FrozenModel):
     carrier_bearing: CarrierBearing = CarrierBearing()
     ring: Ring
     friction: ReducerFriction = ReducerFriction()
+    finish: Finish = Finish()
     balance: Balance = Balance()
 
     @property

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from cqdd_design.gearbox.bodies.compliance import ElasticBodies
     from cqdd_design.gearbox.contact.laws import LineModel
     from cqdd_design.gearbox.contact.model import ContactModel
+    from cqdd_design.gearbox.heat.expansion import PartTemperatures
     from cqdd_design.gearbox.losses import FrictionMachine, LossModel
     from cqdd_design.gearbox.losses.rolling import BearingFriction
     from cqdd_design.results import MassProperties
@@ -47,12 +48,25 @@ class Machine:
         The cam bearing.
     motor : Motor
         The catalogue's row, or what a file says instead.
+    temperatures : PartTemperatures or None
+        Of the parts, where they are not as drawn, at 20 deg C. Contacts, and what follows from
+        them, are those of the warm parts; closed forms, solids and masses those of the drawing.
     """
 
     given: Design
     design: Design
     cam: Bearing
     motor: Motor
+    temperatures: PartTemperatures | None = None
+
+    def at(self, temperatures: PartTemperatures) -> Machine:
+        """The machine with its parts at these temperatures."""
+        return replace(self, temperatures=temperatures)
+
+    @property
+    def too_warm(self) -> tuple[str, ...]:
+        """Sentences on parts that are warmer than their material bears."""
+        return () if self.temperatures is None else self.temperatures.beyond(self.design)
 
     def changed(self, changes: Mapping[str, Any]) -> Machine:
         """The machine with other values of some dotted keys, and the same bearing and motor."""
@@ -132,7 +146,12 @@ class Machine:
         """The same with another law of approach at teeth and pins."""
         from cqdd_design.gearbox.contact.model import ContactModel
 
-        return replace(ContactModel.from_design(self.design, line_model), bodies=self.bodies)
+        drawn = replace(ContactModel.from_design(self.design, line_model), bodies=self.bodies)
+        if self.temperatures is None:
+            return drawn
+        from cqdd_design.gearbox.heat.expansion import heated
+
+        return heated(drawn, self.design, self.temperatures)
 
     @cached_property
     def bodies(self) -> ElasticBodies | None:
@@ -157,10 +176,11 @@ class Machine:
 
     def _seat_friction(self, seat: ChosenBearing) -> BearingFriction:
         from cqdd_design.gearbox.losses.rolling import BearingFriction
+        from cqdd_design.gearbox.rolling_contacts import at_rest
 
         row = seat.bearing
         if seat.source == "bush":
-            coefficient = self.design.reducer.friction.pin
+            coefficient = at_rest(self.design.reducer.friction.pin)
             return BearingFriction.bush(row.bore_diameter, row.width, coefficient)
         return BearingFriction.of(row)
 

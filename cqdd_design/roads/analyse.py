@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
+from cqdd_design.actuator.shock import Shock, shocks
 from cqdd_design.design import Design
 from cqdd_design.errors import ContactError, GeometryError
 from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.gearbox.bodies.strength import BodyStrength
 from cqdd_design.gearbox.contact.laws import LineModel
 from cqdd_design.gearbox.contact.rubbing import FrictionChoice
+from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.body_analysis import analyse_bodies, judged_bodies, no_stress
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
@@ -32,6 +35,10 @@ class Analysis:
         Why there is none.
     body_checks : tuple of Check
         Of that stress, at the torques of the requirements.
+    shocks : mapping of str to Shock
+        Stops of the output from the rated speed, and from a given one.
+    shock_missing : str
+        Why there are none.
     """
 
     machine: Machine
@@ -41,6 +48,8 @@ class Analysis:
     bodies: BodyStrength | None = None
     bodies_missing: str = ""
     body_checks: tuple[Check, ...] = ()
+    shocks: Mapping[str, Shock] = field(default_factory=dict)
+    shock_missing: str = ""
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -50,21 +59,26 @@ class Analysis:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What was not checked or cannot be relied on."""
+        closed = (*self.gearbox.warnings, *self.machine.too_warm)
         if self.contact is None:
-            return (*self.gearbox.warnings, f"no contact analysis: {self.missing}")
-        if self.bodies is not None:
-            return (*self.gearbox.warnings, *self.contact.warnings)
-        told = no_stress(self.machine, self.bodies_missing)
-        return (*self.gearbox.warnings, *self.contact.warnings, told)
+            return (*closed, f"no contact analysis: {self.missing}")
+        told = () if self.bodies else (no_stress(self.machine, self.bodies_missing),)
+        no_stop = (self.shock_missing,) if self.shock_missing else ()
+        return (*closed, *self.contact.warnings, *told, *no_stop)
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form (``results`` of ``analyse``)."""
         if self.contact is None:
-            names = ("contact", "precision", "losses", "life", "bending", "bodies")
+            names = (
+                *("contact", "precision", "losses", "film", "wear"),
+                *("life", "bending", "bodies", "shock"),
+            )
             absent = dict.fromkeys(names)
             return self.gearbox.to_dict() | absent
         bodies = None if self.bodies is None else self.bodies.to_dict()
-        return self.gearbox.to_dict() | self.contact.to_dict() | {"bodies": bodies}
+        shock = {name: one.to_dict() for name, one in self.shocks.items()} or None
+        found = {"bodies": bodies, "shock": shock}
+        return self.gearbox.to_dict() | self.contact.to_dict() | found
 
 
 def analyse(
@@ -75,6 +89,7 @@ def analyse(
     angles: int,
     line_model: LineModel = "palmgren",
     friction: FrictionChoice = "drive",
+    temperature: float | None = None,
 ) -> Analysis:
     """Analyse a design; one that cannot carry the torque as far as closed forms go.
 
@@ -90,14 +105,23 @@ def analyse(
         Approach of teeth and pins.
     friction : {"drive", "backdrive", "off"}
         Of contact forces and precision; see `analyse_contact`.
+    temperature : float, optional
+        Of all parts of the gearbox, deg C; default 20, at which dimensions hold. Closed forms and
+        checks are as drawn.
 
     Raises
     ------
     GeometryError
         When disc, ring or holes cannot exist.
+    DesignError
+        When the thermal expansion of a part is not known.
+    UsageError
+        For a temperature outside the range that is worked with.
     """
     asked = design if speed is None else design.replacing({"requirements.input_speed": speed})
     machine = resolve(asked)
+    if temperature is not None:
+        machine = machine.at(PartTemperatures.even(temperature))
     gearbox = machine.analyse(torque=torque, angles=angles)
     try:
         contact = analyse_contact(
@@ -105,6 +129,7 @@ def analyse(
         )
     except ContactError as error:
         return Analysis(machine, gearbox, None, error.message)
+    stops, unknown = shocks(machine)
     try:
         checks, bodies = judged_bodies(machine, line_model, friction)
         if torque is not None:
@@ -112,5 +137,5 @@ def analyse(
                 machine, torque=torque, line_model=line_model, friction=friction
             )
     except (ContactError, GeometryError) as error:
-        return Analysis(machine, gearbox, contact, "", None, error.message)
-    return Analysis(machine, gearbox, contact, "", bodies, "", checks)
+        return Analysis(machine, gearbox, contact, "", None, error.message, (), stops, unknown)
+    return Analysis(machine, gearbox, contact, "", bodies, "", checks, stops, unknown)

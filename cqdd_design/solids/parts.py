@@ -8,7 +8,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterable, Sequence
 
-from cqdd_design.catalog.bearings import Bearing
+from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, shaft_material
 from cqdd_design.design import Design
 from cqdd_design.geometry.columns import COLUMN_MATERIAL
 from cqdd_design.geometry.contours import FloatArray
@@ -32,8 +32,7 @@ from cqdd_design.solids.motor_shapes import (
 )
 from cqdd_design.solids.part import Colour, Instance, Part, around, on_axis, placed
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
-from cqdd_design.solids.selection import BEARING_MATERIAL, ChosenBearing
-from cqdd_design.solids.throw import shaft_material
+from cqdd_design.solids.selection import ChosenBearing
 
 NUT_MATERIAL = "AISI 4140 Q&T 540C"
 FASTENER_MATERIAL = "Alloy steel 12.9 (ISO 7379)"

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from cqdd_design.catalog.bearings import Bearing, bearings
+from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, bearings
 from cqdd_design.catalog.screws import ShoulderScrew, find_shoulder_screw, mean_pin_diameter
 from cqdd_design.errors import CatalogError, GeometryError
 
@@ -18,7 +18,6 @@ RING_SHARE = 0.3
 """Height of a bearing's ring as a share of its radial section, for shoulders and envelopes."""
 
 BUSH_MATERIAL = "Bronze CuSn12"
-BEARING_MATERIAL = "AISI 52100 / 100Cr6 hardened"
 
 # Head diameter, head height and socket of hexagon socket head cap screws, mm (ISO 4762:2004,
 # table 1: dk max for plain heads, k max, s nominal).

@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.catalog.lubricants import RUNNING_TEMPERATURE
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.design import Design
 from cqdd_design.gearbox.carrier import pin_of, tie_of
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import Bodies, CamSpring, LineLaw, LineModel
+from cqdd_design.gearbox.film.of_design import ContactFilm, pin_film, tooth_film
 from cqdd_design.gearbox.hertz import conformal_equivalent_radius, pair_modulus
 from cqdd_design.gearbox.pin_beam import HELD, PinBeam, pin_in_stack, pin_section
 from cqdd_design.gearbox.rolling_contacts import hole_friction, tooth_friction
@@ -67,8 +69,14 @@ class ContactModel(Stages):
     cam : CamSpring
         Between bore and cam, of the bearing alone.
     tooth_friction, hole_friction : float
-        Coulomb friction at ring teeth, and at the walls of the holes
-        (:mod:`..rolling_contacts`).
+        Coulomb friction at ring teeth, and at the walls of the holes, as the design states it or
+        without a film (:mod:`..rolling_contacts`).
+    tooth_film, hole_film : ContactFilm or None
+        What a film is made of there; None on needles.
+    by_film : tuple of bool
+        Whether the friction of teeth, and of holes, follows from the film.
+    film_speed : float
+        Speed of the crank at which it does unless asked otherwise, rad/s.
     carrier_stiffness : float or None
         Radial stiffness of the carrier's bearing, N/m; None where it is rigid.
     pin : PinBeam or None
@@ -85,6 +93,9 @@ class ContactModel(Stages):
         Compliance at every disc of ring pins that rollers leave free between their ends, m/N.
     bodies : YieldingBodies or None
         Discs and ring, where plate and cap turn apart; None where they are rigid.
+    pin_reach : float
+        By how much further out pins stand than the middles of their holes, m: of a carrier that
+        grew more than the discs.
     column_count : int
         Columns that pass through the discs, a divisor of the pins' number; 0 without.
     cam_support : float
@@ -100,6 +111,10 @@ class ContactModel(Stages):
     cam: CamSpring
     tooth_friction: float
     hole_friction: float
+    tooth_film: ContactFilm | None = None
+    hole_film: ContactFilm | None = None
+    by_film: tuple[bool, bool] = (False, False)
+    film_speed: float = 0.0
     carrier_stiffness: float | None = None
     pin: PinBeam | None = None
     pin_diameter: float = 0.0
@@ -110,22 +125,32 @@ class ContactModel(Stages):
     roller_coefficient: float = 0.0
     ring_pin_series: FloatArray | None = None
     bodies: YieldingBodies | None = None
+    pin_reach: float = 0.0
     column_count: int = 0
     cam_support: float = 0.0
 
     @classmethod
-    def from_design(cls, design: Design, line_model: LineModel = "palmgren") -> ContactModel:
+    def from_design(
+        cls,
+        design: Design,
+        line_model: LineModel = "palmgren",
+        temperature: float = RUNNING_TEMPERATURE,
+    ) -> ContactModel:
         """Read a design that names its cam bearing; a sleeve is of the pin's material.
 
         Parameters
         ----------
         line_model : {"palmgren", "johnson", "linear"}
             Approach of teeth and pins. ``linear`` takes the secant of Palmgren's law at 50 N/mm.
+        temperature : float
+            Of the lubricant, deg C.
 
         Raises
         ------
         GeometryError
             When disc or holes cannot exist.
+        UsageError
+            When the lubricant does not work at the temperature.
         """
         reducer, pins = design.reducer, design.reducer.output_pins
         disc = CycloidDisc.from_design(design)
@@ -136,6 +161,7 @@ class ContactModel(Stages):
         pin = find_material(pins.material)
         plate = find_material(design.housing.material)
         runner, rollers = pin_runner(design), ring_runner(design)
+        films = tooth_film(design, temperature), pin_film(design, temperature)
         supported = reducer.cam_bearing.support_stiffness
         behind_flank = disc.valley_distance - 0.5 * bearing.outer_diameter
         ring_bodies = (
@@ -163,6 +189,13 @@ class ContactModel(Stages):
             cam=laws.cam_spring(bearing, reducer.cam_bearing.radial_clearance),
             tooth_friction=tooth_friction(design),
             hole_friction=hole_friction(design),
+            tooth_film=films[0],
+            hole_film=films[1],
+            by_film=(
+                reducer.friction.tooth == "film" and films[0] is not None,
+                reducer.friction.pin == "film" and films[1] is not None,
+            ),
+            film_speed=design.requirements.input_speed,
             carrier_stiffness=reducer.carrier_bearing.stiffness or None,
             pin=pin_of(design),
             pin_diameter=pins.diameter,
@@ -203,7 +236,8 @@ class ContactModel(Stages):
     def pin_gap(self) -> float:
         """Gap at an output pin in the nominal pose, m: half of the clearance of the hole.
 
-        A sleeve's play opens it further: pin and hole can part by both.
+        A sleeve's play opens it further: pin and hole can part by both. What `pin_reach` does is
+        not in it, since that turns with the crank.
         """
         return self.hole_radius - self.pin_contact_radius - self.eccentricity + self.sleeve_play
 
