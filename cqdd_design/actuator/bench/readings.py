@@ -35,6 +35,8 @@ class LoopReading:
         Width of the loop where the torque asked for passes zero, rad.
     stiffness : float
         Torque over angle on the loaded parts of both rising branches, N m/rad.
+    reach : float
+        Half of the angle between both peaks, rad.
     lost : float
         Work that a cycle leaves in the machine, J.
     """
@@ -42,6 +44,7 @@ class LoopReading:
     peak: float
     play: float
     stiffness: float
+    reach: float
     lost: float
 
     @property
@@ -97,6 +100,7 @@ def read_loop(command: ArrayLike, torque: ArrayLike, angle: ArrayLike) -> LoopRe
         peak=peak,
         play=float(place[down] - place[-1]),
         stiffness=1.0 / slope,
+        reach=0.5 * float(place[top] - place[bottom]),
         lost=float(mean @ np.diff(around)),
     )
 
