@@ -58,6 +58,16 @@ def test_a_loop_loses_what_friction_takes(spring: LockedOutput) -> None:
     assert spring.read(peak).lost == pytest.approx(by_hand, rel=5e-3)
 
 
+def test_a_loop_to_the_end_of_its_branches_is_the_same_both_ways(spring: LockedOutput) -> None:
+    """There the motor gives way at far less torque than it was driven with."""
+    peak = spring.most
+    torque, angle = spring.cycle(peak)
+    top, bottom = int(np.argmax(torque)), int(np.argmin(torque))
+    assert angle[top] == pytest.approx(spring.driving[-1], rel=1e-6)
+    assert angle[bottom] == pytest.approx(-spring.driving[-1], rel=1e-6)
+    assert spring.read(peak).stiffness == pytest.approx(STIFFNESS * (1.0 + SHARE), rel=1e-3)
+
+
 def test_a_small_torque_moves_nothing(spring: LockedOutput) -> None:
     """Below the drag the motor stands; within the play it goes from stop to stop."""
     below = spring.follow(0.99 * DRAG * np.array([1.0, -1.0, 1.0]))

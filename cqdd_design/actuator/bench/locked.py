@@ -98,7 +98,9 @@ class LockedOutput:
         # Both senses: what drives one way gives way the other.
         rising = _branch((-self.down[::-1], self.up), (-self.driven[::-1], self.driving))
         falling = _branch((-self.up[::-1], self.down), (-self.driving[::-1], self.driven))
-        least, most = np.interp(asked, *rising), np.interp(asked, *falling)
+        # Beyond its last point a branch is out of reach, and holds the motor nowhere.
+        least = np.interp(asked, *rising, left=-np.inf)
+        most = np.interp(asked, *falling, right=np.inf)
         found = np.empty(len(asked))
         place = 0.0
         for k, (low, high) in enumerate(zip(least, most, strict=True)):
