@@ -457,7 +457,7 @@ def _spring_energy(
         load = force[..., part]
         local = laws.stored_energy(law, states.coefficient[..., part], series, load)
         stored += local.sum(axis=(1, 2))
-    spring = model.cam
+    spring = model.carried_cam
     load = np.hypot(cam_force[..., 0], cam_force[..., 1])
     closed = (load / spring.stiffness) ** (1.0 / spring.exponent)
     return np.asarray(stored + np.sum(load * closed / (spring.exponent + 1.0), axis=1))
