@@ -118,12 +118,20 @@ class OutputPins(FrozenModel):
 
 
 class CamBearing(FrozenModel):
-    """The bearing between eccentric and disc."""
+    """The bearing between eccentric and disc, and what carries the eccentric.
+
+    `support_stiffness` is that of shaft, shaft bearings and their seats together, at the discs;
+    of steel they are far stiffer than the bearing, of plastic they are not.
+    """
 
     designation: BearingName = "auto"
     radial_clearance: Annotated[
         float, QuantityIn(SMALL_LENGTH, "0 um", "500 um", "total play by ISO 5753")
     ] = default("5 um")
+    support_stiffness: Annotated[
+        float,
+        QuantityIn(RADIAL_STIFFNESS, "0 N/um", "1000000 N/um", "radial; 0 means rigid"),
+    ] = default("0 N/um")
 
 
 class Carrier(FrozenModel):
@@ -207,12 +215,14 @@ class ReducerFriction(FrozenModel):
     """Friction at teeth and pins.
 
     A number is a coefficient by Coulomb, of any speed and load; "film" takes it from the film that
-    the lubricant builds between surfaces as `finish` says they are made.
+    the lubricant builds between surfaces as `finish` says they are made. Seals are those of the
+    shaft's support bearings and of the carrier's, on both sides.
     """
 
     tooth: _Friction = "film"
     pin: _Friction = "film"
     lubricant: FreeText = "NLGI 2 grease"
+    seals: Literal["none", "contact"] = "none"
 
 
 class Finish(FrozenModel):

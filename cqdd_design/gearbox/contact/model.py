@@ -67,7 +67,7 @@ class ContactModel(Stages):
         Compliance of a pin at every disc, m/N, where plate and cap are one body and no disc's
         force reaches another: the state that every other starts from.
     cam : CamSpring
-        Between bore and cam.
+        Between bore and cam, of the bearing alone.
     tooth_friction, hole_friction : float
         Coulomb friction at ring teeth, and at the walls of the holes, as the design states it or
         without a film (:mod:`..rolling_contacts`).
@@ -98,6 +98,8 @@ class ContactModel(Stages):
         grew more than the discs.
     column_count : int
         Columns that pass through the discs, a divisor of the pins' number; 0 without.
+    cam_support : float
+        Compliance of what carries the cams, at a disc, m/N; 0 where it is rigid.
     """
 
     disc: CycloidDisc
@@ -125,6 +127,7 @@ class ContactModel(Stages):
     bodies: YieldingBodies | None = None
     pin_reach: float = 0.0
     column_count: int = 0
+    cam_support: float = 0.0
 
     @classmethod
     def from_design(
@@ -159,6 +162,7 @@ class ContactModel(Stages):
         plate = find_material(design.housing.material)
         runner, rollers = pin_runner(design), ring_runner(design)
         films = tooth_film(design, temperature), pin_film(design, temperature)
+        supported = reducer.cam_bearing.support_stiffness
         behind_flank = disc.valley_distance - 0.5 * bearing.outer_diameter
         ring_bodies = (
             _body(stages.tooth_radius, tooth),
@@ -202,7 +206,21 @@ class ContactModel(Stages):
             roller_coefficient=_inside(rollers, tooth),
             ring_pin_series=None if rollers is None else _ring_pin_series(design, tooth, plate),
             column_count=len(column_offsets(reducer)),
+            cam_support=1.0 / supported if supported else 0.0,
         )
+
+    @property
+    def carried_cam(self) -> CamSpring:
+        """Spring between a disc's bore and the housing: cam bearing, and what carries the cam.
+
+        A support that yields makes it linear, the bearing by its secant at the line load that the
+        linear law is made for. Each disc counts as carried by itself.
+        """
+        if self.cam_support == 0.0:
+            return self.cam
+        load = LINE_LOAD * self.contact_length
+        secant = (load / self.cam.stiffness) ** (1.0 / self.cam.exponent) / load
+        return CamSpring(1.0 / (secant + self.cam_support), 1.0, self.cam.play)
 
     @property
     def tooth_count(self) -> int:
