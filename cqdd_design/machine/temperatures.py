@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cqdd_design.catalog.materials import find_material
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.errors import ContactError, DesignError, GeometryError
 from cqdd_design.gearbox.checks.allowables import GREASE_MOST, HOUSING_MOST, WINDING_MOST
 from cqdd_design.gearbox.checks.heat import Tightness, WarmPart, clearance_check, rise_check
@@ -93,8 +94,8 @@ def duty_cases(machine: Machine, *, duty: bool = True) -> tuple[DutyCase, ...]:
 def duty_heat(machine: Machine, cases: Iterable[DutyCase]) -> DutyHeat:
     """Mean heat of a duty in every node.
 
-    The motor is a DC machine: copper alone heats its winding, K as the catalogue's. Where the
-    output drives, the motor brakes what the gearbox's losses leave.
+    The motor is a DC machine, K as the catalogue's: copper heats its winding, and its own drag, of
+    iron above all, the stator. Where the output drives, the motor brakes what losses leave.
 
     Raises
     ------
@@ -114,7 +115,10 @@ def duty_heat(machine: Machine, cases: Iterable[DutyCase]) -> DutyHeat:
                 watts[node] += share * part * power
         forward = torque * speed >= 0.0
         load = abs(torque) + (lost.loss_torque if forward else -lost.loss_torque_backward)
-        squared += share * (max(load, 0.0) / n / constant) ** 2
+        drag = motor_drag(machine.motor, speed)
+        watts["stator"] += share * drag * abs(speed)
+        needed = load / n + (drag if forward else -drag)
+        squared += share * (max(needed, 0.0) / constant) ** 2
     slope = squared * resistance * COPPER_COEFFICIENT
     watts["winding"] += squared * resistance * (1.0 - COPPER_COEFFICIENT * COPPER_REFERENCE)
     winding = node_values({"winding": 1.0}) > 0.0
@@ -135,6 +139,13 @@ def _winding(machine: Machine) -> tuple[float, float]:
             "has them, such as 'CubeMars RO100 KV55'."
         )
     return row.torque_constant, row.line_resistance
+
+
+def motor_drag(row: Motor, speed: float) -> float:
+    """Torque that a motor's own drag takes at a speed (rad/s), N m; 0 where none is known."""
+    steady = (row.coulomb or 0.0) + (row.hysteresis or 0.0)
+    grows = (row.viscous or 0.0) + (row.iron_loss or 0.0)
+    return steady + grows * abs(speed) if speed else 0.0
 
 
 class TwoNodes(NamedTuple):

@@ -199,7 +199,8 @@ def _motor_pairs(
 ) -> dict[tuple[Node, Node], float]:
     """Winding, stator, rotor and what holds them."""
     length = motor.stack_top - motor.stack_bottom
-    slots = round(SLOTS_PER_PAIR * (machine.motor.pole_pairs or 21))
+    row = machine.motor
+    slots = row.slots or round(SLOTS_PER_PAIR * (row.pole_pairs or 21))
     depth, middle = (
         motor.stack_outer - motor.slot_radius,
         0.5 * (motor.stack_outer + motor.slot_radius),
