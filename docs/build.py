@@ -128,6 +128,7 @@ def _actuator_validated() -> str:
 
 def _calibrated() -> str:
     """Every row of the bench before and after calibration, beside the paper's."""
+    from cqdd_design.actuator.bench.unknowns import UNKNOWNS
     from cqdd_design.design import load_design
     from cqdd_design.roads.calibrate import calibrate
 
@@ -144,7 +145,11 @@ def _calibrated() -> str:
             f"| `{row.name}` | {row.unit} | {measured} | {row.before:.3g} | {row.after:.3g} "
             f"| {off} | {row.relation} |"
         )
-    factors = ", ".join(f"`{name}` times {factor:.2g}" for name, factor in found.factors.items())
+    factors = ", ".join(
+        f"`{name}` {UNKNOWNS[name].told(value)}"
+        + (" (at an end of its range)" if name in found.at_an_end else "")
+        for name, value in found.factors.items()
+    )
     good = ", ".join(f"`{row.name}`" for row in found.within)
     told = (
         f"Fitted: {factors}. Within 20 % of the {len(found.predicted)} predicted rows: {good}; "

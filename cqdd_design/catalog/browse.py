@@ -36,6 +36,15 @@ _UNITS = {
     "line_resistance": ("ohm", 1.0),
     "line_inductance": ("uH", 1e6),
     "rotor_inertia": ("kgm2", 1.0),
+    "rated_voltage": ("V", 1.0),
+    "no_load_current": ("A", 1.0),
+    "coulomb": ("Nm", 1.0),
+    "viscous": ("Nms_rad", 1.0),
+    "hysteresis": ("Nm", 1.0),
+    "iron_loss": ("Nms_rad", 1.0),
+    "cogging_amplitude": ("Nm", 1.0),
+    "thermal_resistance": ("K_W", 1.0),
+    "winding_limit": ("degC", 1.0),
     "mass": ("kg", 1.0),
     "rated_torque": ("Nm", 1.0),
     "peak_torque": ("Nm", 1.0),
@@ -63,7 +72,18 @@ _LENGTHS = {"socket_size"}
 #: The columns of a listing, after the name; showing a row gives all of its columns.
 COLUMNS = {
     "materials": ("yield_strength_MPa", "ultimate_strength_MPa", "hardness", "source"),
-    "motors": ("torque_at", "speed_constant_rpm_V", "peak_torque_Nm", "mass_kg", "source"),
+    "motors": (
+        "torque_at",
+        "rated_torque_Nm",
+        "peak_torque_Nm",
+        "speed_constant_rpm_V",
+        "bore_diameter_mm",
+        "mass_kg",
+        "rotor_inertia_kgm2",
+        "coulomb_Nm",
+        "cogging_amplitude_Nm",
+        "missing",
+    ),
     "bearings": (
         "bore_diameter_mm",
         "outer_diameter_mm",
@@ -96,7 +116,10 @@ def catalogues() -> dict[str, dict[str, Row]]:
     }
     return {
         "materials": _rows(materials()),
-        "motors": _rows(motors()),
+        "motors": {
+            name: {**_row(motor), "missing": ", ".join(motor.missing)}
+            for name, motor in motors().items()
+        },
         "bearings": _rows(bearings()),
         "screws": _rows(shoulder_screws()),
         "fits": _rows(fits),

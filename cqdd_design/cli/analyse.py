@@ -105,6 +105,8 @@ def _lines(analysis: GearboxAnalysis, results: dict[str, object]) -> list[str]:
         "life": "life",
         "bending": "shaft and tilt, bounded",
         "bodies": "discs and ring under these forces",
+        "temperatures_degC": "temperatures at which parts settle",
+        "heat": "heat, and clearances at these temperatures",
     }
     for key, title in titles.items():
         values = results[key]

@@ -215,12 +215,14 @@ class ReducerFriction(FrozenModel):
     """Friction at teeth and pins.
 
     A number is a coefficient by Coulomb, of any speed and load; "film" takes it from the film that
-    the lubricant builds between surfaces as `finish` says they are made.
+    the lubricant builds between surfaces as `finish` says they are made. Seals are those of the
+    shaft's support bearings and of the carrier's, on both sides.
     """
 
     tooth: _Friction = "film"
     pin: _Friction = "film"
     lubricant: FreeText = "NLGI 2 grease"
+    seals: Literal["none", "contact"] = "none"
 
 
 class Finish(FrozenModel):

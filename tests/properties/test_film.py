@@ -25,6 +25,9 @@ from cqdd_design.gearbox.film import running as film_running
 from cqdd_design.gearbox.film.law import FilmLaw
 from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION, mixed_friction
 from cqdd_design.gearbox.film.wear import wear_depth
+from cqdd_design.gearbox.heat.expansion import PartTemperatures
+from cqdd_design.gearbox.losses import LossModel
+from cqdd_design.gearbox.losses.rolling import seal_torque
 from cqdd_design.gearbox.tolerance import evaluate
 from cqdd_design.machine import Machine, resolve
 
@@ -246,6 +249,25 @@ def test_toleranced_gearboxes_have_the_mean_coefficient() -> None:
     assert (found.tooth, found.pin) == pytest.approx((teeth, pins), rel=5e-3)
 
 
+def test_seals_drag_on_what_is_sealed_and_nothing_else() -> None:
+    sealed = resolve(S.replacing({"reducer.friction.seals": "contact"}))
+    plain, more = (one.friction.drag(FAST) for one in (resolve(S), sealed))
+    support, output = (seat.bearing for seat in sealed.seats)
+    own = [seal_torque(one.bore_diameter, one.outer_diameter) for one in (support, output)]
+    rise = {name: float(more[name] - plain[name]) for name in plain}
+    assert rise["support_bearings"] == pytest.approx(2.1 * own[0])
+    assert rise["output_bearing"] == pytest.approx(own[1] / 10.0)
+    assert {name for name, value in rise.items() if value} == {"support_bearings", "output_bearing"}
+    with pytest.raises(DesignError, match="seals"):
+        S.replacing({"reducer.friction.seals": "felt"})
+
+
+def test_seal_friction_is_the_published_formula() -> None:
+    """d_s 29 mm: 0.028 x 29^2.25 + 2 N mm."""
+    assert 1e3 * seal_torque(20e-3, 47e-3) == pytest.approx(0.028 * 29.0**2.25 + 2.0)
+    assert 1e3 * seal_torque(60e-3, 90e-3) == pytest.approx(0.018 * 70.0**2.25 + 15.0)
+
+
 # --- wear and plastics ----------------------------------------------------------------------------
 
 
@@ -283,6 +305,35 @@ def test_plastics_are_told_their_limit() -> None:
     assert any("MPa m/s that it bears dry" in one for one in of_plastics("POM (acetal)"))
     assert any("the catalogue has no limit of it" in one for one in of_plastics("PEEK"))
     assert of_plastics("AISI 52100 / 100Cr6 hardened") == ()
+
+
+def test_no_band_of_wear_is_told_of_plastics() -> None:
+    printed = load_design(Path(__file__).parents[2] / "designs" / "printed-13.toml")
+    made = resolve(printed)
+    states_there = nominal_states(made.contact, perfect_angles(made.contact, 24))
+    friction = ContactFriction.of(made.contact, "drive")
+    sweep = contact_sweep(made.contact, 5.0, states=states_there, friction=friction)
+    few = LossModel.from_sweeps(made.friction, [sweep], [sweep])
+    found = film_running.running(made.design, made.contact, few, sweep, states_there)
+    assert found.wear.disc_flank is None
+    assert found.wear.pin is None
+    assert found.pins is None
+    assert found.teeth is not None
+    assert found.teeth.ratio < 0.02
+
+
+@pytest.mark.parametrize(("celsius", "taken"), [(-40.0, -30.0), (80.0, 80.0), (150.0, 120.0)])
+def test_warm_parts_warm_the_film_as_far_as_the_lubricant_works(
+    celsius: float, taken: float
+) -> None:
+    warm = machine().at(PartTemperatures.even(celsius))
+    assert warm.lubricant_temperature == taken
+    assert any("outside the -30 to 120 degC" in one for one in warm.too_warm) == (celsius != taken)
+    assert warm.friction.temperature == taken
+    law, cool = warm.contact.tooth_film, machine().contact.tooth_film
+    assert law is not None
+    assert cool is not None
+    assert (law.law.viscosity < cool.law.viscosity) == (taken > 40.0)
 
 
 # --- lubricants and bad input ---------------------------------------------------------------------

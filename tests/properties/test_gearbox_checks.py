@@ -518,9 +518,9 @@ def test_guide_and_checks_speak_of_the_same_things() -> None:
             assert all((check.substituted, check.why, check.remedy, check.source))
             seen.add(check.id)
     # Needle cages alone have raceways, motors without data and weights without a place a line
-    # that says so; solids are turned, and stress found by finite elements, only when asked to.
+    # that says so; solids are turned, stress and temperatures found, only when asked to.
     rare = {"BEARING-RACEWAY", "ASSEMBLY-CLEAR", "MOTOR-DATA", "BALANCE-WEIGHTS"}
-    rare |= {row.id for row in guide_bodies.ROWS}
+    rare |= {row.id for row in (*guide_bodies.ROWS, *guide_heat.ROWS)}
     assert seen == set(CHECK_GUIDE) - rare
     with pytest.raises(UsageError, match="BEARING-LIFE"):
         check_guide("BEARING-LIVE")

@@ -24,7 +24,10 @@ from cqdd_design.errors import UsageError, did_you_mean
 if TYPE_CHECKING:
     from cqdd_design.machine.carrying import CarriedTorque
 
-_MOST_FACTOR = 200.0
+_NEAR_END = 0.01
+"""Of a range: nearer to an end an unknown was stopped there."""
+_MOST_MISS = 0.05
+"""Of a fitted row, where an unknown is at an end of its range."""
 
 
 @dataclass(frozen=True)
@@ -72,17 +75,27 @@ class Calibration:
     parameters : ActuatorParameters
         With the fitted values, marked so in their origins.
     factors : Fit
-        By how much each unknown was multiplied.
+        By how much each unknown was multiplied, or its value.
     rows : tuple of Row
         Every measurement of the bench.
     after : BenchResult
         Of the fitted actuator.
+    ranges : mapping of str to (float, float)
+        In which each unknown was sought.
     """
 
     parameters: ActuatorParameters
     factors: Fit
     rows: tuple[Row, ...]
     after: BenchResult
+    ranges: Mapping[str, tuple[float, float]]
+
+    @property
+    def at_an_end(self) -> tuple[str, ...]:
+        """Unknowns that lie at an end of their range."""
+        return tuple(
+            name for name, value in self.factors.items() if _ends(value, self.ranges[name])
+        )
 
     @property
     def largest_residual(self) -> float:
@@ -111,7 +124,8 @@ class Calibration:
         return {
             "unknowns": {
                 name: {
-                    "factor": factor,
+                    **_stated(name, factor),
+                    "range": list(self.ranges[name]),
                     "values": {
                         value: _value(self.parameters, value)
                         for value in UNKNOWNS[name].values
@@ -125,6 +139,19 @@ class Calibration:
             "predicted": [row.name for row in self.predicted],
             "predicted_within_20_percent": [row.name for row in self.within],
         }
+
+
+def _ends(value: float, limits: tuple[float, float]) -> bool:
+    """Whether a value lies at an end of its range, by its logarithm."""
+    least, most = limits
+    share = math.log(value / least) / math.log(most / least)
+    return not _NEAR_END < share < 1.0 - _NEAR_END
+
+
+def _stated(name: str, fitted: float) -> dict[str, object]:
+    """A fitted unknown in a file: a factor, or a value with its unit."""
+    unit = UNKNOWNS[name].unit
+    return {"value": fitted, "unit": unit} if unit else {"factor": fitted}
 
 
 def _value(parameters: ActuatorParameters, dotted: str) -> object:
@@ -215,6 +242,7 @@ def calibrate(
             if metric.name in old
         ),
         after=after,
+        ranges={name: UNKNOWNS[name].bounds(parameters) for name in names},
     )
 
 
@@ -253,40 +281,44 @@ def _fit(
     names: tuple[str, ...],
     voltage: float,
 ) -> dict[str, float]:
-    """Factors of the unknowns by least squares of the relative misses."""
+    """Factors and values of the unknowns, in their ranges: least squares of the relative misses."""
     from scipy.optimize import least_squares
 
     wanted = np.array(list(targets.values()))
+    own = [UNKNOWNS[name] for name in names]
 
     def changed(logarithms: FloatArray) -> ActuatorParameters:
         found = parameters
-        for name, logarithm in zip(names, logarithms, strict=True):
-            found = UNKNOWNS[name].change(found, math.exp(logarithm))
+        for unknown, logarithm in zip(own, logarithms, strict=True):
+            found = unknown.change(found, math.exp(logarithm))
         return found
 
     def misses(logarithms: FloatArray) -> FloatArray:
         result = run_bench(changed(logarithms), only=tuple(targets), voltage=voltage)
-        if result.warnings:
-            raise UsageError(f"cannot calibrate to what cannot be measured: {result.warnings[0]}")
         values = {metric.name: metric.value for metric in result.metrics}
+        if not targets.keys() <= values.keys():
+            raise UsageError(f"cannot calibrate to what cannot be measured: {result.warnings[0]}")
         found = np.array([values[name] for name in targets])
         return np.asarray(np.log(np.maximum(found, 1e-12) / wanted))
 
-    reach = math.log(_MOST_FACTOR)
+    ranges = [unknown.bounds(parameters) for unknown in own]
+    least, most = np.log(np.array(ranges)).T
     # Simulated rows are smooth to a part in a thousand only, so differences take longer steps.
     fit = least_squares(
         misses,
-        np.zeros(len(names)),
-        bounds=(-reach, reach),
+        np.log([unknown.start(parameters) for unknown in own]),
+        bounds=(least, most),
         diff_step=0.02,
         x_scale=1.0,
         xtol=1e-5,
         max_nfev=60,
     )
-    for name, value in zip(names, fit.x, strict=True):
-        if abs(value) > 0.99 * reach:
+    missed = float(np.max(np.abs(fit.fun))) > _MOST_MISS
+    for name, value, limits in zip(names, np.exp(fit.x), ranges, strict=True):
+        if missed and _ends(float(value), limits):
+            unit = UNKNOWNS[name].unit or "times the computed one"
             raise UsageError(
-                f"no {name} within {_MOST_FACTOR:g} times the computed one gives "
+                f"no {name} from {limits[0]:.3g} to {limits[1]:.3g} {unit} gives "
                 f"{', '.join(f'{row} {value:g}' for row, value in targets.items())}; check the "
                 "measured values and their units, or leave this row to prediction."
             )

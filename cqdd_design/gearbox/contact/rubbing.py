@@ -107,6 +107,7 @@ class ContactFriction:
         return along if self.sense == "drive" else -along
 
 
+@lru_cache(maxsize=4)
 def slip(model: ContactModel, states: NominalStates) -> FloatArray:
     """Slip of the discs along the contacts' tangents at the nominal pose, (A, D, C), m/rad."""
     n, teeth = model.lobe_count, model.tooth_count
@@ -132,6 +133,17 @@ def _rubbing(
     model: ContactModel, states: NominalStates, friction: ContactFriction, crank_sense: float
 ) -> Rubbing:
     """Asked for several times by one sweep, and by sweeps at other torques."""
+    mu = np.full(states.gaps.shape[2], friction.pin)
+    mu[: model.tooth_count] = friction.tooth
+    if friction.felt is not None:
+        mu = friction.felt.coefficient
+    arms = _arms(model, states)
+    return arms._replace(share=-crank_sense * mu * arms.share)
+
+
+@lru_cache(maxsize=4)
+def _arms(model: ContactModel, states: NominalStates) -> Rubbing:
+    """Arms of friction, and with which sense of the slip it goes, whatever the coefficients."""
     teeth = model.tooth_count
     normal = states.rows[..., :2]
     at = model.pin_circle_radius * np.stack(
@@ -139,12 +151,8 @@ def _rubbing(
     )
     pins = at[:, None] + model.pin_contact_radius * normal[:, :, teeth:]
     point = np.concatenate([states.ring.point, pins], axis=2)
-    mu = np.full(states.gaps.shape[2], friction.pin)
-    mu[:teeth] = friction.tooth
-    if friction.felt is not None:
-        mu = friction.felt.coefficient
     return Rubbing(
-        share=-crank_sense * mu * np.sign(slip(model, states)),
+        share=np.sign(slip(model, states)),
         disc_arm=np.sum((point - _centre(model, states)) * normal, axis=-1) / states.length,
         carrier_arm=np.sum(point * normal, axis=-1) / states.length,
     )

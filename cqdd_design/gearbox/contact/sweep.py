@@ -195,9 +195,11 @@ def _with_friction(
         failed = solve(contacts, springs, load, rubs, turns, smooth, result)
         if failed >= 0:
             raise _jammed(torque, states.crank_angle[failed], friction)
-        under = friction.under(model, states, result.force)
         # Where plate and cap turn apart these forces are only a start.
-        if model.pin is not None or felt.agrees(under, result.force):
+        if model.pin is not None:
+            return result, felt
+        under = friction.under(model, states, result.force)
+        if felt.agrees(under, result.force):
             return result, felt
         felt = under
     raise _unsettled(torque)

@@ -202,10 +202,15 @@ def _wear(
 
     disc_flank = ring_tooth = hole = pin = None
     way = _way_on_tooth(model, sweep, states)
-    if model.tooth_film is not None and model.tooth_film.journal is None and way > 0.0:
+    reducer = design.reducer
+    # The band is that of steel; on plastics nothing is known.
+    soft = _is_plastic(reducer.disc_material)
+    teeth_known = not (soft or _is_plastic(reducer.ring_material)) and way > 0.0
+    pins_known = not (soft or _is_plastic(reducer.output_pins.material))
+    if teeth_known and model.tooth_film is not None and model.tooth_film.journal is None:
         disc_flank = band(teeth, _perimeter(model) * length)
         ring_tooth = band(teeth, model.tooth_count * way * length)
-    if model.hole_film is not None and model.hole_film.journal is None:
+    if pins_known and model.hole_film is not None and model.hole_film.journal is None:
         hole = band(pins, model.pin_count * 2.0 * math.pi * model.hole_radius * length)
         pin = band(pins, model.pin_count * 2.0 * math.pi * model.pin_contact_radius * length)
     return Wear(
@@ -214,7 +219,7 @@ def _wear(
         ring_tooth=ring_tooth,
         hole=hole,
         pin=pin,
-        clearance=design.reducer.modification.equidistant,
+        clearance=reducer.modification.equidistant,
     )
 
 

@@ -50,7 +50,7 @@ def minimum_film(
 
     >>> h = minimum_film(1e5, 1.0, 0.02, viscosity=0.1, pressure_coefficient=2e-8, modulus=115.4e9)
     >>> print(round(1e6 * float(h), 3))
-    0.703
+    0.699
     """
     load, speed, bend = (np.asarray(one, dtype=float) for one in (line_load, entrainment, radius))
     stiff = 2.0 * modulus

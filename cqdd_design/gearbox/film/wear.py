@@ -61,7 +61,7 @@ class Wear:
         Of running.
     disc_flank, ring_tooth, hole, pin : tuple of float, or None
         Mean over the whole flank of a disc; over the way that contacts travel on a tooth; over the
-        walls of hole and pin. None where something rolls between the two.
+        walls of hole and pin. None where something rolls between the two, and of plastics.
     clearance : float
         Gap between flank and tooth as drawn, m.
     """

@@ -38,7 +38,7 @@ _SPARED = 0.05
 """Share up to which a sweep without an equilibrium is left out."""
 SWEEP_ANGLES = 120
 """Crank angles of each of its sweeps over a period."""
-_EVERY = 3
+_EVERY = 6
 """Torques between those at which friction without films is solved too: its ratio to that with them
 hardly changes."""
 
@@ -302,8 +302,10 @@ class LossModel:
         static_ratio: float = STATIC_RATIO,
         output_speed: float = 0.0,
         film_speed: float | None = None,
+        shaft_running: float = 0.0,
+        shaft_resting: float = 0.0,
     ) -> Backdrive:
-        """Torques at the output that break the gearbox away and keep it turning, with no motor.
+        """Torques at the output that break the gearbox away and keep it turning.
 
         Parameters
         ----------
@@ -317,6 +319,9 @@ class LossModel:
         film_speed : float, optional
             Speed of the crank whose films carry the dynamic torque, rad/s; default that of
             `output_speed`.
+        shaft_running, shaft_resting : float
+            What the gearbox has to turn with its shaft, in motion and from rest, N m at the shaft:
+            a motor's own drag; default none.
         """
         if not (math.isfinite(static_ratio) and static_ratio >= 1.0):
             raise UsageError(f"static_ratio {static_ratio:g} must be at least 1.")
@@ -333,8 +338,8 @@ class LossModel:
         if self.film is not None:
             sliding = [SOURCES.index(name) for name in ("ring_teeth", "output_pins")]
             broken -= (static_ratio - 1.0) * rest[:, sliding].sum(axis=1)
-        dynamic = n * (moving.sum(axis=1) + running)
-        static = n * (broken + static_ratio * (resting - grease) + grease)
+        dynamic = n * (moving.sum(axis=1) + running + shaft_running)
+        static = n * (broken + static_ratio * (resting - grease) + grease + shaft_resting)
         return Backdrive(
             static_torque=balance_torque(self.torque, static),
             dynamic_torque=balance_torque(self.torque, dynamic),

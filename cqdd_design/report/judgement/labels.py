@@ -87,6 +87,7 @@ _LABELS = {
     "reducer.ring.roller_play": Label("play of a roller on its pin, diameter"),
     "reducer.friction.tooth": Label("coefficient at the teeth"),
     "reducer.friction.pin": Label("coefficient at the pins"),
+    "reducer.friction.seals": Label("seals of support and output bearings"),
     "reducer.finish.disc": Label("flanks and holes of the discs made by"),
     "reducer.finish.ring": Label("ring teeth made by"),
     "reducer.finish.pin": Label("output pins made by"),
