@@ -25,11 +25,22 @@ class Unknown:
         Values of that part that one factor multiplies.
     told_by : str
         The measurement that decides it.
+    unit : str
+        Of a value; empty for a factor.
     """
 
     part: str
     names: tuple[str, ...]
     told_by: str
+    unit: str = ""
+
+    def bounds(self, parameters: ActuatorParameters) -> tuple[float, float]:
+        """Range in which this can lie for an actuator."""
+        return 1.0 / _MOST_FACTOR, _MOST_FACTOR
+
+    def start(self, parameters: ActuatorParameters) -> float:
+        """Where a fit begins."""
+        return 1.0
 
     @property
     def values(self) -> tuple[str, ...]:
@@ -44,6 +55,7 @@ class Unknown:
         return dataclasses.replace(parameters, **changed)
 
 
+_MOST_FACTOR = 200.0
 _BOTH_RESISTANCES = ("winding_to_housing", "housing_to_ambient")
 _COULOMB, _VISCOUS = ("motor_coulomb", "output_coulomb"), ("motor_viscous", "output_viscous")
 _HARMONICS = ("error_cosine", "error_sine", "stiffness_cosine", "stiffness_sine")
