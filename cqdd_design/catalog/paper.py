@@ -32,10 +32,13 @@ class Figure(NamedTuple):
 
 
 _TABLE = "table I"
+_PEAK = Figure(89.9, f"{_TABLE}, section V-A: measured at an output held still")
 METRICS: Mapping[str, Figure] = MappingProxyType(
     {
         "continuous_torque": Figure(37.5, f"{_TABLE}, section V-A"),
-        "peak_torque": Figure(89.9, f"{_TABLE}, section V-A"),
+        # What was measured is what a stalled output gives; the identity K I n has it as its limit.
+        "peak_torque": _PEAK,
+        "stall_torque": _PEAK,
         "no_load_speed": Figure(128.6, f"{_TABLE}, at 24 V"),
         "rated_power": Figure(960.0, _TABLE),
         "output_resolution": Figure(0.00219, _TABLE),

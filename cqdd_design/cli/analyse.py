@@ -12,6 +12,9 @@ from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from cqdd_design.actuator.shock import Shock
     from cqdd_design.gearbox import GearboxAnalysis
 
 
@@ -49,7 +52,7 @@ def analyse(
         ),
     ] = Friction.drive,
 ) -> None:
-    """Loads, contact equilibrium, precision, losses, life, and stress of discs and ring."""
+    """Loads, contact equilibrium, precision, losses, life, stress of discs and ring, and shock."""
     from cqdd_design.cli.tables import verdict
     from cqdd_design.design import load_design
     from cqdd_design.roads.analyse import analyse as analysed
@@ -58,7 +61,7 @@ def analyse(
     asked_torque = parse_positive("--torque", torque, TORQUE)
     asked_speed = parse_positive("--speed", speed, SPEED)
     loaded = load_design(design)
-    out.note_compilation()
+    out.note_compilation(simulation=True)
     found = analysed(
         loaded,
         torque=asked_torque,
@@ -68,7 +71,7 @@ def analyse(
         friction=friction.value,
     )
     results, checks = found.to_dict(), found.checks
-    lines = _lines(found.gearbox, results)
+    lines = [*_lines(found.gearbox, results), *_shock_lines(found.shocks)]
     out.say(*lines, "", f"checks: {verdict(checks)} (see `check`)")
     out.warn(*found.warnings)
     out.document(results, design=found.machine.given, checks=checks)
@@ -98,6 +101,20 @@ def _lines(analysis: GearboxAnalysis, results: dict[str, object]) -> list[str]:
         rows = [[f"  {name}", _shown(value)] for name, value in _single(flat).items()]
         lines += [title, table(rows), ""]
     return lines[:-1]
+
+
+def _shock_lines(shocks: Mapping[str, Shock]) -> list[str]:
+    from cqdd_design.actuator.shock import METHODS
+    from cqdd_design.cli.tables import told
+
+    lines = []
+    for name, one in shocks.items():
+        head = (
+            f"into a rigid stop from {number(one.speed)} rad/s ({name} speed), "
+            f"{number(one.energy)} J"
+        )
+        lines += ["", head, told([(METHODS[key], stop.told) for key, stop in one.stops.items()])]
+    return lines
 
 
 def _single(values: dict[str, object]) -> dict[str, object]:

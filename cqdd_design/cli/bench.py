@@ -12,6 +12,7 @@ from cqdd_design.cli.options import (
     DesignFile,
     Force,
     OwnMotor,
+    RigStiffness,
     option,
     parse_names,
     parse_positive,
@@ -31,6 +32,7 @@ def bench(
     design: DesignFile,
     only: Annotated[str | None, option("NAMES", "Measurements, separated by commas.")] = None,
     voltage: BenchSupply = None,
+    rig_stiffness: RigStiffness = None,
     seed: BenchSeed = None,
     calibration: Calibrated = None,
     motor_file: OwnMotor = None,
@@ -49,7 +51,7 @@ def bench(
     from cqdd_design.design import load_design
     from cqdd_design.roads.bench import bench as measured
     from cqdd_design.roads.bench import compared_actuators, write_traces
-    from cqdd_design.units import VOLTAGE
+    from cqdd_design.units import STIFFNESS_GAIN, VOLTAGE
 
     names = parse_names(only)
     asked = parse_positive("--voltage", voltage, VOLTAGE)
@@ -64,6 +66,7 @@ def bench(
         specimen,
         only=names,
         voltage=asked,
+        rig_stiffness=parse_positive("--rig-stiffness", rig_stiffness, STIFFNESS_GAIN),
         progress=out.stages(len(names or METRICS)),
     )
     actuators = compared_actuators(loaded, result, others)
@@ -79,36 +82,40 @@ def bench(
 
 def _lines(result: BenchResult) -> list[str]:
     head = ["measurement", "value", "spread", "unit"]
-    head += ["paper", "off %", "agreement is"] if result.beside_paper else []
+    head += ["paper", "off %"] if result.beside_paper else []
     rows = []
     for metric in result.metrics:
         row = [
             metric.name,
-            number(metric.value),
+            "-" if metric.known is None else number(metric.value),
             "" if metric.spread is None else number(metric.spread),
             metric.unit,
         ]
         paper = result.paper(metric.name)
         if paper is not None:
-            off = 100.0 * (metric.value / paper - 1.0)
-            row += [number(paper), f"{off:+.1f}", metric.relation]
+            told_off = metric.known is not None and metric.relation != "not comparable"
+            off = f"{100.0 * (metric.value / paper - 1.0):+.1f}" if told_off else ""
+            row += [number(paper), off]
         elif result.beside_paper:
-            row += ["", "", ""]
-        rows.append(row)
+            row += ["", ""]
+        rows.append([*row, metric.relation])
     lines = [
-        table(rows, head=head, right=(1, 2, 4, 5) if result.beside_paper else (1, 2)),
+        table(
+            rows,
+            head=[*head, "row is"],
+            right=(1, 2, 4, 5) if result.beside_paper else (1, 2),
+        ),
         "",
         f"{len(rows)} measurements in {number(result.seconds)} s; dynamic rows at "
         f"{result.voltage:g} V. Protocols stand in --json and in the report.",
     ]
     remarks = [(one.name, one.remark) for one in result.metrics if one.remark]
     lines += ["", told(remarks), ""] if remarks else []
-    if result.beside_paper:
-        lines.append(
-            "given: an input, an identity, or from clearances that the design assumes; "
-            "predicted: neither fitted nor given. "
-            "`cqdd-design calibrate` fits friction and cooling."
-        )
+    lines.append(
+        "given: an input, an identity, or from clearances that the design assumes; calibrated: "
+        "fitted to a measured value; predicted: neither. "
+        "`cqdd-design calibrate` fits friction and cooling."
+    )
     return lines
 
 

@@ -44,6 +44,13 @@ OwnMotor = Annotated[
 ]
 Supply = Annotated[str | None, quantity_option("Supply; default that of the design.")]
 BenchSupply = Annotated[str | None, quantity_option('Supply of the dynamic rows; default "24 V".')]
+RigStiffness = Annotated[
+    str | None,
+    quantity_option(
+        'Of what holds the output for the torque bandwidth, as in "8000 N*m/rad"; default a torque '
+        "sensor's."
+    ),
+]
 BenchSeed = Annotated[
     int | None, typer.Option(min=0, help="Of one drawn gearbox; default perfect parts.")
 ]

@@ -62,6 +62,10 @@ class Requirements(FrozenModel):
         float, QuantityIn(SPEED, "1 rpm", "30000 rpm", "greased eccentric bearings")
     ] = default(DEFAULT_INPUT_SPEED)
     duty: tuple[DutyPoint, ...] = ()
+    #: Of the output when it meets a rigid stop, beside the rated speed; 0 asks for none.
+    shock_speed: Annotated[
+        float, QuantityIn(LOAD_SPEED, "0 rad/s", "1000 rad/s", "the output of a reducer")
+    ] = default("0 rad/s")
     outer_diameter: Annotated[
         float, QuantityIn(LENGTH, "10 mm", "1000 mm", "outside diameter of the ring")
     ] = default("72 mm")

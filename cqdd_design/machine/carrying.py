@@ -152,7 +152,7 @@ class CarriedTorque:
         )
 
 
-class _Compared(NamedTuple):
+class Compared(NamedTuple):
     """A check's comparison by the rigid law, and its value for one unit of its key."""
 
     check: str
@@ -161,6 +161,11 @@ class _Compared(NamedTuple):
     limit: float
     unit: str
     per_key: float
+
+    @property
+    def row(self) -> _Row:
+        """What gives way, and at which load."""
+        return LIMITS[self.check]
 
 
 @lru_cache(maxsize=2)
@@ -176,7 +181,7 @@ def torque_limits(machine: Machine) -> tuple[TorqueLimit, ...]:
         When disc, ring or holes cannot exist.
     """
     contacts = LoadedContacts(machine.contact)
-    return tuple(_limit(machine, contacts, one) for one in _compared(machine))
+    return tuple(_limit(machine, contacts, one) for one in compared_limits(machine))
 
 
 def carried_torque(machine: Machine) -> CarriedTorque:
@@ -196,8 +201,8 @@ def carried_torque(machine: Machine) -> CarriedTorque:
     )
 
 
-def _compared(machine: Machine) -> Iterator[_Compared]:
-    """The checks whose strengths are known; bearings by their load instead of safety and hours."""
+def compared_limits(machine: Machine) -> Iterator[Compared]:
+    """Checks of `LIMITS` whose strengths are known; bearings by load, not by safety and hours."""
     analysis = machine.analysis
     cam = analysis.cam_bearing
     static = (cam.bearing.static_rating or 0.0) / STATIC_SAFETY
@@ -210,7 +215,7 @@ def _compared(machine: Machine) -> Iterator[_Compared]:
     for check in analysis.checks:
         if check.id in bearings:
             title, value, limit = bearings[check.id]
-            found = _Compared(check.id, title, value, limit, "N", 1.0)
+            found = Compared(check.id, title, value, limit, "N", 1.0)
         elif check.id in LIMITS:
             row, per_key = LIMITS[check.id], 1.0
             if row.key == _PIN:
@@ -218,14 +223,14 @@ def _compared(machine: Machine) -> Iterator[_Compared]:
                 peak = row.load == "peak"
                 load = analysis.rigid_peak if peak else analysis.rigid_continuous
                 per_key = check.value / (UNEVEN_SHARING * load.output_pin_force)
-            found = _Compared(check.id, check.title, check.value, check.limit, check.unit, per_key)
+            found = Compared(check.id, check.title, check.value, check.limit, check.unit, per_key)
         else:
             continue
         if min(found.value, found.limit) > 0.0:
             yield found
 
 
-def _limit(machine: Machine, contacts: LoadedContacts, one: _Compared) -> TorqueLimit:
+def _limit(machine: Machine, contacts: LoadedContacts, one: Compared) -> TorqueLimit:
     row, requirements = LIMITS[one.check], machine.design.requirements
     asked = requirements.peak_torque if row.load == "peak" else requirements.continuous_torque
     value, model, reached = one.value, RIGID, True

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
 from cqdd_design.report.actuator.bench_table import bench_view
 from cqdd_design.report.actuator.envelope import actuator_view
+from cqdd_design.report.actuator.shock import shock_view
 from cqdd_design.report.drawings.front_view import front_view
 from cqdd_design.report.drawings.half_section import half_section
 from cqdd_design.report.drawings.outlines import Outlines
@@ -173,7 +174,10 @@ def _actuator(results: ReportInput) -> Values | None:
     if results.bench is None:
         missing = results.bench_missing
         return {"actuator": None, "bench_missing": missing} if missing else None
-    return {"actuator": actuator_view(*results.bench, results.design.requirements)}
+    return {
+        "actuator": actuator_view(*results.bench, results.design.requirements),
+        "shocks": shock_view(results.shocks),
+    }
 
 
 def _bodies(results: ReportInput) -> Values | None:

@@ -17,6 +17,7 @@ from cqdd_design.results import Check, Provenance
 if TYPE_CHECKING:
     from cqdd_design.actuator.bench import BenchResult
     from cqdd_design.actuator.parameters import ActuatorParameters
+    from cqdd_design.actuator.shock import Shock
     from cqdd_design.gearbox.bodies.strength import BodyStrength
     from cqdd_design.gearbox.tolerance.clearance import ClearancePoint
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
@@ -64,6 +65,8 @@ class ReportInput:
         The simulated actuator, and what the virtual test bench measured on it.
     bench_missing : str
         A sentence on why there is none; empty where nobody asked for it.
+    shocks : mapping of str to Shock
+        Stops of the output, by which speed.
     """
 
     machine: Machine
@@ -83,6 +86,7 @@ class ReportInput:
     pictures: tuple[MachineViews, ViewerData] | None = None
     bench: tuple[ActuatorParameters, BenchResult] | None = None
     bench_missing: str = ""
+    shocks: Mapping[str, Shock] = field(default_factory=dict)
 
     @property
     def checks(self) -> tuple[Check, ...]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
+from cqdd_design.actuator.shock import Shock, shocks
 from cqdd_design.design import Design
 from cqdd_design.errors import ContactError, GeometryError
 from cqdd_design.gearbox import GearboxAnalysis
@@ -32,6 +34,10 @@ class Analysis:
         Why there is none.
     body_checks : tuple of Check
         Of that stress, at the torques of the requirements.
+    shocks : mapping of str to Shock
+        Stops of the output from the rated speed, and from a given one.
+    shock_missing : str
+        Why there are none.
     """
 
     machine: Machine
@@ -41,6 +47,8 @@ class Analysis:
     bodies: BodyStrength | None = None
     bodies_missing: str = ""
     body_checks: tuple[Check, ...] = ()
+    shocks: Mapping[str, Shock] = field(default_factory=dict)
+    shock_missing: str = ""
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -52,19 +60,20 @@ class Analysis:
         """What was not checked or cannot be relied on."""
         if self.contact is None:
             return (*self.gearbox.warnings, f"no contact analysis: {self.missing}")
-        if self.bodies is not None:
-            return (*self.gearbox.warnings, *self.contact.warnings)
-        told = no_stress(self.machine, self.bodies_missing)
-        return (*self.gearbox.warnings, *self.contact.warnings, told)
+        told = () if self.bodies else (no_stress(self.machine, self.bodies_missing),)
+        no_stop = (self.shock_missing,) if self.shock_missing else ()
+        return (*self.gearbox.warnings, *self.contact.warnings, *told, *no_stop)
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form (``results`` of ``analyse``)."""
         if self.contact is None:
-            names = ("contact", "precision", "losses", "life", "bending", "bodies")
+            names = ("contact", "precision", "losses", "life", "bending", "bodies", "shock")
             absent = dict.fromkeys(names)
             return self.gearbox.to_dict() | absent
         bodies = None if self.bodies is None else self.bodies.to_dict()
-        return self.gearbox.to_dict() | self.contact.to_dict() | {"bodies": bodies}
+        shock = {name: one.to_dict() for name, one in self.shocks.items()} or None
+        found = {"bodies": bodies, "shock": shock}
+        return self.gearbox.to_dict() | self.contact.to_dict() | found
 
 
 def analyse(
@@ -105,6 +114,7 @@ def analyse(
         )
     except ContactError as error:
         return Analysis(machine, gearbox, None, error.message)
+    stops, unknown = shocks(machine)
     try:
         checks, bodies = judged_bodies(machine, line_model, friction)
         if torque is not None:
@@ -112,5 +122,5 @@ def analyse(
                 machine, torque=torque, line_model=line_model, friction=friction
             )
     except (ContactError, GeometryError) as error:
-        return Analysis(machine, gearbox, contact, "", None, error.message)
-    return Analysis(machine, gearbox, contact, "", bodies, "", checks)
+        return Analysis(machine, gearbox, contact, "", None, error.message, (), stops, unknown)
+    return Analysis(machine, gearbox, contact, "", bodies, "", checks, stops, unknown)

@@ -20,12 +20,15 @@ from cqdd_design.machine import Machine
 from cqdd_design.machine.carrying import carried_torque
 from cqdd_design.roads.telling import Progress, silent
 
-#: Toleranced gearboxes whose mean ripple is the bench's.
+#: Toleranced gearboxes whose mean backlash and ripple are the bench's, of seeds 0 and up.
 RIPPLE_DRAWS = 6
 
-#: Tooth meshes of an output turn up to which gearboxes are drawn for the ripple: their equilibrium
+#: Tooth meshes of an output turn up to which gearboxes are drawn for both: their equilibrium
 #: takes half a second each here, and tens of seconds with 24 lobes.
 MOST_DRAWN_MESHES = 200
+
+
+_DRAWN_ROWS = {"backlash", "torque_ripple"}
 
 
 def bench(
@@ -34,6 +37,7 @@ def bench(
     *,
     only: tuple[str, ...] = (),
     voltage: float | None = None,
+    rig_stiffness: float | None = None,
     progress: Progress = silent,
 ) -> BenchResult:
     """Measure the actuator of a design on the virtual test bench.
@@ -41,15 +45,18 @@ def bench(
     Parameters
     ----------
     specimen : Specimen
-        Without a seed perfect parts are measured, and their ripple is that of drawn ones.
+        Without a seed perfect parts are measured, and backlash and ripple are those of drawn ones.
     only : tuple of str
         Names of measurements; default all.
     voltage : float, optional
         Supply of the dynamic rows, V; default the paper's 24 V.
+    rig_stiffness : float, optional
+        Of what holds the output, N m/rad; see `run_bench`.
     progress : callable
         Told what is measured next.
     """
-    return measure(specimen.machine(design), specimen, only, voltage, progress)[1]
+    machine = specimen.machine(design)
+    return measure(machine, specimen, only, voltage, progress, rig_stiffness)[1]
 
 
 def measure(
@@ -58,10 +65,11 @@ def measure(
     only: tuple[str, ...] = (),
     voltage: float | None = None,
     progress: Progress = silent,
+    rig_stiffness: float | None = None,
 ) -> tuple[ActuatorParameters, BenchResult]:
     """Parameters of a machine's actuator, and what the bench measures on it; see `bench`."""
     parameters = actuator_parameters(machine, specimen)
-    rippling = specimen.seed is None and (not only or "torque_ripple" in only)
+    rippling = specimen.seed is None and (not only or not _DRAWN_ROWS.isdisjoint(only))
     return parameters, run_bench(
         parameters,
         rated_current=machine.motor.rated_current,
@@ -70,12 +78,13 @@ def measure(
         beside_paper=is_papers_actuator(machine.given),
         drawn=drawn_actuators(machine, specimen) if rippling else (),
         gearbox=carried_torque(machine),
+        rig_stiffness=rig_stiffness,
         progress=progress,
     )
 
 
 def drawn_actuators(machine: Machine, specimen: Specimen) -> list[ActuatorParameters]:
-    """Actuators with gearboxes drawn from the tolerances, for the ripple of a usual one."""
+    """Actuators with gearboxes drawn from the tolerances, for backlash and ripple of usual ones."""
     lobes = machine.design.reducer.ratio
     if lobes * (lobes + 1) > MOST_DRAWN_MESHES:
         return []

@@ -6,6 +6,7 @@ from contextlib import closing, nullcontext
 from pathlib import Path
 from typing import NamedTuple
 
+from cqdd_design.actuator.shock import shocks
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
 from cqdd_design.errors import ContactError, UsageError
@@ -101,6 +102,7 @@ def write_report(
             clearances = clearance_study(machine.design, fitting, angles)
         progress("measuring the actuator on the test bench")
         measured, unmeasured = measured_actuator(machine, specimen)
+        stops = {} if measured is None else shocks(machine, specimen)[0]
         progress("drawing the machine")
         pictures = None if drawing is None else drawing.fetch()
     if isinstance(pictures, str):
@@ -123,6 +125,7 @@ def write_report(
         pictures=pictures,
         bench=measured,
         bench_missing=unmeasured,
+        shocks=stops,
     )
     progress("writing the report")
     file = write_atomically(target, build_report(results), "report")

@@ -31,7 +31,9 @@ def test_bench_measures_every_row_and_writes_its_traces(cqdd, tmp_path):
     for name, metric in metrics.items():
         assert metric["relation"] in RELATIONS, name
         assert metric["protocol"].endswith("."), name
-        assert metric["paper"] is None if name == "stall_torque" else metric["paper"] > 0.0
+        assert metric["paper"] > 0.0
+    assert metrics["stall_torque"]["paper"] == 89.9
+    assert metrics["stall_torque"]["relation"] == "predicted"
     columns = {one["name"]: one["torque_density_Nm_per_kg"] for one in results["comparison"]}
     assert columns["Lee et al."] == pytest.approx(83.96, abs=0.005)
     assert columns["cqdd-10 (this design)"] == pytest.approx(metrics["torque_density"]["value"])
@@ -39,10 +41,14 @@ def test_bench_measures_every_row_and_writes_its_traces(cqdd, tmp_path):
     assert "cqdd-10-torque-bandwidth.npz" in written
     with np.load(tmp_path / "traces" / "cqdd-10-torque-bandwidth.npz") as trace:
         assert {"frequency [Hz]", "gain", "phase [rad]", "coherence"} == set(trace.files)
-        edge = metrics["torque_bandwidth"]["value"]
+        details = metrics["torque_bandwidth"]["details"]
+        edge, sure = details["gain_falls_by_3_dB_Hz"], details["coherence_falls_below_0.8_Hz"]
         gain = np.interp(edge, trace["frequency [Hz]"], trace["gain"])
-    low = metrics["torque_bandwidth"]["details"]["low_frequency_gain"]
-    assert gain / low == pytest.approx(10.0**-0.15, rel=1e-6)
+    assert gain / details["low_frequency_gain"] == pytest.approx(10.0**-0.15, rel=1e-6)
+    # A bandwidth is read only where the coherence holds.
+    value, missing = (metrics["torque_bandwidth"].get(key) for key in ("value", "missing"))
+    assert (value, missing is None) == ((edge, True) if edge <= sure else (None, False))
+    assert (missing is None) == (not any("coherence" in one for one in found.document["warnings"]))
 
 
 def test_bench_says_what_an_agreement_is(cqdd):

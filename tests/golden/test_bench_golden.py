@@ -17,10 +17,15 @@ FILE = Path(__file__).with_suffix(".json")
 
 
 def test_rows_of_the_papers_bench(tmp_path_factory: pytest.TempPathFactory) -> None:
-    found = {metric.name: metric.value for metric in paper_bench(tmp_path_factory)[1].metrics}
-    assert found == pytest.approx(json.loads(FILE.read_text(encoding="utf-8")), rel=1e-4)
+    found = {metric.name: metric.known for metric in paper_bench(tmp_path_factory)[1].metrics}
+    wanted = json.loads(FILE.read_text(encoding="utf-8"))
+    none = {name for name, value in wanted.items() if value is None}
+    assert {name for name, value in found.items() if value is None} == none
+    assert {name: found[name] for name in found if name not in none} == pytest.approx(
+        {name: wanted[name] for name in wanted if name not in none}, rel=1e-4
+    )
 
 
 if __name__ == "__main__":
-    rows = {metric.name: metric.value for metric in measure_paper_bench()[1].metrics}
+    rows = {metric.name: metric.known for metric in measure_paper_bench()[1].metrics}
     FILE.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")

@@ -412,6 +412,9 @@ def test_figures_of_the_bench_show_its_numbers(
         ("position_bandwidth_5deg", "position-bode-5"),
     ):
         figure, metric = figures[anchor], metric_of(measured, name)
+        if metric.known is None:
+            assert "no measured frequency" in figure.caption
+            continue
         dot = classed(figure, "circle", "dot")[0]
         # Gain comes first: its faint part, where there is one, and its sure one.
         parts = [path_of(e) for e in tree(figure).iter("path") if "curve" in e.get("class", "")]
@@ -481,9 +484,9 @@ def test_the_table_stands_beside_the_paper_s(
         assert row["relation"] in dict(RELATIONS)
         assert row["protocol"].endswith(".")
         assert (row["off"] == "\u2013") == (
-            row["relation"] == "not comparable" or row["paper"] == "\u2013"
+            row["relation"] == "not comparable" or "\u2013" in (row["paper"], row["value"])
         )
-    predicted = [m for m in measured.metrics if m.relation == "predicted" and m.name in PAPER]
+    predicted = [m for m in measured.metrics if m.relation == "predicted" and m.known]
     near = [m for m in predicted if is_near(m.unit, m.value, PAPER[m.name].value)]
     assert f"Of {len(predicted)} predicted rows {len(near)} lie within" in view["summary"]
 

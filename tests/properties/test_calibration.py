@@ -143,7 +143,7 @@ def test_paper_on_three_rows(actuator: ActuatorParameters) -> None:
         ({"backdrive_static": 1.0}, {"unknowns": ["friction"]}, "is no unknown"),
         ({"torque_ripple": 1.0}, {}, "draw a gearbox with --seed"),
         pytest.param(
-            *({"efficiency_peak": 0.999}, {}, "no friction_load from 0.1 to"),
+            *({"efficiency_peak": 0.999}, {}, "no friction_load from .* times the computed one"),
             marks=pytest.mark.deep,
         ),
     ],

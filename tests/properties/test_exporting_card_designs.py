@@ -83,6 +83,7 @@ def by_hand(p: ActuatorParameters) -> dict[str, tuple[float | None, float | None
         "current_limit": (drive.current_limit, None),
         "stall_torque": torque(constant * volts / ohms),
         "peak_torque": torque(constant * amps),
+        "effort_limit": (None, steady.stall_torque(p).value),
         "delivered_peak_torque": (None, delivered - friction.output_coulomb),
         "continuous_torque": torque(held),
         "ideal_speed": speed(volts / constant),

@@ -12,6 +12,7 @@ from examples import examples
 from hypothesis import given, settings
 
 from cqdd_design import __version__
+from cqdd_design.actuator.bench.steady import stall_torque
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.exporting.simulators.urdf import DRAKE, urdf_text
 
@@ -19,9 +20,8 @@ from cqdd_design.exporting.simulators.urdf import DRAKE, urdf_text
 def expected(p: ActuatorParameters) -> dict[str, float]:
     """Joint side by the formulas of reflection, written out."""
     n, motor, friction = abs(p.gear.ratio), p.motor, p.friction
-    amps = min(p.drive.supply_voltage / motor.resistance, p.drive.current_limit)
     return {
-        "effort": n * motor.torque_constant * amps,
+        "effort": stall_torque(p).value,
         "friction": n * (friction.motor_coulomb + motor.hysteresis) + friction.output_coulomb,
         "damping": n**2 * (friction.motor_viscous + motor.iron_loss) + friction.output_viscous,
         "rotor": motor.rotor_inertia + p.gear.input_inertia,

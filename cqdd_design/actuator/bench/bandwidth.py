@@ -19,6 +19,8 @@ DOWN = 10.0 ** (-3.0 / 20.0)
 """Gain at the edge of a bandwidth, over that of low frequencies: -3 dB."""
 COHERENT = 0.8
 """Below it a transfer function is not to be trusted."""
+_LOW = 4.0
+"""Hz; the mean gain up to there is that of low frequencies."""
 SENSOR_TWIST = 4e-3
 """Of a torque sensor at its rated torque, rad: a shaft of two diameters' length whose surface
 shears by 1e-3, as strain gauges for 2 mV/V want."""
@@ -26,10 +28,14 @@ _SENSOR_DAMPING = 0.01
 """Ratio of the motor swinging on the sensor: steel with screwed flanges."""
 
 
-def sensor(parameters: ActuatorParameters) -> Load:
-    """The output held through a torque sensor rated for what the driver's limit gives."""
+def sensor(parameters: ActuatorParameters, stiffness: float | None = None) -> Load:
+    """The output held through a rig of some stiffness, N m/rad.
+
+    By default that of a torque sensor rated for what the driver's limit gives, on a rigid rig.
+    """
     gear = parameters.gear
-    stiffness = parameters.torque_limit / SENSOR_TWIST
+    if stiffness is None:
+        stiffness = parameters.torque_limit / SENSOR_TWIST
     swinging = parameters.motor_side_inertia * gear.ratio**2 + gear.output_inertia
     return Load.locked(stiffness, 2.0 * _SENSOR_DAMPING * math.sqrt(stiffness * swinging))
 
@@ -74,11 +80,17 @@ def saturation_limits(
     return square * speed / (2.0 * math.pi * swing), by_torque / (2.0 * math.pi)
 
 
-def torque_bandwidth(parameters: ActuatorParameters, amplitude: float = 5.0) -> Metric:
-    """Held output, torque chirp, H1 with coherence, -3 dB below the low-frequency gain."""
+def torque_bandwidth(
+    parameters: ActuatorParameters, amplitude: float = 5.0, rig_stiffness: float | None = None
+) -> Metric:
+    """Held output, torque chirp, H1 with coherence, -3 dB below the low-frequency gain.
+
+    There is no value where the coherence of chirp and torque falls below `COHERENT` before the gain
+    has fallen by 3 dB: what a transfer function says there is not the actuator's.
+    """
     first, last, chirping, settling = 0.5, 300.0, 12.0, 0.5
     duration = chirping + settling
-    held = sensor(parameters)
+    held = sensor(parameters, rig_stiffness)
     times = np.linspace(0.0, chirping, 120_001)
     chirp = Chirp(amplitude, first, last, chirping).values(times)
     scenes = [
@@ -95,18 +107,35 @@ def torque_bandwidth(parameters: ActuatorParameters, amplitude: float = 5.0) -> 
         run.commanded_torque, run.output_torque, step * every, 2.0 * first, 0.9 * last
     )
     gain, phase = np.abs(response), np.unwrap(np.angle(response))
-    low = float(gain[frequency <= 4.0].mean())
+    # Each of the lowest bands holds a line or two of the chirp, so none of them ends a bandwidth.
+    above = frequency > _LOW
+    low = float(gain[~above].mean())
+    edge = crossing(frequency[above], gain[above] / low, DOWN)
+    sure = crossing(frequency, coherence, COHERENT)
+    missing = ""
+    if edge > sure:
+        there = float(np.interp(sure, frequency, gain)) / low
+        missing = (
+            f"the coherence of the torque with the chirp falls below {COHERENT:g} at {sure:.3g} "
+            f"Hz, where the gain is still {there:.3g} of that at low frequencies; play and "
+            f"friction make the rest, so no -3 dB can be read with {amplitude:g} N m"
+        )
+    elif not np.any(gain[above] < DOWN * low):
+        missing = f"the gain has not fallen by 3 dB up to {frequency[-1]:.3g} Hz"
     return Metric(
         "torque_bandwidth",
-        crossing(frequency, gain / low, DOWN),
+        math.nan if missing else edge,
         "predicted",
-        f"Output held by a torque sensor of {held.sensor_stiffness:.3g} N m/rad, torque chirp of "
+        f"Output held by a rig of {held.sensor_stiffness:.3g} N m/rad "
+        f"({'a torque sensor' if rig_stiffness is None else 'as given'}), torque chirp of "
         f"{amplitude:g} N m from {first:g} to {last:g} Hz in {chirping:g} s, rising and falling in "
-        "both senses, H1 over these and twelfths of an octave, -3 dB below the gain under 4 Hz.",
+        "both senses, H1 over these and twelfths of an octave, -3 dB below the mean under "
+        f"{_LOW:g} Hz, read only where the coherence is {COHERENT:g} or more up to there.",
         details={
             "low_frequency_gain": low,
+            "gain_falls_by_3_dB_Hz": edge,
             "phase_90_deg_Hz": crossing(frequency, phase, -0.5 * math.pi),
-            f"coherence_falls_below_{COHERENT:g}_Hz": crossing(frequency, coherence, COHERENT),
+            f"coherence_falls_below_{COHERENT:g}_Hz": sure,
             "sensor_stiffness_Nm_per_rad": held.sensor_stiffness,
         },
         trace={
@@ -115,6 +144,7 @@ def torque_bandwidth(parameters: ActuatorParameters, amplitude: float = 5.0) -> 
             "phase [rad]": phase,
             "coherence": coherence,
         },
+        missing=missing,
     )
 
 

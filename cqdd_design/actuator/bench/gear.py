@@ -21,6 +21,7 @@ from cqdd_design.actuator.scenario import (
     Scenario,
     Start,
 )
+from cqdd_design.actuator.simulate import Simulation
 
 ARCMIN = 60.0 * 180.0 / math.pi
 DIAL = 0.0127e-3
@@ -33,8 +34,54 @@ _AT_REST = 0.01
 """Of a reading's whole motor angle: nearer to a flank the motor counts as resting there."""
 
 
-def backlash(parameters: ActuatorParameters, positions: int = 6) -> Metric:
-    """Gebler's method: turn the motor until the output moves, from either flank."""
+def backlash(
+    parameters: ActuatorParameters,
+    drawn: Collection[ActuatorParameters] = (),
+    positions: int = 6,
+) -> Metric:
+    """Gebler's method: turn the motor until the output moves, from either flank.
+
+    Of drawn gearboxes the mean, each read in the same way.
+    """
+    own, run = _readings(parameters, positions)
+    # The dead zone of a gearbox is one number here: two places of each are as good as six.
+    others = [_readings(one, min(positions, 2))[0] for one in drawn]
+    each = np.array([float(values.mean()) for values in others if values.size]) if others else own
+    details = {
+        "dead_zone_arcmin": parameters.gear.backlash * ARCMIN,
+        "readings": float(own.size + sum(values.size for values in others)),
+    }
+    protocol = (
+        f"Gebler: onto one flank, then the motor slowly back until a dial of {DIAL * 1e3:g} mm at "
+        f"{DIAL_RADIUS * 1e3:g} mm moves, at {positions} places from both flanks; the dial's own "
+        "threshold is taken off"
+    )
+    if others:
+        details["perfect_parts_arcmin"] = float(own.mean()) if own.size else 0.0
+        protocol += told_draws(len(others))
+    return Metric(
+        "backlash",
+        float(each.mean()) if each.size else 0.0,
+        # It says how large the clearances are that the design assumes, which nobody measured.
+        "given",
+        protocol + ".",
+        spread=float(each.std(ddof=1)) if each.size > 1 else None,
+        details=details,
+        trace={
+            "motor over ratio [rad]": run.motor_angle[0] / parameters.gear.ratio,
+            "output [rad]": run.output_angle[0],
+        },
+    )
+
+
+def told_draws(count: int) -> str:
+    """What a protocol says of an ensemble."""
+    seeds = f"seeds 0 to {count - 1}" if count > 1 else "seed 0"
+    return f"; mean and spread of {count} gearboxes drawn from the tolerances with {seeds}"
+
+
+def _readings(parameters: ActuatorParameters, positions: int) -> tuple[FloatArray, Simulation]:
+    """Backlash at each place and from each flank, arcmin, and the run."""
     gear = parameters.gear
     threshold = DIAL / DIAL_RADIUS
     sweep = gear.backlash + 6.0 * threshold + 2.0 / ARCMIN
@@ -69,22 +116,7 @@ def backlash(parameters: ActuatorParameters, positions: int = 6) -> Metric:
         if moved.size:
             at = rest + int(moved[0])
             found.append(abs(motor[at] - motor[rest]) - threshold)
-    values = np.array(found) * ARCMIN
-    return Metric(
-        "backlash",
-        float(values.mean()) if values.size else 0.0,
-        # It says how large the clearances are that the design assumes, which nobody measured.
-        "given",
-        f"Gebler: onto one flank, then the motor slowly back until a dial of {DIAL * 1e3:g} mm at "
-        f"{DIAL_RADIUS * 1e3:g} mm moves, at {positions} places from both flanks; the dial's own "
-        "threshold is taken off.",
-        spread=float(values.std(ddof=1)) if values.size > 1 else None,
-        details={"dead_zone_arcmin": gear.backlash * ARCMIN, "readings": float(values.size)},
-        trace={
-            "motor over ratio [rad]": run.motor_angle[0] / ratio,
-            "output [rad]": run.output_angle[0],
-        },
-    )
+    return np.array(found) * ARCMIN, run
 
 
 def dead_zone(motor: FloatArray, output: FloatArray) -> tuple[float, float, float] | None:
@@ -200,7 +232,7 @@ def torque_ripple(
     details = {f"order_{int(shown.orders[k])}_Nm": float(shown.amplitudes[k]) for k in strongest}
     if others:
         details["perfect_parts_Nm"] = float(own.halves.mean())
-        protocol += f"; mean and spread of {len(others)} gearboxes drawn from the tolerances"
+        protocol += told_draws(len(others))
     each = np.array([one.halves.mean() for one in others]) if others else own.halves
     return Metric(
         "torque_ripple",

@@ -71,6 +71,8 @@ class Metric:
         Columns, each with its unit in its name.
     remark : str
         What the value counts, or what stands against it: for whoever reads the value alone.
+    missing : str
+        Why there is no value, which then is not a number; else empty.
     """
 
     name: str
@@ -81,6 +83,12 @@ class Metric:
     details: Mapping[str, float] = field(default_factory=dict)
     trace: Mapping[str, FloatArray] = field(default_factory=dict)
     remark: str = ""
+    missing: str = ""
+
+    @property
+    def known(self) -> float | None:
+        """The value; None where there is none."""
+        return self.value if math.isfinite(self.value) else None
 
     @property
     def unit(self) -> str:
@@ -115,8 +123,8 @@ class BenchResult:
     required: float = math.inf
 
     def value(self, name: str) -> float | None:
-        """Value of a measurement; None where it was not made."""
-        return next((metric.value for metric in self.metrics if metric.name == name), None)
+        """Value of a measurement; None where it was not made, or could not be."""
+        return next((metric.known for metric in self.metrics if metric.name == name), None)
 
     @property
     def counted_peak(self) -> float | None:
@@ -135,13 +143,14 @@ class BenchResult:
             "seconds": self.seconds,
             "metrics": {
                 metric.name: {
-                    "value": metric.value,
+                    "value": metric.known,
                     "spread": metric.spread,
                     "unit": metric.unit,
                     "paper": self.paper(metric.name),
                     "relation": metric.relation,
                     "protocol": metric.protocol,
                     **({"remark": metric.remark} if metric.remark else {}),
+                    **({"missing": metric.missing} if metric.missing else {}),
                     **({"details": dict(metric.details)} if metric.details else {}),
                 }
                 for metric in self.metrics

@@ -46,6 +46,7 @@ def run_bench(
     beside_paper: bool = False,
     drawn: Collection[ActuatorParameters] = (),
     gearbox: CarriedTorque | None = None,
+    rig_stiffness: float | None = None,
     progress: Progress | None = None,
 ) -> BenchResult:
     """Measure an actuator.
@@ -55,28 +56,33 @@ def run_bench(
     rated_current : float, optional
         Of the motor by its catalogue, A.
     voltage : float
-        Supply of the no-load speed and of the position bandwidths, V.
+        Supply of the no-load speed, of the efficiency and of the position bandwidths, V.
     only : collection of str
         Names of `METRICS`; default all.
     beside_paper : bool
         Whether the paper's values stand beside.
     drawn : collection of ActuatorParameters
-        The same actuator with gearboxes drawn from the tolerances, whose mean ripple is the
-        ripple; default its own.
+        The same actuator with gearboxes drawn from the tolerances with seeds 0 and up, whose mean
+        backlash and ripple are its own; default those of the actuator itself.
     gearbox : CarriedTorque, optional
         What is asked of the gearbox and what it carries, told beside the torques.
+    rig_stiffness : float, optional
+        Of what holds the output while the torque bandwidth is measured, N m/rad; default that of a
+        torque sensor rated for the driver's limit.
     progress : callable, optional
         Told the name of each measurement before it begins.
 
     Raises
     ------
     UsageError
-        For an unknown name, or a voltage that is not above zero.
+        For an unknown name, or a voltage or stiffness that is not above zero.
     """
     for name in only:
         refuse_unmeasured(name)
     if not voltage > 0.0:
         raise UsageError(f"--voltage {voltage:g} V must be above 0; the paper's is {VOLTAGE:g} V.")
+    if rig_stiffness is not None and not 0.0 < rig_stiffness < math.inf:
+        raise UsageError(f"--rig-stiffness {rig_stiffness:g} N*m/rad must be above 0.")
     began = time.perf_counter()
     required = math.inf if gearbox is None else gearbox.required
     measures: dict[str, Callable[[], Metric | None]] = {
@@ -86,17 +92,19 @@ def run_bench(
         "no_load_speed": lambda: steady.no_load_speed(parameters, voltage),
         "rated_power": lambda: steady.rated_power(parameters, rated_current),
         "output_resolution": lambda: steady.output_resolution(parameters),
-        "efficiency_peak": lambda: steady.efficiency_peak(parameters),
+        "efficiency_peak": lambda: steady.efficiency_peak(parameters, voltage),
         "torque_density": lambda: steady.torque_density(
             parameters, steady.peak_torque(parameters).value, required
         ),
         "actuator_inertia": lambda: steady.actuator_inertia(parameters),
         "mass": lambda: steady.mass(parameters),
-        "backlash": lambda: gear.backlash(parameters),
+        "backlash": lambda: gear.backlash(parameters, drawn),
         "backdrive_static": lambda: gear.backdrive_static(parameters),
         "backdrive_dynamic": lambda: gear.backdrive_dynamic(parameters),
         "torque_ripple": lambda: gear.torque_ripple(parameters, drawn),
-        "torque_bandwidth": lambda: bandwidth.torque_bandwidth(parameters),
+        "torque_bandwidth": lambda: bandwidth.torque_bandwidth(
+            parameters, rig_stiffness=rig_stiffness
+        ),
         "position_bandwidth_45deg": lambda: bandwidth.position_bandwidth(parameters, 45.0, voltage),
         "position_bandwidth_5deg": lambda: bandwidth.position_bandwidth(parameters, 5.0, voltage),
     }
@@ -112,6 +120,8 @@ def run_bench(
         else:
             fitted = metric.name in parameters.fitted
             found.append(dataclasses.replace(metric, relation="calibrated") if fitted else metric)
+            if metric.missing:
+                warnings.append(f"{name}: {metric.missing}.")
     hanging = [metric.name for metric in found if metric.name in _OF_DRAG]
     if hanging and not (parameters.motor.dry_drag or parameters.motor.drag_slope):
         warnings.append(

@@ -5,9 +5,10 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cqdd_design.actuator.bench.metric import Metric
 from cqdd_design.actuator.density import density_torque, torques_of_drive
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
     from cqdd_design.machine.carrying import CarriedTorque
 
 RPM = 30.0 / math.pi
+_HIGHEST_SPEED = 0.95
+"""Of an efficiency's grid, over the speed whose back-EMF is the supply."""
+_FINER = 4
+"""Steps of the finer grid in one of the grid."""
 
 
 def with_voltage(parameters: ActuatorParameters, voltage: float) -> ActuatorParameters:
@@ -105,7 +110,8 @@ def peak_torque(parameters: ActuatorParameters, gearbox: CarriedTorque | None = 
         peak,
         "given",
         "Torque constant times the driver's current limit times the ratio, or the motor's peak "
-        "torque by its catalogue times the ratio, whichever is less; losses left out.",
+        "torque by its catalogue times the ratio, whichever is less; losses left out, so that a "
+        "measured peak is compared with stall_torque.",
         details=details | _first_limit(gearbox),
         remark="" if gearbox is None else gearbox.told(peak),
     )
@@ -188,17 +194,27 @@ def _columns(run: Simulation, *names: str, index: int = 0) -> dict[str, FloatArr
     return {key: value for key, value in every.items() if key.split(" ")[0] in ("time", *names)}
 
 
-def efficiency_peak(parameters: ActuatorParameters, points: int = 8) -> Metric:
-    """Steady grid of speed and torque, driving and generating; the peak is of driving."""
-    motor, ratio = parameters.motor, parameters.gear.ratio
-    top = 0.8 * parameters.drive.supply_voltage / motor.torque_constant / abs(ratio)
-    rated = motor.rated_torque if math.isfinite(motor.rated_torque) else 0.3 * motor.peak_torque
-    most = 2.0 * rated / motor.torque_constant if math.isfinite(rated) else math.inf
-    most = min(most, parameters.drive.current_limit)
-    part = (np.arange(points) + 1.0) / points
-    # A gearbox that holds itself cannot be turned from the output.
-    shares = part if parameters.friction.load_backward >= 1.0 else np.r_[-part[::-1], part]
-    speed, current = (grid.ravel() for grid in np.meshgrid(top * part, most * shares))
+class _Powers(NamedTuple):
+    """Steady points (P,): output speed, rad/s, torque, N m, and efficiency, 0 where it is none.
+
+    `reached` where the supply drives the current that was asked for.
+    """
+
+    speed: FloatArray
+    torque: FloatArray
+    efficiency: FloatArray
+    driving: NDArray[np.bool_]
+    reached: NDArray[np.bool_]
+
+    @property
+    def best(self) -> int:
+        """The most efficient point of those at which the motor drives."""
+        return int(np.where(self.driving, self.efficiency, 0.0).argmax())
+
+
+def _powers(parameters: ActuatorParameters, speed: FloatArray, current: FloatArray) -> _Powers:
+    """Run the output at steady speeds (P,), rad/s, with currents (P,), A."""
+    ratio = parameters.gear.ratio
     scenes = []
     for at, through in zip(speed, current, strict=True):
         # A positive current turns the motor forwards, and the output by the ratio's sign.
@@ -219,27 +235,87 @@ def efficiency_peak(parameters: ActuatorParameters, points: int = 8) -> Metric:
     efficiency = np.zeros(len(scenes))
     efficiency[driving] = (mechanical / electrical)[driving]
     efficiency[generating] = (electrical / mechanical)[generating]
-    torque = mechanical / speed
-    best = int(np.where(driving, efficiency, 0.0).argmax())
-    back = int(np.where(generating, efficiency, 0.0).argmax())
-    details = {"speed_rpm": float(speed[best]) * RPM, "torque_Nm": float(torque[best])}
-    if generating.any():
+    reached = np.abs(run.current[:, late].mean(axis=1) - current) < 0.02 * np.abs(current)
+    return _Powers(speed, mechanical / speed, efficiency, driving, reached)
+
+
+def efficiency_peak(
+    parameters: ActuatorParameters, voltage: float | None = None, points: int = 8
+) -> Metric:
+    """Steady grid of speed and torque, driving and generating; the peak is of driving.
+
+    Around the best point of the grid a finer one is asked, down to no current at all where the best
+    lies there; beyond the greatest speed and current nothing is, and a best point at them is said
+    to lie on the edge.
+
+    Parameters
+    ----------
+    voltage : float, optional
+        Supply, V; default the actuator's own.
+    """
+    motor, ratio = parameters.motor, parameters.gear.ratio
+    supply = parameters.drive.supply_voltage if voltage is None else voltage
+    supplied = with_voltage(parameters, supply)
+    # At the speed of the voltage itself no current can be driven.
+    top = _HIGHEST_SPEED * supply / motor.torque_constant / abs(ratio)
+    rated = motor.rated_torque if math.isfinite(motor.rated_torque) else 0.3 * motor.peak_torque
+    most = 2.0 * rated / motor.torque_constant if math.isfinite(rated) else math.inf
+    most = min(most, parameters.drive.current_limit, supply / motor.resistance)
+    part = (np.arange(points) + 1.0) / points
+    # A gearbox that holds itself cannot be turned from the output.
+    shares = part if parameters.friction.load_backward >= 1.0 else np.r_[-part[::-1], part]
+    speed, current = (grid.ravel() for grid in np.meshgrid(top * part, most * shares))
+    grid = _powers(supplied, speed, current)
+    best = grid.best
+    finer = np.arange(1 - _FINER, _FINER) / (_FINER * points)
+    near_speed = top * _within(speed[best] / top + finer)
+    near_current = most * _within(current[best] / most + finer)
+    near = _powers(supplied, *(one.ravel() for one in np.meshgrid(near_speed, near_current)))
+    peak = near.best
+    column, row = peak % len(near_speed), peak // len(near_speed)
+    edges = []
+    if near_speed[column] == top:
+        edges.append(f"the greatest speed, {top * RPM:.3g} rpm")
+    if near_current[row] == most:
+        edges.append(f"the greatest current, {most:.3g} A")
+    if row == 0 and near_current[0] < most / points:
+        edges.append(f"the least current, {near_current[0]:.3g} A")
+    details = {
+        "speed_rpm": float(near.speed[peak]) * RPM,
+        "torque_Nm": float(near.torque[peak]),
+        "voltage_V": supply,
+    }
+    back = int(np.where(grid.driving, 0.0, grid.efficiency).argmax())
+    if grid.efficiency[back] > 0.0 and not grid.driving[back]:
         details |= {
-            "generating_peak": float(efficiency[back]),
-            "generating_speed_rpm": float(speed[back]) * RPM,
-            "generating_torque_Nm": float(torque[back]),
+            "generating_peak": float(grid.efficiency[back]),
+            "generating_speed_rpm": float(grid.speed[back]) * RPM,
+            "generating_torque_Nm": float(grid.torque[back]),
         }
     return Metric(
         "efficiency_peak",
-        float(efficiency[best]),
+        float(near.efficiency[peak]),
         "predicted",
-        f"Steady grid of {points} speeds up to {top * RPM:.0f} rpm and {points} currents up to "
-        f"{most:.3g} A in both senses: mean mechanical over mean electrical power at the motor's "
-        "terminals, the inverse where it generates; winding at "
-        f"{motor.reference_temperature:g} deg C.",
+        f"On {supply:g} V, steady grid of {points} speeds up to {top * RPM:.0f} rpm and {points} "
+        f"currents up to {most:.3g} A in both senses, as far as the supply drives them, and finer "
+        "around the best: mean mechanical over mean electrical power at the motor's terminals, the "
+        f"inverse where it generates; winding at {motor.reference_temperature:g} deg C.",
         details=details,
-        trace={"speed [rpm]": speed * RPM, "torque [N m]": torque, "efficiency": efficiency},
+        trace={
+            "speed [rpm]": grid.speed[grid.reached] * RPM,
+            "torque [N m]": grid.torque[grid.reached],
+            "efficiency": grid.efficiency[grid.reached],
+        },
+        remark=f"the best point lies on the edge of the grid: {' and '.join(edges)}"
+        if edges
+        else "",
     )
+
+
+def _within(shares: FloatArray) -> FloatArray:
+    """Shares of a grid's greatest value that lie within it, the one at its end kept."""
+    kept = np.unique(np.minimum(shares, 1.0))
+    return np.asarray(kept[kept > 1e-9])
 
 
 def actuator_inertia(parameters: ActuatorParameters) -> Metric:

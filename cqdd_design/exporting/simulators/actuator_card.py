@@ -158,6 +158,7 @@ def card_markdown(card: Card) -> str:
 def _conventions(card: Card) -> tuple[tuple[str, str], ...]:
     side, n = card.side, f"{card.side.reduction:g}"
     inertia = next(row for row in card.rows if row.key == "motor_side_inertia")
+    effort = next(row for row in card.rows if row.key == "effort_limit")
     sense = "against" if side.crank_sense < 0 else "with"
     return (
         (
@@ -182,6 +183,13 @@ def _conventions(card: Card) -> tuple[tuple[str, str], ...]:
             f"of rotor and crank are {inertia.motor:.6g} x {side.reduction**2:g} = "
             f"{inertia.joint:.6g} kg m^2 at the joint; with {side.output_inertia:.6g} of the "
             f"output side the joint feels {side.reflected_inertia:.6g}.",
+        ),
+        (
+            "effort",
+            "Settings that limit effort, force or torque hold what a stalled output gives after "
+            f"all friction, {effort.joint:.6g} N m, not the {side.peak_torque:.6g} N m of the "
+            "motor's current: friction under load keeps the difference. A client that takes "
+            "Coulomb friction off as well takes its part twice.",
         ),
         (
             "armature",

@@ -32,7 +32,7 @@ import json
 from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.joint_side import joint_side
-from cqdd_design.exporting.simulators.stated import provenance
+from cqdd_design.exporting.simulators.stated import effort_limit, provenance
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
@@ -111,6 +111,7 @@ def bam_document(
             "max_volts_V": drive.supply_voltage,
             "max_amps_A": drive.current_limit,
             "peak_torque_Nm": side.peak_torque,
+            "effort_limit_Nm": effort_limit(parameters),
             "no_load_speed_rad_per_s": side.no_load_speed,
         },
         "_notes": [

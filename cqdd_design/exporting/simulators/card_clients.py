@@ -11,7 +11,7 @@ from importlib import resources
 from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.joint_side import JointSide
-from cqdd_design.exporting.simulators.stated import value_of
+from cqdd_design.exporting.simulators.stated import effort_limit, value_of
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
@@ -32,8 +32,8 @@ class Client:
     missing : str
         What of the card it cannot express.
     settings : mapping
-        Configuration to setting to what it is set to: a field of `JointSide`, ``stribeck``, a
-        dotted name of the parameters, or a number.
+        Configuration to setting to what it is set to: a field of `JointSide`, ``stribeck``,
+        ``effort_limit``, a dotted name of the parameters, or a number.
     """
 
     key: str
@@ -63,7 +63,11 @@ def client_settings(
 
     Values stand at the joint, but for those of `mujoco`'s dcmotor and Drake's rotor inertia.
     """
-    known = {**dataclasses.asdict(side), "stribeck": side.breakaway - side.coulomb}
+    known = {
+        **dataclasses.asdict(side),
+        "stribeck": side.breakaway - side.coulomb,
+        "effort_limit": effort_limit(parameters),
+    }
 
     def value(of: str | float) -> float:
         if isinstance(of, float):

@@ -19,7 +19,7 @@ from cqdd_design.actuator.joint_side import (
     ripple_rms,
 )
 from cqdd_design.catalog.reader import read_rows
-from cqdd_design.exporting.simulators.stated import origin_of, value_of
+from cqdd_design.exporting.simulators.stated import effort_limit, origin_of, value_of
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
@@ -109,6 +109,7 @@ def _worked_out(parameters: ActuatorParameters, side: JointSide) -> dict[str, fl
         "motor_side_inertia": parameters.motor_side_inertia,
         "kinematic_error": parameters.gear.error_rms,
         "ripple": ripple_rms(ripple_harmonics(parameters)),
+        "effort_limit": effort_limit(parameters),
         "delivered_peak_torque": delivered_peak_torque(parameters, side),
         "encoder_step": parameters.drive.encoder_step,
     }

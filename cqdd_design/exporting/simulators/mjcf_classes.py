@@ -21,7 +21,7 @@ from cqdd_design.actuator.joint_side import (
 )
 from cqdd_design.actuator.motor import COPPER_COEFFICIENT
 from cqdd_design.actuator.thermal import single_node
-from cqdd_design.exporting.simulators.stated import provenance
+from cqdd_design.exporting.simulators.stated import effort_limit, provenance
 from cqdd_design.exporting.simulators.xml_text import element, identifier, number, numbers
 
 if TYPE_CHECKING:
@@ -197,7 +197,11 @@ def _motor_attributes(model: MjcfActuator, step: float) -> dict[str, object]:
 
 
 def _torque(model: MjcfActuator) -> dict[str, object]:
-    most = model.parameters.motor.torque_constant * model.parameters.drive.current_limit
+    """Commanded in torque, up to what leaves the bench's stall torque after MuJoCo's friction."""
+    parameters = model.parameters
+    most = parameters.motor.torque_constant * parameters.drive.current_limit
+    stalled = effort_limit(parameters) / model.side.reduction + motor_breakaway(parameters)
+    most = min(most, stalled)
     return {
         "input": "ff",
         "controller": numbers(0.0, 0.0, 0.0, 0.0, 0.0, model.parameters.drive.supply_voltage),
@@ -307,7 +311,8 @@ def remarks(model: MjcfActuator, *, alone: bool) -> list[str]:
         f"speed {number(side.no_load_speed)} rad/s; reflected inertia "
         f"{number(side.reflected_inertia)} kg m^2, all at the joint. On a locked output the "
         f"gearbox's friction under load holds back up to {number(held_back)} N m of the torque "
-        "with the limit, which this file does not.",
+        "with the limit, which this file does not: the range of a commanded torque ends where the "
+        f"output gives {number(effort_limit(parameters))} N m, what it gives stalled.",
         "",
         _ripple_remark(model),
         "",

@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from cqdd_design import __version__
 from cqdd_design.actuator.parameters import ActuatorParameters
 
 DEAD_MASS = 1e-3
 """kg for the output body of a model, as clients refuse zero; its mass is in the housing's. Without
 effect, since its centre lies on the axis."""
+
+
+@lru_cache(maxsize=16)
+def effort_limit(parameters: ActuatorParameters) -> float:
+    """What the output gives at most, N m: the bench's stall torque, after friction.
+
+    K I n promises a policy torque that friction under load keeps in the gearbox.
+    """
+    # Here because the simulation's kernels load with it.
+    from cqdd_design.actuator.bench.steady import stall_torque
+
+    return stall_torque(parameters).value
 
 
 def value_of(parameters: ActuatorParameters, name: str) -> float:

@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.joint_side import JointSide, joint_side
-from cqdd_design.exporting.simulators.stated import DEAD_MASS, provenance
+from cqdd_design.exporting.simulators.stated import DEAD_MASS, effort_limit, provenance
 from cqdd_design.exporting.simulators.xml_text import comment, element, identifier, number
 from cqdd_design.files import WrittenFile, write_atomically
 
@@ -44,7 +44,7 @@ def urdf_text(
         element("parent", {"link": "housing"}),
         element("child", {"link": "output"}),
         element("axis", {"xyz": "0 0 1"}),
-        element("limit", {"effort": side.peak_torque, "velocity": side.no_load_speed}),
+        element("limit", {"effort": effort_limit(parameters), "velocity": side.no_load_speed}),
         element("dynamics", {"damping": side.viscous, "friction": side.coulomb}),
     )
     return (
@@ -119,10 +119,12 @@ def _remarks(
         f"{number(parameters.gear.ratio)}, so the crank turns {sense} the joint, and the drive's "
         "wiring makes up for it.",
         "",
-        "limit: effort is the motor's torque at the drive's current limit times the reduction, "
-        f"without losses; it holds up to {number(side.corner_speed)} rad/s at "
+        "limit: effort is what the stalled output gives at the drive's current limit after all "
+        f"friction, of {number(side.peak_torque)} N m without losses. The current holds up to "
+        f"{number(side.corner_speed)} rad/s at "
         f"{number(parameters.drive.supply_voltage)} V and falls to none at velocity, the no-load "
-        "speed with friction. URDF cannot say so.",
+        "speed with friction. URDF cannot say so. A client that takes off dynamics' friction as "
+        f"well takes its {number(side.coulomb)} N m twice.",
         "",
         "dynamics: Coulomb and viscous friction of both sides at the joint. Not here, because URDF "
         f"has no place for it: breakaway of {number(side.breakaway)} N m, friction that grows with "

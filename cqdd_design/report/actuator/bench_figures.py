@@ -154,7 +154,8 @@ def _backlash(metric: Metric) -> list[Figure]:
         caption += f" Shaded: {reading} in which the output stands, the dial's threshold taken off."
     closed = finite(metric.details, "dead_zone_arcmin")
     if closed is not None:
-        caption += f" The dead zone of the gearbox is {significant(closed, 3)} arcmin."
+        whose = "perfect parts" if "perfect_parts_arcmin" in metric.details else "the gearbox"
+        caption += f" The dead zone of {whose} is {significant(closed, 3)} arcmin."
     words = Words(
         "backlash-loop",
         "Backlash",

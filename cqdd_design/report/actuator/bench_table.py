@@ -71,7 +71,7 @@ def bench_view(parameters: ActuatorParameters, bench: BenchResult, *, pin_count:
     """
     lead = (
         f"{len(bench.metrics)} measurements on the simulation of the actuator, each by the "
-        "protocol a laboratory would use; no-load speed and position bandwidths on "
+        "protocol a laboratory would use; no-load speed, efficiency and position bandwidths on "
         f"{with_unit(bench.voltage, 'V')}, all else on "
         f"{with_unit(parameters.drive.supply_voltage, 'V')}."
     )
@@ -98,8 +98,8 @@ def bench_row(metric: Metric, bench: BenchResult, *, holds: bool = False) -> Val
     `holds` tells that the output cannot turn the gearbox.
     """
     protocol = prose(metric.protocol)
-    if metric.remark:
-        protocol += " " + prose(_sentence(metric.remark))
+    for told in (metric.remark, metric.missing):
+        protocol += " " + prose(_sentence(told)) if told else ""
     if holds and metric.name in BACKDRIVEN:
         metric = dataclasses.replace(metric, value=math.nan, spread=None)
         protocol += " The gearbox holds itself: the output does not turn it."
