@@ -16,8 +16,9 @@ from cqdd_design.machine.carrying import carried_torque
 from cqdd_design.roads.bench import drawn_actuators
 from cqdd_design.roads.telling import Progress, silent
 
-#: The rows that the unknowns of the paper's actuator are fitted to.
-PAPER_ROWS = ("continuous_torque", "backdrive_static", "efficiency_peak")
+#: The rows that the unknowns of the paper's actuator are fitted to: its cooling and its cogging.
+#: With the motor's measured drag no friction of a gearbox, not even none, gives its efficiency.
+PAPER_ROWS = ("continuous_torque", "backdrive_static")
 
 
 def calibrate(
@@ -37,7 +38,7 @@ def calibrate(
     ----------
     measured : mapping of str to float, optional
         Measurements in the bench's units; default the paper's, of its own actuator only, fitted
-        to continuous torque, static backdrive torque and efficiency.
+        to continuous torque and static backdrive torque.
     specimen : Specimen
         Its motor and its gearbox.
     to, unknowns : tuple of str
