@@ -28,7 +28,7 @@ from cqdd_design.gearbox import (
 from cqdd_design.gearbox.balance import paper_disc_count, stack_balance
 from cqdd_design.gearbox.bearing_life import basic_rating_life_hours, load_for_life
 from cqdd_design.gearbox.cam_bearing import choose
-from cqdd_design.gearbox.checks import allowables, guide_bodies
+from cqdd_design.gearbox.checks import allowables, guide_bodies, guide_heat
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.geometry.cycloid import CycloidDisc
