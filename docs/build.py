@@ -9,6 +9,8 @@
 * ``contact-model.md``: its validations and its comparison with the paper, between their markers.
 * ``actuator-model.md``: its validations and the calibrated table, between their markers.
 * ``images/*.svg``: the figures of the pages on theory and models, from the code's own results.
+* ``measured.md``: measurements of hardware beside predictions, between its markers; what is read
+  off records is left as it is where there are none (``../shared/data/measured``).
 * ``assumptions.md``: every allowable, between its markers.
 """
 
@@ -126,6 +128,7 @@ def _actuator_validated() -> str:
 
 def _calibrated() -> str:
     """Every row of the bench before and after calibration, beside the paper's."""
+    from cqdd_design.actuator.bench.unknowns import UNKNOWNS
     from cqdd_design.design import load_design
     from cqdd_design.roads.calibrate import calibrate
 
@@ -142,7 +145,11 @@ def _calibrated() -> str:
             f"| `{row.name}` | {row.unit} | {measured} | {row.before:.3g} | {row.after:.3g} "
             f"| {off} | {row.relation} |"
         )
-    factors = ", ".join(f"`{name}` times {factor:.2g}" for name, factor in found.factors.items())
+    factors = ", ".join(
+        f"`{name}` {UNKNOWNS[name].told(value)}"
+        + (" (at an end of its range)" if name in found.at_an_end else "")
+        for name, value in found.factors.items()
+    )
     good = ", ".join(f"`{row.name}`" for row in found.within)
     told = (
         f"Fitted: {factors}. Within 20 % of the {len(found.predicted)} predicted rows: {good}; "
@@ -300,6 +307,43 @@ def _with_tables(page_name: str, tables: Mapping[str, Callable[[], str]]) -> str
     return page
 
 
+def _published(group: str) -> list[Any]:
+    """What a run of tests/published computed for the rows of a group."""
+    rows = _records(
+        "published", "published/test_losses_published.py", "published/test_film_published.py"
+    )
+    return [row for row in rows if row[0]["group"] == group]
+
+
+def measured_page() -> str:
+    """measured.md with its tables as records, bench and tests give them now."""
+    import measured
+
+    tables = {
+        "paper": measured.paper_table,
+        "records": measured.read_table,
+        "loops": measured.loop_table,
+        "friction": measured.friction_table,
+        "parts": measured.parts_table,
+        "published": lambda: measured.published_table(_published("efficiency by films")),
+    }
+    if not measured.RECORDS.is_dir():
+        for name in ("records", "loops", "friction"):
+            del tables[name]
+        print("measured.md: what was read off the records is not compared, they are not there")
+    return _with_tables("measured.md", tables)
+
+
+def _measured_loops() -> str:
+    """The figure of measured.md; as it is where there are no records."""
+    import measured
+
+    if measured.RECORDS.is_dir():
+        return _figure("locked", "loaded")
+    print("images/measured-loops.svg is not compared, the records are not there")
+    return (DOCS / "images" / "measured-loops.svg").read_text(encoding="utf-8")
+
+
 def _figure(chapter: str, name: str) -> str:
     """A figure of a page as a file."""
     from figures.sheet import sheet
@@ -320,6 +364,8 @@ PAGES = {
     "images/contact-error.svg": lambda: _figure("contact", "error"),
     "images/actuator-scheme.svg": lambda: _figure("actuator", "scheme"),
     "images/actuator-position.svg": lambda: _figure("actuator", "position"),
+    "images/measured-loops.svg": _measured_loops,
+    "measured.md": measured_page,
     "assumptions.md": assumptions_page,
 }
 

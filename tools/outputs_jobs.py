@@ -211,7 +211,7 @@ def _variants() -> list[Job]:
             (
                 "rig",
                 "calibrate|DESIGN|--measured|measured.csv|--to|backdrive_static"
-                "|--unknowns|friction_level|--out|cal.json|--json",
+                "|--unknowns|motor_cogging|--out|cal.json|--json",
             ),
             ("then-bench", "bench|DESIGN|--calibration|cal.json|--only|no_load_speed|--json"),
             ("then-simulate", "simulate|DESIGN|--calibration|cal.json|--duration|0.1 s|--json"),

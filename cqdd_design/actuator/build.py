@@ -9,6 +9,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
 
 from cqdd_design.actuator.bench.unknowns import apply_factors
 from cqdd_design.actuator.parameters import (
@@ -21,26 +24,31 @@ from cqdd_design.actuator.parameters import (
 )
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.actuator.transmission import Transmission, transmission
-from cqdd_design.catalog.motors import Motor
+from cqdd_design.catalog.motors import DRAG, Motor
 from cqdd_design.design import Design
-from cqdd_design.errors import DesignError
+from cqdd_design.errors import DesignError, GeometryError
 from cqdd_design.gearbox.losses import LossModel
 from cqdd_design.gearbox.losses.model import SENSES
 from cqdd_design.machine import Machine
-from cqdd_design.solids.inertia import GROUPS, ROTOR, GearboxInertia
+from cqdd_design.machine.temperatures import cooled_network, two_nodes
+from cqdd_design.machine.thermal_parts import COPPER_HEAT, WINDING_SHARE
+from cqdd_design.solids.inertia import GROUPS, ROTOR_SCOPE, GearboxInertia
 
 ELECTRICAL_TIME = 1e-3
 """L/R where the catalogue has no inductance, s: common for large flat motors."""
 POLE_PAIRS = 21
+PERIODS_PER_POLE_PAIR = 12
+"""Of cogging in a turn, where the catalogue has no slots: lcm of 6 k slots and 7 k poles."""
 ROTOR_SHARE, ROTOR_RADIUS_SHARE = 0.3, 0.95
 """Rotor of an unknown motor: a ring of this share of its mass at this share of its radius."""
-WINDING_SHARE, COPPER_HEAT, METAL_HEAT = 0.15, 385.0, 600.0
-"""Copper's share of a motor's mass; specific heats of copper, and of steel with aluminium,
-J/(kg K)."""
+METAL_HEAT = 600.0
+"""Specific heat of steel with aluminium, J/(kg K)."""
 WINDING_RESISTANCE_SHARE = 1.0 / 3.0
 """Of the whole thermal resistance, between winding and housing."""
 STRIBECK_SPEED = 2.0
-"""Motor speed by which breakaway has fallen off, rad/s."""
+"""Motor speed by which breakaway has fallen off where friction is stated as coefficients, rad/s."""
+_SPEEDS = 64
+"""Between rest and the input speed, over which a Stribeck curve follows that of the films."""
 DAMPING_RATIO = 0.03
 """Of the motor swinging on the gearbox's stiffness: greased steel joints, 0.01 to 0.05."""
 
@@ -78,13 +86,19 @@ def actuator_parameters(
         When the motor's data do not make a machine, a limit can never bind, or the gearbox has no
         equilibrium or no solids.
     """
-    design, motor_row, inertia = machine.design, machine.motor, machine.inertia
+    design, inertia = machine.design, machine.inertia
     motor, drive, origins = motor_and_drive(machine, specimen, supply_voltage=supply_voltage)
     torque = design.requirements.continuous_torque
     found = transmission(machine.contact, design, torque, seed=specimen.seed)
     split = _split(inertia)
     gear = _gear(design, found, split, motor.rotor_inertia, specimen.seed, origins)
-    friction = friction_parameters(machine.losses, torque, design.requirements.input_speed)
+    friction = friction_parameters(
+        machine.losses,
+        torque,
+        design.requirements.input_speed,
+        drag=motor.dry_drag,
+        cogging=motor.cogging_amplitude,
+    )
     for name in ("motor_coulomb", "output_coulomb", "load_forward", "load_backward"):
         origins[f"friction.{name}"] = (
             f"computed: losses of the gearbox at {torque:g} N m, and its backdrive torque"
@@ -95,10 +109,14 @@ def actuator_parameters(
             f"computed: drag of bearings and grease up to {speed:.4g} rad/s"
         )
     origins["friction.stribeck_extra"] = "computed: static over dynamic backdrive torque"
-    origins["friction.stribeck_speed"] = f"assumed: {STRIBECK_SPEED:g} rad/s of the motor"
+    origins["friction.stribeck_speed"] = (
+        f"assumed: {STRIBECK_SPEED:g} rad/s of the motor"
+        if machine.losses.film is None
+        else f"computed: nearest to the films' friction up to {speed:.4g} rad/s"
+    )
     origins["friction.bristle_deflection"] = "assumed"
     origins["friction.bristle_damping"] = "assumed: none"
-    thermal = _thermal(design, motor_row, inertia.mass, origins)
+    thermal = _thermal(machine, origins)
     origins["mass"] = f"computed: solids in closed form; {inertia.mass_scope}"
     origins["gear.output_inertia"] = "computed: solids in closed form"
     origins["gear.input_inertia"] = f"computed: solids in closed form; {inertia.crank_scope}"
@@ -128,7 +146,6 @@ def motor_and_drive(
     origins: dict[str, str] = {}
     motor = _motor(machine.motor, machine.inertia, origins)
     if specimen.motor is not None:
-        motor = specimen.motor.parameters(motor)
         origins |= specimen.motor.origins()
     return motor, _drive(machine.design, motor, supply_voltage, origins), origins
 
@@ -162,23 +179,21 @@ def _motor(row: Motor, inertia: GearboxInertia, origins: dict[str, str]) -> Moto
     assert row.line_resistance is not None
     constant, resistance = row.torque_constant, row.line_resistance
     by_speed = "1/KV in SI" if row.speed_constant else "as printed"
-    origins["motor.torque_constant"] = f"catalogue: {row.name}, {by_speed}"
-    origins["motor.resistance"] = f"catalogue: {row.name}, line to line"
+    constant_told = row.told_by("speed_constant" if row.speed_constant else "")
+    origins["motor.torque_constant"] = f"catalogue: {constant_told}, {by_speed}"
+    origins["motor.resistance"] = f"catalogue: {row.told_by('line_resistance')}, line to line"
     inductance, pairs = row.line_inductance, row.pole_pairs
-    origins["motor.inductance"] = f"catalogue: {row.name}, line to line"
+    origins["motor.inductance"] = f"catalogue: {row.told_by('line_inductance')}, line to line"
     if inductance is None:
         inductance = ELECTRICAL_TIME * resistance
         origins["motor.inductance"] = f"assumed: L/R of {1e3 * ELECTRICAL_TIME:g} ms"
-    origins["motor.pole_pairs"] = f"catalogue: {row.name}"
+    origins["motor.pole_pairs"] = f"catalogue: {row.told_by('pole_pairs')}"
     if pairs is None:
         pairs = POLE_PAIRS
         origins["motor.pole_pairs"] = "assumed"
-    for key in ("cogging_amplitude", "iron_loss", "hysteresis"):
-        origins[f"motor.{key}"] = "assumed: 0, the catalogue gives none"
-    origins["motor.cogging_order"] = "assumed: without effect, there is no cogging"
     origins["motor.reference_temperature"] = "assumed: the catalogue's values hold at 25 deg C"
     for key, value in (("rated_torque", row.rated_torque), ("peak_torque", row.peak_torque)):
-        origins[f"motor.{key}"] = f"catalogue: {row.name}" if value else "missing"
+        origins[f"motor.{key}"] = f"catalogue: {row.told_by(key)}" if value else "missing"
     return MotorParameters(
         torque_constant=constant,
         resistance=resistance,
@@ -187,16 +202,41 @@ def _motor(row: Motor, inertia: GearboxInertia, origins: dict[str, str]) -> Moto
         pole_pairs=pairs,
         rated_torque=row.rated_torque or math.nan,
         peak_torque=row.peak_torque or math.nan,
+        **_drag(row, pairs, origins),
     )
 
 
+def _drag(row: Motor, pole_pairs: int, origins: dict[str, str]) -> dict[str, Any]:
+    """What the motor alone takes to turn, and its cogging; 0 where the catalogue gives none."""
+    found: dict[str, Any] = {}
+    for key in (*DRAG, "cogging_amplitude"):
+        value = getattr(row, key)
+        source = row.drag_source if key in DRAG else row.cogging_source
+        found[key] = value or 0.0
+        origins[f"motor.{key}"] = (
+            "assumed: 0, the catalogue gives none"
+            if value is None
+            else f"catalogue: {row.told_by(key)}; {source}"
+        )
+    if row.cogging_order is None:
+        found["cogging_order"] = PERIODS_PER_POLE_PAIR * pole_pairs
+        origins["motor.cogging_order"] = (
+            f"assumed: {PERIODS_PER_POLE_PAIR} for each pole pair, as with 6 slots on 7 poles"
+        )
+    else:
+        found["cogging_order"] = row.cogging_order
+        origins["motor.cogging_order"] = f"catalogue: {row.told_by('cogging_order')}"
+    return found
+
+
 def _rotor_inertia(row: Motor, inertia: GearboxInertia, origins: dict[str, str]) -> float:
-    drawn = sum(part.reflected for part in inertia.parts if part.name == ROTOR)
+    drawn = inertia.rotor_drawn
     if row.rotor_inertia is not None:
-        origins["motor.rotor_inertia"] = f"catalogue: {row.name}"
+        told = row.told_by("rotor_inertia")
+        origins["motor.rotor_inertia"] = f"catalogue: {told}, {ROTOR_SCOPE}"
         return row.rotor_inertia
     if drawn > 0.0:
-        origins["motor.rotor_inertia"] = "computed: solid of the rotor"
+        origins["motor.rotor_inertia"] = f"computed: solids of the rotor, {ROTOR_SCOPE}"
         return drawn
     if row.mass is None or row.outer_diameter is None:
         raise DesignError(
@@ -276,8 +316,15 @@ def _gear(
     )
 
 
-def friction_parameters(losses: LossModel, torque: float, input_speed: float) -> FrictionParameters:
-    """Friction with the efficiencies and the backdrive torques of a loss model.
+def friction_parameters(
+    losses: LossModel,
+    torque: float,
+    input_speed: float,
+    *,
+    drag: float = 0.0,
+    cogging: float = 0.0,
+) -> FrictionParameters:
+    """Friction of the gearbox with the efficiencies and the backdrive torques of a loss model.
 
     Parameters
     ----------
@@ -285,19 +332,27 @@ def friction_parameters(losses: LossModel, torque: float, input_speed: float) ->
         At which efficiency is kept in both directions, N m.
     input_speed : float
         Up to which the viscous part stands for the drag, rad/s.
+    drag, cogging : float
+        Of the motor that the output turns with the gearbox, N m at its shaft; no part of what is
+        returned.
 
     Notes
     -----
     The loss torque at the output is ``c + mu T``: mu from the Coulomb work at the torque, of its
-    own while the motor drives and while the output does, c such
-    that the slow dynamic backdrive torque ``c/(1 - mu)`` is that of the loss model, which knows
-    that the first loads are carried by fewer teeth. The static one, ``(1 + x) c/(1 - (1 + x) mu)``,
-    gives the Stribeck share x. Where friction holds any torque, c is the drag itself.
+    own while the motor drives and while the output does. Of c the part o at the output is its
+    drag, the rest m and the motor's drag D are behind the friction under load, so that the slow
+    dynamic backdrive torque is ``o + (m + D)/(1 - mu)``; m is such that it is that of the loss
+    model, which knows that the first loads are carried by fewer teeth, and not below zero, where
+    mu alone says too much. The static one has all friction times r, 1 and Stribeck's share, and
+    the cogging C beside D, which gives r. Where friction holds any torque, m is the drag itself.
+
+    Where friction follows from films, mu and the dynamic torque are those of the films at the input
+    speed, the static one is that of none, and the Stribeck speed is fitted to what lies between.
     """
     machine, n = losses.machine, losses.machine.lobe_count
     loads = []
     for sense in SENSES:
-        loaded, none = losses.coulomb_work([torque, 0.0], sense).sum(axis=-1)
+        loaded, none = losses.coulomb_work([torque, 0.0], sense, input_speed).sum(axis=-1)
         loads.append(n * float(loaded - none) / torque)
     forward, load = loads
     slow, fast = machine.drag(0.0), machine.drag(input_speed)
@@ -306,46 +361,89 @@ def friction_parameters(losses: LossModel, torque: float, input_speed: float) ->
     motor = sum(float(v) for k, v in slow.items() if k != "output_bearing") + preload
     motor_rise = sum(float(fast[k] - slow[k]) for k in slow if k != "output_bearing")
     output_rise = float(fast["output_bearing"] - slow["output_bearing"]) * n
-    found = losses.backdrive()
-    constant = motor * n + output
-    scale, extra = 1.0, found.static_ratio - 1.0
-    if found.dynamic_torque and load < 1.0 and constant > 0.0:
-        wanted = found.dynamic_torque * (1.0 - load)
-        scale = wanted / constant
+    turned, climbed = n * drag, n * (drag + cogging)
+    found = losses.backdrive(
+        film_speed=input_speed, shaft_running=drag, shaft_resting=drag + cogging
+    )
+    extra = found.static_ratio - 1.0
+    if found.dynamic_torque and load < 1.0:
+        motor = max((found.dynamic_torque - output) * (1.0 - load) - turned, 0.0) / n
         if found.static_torque:
-            share = found.static_torque / (wanted + found.static_torque * load)
-            extra = max(share - 1.0, 0.0)
+            linear = output + n * motor + found.static_torque * load
+            left = found.static_torque - climbed
+            root = math.sqrt(max(linear**2 - 4.0 * output * load * left, 0.0))
+            extra = max(2.0 * left / (linear + root) - 1.0, 0.0)
     return FrictionParameters(
-        motor_coulomb=scale * motor,
-        output_coulomb=scale * output,
+        motor_coulomb=motor,
+        output_coulomb=output,
         motor_viscous=motor_rise / input_speed,
         output_viscous=output_rise / (input_speed / n),
         stribeck_extra=extra,
-        stribeck_speed=STRIBECK_SPEED,
+        stribeck_speed=_stribeck_speed(losses, torque, input_speed),
         load_forward=forward,
         load_backward=load,
     )
 
 
-def _thermal(design: Design, row: Motor, mass: float, origins: dict[str, str]) -> ThermalParameters:
+def _stribeck_speed(losses: LossModel, torque: float, input_speed: float) -> float:
+    """Speed of the motor whose exp(-(w/w_s)^2) is nearest to how the films' friction falls, rad/s.
+
+    By least squares over the speeds from rest to the input speed, at a torque (N m).
+    """
+    if losses.film is None:
+        return STRIBECK_SPEED
+    speed = np.linspace(0.0, input_speed, _SPEEDS)
+    work = np.array([losses.coulomb_work(torque, "drive", float(w)).sum() for w in speed])
+    fall = work[0] - work[-1]
+    if fall <= 0.0:
+        return STRIBECK_SPEED
+    left = (work - work[-1]) / fall
+    tried = input_speed * np.geomspace(1e-3, 1.0, 601)
+    off = np.exp(-((speed / tried[:, None]) ** 2)) - left
+    return float(tried[np.argmin(np.sum(off**2, axis=1))])
+
+
+def _thermal(machine: Machine, origins: dict[str, str]) -> ThermalParameters:
+    """Winding and housing of the machine's thermal network; by shares where it has none."""
+    design, row = machine.design, machine.motor
+    given = "drive.thermal_resistance" not in machine.given.assumed
+    origins["thermal.ambient"] = "design: environment.ambient"
+    for key in ("derating_begins", "most"):
+        origins[f"thermal.{key}"] = "assumed"
+    try:
+        found = two_nodes(cooled_network(machine))
+    except (DesignError, GeometryError) as error:
+        return _thermal_by_shares(design, row, machine.inertia.mass, given, error.message, origins)
+    way = "drive.thermal_resistance (design)" if given else "still air round the drawn parts"
+    for key in ("winding_to_housing", "housing_to_ambient"):
+        origins[f"thermal.{key}"] = f"computed: thermal network of the parts, {way}"
+    for key in ("winding_capacity", "housing_capacity"):
+        origins[f"thermal.{key}"] = "computed: thermal network of the parts"
+    return ThermalParameters(**found._asdict(), ambient=design.environment.ambient)
+
+
+def _thermal_by_shares(
+    design: Design, row: Motor, mass: float, given: bool, why: str, origins: dict[str, str]
+) -> ThermalParameters:
     whole = design.drive.thermal_resistance
     motor_mass = row.mass if row.mass is not None else 0.4 * mass
     winding = WINDING_SHARE * motor_mass
     share = WINDING_RESISTANCE_SHARE
-    given = "design" if "drive.thermal_resistance" not in design.assumed else "default"
+    said = "design" if given else "default"
     for key in ("winding_to_housing", "housing_to_ambient"):
-        origins[f"thermal.{key}"] = f"assumed: drive.thermal_resistance ({given}) split 1 to 2"
+        origins[f"thermal.{key}"] = (
+            f"assumed: drive.thermal_resistance ({said}) split 1 to 2; {why.rstrip('.')}"
+        )
     origins["thermal.winding_capacity"] = (
         f"assumed: copper of {100.0 * WINDING_SHARE:g} % of the motor's mass"
     )
     origins["thermal.housing_capacity"] = (
         f"assumed: the rest of the mass at {METAL_HEAT:g} J/(kg K)"
     )
-    for key in ("ambient", "derating_begins", "most"):
-        origins[f"thermal.{key}"] = "assumed"
     return ThermalParameters(
         winding_to_housing=share * whole,
         housing_to_ambient=(1.0 - share) * whole,
         winding_capacity=winding * COPPER_HEAT,
         housing_capacity=max(mass - winding, 0.5 * mass) * METAL_HEAT,
+        ambient=design.environment.ambient,
     )

@@ -37,8 +37,9 @@ class Constants(NamedTuple):
     held_current: float
     derating_begins: float
     derating_span: float
-    # Friction.
+    # Friction: of the gearbox, of the motor alone, and what drags on both together over speed.
     motor_coulomb: float
+    motor_dry: float
     output_coulomb: float
     motor_viscous: float
     output_viscous: float

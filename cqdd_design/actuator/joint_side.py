@@ -61,7 +61,7 @@ class JointSide:
     coulomb, breakaway : float
         Friction of both sides in motion and at rest, no load, N m.
     viscous : float
-        Of both sides, iron loss included, N m s/rad.
+        Of both sides, the motor's own drag included, N m s/rad.
     stribeck_speed : float
         Of the joint, rad/s.
     """
@@ -128,19 +128,50 @@ def idle_speed(parameters: ActuatorParameters, temperature: float) -> float:
 
 
 def motor_coulomb(parameters: ActuatorParameters) -> float:
-    """Friction at the motor independent of speed and load, magnetic hysteresis included, N m."""
-    return parameters.friction.motor_coulomb + parameters.motor.hysteresis
+    """Friction at the motor independent of speed and load, the motor's own included, N m."""
+    return parameters.friction.motor_coulomb + parameters.motor.dry_drag
 
 
 def motor_breakaway(parameters: ActuatorParameters) -> float:
-    """Friction at the motor before it moves, N m; hysteresis has no Stribeck effect."""
+    """Friction at the motor before it moves, N m; the motor's own drag has no Stribeck effect.
+
+    Cogging holds the motor too, but gives back what it takes: `backdrive_static` counts it.
+    """
     friction = parameters.friction
-    return friction.motor_coulomb * (1.0 + friction.stribeck_extra) + parameters.motor.hysteresis
+    return friction.motor_coulomb * (1.0 + friction.stribeck_extra) + parameters.motor.dry_drag
 
 
 def motor_viscous(parameters: ActuatorParameters) -> float:
-    """Drag over speed at the motor, eddy currents included, N m s/rad."""
-    return parameters.friction.motor_viscous + parameters.motor.iron_loss
+    """Drag over speed at the motor, its own included, N m s/rad."""
+    return parameters.friction.motor_viscous + parameters.motor.drag_slope
+
+
+def backdrive_static(parameters: ActuatorParameters) -> float:
+    """Torque on the output that makes the resting actuator turn, phases open, N m.
+
+    Friction of both sides at rest, the motor's drag, and the cogging that has to be climbed; inf
+    where friction under load holds any torque.
+    """
+    friction, n = parameters.friction, abs(parameters.gear.ratio)
+    rise = 1.0 + friction.stribeck_extra
+    at_motor = motor_breakaway(parameters) + parameters.motor.cogging_amplitude
+    passed = 1.0 - friction.load_backward * rise
+    if passed <= 0.0:
+        return math.inf
+    return n * at_motor / passed + friction.output_coulomb * rise
+
+
+def backdrive_dynamic(parameters: ActuatorParameters, speed: float = 0.0) -> float:
+    """Torque on the output that keeps the actuator turning at a speed (rad/s), phases open, N m.
+
+    Cogging takes and gives; inf where friction under load holds any torque.
+    """
+    friction, n = parameters.friction, abs(parameters.gear.ratio)
+    at_motor = motor_coulomb(parameters) + motor_viscous(parameters) * n * abs(speed)
+    passed = 1.0 - friction.load_backward
+    if passed <= 0.0:
+        return math.inf
+    return n * at_motor / passed + friction.output_coulomb + friction.output_viscous * abs(speed)
 
 
 def delivered_peak_torque(parameters: ActuatorParameters, side: JointSide) -> float:

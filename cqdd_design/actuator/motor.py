@@ -17,24 +17,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.actuator.parameters import DriveParameters, FloatArray, MotorParameters
+from cqdd_design.catalog.motors import CONVENTIONS
 from cqdd_design.errors import DesignError
+from cqdd_design.gearbox.heat.joints import COPPER_COEFFICIENT as COPPER_COEFFICIENT
 
-COPPER_COEFFICIENT = 0.0039
-"""Rise of copper's resistance per kelvin, at 25 deg C."""
 MAGNET_COEFFICIENT = 0.0011
 """Fall of the flux of NdFeB per kelvin (remanence of common grades: 0.09 to 0.12 % a kelvin)."""
-
-
-CONVENTIONS: dict[str, float] = {
-    "dc": 1.0,
-    "torque_per_peak": 0.5 * math.sqrt(3.0),
-    "torque_per_rms": math.sqrt(1.5),
-    "emf_line_peak": 1.0,
-    "emf_line_rms": math.sqrt(0.5),
-    "emf_phase_peak": math.sqrt(1.0 / 3.0),
-    "emf_phase_rms": math.sqrt(1.0 / 6.0),
-}
-"""The constant of every convention over K: six-step DC or sinusoidal current, peak or r.m.s."""
 
 
 def motor_constants(torque_constant: float) -> dict[str, float]:
@@ -85,9 +73,9 @@ def torque_constant_at(motor: MotorParameters, temperature: ArrayLike) -> FloatA
 
 
 def iron_drag(motor: MotorParameters, speed: ArrayLike) -> FloatArray:
-    """Drag torque of eddy currents and hysteresis at motor speeds (rad/s), with their sign, N m."""
+    """The motor's own drag torque at motor speeds (rad/s), with their sign, N m; no cogging."""
     w = np.asarray(speed, dtype=float)
-    return np.asarray(motor.iron_loss * w + motor.hysteresis * np.sign(w))
+    return np.asarray(motor.drag_slope * w + motor.dry_drag * np.sign(w))
 
 
 def no_load_speed(
@@ -106,15 +94,15 @@ def no_load_speed(
     """
     resistance = float(resistance_at(motor, temperature))
     constant = float(torque_constant_at(motor, temperature))
-    driving = constant * abs(voltage) / resistance - motor.hysteresis - drag
-    speed = driving / (constant**2 / resistance + motor.iron_loss + viscous)
+    driving = constant * abs(voltage) / resistance - motor.dry_drag - drag
+    speed = driving / (constant**2 / resistance + motor.drag_slope + viscous)
     return math.copysign(max(speed, 0.0), voltage)
 
 
 def greatest_torque(
     motor: MotorParameters, drive: DriveParameters, speed: ArrayLike, temperature: float
 ) -> FloatArray:
-    """Greatest shaft torque (S,) at motor speeds (S,), rad/s, N m; iron losses are taken off.
+    """Greatest shaft torque (S,) at motor speeds (S,), rad/s, N m; its own drag is taken off.
 
     Winding and magnets are equally warm (deg C). The current lies within the driver's limit and
     what the supply drives against the EMF. Where the EMF drives more than the limit through the

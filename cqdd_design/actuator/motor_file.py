@@ -7,8 +7,10 @@ What the file leaves out is that of the design's catalogue motor::
     convention = "torque_per_peak"       # of the torque constant; default "dc"
     resistance = "71.5 mohm"
     measured_between = "phase"           # or "line", the default: resistance and inductance
-    cogging_amplitude = "0.02 N*m"
-    cogging_order = 252
+    coulomb = "0.1 N*m"                  # what the motor alone takes to turn, at its shaft
+    viscous = "8.5e-4 N*m*s/rad"
+    cogging_amplitude = "0.055 N*m"      # half of peak to peak
+    cogging_order = 252                  # periods in a turn: lcm of slots and poles
 """
 
 from __future__ import annotations
@@ -21,9 +23,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from cqdd_design.actuator.motor import CONVENTIONS, torque_constant_from
-from cqdd_design.actuator.parameters import MotorParameters
-from cqdd_design.catalog.motors import Motor
+from cqdd_design.actuator.motor import torque_constant_from
+from cqdd_design.catalog.motors import CONVENTIONS, DRAG, Motor
 from cqdd_design.errors import DesignError, did_you_mean, is_unprintable, shown
 from cqdd_design.files import parse_toml, read_text_file
 from cqdd_design.units import (
@@ -55,6 +56,8 @@ QUANTITIES: Mapping[str, tuple[Dimension, bool]] = MappingProxyType(
         "rated_torque": (TORQUE, False),
         "peak_torque": (TORQUE, False),
         "rated_current": (CURRENT, False),
+        "coulomb": (TORQUE, True),
+        "viscous": (DAMPING_GAIN, True),
         "cogging_amplitude": (TORQUE, True),
         "hysteresis": (TORQUE, True),
         "iron_loss": (DAMPING_GAIN, True),
@@ -74,8 +77,8 @@ _OF_ROW = {
     "peak_torque": "peak_torque",
     "rated_current": "rated_current",
     "pole_pairs": "pole_pairs",
+    **{key: key for key in (*DRAG, "cogging_amplitude", "cogging_order")},
 }
-_OF_PARAMETERS = ("cogging_amplitude", "cogging_order", "hysteresis", "iron_loss")
 
 
 @dataclass(frozen=True)
@@ -104,31 +107,44 @@ class MotorFile:
         }
         source = f"motor file {self.place}, over the catalogue's {catalogue.name}"
         given: dict[str, Any] = {**told, "name": self.name, "source": source}
-        if "rotor_inertia" in told:
-            # The catalogue's remarks are on an estimate of it.
-            given["note"] = ""
+        if told.keys() & set(DRAG):
+            # Whoever measured the drag measured all of it: the catalogue's part comes not on top.
+            given |= {key: told.get(key, 0.0) for key in DRAG}
+            given["drag_source"] = source
+        kept = [name for name in catalogue.taken_over.split() if name not in given]
+        given["taken_over"] = " ".join(kept)
         # A file with the electrical data is that of a bare motor.
         if {"speed_constant", "line_resistance"} <= set(told):
             given["torque_at"] = "motor"
-        return dataclasses.replace(catalogue, **given)
-
-    def parameters(self, motor: MotorParameters) -> MotorParameters:
-        """The motor with what no catalogue has."""
-        told: dict[str, Any] = {
-            key: int(value) if key in WHOLE else value
-            for key, value in self.values.items()
-            if key in _OF_PARAMETERS
-        }
-        return dataclasses.replace(motor, **told)
+        found = dataclasses.replace(catalogue, **given)
+        _refuse_heavy_rotor(found, self.place)
+        return found
 
     def origins(self) -> dict[str, str]:
         """Where each value comes from, by its dotted name in `ActuatorParameters`."""
         names = {"speed_constant": "torque_constant"}
-        return {
+        found = {
             f"motor.{names.get(key, key)}": f"file: {self.place}"
             for key in self.values
             if key not in ("mass", "rated_current")
         }
+        if self.values.keys() & set(DRAG):
+            left = f"file: {self.place}, which gives the drag without it"
+            found = {f"motor.{key}": left for key in DRAG} | found
+        return found
+
+
+def _refuse_heavy_rotor(motor: Motor, place: str) -> None:
+    """Refuse a rotor with more inertia than the whole motor would have as a thin ring."""
+    if motor.rotor_inertia is None or motor.mass is None or motor.outer_diameter is None:
+        return
+    most = motor.mass * (0.5 * motor.outer_diameter) ** 2
+    if motor.rotor_inertia > most:
+        raise DesignError(
+            f"{place}: rotor_inertia {motor.rotor_inertia:.4g} kg m^2 is more than "
+            f"{motor.mass:g} kg within {1e3 * motor.outer_diameter:.4g} mm can have, {most:.3g} "
+            "kg m^2; check both."
+        )
 
 
 def read_motor(path: Path) -> MotorFile:

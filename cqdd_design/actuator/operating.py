@@ -1,8 +1,9 @@
 """Operating points at the output: what they ask of motor and drive, and which limit binds.
 
 Everything stands at the output and counts with friction, as in the simulation: on the motor side
-Coulomb and viscous friction and a share of the torque carried, on the output side Coulomb and
-viscous friction, breakaway by Stribeck's law near standstill. All friction heats the housing.
+the motor's own drag, the gearbox's Coulomb and viscous friction and a share of the torque carried,
+on the output side Coulomb and viscous friction, breakaway of the gearbox by Stribeck's law near
+standstill. All friction heats the housing.
 """
 
 from __future__ import annotations
@@ -78,13 +79,19 @@ def _rise(parameters: ActuatorParameters, motor_speed: FloatArray) -> FloatArray
     return np.asarray(1.0 + friction.stribeck_extra * np.exp(-(share**2)))
 
 
+def _own_drag(parameters: ActuatorParameters, motor_speed: FloatArray) -> FloatArray:
+    """Drag of the motor alone about to turn or turning forwards, rad/s, N m."""
+    motor = parameters.motor
+    return np.asarray(motor.dry_drag + motor.drag_slope * motor_speed)
+
+
 def holds_itself(parameters: ActuatorParameters) -> bool:
     """Whether friction holds any torque on the output, so that it turns nothing."""
     return parameters.friction.load_backward >= 1.0
 
 
 def motor_torque(parameters: ActuatorParameters, torque: ArrayLike, speed: ArrayLike) -> FloatArray:
-    """Shaft torque of the motor, N m, iron losses still to be added, for one at the output.
+    """Shaft torque of the motor, N m, its own drag still to be added, for one at the output.
 
     That is positive where the motor drives and negative where the output does, N m; the output's
     speed is zero or more, rad/s.
@@ -130,11 +137,11 @@ def needed(parameters: ActuatorParameters, torque: float, speed: float, temperat
     motor, n = parameters.motor, abs(parameters.gear.ratio)
     constant = float(torque_constant_at(motor, temperature))
     turning = n * speed
-    iron = float(iron_drag(motor, turning))
+    drag = float(_own_drag(parameters, np.asarray(turning)))
     shaft = float(motor_torque(parameters, torque, speed))
-    current = (shaft + iron) / constant
+    current = (shaft + drag) / constant
     voltage = float(resistance_at(motor, temperature)) * current + constant * turning
-    return Need(shaft, current, voltage, (shaft + iron) * turning - torque * speed)
+    return Need(shaft, current, voltage, (shaft + drag) * turning - torque * speed)
 
 
 def torque_from_current(
@@ -144,7 +151,7 @@ def torque_from_current(
     motor, n = parameters.motor, abs(parameters.gear.ratio)
     turning = n * np.asarray(speed, dtype=float)
     air_gap = float(torque_constant_at(motor, temperature)) * np.asarray(current, dtype=float)
-    torque = output_torque(parameters, air_gap - iron_drag(motor, turning), speed)
+    torque = output_torque(parameters, air_gap - _own_drag(parameters, turning), speed)
     return torque, np.asarray(air_gap * turning - torque * np.asarray(speed))
 
 
@@ -155,7 +162,9 @@ def envelope_torque(
     turning = np.asarray(speed, dtype=float)
     motor_speed = abs(parameters.gear.ratio) * turning
     most = greatest_torque(parameters.motor, parameters.drive, motor_speed, temperature)
-    return output_torque(parameters, most, turning)
+    # At rest there is no drag yet, but what is about to move has to overcome it.
+    resting = iron_drag(parameters.motor, motor_speed) - _own_drag(parameters, motor_speed)
+    return output_torque(parameters, most + resting, turning)
 
 
 def held_torque(

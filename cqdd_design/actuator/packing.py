@@ -92,7 +92,7 @@ def pack(parameters: ActuatorParameters, scenario: Scenario, step: float) -> Con
     first_speed = start.output_speed
     if load.speed is not None:
         first_speed = float(load.speed.values(np.zeros(1))[0])
-    dry = friction.motor_coulomb + motor.hysteresis + friction.load_forward * gear.error_torque / n
+    dry = friction.motor_coulomb + motor.dry_drag + friction.load_forward * gear.error_torque / n
     rise = 1.0 + friction.stribeck_extra
     gains = command.gains(drive)
     # What has the same name here and there is taken as it is.
@@ -106,6 +106,8 @@ def pack(parameters: ActuatorParameters, scenario: Scenario, step: float) -> Con
         | {
             "motor_inertia": parameters.motor_side_inertia,
             "iron_viscous": motor.iron_loss,
+            "motor_dry": motor.coulomb,
+            "motor_viscous": friction.motor_viscous + motor.viscous,
             "current_decay": math.exp(-2.0 * math.pi * drive.current_bandwidth * step),
             "control_step": 1.0 / drive.control_rate,
             "encoder_count": 2.0**drive.encoder_bits if drive.encoder_bits else 0.0,

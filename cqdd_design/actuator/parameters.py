@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import DesignError
+from cqdd_design.gearbox.checks.allowables import WINDING_MOST
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -54,7 +55,7 @@ class MotorParameters:
     resistance, inductance : float
         Line to line at `reference_temperature`, ohm and H.
     rotor_inertia : float
-        Of the motor's own rotor, kg m^2.
+        Of the motor's own rotor, the cup of an outrunner included, kg m^2.
     rated_torque, peak_torque : float
         Of the motor by its catalogue, N m; nan where it gives none.
     cogging_amplitude, cogging_order : float, int
@@ -65,6 +66,10 @@ class MotorParameters:
         Drag torque from hysteresis, N m.
     reference_temperature : float
         deg C.
+    coulomb, viscous : float
+        What else drags on the motor alone, N m and N m s/rad at its shaft: its bearings, and where
+        it was measured as a whole its iron too. The gearbox's own friction is in
+        :class:`FrictionParameters`.
     """
 
     torque_constant: float
@@ -79,6 +84,8 @@ class MotorParameters:
     iron_loss: float = 0.0
     hysteresis: float = 0.0
     reference_temperature: float = 25.0
+    coulomb: float = 0.0
+    viscous: float = 0.0
 
     def __post_init__(self) -> None:
         """Refuse a motor that cannot exist."""
@@ -89,10 +96,20 @@ class MotorParameters:
             resistance="measure it from line to line",
         )
         names = ("inductance", "rotor_inertia", "cogging_amplitude", "iron_loss", "hysteresis")
-        _not_negative(self, "motor", *names)
+        _not_negative(self, "motor", *names, "coulomb", "viscous")
         for key in ("pole_pairs", "cogging_order"):
             if getattr(self, key) < 1:
                 _refuse("motor", key, getattr(self, key), "1 or more", "count pairs or periods")
+
+    @property
+    def dry_drag(self) -> float:
+        """Drag torque of the motor alone that does not depend on speed, N m."""
+        return self.coulomb + self.hysteresis
+
+    @property
+    def drag_slope(self) -> float:
+        """Drag torque of the motor alone over speed, N m s/rad."""
+        return self.viscous + self.iron_loss
 
 
 @dataclass(frozen=True)
@@ -164,7 +181,7 @@ class ThermalParameters:
     housing_capacity: float
     ambient: float = 25.0
     derating_begins: float = 100.0
-    most: float = 120.0
+    most: float = WINDING_MOST
 
     def __post_init__(self) -> None:
         """Refuse a network that cannot exist."""
@@ -185,7 +202,9 @@ class ThermalParameters:
 
 @dataclass(frozen=True)
 class FrictionParameters:
-    """Friction of motor side and output side.
+    """Friction of the gearbox on its motor side and on its output side.
+
+    The motor's own drag is that of :class:`MotorParameters`, and comes on top.
 
     Attributes
     ----------

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from cqdd_design.actuator.bench.unknowns import UNKNOWNS
 from cqdd_design.actuator.motor_file import MotorFile
 from cqdd_design.catalog.motors import find_motor
 from cqdd_design.design import Design
@@ -22,7 +23,7 @@ class Specimen:
     seed : int or None
         Of a gearbox drawn from the tolerances; None for perfect parts.
     factors : mapping of str to float
-        Of what the actuator's unknowns were computed as, from a calibration.
+        Of what the actuator's unknowns were computed as, or their values, from a calibration.
     """
 
     motor: MotorFile | None = None
@@ -43,7 +44,7 @@ class Specimen:
                 f"the simulated gearbox is drawn from the tolerances with seed {self.seed}."
             )
         if self.factors:
-            names = ", ".join(f"{name} times {f:.4g}" for name, f in self.factors.items())
+            names = ", ".join(f"{name} {_told(name, f)}" for name, f in self.factors.items())
             found.append(f"the simulated actuator is calibrated: {names}.")
         return tuple(found)
 
@@ -57,6 +58,10 @@ class Specimen:
             design if "motor.name" not in design.assumed else design.replacing({"motor.name": name})
         )
         return resolve(named, self.motor.row(find_motor(name)))
+
+
+def _told(name: str, fitted: float) -> str:
+    return UNKNOWNS[name].told(fitted) if name in UNKNOWNS else f"{fitted:.4g}"
 
 
 AS_DRAWN = Specimen()

@@ -6,9 +6,13 @@ import functools
 from dataclasses import dataclass
 from typing import Literal
 
+from cqdd_design.catalog.needles import NeedleSet, needle_set
 from cqdd_design.catalog.reader import column, find, read_records
 
 BearingKind = Literal["ball", "crossed roller", "needle", "needle cage"]
+
+AUTO = "auto"
+"""Designation of a bearing that is left to the catalogue."""
 
 FRICTION_COEFFICIENT: dict[BearingKind, float] = {
     "ball": 0.0015,
@@ -20,6 +24,12 @@ FRICTION_COEFFICIENT: dict[BearingKind, float] = {
 0.0010 to 0.0015 (the upper end; SKF prints 0.0015), needle roller with cage 0.0020 to 0.0030 (the
 middle). Crossed rollers are not in the table: the upper end of tapered rollers, which slide on
 their ends too."""
+
+BEARING_MATERIAL = "AISI 52100 / 100Cr6 hardened"
+"""Rings and rolling elements."""
+SHAFT_MATERIAL = "AISI 4140 Q&T 540C"
+RACEWAY_MATERIAL = "SCM415/16MnCr5 case hardened"
+"""Shaft whose lobes are raceways of a needle cage: they must be hard."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +49,9 @@ class Bearing:
         Radial basic ratings C and C0, N; None where the source gives only dimensions.
     mass : float or None
         kg.
+    raceway_diameter : float or None
+        Of a drawn cup sold with an inner ring, outside diameter of that ring, m; None where
+        needles run on the shaft, and of other kinds.
     source : str
         Where the row comes from; computed ratings say so.
     """
@@ -52,6 +65,22 @@ class Bearing:
     static_rating: float | None = column("C0_kN", 1e3)
     mass: float | None = column("mass_kg")
     source: str = column("source")
+    raceway_diameter: float | None = column("raceway_mm", 1e-3)
+
+    @property
+    def needles(self) -> NeedleSet:
+        """The needles of a drawn cup or a cage, on the inner ring where there is one."""
+        return needle_set(
+            self.raceway_diameter or self.bore_diameter,
+            self.outer_diameter,
+            self.width,
+            drawn_cup=self.kind == "needle",
+        )
+
+
+def shaft_material(cam: Bearing) -> str:
+    """Catalogue name of what shaft and loose cams are made of, for a cam bearing on them."""
+    return RACEWAY_MATERIAL if cam.kind == "needle cage" else SHAFT_MATERIAL
 
 
 @functools.lru_cache(maxsize=1)

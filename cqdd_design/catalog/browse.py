@@ -7,7 +7,9 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from cqdd_design.catalog.bearings import bearings
+from cqdd_design.catalog.finishes import finishes, rubbing_limits
 from cqdd_design.catalog.fits import fit_zones
+from cqdd_design.catalog.lubricants import lubricants
 from cqdd_design.catalog.materials import materials
 from cqdd_design.catalog.motors import motors
 from cqdd_design.catalog.screws import shoulder_screws
@@ -24,12 +26,25 @@ _UNITS = {
     "pulsating_strength": ("MPa", 1e-6),
     "contact_allowable": ("MPa", 1e-6),
     "density": ("kg_m3", 1.0),
+    "expansion": ("um_mK", 1e6),
+    "conductivity": ("W_mK", 1.0),
+    "specific_heat": ("J_kgK", 1.0),
+    "service_limit": ("degC", 1.0),
     "speed_constant": ("rpm_V", 30.0 / 3.141592653589793),
     "no_load_speed": ("rpm", 30.0 / 3.141592653589793),
     "torque_constant_printed": ("Nm_A", 1.0),
     "line_resistance": ("ohm", 1.0),
     "line_inductance": ("uH", 1e6),
     "rotor_inertia": ("kgm2", 1.0),
+    "rated_voltage": ("V", 1.0),
+    "no_load_current": ("A", 1.0),
+    "coulomb": ("Nm", 1.0),
+    "viscous": ("Nms_rad", 1.0),
+    "hysteresis": ("Nm", 1.0),
+    "iron_loss": ("Nms_rad", 1.0),
+    "cogging_amplitude": ("Nm", 1.0),
+    "thermal_resistance": ("K_W", 1.0),
+    "winding_limit": ("degC", 1.0),
     "mass": ("kg", 1.0),
     "rated_torque": ("Nm", 1.0),
     "peak_torque": ("Nm", 1.0),
@@ -41,6 +56,15 @@ _UNITS = {
     "upper": ("um", 1e6),
     "over": ("mm", 1e3),
     "up_to": ("mm", 1e3),
+    "viscosity": ("mm2_s", 1e6),
+    "hot_viscosity": ("mm2_s", 1e6),
+    "pressure_coefficient": ("1_GPa", 1e9),
+    "hot_pressure_coefficient": ("1_GPa", 1e9),
+    "coldest": ("degC", 1.0),
+    "hottest": ("degC", 1.0),
+    "mean_roughness": ("um", 1e6),
+    "rms_roughness": ("um", 1e6),
+    "limit": ("MPa_m_s", 1e-6),
 }
 _LENGTH_ENDINGS = ("diameter", "diameter_max", "diameter_min", "length", "width", "height", "depth")
 _LENGTHS = {"socket_size"}
@@ -48,7 +72,18 @@ _LENGTHS = {"socket_size"}
 #: The columns of a listing, after the name; showing a row gives all of its columns.
 COLUMNS = {
     "materials": ("yield_strength_MPa", "ultimate_strength_MPa", "hardness", "source"),
-    "motors": ("torque_at", "speed_constant_rpm_V", "peak_torque_Nm", "mass_kg", "source"),
+    "motors": (
+        "torque_at",
+        "rated_torque_Nm",
+        "peak_torque_Nm",
+        "speed_constant_rpm_V",
+        "bore_diameter_mm",
+        "mass_kg",
+        "rotor_inertia_kgm2",
+        "coulomb_Nm",
+        "cogging_amplitude_Nm",
+        "missing",
+    ),
     "bearings": (
         "bore_diameter_mm",
         "outer_diameter_mm",
@@ -59,6 +94,9 @@ COLUMNS = {
     ),
     "screws": ("thread", "shoulder_diameter_mm", "head_diameter_mm", "standard_lengths"),
     "fits": ("lower_um", "upper_um", "source"),
+    "lubricants": ("viscosity_mm2_s", "hot_viscosity_mm2_s", "coldest_degC", "hottest_degC"),
+    "finishes": ("mean_roughness_um", "rms_roughness_um", "source"),
+    "rubbing": ("limit_MPa_m_s", "source"),
 }
 
 
@@ -78,10 +116,16 @@ def catalogues() -> dict[str, dict[str, Row]]:
     }
     return {
         "materials": _rows(materials()),
-        "motors": _rows(motors()),
+        "motors": {
+            name: {**_row(motor), "missing": ", ".join(motor.missing)}
+            for name, motor in motors().items()
+        },
         "bearings": _rows(bearings()),
         "screws": _rows(shoulder_screws()),
         "fits": _rows(fits),
+        "lubricants": _rows(lubricants()),
+        "finishes": _rows(finishes()),
+        "rubbing": _rows(rubbing_limits()),
     }
 
 

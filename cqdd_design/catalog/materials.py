@@ -1,4 +1,4 @@
-"""Materials: elastic constants, strengths, hardness."""
+"""Materials: elastic constants, strengths, hardness, and what heat does to them."""
 
 from __future__ import annotations
 
@@ -43,6 +43,14 @@ class Material:
         Static contact pressure quoted by the source, Pa; for information.
     source : str
         Where the row comes from.
+    expansion : float or None
+        Linear thermal expansion near room temperature, 1/K; None where the source gives none.
+    conductivity, specific_heat, emissivity : float or None
+        W/(m K), J/(kg K), and of a surface as it is machined or moulded.
+    service_limit : float or None
+        Temperature up to which parts of it keep strength and shape, deg C.
+    thermal_source : str
+        Where these five come from.
     """
 
     name: str = column("name")
@@ -60,6 +68,12 @@ class Material:
     pulsating_basis: str = column("pulsating_basis")
     contact_allowable: float | None = column("contact_allow_MPa", 1e6)
     source: str = column("source")
+    expansion: float | None = column("cte_um_mK", 1e-6)
+    conductivity: float | None = column("conductivity_W_mK")
+    specific_heat: float | None = column("specific_heat_J_kgK")
+    emissivity: float | None = column("emissivity")
+    service_limit: float | None = column("service_C")
+    thermal_source: str = column("thermal_source")
 
     @property
     def brinell_hardness(self) -> float | None:

@@ -7,7 +7,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, option, parse_positive, quantity_option
+from cqdd_design.cli.options import (
+    DesignFile,
+    option,
+    parse_option,
+    parse_positive,
+    quantity_option,
+)
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
 
@@ -51,14 +57,19 @@ def analyse(
             "--friction", help="Contact forces with friction while the crank or the output drives."
         ),
     ] = Friction.drive,
+    temperature: Annotated[
+        str | None,
+        quantity_option('Of all parts of the gearbox, as in "60 degC"; default 20 degC, as drawn.'),
+    ] = None,
 ) -> None:
     """Loads, contact equilibrium, precision, losses, life, stress of discs and ring, and shock."""
     from cqdd_design.cli.tables import verdict
     from cqdd_design.design import load_design
     from cqdd_design.roads.analyse import analyse as analysed
-    from cqdd_design.units import SPEED, TORQUE
+    from cqdd_design.units import SPEED, TEMPERATURE, TORQUE
 
     asked_torque = parse_positive("--torque", torque, TORQUE)
+    parts_at = parse_option("--temperature", temperature, TEMPERATURE)
     asked_speed = parse_positive("--speed", speed, SPEED)
     loaded = load_design(design)
     out.note_compilation(simulation=True)
@@ -69,6 +80,7 @@ def analyse(
         angles=angles,
         line_model=law.value,
         friction=friction.value,
+        temperature=parts_at,
     )
     results, checks = found.to_dict(), found.checks
     lines = [*_lines(found.gearbox, results), *_shock_lines(found.shocks)]
@@ -88,9 +100,13 @@ def _lines(analysis: GearboxAnalysis, results: dict[str, object]) -> list[str]:
         "contact": "contact equilibrium",
         "precision": "precision",
         "losses": "losses",
+        "film": "films at the ring teeth and output pins",
+        "wear": "wear over the required life",
         "life": "life",
         "bending": "shaft and tilt, bounded",
         "bodies": "discs and ring under these forces",
+        "temperatures_degC": "temperatures at which parts settle",
+        "heat": "heat, and clearances at these temperatures",
     }
     for key, title in titles.items():
         values = results[key]

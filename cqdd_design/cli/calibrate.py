@@ -41,7 +41,7 @@ def calibrate(
         str | None,
         option(
             "NAMES",
-            "What to fit: thermal_resistance, friction_level, friction_viscous, "
+            "What to fit: thermal_resistance, motor_cogging, motor_coulomb, motor_viscous, "
             "friction_load, current_loop, tolerance_scale; default what the rows decide.",
         ),
     ] = None,
@@ -88,6 +88,8 @@ def calibrate(
 
 
 def _lines(found: Calibration) -> list[str]:
+    from cqdd_design.actuator.bench.unknowns import UNKNOWNS
+
     rows = []
     for row in found.rows:
         rows.append(
@@ -102,12 +104,20 @@ def _lines(found: Calibration) -> list[str]:
             ]
         )
     head = ["measurement", "unit", "measured", "computed", "calibrated", "off %", "agreement is"]
-    fitted = [[name, f"{factor:.4g}"] for name, factor in found.factors.items()]
+    fitted = [
+        [
+            name,
+            UNKNOWNS[name].told(value),
+            "{:.3g} to {:.3g}".format(*found.ranges[name]),
+            "at an end of its range" if name in found.at_an_end else "",
+        ]
+        for name, value in found.factors.items()
+    ]
     good = [row.name for row in found.within]
     lines = [
         table(rows, head=head, right=(2, 3, 4, 5)),
         "",
-        table(fitted, head=["unknown", "times"], right=(1,)),
+        table(fitted, head=["unknown", "is", "within", ""]),
         "",
         f"{len(good)} of {len(found.predicted)} predicted rows are within 20 % (efficiency: "
         f"5 points): {', '.join(good) or 'none'}.",

@@ -16,12 +16,12 @@ def catalog(
         list[str] | None,
         typer.Argument(
             metavar="[[list|show] NAME]",
-            help="A catalogue to list (materials, motors, bearings, screws, fits) or a row to "
-            "show; without a name, what there is.",
+            help="A catalogue to list (materials, motors, bearings, screws, fits, "
+            "lubricants, finishes, rubbing) or a row to show; without a name, what there is.",
         ),
     ] = None,
 ) -> None:
-    """List and show materials, motors, bearings, shoulder screws and fits."""
+    """List and show materials, motors, bearings, screws, fits, lubricants and finishes."""
     from cqdd_design.catalog import browse
 
     words = list(what or [])

@@ -34,6 +34,8 @@ def inertia(
 
 
 def _lines(found: InertiaAndBalance) -> list[str]:
+    from cqdd_design.solids.inertia import ROTOR_SCOPE
+
     parts = [
         [
             part.name,
@@ -73,7 +75,7 @@ def _lines(found: InertiaAndBalance) -> list[str]:
         "",
         f"total mass                 {number(total.mass)} kg",
         f"torque density             {number(found.torque_density)} N*m/kg",
-        f"rotor of {total.motor.name}: {rotor} kg*mm2",
+        f"rotor of {total.motor.name}, {ROTOR_SCOPE}: {rotor} kg*mm2",
         f"reflected to the input     {number(1e6 * total.reflected_input)} kg*mm2",
         f"reflected to the output    {number(total.reflected_output)} kg*m2",
         "",

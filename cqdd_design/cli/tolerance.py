@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
-from cqdd_design.cli.options import DesignFile, option, parse_positive, quantity_option
+from cqdd_design.cli.options import (
+    DesignFile,
+    option,
+    parse_option,
+    parse_positive,
+    quantity_option,
+)
 from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, Output
 from cqdd_design.cli.tables import number, table
 
@@ -29,6 +35,10 @@ def tolerance(
     torque: Annotated[
         str | None, quantity_option('Output torque, as in "40 N*m"; default the continuous.')
     ] = None,
+    temperature: Annotated[
+        str | None,
+        quantity_option('Of all parts of the gearbox, as in "60 degC"; default 20 degC, as drawn.'),
+    ] = None,
     scheduler: Annotated[
         str | None, option("ADDRESS", "Dask scheduler to work on, as tcp://HOST:8786.")
     ] = None,
@@ -36,9 +46,10 @@ def tolerance(
     """Toleranced gearboxes over a whole output turn: distributions and ranking."""
     from cqdd_design.design import load_design
     from cqdd_design.roads.tolerance import tolerance as drawn
-    from cqdd_design.units import TORQUE
+    from cqdd_design.units import TEMPERATURE, TORQUE
 
     asked_torque = parse_positive("--torque", torque, TORQUE)
+    parts_at = parse_option("--temperature", temperature, TEMPERATURE)
     loaded = load_design(design)
     if scheduler is None:
         out.note_compilation()
@@ -48,6 +59,7 @@ def tolerance(
         torque=asked_torque,
         angles=angles,
         seed=seed,
+        temperature=parts_at,
         scheduler=scheduler,
         progress=out.counting("gearboxes"),
     )

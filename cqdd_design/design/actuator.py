@@ -1,8 +1,10 @@
-"""The tables of a design file around the reducer: motor, drive, housing, tolerances, EDM."""
+"""The tables of a design file around the reducer: motor, drive, housing, surroundings and more."""
 
 from __future__ import annotations
 
 from typing import Annotated, Literal
+
+from pydantic import model_validator
 
 from cqdd_design.design.fields import FrozenModel, MaterialName, MotorName, Whole, default
 from cqdd_design.units import (
@@ -12,9 +14,11 @@ from cqdd_design.units import (
     LENGTH,
     SMALL_LENGTH,
     STIFFNESS_GAIN,
+    TEMPERATURE,
     THERMAL_RESISTANCE,
     VOLTAGE,
     QuantityIn,
+    format_quantity,
 )
 
 
@@ -57,6 +61,28 @@ class Housing(FrozenModel):
     """The housing."""
 
     material: MaterialName = "7075-T6"
+
+
+class Environment(FrozenModel):
+    """Where the actuator works: temperature of the still air, and the coldest it starts at."""
+
+    ambient: Annotated[
+        float, QuantityIn(TEMPERATURE, "-60 degC", "90 degC", "air round a robot's joint")
+    ] = default("25 degC")
+    coldest: Annotated[
+        float, QuantityIn(TEMPERATURE, "-60 degC", "90 degC", "all parts before a cold start")
+    ] = default("-10 degC")
+
+    @model_validator(mode="after")
+    def _coldest_first(self) -> Environment:
+        if self.coldest > self.ambient:
+            if "coldest" not in self.model_fields_set:
+                return self.model_copy(update={"coldest": self.ambient})
+            raise ValueError(
+                f"coldest {format_quantity(self.coldest, TEMPERATURE)} is above ambient "
+                f"{format_quantity(self.ambient, TEMPERATURE)}; lower it, or raise ambient"
+            )
+        return self
 
 
 _Deviation = Annotated[float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
-from cqdd_design.catalog import find_bearing, find_material, find_motor
+from cqdd_design.catalog import find_bearing, find_finish, find_material, find_motor
 from cqdd_design.errors import CatalogError, is_unprintable, shown
 
 if TYPE_CHECKING:
@@ -91,6 +91,32 @@ class Share:
         )
 
 
+@dataclass(frozen=True)
+class ShareOr:
+    """Pydantic annotation: a pure number as :class:`Share` takes it, or one word."""
+
+    share: Share
+    word: str
+
+    def _validate(self, value: object) -> float | str:
+        if value == self.word:
+            return self.word
+        try:
+            return self.share._validate(value)
+        except ValueError as error:
+            raise ValueError(f'{error}; or "{self.word}"') from None
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Check the value before pydantic could coerce it."""
+        from pydantic_core import core_schema
+
+        number = core_schema.float_schema(ge=self.share.low, le=self.share.high)
+        either = core_schema.union_schema([core_schema.literal_schema([self.word]), number])
+        return core_schema.no_info_before_validator_function(self._validate, either)
+
+
 def _known(find: Callable[[str], Any], *also: str) -> Callable[[str], str]:
     def check(name: str) -> str:
         if name in also:
@@ -117,3 +143,4 @@ FreeText = Annotated[str, AfterValidator(_plain)]
 MaterialName = Annotated[str, AfterValidator(_known(find_material))]
 MotorName = Annotated[str, AfterValidator(_known(find_motor))]
 BearingName = Annotated[str, AfterValidator(_known(find_bearing, "auto"))]
+FinishName = Annotated[str, AfterValidator(_known(find_finish))]

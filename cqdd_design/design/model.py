@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel, PrivateAttr, ValidationError, model_validator
 
-from cqdd_design.design.actuator import Drive, Edm, Housing, MotorTable, Tolerances
+from cqdd_design.design.actuator import Drive, Edm, Environment, Housing, MotorTable, Tolerances
 from cqdd_design.design.fields import FrozenModel
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.reducer import Reducer
@@ -38,6 +38,7 @@ class Design(FrozenModel):
     motor: MotorTable = MotorTable()
     drive: Drive = Drive()
     housing: Housing = Housing()
+    environment: Environment = Environment()
     tolerances: Tolerances = Tolerances()
     edm: Edm = Edm()
 

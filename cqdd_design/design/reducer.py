@@ -19,10 +19,12 @@ from pydantic import ValidationInfo, model_validator
 from cqdd_design.catalog.screws import LEAST_COLUMN
 from cqdd_design.design.fields import (
     BearingName,
+    FinishName,
     FreeText,
     FrozenModel,
     MaterialName,
     Share,
+    ShareOr,
     Whole,
     default,
 )
@@ -39,8 +41,9 @@ from cqdd_design.units import (
 
 CarrierJoint = Literal["clamped", "hinged", "columns"]
 RingType = Literal["solid", "conjugate", "pinwheel"]
-RunsOn = Literal["plain", "needle"]
-"""What a sleeve or roller turns on: its pin itself, or a needle cage between the two."""
+RunsOn = Literal["plain", "needle", "drawn cup"]
+"""What a sleeve or roller turns on: its pin itself, or a needle cage between the two; or it is the
+cup of needle bearings itself, which roll in the disc."""
 
 PIN_CIRCLE_SHARE = 0.61
 """Default radius of the pin circle over the ring's pitch radius: the paper's 19.5 mm on 32 mm."""
@@ -53,7 +56,9 @@ _FEWEST_COLUMNS = 3
 _Shift = Annotated[
     float, QuantityIn(SMALL_LENGTH, "-500 um", "500 um", "a profile shift, not a new profile")
 ]
-_Friction = Annotated[float, Share(0.0, 1.0, "a coefficient of friction")]
+_Friction = Annotated[
+    float | Literal["film"], ShareOr(Share(0.0, 1.0, "a coefficient of friction"), "film")
+]
 
 
 class Modification(FrozenModel):
@@ -71,6 +76,8 @@ class OutputPins(FrozenModel):
 
     A sleeve of `sleeve_diameter` turns on its pin of `diameter`: plain, with `sleeve_play` between
     the two, or on the needle cage of the catalogue that fits between them, with that play in it.
+    Drawn cups of the catalogue of both diameters need no sleeve: as many roll side by side in the
+    hole as the disc is thick.
     Its default is the mean of a G6 bore on an h5 pin of 3 to 6 mm (ISO 286), as makers of needle
     cages ask for.
     """
@@ -102,21 +109,29 @@ class OutputPins(FrozenModel):
 
     @model_validator(mode="after")
     def _needles_in_a_sleeve(self) -> OutputPins:
-        if self.sleeve == "needle" and self.sleeve_diameter == 0.0:
+        if self.sleeve != "plain" and self.sleeve_diameter == 0.0:
             raise ValueError(
-                'sleeve = "needle" needs a sleeve for the needles to run in; give '
+                f'sleeve = "{self.sleeve}" needs a sleeve for the needles to run in; give '
                 'sleeve_diameter, or make sleeve "plain"'
             )
         return self
 
 
 class CamBearing(FrozenModel):
-    """The bearing between eccentric and disc."""
+    """The bearing between eccentric and disc, and what carries the eccentric.
+
+    `support_stiffness` is that of shaft, shaft bearings and their seats together, at the discs;
+    of steel they are far stiffer than the bearing, of plastic they are not.
+    """
 
     designation: BearingName = "auto"
     radial_clearance: Annotated[
         float, QuantityIn(SMALL_LENGTH, "0 um", "500 um", "total play by ISO 5753")
     ] = default("5 um")
+    support_stiffness: Annotated[
+        float,
+        QuantityIn(RADIAL_STIFFNESS, "0 N/um", "1000000 N/um", "radial; 0 means rigid"),
+    ] = default("0 N/um")
 
 
 class Carrier(FrozenModel):
@@ -153,8 +168,9 @@ class Carrier(FrozenModel):
 
 
 class CarrierBearing(FrozenModel):
-    """The bearing of the output carrier in the housing."""
+    """The bearing of the output carrier in the housing; "auto" is what of the catalogue fits."""
 
+    designation: BearingName = "auto"
     stiffness: Annotated[
         float,
         QuantityIn(RADIAL_STIFFNESS, "0 N/um", "1000000 N/um", "radial; 0 means rigid"),
@@ -187,20 +203,34 @@ class Ring(FrozenModel):
 
     @model_validator(mode="after")
     def _needles_in_a_roller(self) -> Ring:
-        if self.roller == "needle" and self.roller_diameter == 0.0:
+        if self.roller != "plain" and self.roller_diameter == 0.0:
             raise ValueError(
-                'roller = "needle" needs a roller for the needles to run in; give '
+                f'roller = "{self.roller}" needs a roller for the needles to run in; give '
                 'roller_diameter, or make roller "plain"'
             )
         return self
 
 
 class ReducerFriction(FrozenModel):
-    """Coulomb friction at teeth and pins."""
+    """Friction at teeth and pins.
 
-    tooth: _Friction = 0.08
-    pin: _Friction = 0.08
+    A number is a coefficient by Coulomb, of any speed and load; "film" takes it from the film that
+    the lubricant builds between surfaces as `finish` says they are made. Seals are those of the
+    shaft's support bearings and of the carrier's, on both sides.
+    """
+
+    tooth: _Friction = "film"
+    pin: _Friction = "film"
     lubricant: FreeText = "NLGI 2 grease"
+    seals: Literal["none", "contact"] = "none"
+
+
+class Finish(FrozenModel):
+    """How the surfaces that rub are made: names of the catalogue of finishes."""
+
+    disc: FinishName = "wire EDM, three skim cuts"
+    ring: FinishName = "wire EDM, three skim cuts"
+    pin: FinishName = "shoulder screw"
 
 
 class Balance(FrozenModel):
@@ -243,6 +273,7 @@ class Reducer(FrozenModel):
     carrier_bearing: CarrierBearing = CarrierBearing()
     ring: Ring
     friction: ReducerFriction = ReducerFriction()
+    finish: Finish = Finish()
     balance: Balance = Balance()
 
     @property

@@ -143,7 +143,7 @@ def _valley_warning(state: GearboxState) -> tuple[str, ...]:
 def _raceway_warning(state: GearboxState) -> tuple[str, ...]:
     """Needles run on the eccentric itself, whose material the design file does not name."""
     bearing = state.cam_bearing.bearing
-    if bearing.kind not in {"needle", "needle cage"}:
+    if bearing.kind not in {"needle", "needle cage"} or bearing.raceway_diameter is not None:
         return ()
     return (
         f"cam bearing '{bearing.designation}' runs on the eccentric itself: harden the shaft to "

@@ -10,32 +10,40 @@ M = mu_n F d/2 on the bore (JTEKT), and never count with more than the pin itsel
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import FRICTION_COEFFICIENT
 from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
+from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION
 from cqdd_design.gearbox.output_pins import sleeve_share
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
 
 
+def at_rest(coefficient: float | Literal["film"]) -> float:
+    """The coefficient that a design states, or that of a boundary layer where the film gives it."""
+    return BOUNDARY_FRICTION if coefficient == "film" else coefficient
+
+
 def hole_friction(design: Design) -> float:
-    """Coefficient of friction at the wall of the output holes."""
+    """Coefficient of friction at the wall of the output holes, without a film."""
     pins = design.reducer.output_pins
-    own = design.reducer.friction.pin
+    own = at_rest(design.reducer.friction.pin)
     return _felt(own, pin_runner(design), mean_pin_diameter(pins.diameter))
 
 
 def tooth_friction(design: Design) -> float:
-    """Coefficient of friction at the flanks of the discs: of teeth, bare pins, or rollers.
+    """Coefficient at the flanks of the discs, without a film: of teeth, bare pins, or rollers.
 
     A bare pin of a pinwheel ring that is free to turn in its pocket gains nothing: it rolls on the
     disc, and slides in the pocket at the same surface speed under the same force.
     """
     reducer = design.reducer
-    return _felt(reducer.friction.tooth, ring_runner(design), reducer.ring_pin_diameter)
+    return _felt(at_rest(reducer.friction.tooth), ring_runner(design), reducer.ring_pin_diameter)
 
 
 def _felt(own: float, runner: Runner | None, pin_diameter: float) -> float:

@@ -46,5 +46,5 @@ def _rated(
 ) -> BearingResult | None:
     if runner.cage is None:
         return None
-    peak, continuous = (UNEVEN_SHARING * force for force in forces)
+    peak, continuous = (UNEVEN_SHARING * force / runner.rows for force in forces)
     return rate(runner.cage, peak, continuous, turn * design.requirements.input_speed)

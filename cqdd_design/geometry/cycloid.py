@@ -66,6 +66,9 @@ class CycloidDisc:
         profile lies inside the intersection of the profiles turned by plus and minus this angle:
         at the valley an arc about the disc's centre spans the gap, at the tip an arc centred on
         the lobe axis is tangent to both flanks, so it is tangent-continuous and mirror-symmetric.
+    throw : float
+        Added to the eccentricity used for generation, m: what heat makes of a disc that is warmer
+        than its shaft.
 
     The parameter `t` (rad) of every method runs once round the disc from the valley on +x, one
     lobe in 2 pi/n. Without rotation it is the ring tooth's parameter: at crank angle phi, tooth k
@@ -84,6 +87,7 @@ class CycloidDisc:
     equidistant: float = 0.0
     radial: float = 0.0
     rotation: float = 0.0
+    throw: float = 0.0
 
     def __post_init__(self) -> None:
         """Refuse a disc that cannot exist."""
@@ -133,7 +137,7 @@ class CycloidDisc:
         return GeneratedFlank(
             self.lobe_count,
             self.ring_pitch_radius - self.radial,
-            self.eccentricity,
+            self.eccentricity + self.throw,
             self.tooth_radius + self.equidistant,
         )
 

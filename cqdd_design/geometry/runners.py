@@ -1,5 +1,8 @@
 """What turns on a pin: a sleeve on an output pin, a roller on a ring's pin, plain or on needles.
 
+A drawn-cup needle bearing of the pin's and the sleeve's diameters is sleeve and needles in one; as
+many stand side by side as the disc is thick.
+
 needle cage between pin and sleeve
   __ _ ____
  |  |:|    |    Its wall is what stands outside the cage, or outside the pin where
@@ -37,11 +40,14 @@ class Runner:
     pin_diameter : float
         Nominal, of the pin inside.
     diameter, length : float
-        Of the sleeve.
+        Of the sleeve; of drawn cups, all of them together.
     play : float
         Of it on its pin, on the diameter.
     cage : Bearing or None
-        The needle cage between the two; None where the sleeve turns on the pin itself.
+        The needle cage between the two, or the drawn cup that is sleeve and needles in one; None
+        where the sleeve turns on the pin itself.
+    rows : int
+        Needle bearings side by side that share the load.
     """
 
     pin_diameter: float
@@ -49,11 +55,22 @@ class Runner:
     length: float
     play: float
     cage: Bearing | None
+    rows: int = 1
+
+    @property
+    def is_drawn_cup(self) -> bool:
+        """Whether needle bearings with a cup of their own roll in the disc, without a sleeve."""
+        return self.cage is not None and self.cage.kind == "needle"
 
     @property
     def bore(self) -> float:
-        """Inside diameter of the sleeve: the pin's, or the cage's outside."""
-        return self.pin_diameter if self.cage is None else self.cage.outer_diameter
+        """Inside diameter of the sleeve: the pin's, or the cage's outside; of a cup its raceway."""
+        if self.cage is None:
+            return self.pin_diameter
+        if self.cage.kind == "needle":
+            inside = self.cage.needles
+            return inside.pitch_diameter + inside.diameter
+        return self.cage.outer_diameter
 
     @property
     def wall(self) -> float:
@@ -109,8 +126,42 @@ def _runner(
     reducer = design.reducer
     kind = reducer.output_pins.sleeve if words.name == "sleeve" else reducer.ring.roller
     length = reducer.disc_thickness
+    if kind == "drawn cup":
+        cup = _drawn_cup(words, pin, diameter, length)
+        rows = int((length + _SAME) / cup.width)
+        return Runner(pin, diameter, rows * cup.width, play, cup, rows)
     cage = _needle_cage(words, pin, diameter, length) if kind == "needle" else None
     return Runner(pin, diameter, length, play, cage)
+
+
+def _drawn_cup(words: _Words, pin: float, outside: float, length: float) -> Bearing:
+    """The drawn cup of both diameters that fills most of the disc's thickness.
+
+    Raises
+    ------
+    GeometryError
+        With the nearest there is.
+    """
+    cups = [
+        one
+        for one in bearings().values()
+        if one.kind == "needle" and one.raceway_diameter is None and one.dynamic_rating is not None
+    ]
+
+    def off(one: Bearing) -> float:
+        wide = max(one.width - length, 0.0)
+        return abs(one.bore_diameter - pin) + abs(one.outer_diameter - outside) + wide
+
+    fitting = [one for one in cups if off(one) < _SAME]
+    if fitting:
+        return max(fitting, key=lambda one: one.width * int((length + _SAME) / one.width))
+    near = min(cups, key=off)
+    size = (near.bore_diameter, near.outer_diameter, near.width)
+    raise GeometryError(
+        f'{words.kind} = "drawn cup": the catalogue has no drawn cup of {millimetres(pin)} inside '
+        f"and {millimetres(outside)} outside, at most {millimetres(length)} wide; the nearest is "
+        f"'{near.designation}' of {' x '.join(millimetres(one) for one in size)}."
+    )
 
 
 def _needle_cage(words: _Words, pin: float, outside: float, length: float) -> Bearing:

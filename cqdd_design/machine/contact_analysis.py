@@ -15,7 +15,8 @@ from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, FrictionChoice
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import nominal_states
-from cqdd_design.gearbox.contact.sweep import ANGLES, contact_sweep, perfect_angles
+from cqdd_design.gearbox.contact.sweep import ANGLES, contact_sweep, idle_sweep, perfect_angles
+from cqdd_design.gearbox.film.running import Running, running
 from cqdd_design.gearbox.life import LifeResult, life
 from cqdd_design.gearbox.losses import EfficiencyMap, Losses, loss_model
 from cqdd_design.gearbox.precision.precision import Precision, precision
@@ -24,6 +25,8 @@ from cqdd_design.machine.shaft import ShaftBending, shaft_bending
 
 _MAP_STEPS = 8
 _PICTURE_ANGLES = 180
+_FILM_ANGLES = 120
+"""Crank angles over the period at which films are taken."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +38,7 @@ class ContactAnalysis:
     sweep, reversed : ContactSweep
         Over the period, at the torque and at its negative.
     preload : ContactSweep or None
-        Without load and friction, where the fits are of interference.
+        Without load and friction, where parts overlap whatever they do.
     precision : Precision
         At the continuous torque, or at the one asked for.
     losses : Losses
@@ -44,6 +47,8 @@ class ContactAnalysis:
         From an eighth of the input speed and of the peak torque up to both.
     life : LifeResult
         Over the duty of the requirements.
+    running : Running
+        Films at the torque of `precision` and the input speed, and wear over the duty.
     bending : ShaftBending or None
         Of the shaft, and tilt, under the forces of both sweeps.
     bending_missing : str
@@ -58,6 +63,7 @@ class ContactAnalysis:
     losses: Losses
     map: EfficiencyMap
     life: LifeResult
+    running: Running
     bending: ShaftBending | None
     bending_missing: str
 
@@ -70,13 +76,21 @@ class ContactAnalysis:
     @property
     def warnings(self) -> tuple[str, ...]:
         """Everything the parts warn of."""
-        parts = (*self.precision.warnings, *self.losses.warnings, *self.life.warnings)
+        parts = (
+            *self.precision.warnings,
+            *self.losses.warnings,
+            *self.life.warnings,
+            *self.running.warnings,
+        )
         if self.bending is None:
             return (*parts, f"no bound on bending and tilt: {self.bending_missing}")
         return (*parts, *self.bending.warnings)
 
     def to_dict(self) -> dict[str, object]:
-        """Return the JSON form: ``contact``, ``precision``, ``losses``, ``life``, ``bending``."""
+        """Return the JSON form: ``contact``, ``precision``, ``losses``, ``film``, ``wear``, ...
+
+        ... ``life`` and ``bending``.
+        """
         back = self.reversed.maxima
         greatest = {key: max(here, back[key]) for key, here in self.sweep.maxima.items()}
         contact = self.sweep.to_dict() | greatest
@@ -86,6 +100,8 @@ class ContactAnalysis:
             "contact": contact,
             "precision": self.precision.to_dict(),
             "losses": self.losses.to_dict() | {"efficiency_map": self.map.to_dict()},
+            "film": self.running.to_dict(),
+            "wear": self.running.wear.to_dict(),
             "life": self.life.to_dict(),
             "bending": None if self.bending is None else self.bending.to_dict(),
         }
@@ -128,20 +144,27 @@ def analyse_contact(
     steady = asked.continuous_torque if torque is None else torque
     rubbed = ContactFriction.of(model, friction)
     sweep = contact_sweep(model, peak, states=states, friction=rubbed)
-    tight = bool(states.gaps.min() < 0.0)
     losses = machine.losses if usual else loss_model(model, machine.friction, asked.peak_torque)
     back = contact_sweep(model, -peak, states=states, friction=rubbed)
     bending, missing = _bending(machine, sweep, back)
+    if steady != peak:
+        some = nominal_states(model, perfect_angles(model, _FILM_ANGLES))
+        at_steady = contact_sweep(model, steady, states=some, friction=rubbed)
+    else:
+        some, at_steady = states, sweep
     shares = np.arange(1, _MAP_STEPS + 1) / _MAP_STEPS
+    exact = precision(model, steady, angles=angles, friction=friction)
+    tight = exact.free.preloaded
     return ContactAnalysis(
         model=model,
         sweep=sweep,
         reversed=back,
-        preload=contact_sweep(model, 0.0, states=states) if tight else None,
-        precision=precision(model, steady, angles=angles, friction=friction),
+        preload=idle_sweep(model, peak, states) if tight else None,
+        precision=exact,
         losses=losses.at(asked.input_speed, steady),
         map=losses.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),
         life=life(design, model, friction=friction != "off"),
+        running=running(design, model, losses, at_steady, some),
         bending=bending,
         bending_missing=missing,
     )

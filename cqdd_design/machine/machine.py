@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from cqdd_design.catalog.bearings import Bearing, find_bearing
+from cqdd_design.catalog.bearings import AUTO, Bearing, find_bearing
+from cqdd_design.catalog.lubricants import RUNNING_TEMPERATURE, find_lubricant
 from cqdd_design.catalog.motors import Motor, find_motor
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
@@ -25,13 +26,11 @@ if TYPE_CHECKING:
     from cqdd_design.gearbox.bodies.compliance import ElasticBodies
     from cqdd_design.gearbox.contact.laws import LineModel
     from cqdd_design.gearbox.contact.model import ContactModel
+    from cqdd_design.gearbox.heat.expansion import PartTemperatures
     from cqdd_design.gearbox.losses import FrictionMachine, LossModel
     from cqdd_design.gearbox.losses.rolling import BearingFriction
     from cqdd_design.results import MassProperties
     from cqdd_design.solids.inertia import GearboxInertia
-
-AUTO = "auto"
-"""Designation of a cam bearing that is left to the catalogue."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,12 +49,53 @@ class Machine:
         The cam bearing.
     motor : Motor
         The catalogue's row, or what a file says instead.
+    temperatures : PartTemperatures or None
+        Of the parts, where they are not as drawn, at 20 deg C. Contacts, and what follows from
+        them, are those of the warm parts; closed forms, solids and masses those of the drawing.
     """
 
     given: Design
     design: Design
     cam: Bearing
     motor: Motor
+    temperatures: PartTemperatures | None = None
+
+    def at(self, temperatures: PartTemperatures) -> Machine:
+        """The machine with its parts at these temperatures."""
+        return replace(self, temperatures=temperatures)
+
+    @property
+    def too_warm(self) -> tuple[str, ...]:
+        """Sentences on parts that are warmer than their material bears, and on the lubricant."""
+        if self.temperatures is None:
+            return ()
+        parts = self.temperatures.beyond(self.design)
+        lubricant, _ = find_lubricant(self.design.reducer.friction.lubricant)
+        here, taken = self._between_ring_and_disc, self.lubricant_temperature
+        if here == taken:
+            return parts
+        told = (
+            f"between ring and discs at {here:.4g} degC {lubricant.name} is outside the "
+            f"{lubricant.coldest:g} to {lubricant.hottest:g} degC at which it works; its films and "
+            f"drag are those at {taken:g} degC."
+        )
+        return (*parts, told)
+
+    @property
+    def _between_ring_and_disc(self) -> float:
+        """Temperature halfway between them, deg C."""
+        if self.temperatures is None:
+            return RUNNING_TEMPERATURE
+        return 0.5 * (self.temperatures.ring + self.temperatures.disc)
+
+    @property
+    def lubricant_temperature(self) -> float:
+        """Of films and drag, deg C: halfway between ring and discs, as far as it is sold to work.
+
+        40 deg C where parts are as drawn: the temperature of the printed viscosities.
+        """
+        lubricant, _ = find_lubricant(self.design.reducer.friction.lubricant)
+        return min(max(self._between_ring_and_disc, lubricant.coldest), lubricant.hottest)
 
     def changed(self, changes: Mapping[str, Any]) -> Machine:
         """The machine with other values of some dotted keys, and the same bearing and motor."""
@@ -135,7 +175,13 @@ class Machine:
         """The same with another law of approach at teeth and pins."""
         from cqdd_design.gearbox.contact.model import ContactModel
 
-        return replace(ContactModel.from_design(self.design, line_model), bodies=self.bodies)
+        model = ContactModel.from_design(self.design, line_model, self.lubricant_temperature)
+        drawn = replace(model, bodies=self.bodies)
+        if self.temperatures is None:
+            return drawn
+        from cqdd_design.gearbox.heat.expansion import heated
+
+        return heated(drawn, self.design, self.temperatures)
 
     @cached_property
     def bodies(self) -> ElasticBodies | None:
@@ -156,16 +202,19 @@ class Machine:
         from cqdd_design.gearbox.losses import FrictionMachine
 
         support, output = (self._seat_friction(seat) for seat in self.seats)
-        return FrictionMachine.from_design(self.design, support=support, output=output)
+        return FrictionMachine.from_design(
+            self.design, support=support, output=output, temperature=self.lubricant_temperature
+        )
 
     def _seat_friction(self, seat: ChosenBearing) -> BearingFriction:
         from cqdd_design.gearbox.losses.rolling import BearingFriction
+        from cqdd_design.gearbox.rolling_contacts import at_rest
 
         row = seat.bearing
         if seat.source == "bush":
-            coefficient = self.design.reducer.friction.pin
+            coefficient = at_rest(self.design.reducer.friction.pin)
             return BearingFriction.bush(row.bore_diameter, row.width, coefficient)
-        return BearingFriction.of(row)
+        return BearingFriction.of(row, sealed=self.design.reducer.friction.seals == "contact")
 
     @cached_property
     def losses(self) -> LossModel:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cqdd_design.catalog.bearings import shaft_material
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import CamSpring
@@ -26,7 +27,6 @@ from cqdd_design.geometry.contours import ComplexArray, FloatArray
 from cqdd_design.machine.machine import Machine
 from cqdd_design.solids.layout import PackLayout, ShaftLayout
 from cqdd_design.solids.rotating import eccentric_shaft
-from cqdd_design.solids.throw import shaft_material
 
 MODEL = (
     "Not in the contact equilibrium, but bounded from its forces.",

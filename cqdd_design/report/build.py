@@ -21,6 +21,7 @@ from cqdd_design.report.gearbox.losses import losses_view
 from cqdd_design.report.gearbox.masses import bodies_view
 from cqdd_design.report.gearbox.precision import precision_view
 from cqdd_design.report.gearbox.stress import stress_view
+from cqdd_design.report.gearbox.temperatures import temperatures_view
 from cqdd_design.report.gearbox.tolerances import tolerance_view
 from cqdd_design.report.ink.numbers import RPM, significant, with_unit
 from cqdd_design.report.ink.page import Values, environment
@@ -127,6 +128,13 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
         chapter("stress", "Stress", _stress(results, outlines)),
         of_contact("precision", "Precision", lambda found: precision_view(found, design)),
         of_contact("losses", "Losses", losses_view),
+        chapter(
+            "temperatures",
+            "Temperatures",
+            None
+            if results.temperatures is None
+            else {"temperatures": temperatures_view(results.temperatures)},
+        ),
         of_contact("life", "Life", lambda found: life_view(found.life)),
         chapter(
             "tolerances",
@@ -194,7 +202,9 @@ def _bodies(results: ReportInput) -> Values | None:
 def _closing(results: ReportInput, groups: tuple[tuple[str, tuple[Value, ...]], ...]) -> Values:
     design, analysis = results.design, results.gearbox
     parts = () if results.bodies is None else results.bodies.parts
-    literature, catalogue = sources_used(analysis, parts, results.stress_checks)
+    literature, catalogue = sources_used(
+        analysis, parts, (*results.stress_checks, *results.heat_checks)
+    )
     return {
         "symbols": paper_symbols(design),
         "errata": ERRATA,

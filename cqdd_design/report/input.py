@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from cqdd_design.gearbox.tolerance.clearance import ClearancePoint
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
     from cqdd_design.machine.contact_analysis import ContactAnalysis
+    from cqdd_design.machine.temperatures import MachineTemperatures
     from cqdd_design.report.machine_view.model import ViewerData
     from cqdd_design.report.machine_view.stills import MachineViews
     from cqdd_design.sizing.result import SizingResult
@@ -55,6 +56,10 @@ class ReportInput:
         Of discs and ring, at the torques of the requirements.
     stress_checks : tuple of Check
         Of that stress.
+    temperatures : MachineTemperatures or None
+        Of the parts, at the duty of the requirements or at the continuous torque.
+    heat_checks : tuple of Check
+        Of them, and of the clearances they leave.
     tolerance : ToleranceResult or None
         An ensemble of toleranced gearboxes.
     clearances : tuple of ClearancePoint
@@ -81,6 +86,8 @@ class ReportInput:
     contact: ContactAnalysis | None = None
     stress: BodyStrength | None = None
     stress_checks: tuple[Check, ...] = ()
+    temperatures: MachineTemperatures | None = None
+    heat_checks: tuple[Check, ...] = ()
     tolerance: ToleranceResult | None = None
     clearances: tuple[ClearancePoint, ...] = ()
     pictures: tuple[MachineViews, ViewerData] | None = None
@@ -90,8 +97,8 @@ class ReportInput:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Those of the closed forms, and those of discs and ring where there are any."""
-        return (*self.gearbox.checks, *self.stress_checks)
+        """Those of the closed forms, of discs and ring, and of heat, where there are any."""
+        return (*self.gearbox.checks, *self.stress_checks, *self.heat_checks)
 
     @property
     def design(self) -> Design:

@@ -57,11 +57,14 @@ def check(
         When disc, ring or holes cannot exist, or, looked at as solids, the parts.
     """
     from cqdd_design.machine.body_analysis import judged_or_told
+    from cqdd_design.machine.temperatures import judged_temperatures
 
     machine = specimen.machine(design)
     found = machine.analysis
     _, stress, unstressed = judged_or_told(machine)
-    checks, warnings = (*found.checks, *stress), (*found.warnings, *unstressed)
+    _, warm, unknown = judged_temperatures(machine)
+    checks = (*found.checks, *stress, *warm)
+    warnings = (*found.warnings, *unstressed, *unknown)
     if assembly_angles is None:
         return Judgement(checks, warnings)
     from cqdd_design.solids.clearances import assembly_motion, output_revolution

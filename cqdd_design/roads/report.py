@@ -17,6 +17,7 @@ from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensembl
 from cqdd_design.machine import Machine
 from cqdd_design.machine.body_analysis import judged_or_told
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
+from cqdd_design.machine.temperatures import judged_temperatures
 from cqdd_design.machine.weighing import weigh_if_possible
 from cqdd_design.report import ReportInput, build_report, read_comments
 from cqdd_design.report.judgement.shortfalls import shortfalls
@@ -95,6 +96,7 @@ def write_report(
         stress, stress_checks, unstressed = (
             (None, (), ()) if contact is None else judged_or_told(machine)
         )
+        warm, heat_checks, unknown = judged_temperatures(machine)
         clearances: tuple[ClearancePoint, ...] = ()
         if ensemble is not None:
             angles = ensemble.ensemble.angles
@@ -114,12 +116,14 @@ def write_report(
         provenance=provenance(design),
         comments={} if source is None else read_comments(source),
         bodies=bodies,
-        notes=(*specimen.remarks, *notes, *unsolved, *unstressed),
+        notes=(*specimen.remarks, *notes, *unsolved, *unstressed, *unknown),
         sizing=sizing,
         files=files,
         contact=contact,
         stress=stress,
         stress_checks=stress_checks,
+        temperatures=warm,
+        heat_checks=heat_checks,
         tolerance=ensemble,
         clearances=clearances,
         pictures=pictures,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from cqdd_design.design import Design
+from cqdd_design.gearbox.heat.expansion import AS_DRAWN, PartTemperatures
 from cqdd_design.gearbox.tolerance.ensemble import (
     Progress,
     ToleranceResult,
@@ -19,6 +20,7 @@ def tolerance(
     torque: float | None = None,
     angles: int | None = None,
     seed: int = 0,
+    temperature: float | None = None,
     scheduler: str | None = None,
     progress: Progress | None = None,
 ) -> ToleranceResult:
@@ -35,6 +37,8 @@ def tolerance(
         Crank angles over the output turn; default 8 n (n+1), which miss no order.
     seed : int
         Of the draws.
+    temperature : float, optional
+        Of all parts, deg C; default 20, at which dimensions hold.
     scheduler : str, optional
         Address of the Dask scheduler to work on, such as ``tcp://HOST:8786``; default this machine.
     progress : callable, optional
@@ -42,10 +46,16 @@ def tolerance(
 
     Raises
     ------
+    DesignError
+        When the thermal expansion of a part is not known.
     UsageError
-        When the angles do not fit into memory, or no scheduler answers.
+        For a temperature outside the range that is worked with, when the angles do not fit into
+        memory, or no scheduler answers.
     """
-    ensemble = make_ensemble(resolve(design).design, torque=torque, angles=angles, seed=seed)
+    parts = AS_DRAWN if temperature is None else PartTemperatures.even(temperature)
+    ensemble = make_ensemble(
+        resolve(design).design, torque=torque, angles=angles, seed=seed, temperatures=parts
+    )
     if scheduler is None:
         return run_ensemble(ensemble, samples, progress=progress)
     from cqdd_design.sizing.distributed import dask_client, on_cluster

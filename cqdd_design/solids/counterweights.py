@@ -25,7 +25,7 @@ from cqdd_design.solids.poses import SHAFT, body_pose
 
 NAMES = ("balance weight, shaft end", "balance weight, output end")
 MATERIAL = "AISI 4140 annealed"
-_HEIGHT = 1.5
+_HEIGHT = 2.0
 """Of a weight, units."""
 _MOST_HALF_ANGLE = math.radians(85.0)
 _LEAST = 1e-9

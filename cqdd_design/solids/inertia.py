@@ -32,13 +32,16 @@ from cqdd_design.solids.poses import Body
 
 MassSource = Callable[[Part], MassProperties]
 
-ROTOR = "motor rotor"
+ROTOR, BELL = "motor rotor", "rotor bell"
+ROTOR_PARTS = (ROTOR, BELL)
+"""The rotor of an outrunner: magnets, and the cup that carries them. A catalogue's inertia and mass
+of a motor count both, so both stand for it together and neither comes on top."""
+ROTOR_SCOPE = "its bell included"
 
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
-        "motor": ("motor rotor", "motor stator"),
-        "bell, cover and encoder": (
-            "rotor bell",
+        "motor": (*ROTOR_PARTS, "motor stator"),
+        "cover and encoder": (
             "motor cover",
             "encoder magnet",
             "encoder board",
@@ -167,42 +170,48 @@ class GearboxInertia:
     @property
     def mass_scope(self) -> str:
         """What `mass` counts, in words."""
+        motor = f"{self.motor.name} by its catalogue, stator and rotor, {ROTOR_SCOPE}"
         if not self.motor_missing:
-            return "gearbox, housing, motor, bell, cover and encoder as drawn"
-        drawn, motor = f"gearbox and housing as drawn, {self.total.mass:.4g} kg", self.motor.name
+            return (
+                f"gearbox, housing, cover and encoder as drawn, and {motor}, "
+                f"{self.group_masses['motor']:.4g} kg"
+            )
+        drawn = f"gearbox and housing as drawn, {self.total.mass:.4g} kg"
         if self.motor_by_catalogue is None:
-            return f"{drawn}; without the motor, bell, cover and encoder, which are not drawn"
+            return f"{drawn}; without the motor, cover and encoder, which are not drawn"
         return (
-            f"{drawn}, and {motor} by its catalogue, {self.motor_by_catalogue:.4g} kg; without "
-            "bell, cover and encoder, which are not drawn"
+            f"{drawn}, and {motor}, {self.motor_by_catalogue:.4g} kg; without cover and encoder, "
+            "which are not drawn"
         )
 
     @property
     def crank_scope(self) -> str:
         """What `gearbox_reflected` counts, in words."""
-        if not self.motor_missing:
-            return "gearbox and bell as drawn"
-        return "gearbox as drawn, without the bell that carries the rotor, which is not drawn"
+        return "gearbox as drawn, without the motor's rotor and its bell"
 
     @property
     def inertia_scope(self) -> str:
         """What `reflected_input` counts, in words."""
-        if not self.motor_missing:
-            return f"rotor, {self.crank_scope}"
-        if self.rotor_inertia is None:
-            return f"{self.crank_scope}; without the rotor, whose inertia is not known"
-        return f"rotor by its catalogue, {self.crank_scope}"
+        if self.rotor_inertia is not None:
+            return f"rotor by its catalogue, {ROTOR_SCOPE}, and gearbox as drawn"
+        if self.rotor_drawn > 0.0:
+            return f"rotor, {ROTOR_SCOPE}, and gearbox as drawn"
+        return f"{self.crank_scope}, whose inertia is not known"
+
+    @property
+    def rotor_drawn(self) -> float:
+        """Inertia of the rotor's solids, magnets and bell, kg m^2; 0 where it is not drawn."""
+        return sum(part.reflected for part in self.parts if part.name in ROTOR_PARTS)
 
     @property
     def gearbox_reflected(self) -> float:
-        """Inertia at the input without the rotor's ring of magnets, kg m^2."""
-        return sum(part.reflected for part in self.parts if part.name != ROTOR)
+        """Inertia at the input without the motor's rotor and its bell, kg m^2."""
+        return sum(part.reflected for part in self.parts if part.name not in ROTOR_PARTS)
 
     @property
     def reflected_input(self) -> float:
         """Inertia at the input, rotor included where it is known, kg m^2."""
-        rotor = sum(part.reflected for part in self.parts if part.name == ROTOR)
-        return self.gearbox_reflected + (rotor or self.rotor_inertia or 0.0)
+        return self.gearbox_reflected + (self.rotor_drawn or self.rotor_inertia or 0.0)
 
     @property
     def group_masses(self) -> dict[str, float]:

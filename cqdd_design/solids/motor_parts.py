@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from typing import NamedTuple
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.results import MassProperties
 from cqdd_design.solids import motor_shapes
 from cqdd_design.solids.carrier import cap_screw_shape
+from cqdd_design.solids.inertia import BELL, ROTOR
 from cqdd_design.solids.layers import Stack, on_circle
 from cqdd_design.solids.layout import Layout, MotorLayout
 from cqdd_design.solids.part import Colour, Part, Source, around, on_axis, placed
@@ -18,6 +22,9 @@ from cqdd_design.solids.selection import CapScrew
 STATOR_MATERIAL = "Electrical steel M400-50A"
 MAGNET_MATERIAL = "NdFeB N42"
 BOARD_MATERIAL = "FR-4 glass epoxy"
+
+_ROTOR_SHARE, _LEAST_STATOR = 0.4, 0.05
+"""Of a motor's mass: a rotor of unknown inertia, and the least that is left to the stator."""
 
 _STATOR: Colour = (0.72, 0.45, 0.20)
 _ROTOR: Colour = (0.30, 0.31, 0.34)
@@ -42,9 +49,6 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
         return []
     row, metal, unit = layout.motor_row, design.housing.material, layout.unit
     stub = 0.5 * layout.shaft.support.bearing.bore_diameter
-    rotor_mass = _rotor_mass(row, motor)
-    stator_mass = None if row.mass is None else row.mass - rotor_mass
-    bell = motor_shapes.bell(motor, stub, unit)
     cover = motor_shapes.motor_cover(motor, layout.housing.flange_bottom, unit)
     magnet = motor_shapes.encoder_magnet(motor)
     on_board = on_circle(3, motor_shapes.board_screw_circle(motor), 0.0)
@@ -67,20 +71,22 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
         source: Source = "make" if make else "buy"
         return Part(name, shape, material, colour, source, designation, pieces, mass)
 
+    bell = one(
+        BELL, motor_shapes.bell(motor, stub, unit), metal, _BELL,
+        "cup of the motor's rotor, turned and drilled, bonded on the shaft and to the magnets",
+        turns=True, make=True,
+    )  # fmt: skip
+    masses = _motor_masses(row, motor, bell.exact_properties)
     return [
         one(
             "motor stator", motor_shapes.stator(motor), STATOR_MATERIAL, _STATOR,
-            f"{row.name}, stator", mass=stator_mass,
+            f"{row.name}, stator", mass=masses.stator,
         ),
         one(
-            "motor rotor", motor_shapes.rotor(motor), MAGNET_MATERIAL, _ROTOR,
-            f"{row.name}, ring of magnets", turns=True, mass=rotor_mass,
+            ROTOR, motor_shapes.rotor(motor), MAGNET_MATERIAL, _ROTOR,
+            f"{row.name}, ring of magnets", turns=True, mass=masses.magnets,
         ),
-        one(
-            "rotor bell", bell, metal, _BELL,
-            "turned and drilled, bonded on the shaft and to the ring of magnets",
-            turns=True, make=True,
-        ),
+        replace(bell, catalogue_mass=masses.bell),
         one("motor cover", cover, metal, _COVER, "turned and milled", make=True),
         one(
             "encoder magnet", magnet, MAGNET_MATERIAL, _MAGNET,
@@ -96,14 +102,34 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
     ]  # fmt: skip
 
 
-def _rotor_mass(row: Motor, motor: MotorLayout) -> float:
-    """Mass of the ring of magnets that gives the catalogue's rotor inertia, kg.
+class _Masses(NamedTuple):
+    """Masses of the motor's parts, kg; a bell of None weighs what is drawn."""
 
-    Without one, two fifths of the motor's mass, as is usual for outrunners.
+    stator: float
+    magnets: float
+    bell: float | None
+
+
+def _motor_masses(row: Motor, motor: MotorLayout, bell: MassProperties) -> _Masses:
+    """Split the catalogue's motor over the parts that stand for it.
+
+    Magnets and bell together have the catalogue's rotor inertia, and with the stator its mass: a
+    maker's rotor is magnets in their cup. The bell weighs what is drawn, and no more than half of
+    the rotor. Without a rotor inertia the rotor is two fifths of the motor's mass, as is usual for
+    outrunners.
     """
+    whole = row.mass or 0.0
+    own = float(bell.inertia[2, 2])
+    square = 0.5 * (motor.rotor_inner**2 + motor.rotor_outer**2)
     if row.rotor_inertia is None:
-        return 0.4 * (row.mass or 0.0)
-    return row.rotor_inertia / (0.5 * (motor.rotor_inner**2 + motor.rotor_outer**2))
+        part = min(1.0, 0.5 * _ROTOR_SHARE * whole / bell.mass)
+        magnets = _ROTOR_SHARE * whole - part * bell.mass
+    else:
+        part = min(1.0, 0.5 * row.rotor_inertia / own)
+        magnets = (row.rotor_inertia - part * own) / square
+    carried = part * bell.mass
+    stator = max(whole - magnets - carried, _LEAST_STATOR * whole)
+    return _Masses(stator, magnets, carried if part < 1.0 else None)
 
 
 def _screws(name: str, screw: CapScrew, material: str, places: FloatArray, height: float) -> Part:

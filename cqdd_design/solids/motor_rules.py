@@ -104,7 +104,9 @@ def lay_out_motor(
     stack, ring = motor.stack_length or 0.0, motor.rotor_length or 0.0
     stack_outer = 0.5 * (gap - _AIR_GAP)
     rotor_inner = 0.5 * (gap + _AIR_GAP)
-    rotor_outer = 0.5 * (motor.outer_diameter or 0.0)
+    # The catalogue's outside is that of the cup, which is the bell.
+    bell = 0.5 * (motor.outer_diameter or 0.0)
+    rotor_outer = bell - min(1.2 * unit, 0.5 * (bell - rotor_inner))
     coil = _COIL_SHARE * depth
     room = 2.0 * unit if weights else 0.0
     stack_top = housing.flange_bottom - 0.5 * unit - max(coil, 0.5 * (ring - stack) + unit + room)
@@ -126,7 +128,6 @@ def lay_out_motor(
     board_screw = cap_screw(2e-3, _BOARD_THICKNESS + 2.0e-3)
     board = 0.5 * magnet + 9e-3
 
-    bell = rotor_outer + 1.2 * unit
     inner = bell + unit
     wall = 1.6 * unit
     thread = thread_size(3.0 * unit)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterable, Sequence
 
+from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, shaft_material
 from cqdd_design.design import Design
 from cqdd_design.geometry.columns import COLUMN_MATERIAL
 from cqdd_design.geometry.contours import FloatArray
@@ -31,8 +32,7 @@ from cqdd_design.solids.motor_shapes import (
 )
 from cqdd_design.solids.part import Colour, Instance, Part, around, on_axis, placed
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
-from cqdd_design.solids.selection import BEARING_MATERIAL, ChosenBearing
-from cqdd_design.solids.throw import shaft_material
+from cqdd_design.solids.selection import ChosenBearing
 
 NUT_MATERIAL = "AISI 4140 Q&T 540C"
 FASTENER_MATERIAL = "Alloy steel 12.9 (ISO 7379)"
@@ -290,6 +290,8 @@ def _runner_parts(
 ) -> list[Part]:
     """One sleeve or roller a pin and disc, and the needle cage in the middle of it.
 
+    Drawn cups stand side by side without a sleeve.
+
     Parameters
     ----------
     where, name : str
@@ -302,14 +304,19 @@ def _runner_parts(
     places = [(x, y) for x, y in centres]
 
     def at_every_disc(called: str, length: float) -> tuple[Instance, ...]:
-        above = 0.5 * (pack.disc_thickness - length)
+        above = 0.5 * (pack.disc_thickness - runner.rows * length)
         standing = [
-            transform(x=x, y=y, z=pack.disc_bottom(disc) + above)
+            transform(x=x, y=y, z=pack.disc_bottom(disc) + above + row * length)
             for disc in range(pack.disc_count)
+            for row in range(runner.rows)
             for x, y in places
         ]
         return placed(called, body, *standing)
 
+    cage = runner.cage
+    if cage is not None and runner.is_drawn_cup:
+        called = f"{where} needle bearing"
+        return [_needle_part(called, cage, at_every_disc(called, cage.width))]
     outer, inner, length = runner.diameter, runner.bore, runner.length
     turning = Part(
         f"{where} {name}",
@@ -320,20 +327,23 @@ def _runner_parts(
         f"ground {name} {inner * 1e3:g} x {outer * 1e3:g} x {length * 1e3:g} mm",
         at_every_disc(f"{where} {name}", length),
     )
-    cage = runner.cage
     if cage is None:
         return [turning]
-    needles = Part(
-        f"{where} needle cage",
-        rotating.sleeve(cage.bore_diameter, cage.outer_diameter, cage.width),
+    called = f"{where} needle cage"
+    return [turning, _needle_part(called, cage, at_every_disc(called, cage.width))]
+
+
+def _needle_part(called: str, row: Bearing, standing: tuple[Instance, ...]) -> Part:
+    return Part(
+        called,
+        rotating.sleeve(row.bore_diameter, row.outer_diameter, row.width),
         BEARING_MATERIAL,
         _BEARING,
         "buy",
-        cage.designation,
-        at_every_disc(f"{where} needle cage", cage.width),
-        catalogue_mass=cage.mass,
+        row.designation,
+        standing,
+        catalogue_mass=row.mass,
     )
-    return [turning, needles]
 
 
 def _housing_parts(design: Design, layout: Layout) -> list[Part]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from cqdd_design.catalog.bearings import Bearing
+from cqdd_design.catalog.bearings import AUTO, Bearing, find_bearing
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
@@ -33,6 +33,7 @@ from cqdd_design.solids.selection import (
     ChosenBearing,
     OutputPin,
     cap_screw,
+    named_output_bearing,
     output_bearing,
     output_pin,
     support_bearing,
@@ -121,13 +122,15 @@ def _seats(
         2.0 * (circle - heads - pin_wall(pins.diameter, unit) - 2.3 * unit),
     )
     most_shoulder, around = _most_shoulder_radius(pack, unit), circle + radius
-    output = output_bearing(
+    room = (
         2.0 * (around + _within(0.2 * unit, most_shoulder - around - unit, 1.2 * unit)),
         most_shoulder,
         2.0 * pack.ring_radius + 8.0 * unit,
-        unit,
     )
-    return support, output
+    named = design.reducer.carrier_bearing.designation
+    if named == AUTO:
+        return support, output_bearing(*room, unit)
+    return support, named_output_bearing(find_bearing(named), *room)
 
 
 def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:

@@ -10,15 +10,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from cqdd_design.catalog.bearings import Bearing, bearings
+from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, bearings
 from cqdd_design.catalog.screws import ShoulderScrew, find_shoulder_screw, mean_pin_diameter
-from cqdd_design.errors import CatalogError
+from cqdd_design.errors import CatalogError, GeometryError
 
 RING_SHARE = 0.3
 """Height of a bearing's ring as a share of its radial section, for shoulders and envelopes."""
 
 BUSH_MATERIAL = "Bronze CuSn12"
-BEARING_MATERIAL = "AISI 52100 / 100Cr6 hardened"
 
 # Head diameter, head height and socket of hexagon socket head cap screws, mm (ISO 4762:2004,
 # table 1: dk max for plain heads, k max, s nominal).
@@ -167,6 +166,46 @@ def output_bearing(
     outer, width = bore + 2.0 * section, 1.1 * section
     name = f"thin section {bore * 1e3:.4g} x {outer * 1e3:.4g} x {width * 1e3:.3g} mm, to order"
     return _made(name, bore, outer, width, "to order")
+
+
+def named_output_bearing(
+    row: Bearing, least_bore: float, most_shoulder_radius: float, most_outer_diameter: float
+) -> ChosenBearing:
+    """The bearing between carrier and housing that a design names.
+
+    Parameters
+    ----------
+    row : Bearing
+        Of the catalogue.
+    least_bore, most_shoulder_radius, most_outer_diameter : float
+        As for :func:`output_bearing`, m.
+
+    Raises
+    ------
+    GeometryError
+        When it is no bearing for a carrier, or does not go between the pins and the housing.
+    """
+    chosen, key = ChosenBearing(row), f"carrier_bearing.designation '{row.designation}'"
+    auto = 'or "auto" for the catalogue\'s best that fits'
+    if row.kind not in ("ball", "crossed roller"):
+        raise GeometryError(
+            f"{key} is a {row.kind} bearing, which does not guide a carrier; choose a ball or "
+            f"crossed-roller bearing, {auto}."
+        )
+    bore, outside = row.bore_diameter, row.outer_diameter
+    if bore < least_bore - 1e-9:
+        raise GeometryError(
+            f"{key} has a bore of {bore * 1e3:g} mm, and the pins in the carrier plate need "
+            f"{least_bore * 1e3:.4g} mm; choose a larger one, {auto}."
+        )
+    if outside > most_outer_diameter + 1e-9 or chosen.shoulder_radius > most_shoulder_radius + 1e-9:
+        raise GeometryError(
+            f"{key} is {outside * 1e3:g} mm outside with a shoulder of "
+            f"{2e3 * chosen.shoulder_radius:.4g} mm, and the housing has room for "
+            f"{most_outer_diameter * 1e3:.4g} mm, the ring's clamp for a shoulder of "
+            f"{2e3 * most_shoulder_radius:.4g} mm; choose a smaller one, {auto}."
+        )
+    return chosen
 
 
 def _made(name: str, bore: float, outer: float, width: float, source: str) -> ChosenBearing:

@@ -11,16 +11,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from cqdd_design.catalog.bearings import Bearing
+from cqdd_design.catalog.bearings import Bearing, shaft_material
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
 from cqdd_design.geometry.disc import disc_moments
 from cqdd_design.solids.rotating import bearing_envelope
 from cqdd_design.solids.selection import ChosenBearing
-
-SHAFT_MATERIAL = "AISI 4140 Q&T 540C"
-RACEWAY_MATERIAL = "SCM415/16MnCr5 case hardened"
-"""Shaft whose lobes are raceways of a needle cage: they must be hard."""
 
 
 @dataclass(frozen=True)
@@ -41,11 +37,6 @@ class Throw:
     def mass(self) -> float:
         """All three together, kg."""
         return self.disc + self.cam_bearing + self.eccentric
-
-
-def shaft_material(cam: Bearing) -> str:
-    """Catalogue name of what shaft and loose cams are made of, for a cam bearing on them."""
-    return RACEWAY_MATERIAL if cam.kind == "needle cage" else SHAFT_MATERIAL
 
 
 def throw_of(design: Design, cam: Bearing) -> Throw:

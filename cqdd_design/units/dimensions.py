@@ -25,6 +25,8 @@ class Dimension:
         of pint on the everyday road; a test compares every row with pint.
     refuses : str
         What people type by mistake, and why it is refused; empty when there is nothing to say.
+    zeros : tuple of (str, float)
+        Of a scale whose units start elsewhere, where each starts: then only these are read.
     """
 
     name: str
@@ -32,6 +34,7 @@ class Dimension:
     kinds: str
     common: tuple[tuple[str, float], ...]
     refuses: str = ""
+    zeros: tuple[tuple[str, float], ...] = ()
 
     @property
     def si_factor(self) -> float:
@@ -110,6 +113,15 @@ DAMPING_GAIN = Dimension(
     "a gain on a speed is torque times time per angle, N*m*s/rad",
 )
 THERMAL_RESISTANCE = Dimension("thermal resistance", "K/W", "temperature/power", (("K/W", 1.0),))
+TEMPERATURE = Dimension(
+    "temperature",
+    "degC",
+    "temperature",
+    (("degC", 1.0), ("K", 1.0), ("degF", 5.0 / 9.0)),
+    "a temperature is read in degC, K or degF",
+    zeros=(("degC", 0.0), ("K", -273.15), ("degF", -160.0 / 9.0)),
+)
+"""Inside, temperatures are in degrees Celsius: those of parts, and of data sheets."""
 TIME = Dimension("time", "s", "time", (("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("min", 60.0)))
 VISCOSITY = Dimension(
     "kinematic viscosity", "mm^2/s", "length^2/time", (("mm^2/s", 1e-6), ("m^2/s", 1.0))

@@ -33,6 +33,8 @@ _SPELLINGS = {
     "µm": "um",
     "μm": "um",
     "°": "deg",
+    "°C": "degC",
+    "°F": "degF",
     "'": "arcmin",
     "RPM": "rpm",
     "rev/min": "rpm",
@@ -128,7 +130,7 @@ def parse_quantity(text: str, dimension: Dimension) -> float:
     Returns
     -------
     float
-        Finite, in SI base units (angles in rad, speeds in rad/s).
+        Finite, in SI base units (angles in rad, speeds in rad/s), temperatures in deg C.
 
     Raises
     ------
@@ -165,8 +167,13 @@ def parse_quantity(text: str, dimension: Dimension) -> float:
     unit = _SPELLINGS.get(unit, unit)
     factor = dict(dimension.common).get(unit)
     if factor is None:
+        if dimension.zeros:
+            raise DesignError(
+                f"'{unit}' is not a unit of {dimension.name}; {dimension.refuses}, like "
+                f"{dimension.example()}"
+            )
         factor = _factor_by_pint(unit, dimension)
-    value = _scaled(number, factor)
+    value = _scaled(number, factor) + dict(dimension.zeros).get(unit, 0.0)
     if not math.isfinite(value):
         raise DesignError(f"'{text}' is not a finite {dimension.name}")
     return value

@@ -178,7 +178,7 @@ def test_unknown_table(complaint):
         ('output_pins]\nsleeve = "needle"', "needs a sleeve for the needles"),
         ('output_pins]\nsleeve_diameter = "3 mm"', "make it at least 5 mm"),
         ('output_pins]\nsleeve = "needle"\nsleeve_diameter = "6 mm"', "_diameter to 8 mm"),
-        ('output_pins]\nsleeve = "ball"', "must be 'plain' or 'needle'"),
+        ('output_pins]\nsleeve = "ball"', "must be 'plain', 'needle' or 'drawn cup'"),
         ('ring]\nroller = "needle"', "needs a roller for the needles"),
         ('ring]\nroller_diameter = "9 mm"', 'make ring_type "pinwheel"'),
     ],

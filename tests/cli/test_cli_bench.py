@@ -65,30 +65,30 @@ def test_bench_says_what_an_agreement_is(cqdd):
 @pytest.mark.deep
 def test_calibration_goes_from_one_command_into_the_others(cqdd, tmp_path):
     measured = tmp_path / "rig.csv"
-    measured.write_text("name,value,unit\nbackdrive_static,1500,mN*m\nno_load_speed,13.5,rad/s\n")
+    measured.write_text("name,value,unit\nbackdrive_static,2200,mN*m\nno_load_speed,13.5,rad/s\n")
     path = tmp_path / "fit.json"
     found = cqdd("calibrate", DESIGN, "--measured", str(measured), "--out", str(path), "--json")
     assert found.code == 0
     rows = found.document["results"]["rows"]
     assert rows["backdrive_static"]["relation"] == "calibrated"
-    assert rows["backdrive_static"]["after"] == pytest.approx(1.5, rel=1e-3)
+    assert rows["backdrive_static"]["after"] == pytest.approx(2.2, rel=1e-3)
     assert found.document["results"]["predicted"] == ["no_load_speed"]
     again = cqdd(
         "bench", DESIGN, "--only", "backdrive_static", "--calibration", str(path), "--json"
     )
     value = again.document["results"]["metrics"]["backdrive_static"]["value"]
-    assert value == pytest.approx(1.5, rel=1e-3)
+    assert value == pytest.approx(2.2, rel=1e-3)
     assert again.document["results"]["metrics"]["backdrive_static"]["relation"] == "calibrated"
     out = tmp_path / "card"
     cqdd("export", DESIGN, "--to", "card", "--calibration", str(path), "--out", str(out))
-    assert "calibrated: friction_level" in (out / "cqdd-10-card.md").read_text()
+    assert "calibrated: motor_cogging" in (out / "cqdd-10-card.md").read_text()
     file = tmp_path / "run.npz"
     run = cqdd(
         "simulate", DESIGN, "--duration", "0.1 s", "--calibration", str(path), "--out", str(file)
     )
     assert run.code == 0
     assert "kept in" not in path.read_text()
-    assert json.loads(path.read_text())["unknowns"]["friction_level"]["factor"] > 5.0
+    assert json.loads(path.read_text())["unknowns"]["motor_cogging"]["value"] < 0.05
 
 
 @pytest.mark.parametrize(
@@ -107,8 +107,8 @@ def test_calibration_goes_from_one_command_into_the_others(cqdd, tmp_path):
         ),
         (["calibrate", DESIGN, "--measured", "none.csv"], "cannot read none.csv"),
         pytest.param(
-            ["calibrate", DESIGN, "--unknowns", "fricton_level"],
-            "did you mean 'friction_level'",
+            ["calibrate", DESIGN, "--unknowns", "fricton_load"],
+            "did you mean 'friction_load'",
             marks=pytest.mark.deep,
         ),
     ],

@@ -36,7 +36,6 @@ ON_DESIGN = [
     ("compare",),
     pytest.param(("inertia",), marks=pytest.mark.deep),
     ("export", "--to", "dxf"),
-    pytest.param(("report",), marks=pytest.mark.deep),
 ]
 OTHERS = [("catalog",), ("catalog", "6902"), ("schema",), ("explain",), ("explain", "BEARING-LIFE")]
 
@@ -47,7 +46,10 @@ def test_one_document_with_the_envelope(cqdd, paper_design_file, arguments):
     on_design = arguments not in OTHERS
     done = cqdd(command, *([paper_design_file] if on_design else []), *options, "--json")
     assert done.code == (4 if command == "check" else 0), done.err
-    document = done.document
+    assert_envelope(done.document, command, on_design)
+
+
+def assert_envelope(document, command, on_design):
     assert list(document) == KEYS
     assert document["schema_version"] == 1
     assert document["command"] == command
@@ -64,6 +66,28 @@ def test_one_document_with_the_envelope(cqdd, paper_design_file, arguments):
         assert check["status"] in {"pass", "warn", "fail"}
     for file in document["files"]:
         assert set(file) == {"path", "kind", "bytes", "sha256"}
+
+
+@pytest.mark.deep
+def test_a_report_replaces_its_own_page_and_shows_the_motor_of_the_file(
+    cqdd, tmp_path, paper_design_file
+):
+    page = tmp_path / "reports" / "cqdd-10.html"
+    page.parent.mkdir()
+    page.write_text("of yesterday")
+    motor = tmp_path / "motor.toml"
+    motor.write_text(
+        'name = "rewound"\nmass = "0.9 kg"\nrotor_inertia = "2e-4 kg*m^2"\n'
+        'peak_torque = "13 N*m"\nrated_torque = "5 N*m"\n'
+    )
+    done = cqdd("report", paper_design_file, "--motor-file", motor, "--json")
+    assert done.code == 0, done.err
+    assert_envelope(done.document, "report", True)
+    text = page.read_text()
+    assert len(text) > 1e5
+    assert "rewound, ring of magnets" in text
+    assert "rewound: motor file motor.toml" in text
+    assert "rewound from motor.toml" in text
 
 
 def test_the_time_is_that_of_the_environment(cqdd, paper_design_file):

@@ -38,7 +38,7 @@ def test_size_designs_for_the_motor_of_the_file(cqdd, tmp_path, motor_file):
     done = cqdd("size", "--ratio", "10", "--motor-file", motor_file, "--out", "b.toml", "--json")
     assert done.code == 0, done.err
     own = done.document["results"]
-    for results, inertia in ((usual, 5.6e-4), (own, 2e-4)):
+    for results, inertia in ((usual, 8.7e-4), (own, 2e-4)):
         goal = results["objective"]
         rotor = goal["reflected_inertia_kgm2"] - goal["gearbox_inertia_kgm2"]
         assert rotor == pytest.approx(inertia)
@@ -72,14 +72,3 @@ def test_the_bill_names_the_motor_of_the_file(cqdd, tmp_path, paper_design_file,
     assert "rewound, stator" in text
     assert "motor.toml" in text
     assert "RO100 KV55, stator" not in text
-
-
-@pytest.mark.deep
-def test_the_report_shows_the_motor_of_the_file(cqdd, tmp_path, paper_design_file, motor_file):
-    page = tmp_path / "page.html"
-    done = cqdd("report", paper_design_file, "--out", page, "--motor-file", motor_file)
-    assert done.code == 0, done.err
-    text = page.read_text()
-    assert "rewound, ring of magnets" in text
-    assert "rewound: motor file motor.toml" in text
-    assert "rewound from motor.toml" in text

@@ -54,7 +54,13 @@ def test_a_read_only_folder(cqdd, tmp_path, paper_design_file, command):
 @pytest.mark.parametrize("command", CHEAP_BY_DEFAULT)
 def test_a_disk_that_fills_up(tmp_path, paper_design_file, command):
     """A limit on the size of files stands in for the full disk: the write fails half-way."""
-    arguments = COMMANDS[command](paper_design_file, tmp_path / "out")
+    design = paper_design_file
+    if command == "report":
+        # Teeth that never touch and a motor without data: a page without ensembles and bench.
+        text = design.read_text().replace('equidistant = "6 um"', 'equidistant = "400 um"')
+        design = tmp_path / "loose.toml"
+        design.write_text(text.replace("CubeMars RO100 KV55", "T-Motor MN1010 KV90"))
+    arguments = COMMANDS[command](design, tmp_path / "out")
     done = subprocess.run(
         [sys.executable, "-m", "cqdd_design", *map(str, arguments)],
         cwd=tmp_path,
@@ -66,7 +72,7 @@ def test_a_disk_that_fills_up(tmp_path, paper_design_file, command):
     assert done.returncode == 2, done.stderr
     assert "cannot write" in done.stderr
     assert "Traceback" not in done.stderr
-    assert files_below(tmp_path) == []
+    assert files_below(tmp_path) == ([design.name] if command == "report" else [])
 
 
 def test_export_replaces_a_named_folder_only_by_force(cqdd, tmp_path, paper_design_file):
@@ -80,13 +86,6 @@ def test_export_replaces_a_named_folder_only_by_force(cqdd, tmp_path, paper_desi
     assert cqdd(*arguments, "--force").code == 0
 
 
-@pytest.mark.parametrize("command", ["export", pytest.param("report", marks=pytest.mark.deep)])
-def test_its_own_default_output_is_replaced(cqdd, tmp_path, paper_design_file, command):
-    if command == "report":
-        (tmp_path / "reports").mkdir()
-        (tmp_path / "reports" / "cqdd-10.html").write_text("of yesterday")
-        assert cqdd("report", paper_design_file).code == 0
-        assert (tmp_path / "reports" / "cqdd-10.html").stat().st_size > 1e5
-        return
+def test_its_own_default_output_is_replaced(cqdd, paper_design_file):
     for _ in range(2):
         assert cqdd("export", paper_design_file, "--to", "dxf").code == 0

@@ -102,14 +102,17 @@ def test_generate_takes_gains_and_a_calibration(documents, tmp_path):
         "format": "cqdd-design calibration 1",
         "name": "cqdd-10",
         "design_sha256": load_design(DESIGN).sha256,
-        "unknowns": {"friction_level": {"factor": 3.0}, "tolerance_scale": {"factor": 5.0}},
+        "unknowns": {
+            "motor_coulomb": {"value": 0.2, "unit": "N m"},
+            "tolerance_scale": {"factor": 5.0},
+        },
     }
     (tmp_path / "fit.json").write_text(json.dumps(content), "utf-8")
     more = ("--position-gain", "100 N*m/rad", "--calibration", "fit.json", "--json")
     assert run(["torque", "generate", str(DESIGN), *SMALL, *more, "--out", "set"]) == 0
     data = read_data(tmp_path / "set")
     assert data.position_gain == 100.0
-    assert data.facts["calibration"] == {"friction_level": 3.0}
+    assert data.facts["calibration"] == {"motor_coulomb": 0.2}
     assert any("tolerance_scale" in text for text in json.loads(documents[0])["warnings"])
 
 

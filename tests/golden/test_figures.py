@@ -11,7 +11,7 @@ from types import ModuleType
 
 import pytest
 
-PAGES = ("theory.md", "contact-model.md", "actuator-model.md")
+PAGES = ("theory.md", "contact-model.md", "actuator-model.md", "measured.md")
 
 
 @pytest.fixture(scope="module")

@@ -19,6 +19,7 @@ from cqdd_design.actuator import operating
 from cqdd_design.actuator import thermal as thermals
 from cqdd_design.actuator import transmission as transmissions
 from cqdd_design.actuator.build import actuator_parameters, friction_parameters
+from cqdd_design.actuator.joint_side import backdrive_dynamic, backdrive_static
 from cqdd_design.actuator.packing import gear_table, kinematic_error, stiffness_share
 from cqdd_design.actuator.parameters import (
     ActuatorParameters,
@@ -181,6 +182,8 @@ def test_friction_keeps_efficiencies_and_backdrive_torques() -> None:
     friction, n = one.friction, abs(one.gear.ratio)
     torque, speed = PAPER.requirements.continuous_torque, PAPER.requirements.input_speed
     found = losses.at(speed, torque)
+    # A motor that turns freely; what one that drags and cogs adds is another test's.
+    friction = friction_parameters(losses, torque, speed)
     constant = n * friction.motor_coulomb + friction.output_coulomb
     drag = constant + n * friction.motor_viscous * speed + friction.output_viscous * speed / n
     assert found.efficiency_forward is not None
@@ -190,17 +193,46 @@ def test_friction_keeps_efficiencies_and_backdrive_torques() -> None:
     backward = 1.0 - friction.load_backward - drag / torque
     assert backward == pytest.approx(found.efficiency_backward, abs=2e-3)
     back = losses.backdrive()
-    assert constant / (1.0 - friction.load_backward) == pytest.approx(back.dynamic_torque)
+    # The output's own part is none of what is brought through the gearbox.
+    at_motor = n * friction.motor_coulomb
+    dynamic = friction.output_coulomb + at_motor / (1.0 - friction.load_backward)
+    assert dynamic == pytest.approx(back.dynamic_torque)
     rise = 1.0 + friction.stribeck_extra
-    static = rise * constant / (1.0 - rise * friction.load_backward)
+    static = rise * (friction.output_coulomb + at_motor / (1.0 - rise * friction.load_backward))
     assert static == pytest.approx(back.static_torque)
+
+
+def test_friction_with_the_motor_on_the_shaft_keeps_backdrive_torques() -> None:
+    """Gearbox and motor together take what the loss model says of a shaft that drags and cogs."""
+    one, losses = built(), loss_of_paper()
+    n, torque = abs(one.gear.ratio), PAPER.requirements.continuous_torque
+    for drag, cogging in ((0.001, 0.0), (0.003, 0.002)):
+        friction = friction_parameters(
+            losses, torque, PAPER.requirements.input_speed, drag=drag, cogging=cogging
+        )
+        assert friction.motor_coulomb > 0.0
+        motor = replace(one.motor, coulomb=drag, viscous=0.0, cogging_amplitude=cogging)
+        whole = replace(one, motor=motor, friction=friction)
+        found = losses.backdrive(shaft_running=drag, shaft_resting=drag + cogging)
+        assert backdrive_dynamic(whole) == pytest.approx(found.dynamic_torque, rel=1e-9)
+        assert backdrive_static(whole) == pytest.approx(found.static_torque, rel=1e-9)
+    # A motor that drags more than the gearbox: its friction under load says too much already.
+    assert one.motor.dry_drag == 0.0999
+    assert one.friction.motor_coulomb == 0.0
+    assert one.friction.output_coulomb > 0.01
+    found = losses.backdrive(
+        shaft_running=one.motor.dry_drag,
+        shaft_resting=one.motor.dry_drag + one.motor.cogging_amplitude,
+    )
+    assert n * one.motor.dry_drag < found.dynamic_torque < backdrive_dynamic(one)
+    assert backdrive_dynamic(one) == pytest.approx(found.dynamic_torque, rel=0.06)
+    assert backdrive_static(one) == pytest.approx(found.static_torque, rel=0.01)
 
 
 def test_a_rotor_of_unknown_inertia_is_a_ring_of_part_of_the_motors_mass() -> None:
     """Of 30 % of the mass at 95 % of the radius, where the rotor is neither drawn nor listed."""
-    row = find_motor("CubeMars RI100 KV105")
-    assert row.rotor_inertia is None
-    one = actuator_parameters(resolve(PAPER.replacing({"motor.name": row.name})))
+    row = replace(find_motor("CubeMars RI100 KV105"), rotor_inertia=None)
+    one = actuator_parameters(resolve(PAPER.replacing({"motor.name": row.name}), row))
     assert one.origins["motor.rotor_inertia"].startswith("assumed: ring of 30 %")
     ring = 0.3 * 0.5 * (0.95 * 0.052) ** 2
     assert one.motor.rotor_inertia == pytest.approx(ring, rel=1e-12)
@@ -215,7 +247,8 @@ def test_preload_is_friction_without_load() -> None:
         loaded, free = tight.coulomb_work([torque, 0.0], sense).sum(axis=-1)
         assert free > 0.0
         assert share == pytest.approx(10.0 * (loaded - free) / torque, rel=1e-12)
-    assert friction.motor_coulomb > 2.0 * built().friction.motor_coulomb
+    usual = friction_parameters(loss_of_paper(), torque, speed)
+    assert friction.motor_coulomb > 2.0 * usual.motor_coulomb
 
 
 def test_simulated_backdrive_is_that_of_the_losses() -> None:
@@ -224,9 +257,11 @@ def test_simulated_backdrive_is_that_of_the_losses() -> None:
     found = simulate(one, scene, 15.0, 5e-5, every=20)
     late = found.time > 2.0
     mean = -float(found.output_torque[0, late].mean()) + 0.0
-    assert mean == pytest.approx(
-        loss_of_paper().backdrive(output_speed=0.5).dynamic_torque, rel=0.2
-    )
+    drag = float(motors.iron_drag(one.motor, 0.5 * abs(one.gear.ratio)))
+    losses = loss_of_paper().backdrive(output_speed=0.5, shaft_running=drag)
+    assert mean == pytest.approx(losses.dynamic_torque, rel=0.06)
+    # In the closed form too, with every term of it.
+    assert mean == pytest.approx(backdrive_dynamic(one, 0.5), rel=0.01)
 
 
 def test_simulated_no_load_speed_is_the_closed_form() -> None:

@@ -58,6 +58,32 @@ SCENES = {
 
 
 @pytest.mark.parametrize("friction", ["clip", "lugre"])
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_the_motors_own_drag_brakes_in_both_senses_and_is_heat(sense: float, friction: str) -> None:
+    """Coulomb and viscous drag of the motor alone: a torque against the motion, kept in the books.
+
+    It is counted with the friction of the motor and not with the iron, and cogging, fine enough to
+    pass several periods a step, takes and gives.
+    """
+    bare = machine(hysteresis=0.0, iron_loss=0.0, cogging_amplitude=0.0)
+    drag = {"coulomb": 0.05, "viscous": 4e-4, "cogging_amplitude": 0.05, "cogging_order": 252}
+    own = replace(bare, motor=replace(bare.motor, **drag))
+    scene = Scenario(
+        Command("open"), Load.driven(Constant(sense * 8.0)), Start(output_speed=sense * 8.0),
+        friction=friction,
+    )  # fmt: skip
+    runs = simulate([bare, own], scene, 2.0, 5e-5, every=20)
+    late = runs.time > 0.5
+    n = abs(own.gear.ratio)
+    braked = -sense * (runs.output_torque[1, late].mean() - runs.output_torque[0, late].mean())
+    wanted = (0.05 + 4e-4 * n * 8.0) * n / (1.0 - own.friction.load_backward)
+    assert braked == pytest.approx(wanted, rel=0.03)
+    assert np.all(runs.ledger.residual_share < 1e-9)
+    assert np.all(runs.ledger.iron == 0.0)
+    assert runs.ledger.motor_friction[1] > runs.ledger.motor_friction[0]
+
+
+@pytest.mark.parametrize("friction", ["clip", "lugre"])
 @pytest.mark.parametrize("name", list(SCENES))
 def test_energy_is_kept_over_ten_seconds(name: str, friction: str) -> None:
     scene = replace(SCENES[name], friction=friction)

@@ -26,7 +26,12 @@ RPM = 30.0 / math.pi
 
 @pytest.fixture(scope="module")
 def actuator() -> ActuatorParameters:
-    return actuator_parameters(resolve(load_design(PAPER)))
+    """The paper's gearbox with a motor that turns freely, and friction as without any motor."""
+    machine = resolve(load_design(PAPER))
+    free = dataclasses.replace(
+        machine.motor, coulomb=None, viscous=None, cogging_amplitude=None, cogging_order=1
+    )
+    return actuator_parameters(resolve(load_design(PAPER), free))
 
 
 def changed(actuator: ActuatorParameters, **parts: dict[str, float]) -> ActuatorParameters:
@@ -83,9 +88,10 @@ def test_resolution_is_a_count_through_the_ratio(actuator: ActuatorParameters) -
 def test_no_load_speed_is_that_of_the_circuit_and_the_drag(
     actuator: ActuatorParameters, voltage: float
 ) -> None:
+    actuator = changed(actuator, motor={"coulomb": 0.1, "viscous": 8e-4, "hysteresis": 0.02})
     motor, friction, n = actuator.motor, actuator.friction, abs(actuator.gear.ratio)
-    drag = friction.motor_coulomb + friction.output_coulomb / n
-    viscous = friction.motor_viscous + friction.output_viscous / n**2
+    drag = friction.motor_coulomb + friction.output_coulomb / n + 0.12
+    viscous = friction.motor_viscous + friction.output_viscous / n**2 + 8e-4
     speed = (motor.torque_constant * voltage / motor.resistance - drag) / (
         motor.torque_constant**2 / motor.resistance + viscous
     )
@@ -366,3 +372,13 @@ def test_saturation_limits_of_the_paper() -> None:
     assert saturation_limits(speed, torque, inertia, math.radians(5.0))[1] == pytest.approx(
         30.6, abs=0.05
     )
+
+
+def test_a_motor_without_drag_data_is_told(actuator: ActuatorParameters) -> None:
+    """Where a measurement hangs on it, and only there."""
+    assert actuator.origins["motor.coulomb"] == "assumed: 0, the catalogue gives none"
+    (told,) = run_bench(actuator, only=["backdrive_dynamic", "mass"]).warnings
+    assert "0 is assumed: backdrive_dynamic is that" in told
+    assert run_bench(actuator, only=["mass"]).warnings == ()
+    known = changed(actuator, motor={"viscous": 1e-4})
+    assert run_bench(known, only=["backdrive_dynamic"]).warnings == ()

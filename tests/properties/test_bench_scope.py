@@ -66,16 +66,17 @@ def test_a_motor_that_is_not_drawn_weighs_by_its_catalogue() -> None:
     machine = resolve(WIDE)
     inertia = machine.inertia
     drawn = sum(part.count * part.properties.mass for part in inertia.parts)
-    assert machine.motor.mass == 0.71
-    assert inertia.mass == pytest.approx(drawn + 0.71)
+    assert machine.motor.mass == 0.525
+    assert inertia.mass == pytest.approx(drawn + 0.525)
     assert inertia.total.mass == pytest.approx(drawn)
     assert sum(inertia.group_masses.values()) == pytest.approx(inertia.mass)
     assert sum(inertia.group_inertias.values()) == pytest.approx(inertia.reflected_input)
-    assert "0.71 kg" in inertia.mass_scope
-    assert "without bell, cover and encoder" in inertia.mass_scope
-    assert "without the bell that carries the rotor" in inertia.inertia_scope
+    assert "its bell included, 0.525 kg" in inertia.mass_scope
+    assert "without cover and encoder" in inertia.mass_scope
+    assert "its bell included" in inertia.inertia_scope
     parameters = actuator_parameters(machine)
-    assert "without the bell" in parameters.origins["gear.input_inertia"]
+    assert "without the motor's rotor and its bell" in parameters.origins["gear.input_inertia"]
+    assert "its bell included" in parameters.origins["motor.rotor_inertia"]
     known = resolve(PAPER).inertia
     assert known.mass == known.total.mass
     assert "without" not in known.mass_scope + known.inertia_scope

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 from collections.abc import Mapping
@@ -37,16 +38,44 @@ def rows_of(actuator: ActuatorParameters, names: list[str]) -> dict[str, float]:
 
 def test_every_unknown_is_told_by_one_measurement() -> None:
     assert set(TELLS) <= set(METRICS)
-    assert len(TELLS) == len(UNKNOWNS)
+    # The motor's viscous drag is none that one row tells.
+    assert set(TELLS.values()) == set(UNKNOWNS) - {"motor_viscous"}
+
+
+def test_unknowns_lie_in_ranges_of_this_motor(actuator: ActuatorParameters) -> None:
+    """Values of the catalogue are inside; a range ends before the gearbox holds itself."""
+    motor, friction = actuator.motor, actuator.friction
+    ranges = {name: unknown.bounds(actuator) for name, unknown in UNKNOWNS.items()}
+    for name, value in (
+        ("motor_coulomb", motor.coulomb),
+        ("motor_viscous", motor.viscous),
+        ("motor_cogging", motor.cogging_amplitude),
+    ):
+        least, most = ranges[name]
+        assert 0.0 < least < value < most
+        assert UNKNOWNS[name].start(actuator) == value
+    assert ranges["motor_coulomb"][1] == pytest.approx(0.1 * motor.rated_torque)
+    # At the upper end drag takes a fifth of the rated torque at the speed of the supply.
+    idle = actuator.drive.supply_voltage / motor.torque_constant
+    assert ranges["motor_viscous"][1] * idle == pytest.approx(0.2 * motor.rated_torque)
+    most = ranges["friction_load"][1]
+    holding = friction.load_backward * (1.0 + friction.stribeck_extra)
+    assert most * holding == pytest.approx(0.9)
+    assert ranges["current_loop"] == (0.01, 100.0)
+    # A motor of which nothing is known begins within the range too.
+    bare = dataclasses.replace(motor, coulomb=0.0, rated_torque=math.nan)
+    unknown = dataclasses.replace(actuator, motor=bare)
+    least, most = UNKNOWNS["motor_coulomb"].bounds(unknown)
+    assert least < UNKNOWNS["motor_coulomb"].start(unknown) < most
 
 
 @pytest.mark.deep
 def test_calibration_finds_what_was_changed(actuator: ActuatorParameters) -> None:
-    """Rows of an actuator with other friction and cooling bring these back from the first one."""
-    true = {"friction_level": 3.0, "thermal_resistance": 0.7, "friction_load": 0.6}
+    """Rows of an actuator with other drag and cooling bring these back from the first one."""
+    true = {"motor_coulomb": 0.05, "thermal_resistance": 0.7, "friction_load": 0.6}
     other = apply_factors(actuator, true)
     told = [UNKNOWNS[name].told_by for name in true]
-    rest = ["no_load_speed", "backdrive_dynamic"]
+    rest = ["no_load_speed", "backdrive_static"]
     found = calibrate(actuator, rows_of(other, told + rest), to=told)
     assert found.largest_residual < 1e-3
     for name, factor in true.items():
@@ -65,11 +94,12 @@ def test_calibration_finds_what_was_changed(actuator: ActuatorParameters) -> Non
 
 @pytest.mark.deep
 def test_more_rows_than_unknowns_are_fitted_together(actuator: ActuatorParameters) -> None:
-    other = apply_factors(actuator, {"friction_level": 4.0})
+    other = apply_factors(actuator, {"motor_coulomb": 0.2})
     names = ["backdrive_static", "backdrive_dynamic"]
     measured = rows_of(other, names)
-    found = calibrate(actuator, measured, to=names, unknowns=["friction_level"])
-    assert found.factors == pytest.approx({"friction_level": 4.0}, rel=0.03)
+    found = calibrate(actuator, measured, to=names, unknowns=["motor_coulomb"])
+    assert found.factors == pytest.approx({"motor_coulomb": 0.2}, rel=0.03)
+    assert found.parameters.motor.coulomb == found.factors["motor_coulomb"]
 
 
 @pytest.mark.deep
@@ -107,13 +137,13 @@ def test_paper_on_three_rows(actuator: ActuatorParameters) -> None:
         ({"backdrive_static": 1.0}, {"to": ["efficiency_peak"]}, "no measured value"),
         (
             {"backdrive_static": 1.0},
-            {"unknowns": ["friction_level", "friction_load"]},
+            {"unknowns": ["motor_coulomb", "friction_load"]},
             "cannot decide 2 unknowns",
         ),
         ({"backdrive_static": 1.0}, {"unknowns": ["friction"]}, "is no unknown"),
         ({"torque_ripple": 1.0}, {}, "draw a gearbox with --seed"),
         pytest.param(
-            *({"efficiency_peak": 0.999}, {}, "no friction_load from .* times the computed one"),
+            *({"efficiency_peak": 0.999}, {}, "no friction_load from 0.1 to"),
             marks=pytest.mark.deep,
         ),
     ],
@@ -121,8 +151,6 @@ def test_paper_on_three_rows(actuator: ActuatorParameters) -> None:
 def test_calibration_refuses_what_tells_nothing(
     actuator: ActuatorParameters, measured: dict[str, float], options: dict[str, object], says: str
 ) -> None:
-    import dataclasses
-
     if says.startswith("draw"):
         zero = np.zeros_like(actuator.gear.error_cosine)
         gear = dataclasses.replace(actuator.gear, error_cosine=zero, error_sine=zero)
@@ -139,8 +167,8 @@ def test_what_was_fitted_predicts_nothing(actuator: ActuatorParameters) -> None:
         return [metric.relation for metric in found.metrics]
 
     assert relations({}) == ["given", "predicted", "predicted"]
-    assert relations({"friction_level": 3.0}) == ["given", "calibrated", "predicted"]
-    fit = Fit({"friction_level": 3.0}, ("backdrive_dynamic",))
+    assert relations({"motor_cogging": 0.03}) == ["given", "calibrated", "predicted"]
+    fit = Fit({"motor_cogging": 0.03}, ("backdrive_dynamic",))
     assert relations(fit) == ["given", "predicted", "calibrated"]
 
 
@@ -149,7 +177,7 @@ def test_what_was_fitted_predicts_nothing(actuator: ActuatorParameters) -> None:
 
 @pytest.mark.deep
 def test_file_brings_the_factors_back(actuator: ActuatorParameters, tmp_path: Path) -> None:
-    wanted = rows_of(apply_factors(actuator, {"friction_level": 2.0}), ["backdrive_static"])
+    wanted = rows_of(apply_factors(actuator, {"motor_cogging": 0.02}), ["backdrive_static"])
     found = calibrate(actuator, wanted)
     path = tmp_path / "c.json"
     write_calibration(found, "abc", path)
@@ -166,23 +194,36 @@ def test_file_brings_the_factors_back(actuator: ActuatorParameters, tmp_path: Pa
         ("[1]", "is not a calibration"),
         ('{"format": "cqdd-design calibration 1"}', "is not a calibration"),
         (
-            HEAD + '"unknowns": {"friction_lvl": {"factor": 1}}}',
-            "did you mean 'friction_level'",
+            HEAD + '"unknowns": {"friction_lod": {"factor": 1}}}',
+            "did you mean 'friction_load'",
         ),
         (
-            HEAD + '"unknowns": {"friction_level": {"factor": 0}}}',
+            # Of an earlier state: a factor on all friction.
+            HEAD + '"unknowns": {"friction_level": {"factor": 27}}}',
+            "'friction_level' is no unknown",
+        ),
+        (
+            HEAD + '"unknowns": {"motor_coulomb": {"factor": 1}}}',
+            "the value of motor_coulomb must be a number above 0",
+        ),
+        (
+            HEAD + '"unknowns": {"motor_coulomb": {"value": 100, "unit": "mN m"}}}',
+            "it must be 'N m'",
+        ),
+        (
+            HEAD + '"unknowns": {"friction_load": {"factor": 0}}}',
             "a number above 0",
         ),
         (
-            HEAD + '"unknowns": {"friction_level": {"factor": 1' + 400 * "0" + "}}}",
+            HEAD + '"unknowns": {"friction_load": {"factor": 1' + 400 * "0" + "}}}",
             "no value here is that large",
         ),
         (
-            HEAD + '"unknowns": {"friction_level": {"factor": 2}}, "rows": []}',
+            HEAD + '"unknowns": {"friction_load": {"factor": 2}}, "rows": []}',
             "no table of measurements",
         ),
         (
-            HEAD + '"unknowns": {"friction_level": 2}}',
+            HEAD + '"unknowns": {"friction_load": 2}}',
             "a number above 0",
         ),
     ],

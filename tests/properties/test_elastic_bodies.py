@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import logging
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -518,6 +519,24 @@ def test_spoilt_cache_is_computed_anew(
     if damage != "folder":
         kept = cache.cached(shape, lambda _: pytest.fail("was computed again"))
         assert (kept.matrix == made.matrix).all()
+
+
+def test_what_was_used_last_is_kept(own_cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    shape = DiscShape.from_design(reference_s(), 0)
+    shapes = [dataclasses.replace(shape, side=shape.side * (2.0 + k)) for k in range(4)]
+    for age, one in zip((30, 20, 10), shapes[:3], strict=True):
+        before = set(own_cache.glob("*.body"))
+        cache.cached(one, lambda _: tiny())
+        (entry,) = set(own_cache.glob("*.body")) - before
+        then = entry.stat().st_mtime - age
+        os.utime(entry, (then, then))
+    cache.cached(shapes[0], lambda _: pytest.fail("was computed again"))
+    monkeypatch.setattr(cache, "_MOST_KEPT", 3 * entry.stat().st_size)
+    cache.cached(shapes[3], lambda _: tiny())
+    for one in (shapes[0], shapes[2]):
+        cache.cached(one, lambda _: pytest.fail("was thrown away"))
+    cache.cached(shapes[1], lambda _: tiny(7.0))
+    assert len(list(own_cache.glob("*.body"))) == 3
 
 
 def test_every_number_of_a_shape_names_its_own_entry(own_cache: Path) -> None:

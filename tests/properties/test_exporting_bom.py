@@ -60,7 +60,7 @@ def test_masses_add_up_to_the_machine_with_its_motor(rows, parts, paper):
     assert math.isclose(
         total, sum(part.mass * part.count for part in parts), abs_tol=1e-5 * len(rows)
     )
-    motor = [row for row in rows if row["part"] in ("motor stator", "motor rotor")]
+    motor = [row for row in rows if row["part"] in ("motor stator", "motor rotor", "rotor bell")]
     mass = math.fsum(float(row["mass_total_kg"]) for row in motor)
     assert math.isclose(mass, find_motor(paper.motor.name).mass, abs_tol=2e-5)
     for row in rows:
@@ -82,8 +82,8 @@ def test_bought_parts_can_be_ordered(rows):
     assert by_part["cam bearing"]["designation"] == "6902"
     assert by_part["cam bearing"]["designation"] in bearings()
     assert by_part["shoulder screw"]["designation"].startswith("ISO 7379 4 f9")
-    assert by_part["motor stator"]["designation"] == "CubeMars RO100 KV55, stator"
-    assert "catalogue (github.com" in by_part["motor stator"]["notes"]
+    assert by_part["motor stator"]["designation"] == "CubeMars RO100 Lite KV55, stator"
+    assert "catalogue (the maker's page" in by_part["motor stator"]["notes"]
     assert "exact profile x 7850 kg/m3" in by_part["ring"]["notes"]
 
 

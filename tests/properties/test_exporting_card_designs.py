@@ -24,7 +24,7 @@ from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
 
 DESIGN = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
-OTHER = (("CubeMars RO100 KV55", "CubeMars RI100 KV105"), ("48 V", "36 V"), ("50.5 A", "30 A"))
+OTHER = (("CubeMars RO100 Lite KV55", "CubeMars RI100 KV105"), ("48 V", "36 V"), ("50.5 A", "30 A"))
 """Changes that make another actuator of the design: a motor of which less is known."""
 
 
@@ -61,9 +61,9 @@ def by_hand(p: ActuatorParameters) -> dict[str, tuple[float | None, float | None
 
     constant, volts, ohms = motor.torque_constant, drive.supply_voltage, motor.resistance
     amps = min(drive.current_limit, volts / ohms)
-    coulomb = friction.motor_coulomb + motor.hysteresis
-    rest = friction.motor_coulomb * (1.0 + friction.stribeck_extra) + motor.hysteresis
-    drag = friction.motor_viscous + motor.iron_loss
+    coulomb = friction.motor_coulomb + motor.dry_drag
+    rest = friction.motor_coulomb * (1.0 + friction.stribeck_extra) + motor.dry_drag
+    drag = friction.motor_viscous + motor.drag_slope
     outer, outer_drag = friction.output_coulomb / n, friction.output_viscous / n**2
     inertia = motor.rotor_inertia + gear.input_inertia
     held = float(torque_constant_at(motor, thermal.most)) * continuous_current(motor, thermal)
@@ -161,7 +161,7 @@ def test_delivered_torque_is_that_of_the_simulation(built: ActuatorParameters) -
     run = simulate(steady.cold(built), scene, 1.0, 5e-5, every=20)
     torque = float(run.output_torque[0][run.time > 0.5].mean())
     n = abs(built.gear.ratio)
-    dragged = n**2 * (friction.motor_viscous + built.motor.iron_loss) * speed
+    dragged = n**2 * (friction.motor_viscous + built.motor.drag_slope) * speed
     dragged = dragged / (1.0 + friction.load_forward) + friction.output_viscous * speed
     rows = {row.key: row for row in actuator_card(built, "designed").rows}
     delivered = rows["delivered_peak_torque"].joint
@@ -208,7 +208,7 @@ def test_a_motor_without_data_is_refused_and_leaves_nothing(
     tmp_path: Path, motor: str, said: str, kind: str
 ) -> None:
     path = tmp_path / "design.toml"
-    path.write_text(DESIGN.read_text().replace("CubeMars RO100 KV55", motor))
+    path.write_text(DESIGN.read_text().replace("CubeMars RO100 Lite KV55", motor))
     design = load_design(path)
     with pytest.raises(DesignError, match=said):
         export(design, f"bom,{kind}", tmp_path / "new")

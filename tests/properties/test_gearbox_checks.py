@@ -28,7 +28,7 @@ from cqdd_design.gearbox import (
 from cqdd_design.gearbox.balance import paper_disc_count, stack_balance
 from cqdd_design.gearbox.bearing_life import basic_rating_life_hours, load_for_life
 from cqdd_design.gearbox.cam_bearing import choose
-from cqdd_design.gearbox.checks import allowables, guide_bodies
+from cqdd_design.gearbox.checks import allowables, guide_bodies, guide_heat
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.geometry.cycloid import CycloidDisc
@@ -518,9 +518,9 @@ def test_guide_and_checks_speak_of_the_same_things() -> None:
             assert all((check.substituted, check.why, check.remedy, check.source))
             seen.add(check.id)
     # Needle cages alone have raceways, motors without data and weights without a place a line
-    # that says so; solids are turned, and stress found by finite elements, only when asked to.
+    # that says so; solids are turned, stress and temperatures found, only when asked to.
     rare = {"BEARING-RACEWAY", "ASSEMBLY-CLEAR", "MOTOR-DATA", "BALANCE-WEIGHTS"}
-    rare |= {row.id for row in guide_bodies.ROWS}
+    rare |= {row.id for row in (*guide_bodies.ROWS, *guide_heat.ROWS)}
     assert seen == set(CHECK_GUIDE) - rare
     with pytest.raises(UsageError, match="BEARING-LIFE"):
         check_guide("BEARING-LIVE")

@@ -15,7 +15,7 @@ from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.weighing import weigh
-from cqdd_design.solids.inertia import ROTOR
+from cqdd_design.solids.inertia import ROTOR_PARTS
 
 BASE = {
     "ratio": 12,
@@ -132,10 +132,11 @@ def test_a_motor_of_a_file_is_the_machine_s() -> None:
     assert own.motor.outer_diameter == usual.motor.outer_diameter
     bodies = weigh(own)
     assert bodies.inertia.rotor_inertia == 2e-4
-    motor = [part for part in bodies.inertia.parts if part.name in (ROTOR, "motor stator")]
+    own_parts = (*ROTOR_PARTS, "motor stator")
+    motor = [part for part in bodies.inertia.parts if part.name in own_parts]
     assert sum(part.properties.mass for part in motor) == pytest.approx(0.9)
-    rotor = next(part for part in motor if part.name == ROTOR)
-    assert rotor.reflected == pytest.approx(2e-4, rel=1e-6)
+    # So light a rotor gives its bell half of its inertia at the most.
+    assert bodies.inertia.rotor_drawn == pytest.approx(2e-4, rel=1e-6)
 
 
 def test_a_motor_of_a_file_is_judged_as_one_that_was_asked_for() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from pathlib import Path
 
@@ -60,21 +61,56 @@ def test_speed_constant_and_phase_values(motor):
 
 
 def test_cogging_of_the_file_must_be_overcome(motor):
+    smooth = motor('cogging_amplitude = "0 N*m"')
+    without = actuator_parameters(Specimen(motor=smooth).machine(DESIGN), Specimen(motor=smooth))
+    assert without.motor.cogging_amplitude == 0.0
     found = motor('cogging_amplitude = "0.02 N*m"\ncogging_order = 252')
-    bare = (
-        run_bench(actuator_parameters(resolve(DESIGN)), only=["backdrive_static"]).metrics[0].value
-    )
     own = actuator_parameters(Specimen(motor=found).machine(DESIGN), Specimen(motor=found))
-    cogged = run_bench(own, only=["backdrive_static"]).metrics[0].value
+    own = dataclasses.replace(own, friction=without.friction)
+    bare, cogged = (
+        run_bench(one, only=["backdrive_static"]).metrics[0].value for one in (without, own)
+    )
     # What the output must bring for it, friction under load on the way at its breakaway.
     friction = own.friction
     passed = 1.0 - friction.load_backward * (1.0 + friction.stribeck_extra)
     assert cogged - bare == pytest.approx(0.02 * 10.0 / passed, rel=0.1)
 
 
+def test_drag_of_the_file_is_the_whole_drag(motor):
+    """Whoever measures one part of it measured all: nothing of the catalogue's comes on top."""
+    found = motor('hysteresis = "20 mN*m"\niron_loss = "4e-4 N*m*s/rad"')
+    own = actuator_parameters(Specimen(motor=found).machine(DESIGN), Specimen(motor=found))
+    assert (own.motor.dry_drag, own.motor.drag_slope) == pytest.approx((0.02, 4e-4), rel=1e-12)
+    assert own.motor.coulomb == own.motor.viscous == 0.0
+    assert own.origins["motor.hysteresis"] == "file: motor.toml"
+    assert own.origins["motor.coulomb"] == "file: motor.toml, which gives the drag without it"
+    # Cogging is none of the drag, and stays the catalogue's.
+    usual = actuator_parameters(resolve(DESIGN))
+    assert own.motor.cogging_amplitude == usual.motor.cogging_amplitude == 0.055
+    more = motor('coulomb = "0.12 N*m"\nviscous = "1 mN*m*s/rad"')
+    own = actuator_parameters(Specimen(motor=more).machine(DESIGN), Specimen(motor=more))
+    assert (own.motor.coulomb, own.motor.viscous) == pytest.approx((0.12, 1e-3), rel=1e-12)
+    assert own.origins["motor.rotor_inertia"].startswith("catalogue: motor, its bell included")
+
+
+def test_a_rotor_that_no_mass_within_the_diameter_can_have(motor):
+    found = motor('rotor_inertia = "2e-3 kg*m^2"')
+    with pytest.raises(CqddError, match=r"is more than 0.525 kg within 108.3 mm can have"):
+        Specimen(motor=found).machine(DESIGN)
+
+
 @pytest.mark.parametrize(
     ("text", "says"),
     [
+        ('coulomb = "-0.1 N*m"', "must be 0 or more"),
+        ('coulomb = "inf N*m"', "coulomb"),
+        ('coulomb = "0.1 W"', "not a unit of torque"),
+        ("coulomb = 0.1", "has no unit"),
+        ('viscous = "-1e-4 N*m*s/rad"', "must be 0 or more"),
+        ('viscous = "0.1 N*m"', "viscous"),
+        ('hysteresis = "nan N*m"', "hysteresis"),
+        ('cogging_amplitude = "-5 mN*m"', "must be 0 or more"),
+        ("cogging_order = 0", "whole number from 1"),
         ('resistance = "0 ohm"', "must be above 0"),
         ('resistance = "-1 ohm"', "must be above 0"),
         ('rotor_inertia = "-1e-4 kg*m^2"', "must be 0 or more"),

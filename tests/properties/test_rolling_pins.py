@@ -255,7 +255,7 @@ def test_checks_of_the_needles() -> None:
         ({"sleeve_diameter": "7.5 mm"}, "raise output_pins.sleeve_diameter to 8 mm"),
         ({"diameter": "5.5 mm", "sleeve_diameter": "9 mm"}, "5 mm or 6 mm"),
         ({"diameter": "60 mm", "sleeve_diameter": "90 mm"}, "make output_pins.diameter 30 mm"),
-        ({"sleeve": "ball"}, "'plain' or 'needle'"),
+        ({"sleeve": "ball"}, "'plain', 'needle' or 'drawn cup'"),
         ({"sleeve_play": "-1 um"}, "0 um"),
     ],
 )

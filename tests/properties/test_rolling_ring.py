@@ -285,7 +285,7 @@ def test_remedies_of_the_profile_name_the_rollers() -> None:
         ({"reducer.ring.roller_diameter": "3.5 mm"}, "at least 5 mm"),
         ({"reducer.ring.roller_diameter": "7.5 mm"}, "raise ring.roller_diameter to 8 mm"),
         ({"reducer.ring_pin_diameter": "4.5 mm"}, "make ring_pin_diameter 4 mm or 5 mm"),
-        ({"reducer.ring.roller": "ball"}, "'plain' or 'needle'"),
+        ({"reducer.ring.roller": "ball"}, "'plain', 'needle' or 'drawn cup'"),
         ({"reducer.ring.roller_diameter": "40 mm"}, "ring.roller_diameter 40 mm"),
         ({"reducer.disc_thickness": "6 mm"}, "raise it to 7 mm"),
     ],

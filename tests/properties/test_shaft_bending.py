@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from cqdd_design.catalog.bearings import shaft_material
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import load_design
 from cqdd_design.errors import GeometryError
@@ -31,7 +32,6 @@ from cqdd_design.machine.shaft import (
     knife_edges,
     shaft_bending,
 )
-from cqdd_design.solids.throw import shaft_material
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 SLENDER = ShaftSection(-0.03, 0.13, 12.0, math.inf)

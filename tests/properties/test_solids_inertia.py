@@ -80,16 +80,15 @@ def test_a_bearing_counts_between_its_two_rings(name: str) -> None:
 def test_sums_and_signs() -> None:
     design, parts = known_design("paper"), known_parts("paper")
     found = resolve(design).inertia
-    rotor = find_motor("CubeMars RO100 KV55").rotor_inertia
-    assert found.rotor_inertia == rotor == 5.6e-4
-    # The rotor is one of the parts, drawn so that it has the catalogue's inertia.
-    drawn = next(p for p in found.parts if p.name == "motor rotor")
-    assert drawn.reflected == pytest.approx(rotor, rel=1e-12)
+    rotor = find_motor("CubeMars RO100 Lite KV55").rotor_inertia
+    assert found.rotor_inertia == rotor == 5.29e-4
+    # Magnets and bell are drawn so that they have the catalogue's inertia together.
+    assert found.rotor_drawn == pytest.approx(rotor, rel=1e-12)
     assert found.reflected_input == pytest.approx(sum(p.reflected for p in found.parts))
     assert found.gearbox_reflected == pytest.approx(found.reflected_input - rotor)
     assert sum(found.group_masses.values()) == pytest.approx(found.total.mass)
     assert sum(found.group_inertias.values()) == pytest.approx(found.reflected_input)
-    assert found.group_masses["motor"] == pytest.approx(0.71)
+    assert found.group_masses["motor"] == pytest.approx(0.525)
     assert found.reflected_output == pytest.approx(100.0 * found.reflected_input)
     assert found.total.mass == pytest.approx(
         sum(row.count * row.properties.mass for row in found.parts)

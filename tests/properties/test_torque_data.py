@@ -390,10 +390,10 @@ def test_the_same_seed_gives_the_same_data_and_the_ripple_is_never_adjusted(smal
     assert not small[1]
     assert any("tolerance_scale" in sentence for sentence in warnings)
     few = dataclasses.replace(SMALL, episodes=1)
-    stiff, _ = generate(resolve(DESIGN), few, specimen=Specimen(factors={"friction_level": 20.0}))
+    stiff, _ = generate(resolve(DESIGN), few, specimen=Specimen(factors={"motor_coulomb": 0.3}))
     pair = (stiff.episodes[0].columns["torque"], data.episodes[0].columns["torque"])
     assert np.std(pair[0] - pair[1]) > 0.1
-    assert stiff.facts["calibration"] == {"friction_level": 20.0}
+    assert stiff.facts["calibration"] == {"motor_coulomb": 0.3}
 
 
 def test_the_gearbox_s_ripple_is_told_from_all_else_in_its_band(small):

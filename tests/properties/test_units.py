@@ -16,10 +16,21 @@ from cqdd_design.units.quantities import _factor_by_pint
 DIMENSIONS = [value for value in vars(units).values() if isinstance(value, Dimension)]
 
 
-@pytest.mark.parametrize("dimension", DIMENSIONS, ids=lambda d: f"{d.name} {d.unit}")
+@pytest.mark.parametrize(
+    "dimension", [d for d in DIMENSIONS if not d.zeros], ids=lambda d: f"{d.name} {d.unit}"
+)
 def test_common_spellings_agree_with_pint(dimension):
     for spelling, factor in dimension.common:
         assert _factor_by_pint(spelling, dimension) == pytest.approx(factor, rel=1e-15)
+
+
+@pytest.mark.parametrize("unit", ["degC", "K", "degF"])
+def test_scales_that_start_elsewhere_agree_with_pint(unit):
+    import pint
+
+    for number in (-40.0, 0.0, 60.0, 333.15):
+        theirs = pint.UnitRegistry().Quantity(number, unit).to("degC").magnitude
+        assert parse_quantity(f"{number} {unit}", units.TEMPERATURE) == pytest.approx(theirs)
 
 
 @pytest.mark.parametrize("dimension", DIMENSIONS, ids=lambda d: f"{d.name} {d.unit}")

@@ -4,6 +4,7 @@ Sources: ISO 281:2007 (rating formula and table 7), ISO 76:2006 (static rating o
 KOYO CAT. B2001 for deep-groove bearings, ISO 7379 f9 shoulders, efunda.com for AISI 4140.
 """
 
+import math
 import re
 
 import pytest
@@ -61,6 +62,72 @@ def test_motor_torque_constant_follows_from_kv():
     assert motor.torque_constant == pytest.approx(9.5493 / 55.0, rel=1e-4)
 
 
+def test_the_ro100_drags_as_measured_and_is_sold_in_two_variants():
+    """J. V., MSc thesis, Twente (the motor alone); the maker's page of Standard and Lite."""
+    standard, lite = find_motor("CubeMars RO100 KV55"), find_motor("CubeMars RO100 Lite KV55")
+    for motor in (standard, lite):
+        assert motor.coulomb == 0.0999
+        # 0.00534 N m per revolution a second.
+        assert 2.0 * math.pi * motor.viscous == pytest.approx(0.00534, rel=1e-5)
+        assert motor.hysteresis == motor.iron_loss == 0.0  # in the measured values
+        assert (motor.cogging_amplitude, motor.cogging_order) == (0.055, 252)
+        assert "University of Twente" in motor.drag_source
+        assert "amplitude" in motor.cogging_source
+        assert "bell" in motor.scope
+    sizes = ("mass", "rotor_inertia", "outer_diameter", "length", "bore_diameter")
+    assert [getattr(standard, name) for name in sizes] == pytest.approx(
+        [0.710, 8.7e-4, 0.1135, 0.0362, 0.074]
+    )
+    assert [getattr(lite, name) for name in sizes] == pytest.approx(
+        [0.525, 5.29e-4, 0.1083, 0.028, 0.074]
+    )
+    # What the Lite's own row does not know it says.
+    for name in ("coulomb", "line_resistance", "bore_diameter"):
+        assert lite.told_by(name).endswith("taken over from CubeMars RO100 KV55")
+    assert lite.told_by("mass") == lite.name
+
+
+def test_rows_of_motors_hold_together():
+    """Order of cogging, what is taken over, and inertias that the mass can have."""
+    for motor in motors().values():
+        if motor.slots and motor.pole_pairs and motor.cogging_order:
+            assert motor.cogging_order == math.lcm(motor.slots, 2 * motor.pole_pairs), motor.name
+        for name in motor.taken_over.split():
+            assert getattr(motor, name) == getattr(find_motor(motor.taken_from), name), name
+        for name in ("coulomb", "viscous", "hysteresis", "iron_loss", "cogging_amplitude"):
+            value = getattr(motor, name)
+            assert value is None or 0.0 <= value < 1.0, (motor.name, name)
+            source = motor.cogging_source if name == "cogging_amplitude" else motor.drag_source
+            assert value is None or source, (motor.name, name)
+        if motor.torque_at == "motor" and motor.mass and motor.outer_diameter:
+            reach = motor.mass * (0.5 * motor.outer_diameter) ** 2
+            assert (motor.rotor_inertia or 0.0) < reach, motor.name
+        if motor.bore_diameter and motor.outer_diameter:
+            assert motor.bore_diameter < motor.outer_diameter
+        # A bare motor that lacks nothing can be simulated and drawn.
+        assert not (motor.torque_at != "motor" and motor.missing)
+
+
+@pytest.mark.parametrize(
+    ("name", "voltage", "rpm"),
+    [
+        # Printed no-load speeds against the constant in its convention.
+        ("TQ ILM115x25 (star serial)", 48.0, 1400.0),
+        ("TQ ILM-E85x30 (star serial)", 48.0, 1290.0),
+        ("maxon EC frameless HT 90 M", 48.0, 2490.0),
+        ("CubeMars RO80 KV105", 48.0, 5040.0),
+    ],
+)
+def test_torque_constants_give_the_printed_no_load_speed(name, voltage, rpm):
+    constant = find_motor(name).torque_constant
+    assert voltage / constant * 30.0 / math.pi == pytest.approx(rpm, rel=0.03)
+
+
+def test_a_constant_per_unknown_ampere_is_none():
+    assert find_motor("Dephy ActPack motor (T-Motor U8 class)").torque_constant is None
+    assert "torque constant" in find_motor("Dephy ActPack motor (T-Motor U8 class)").missing
+
+
 def test_bearing_without_ratings_is_not_given_any():
     assert find_bearing("6710").static_rating is None
 
@@ -71,12 +138,7 @@ def _computed():
 
 @pytest.mark.parametrize("bearing", _computed(), ids=lambda b: b.designation)
 def test_computed_rows_are_the_iso_formulas(bearing):
-    needles = needle_set(
-        bearing.bore_diameter,
-        bearing.outer_diameter,
-        bearing.width,
-        drawn_cup=bearing.kind == "needle",
-    )
+    needles = bearing.needles
     assert bearing.dynamic_rating == pytest.approx(dynamic_rating(needles), rel=2e-3)
     assert bearing.static_rating == pytest.approx(static_rating(needles), rel=2e-3)
     stated = re.search(r"from (\d+) needles", bearing.source)

@@ -25,6 +25,9 @@ from cqdd_design.errors import UsageError, did_you_mean
 if TYPE_CHECKING:
     from cqdd_design.machine.carrying import CarriedTorque
 
+_NEAR_END = 0.01
+"""Of a range: nearer to an end an unknown was stopped there."""
+
 
 @dataclass(frozen=True)
 class Row:
@@ -75,17 +78,27 @@ class Calibration:
     parameters : ActuatorParameters
         With the fitted values, marked so in their origins.
     factors : Fit
-        By how much each unknown was multiplied.
+        By how much each unknown was multiplied, or its value.
     rows : tuple of Row
         Every measurement of the bench.
     after : BenchResult
         Of the fitted actuator.
+    ranges : mapping of str to (float, float)
+        In which each unknown was sought.
     """
 
     parameters: ActuatorParameters
     factors: Fit
     rows: tuple[Row, ...]
     after: BenchResult
+    ranges: Mapping[str, tuple[float, float]]
+
+    @property
+    def at_an_end(self) -> tuple[str, ...]:
+        """Unknowns that lie at an end of their range."""
+        return tuple(
+            name for name, value in self.factors.items() if _ends(value, self.ranges[name])
+        )
 
     @property
     def largest_residual(self) -> float:
@@ -116,7 +129,8 @@ class Calibration:
         return {
             "unknowns": {
                 name: {
-                    "factor": factor,
+                    **_stated(name, factor),
+                    "range": list(self.ranges[name]),
                     "values": {
                         value: _value(self.parameters, value)
                         for value in UNKNOWNS[name].values
@@ -130,6 +144,19 @@ class Calibration:
             "predicted": [row.name for row in self.predicted],
             "predicted_within_20_percent": [row.name for row in self.within],
         }
+
+
+def _ends(value: float, limits: tuple[float, float]) -> bool:
+    """Whether a value lies at an end of its range, by its logarithm."""
+    least, most = limits
+    share = math.log(value / least) / math.log(most / least)
+    return not _NEAR_END < share < 1.0 - _NEAR_END
+
+
+def _stated(name: str, fitted: float) -> dict[str, object]:
+    """A fitted unknown in a file: a factor, or a value with its unit."""
+    unit = UNKNOWNS[name].unit
+    return {"value": fitted, "unit": unit} if unit else {"factor": fitted}
 
 
 def _value(parameters: ActuatorParameters, dotted: str) -> object:
@@ -225,6 +252,7 @@ def calibrate(
             for metric in after.metrics
         ),
         after=after,
+        ranges={name: UNKNOWNS[name].bounds(parameters) for name in names},
     )
 
 

@@ -1,4 +1,4 @@
-"""A calibration on disk: factors of the unknowns, and the design and rows they come from."""
+"""A calibration on disk: the unknowns as fitted, and the design and rows they come from."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 from cqdd_design.actuator.bench.calibrate import Calibration
 from cqdd_design.actuator.bench.metric import METRICS
 from cqdd_design.actuator.bench.unknowns import UNKNOWNS, Fit
-from cqdd_design.errors import UsageError, did_you_mean
+from cqdd_design.errors import UsageError, did_you_mean, shown
 from cqdd_design.files import WrittenFile, parse_json, read_text_file, write_atomically
 
 _MOST_BYTES = 1_000_000
@@ -30,7 +30,7 @@ def write_calibration(calibration: Calibration, design_sha256: str, path: Path) 
 
 
 def read_calibration(path: Path, design_sha256: str) -> tuple[Fit, str]:
-    """Factors of the unknowns with the rows they were fitted to, and a warning.
+    """Factors and values of the unknowns with the rows they were fitted to, and a warning.
 
     The warning says where they come from another design; else it is empty.
 
@@ -49,10 +49,16 @@ def read_calibration(path: Path, design_sha256: str) -> tuple[Fit, str]:
     for name, entry in unknowns.items():
         if name not in UNKNOWNS:
             raise UsageError(f"{path}: '{name}' is no unknown{did_you_mean(name, UNKNOWNS)}.")
-        factor = entry.get("factor") if isinstance(entry, dict) else None
+        unit = UNKNOWNS[name].unit
+        what = "value" if unit else "factor"
+        factor = entry.get(what) if isinstance(entry, dict) else None
         # An int of 400 digits is a number in JSON, but compares with the greatest float.
         if not isinstance(factor, float | int) or not 0.0 < factor <= sys.float_info.max:
-            raise UsageError(f"{path}: the factor of {name} must be a number above 0.")
+            raise UsageError(f"{path}: the {what} of {name} must be a number above 0.")
+        if unit and entry.get("unit") != unit:
+            raise UsageError(
+                f"{path}: the unit of {name} is {shown(entry.get('unit'))}; it must be '{unit}'."
+            )
         factors[name] = float(factor)
     warning = ""
     if content.get("design_sha256") != design_sha256:
@@ -75,7 +81,8 @@ def _fitted(
         for name, row in rows.items()
         if name in METRICS and isinstance(row, dict) and row.get("relation") == "calibrated"
     )
-    return found or tuple(UNKNOWNS[name].told_by for name in factors)
+    told = (UNKNOWNS[name].told_by for name in factors)
+    return found or tuple(row for row in told if row)
 
 
 def _content(path: Path) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cqdd_design.actuator import joint_side
 from cqdd_design.actuator.bench.metric import Metric
 from cqdd_design.actuator.bench.steady import run_cold
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
@@ -141,16 +142,10 @@ def dead_zone(motor: FloatArray, output: FloatArray) -> tuple[float, float, floa
 
 def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Metric | None:
     """Phases open, torque on the output ramped until it breaks away; None where it never does."""
-    friction = parameters.friction
-    if friction.load_backward * (1.0 + friction.stribeck_extra) >= 1.0:
+    ratio, motor = abs(parameters.gear.ratio), parameters.motor
+    expected = joint_side.backdrive_static(parameters)
+    if math.isinf(expected):
         return None
-    ratio = abs(parameters.gear.ratio)
-    motor = parameters.motor
-    expected = (
-        (friction.motor_coulomb + motor.hysteresis) * (1.0 + friction.stribeck_extra) * ratio
-        + motor.cogging_amplitude * ratio
-        + friction.output_coulomb * (1.0 + friction.stribeck_extra)
-    )
     slope, duration = max(0.8 * expected, 0.01), 2.5
     turn = 2.0 * math.pi / ratio
     scenes = [
@@ -171,7 +166,10 @@ def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Met
         fast = np.abs(run.motor_speed[i]) > _MOVING * ratio
         moving = np.flatnonzero(fast & (travel > well))
         if moving.size:
-            found.append(slope * run.time[moving[0]])
+            at = int(moving[0])
+            # What it withstood is the torque at the crest of the cogging, not that past it.
+            below = np.flatnonzero(travel[:at] <= 0.5 * well) if well else moving[:0]
+            found.append(slope * run.time[below[-1] if below.size else at])
     if not found:
         return None
     values = np.array(found)
@@ -276,8 +274,9 @@ def _ripple(parameters: ActuatorParameters, speed: float) -> _Ripple:
     angle = np.abs(run.motor_angle[0][late] - run.motor_angle[0][late][0])
     turns = np.floor(angle / (2.0 * math.pi)).astype(int)
     halves = [0.5 * np.ptp(torque[turns == turn]) for turn in range(int(turns.max()))]
-    # Every tooth of every lobe in a turn of the output, and what comes above.
-    most = max(400, math.ceil(1.5 * abs(gear.ratio) * (abs(gear.ratio) + 1.0)))
+    # Every tooth of every lobe in a turn of the output, cogging, and what comes above.
+    fastest = abs(gear.ratio) * max(abs(gear.ratio) + 1.0, float(parameters.motor.cogging_order))
+    most = max(400, math.ceil(1.5 * fastest))
     spectrum = order_spectrum(angle / abs(gear.ratio), torque, min(most, len(torque) // 4))
     return _Ripple(np.array(halves), *spectrum)
 

@@ -59,7 +59,8 @@ def read_measured(path: Path) -> dict[str, float]:
     ------
     UsageError
         For a file that cannot be read, other columns, a gap, a value that is not a finite number
-        above zero, an unknown or repeated name, or a unit of something else, with the line.
+        above zero, an unknown or repeated name, or a unit of something else, with the line; and
+        for rows that no machine can have, alone or together.
     """
     lines = read_text_file(path, _MOST_BYTES).splitlines()
     numbered = [
@@ -90,7 +91,42 @@ def read_measured(path: Path) -> dict[str, float]:
         found[name] = _value(row, f"{path}, line {number}")
     if not found:
         raise UsageError(f"{path} has a head and no rows; it needs lines such as\n{_EXAMPLE}")
+    _refuse_impossible(found, path)
     return found
+
+
+_ORDERED = (
+    ("continuous_torque", "peak_torque", "what is held for ever can be given for a moment"),
+    ("continuous_torque", "stall_torque", "what is held for ever can be given for a moment"),
+    ("torque_ripple", "peak_torque", "ripple is a part of the torque"),
+)
+"""Rows of which the first is never more than the second, and why."""
+_DENSITY_WITHIN = 0.05
+"""Of peak torque over mass, by which a measured torque density may be off: both are rounded."""
+
+
+def _refuse_impossible(found: Mapping[str, float], path: Path) -> None:
+    """Raise for measured rows that contradict a law or each other."""
+    share = found.get("efficiency_peak", 0.0)
+    if share > 1.0:
+        raise UsageError(
+            f"{path}: an efficiency_peak of {100.0 * share:.4g} % gives more power than it takes; "
+            "a share lies from 0 to 1, a percentage needs the unit %."
+        )
+    for less, more, why in _ORDERED:
+        if less in found and more in found and found[less] > found[more]:
+            raise UsageError(
+                f"{path}: {less} of {found[less]:g} {METRICS[less]} is more than {more} of "
+                f"{found[more]:g}, and {why}; one of the two rows is not what its name says."
+            )
+    if {"torque_density", "peak_torque", "mass"} <= set(found):
+        told, follows = found["torque_density"], found["peak_torque"] / found["mass"]
+        if abs(told / follows - 1.0) > _DENSITY_WITHIN:
+            raise UsageError(
+                f"{path}: torque_density of {told:g} N*m/kg is not peak_torque over mass, "
+                f"{found['peak_torque']:g} N*m/{found['mass']:g} kg = {follows:.4g}; leave it out, "
+                "or correct the row that is wrong."
+            )
 
 
 def _value(row: dict[str, str], place: str) -> float:

@@ -31,6 +31,9 @@ _ABSENT: Mapping[str, str] = MappingProxyType(
 )
 """Why a measurement may be missing."""
 
+_OF_DRAG = ("no_load_speed", "efficiency_peak", "backdrive_static", "backdrive_dynamic")
+"""Measurements that the motor's own drag is a large part of."""
+
 Progress = Callable[[str], None]
 
 
@@ -119,6 +122,13 @@ def run_bench(
             found.append(dataclasses.replace(metric, relation="calibrated") if fitted else metric)
             if metric.missing:
                 warnings.append(f"{name}: {metric.missing}.")
+    hanging = [metric.name for metric in found if metric.name in _OF_DRAG]
+    if hanging and not (parameters.motor.dry_drag or parameters.motor.drag_slope):
+        warnings.append(
+            f"nothing is known of the motor's own drag, and 0 is assumed: {', '.join(hanging)} "
+            f"{'is that' if len(hanging) == 1 else 'are those'} of a motor that turns freely. "
+            "Measure it, and give coulomb and viscous in a motor file."
+        )
     return BenchResult(
         name=parameters.name,
         metrics=tuple(found),

@@ -319,7 +319,10 @@ def _within(shares: FloatArray) -> FloatArray:
 
 
 def actuator_inertia(parameters: ActuatorParameters) -> Metric:
-    """Spin-up of the free output at two currents: friction cancels in their difference."""
+    """Spin-up of the free output at two currents: friction cancels in their difference.
+
+    Both are read between the same two speeds, so that drag over speed cancels too.
+    """
     motor = parameters.motor
     currents = (0.25, 0.5)
     scenes = [
@@ -327,12 +330,13 @@ def actuator_inertia(parameters: ActuatorParameters) -> Metric:
         for share in currents
     ]
     run = run_cold(parameters, scenes, 0.06)
-    begin, end = np.searchsorted(run.time, (0.01, 0.03))
-    rises = [
-        (run.motor_speed[i][end] - run.motor_speed[i][begin]) / (run.time[end] - run.time[begin])
-        for i in range(2)
-    ]
-    mean = [float(run.current[i][begin:end].mean()) for i in range(2)]
+    slow = np.abs(run.motor_speed[0])
+    between = np.interp((0.01, 0.03), run.time, slow)
+    rises, mean = [], []
+    for speed, current in zip(np.abs(run.motor_speed), run.current, strict=True):
+        first, last = np.searchsorted(np.maximum.accumulate(speed), between)
+        rises.append((speed[last] - speed[first]) / (run.time[last] - run.time[first]))
+        mean.append(float(current[first:last].mean()))
     value = motor.torque_constant * (mean[1] - mean[0]) / (rises[1] - rises[0])
     computed = (
         parameters.motor_side_inertia + parameters.gear.output_inertia / parameters.gear.ratio**2
@@ -342,7 +346,7 @@ def actuator_inertia(parameters: ActuatorParameters) -> Metric:
         float(value),
         "predicted",
         "Spin-up of the free output at a quarter and at half of the current limit: difference of "
-        "torques over difference of accelerations, at the motor.",
+        "torques over difference of accelerations between the same speeds, at the motor.",
         details={"from_solids_kgm2": computed},
         trace=_columns(run, "motor_speed", "current", index=1),
         remark=_origins(parameters, rotor="motor.rotor_inertia", gearbox="gear.input_inertia"),

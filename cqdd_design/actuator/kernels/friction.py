@@ -32,7 +32,7 @@ def levels(p: Any, toward: float, transmitted: float, guess: float, out_guess: f
     load_share = p.load_forward if forward else p.load_backward
     rise = stribeck_rise(p.stribeck_extra, guess / p.stribeck_speed)
     level = (p.motor_coulomb + load_share * abs(transmitted) / n) * rise
-    level += p.hysteresis
+    level += p.hysteresis + p.motor_dry
     rise = stribeck_rise(p.stribeck_extra, out_guess * n / p.stribeck_speed)
     return level, p.output_coulomb * rise
 

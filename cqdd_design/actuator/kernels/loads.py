@@ -8,6 +8,9 @@ from typing import Any, NamedTuple
 from cqdd_design.actuator.kernels.gear import TINY_CLOSING
 from cqdd_design.actuator.kernels.laws import part, wall_spring
 
+FEW_TERMS = 0.03
+"""Square of half a step's phase, up to which the terms of the sinc leave out less than 1e-11."""
+
 
 class Motion(NamedTuple):
     """Motor and output at an instant: angles and speeds."""
@@ -28,15 +31,24 @@ class Wall(NamedTuple):
 
 @part
 def cogging(p: Any, angle: float, turn: float) -> Any:
-    """Mean cogging torque over a turn of the motor; the sinc by its first terms."""
-    torque = 0.0
+    """Mean cogging torque over a turn of the motor, and its slope over the turn.
+
+    The sinc by its first terms where they do. Fine cogging passes a period in a few steps, and its
+    mean must still be energy over angle.
+    """
+    torque, slope = 0.0, 0.0
     if p.cogging_amplitude > 0.0:
         half = 0.5 * p.cogging_order * turn
-        half *= half
-        torque = 1.0 - half / 6.0 * (1.0 - half / 20.0 * (1.0 - half / 42.0))
-        middle = math.sin(p.cogging_order * (angle + 0.5 * turn))
-        torque *= p.cogging_amplitude * middle
-    return torque
+        square = half * half
+        middle = p.cogging_order * (angle + 0.5 * turn)
+        if square > FEW_TERMS:
+            torque = p.cogging_amplitude * math.sin(half) / half * math.sin(middle)
+            slope = (p.cogging_amplitude * math.sin(middle + half) - torque) / turn
+        else:
+            share = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0))
+            torque = p.cogging_amplitude * share * math.sin(middle)
+            slope = 0.5 * p.cogging_amplitude * p.cogging_order * math.cos(middle)
+    return torque, slope
 
 
 @part

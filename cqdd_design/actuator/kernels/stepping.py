@@ -103,8 +103,9 @@ def solved(p: Any, table: Any, h: float, begin: Any) -> Any:
         0 = tau(x) - 2 J_m/h (x - w) - b_m x - cogging - arm T - varying - friction
         0 = T + external - 2 J_o/h (y - v) - b_o y - sensor - gravity - wall - friction
 
-    T closes by h (arm x - y). Dry friction is given while a body slips and what is missing while it
-    sticks; once the speeds settle it is asked whether it agrees with the motion it allowed.
+    T closes by h (arm x - y). The motor's own drag is part of b_m and of its friction. Dry friction
+    is given while a body slips and what is missing while it sticks; once the speeds settle it is
+    asked whether it agrees with the motion it allowed.
     """
     motion, rub, electric = begin.motion, begin.rub, begin.electric
     speed, out_speed, driven = motion.speed, motion.out_speed, p.driven != 0.0
@@ -126,7 +127,7 @@ def solved(p: Any, table: Any, h: float, begin: Any) -> Any:
         contact, end = meshed(p, table, begin.mesh, motion.angle, turn, h * y, h)
         torque, torque_slope, arm = contact.torque, contact.slope, contact.arm
         cut, change = contact.cut, contact.change
-        cog = cogging(p, motion.angle, turn)
+        cog, cog_slope = cogging(p, motion.angle, turn)
         pull = gravity_pull(p, motion.out_angle, h, y)
         push_mean, push_slope, wall_rub = wall_push(p, begin.wall, h, y)
         pushed = p.wall_side * (push_mean + wall_rub)
@@ -166,7 +167,7 @@ def solved(p: Any, table: Any, h: float, begin: Any) -> Any:
         elif driven and rub.output_level > 0.0:
             output_friction = rub.output_level * (1.0 if y > 0.0 else (-1.0 if y < 0.0 else 0.0))
         coupling = arm * h * torque_slope
-        a11 = d_motor + electric.slope + rub.viscous + arm * coupling
+        a11 = d_motor + electric.slope + rub.viscous + h * cog_slope + arm * coupling
         a22 = d_output + rub.output_viscous + p.sensor_damping + push_slope
         a22 += h * (0.5 * p.sensor_stiffness + torque_slope)
         dx = dy = 0.0

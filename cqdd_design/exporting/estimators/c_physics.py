@@ -64,7 +64,7 @@ def functions(artefact: Artefact, actuator: ActuatorParameters) -> str:
     """C functions and tables of the features that are made inside."""
     motor, drive, friction = actuator.motor, actuator.drive, actuator.friction
     gear, ratio = actuator.gear, abs(actuator.gear.ratio)
-    drag = ratio**2 * (friction.motor_viscous + motor.iron_loss) + friction.output_viscous
+    drag = ratio**2 * (friction.motor_viscous + motor.drag_slope) + friction.output_viscous
     points = table_points(gear)
     names = made_inside(artefact)
     texts = [template(name) for name in names]

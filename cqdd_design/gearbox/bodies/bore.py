@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import Bearing
-from cqdd_design.catalog.needles import needle_set
 from cqdd_design.gearbox.contact.laws import CamSpring, ball_complement
 from cqdd_design.geometry.contours import FloatArray
 
@@ -46,9 +45,7 @@ class OuterRing:
         if bearing.kind == "needle cage":
             return cls(outer, outer, bearing.width)
         if bearing.kind == "needle":
-            needles = needle_set(
-                bearing.bore_diameter, bearing.outer_diameter, bearing.width, drawn_cup=True
-            )
+            needles = bearing.needles
             return cls(outer, 0.5 * (needles.pitch_diameter + needles.diameter), bearing.width)
         ball = ball_complement(bearing)[1]
         pitch = 0.5 * (bearing.outer_diameter + bearing.bore_diameter)

@@ -3,7 +3,8 @@
 An entry is the SHA-256 of what follows, a line of JSON (what it is of, the shapes of its arrays),
 and the arrays, in single precision: 6e-8 is a thousandth of what the mesh leaves, and reading and
 checking take half as long. What is not whole, or is of something else, is computed anew and
-written over; entries appear under their name whole, so two processes may make the same one.
+written over; entries appear under their name whole, so two processes may make the same one. What
+was used last is kept.
 """
 
 from __future__ import annotations
@@ -11,7 +12,9 @@ from __future__ import annotations
 import hashlib
 import json
 import logging
+import os
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import asdict, is_dataclass
 from pathlib import Path
 from typing import TypeVar
@@ -30,7 +33,8 @@ VERSION = 2
 Shape = TypeVar("Shape")
 
 _MOST_BYTES = 1_000_000_000
-_MOST_ENTRIES = 40
+_MOST_KEPT = 600_000_000
+"""Bytes of all entries together: a hundred shapes or more."""
 
 
 def folder() -> Path:
@@ -55,6 +59,9 @@ def cached(shape: Shape, compute: Callable[[Shape], Body]) -> Body:
         matrix, stress = (np.ascontiguousarray(one, "<f4") for one in (made.matrix, made.stress))
         body = Body(matrix, stress, made.reciprocity)
         _write(path, text, body)
+    else:
+        with suppress(OSError):
+            os.utime(path)
     return body
 
 
@@ -97,7 +104,7 @@ def _read(path: Path, text: str) -> Body | None:
 
 
 def _write(path: Path, text: str, body: Body) -> None:
-    """Keep an entry, and of all the newest few; a folder that cannot be written to is no harm."""
+    """Keep an entry and those used last; a folder that cannot be written to is no harm."""
     arrays = [body.matrix, body.stress]
     told = {
         "of": text,
@@ -111,8 +118,20 @@ def _write(path: Path, text: str, body: Body) -> None:
     digest = hashlib.sha256(told_and_arrays).hexdigest().encode()
     try:
         write_atomically(path, b"\n".join([digest, told_and_arrays]), "body")
-        entries = sorted(path.parent.glob("*.body"), key=lambda one: one.stat().st_mtime)
-        for old in entries[:-_MOST_ENTRIES]:
-            old.unlink(missing_ok=True)
+        _clear(path.parent)
     except (CqddError, OSError) as error:
         _log.info("no elastic body is kept (%s)", error)
+
+
+def _clear(among: Path) -> None:
+    """Take away what was not used for longest, as far as all entries are too many bytes."""
+    entries = sorted(
+        ((one.stat(), one) for one in among.glob("*.body")),
+        key=lambda entry: entry[0].st_mtime,
+        reverse=True,
+    )
+    kept = 0
+    for status, one in entries:
+        kept += status.st_size
+        if kept > _MOST_KEPT:
+            one.unlink(missing_ok=True)

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
 
 from cqdd_design.gearbox.bodies.elements import EDGE_POINTS, Edges, Elements
 from cqdd_design.gearbox.bodies.loops import Loop
@@ -154,7 +155,9 @@ def influence(
     forces = (weighed[where].T @ smooth) @ share
     forces[:, : len(sharp)] += weighed.T @ (left if len(sharp) == count else left[:, sharp])
     # L_i (s_j + w_j)
-    found = body.factors(held, springs).solve(forces, edges.unknowns)
+    with threadpool_limits(limits=1, user_api="blas"):
+        # Fronts are small: threads would wait for each other, ten times as long on a busy machine.
+        found = body.factors(held, springs).solve(forces, edges.unknowns)
     moved = weighed @ found
     moved[:, : len(sharp)] += _integrated(body, loops, chosen, plate)
     matrix = loads.share.T @ (smooth.T @ moved[where])

@@ -310,3 +310,16 @@ def edge_limit_fatigue(material: Material) -> Allowable:
         return Allowable(endurance, told)
     surface = min(MACHINED_FACTOR * (ultimate / 1e6) ** MACHINED_EXPONENT, 1.0)
     return Allowable(surface * endurance, f"{surface:.2f} (machined) x {told}")
+
+
+# Heat ------------------------------------------------------------------------------------------
+WINDING_MOST = 120.0
+"""Winding, deg C: class E of IEC 60085, which enamelled wire and bonded magnets of robot motors
+keep."""
+GREASE_MOST = 120.0
+"""Grease at the teeth, pins and bearings, deg C: upper limit of a lithium grease of NLGI 2 (SKF
+LGMT 2, operating range -30 to 120 deg C); bearing steel is stabilised to the same."""
+HOUSING_MOST = 120.0
+"""Housing of a material whose limit the catalogue does not have, deg C."""
+BINDING_OVERLAP = 0.1
+"""Overlap of rigid parts, um, that still counts as touching: what the search itself leaves."""

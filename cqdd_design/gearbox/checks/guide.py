@@ -10,6 +10,7 @@ from cqdd_design.errors import UsageError, did_you_mean
 from cqdd_design.gearbox.checks import (
     guide_bodies,
     guide_drive,
+    guide_heat,
     guide_loads,
     guide_runners,
     guide_shape,
@@ -23,6 +24,7 @@ CHECK_GUIDE: dict[str, CheckGuide] = {
         *guide_loads.ROWS,
         *guide_runners.ROWS,
         *guide_bodies.ROWS,
+        *guide_heat.ROWS,
         *guide_drive.ROWS,
     )
 }

@@ -155,8 +155,9 @@ def compliant_energy(
     if compliance.bodies.size:
         stored += 0.5 * np.einsum("ade,adec,adc->a", force, compliance.bodies, force)
     load = np.hypot(found.cam_force[..., 0], found.cam_force[..., 1])
-    closed = (load / model.cam.stiffness) ** (1.0 / model.cam.exponent)
-    stored += np.sum(load * closed / (model.cam.exponent + 1.0), axis=1)
+    cam = model.carried_cam
+    closed = (load / cam.stiffness) ** (1.0 / cam.exponent)
+    stored += np.sum(load * closed / (cam.exponent + 1.0), axis=1)
     motion = found.states
     stored += 0.5 * compliance.join * (motion[:, 2] - motion[:, 3]) ** 2
     stored += 0.5 * (model.carrier_stiffness or 0.0) * np.sum(motion[:, :2] ** 2, axis=1)

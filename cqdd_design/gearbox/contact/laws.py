@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import Bearing
-from cqdd_design.catalog.needles import NeedleSet, needle_set
+from cqdd_design.catalog.needles import NeedleSet
 from cqdd_design.errors import DesignError
 from cqdd_design.geometry.contours import FloatArray
 
@@ -248,18 +248,7 @@ def cam_spring(bearing: Bearing, play: float) -> CamSpring:
             f"cam_bearing.designation '{bearing.designation}' is a crossed-roller bearing, which "
             "does not fit between disc and cam; choose a ball or needle bearing."
         )
-    needles = needles_of(bearing)
-    return CamSpring(needle_coefficient(needles) ** (-10.0 / 9.0), 10.0 / 9.0, play)
-
-
-def needles_of(bearing: Bearing) -> NeedleSet:
-    """The needles inside a drawn cup or a cage."""
-    return needle_set(
-        bearing.bore_diameter,
-        bearing.outer_diameter,
-        bearing.width,
-        drawn_cup=bearing.kind == "needle",
-    )
+    return CamSpring(needle_coefficient(bearing.needles) ** (-10.0 / 9.0), 10.0 / 9.0, play)
 
 
 def needle_coefficient(needles: NeedleSet) -> float:
@@ -269,6 +258,7 @@ def needle_coefficient(needles: NeedleSet) -> float:
     --------
     The 6 needles of 1.5 x 4.8 mm of a cage K4x7x7 under 500 N, in um:
 
+    >>> from cqdd_design.catalog.needles import needle_set
     >>> needles = needle_set(4e-3, 7e-3, 7e-3, drawn_cup=False)
     >>> print(round(1e6 * needle_coefficient(needles) * 500.0**0.9, 2))
     4.16
@@ -295,4 +285,4 @@ def runner_coefficient(cage: Bearing | None, length: float, modulus: float) -> f
     """
     if cage is None:
         return palmgren_coefficient(length, modulus)
-    return needle_coefficient(needles_of(cage))
+    return needle_coefficient(cage.needles)

@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.catalog.lubricants import RUNNING_TEMPERATURE
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.design import Design
 from cqdd_design.gearbox.carrier import pin_of, tie_of
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.contact.laws import Bodies, CamSpring, LineLaw, LineModel
+from cqdd_design.gearbox.film.of_design import ContactFilm, pin_film, tooth_film
 from cqdd_design.gearbox.hertz import conformal_equivalent_radius, pair_modulus
 from cqdd_design.gearbox.pin_beam import HELD, PinBeam, pin_in_stack, pin_section
 from cqdd_design.gearbox.rolling_contacts import hole_friction, tooth_friction
@@ -65,10 +67,16 @@ class ContactModel(Stages):
         Compliance of a pin at every disc, m/N, where plate and cap are one body and no disc's
         force reaches another: the state that every other starts from.
     cam : CamSpring
-        Between bore and cam.
+        Between bore and cam, of the bearing alone.
     tooth_friction, hole_friction : float
-        Coulomb friction at ring teeth, and at the walls of the holes
-        (:mod:`..rolling_contacts`).
+        Coulomb friction at ring teeth, and at the walls of the holes, as the design states it or
+        without a film (:mod:`..rolling_contacts`).
+    tooth_film, hole_film : ContactFilm or None
+        What a film is made of there; None on needles.
+    by_film : tuple of bool
+        Whether the friction of teeth, and of holes, follows from the film.
+    film_speed : float
+        Speed of the crank at which it does unless asked otherwise, rad/s.
     carrier_stiffness : float or None
         Radial stiffness of the carrier's bearing, N/m; None where it is rigid.
     pin : PinBeam or None
@@ -85,8 +93,13 @@ class ContactModel(Stages):
         Compliance at every disc of ring pins that rollers leave free between their ends, m/N.
     bodies : YieldingBodies or None
         Discs and ring, where plate and cap turn apart; None where they are rigid.
+    pin_reach : float
+        By how much further out pins stand than the middles of their holes, m: of a carrier that
+        grew more than the discs.
     column_count : int
         Columns that pass through the discs, a divisor of the pins' number; 0 without.
+    cam_support : float
+        Compliance of what carries the cams, at a disc, m/N; 0 where it is rigid.
     """
 
     disc: CycloidDisc
@@ -98,6 +111,10 @@ class ContactModel(Stages):
     cam: CamSpring
     tooth_friction: float
     hole_friction: float
+    tooth_film: ContactFilm | None = None
+    hole_film: ContactFilm | None = None
+    by_film: tuple[bool, bool] = (False, False)
+    film_speed: float = 0.0
     carrier_stiffness: float | None = None
     pin: PinBeam | None = None
     pin_diameter: float = 0.0
@@ -108,21 +125,32 @@ class ContactModel(Stages):
     roller_coefficient: float = 0.0
     ring_pin_series: FloatArray | None = None
     bodies: YieldingBodies | None = None
+    pin_reach: float = 0.0
     column_count: int = 0
+    cam_support: float = 0.0
 
     @classmethod
-    def from_design(cls, design: Design, line_model: LineModel = "palmgren") -> ContactModel:
+    def from_design(
+        cls,
+        design: Design,
+        line_model: LineModel = "palmgren",
+        temperature: float = RUNNING_TEMPERATURE,
+    ) -> ContactModel:
         """Read a design that names its cam bearing; a sleeve is of the pin's material.
 
         Parameters
         ----------
         line_model : {"palmgren", "johnson", "linear"}
             Approach of teeth and pins. ``linear`` takes the secant of Palmgren's law at 50 N/mm.
+        temperature : float
+            Of the lubricant, deg C.
 
         Raises
         ------
         GeometryError
             When disc or holes cannot exist.
+        UsageError
+            When the lubricant does not work at the temperature.
         """
         reducer, pins = design.reducer, design.reducer.output_pins
         disc = CycloidDisc.from_design(design)
@@ -133,6 +161,8 @@ class ContactModel(Stages):
         pin = find_material(pins.material)
         plate = find_material(design.housing.material)
         runner, rollers = pin_runner(design), ring_runner(design)
+        films = tooth_film(design, temperature), pin_film(design, temperature)
+        supported = reducer.cam_bearing.support_stiffness
         behind_flank = disc.valley_distance - 0.5 * bearing.outer_diameter
         ring_bodies = (
             _body(stages.tooth_radius, tooth),
@@ -159,6 +189,13 @@ class ContactModel(Stages):
             cam=laws.cam_spring(bearing, reducer.cam_bearing.radial_clearance),
             tooth_friction=tooth_friction(design),
             hole_friction=hole_friction(design),
+            tooth_film=films[0],
+            hole_film=films[1],
+            by_film=(
+                reducer.friction.tooth == "film" and films[0] is not None,
+                reducer.friction.pin == "film" and films[1] is not None,
+            ),
+            film_speed=design.requirements.input_speed,
             carrier_stiffness=reducer.carrier_bearing.stiffness or None,
             pin=pin_of(design),
             pin_diameter=pins.diameter,
@@ -169,7 +206,21 @@ class ContactModel(Stages):
             roller_coefficient=_inside(rollers, tooth),
             ring_pin_series=None if rollers is None else _ring_pin_series(design, tooth, plate),
             column_count=len(column_offsets(reducer)),
+            cam_support=1.0 / supported if supported else 0.0,
         )
+
+    @property
+    def carried_cam(self) -> CamSpring:
+        """Spring between a disc's bore and the housing: cam bearing, and what carries the cam.
+
+        A support that yields makes it linear, the bearing by its secant at the line load that the
+        linear law is made for. Each disc counts as carried by itself.
+        """
+        if self.cam_support == 0.0:
+            return self.cam
+        load = LINE_LOAD * self.contact_length
+        secant = (load / self.cam.stiffness) ** (1.0 / self.cam.exponent) / load
+        return CamSpring(1.0 / (secant + self.cam_support), 1.0, self.cam.play)
 
     @property
     def tooth_count(self) -> int:
@@ -185,7 +236,8 @@ class ContactModel(Stages):
     def pin_gap(self) -> float:
         """Gap at an output pin in the nominal pose, m: half of the clearance of the hole.
 
-        A sleeve's play opens it further: pin and hole can part by both.
+        A sleeve's play opens it further: pin and hole can part by both. What `pin_reach` does is
+        not in it, since that turns with the crank.
         """
         return self.hole_radius - self.pin_contact_radius - self.eccentricity + self.sleeve_play
 
@@ -246,7 +298,8 @@ def _inside(runner: Runner | None, steel: Material) -> float:
     """Coefficient of the contact between a pin and what turns on it, of the same steel."""
     if runner is None:
         return 0.0
-    return laws.runner_coefficient(runner.cage, runner.length, pair_modulus(steel, steel))
+    own = laws.runner_coefficient(runner.cage, runner.length, pair_modulus(steel, steel))
+    return own if runner.cage is None else float(own / runner.rows**0.9)
 
 
 def _ring_pin_series(design: Design, pin: Material, plate: Material) -> FloatArray:

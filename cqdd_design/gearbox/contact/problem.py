@@ -49,8 +49,8 @@ def springs_of(model: ContactModel) -> Springs:
         ring_logarithm=model.ring_law.logarithm,
         pin_logarithm=model.pin_law.logarithm,
         pin_series=np.ascontiguousarray(model.pin_series),
-        cam_stiffness=model.cam.stiffness,
-        cam_exponent=model.cam.exponent,
+        cam_stiffness=model.carried_cam.stiffness,
+        cam_exponent=model.carried_cam.exponent,
         carrier_stiffness=model.carrier_stiffness or 0.0,
     )
 

@@ -27,6 +27,12 @@ def _load(force: FloatArray, tangential: FloatArray, normal: FloatArray) -> Floa
     return np.asarray(force[..., None] * normal + tangential[..., None] * across)
 
 
+def _mean_coefficient(tangential: FloatArray, force: FloatArray) -> float:
+    """Friction of all contacts over their normal forces; 0 where nothing touches."""
+    pressed = float(force.sum())
+    return float(np.abs(tangential).sum()) / pressed if pressed > 0.0 else 0.0
+
+
 @dataclass(frozen=True, eq=False)
 class ContactSweep:
     """Contact equilibria at A crank angles, D discs, T = n + 1 ring teeth, P output pins.
@@ -241,6 +247,18 @@ class ContactSweep:
         return max(1.0 - lost, 0.0) if backward else 1.0 / (1.0 + lost)
 
     @property
+    def mean_friction(self) -> tuple[float, float]:
+        """Coefficients of teeth and of pins, by films the mean by force; 0 without friction."""
+        if self.friction is None:
+            return 0.0, 0.0
+        if self.friction.felt is None:
+            return self.friction.tooth, self.friction.pin
+        return (
+            _mean_coefficient(self.ring_tangential, self.ring_force),
+            _mean_coefficient(self.pin_tangential, self.pin_force),
+        )
+
+    @property
     def uneven_sharing(self) -> float:
         """Torque of the most loaded disc over the mean of the discs, greatest over the angles."""
         share = np.abs(self.disc_torque)
@@ -289,8 +307,8 @@ class ContactSweep:
             "plate_angle_arcmin": (np.degrees(self.plate_angles) * 60.0).tolist(),
             "teeth_in_contact": self.teeth_in_contact.tolist(),
             "friction": "off" if self.friction is None else self.friction.sense,
-            "friction_tooth": 0.0 if self.friction is None else self.friction.tooth,
-            "friction_pin": 0.0 if self.friction is None else self.friction.pin,
+            "friction_tooth": self.mean_friction[0],
+            "friction_pin": self.mean_friction[1],
             "ring_tangential_N": self.ring_tangential.tolist(),
             "output_pin_tangential_N": self.pin_tangential.tolist(),
             "crank_torque_Nm": self.crank_torque.tolist(),

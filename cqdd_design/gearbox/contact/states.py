@@ -82,7 +82,9 @@ def nominal_states(model: ContactModel, crank_angle: FloatArray) -> NominalState
     length = model.pin_circle_radius
     rows = np.concatenate([ring.rows, pin_rows], axis=2)
     rows[..., 2] /= length
+    opening = pin_openings(model, pin_rows, pin_angle)
     still = np.zeros((*pin_rates.shape[:-1], 2))
+    still[..., 0] = opening[1]
     softening = -model.ring_law.logarithm * ring.radius_rate
     rates = np.concatenate(
         [
@@ -98,7 +100,7 @@ def nominal_states(model: ContactModel, crank_angle: FloatArray) -> NominalState
         ring=ring,
         pin_angle=pin_angle,
         rows=rows,
-        gaps=np.concatenate([ring.gap, np.full(pin_shape, model.pin_gap)], axis=2),
+        gaps=np.concatenate([ring.gap, model.pin_gap + opening[0]], axis=2),
         coefficient=np.concatenate(
             [
                 model.ring_coefficient(ring.equivalent_radius),
@@ -109,6 +111,33 @@ def nominal_states(model: ContactModel, crank_angle: FloatArray) -> NominalState
         rates=rates,
         length=length,
     )
+
+
+def pin_openings(
+    model: ContactModel, rows: FloatArray, pin_angle: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """What pins that stand further out than their holes add to the gaps, and its rate, (A, D, P).
+
+    Parameters
+    ----------
+    rows : array (A, D, P, 3)
+        Of the pins.
+    pin_angle : array (A, P)
+        rad.
+    """
+    apart = hole_off_pin(model, pin_angle)
+    turned = np.stack([-rows[..., 1], rows[..., 0]], axis=-1)
+    drift = np.stack([apart[..., 1], -apart[..., 0]], axis=-1) / model.lobe_count
+    return (
+        np.sum(rows[..., :2] * apart, axis=-1),
+        np.sum(turned * apart + rows[..., :2] * drift, axis=-1),
+    )
+
+
+def hole_off_pin(model: ContactModel, pin_angle: FloatArray) -> FloatArray:
+    """Hole from its pin by what pins stand further out, in the ring's frame, (A, 1, P, 2), m."""
+    outward = np.stack([np.cos(pin_angle), np.sin(pin_angle)], axis=-1)
+    return np.asarray(-model.pin_reach * outward[:, None])
 
 
 def error_states(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ from cqdd_design.gearbox.contact.compliant import (
     compliant_states,
     model_compliance,
 )
+from cqdd_design.gearbox.contact.films import MOST_ROUNDS, Felt
 from cqdd_design.gearbox.contact.kernel_values import SweepResult, Toleranced
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
@@ -31,6 +33,9 @@ from cqdd_design.geometry.contours import FloatArray
 
 ANGLES = 360
 """Default number of crank angles over the period of a perfect gearbox."""
+
+_NEXT_TO_NOTHING = (0.0, 1e-6, 1e-5, 1e-4, 1e-3)
+"""Shares of a usual torque that are tried for a gearbox without load."""
 
 _REACH = 0.25
 """Displacement, in eccentricities, beyond which the nominal pose says nothing any more."""
@@ -79,7 +84,8 @@ def contact_sweep(
     changed : Toleranced, optional
         From :func:`.states.error_states` for the same states and errors, likewise.
     friction : ContactFriction, optional
-        Coulomb friction at teeth and pins; default none.
+        Friction at teeth and pins; default none. Coefficients that follow from films are found
+        with the forces, to :data:`.films.SETTLED`.
 
     Returns
     -------
@@ -120,11 +126,44 @@ def contact_sweep(
         )
     _refuse_out_of_reach(model, torque, states, result.states)
     if friction is not None:
-        result = _with_friction(model, torque, states, changed, friction, result)
+        result, friction = _with_friction(model, torque, states, changed, friction, result)
         _refuse_out_of_reach(model, torque, states, result.states)
     found = _joined(model, torque, states, changed, friction, result)
     _refuse_outside_law(model, torque, states, found.result.force)
-    return _assemble(model, torque, states, friction, found)
+    return _assemble(model, torque, states, found)
+
+
+def idle_sweep(
+    model: ContactModel,
+    torque: float,
+    states: NominalStates,
+    friction: ContactFriction | None = None,
+) -> ContactSweep:
+    """Equilibria without load; where that leaves parts without a place, under next to none.
+
+    Parts whose clearances warmth or a tight fit has nearly used up hang between contacts that
+    just touch, and then have no equilibrium under no load at all.
+
+    Parameters
+    ----------
+    torque : float
+        A usual one, N m, of which the load is up to a thousandth.
+    states : NominalStates
+    friction : ContactFriction, optional
+
+    Raises
+    ------
+    ContactError
+        As :func:`contact_sweep`, where neither has one.
+    """
+    for share in _NEXT_TO_NOTHING[:-1]:
+        try:
+            found = contact_sweep(model, share * torque, states=states, friction=friction)
+        except ContactError:
+            continue
+        return replace(found, torque=0.0)
+    last = _NEXT_TO_NOTHING[-1] * torque
+    return replace(contact_sweep(model, last, states=states, friction=friction), torque=0.0)
 
 
 class _Found(NamedTuple):
@@ -134,6 +173,7 @@ class _Found(NamedTuple):
     cap_angle: FloatArray | None
     energy: FloatArray
     contact_slope: FloatArray
+    friction: ContactFriction | None
 
 
 def _with_friction(
@@ -143,22 +183,42 @@ def _with_friction(
     changed: Toleranced,
     friction: ContactFriction,
     smooth: SweepResult,
-) -> SweepResult:
-    """Equilibria with friction, from those without it."""
+) -> tuple[SweepResult, ContactFriction]:
+    """Equilibria with friction, from those without it, and the friction they have settled on."""
     from cqdd_design.gearbox.contact.friction_sweep_kernel import rub_sweep
 
     contacts, springs, load, turns, result = sweep_problem(model, torque, states, changed)
-    rubs = rubbing(model, states, friction, torque)
     solve: Any = rub_sweep
-    failed = solve(contacts, springs, load, rubs, turns, smooth, result)
-    if failed >= 0:
-        raise ContactError(
-            f"at crank angle {math.degrees(states.crank_angle[failed]):.6g} deg and {torque:g} N*m "
-            f"friction of {friction.tooth:g} at the teeth and {friction.pin:g} at the pins jams "
-            "the gearbox: no forces carry the load while the contacts slide. Lower "
-            "reducer.friction.tooth and reducer.friction.pin."
-        )
-    return result
+    felt = friction.under(model, states, smooth.force)
+    for _ in range(MOST_ROUNDS):
+        rubs = rubbing(model, states, felt, torque)
+        failed = solve(contacts, springs, load, rubs, turns, smooth, result)
+        if failed >= 0:
+            raise _jammed(torque, states.crank_angle[failed], friction)
+        # Where plate and cap turn apart these forces are only a start.
+        if model.pin is not None:
+            return result, felt
+        under = friction.under(model, states, result.force)
+        if felt.agrees(under, result.force):
+            return result, felt
+        felt = under
+    raise _unsettled(torque)
+
+
+def _jammed(torque: float, crank_angle: float, friction: ContactFriction) -> ContactError:
+    return ContactError(
+        f"at crank angle {math.degrees(crank_angle):.6g} deg and {torque:g} N*m "
+        f"friction of {friction.tooth:g} at the teeth and {friction.pin:g} at the pins jams "
+        "the gearbox: no forces carry the load while the contacts slide. Lower "
+        "reducer.friction.tooth and reducer.friction.pin."
+    )
+
+
+def _unsettled(torque: float) -> ContactError:
+    return ContactError(
+        f"at {torque:g} N*m forces and the friction of their films do not settle; state "
+        "reducer.friction.tooth and reducer.friction.pin as coefficients."
+    )
 
 
 def _held(
@@ -166,6 +226,7 @@ def _held(
     torque: float,
     states: NominalStates,
     changed: Toleranced,
+    friction: ContactFriction | None,
     result: SweepResult,
 ) -> _Found:
     """Equilibria of plates that are one body."""
@@ -174,7 +235,7 @@ def _held(
     energy += 0.5 * (model.carrier_stiffness or 0.0) * np.sum(state[:, :2] ** 2, axis=-1)
     energy -= torque * state[:, 2] / states.length
     slope = energy_slope(states, changed, state, force, cam_force, model.tooth_count)
-    return _Found(result, None, energy, slope)
+    return _Found(result, None, energy, slope, friction)
 
 
 def _joined(
@@ -187,7 +248,7 @@ def _joined(
 ) -> _Found:
     """Equilibria of plates that turn apart as the carrier is built, from those of one body."""
     if model.pin is None:
-        return _held(model, torque, states, changed, start)
+        return _held(model, torque, states, changed, friction, start)
     count = len(states.crank_angle)
     each = count if model.bodies is None else states.compliances_at_once
     if count <= each:
@@ -209,11 +270,19 @@ def _joined(
         np.concatenate(arrays) for arrays in zip(*(part.result for part in parts), strict=True)
     )
     caps = [part.cap_angle for part in parts if part.cap_angle is not None]
+    felt = [
+        part.friction.felt.coefficient
+        for part in parts
+        if part.friction is not None and part.friction.felt is not None
+    ]
+    if friction is not None and felt:
+        friction = replace(friction, felt=Felt(np.concatenate(felt)))
     return _Found(
         result,
         np.concatenate(caps) if caps else None,
         np.concatenate([part.energy for part in parts]),
         np.concatenate([part.contact_slope for part in parts]),
+        friction,
     )
 
 
@@ -226,12 +295,23 @@ def _joined_some(
     start: SweepResult,
 ) -> _Found:
     """Equilibria of :func:`_joined` at so many angles that their compliance fits into memory."""
+    felt = None if friction is None else friction.under(model, states, start.force)
     bodies = None
     if model.bodies is not None:
-        share = None if friction is None else rubbing(model, states, friction, torque).share
+        # What bodies yield hardly knows the tangential force, and not the rounds between films.
+        share = None if felt is None else rubbing(model, states, felt, torque).share
         bodies = model.bodies.compliance(model, states, torque, share)
     compliance = model_compliance(model, bodies)
-    found = compliant_states(model, torque, states, changed, start, compliance, friction)
+    for _ in range(MOST_ROUNDS):
+        found = compliant_states(model, torque, states, changed, start, compliance, felt)
+        if felt is None:
+            break
+        under = felt.under(model, states, found.force)
+        if felt.agrees(under, found.force):
+            break
+        felt = under
+    else:
+        raise _unsettled(torque)
     result = SweepResult(
         states=np.delete(found.states, 3, axis=1),
         force=found.force,
@@ -245,6 +325,7 @@ def _joined_some(
         found.states[:, 3] / states.length if np.any(compliance.at_cap) else None,
         compliant_energy(model, torque, states, compliance, found),
         compliant_slope(model, states, changed, compliance, found),
+        felt,
     )
 
 
@@ -296,9 +377,9 @@ def _assemble(
     model: ContactModel,
     torque: float,
     states: NominalStates,
-    friction: ContactFriction | None,
     found: _Found,
 ) -> ContactSweep:
+    friction = found.friction
     result, teeth, length = found.result, model.tooth_count, states.length
     state, force = result.states, result.force
     displacement = state[:, 3:].reshape(len(state), -1, 3).copy()
@@ -376,7 +457,7 @@ def _spring_energy(
         load = force[..., part]
         local = laws.stored_energy(law, states.coefficient[..., part], series, load)
         stored += local.sum(axis=(1, 2))
-    spring = model.cam
+    spring = model.carried_cam
     load = np.hypot(cam_force[..., 0], cam_force[..., 1])
     closed = (load / spring.stiffness) ** (1.0 / spring.exponent)
     return np.asarray(stored + np.sum(load * closed / (spring.exponent + 1.0), axis=1))

@@ -86,14 +86,16 @@ def life(design: Design, model: ContactModel, *, friction: bool = True) -> LifeR
     angles = cycles.crank_angles(model.lobe_count, model.pin_count)
     states = nominal_states(model, angles)
 
-    def key(case: DutyCase) -> tuple[float, FrictionChoice]:
-        return case.torque, case.power_sense if friction else "off"
+    def key(case: DutyCase) -> tuple[float, FrictionChoice, float]:
+        # Cases of other speeds have other films, and where there are none the same forces.
+        speed = case.speed * model.lobe_count if any(model.by_film) else 0.0
+        return case.torque, case.power_sense if friction else "off", speed
 
     solved = {
-        (torque, choice): contact_sweep(
-            model, torque, states=states, friction=ContactFriction.of(model, choice)
+        (torque, choice, speed): contact_sweep(
+            model, torque, states=states, friction=ContactFriction.of(model, choice, speed)
         )
-        for torque, choice in dict.fromkeys(key(case) for case in cases)
+        for torque, choice, speed in dict.fromkeys(key(case) for case in cases)
     }
     duty = _Duty(design, cases, [solved[key(case)] for case in cases])
     bending, stresses = _pin_bending(duty)

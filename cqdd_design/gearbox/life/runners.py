@@ -166,7 +166,8 @@ def _life(
     else:
         exponent = life_exponent("roller")
         # Turns an hour, each weighed with the load it bears.
-        worn = 3600.0 * np.einsum("c,cak->k", share, turns * history.force**exponent)
+        each = history.force / runner.rows
+        worn = 3600.0 * np.einsum("c,cak->k", share, turns * each**exponent)
         worn /= history.force.shape[1]
         all_turns = 3600.0 * mean_turns
         equal = float((worn.max() / all_turns) ** (1.0 / exponent)) if all_turns > 0.0 else 0.0
@@ -174,7 +175,7 @@ def _life(
         if not unknown and worn.max() > 0.0:
             lives = 1e6 * (runner.cage.dynamic_rating or 0.0) ** exponent / worn[worn > 0.0]
             hours = float(lives.min())
-            together = set_life(np.repeat(lives, history.alike).tolist(), "roller")
+            together = set_life(np.repeat(lives, history.alike * runner.rows).tolist(), "roller")
     return RunnerLife(
         name=name,
         kind="plain" if runner.cage is None else "needle",

@@ -17,7 +17,7 @@ oil) and 2.3 (mineral oil) in handbook tables (Marks; Kirk-Othmer); bearings are
 
 NOT_INCLUDED = (
     "motor cogging and hysteresis, and friction of the motor's own bearings",
-    "seals of bearings and housing",
+    "seals of the housing, and of bearings where reducer.friction.seals is none",
     "preload of the output bearing and loads on the output from outside",
     "weight and magnetic pull of the rotor",
 )

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.catalog.lubricants import RUNNING_TEMPERATURE, Lubricant, find_lubricant
 from cqdd_design.design import Design
-from cqdd_design.gearbox.losses.lubricant import Lubricant, find_lubricant
 from cqdd_design.gearbox.losses.rolling import BearingFriction
 from cqdd_design.gearbox.losses.shaft import equivalent_load, support_reactions
 from cqdd_design.gearbox.losses.sliding import (
@@ -76,7 +76,8 @@ class FrictionMachine:
     eccentricity : float
         e.
     tooth_coefficient, pin_coefficient : float
-        mu felt at ring teeth and at output pins, sliding or rolling (:mod:`..rolling_contacts`).
+        mu felt at ring teeth and at output pins, sliding or rolling (:mod:`..rolling_contacts`), as
+        the design states it or without a film.
     disc_heights : tuple of float
         Mid-planes of the discs from the first carrier plate.
     span : float
@@ -87,6 +88,8 @@ class FrictionMachine:
         One face of a disc, and the gap filled with grease in front of it.
     needles : mapping
         Cages under rollers and sleeves, by where they lose power; empty without.
+    temperature : float
+        Of the lubricant, deg C.
     """
 
     lobe_count: int
@@ -103,11 +106,17 @@ class FrictionMachine:
     face_area: float
     face_gap: float
     needles: Mapping[str, NeedleDrag]
+    temperature: float = RUNNING_TEMPERATURE
     warnings: tuple[str, ...] = ()
 
     @classmethod
     def from_design(
-        cls, design: Design, *, support: BearingFriction, output: BearingFriction
+        cls,
+        design: Design,
+        *,
+        support: BearingFriction,
+        output: BearingFriction,
+        temperature: float = RUNNING_TEMPERATURE,
     ) -> FrictionMachine:
         """Read a design.
 
@@ -117,6 +126,8 @@ class FrictionMachine:
             With a named cam bearing.
         support, output : BearingFriction
             At either end of the shaft, and of the carrier.
+        temperature : float
+            Of the lubricant, deg C.
         """
         reducer = design.reducer
         cam = find_bearing(reducer.cam_bearing.designation)
@@ -137,8 +148,14 @@ class FrictionMachine:
             face_area=disc_moments(design, 0, bore_diameter=cam.outer_diameter).area,
             face_gap=max(reducer.disc_spacing, _LEAST_FILM),
             needles=_needles(design),
+            temperature=temperature,
             warnings=() if warning is None else (warning,),
         )
+
+    @property
+    def viscosity(self) -> float:
+        """Kinematic viscosity of the (base) oil, m^2/s; UsageError where it has none."""
+        return self.lubricant.viscosity_at(self.temperature)
 
     @property
     def relative_turn(self) -> float:
@@ -151,7 +168,8 @@ class FrictionMachine:
         Parameters
         ----------
         forces : ContactSweep
-            At evenly spaced crank angles over a whole period, with or without friction.
+            At evenly spaced crank angles over a whole period, with or without friction; films that
+            it has found give the coefficients.
         """
         n = self.lobe_count
         sliding = ring_sliding(
@@ -160,9 +178,13 @@ class FrictionMachine:
             forces.ring_normal,
             (n + 1) * np.asarray(forces.disc_centre)[:, :, None, :],
         )
-        ring = friction_work(self.tooth_coefficient, forces.ring_force, sliding)
         path = pin_sliding(n, self.eccentricity)
-        pins = friction_work(self.pin_coefficient, forces.pin_force, path)
+        if forces.friction is not None and forces.friction.felt is not None:
+            ring = friction_work(1.0, np.abs(forces.ring_tangential), sliding)
+            pins = friction_work(1.0, np.abs(forces.pin_tangential), path)
+        else:
+            ring = friction_work(self.tooth_coefficient, forces.ring_force, sliding)
+            pins = friction_work(self.pin_coefficient, forces.pin_force, path)
         cam = self.cam.load_torque(np.linalg.norm(forces.cam_force, axis=-1))
         first, second, carrier = self._seat_loads(forces)
         supports = self.support.load_torque(first)
@@ -175,6 +197,18 @@ class FrictionMachine:
             "output_bearing": float(self.output.load_torque(carrier).mean()) / n,
             "grease": 0.0,
         }
+
+    def rubbed(self, forces: ContactSweep) -> tuple[float, float]:
+        """Normal force times sliding path per radian of crank, mean of a sweep, N m.
+
+        At ring teeth and at output pins, of all discs: what friction and wear are in proportion to.
+        """
+        n = self.lobe_count
+        pitch_point = (n + 1) * np.asarray(forces.disc_centre)[:, :, None, :]
+        sliding = ring_sliding(n, forces.ring_point, forces.ring_normal, pitch_point)
+        teeth = friction_work(1.0, forces.ring_force, sliding)
+        pins = friction_work(1.0, forces.pin_force, pin_sliding(n, self.eccentricity))
+        return float(teeth.sum(axis=1).mean()), float(pins.sum(axis=1).mean())
 
     def _seat_loads(self, forces: ContactSweep) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Loads (A,) of the first and second support and of the output bearing, N.
@@ -212,7 +246,7 @@ class FrictionMachine:
             Bearings by Palmgren at their relative speeds, and the grease between the faces.
         """
         speed = np.abs(np.asarray(input_speed, dtype=float))
-        viscosity, turn, n = self.lubricant.viscosity, self.relative_turn, self.lobe_count
+        viscosity, turn, n = self.viscosity, self.relative_turn, self.lobe_count
         cam = self.cam.drag_torque(viscosity, speed * turn)
         first = self.support.drag_torque(viscosity, speed)
         second = self.support.drag_torque(viscosity, speed * turn)
@@ -243,7 +277,8 @@ class FrictionMachine:
         plate = self.eccentricity * self.relative_turn
         paths = np.array([*[between] * (self.disc_count - 1), plate, plate])
         shear_rate = speed[..., None] * paths / self.face_gap
-        stress = self.lubricant.yield_stress + self.lubricant.dynamic_viscosity * shear_rate
+        viscosity = self.viscosity * self.lubricant.density
+        stress = self.lubricant.yield_stress + viscosity * shear_rate
         return np.asarray(np.sum(stress * self.face_area * paths, axis=-1))
 
 
@@ -254,11 +289,11 @@ def _needles(design: Design) -> dict[str, NeedleDrag]:
     rollers, sleeves = ring_runner(design), pin_runner(design)
     if rollers is not None and rollers.cage is not None:
         turn = greatest_roller_turn(n, reducer.ring_pitch_radius, e, rollers.diameter)
-        count = reducer.disc_count * reducer.ring_tooth_count
+        count = reducer.disc_count * reducer.ring_tooth_count * rollers.rows
         found["ring_teeth"] = NeedleDrag(BearingFriction.of(rollers.cage), count, turn)
     if sleeves is not None and sleeves.cage is not None:
         turn = float(sleeve_turn(n, e, sleeves.diameter))
-        count = reducer.disc_count * reducer.output_pins.count
+        count = reducer.disc_count * reducer.output_pins.count * sleeves.rows
         found["output_pins"] = NeedleDrag(BearingFriction.of(sleeves.cage), count, turn)
     return found
 

@@ -2,21 +2,23 @@
 
 Coulomb work is very nearly proportional to the torque, but not quite: the higher the load, the more
 teeth share it. It is computed at the torques of the sweeps and taken straight between them, once
-with the motor driving and once with the output driving, whose forces differ.
+with the motor driving and once with the output driving, whose forces differ. Where friction follows
+from films it changes with speed too (:mod:`.film_work`).
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cqdd_design.errors import UsageError
+from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.losses.backdrive import STATIC_RATIO, Backdrive, balance_torque
+from cqdd_design.gearbox.losses.film_work import FilmWork, lowered_friction
 from cqdd_design.gearbox.losses.machine import SOURCES, FrictionMachine, total
 from cqdd_design.gearbox.losses.result import Losses
 from cqdd_design.geometry.contours import FloatArray
@@ -32,8 +34,13 @@ SENSES: tuple[PowerSense, PowerSense] = ("drive", "backdrive")
 TORQUE_SHARES = (0.0, *(10.0 ** (0.125 * k) for k in range(-24, 1)))
 """Torques of the sweeps of :func:`loss_model`, as shares of the largest: zero, then eight to a
 decade over three decades. Straight lines between them are then good to 0.3 %."""
+_SPARED = 0.05
+"""Share up to which a sweep without an equilibrium is left out."""
 SWEEP_ANGLES = 120
 """Crank angles of each of its sweeps over a period."""
+_EVERY = 6
+"""Torques between those at which friction without films is solved too: its ratio to that with them
+hardly changes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,11 +101,19 @@ class LossModel:
     work : array (2, K, 6)
         Coulomb work per radian of crank at those torques, by source, N m: the motor driving, and
         the output.
+    rubbed : array (K, 2)
+        Normal force times sliding path per radian of crank, of teeth and of pins, the motor
+        driving, N m.
+    film : FilmWork or None
+        Of films that lower friction with speed, `work` being that at one speed; None where
+        friction does not know the speed.
     """
 
     machine: FrictionMachine
     torque: FloatArray
     work: FloatArray
+    rubbed: FloatArray
+    film: FilmWork | None = None
 
     @classmethod
     def from_sweeps(
@@ -144,18 +159,41 @@ class LossModel:
                 sense[1.0] = sense[0.0]
         torque = np.array(sorted(found[0]))
         work = [[[sense[size][name] for name in SOURCES] for size in torque] for sense in found]
-        return cls(machine, torque, np.array(work))
+        paths = {abs(sweep.torque): machine.rubbed(sweep) for sweep in driving}
+        rubbed = [paths.get(size, (0.0, 0.0)) for size in torque.tolist()]
+        return cls(machine, torque, np.array(work), np.array(rubbed))
 
-    def coulomb_work(self, torque: ArrayLike, sense: PowerSense = "drive") -> FloatArray:
+    def coulomb_work(
+        self,
+        torque: ArrayLike,
+        sense: PowerSense = "drive",
+        crank_speed: float | None = None,
+    ) -> FloatArray:
         """Coulomb work per radian of crank by source, (..., 6), N m.
 
         Straight between the sweeps; beyond the largest, the part that came with the torque goes on
         in proportion to it.
+
+        Parameters
+        ----------
+        crank_speed : float, optional
+            rad/s, either sense, where films know it; default that of the sweeps.
         """
+        found = self._between(torque, self.work[SENSES.index(sense)])
+        if self.film is None or crank_speed is None:
+            return found
+        rest = self._between(torque, self.film.at_rest[SENSES.index(sense)])
+        return np.asarray(rest + self.film.share(torque, crank_speed) * (found - rest))
+
+    def rubbed_at(self, torque: ArrayLike) -> FloatArray:
+        """Normal force times sliding path per radian of crank, teeth and pins, (..., 2), N m."""
+        return self._between(torque, self.rubbed)
+
+    def _between(self, torque: ArrayLike, work: FloatArray) -> FloatArray:
+        """Columns of `work` (K, ...) at torques."""
         size = np.abs(np.asarray(torque, dtype=float))
         within = np.minimum(size, self.torque[-1])
         beyond = np.maximum(size / self.torque[-1], 1.0)
-        work = self.work[SENSES.index(sense)]
         columns = [np.interp(within, self.torque, column) for column in work.T]
         at_rest, found = work[0], np.stack(columns, axis=-1)
         return np.asarray(at_rest + (found - at_rest) * beyond[..., None])
@@ -166,7 +204,10 @@ class LossModel:
         """Friction torque at the crank by source (S, T, 6), and its load-independent part (S,)."""
         drag = self.machine.drag(speed)
         columns = np.stack([drag[name] for name in SOURCES], axis=-1)
-        return columns[:, None, :] + self.coulomb_work(torque, sense), total(drag)
+        if self.film is None:
+            return columns[:, None, :] + self.coulomb_work(torque, sense), total(drag)
+        work = np.stack([self.coulomb_work(torque, sense, float(one)) for one in speed])
+        return columns[:, None, :] + work, total(drag)
 
     def efficiency_map(self, input_speeds: ArrayLike, torques: ArrayLike) -> EfficiencyMap:
         """Losses and efficiencies over a grid.
@@ -256,28 +297,49 @@ class LossModel:
         )
 
     def backdrive(
-        self, *, static_ratio: float = STATIC_RATIO, output_speed: float = 0.0
+        self,
+        *,
+        static_ratio: float = STATIC_RATIO,
+        output_speed: float = 0.0,
+        film_speed: float | None = None,
+        shaft_running: float = 0.0,
+        shaft_resting: float = 0.0,
     ) -> Backdrive:
-        """Torques at the output that break the gearbox away and keep it turning, with no motor.
+        """Torques at the output that break the gearbox away and keep it turning.
 
         Parameters
         ----------
         static_ratio : float
             Breakaway over running friction, at least 1, of sliding contacts and bearings; the
-            yield stress of the grease is already that of rest.
+            yield stress of the grease is already that of rest, and so is the friction of teeth and
+            pins whose film is gone.
         output_speed : float
             Of the dynamic torque, rad/s; the default is the limit of slow motion, because drag
             grows with speed.
+        film_speed : float, optional
+            Speed of the crank whose films carry the dynamic torque, rad/s; default that of
+            `output_speed`.
+        shaft_running, shaft_resting : float
+            What the gearbox has to turn with its shaft, in motion and from rest, N m at the shaft:
+            a motor's own drag; default none.
         """
         if not (math.isfinite(static_ratio) and static_ratio >= 1.0):
             raise UsageError(f"static_ratio {static_ratio:g} must be at least 1.")
         n = self.machine.lobe_count
-        running = total(self.machine.drag(n * _finite("speed", output_speed)))
+        speed = n * float(_finite("speed", output_speed))
+        running = total(self.machine.drag(speed))
         resting = total(self.machine.drag(0.0))
         grease = self.machine.grease_torque(0.0)
-        work = self.work[SENSES.index("backdrive")].sum(axis=1)
-        dynamic = n * (work + running)
-        static = n * (static_ratio * (work + resting - grease) + grease)
+        moving = self.coulomb_work(
+            self.torque, "backdrive", speed if film_speed is None else film_speed
+        )
+        rest = self.coulomb_work(self.torque, "backdrive", 0.0)
+        broken = static_ratio * rest.sum(axis=1)
+        if self.film is not None:
+            sliding = [SOURCES.index(name) for name in ("ring_teeth", "output_pins")]
+            broken -= (static_ratio - 1.0) * rest[:, sliding].sum(axis=1)
+        dynamic = n * (moving.sum(axis=1) + running + shaft_running)
+        static = n * (broken + static_ratio * (resting - grease) + grease + shaft_resting)
         return Backdrive(
             static_torque=balance_torque(self.torque, static),
             dynamic_torque=balance_torque(self.torque, dynamic),
@@ -308,23 +370,67 @@ def loss_model(model: ContactModel, machine: FrictionMachine, peak_torque: float
     Raises
     ------
     ContactError
-        When a sweep has no equilibrium, friction that jams the gearbox included.
+        When a sweep has no equilibrium, friction that jams the gearbox included. At small torques
+        alone, where clearances are nearly used up, that sweep is left out.
     """
     from cqdd_design.gearbox.contact.rubbing import ContactFriction
     from cqdd_design.gearbox.contact.states import nominal_states
-    from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+    from cqdd_design.gearbox.contact.sweep import contact_sweep, idle_sweep, perfect_angles
 
     states = nominal_states(model, perfect_angles(model, SWEEP_ANGLES))
-    driving, driven = (
-        [
-            contact_sweep(
-                model,
-                share * peak_torque,
-                states=states,
-                friction=ContactFriction.of(model, sense),
-            )
-            for share in TORQUE_SHARES
-        ]
-        for sense in SENSES
+
+    def solve(share: float, sense: PowerSense, speed: float) -> ContactSweep:
+        friction, torque = ContactFriction.of(model, sense, speed), share * peak_torque
+        if torque == 0.0:
+            return idle_sweep(model, peak_torque, states, friction)
+        return contact_sweep(model, torque, states=states, friction=friction)
+
+    def swept(shares: Sequence[float], speed: float) -> dict[float, list[ContactSweep]]:
+        """In both senses, by share, but for small ones without an equilibrium."""
+        found = {}
+        for share in shares:
+            try:
+                found[share] = [solve(share, sense, speed) for sense in SENSES]
+            except ContactError:
+                if share > _SPARED:
+                    raise
+        return found
+
+    def lossy(solved: dict[float, list[ContactSweep]]) -> LossModel:
+        driving, driven = zip(*solved.values(), strict=True)
+        return LossModel.from_sweeps(machine, driving, driven)
+
+    running = swept(TORQUE_SHARES, model.film_speed)
+    found = lossy(running)
+    if not any(model.by_film):
+        return found
+    given = list(running)
+    resting = swept([given[0], *given[1::_EVERY]], 0.0)
+    rest = lossy(resting)
+    # Where nothing is solved without load the least load stands for it.
+    few = ([] if 0.0 in resting else [min(resting)]) + list(resting)
+    films = FilmWork(
+        reference=model.film_speed,
+        at_rest=_spread(found, rest),
+        torque=rest.torque,
+        lowered=lowered_friction(
+            model, states, [running[share][0] for share in few], model.film_speed
+        ),
     )
-    return LossModel.from_sweeps(machine, driving, driven)
+    return replace(found, film=films)
+
+
+def _spread(found: LossModel, rest: LossModel) -> FloatArray:
+    """Work of `rest`, which knows fewer torques, at those of `found`: by its ratio to that."""
+    at = np.isin(found.torque, rest.torque)
+    there = found.work[:, at]
+    ratio = np.where(there > 0.0, rest.work / np.where(there > 0.0, there, 1.0), 1.0)
+    # Over the logarithm of the torque, of which both have three decades; none at zero.
+    logs = [np.log(one.torque[1:]) for one in (found, rest)]
+    spread = np.empty_like(found.work)
+    for sense in range(len(SENSES)):
+        spread[sense, 0] = rest.work[sense, 0]
+        for column in range(len(SOURCES)):
+            along = np.interp(logs[0], logs[1], ratio[sense, 1:, column])
+            spread[sense, 1:, column] = along * found.work[sense, 1:, column]
+    return spread

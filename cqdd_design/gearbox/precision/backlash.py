@@ -14,6 +14,7 @@ from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.states import (
     NominalStates,
     error_states,
+    hole_off_pin,
     nominal_states,
     profile_error,
 )
@@ -44,9 +45,6 @@ class Backlash:
         preloaded and have no backlash there.
     preload_limit : float
         m.
-    poses : array (2, A, 3 + 3 D)
-        Carrier (X, Y, gamma) and every disc (x, y, theta) at the least and at the greatest angle,
-        angles times the pin circle, m.
     """
 
     crank_angle: FloatArray
@@ -54,7 +52,6 @@ class Backlash:
     greatest: FloatArray
     overlap: FloatArray
     preload_limit: float
-    poses: FloatArray
 
     @property
     def free(self) -> FloatArray:
@@ -116,27 +113,46 @@ def backlash(
             gaps[:, :, : model.tooth_count] += exact - modelled
         ends.append(end)
         overlaps.append(overlap)
-        extremes.append(poses)
-    overlap, poses = np.maximum(*overlaps), np.stack(extremes)
+        extremes.append(poses[:, 2])
+    overlap = np.maximum(*overlaps)
     # Parts that overlap wherever they go rest where their overlaps balance.
     tight = (overlap > OVERLAP) | (ends[0] > ends[1])
-    rest = poses[:, :, 2].mean(axis=0) / states.length
+    rest = 0.5 * (extremes[0] + extremes[1]) / states.length
     return Backlash(
         crank_angle=states.crank_angle,
         least=np.where(tight, rest, ends[0]),
         greatest=np.where(tight, rest, ends[1]),
         overlap=overlap,
         preload_limit=OVERLAP,
-        poses=poses,
+    )
+
+
+def free_poses(model: ContactModel, states: NominalStates) -> FloatArray:
+    """Poses of a perfect gearbox close to the ends of its range, (2, A, 3 + 3 D), m.
+
+    Carrier (X, Y, gamma) and every disc (x, y, theta) near the least and the greatest angle of the
+    carrier, angles times the pin circle: flanks count as osculating circles, which is close enough
+    to start from.
+
+    Raises
+    ------
+    ContactError
+        As :func:`backlash`.
+    """
+    changed = error_states(model, states, None)
+    return np.stack(
+        [_push(model, states, changed, changed.gaps, None, sense)[2] for sense in (-1.0, 1.0)]
     )
 
 
 def _apart(model: ContactModel, states: NominalStates, errors: GearboxErrors | None) -> FloatArray:
-    """Hole off its pin by position errors, turned with the carrier, (A, D, P, 2)."""
+    """Hole off its pin by heat and by position errors, turned with the carrier, (A, D, P, 2)."""
+    shape = (len(states.crank_angle), model.disc_count, model.pin_count, 2)
+    warm = hole_off_pin(model, states.pin_angle)
     if errors is None:
-        return np.zeros((len(states.crank_angle), model.disc_count, model.pin_count, 2))
+        return np.broadcast_to(warm, shape).copy()
     apart = errors.hole_position - errors.pin_position
-    return turned_with_carrier(model.lobe_count, states.crank_angle, apart)
+    return warm + turned_with_carrier(model.lobe_count, states.crank_angle, apart)
 
 
 def _push(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import time
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from cqdd_design.errors import GeometryError, UsageError
 from cqdd_design.gearbox.bodies.made import elastic_bodies
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import output_turn_count
+from cqdd_design.gearbox.heat.expansion import AS_DRAWN, PartTemperatures, growth_of, heated
 from cqdd_design.gearbox.tolerance.draws import GROUPS, draw_errors
 from cqdd_design.gearbox.tolerance.evaluate import (
     OUTPUTS,
@@ -64,6 +65,7 @@ class Ensemble:
     angles : int
         Crank angles over the output turn.
     seed : int
+    temperatures : PartTemperatures
     """
 
     design: Design
@@ -71,6 +73,7 @@ class Ensemble:
     torque: float
     angles: int
     seed: int
+    temperatures: PartTemperatures = AS_DRAWN
 
 
 @dataclass(frozen=True)
@@ -97,11 +100,20 @@ Progress = Callable[[int, int], None]
 
 @functools.lru_cache(maxsize=2)
 def _tables(ensemble: Ensemble) -> EnsembleTables:
-    model = ContactModel.from_design(ensemble.design)
+    warm = _warm(ensemble)
+    # What the kernels know of pins off their holes are errors of position, see `work_block`.
+    model = replace(warm, pin_reach=0.0)
     bodies = None
     if ensemble.bodies is not None:
         bodies = _yielding(ensemble.bodies, ensemble.torque, ensemble.angles)
     return ensemble_tables(model, ensemble.torque, ensemble.angles, bodies)
+
+
+@functools.lru_cache(maxsize=2)
+def _warm(ensemble: Ensemble) -> ContactModel:
+    """The perfect gearbox."""
+    drawn = ContactModel.from_design(ensemble.design)
+    return heated(drawn, ensemble.design, ensemble.temperatures)
 
 
 @functools.lru_cache(maxsize=1)
@@ -122,7 +134,10 @@ def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
         block.count,
         dict.fromkeys(block.exchanged, 1),
     )
-    return evaluate_gearboxes(tables, errors)
+    warm = _warm(ensemble)
+    angle = warm.hole_clocking + 2.0 * np.pi * np.arange(warm.pin_count) / warm.pin_count
+    outward = warm.pin_reach * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return evaluate_gearboxes(tables, errors._replace(pin_position=errors.pin_position + outward))
 
 
 def work_here(ensemble: Ensemble, blocks: list[Block]) -> Iterator[tuple[int, FloatArray]]:
@@ -206,7 +221,7 @@ class ToleranceResult:
         if self.interrupted:
             done = len(self.values)
             return (f"interrupted after {done} of {self.asked} gearboxes; these are kept.",)
-        told = []
+        told = list(self.ensemble.temperatures.beyond(self.ensemble.design))
         if self.lost:
             told.append(
                 f"for {self.lost} of {self.asked} gearboxes no forces were found that carry the "
@@ -244,6 +259,7 @@ class ToleranceResult:
             "sensitivity_base": self.base,
             "angles": self.ensemble.angles,
             "torque_Nm": self.ensemble.torque,
+            "temperatures_degC": vars(self.ensemble.temperatures),
             "friction": "drive",
             "bodies": "rigid" if self.ensemble.bodies is None else "elastic",
             "limits": self.limits,
@@ -278,6 +294,7 @@ def make_ensemble(
     angles: int | None = None,
     seed: int = 0,
     bodies: Design | None = None,
+    temperatures: PartTemperatures = AS_DRAWN,
 ) -> Ensemble:
     """Complete an ensemble: continuous torque, and 8 n (n+1) angles over the output turn.
 
@@ -288,9 +305,13 @@ def make_ensemble(
     ----------
     bodies : Design, optional
         Whose discs and ring yield, where another one's are near enough; default the design's own.
+    temperatures : PartTemperatures
+        Of the parts of all gearboxes.
 
     Raises
     ------
+    DesignError
+        When the thermal expansion of a part is not known.
     UsageError
         When the angles do not fit into memory.
     """
@@ -312,7 +333,8 @@ def make_ensemble(
             elastic_bodies(bodies or design)
     except GeometryError:
         yielding = None
-    return Ensemble(design, yielding, load, wanted, seed)
+    growth_of(design, temperatures)
+    return Ensemble(design, yielding, load, wanted, seed, temperatures)
 
 
 def run_ensemble(

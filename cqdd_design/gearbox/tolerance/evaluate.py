@@ -23,9 +23,10 @@ from cqdd_design.gearbox.contact.sweep import (
     contact_sweep,
     output_turn_angles,
     output_turn_count,
+    perfect_angles,
 )
 from cqdd_design.gearbox.hertz import line_contact_pressure
-from cqdd_design.gearbox.precision.backlash import backlash
+from cqdd_design.gearbox.precision.backlash import free_poses
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.geometry.meshing import tooth_centres
 
@@ -45,6 +46,8 @@ ripple and the torque that turns the gearbox without load are n times those of t
 
 _ARCMIN = math.degrees(1.0) * 60.0
 
+_FILM_ANGLES = 24
+"""Crank angles over which the mean friction of films is taken."""
 _COARSE = 100
 """About so many of the angles serve backlash and stiffness, whose means need no fine orders."""
 
@@ -103,7 +106,7 @@ def body_compliance(
 ) -> BodyCompliance:
     """What discs and ring yield over the output turn; arguments as :func:`ensemble_tables`."""
     states = nominal_states(model, output_turn_angles(model, angles))
-    share = rubbing(model, states, _driving(model), torque).share
+    share = rubbing(model, states, _driving(model, torque), torque).share
     cam_force = rigid_cam_force(model, states, torque)
     return BodyCompliance(
         compliance(bodies, model, states, cam_force, share),
@@ -111,8 +114,18 @@ def body_compliance(
     )
 
 
-def _driving(model: ContactModel) -> ContactFriction:
-    return ContactFriction("drive", model.tooth_friction, model.hole_friction)
+def _driving(model: ContactModel, torque: float) -> ContactFriction:
+    """Friction of a motor that drives; by films, the mean of the perfect gearbox at every contact.
+
+    Forces of toleranced parts differ from its forces, and films hardly know the force.
+    """
+    friction = ContactFriction.of(model, "drive")
+    assert friction is not None
+    if not friction.film_speed:
+        return friction
+    held = replace(model, pin=None)
+    sweep = contact_sweep(held, torque, perfect_angles(held, _FILM_ANGLES), friction=friction)
+    return ContactFriction("drive", *sweep.mean_friction)
 
 
 def ensemble_tables(
@@ -137,15 +150,14 @@ def ensemble_tables(
     marked = marked_angles(model.lobe_count, len(states.crank_angle))
     held = replace(model, pin=None)
     perfect = contact_sweep(held, torque, states=states).state_vectors
-    free_poses = backlash(model, states=states).poses
-    start = Start(marked, perfect, free_poses, torque)
+    start = Start(marked, perfect, free_poses(model, states), torque)
     return EnsembleTables(model, states, start, _shared(model, states, torque, bodies))
 
 
 def _shared(
     model: ContactModel, states: NominalStates, torque: float, bodies: BodyCompliance | None
 ) -> Shared:
-    friction = _driving(model)
+    friction = _driving(model, torque)
     teeth = states.ring.equivalent_radius
     rubbed = rubbing(model, states, friction, torque)
     rubbing_too, alone = bodies or (None, None)

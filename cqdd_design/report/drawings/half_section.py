@@ -316,7 +316,7 @@ class _Section:
         runs_in = _short(pins.material)
         if pins.sleeve_diameter > 0.0:
             runs_in = f"in sleeves of {millimetres(pins.sleeve_diameter)}"
-            runs_in += " on needles" if pins.sleeve == "needle" else ""
+            runs_in += "" if pins.sleeve == "plain" else " on needles"
         long_name = len(bearing.designation) > _LONG_DESIGNATION
         in_disc = 0.5 * (self.hole(last)[1] + self.tip(last))
         right = [

@@ -54,7 +54,7 @@ def _friction(sweep: ContactSweep) -> str:
     if sweep.friction is None:
         return ", without friction"
     driver = "motor" if sweep.friction.sense == "drive" else "output"
-    tooth, pin = (f"{one:.3g}" for one in (sweep.friction.tooth, sweep.friction.pin))
+    tooth, pin = (f"{one:.3g}" for one in sweep.mean_friction)
     each = (
         f"a friction of {tooth}"
         if tooth == pin

@@ -1,4 +1,4 @@
-"""Losses in the report: where the power goes, efficiency over speed and torque, backdriving."""
+"""Losses in the report: where the power goes, efficiency, backdriving; films and wear."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Words
 
 if TYPE_CHECKING:
+    from cqdd_design.gearbox.film.running import Running
     from cqdd_design.machine.contact_analysis import ContactAnalysis
 
 
@@ -25,8 +26,8 @@ def losses_view(analysis: ContactAnalysis) -> Values:
             "loss-bars",
             "Where the power goes",
             f"Losses by source {at}, {total}.",
-            f"{total} {at} of the input: Coulomb friction, bearings and the shear of the grease; "
-            "no Stribeck curve.",
+            f"{total} {at} of the input: friction of teeth and pins, bearings, and the shear of "
+            "the grease.",
         ),
         [name.replace("_", " ") for name in sources],
         list(sources.values()),
@@ -61,7 +62,40 @@ def _rows(analysis: ContactAnalysis) -> tuple[tuple[str, str, str], ...]:
         ("backward efficiency", _share(found.efficiency_backward), f"the output drives; {turns}"),
         ("backdrive torque, breakaway", torques[0], at_output),
         ("backdrive torque, running", torques[1], at_output),
+        *_film_rows(analysis.running),
     )
+
+
+def _film_rows(found: Running) -> list[tuple[str, str, str]]:
+    """Films, friction and wear of what slides."""
+    rows = []
+    at = f"{found.lubricant} at {significant(found.temperature, 3)} °C, mean under load"
+    for name, film in (("ring teeth", found.teeth), ("output pins", found.pins)):
+        if film is None:
+            continue
+        ratio = significant(film.ratio, 2)
+        rows += [
+            (f"film at the {name}", with_unit(film.thickness * 1e6, "µm", 2), at),
+            (
+                f"friction at the {name}",
+                significant(film.friction, 3),
+                f"λ {ratio}; the film leaves {significant(film.by_film, 3)}",
+            ),
+        ]
+    hours = significant(found.wear.hours, 3)
+    gap = with_unit(found.wear.clearance * 1e6, "µm", 3)
+    places = (
+        ("flanks", found.wear.disc_flank, f"mean; their clearance is {gap}"),
+        ("ring teeth", found.wear.ring_tooth, "where contacts travel on them"),
+        ("holes", found.wear.hole, "mean"),
+        ("output pins", found.wear.pin, "mean"),
+    )
+    for name, band, remark in places:
+        if band is not None:
+            low, high = (significant(1e6 * one, 2) for one in band)
+            told = f"Archard, 1e-9 to 1e-8 mm³/(N·m); {remark}"
+            rows.append((f"wear of the {name} in {hours} h", f"{low} to {high} µm", told))
+    return rows
 
 
 def _share(value: float | None) -> str:

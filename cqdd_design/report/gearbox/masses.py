@@ -16,10 +16,7 @@ from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Figure, Words, line, rectangle, text
 from cqdd_design.report.judgement.check_rows import printed
 from cqdd_design.solids.fits import Fit
-from cqdd_design.solids.inertia import ROTOR, GearboxInertia, PartInertia
-
-_BARE_MOTOR = 0.525
-"""What other sources than the catalogue give for the mass of the paper's motor, bare, kg."""
+from cqdd_design.solids.inertia import ROTOR_PARTS, ROTOR_SCOPE, GearboxInertia, PartInertia
 
 Row = tuple[str, ...]
 
@@ -100,7 +97,7 @@ def _beside_the_paper(design: Design, inertia: GearboxInertia) -> tuple[Row, ...
     paper = {name: figure.value for name, figure in METRICS.items()}
     groups, shares = inertia.group_masses, inertia.group_inertias
     mass, whole = inertia.mass, inertia.reflected_input
-    rotor, bell = inertia.rotor_inertia or 0.0, shares["bell, cover and encoder"]
+    rotor = inertia.rotor_inertia or 0.0
     peak, dense = design.requirements.peak_torque, "\u202fN\u00b7m/kg"
 
     def inertial(value: float, digits: int = 3) -> str:
@@ -112,12 +109,10 @@ def _beside_the_paper(design: Design, inertia: GearboxInertia) -> tuple[Row, ...
             "mass",
             with_unit(mass, "kg", 4),
             with_unit(paper["mass"], "kg", 3),
-            f"{1e3 * (mass - paper['mass']):.0f} g more. The motor is the catalogue's "
-            f"{1e3 * groups['motor']:.0f} g; other sources give {1e3 * _BARE_MOTOR:.0f} g for it "
-            f"bare, which would explain {1e3 * (groups['motor'] - _BARE_MOTOR):.0f} g. Housing, "
-            "bell and cover, whose walls the paper does not print and which are proportioned "
-            "here, weigh "
-            f"{1e3 * (groups['housing'] + groups['bell, cover and encoder']):.0f} g. Discs and "
+            f"{1e3 * (mass - paper['mass']):+.0f} g. The motor is the catalogue's "
+            f"{1e3 * groups['motor']:.0f} g, {ROTOR_SCOPE}. Housing and cover, whose walls the "
+            "paper does not print and which are proportioned here, weigh "
+            f"{1e3 * (groups['housing'] + groups['cover and encoder']):.0f} g. Discs and "
             f"ring of steel ({1e3 * groups['discs and ring']:.0f} g) and the bearings are as the "
             "paper describes them.",
         ),
@@ -125,11 +120,9 @@ def _beside_the_paper(design: Design, inertia: GearboxInertia) -> tuple[Row, ...
             "inertia at the input",
             f"{inertial(whole)} {fourth}",
             f"{inertial(paper['actuator_inertia'])} {fourth}",
-            f"{inertial(whole - paper['actuator_inertia'])} more. The catalogue's rotor alone has "
-            f"{inertial(rotor)}, an estimate from its size that is above the paper's figure for "
-            f"everything; the bell adds {inertial(bell)} and the gearbox "
-            f"{inertial(whole - shares['motor'] - bell, 2)}. A rotor and bell of together "
-            f"{inertial(paper['actuator_inertia'] - whole + rotor + bell)} would agree.",
+            f"{1e4 * (whole - paper['actuator_inertia']):+.3g}. The catalogue's rotor has "
+            f"{inertial(rotor)}, {ROTOR_SCOPE}; the gearbox adds "
+            f"{inertial(whole - shares['motor'], 2)}.",
         ),
         (
             f"torque density, at the paper's {paper['peak_torque']:g}\u202fN\u00b7m",
@@ -150,7 +143,6 @@ def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
     def shown(value: float | None) -> str:
         return "not known" if value is None else significant(1e4 * value, 4)
 
-    estimated = "rotor inertia estimated" in inertia.motor.note
     printed_there = shown(METRICS["actuator_inertia"].value)
     return (
         (
@@ -161,7 +153,7 @@ def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
         (
             "rotor of the motor",
             shown(inertia.rotor_inertia),
-            f"{inertia.motor.name}{', an estimate' if estimated else ''}",
+            f"{inertia.motor.name}, {ROTOR_SCOPE}",
         ),
         (
             "together, at the input",
@@ -216,7 +208,7 @@ _WIDTH, _LEFT, _BAR_END, _PITCH = 860.0, 170.0, 700.0, 25.0
 def _chart(inertia: GearboxInertia) -> Figure:
     """Horizontal bars: what each moving part of the gearbox adds at the input."""
     found = sorted(
-        (p for p in inertia.parts if p.reflected > 0.0 and p.name != ROTOR),
+        (p for p in inertia.parts if p.reflected > 0.0 and p.name not in ROTOR_PARTS),
         key=lambda p: -p.reflected,
     )
     height = 14.0 + _PITCH * len(found)
@@ -236,6 +228,6 @@ def _chart(inertia: GearboxInertia) -> Figure:
         "inertia-chart",
         "What the gearbox adds at the input",
         f"Bars of the inertia each part adds at the input; {found[0].name} adds most.",
-        f"In 10⁻⁶ kg·m², of {total} in all; the rotor of the motor is not among them.",
+        f"In 10⁻⁶ kg·m², of {total} in all; the motor's rotor and bell are not among them.",
     )
     return words.figure(_WIDTH, math.ceil(height), body)

@@ -19,6 +19,7 @@ _HEADINGS = {
     "ROOT": "Discs and ring",
     "RING": "Discs and ring",
     "BEARING": "Cam bearing",
+    "THERMAL": "Heat",
     "MOTOR": "Motor",
     "SPACE": "Space",
     "GEO": "Shape",

@@ -36,7 +36,7 @@ def head_facts(results: ReportInput, least_margin: str) -> tuple[tuple[str, str,
         mass = with_unit(inertia.mass, "kg", 3)
         counted = "with the motor"
         if inertia.motor_by_catalogue is not None:
-            counted = "motor by its catalogue, without its bell"
+            counted = "motor by its catalogue, without its cover"
         elif inertia.motor_missing:
             counted = "without the motor"
         facts.insert(4, ("Mass", mass, counted))

@@ -36,6 +36,7 @@ GROUPS = {
     "motor": "Motor",
     "drive": "Drive",
     "housing": "Housing",
+    "environment": "Surroundings",
     "tolerances": "Tolerances (standard deviations)",
     "edm": "Wire EDM",
 }
@@ -86,6 +87,10 @@ _LABELS = {
     "reducer.ring.roller_play": Label("play of a roller on its pin, diameter"),
     "reducer.friction.tooth": Label("coefficient at the teeth"),
     "reducer.friction.pin": Label("coefficient at the pins"),
+    "reducer.friction.seals": Label("seals of support and output bearings"),
+    "reducer.finish.disc": Label("flanks and holes of the discs made by"),
+    "reducer.finish.ring": Label("ring teeth made by"),
+    "reducer.finish.pin": Label("output pins made by"),
     "motor.name": Label("motor"),
     "motor.voltage": Label("supply voltage", "U"),
     "motor.current_limit": Label("current limit of the driver"),
@@ -95,6 +100,8 @@ _LABELS = {
     "drive.velocity_gain": Label("velocity gain at the output"),
     "drive.thermal_resistance": Label("winding to ambient"),
     "housing.material": Label("housing material"),
+    "environment.ambient": Label("air round the actuator"),
+    "environment.coldest": Label("coldest start"),
     "edm.profile_tolerance": Label("files follow the exact curve within"),
 }
 

@@ -85,7 +85,7 @@ def friction_sign(parameters: ActuatorParameters, velocity: FloatArray) -> Float
 
 
 def dry_friction(parameters: ActuatorParameters) -> float:
-    """Coulomb friction and hysteresis of the motor's side at the joint, N m."""
+    """Coulomb friction of the motor's side at the joint, the motor's own included, N m."""
     return abs(parameters.gear.ratio) * motor_coulomb(parameters)
 
 
@@ -152,7 +152,7 @@ def physical_estimate(
         driven_torque(parameters, episode)
         - ratio**2 * parameters.motor_side_inertia * rate
         - ratio * motor_viscous(parameters) * speed
-        - ratio * sign * (friction.motor_coulomb * rise + motor.hysteresis)
+        - ratio * sign * (friction.motor_coulomb * rise + motor.dry_drag)
     )
     forward = np.sign(left) * sign
     load = np.where(forward > 0.0, friction.load_forward, friction.load_backward)

@@ -20,7 +20,8 @@ def levels(
     rises = []
     for fast in (guess / p.stribeck_speed, out_guess * n / p.stribeck_speed):
         rises.append(1.0 + (p.stribeck_extra * math.exp(-(fast**2)) if abs(fast) < 6 else 0.0))
-    level = (p.motor_coulomb + load * abs(transmitted) / n) * rises[0] + p.hysteresis
+    level = (p.motor_coulomb + load * abs(transmitted) / n) * rises[0]
+    level += p.hysteresis + p.motor_dry
     return [level, p.output_coulomb * rises[1]]
 
 

@@ -1,0 +1,200 @@
+"""The motor against a locked output: dead zone, hysteresis and stiffness, by equilibria alone.
+
+The output is held and the motor's torque asked up and down slowly. While the motor advances, the
+gearbox drives and friction adds to what it must give; while it gives way, the output drives the
+gearbox back and friction takes from it; in between it stands still. With T(x) the torque that the
+gearbox passes at the motor's angle x (at the output, from the middle of the play)::
+
+    up(x)   = T + losses that driving makes at T + drag        the motor moves on above it
+    down(x) = T - losses of being driven at T - drag           and comes back below it
+
+and in the play T is zero. x stays between where `up` and where `down` meet the torque, which is a
+play operator. Angles and losses are means over crank angles and both senses.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from cqdd_design.actuator.bench.readings import FrictionLine, LoopReading, read_friction, read_loop
+from cqdd_design.actuator.parameters import FloatArray
+from cqdd_design.errors import UsageError
+from cqdd_design.gearbox.contact.rubbing import ContactFriction, PowerSense
+from cqdd_design.gearbox.contact.states import nominal_states
+from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.gearbox.losses.machine import total
+from cqdd_design.gearbox.precision.backlash import backlash
+from cqdd_design.machine import Machine
+
+ANGLES = 60
+"""Crank angles over a period."""
+SHARES = (0.01, 0.03, 0.06, 0.1, 0.15, 0.22, 0.32, 0.45, 0.6, 0.8, 1.0)
+"""Torques of the equilibria, as shares of the largest."""
+_SAMPLES = 2000
+"""Of a predicted cycle."""
+_STILL = 1e-9
+"""Least rise of a branch from point to point, N m: it has one angle for every torque."""
+
+
+@dataclass(frozen=True)
+class ShaftDrag:
+    """What a motor takes to turn without its gearbox, at its shaft: N m, and N m s/rad."""
+
+    coulomb: float
+    viscous: float
+
+
+@dataclass(frozen=True, eq=False)
+class LockedOutput:
+    """Branches of a machine's loop, angles at the output from the middle of the play.
+
+    Attributes
+    ----------
+    ratio : int
+        Motor turns over output turns, its size.
+    play : float
+        Of rigid parts without load, rad.
+    drag : float
+        Friction of motor and gearbox at rest that no load brings, N m at the output.
+    torque : array (K,)
+        That the gearbox passes, rising from zero, N m.
+    driving, driven : array (K,)
+        Motor's angle under it while it advances, and while it gives way, rad.
+    up, down : array (K,)
+        Motor's torque there, N m at the output.
+    """
+
+    ratio: int
+    play: float
+    drag: float
+    torque: FloatArray
+    driving: FloatArray
+    driven: FloatArray
+    up: FloatArray
+    down: FloatArray
+
+    @property
+    def most(self) -> float:
+        """Greatest motor torque that the branches reach, N m at the output."""
+        return float(self.up[-1])
+
+    def follow(self, command: ArrayLike) -> FloatArray:
+        """The motor's angle under torques asked for one after the other, rad at the output.
+
+        Raises
+        ------
+        UsageError
+            Beyond the torque that the branches reach.
+        """
+        asked = np.asarray(command, dtype=float)
+        if np.abs(asked).max(initial=0.0) > self.most * (1.0 + 1e-9):
+            raise UsageError(
+                f"a locked output was asked for {np.abs(asked).max():.4g} N*m and its gearbox was "
+                f"solved up to {self.most:.4g} N*m; solve it further."
+            )
+        # Both senses: what drives one way gives way the other.
+        rising = _branch((-self.down[::-1], self.up), (-self.driven[::-1], self.driving))
+        falling = _branch((-self.up[::-1], self.down), (-self.driving[::-1], self.driven))
+        # Beyond its last point a branch is out of reach, and holds the motor nowhere.
+        least = np.interp(asked, *rising, left=-np.inf)
+        most = np.interp(asked, *falling, right=np.inf)
+        found = np.empty(len(asked))
+        place = 0.0
+        for k, (low, high) in enumerate(zip(least, most, strict=True)):
+            place = min(max(place, low), high)
+            found[k] = place
+        return found
+
+    def cycle(self, peak: float) -> tuple[FloatArray, FloatArray]:
+        """Torque (N m) and angle (rad) of a slow cycle up to a peak torque, once it repeats."""
+        quarter = np.linspace(0.0, 1.0, _SAMPLES // 4, endpoint=False)
+        wave = np.concatenate([quarter, 1.0 - quarter, -quarter, quarter - 1.0, [0.0]])
+        twice = self.follow(peak * np.concatenate([wave, wave]))
+        return peak * wave, twice[len(wave) :]
+
+    def read(self, peak: float) -> LoopReading:
+        """What the bench reads off a cycle, see :func:`.readings.read_loop`."""
+        torque, angle = self.cycle(peak)
+        return read_loop(torque, torque, angle)
+
+
+def _branch(
+    torques: tuple[FloatArray, FloatArray], angles: tuple[FloatArray, FloatArray]
+) -> tuple[FloatArray, FloatArray]:
+    """Torque that never falls, and angle, over one sense and then the other."""
+    torque = np.maximum.accumulate(np.concatenate(torques))
+    return torque + _STILL * np.arange(len(torque)), np.concatenate(angles)
+
+
+def locked_output(machine: Machine, peak: float, motor: ShaftDrag) -> LockedOutput:
+    """Solve the gearbox of a machine against a locked output.
+
+    Parameters
+    ----------
+    peak : float
+        Of the motor's torque, N m at the output, above zero.
+    motor : ShaftDrag
+        Of the motor alone.
+
+    Raises
+    ------
+    UsageError
+        Where friction lets the output turn nothing: the motor would never come back.
+    ContactError
+        When the gearbox has no equilibrium at a torque.
+
+    Notes
+    -----
+    Running friction; breaking away takes more. Carrier, housing and shaft beyond the pins' seats
+    are rigid, and nothing creeps.
+    """
+    model, friction = machine.contact, machine.friction
+    n, senses = model.lobe_count, (1.0, -1.0)
+    states = nominal_states(model, perfect_angles(model, ANGLES))
+    play = float(backlash(model, states=states).free.mean())
+    rest = float(total(friction.drag(0.0)))
+    drag = n * (rest + motor.coulomb)
+    torque = np.concatenate([[0.0], peak * np.array(SHARES)])
+
+    def branch(power: PowerSense) -> tuple[FloatArray, FloatArray]:
+        """Angles and the losses at the output over the torque that is passed."""
+        rubbed = ContactFriction.of(model, power)
+        angle, lost = [0.5 * play], [0.0]
+        for load in torque[1:]:
+            both = [contact_sweep(model, s * load, states=states, friction=rubbed) for s in senses]
+            errors = [float(np.mean(one.carrier_angle_error)) for one in both]
+            angle.append(0.5 * (errors[0] - errors[1]))
+            works = [sum(friction.coulomb_work(one).values()) for one in both]
+            lost.append(0.5 * n * sum(works))
+        return np.array(angle), np.array(lost)
+
+    driving, more = branch("drive")
+    driven, less = branch("backdrive")
+    down = torque - less - drag
+    if np.any(np.diff(down[1:]) <= 0.0):
+        raise UsageError(
+            "friction under load takes all that the output gives back: the motor would not come "
+            "back from a locked output; lower reducer.friction."
+        )
+    return LockedOutput(n, play, drag, torque, driving, driven, torque + more + drag, down)
+
+
+def friction_line(machine: Machine, fastest: float, motor: ShaftDrag) -> FrictionLine:
+    """Friction of a machine without load over speed, as a straight line.
+
+    Parameters
+    ----------
+    fastest : float
+        At the output, rad/s, above zero.
+    motor : ShaftDrag
+        Of the motor alone.
+    """
+    n = machine.contact.lobe_count
+    speed = np.linspace(0.05, 1.0, 40) * fastest
+    gearbox = total(machine.friction.drag(n * speed))
+    torque = n * (gearbox + motor.coulomb + motor.viscous * n * speed)
+    both = np.concatenate([speed, -speed]), np.concatenate([torque, -torque])
+    return read_friction(*both, least=0.0)

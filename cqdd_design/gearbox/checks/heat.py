@@ -1,0 +1,69 @@
+"""Checks of how warm parts get and of what that leaves of their clearances."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
+from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.geometry.limits import rounded_up
+from cqdd_design.results import Check
+
+
+class WarmPart(NamedTuple):
+    """A part with its temperature and the most it bears, deg C."""
+
+    name: str
+    temperature: float
+    most: float
+
+
+class Tightness(NamedTuple):
+    """Overlap that warmth adds in one state, m, and the state in words."""
+
+    overlap: float
+    state: str
+
+
+def rise_check(parts: tuple[WarmPart, ...], ambient: float, heat: float) -> Check:
+    """Check ``THERMAL-RISE``.
+
+    Parameters
+    ----------
+    parts : tuple of WarmPart
+        Those that have a limit.
+    ambient, heat : float
+        deg C, and all that parts lose, W.
+    """
+
+    def used(part: WarmPart) -> float:
+        return (part.temperature - ambient) / max(part.most - ambient, 1e-9)
+
+    worst = max(parts, key=used)
+    told = ", ".join(f"{one.name} {one.temperature:.0f} of {one.most:g}" for one in parts)
+    needed = (worst.most - ambient) / max(heat, 1e-9)
+    return build_check(
+        "THERMAL-RISE",
+        worst.temperature,
+        worst.most,
+        f"{told} degC in air of {ambient:g} degC; {heat:.0f} W in all",
+        f"cool it: {heat:.0f} W ask for less than {needed:.2g} K/W to the air (state what cooling "
+        "reaches as drive.thermal_resistance), or lower requirements.continuous_torque, "
+        "input_speed, or friction",
+    )
+
+
+def clearance_check(states: tuple[Tightness, ...]) -> Check:
+    """Check ``THERMAL-CLEARANCE`` over states of the parts."""
+    worst = max(states, key=lambda one: one.overlap)
+    overlap = 1e6 * worst.overlap
+    more = max(overlap, BINDING_OVERLAP)
+    return build_check(
+        "THERMAL-CLEARANCE",
+        overlap,
+        BINDING_OVERLAP,
+        f"{overlap:.2f} um more than as drawn: {worst.state}",
+        f"give hole_clearance {rounded_up(2.0 * more):g} um more, or modification.equidistant "
+        f"{rounded_up(more):g} um, make the carrier (housing.material) of what the discs are "
+        "made of, or cool the parts",
+    )

@@ -1,0 +1,380 @@
+"""Films: how they grow, the friction they leave in equilibrium and losses; wear; bad input."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from cqdd_design.actuator.build import STRIBECK_SPEED, friction_parameters
+from cqdd_design.catalog.lubricants import find_lubricant, lubricants, walther_viscosity
+from cqdd_design.design import Design, load_design
+from cqdd_design.errors import CqddError, DesignError, UsageError
+from cqdd_design.gearbox.contact.films import SETTLED, hole_film, ring_film, travel
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.rubbing import ContactFriction, slip
+from cqdd_design.gearbox.contact.solved import ContactSweep
+from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
+from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.gearbox.film import running as film_running
+from cqdd_design.gearbox.film.law import FilmLaw
+from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION, mixed_friction
+from cqdd_design.gearbox.film.wear import wear_depth
+from cqdd_design.gearbox.heat.expansion import PartTemperatures
+from cqdd_design.gearbox.losses import LossModel
+from cqdd_design.gearbox.losses.rolling import seal_torque
+from cqdd_design.gearbox.tolerance import evaluate
+from cqdd_design.machine import Machine, resolve
+
+S = load_design(Path(__file__).parents[2] / "designs" / "reference-s.toml")
+FILMS = {"reducer.friction.tooth": "film", "reducer.friction.pin": "film"}
+TORQUE, FAST = 34.2, 134.7
+
+
+@functools.cache
+def machine() -> Machine:
+    return resolve(S.replacing(FILMS))
+
+
+@functools.cache
+def states() -> NominalStates:
+    return nominal_states(machine().contact, perfect_angles(machine().contact, 48))
+
+
+@functools.cache
+def swept(speed: float | None = None, sense: str = "drive") -> ContactSweep:
+    model = machine().contact
+    friction = ContactFriction.of(model, sense, speed)
+    return contact_sweep(model, TORQUE, states=states(), friction=friction)
+
+
+def forces(sweep: ContactSweep) -> np.ndarray:
+    return np.concatenate([sweep.ring_force, sweep.pin_force], axis=2)
+
+
+def ring_of(model: ContactModel, sweep: ContactSweep, speed: float = FAST) -> np.ndarray:
+    film = ring_film(model, states(), slip(model, states()), sweep.ring_force, speed)
+    assert film is not None
+    return film.thickness
+
+
+# --- how thick ------------------------------------------------------------------------------------
+
+
+def test_the_film_of_the_reference_is_seven_to_eight_hundredths_of_a_micrometre() -> None:
+    sweep = swept()
+    film = ring_of(machine().contact, sweep)
+    loaded = sweep.ring_force > 0.0
+    mean = np.average(film[loaded], weights=sweep.ring_force[loaded])
+    assert 0.07e-6 < mean < 0.08e-6
+
+
+def test_contacts_travel_on_the_flank_as_its_parameter_says() -> None:
+    """The way on the disc by slip and spin of the normal, and by the profile itself.
+
+    Slip takes the foot on the flank and travel the tooth's arc, a clearance of 6 um apart.
+    """
+    model = machine().contact
+    _, on_disc = travel(model, states(), slip(model, states()))
+    speed, _ = model.disc.rates(states().ring.parameter)
+    own = np.abs(speed * states().ring.parameter_rate)
+    loaded = swept().ring_force > 0.0
+    assert np.abs(on_disc)[loaded] == pytest.approx(own[loaded], abs=6e-6)
+    wrong = np.abs(on_disc + 2.0 * slip(model, states())[:, :, : model.tooth_count])
+    assert np.abs(wrong - own)[loaded].max() > 1e-3
+
+
+@given(st.floats(1.01, 10.0))
+def test_films_grow_with_speed_and_viscosity_and_hardly_shrink_with_load(times: float) -> None:
+    law = machine().contact.tooth_film
+    assert law is not None
+    thin = law.law.at(100.0, 0.1, 3e-3)
+    faster = law.law.at(100.0, 0.1 * times, 3e-3)
+    thicker = replace(law.law, viscosity=law.law.viscosity * times).at(100.0, 0.1, 3e-3)
+    heavier = law.law.at(100.0 * times, 0.1, 3e-3)
+    assert faster.thickness / thin.thickness == pytest.approx(times**0.7)
+    assert thicker.thickness == pytest.approx(faster.thickness)
+    assert heavier.thickness / thin.thickness == pytest.approx(times**-0.13)
+    assert faster.friction < thin.friction < heavier.friction
+
+
+def test_warm_grease_has_a_thinner_film() -> None:
+    sweep = swept()
+    hot = ContactModel.from_design(machine().design, temperature=80.0)
+    assert np.all(ring_of(hot, sweep) < ring_of(machine().contact, sweep))
+
+
+def test_a_sleeve_leaves_its_film_no_more_room_than_its_play() -> None:
+    sleeved = S.replacing({**FILMS, "reducer.output_pins.sleeve_diameter": 6e-3})
+    model = ContactModel.from_design(sleeved)
+    film = hole_film(model, np.array([0.0, 1.0, 1e3]), FAST)
+    assert film is not None
+    assert film.thickness.max() <= 0.5 * sleeved.reducer.output_pins.sleeve_play
+    assert np.all(film.friction < 0.7 * BOUNDARY_FRICTION)
+
+
+# --- friction -------------------------------------------------------------------------------------
+
+
+@given(st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.floats(0.0, 1e3))
+def test_friction_lies_between_its_limits(boundary: float, film: float, ratio: float) -> None:
+    low, high = sorted((boundary, film))
+    assert low - 1e-15 <= mixed_friction(boundary, film, ratio) <= high + 1e-15
+
+
+@pytest.mark.parametrize("sense", ["drive", "backdrive"])
+def test_discs_balance_with_a_coefficient_of_their_own_at_every_contact(sense: str) -> None:
+    sweep = swept(None, sense)
+    friction = sweep.friction
+    assert friction is not None
+    assert friction.felt is not None
+    coefficient = friction.felt.coefficient[forces(sweep) > 0.0]
+    assert 0.05 < coefficient.min() < coefficient.max() < BOUNDARY_FRICTION
+    across = np.stack([-sweep.ring_normal[..., 1], sweep.ring_normal[..., 0]], axis=-1)
+    ring = (
+        sweep.ring_force[..., None] * sweep.ring_normal + sweep.ring_tangential[..., None] * across
+    )
+    left = ring.sum(axis=2) + sweep.pin_load.sum(axis=2) + sweep.cam_force
+    assert np.abs(left).max() < 1e-9 * sweep.ring_force.max()
+    assert np.abs(sweep.disc_torque.sum(axis=1) - TORQUE).max() < 1e-7 * TORQUE
+
+
+def test_coefficients_are_those_of_the_forces_they_lead_to() -> None:
+    sweep = swept()
+    friction = sweep.friction
+    assert friction is not None
+    assert friction.felt is not None
+    again = friction.under(machine().contact, states(), forces(sweep)).felt
+    assert again is not None
+    change = np.abs(again.coefficient - friction.felt.coefficient) * forces(sweep)
+    assert change.max() <= SETTLED * forces(sweep).max()
+    rubbed = np.abs(sweep.ring_tangential[sweep.ring_force > 0.0])
+    mu = friction.felt.coefficient[..., : machine().contact.tooth_count]
+    own = (mu * sweep.ring_force)[sweep.ring_force > 0.0]
+    assert rubbed == pytest.approx(own, rel=1e-12)
+
+
+def test_equal_limits_are_plain_friction() -> None:
+    model, mu = machine().contact, 0.07
+
+    def flat(law: FilmLaw) -> FilmLaw:
+        return replace(law, boundary=mu, film=mu)
+
+    assert model.tooth_film is not None
+    assert model.hole_film is not None
+    same = replace(
+        model,
+        tooth_film=model.tooth_film._replace(law=flat(model.tooth_film.law)),
+        hole_film=model.hole_film._replace(law=flat(model.hole_film.law)),
+    )
+    by_film = contact_sweep(
+        same, TORQUE, states=states(), friction=ContactFriction.of(same, "drive")
+    )
+    plain = contact_sweep(model, TORQUE, states=states(), friction=ContactFriction("drive", mu, mu))
+    assert by_film.ring_force == pytest.approx(plain.ring_force, rel=1e-9, abs=1e-9)
+    assert by_film.efficiency == pytest.approx(plain.efficiency, rel=1e-12)
+
+
+def test_at_rest_there_is_no_film() -> None:
+    model = machine().contact
+    rest = swept(0.0)
+    plain = contact_sweep(
+        model,
+        TORQUE,
+        states=states(),
+        friction=ContactFriction("drive", BOUNDARY_FRICTION, BOUNDARY_FRICTION),
+    )
+    assert np.array_equal(rest.ring_force, plain.ring_force)
+    slow, fast = swept(1.0), swept(FAST)
+    assert (rest.efficiency or 0.0) < (slow.efficiency or 0.0) < (fast.efficiency or 0.0)
+
+
+def test_a_stated_coefficient_stays_that_of_any_speed() -> None:
+    model = resolve(S).contact
+    friction = ContactFriction.of(model, "drive", 1e3)
+    assert friction == ContactFriction("drive", 0.08, 0.08)
+
+
+def test_needles_ask_for_no_film() -> None:
+    needles = {"reducer.output_pins.sleeve_diameter": 9e-3, "reducer.output_pins.sleeve": "needle"}
+    wide = {"reducer.output_pins.count": 6, "reducer.disc_thickness": 10e-3}
+    try:
+        model = ContactModel.from_design(S.replacing({**FILMS, **needles, **wide}))
+    except CqddError:
+        pytest.skip("no needle cage of the catalogue fits these pins")
+    assert model.hole_film is None
+    assert model.by_film == (True, False)
+
+
+# --- losses, actuator, tolerances -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("speed", [5.0, 60.0, 400.0])
+def test_work_at_any_speed_is_that_of_its_own_equilibrium(speed: float) -> None:
+    sweep = swept(speed)
+    own = sum(machine().friction.coulomb_work(sweep).values())
+    found = machine().losses.coulomb_work(TORQUE, "drive", speed).sum()
+    assert found == pytest.approx(own, rel=3e-3)
+
+
+def test_breaking_away_is_without_a_film() -> None:
+    losses = machine().losses
+    fast = losses.backdrive(film_speed=FAST)
+    slow = losses.backdrive()
+    assert 0.0 < fast.dynamic_torque < slow.dynamic_torque < slow.static_torque  # type: ignore[operator]
+    assert fast.static_torque == slow.static_torque
+
+
+def test_the_stribeck_curve_follows_the_films() -> None:
+    losses = machine().losses
+    found = friction_parameters(losses, TORQUE, FAST)
+    assert found.stribeck_speed != STRIBECK_SPEED
+    assert 1.0 < found.stribeck_speed < FAST
+    rest, fast = (losses.coulomb_work(TORQUE, "drive", w).sum() for w in (0.0, FAST))
+    at = losses.coulomb_work(TORQUE, "drive", found.stribeck_speed).sum()
+    assert fast < at < rest
+    plain = friction_parameters(resolve(S).losses, TORQUE, FAST)
+    assert plain.stribeck_speed == STRIBECK_SPEED
+
+
+def test_toleranced_gearboxes_have_the_mean_coefficient() -> None:
+    found = evaluate._driving(machine().contact, TORQUE)
+    teeth, pins = swept().mean_friction
+    assert found.film_speed == 0.0
+    assert (found.tooth, found.pin) == pytest.approx((teeth, pins), rel=5e-3)
+
+
+def test_seals_drag_on_what_is_sealed_and_nothing_else() -> None:
+    sealed = resolve(S.replacing({"reducer.friction.seals": "contact"}))
+    plain, more = (one.friction.drag(FAST) for one in (resolve(S), sealed))
+    support, output = (seat.bearing for seat in sealed.seats)
+    own = [seal_torque(one.bore_diameter, one.outer_diameter) for one in (support, output)]
+    rise = {name: float(more[name] - plain[name]) for name in plain}
+    assert rise["support_bearings"] == pytest.approx(2.1 * own[0])
+    assert rise["output_bearing"] == pytest.approx(own[1] / 10.0)
+    assert {name for name, value in rise.items() if value} == {"support_bearings", "output_bearing"}
+    with pytest.raises(DesignError, match="seals"):
+        S.replacing({"reducer.friction.seals": "felt"})
+
+
+def test_seal_friction_is_the_published_formula() -> None:
+    """d_s 29 mm: 0.028 x 29^2.25 + 2 N mm."""
+    assert 1e3 * seal_torque(20e-3, 47e-3) == pytest.approx(0.028 * 29.0**2.25 + 2.0)
+    assert 1e3 * seal_torque(60e-3, 90e-3) == pytest.approx(0.018 * 70.0**2.25 + 15.0)
+
+
+# --- wear and plastics ----------------------------------------------------------------------------
+
+
+def told(design: Design) -> film_running.Running:
+    made = resolve(design)
+    return film_running.running(made.design, made.contact, made.losses, swept(), states())
+
+
+def test_wear_of_the_reference_is_a_micrometre_to_a_dozen() -> None:
+    wear = told(S.replacing(FILMS)).wear
+    assert wear.hours == 1000.0
+    assert 1.2e-6 < wear.disc_flank[0] < 1.5e-6
+    assert wear.disc_flank[1] == pytest.approx(10.0 * wear.disc_flank[0])
+    # The flank is some ten times as long as the way on the teeth.
+    assert wear.ring_tooth[0] > 5.0 * wear.disc_flank[0]
+
+
+def test_half_the_time_wears_half() -> None:
+    duty = [
+        {"torque": "34.2 N*m", "speed": "13.466960508388246 rad/s", "share": 0.5},
+        {"torque": "34.2 N*m", "speed": "0 rad/s", "share": 0.5},
+    ]
+    data = S.replacing(FILMS).to_mapping()
+    data["requirements"]["duty"] = duty
+    half, whole = (told(d).wear for d in (Design.from_mapping(data), S.replacing(FILMS)))
+    assert half.disc_flank[0] == pytest.approx(0.5 * whole.disc_flank[0])
+
+
+def of_plastics(material: str) -> tuple[str, ...]:
+    design = resolve(S.replacing({"reducer.output_pins.material": material})).design
+    return film_running.plastics(design, ContactModel.from_design(design), swept(), FAST)
+
+
+def test_plastics_are_told_their_limit() -> None:
+    assert any("MPa m/s that it bears dry" in one for one in of_plastics("POM (acetal)"))
+    assert any("the catalogue has no limit of it" in one for one in of_plastics("PEEK"))
+    assert of_plastics("AISI 52100 / 100Cr6 hardened") == ()
+
+
+def test_no_band_of_wear_is_told_of_plastics() -> None:
+    printed = load_design(Path(__file__).parents[2] / "designs" / "printed-13.toml")
+    made = resolve(printed)
+    states_there = nominal_states(made.contact, perfect_angles(made.contact, 24))
+    friction = ContactFriction.of(made.contact, "drive")
+    sweep = contact_sweep(made.contact, 5.0, states=states_there, friction=friction)
+    few = LossModel.from_sweeps(made.friction, [sweep], [sweep])
+    found = film_running.running(made.design, made.contact, few, sweep, states_there)
+    assert found.wear.disc_flank is None
+    assert found.wear.pin is None
+    assert found.pins is None
+    assert found.teeth is not None
+    assert found.teeth.ratio < 0.02
+
+
+@pytest.mark.parametrize(("celsius", "taken"), [(-40.0, -30.0), (80.0, 80.0), (150.0, 120.0)])
+def test_warm_parts_warm_the_film_as_far_as_the_lubricant_works(
+    celsius: float, taken: float
+) -> None:
+    warm = machine().at(PartTemperatures.even(celsius))
+    assert warm.lubricant_temperature == taken
+    assert any("outside the -30 to 120 degC" in one for one in warm.too_warm) == (celsius != taken)
+    assert warm.friction.temperature == taken
+    law, cool = warm.contact.tooth_film, machine().contact.tooth_film
+    assert law is not None
+    assert cool is not None
+    assert (law.law.viscosity < cool.law.viscosity) == (taken > 40.0)
+
+
+# --- lubricants and bad input ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", lubricants())
+def test_viscosity_meets_both_printed_figures_and_falls_with_temperature(name: str) -> None:
+    one, _ = find_lubricant(name)
+    assert one.viscosity_at(40.0) == pytest.approx(one.viscosity, rel=1e-12)
+    assert walther_viscosity(100.0, one.viscosity, one.hot_viscosity) == pytest.approx(
+        one.hot_viscosity, rel=1e-12
+    )
+    over = [one.viscosity_at(t) for t in np.linspace(one.coldest, one.hottest, 20)]
+    assert np.all(np.diff(over) < 0.0)
+
+
+def test_oils_between_the_rows_lie_between_them() -> None:
+    hot = [find_lubricant(f"ISO VG {g} oil")[0].hot_viscosity for g in (15, 22, 130, 150, 1000)]
+    assert np.all(np.diff(hot) > 0.0)
+
+
+@pytest.mark.parametrize("temperature", [-31.0, 121.0, float("nan"), -300.0])
+def test_a_temperature_outside_the_lubricants_is_a_sentence(temperature: float) -> None:
+    with pytest.raises(UsageError, match="works from -30 to 120 degC"):
+        ContactModel.from_design(machine().design, temperature=temperature)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "words"),
+    [
+        ("reducer.friction.tooth", -0.1, 'or "film"'),
+        ("reducer.friction.pin", "oily", 'or "film"'),
+        ("reducer.finish.disc", "chewed", "the catalogue has no finish"),
+    ],
+)
+def test_bad_keys_are_sentences(key: str, value: object, words: str) -> None:
+    with pytest.raises(DesignError, match=words):
+        S.replacing({key: value})
+
+
+@pytest.mark.parametrize("bad", [(-1e-18, 1.0, 1.0), (1e-18, -1.0, 1.0), (1e-18, 1.0, 0.0)])
+def test_impossible_wear_is_a_sentence(bad: tuple[float, float, float]) -> None:
+    with pytest.raises(UsageError, match="wear needs"):
+        wear_depth(*bad)

@@ -1,0 +1,155 @@
+"""The machine's thermal network: balances, a second road by finite differences, checks."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from contact_designs import paper_design
+from reference_design import DESIGN_S
+from stack_conduction import stack_temperatures
+
+from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.thermal import continuous_current
+from cqdd_design.design import load_design
+from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP, WINDING_MOST
+from cqdd_design.gearbox.heat.network import Heat
+from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.temperatures import (
+    MachineTemperatures,
+    cooled_network,
+    duty_cases,
+    heat_checks,
+    judged_temperatures,
+    machine_temperatures,
+    two_nodes,
+)
+from cqdd_design.machine.thermal_parts import NODES, node_values
+
+W, H = NODES.index("winding"), NODES.index("housing")
+
+
+@pytest.fixture(scope="module")
+def machine() -> Machine:
+    return resolve(load_design(DESIGN_S))
+
+
+@pytest.fixture(scope="module")
+def found(machine: Machine) -> MachineTemperatures:
+    return machine_temperatures(machine)
+
+
+def test_all_heat_leaves_to_the_air(found: MachineTemperatures) -> None:
+    given = found.duty.heat.at(found.steady).sum()
+    assert found.network.given_off(found.steady) == pytest.approx(given, rel=1e-9)
+    assert found.duty.gearbox == pytest.approx(
+        found.machine.losses.at(
+            found.machine.design.requirements.input_speed,
+            found.machine.design.requirements.continuous_torque,
+        ).total,
+        rel=1e-12,
+    )
+
+
+def test_warming_stores_what_does_not_leave(found: MachineTemperatures) -> None:
+    """Energy over a start: what is put in is stored or given off."""
+    network = found.network
+    heat = Heat.constant(found.duty.heat.at(found.steady))
+    times = np.linspace(0.0, 600.0, 1201)[1:]
+    warm = network.history(heat, times)
+    stored = float(network.capacity @ (warm[-1] - network.ambient))
+    rates = [network.given_off(one) for one in warm]
+    left = float(np.trapezoid([0.0, *rates], [0.0, *times]))
+    assert stored + left == pytest.approx(600.0 * heat.fixed.sum(), rel=1e-3)
+
+
+def test_a_warm_start_ends_where_a_cold_one_does(found: MachineTemperatures) -> None:
+    assert found.history[-1] == pytest.approx(found.steady, abs=0.01 * found.steady.max())
+    assert np.all(np.diff(found.history, axis=0) > -1e-6)
+
+
+@pytest.mark.parametrize("name", ["reference-s", "cqdd-10"])
+def test_finite_differences_of_the_drawn_stack_agree(name: str, found: MachineTemperatures) -> None:
+    if name == "cqdd-10":
+        found = machine_temperatures(resolve(paper_design()))
+    fields = stack_temperatures(found)
+    ambient = found.network.ambient
+    for node, value in fields.items():
+        rise = found.steady[NODES.index(node)] - ambient
+        assert rise == pytest.approx(value - ambient, rel=0.15), node
+
+
+def test_two_nodes_are_the_network(machine: Machine) -> None:
+    """Winding and housing of the actuator are as warm as in the whole, at the winding's limit."""
+    network = cooled_network(machine)
+    few, whole = two_nodes(network), actuator_parameters(machine)
+    assert whole.thermal.winding_to_housing == few.winding_to_housing
+    assert whole.origins["thermal.housing_to_ambient"].startswith("computed: thermal network")
+    total = few.winding_to_housing + few.housing_to_ambient
+    watts = (WINDING_MOST - network.ambient) / total
+    steady = network.steady(Heat.constant(node_values({"winding": watts})))
+    assert steady[W] == pytest.approx(WINDING_MOST, abs=1e-6)
+    assert steady[H] - network.ambient == pytest.approx(watts * few.housing_to_ambient, rel=1e-6)
+    held = few.winding_capacity * (steady[W] - network.ambient)
+    held += few.housing_capacity * (steady[H] - network.ambient)
+    assert held == pytest.approx(network.capacity @ (steady - network.ambient), rel=1e-6)
+    assert continuous_current(whole.motor, whole.thermal) ** 2 * whole.motor.resistance * (
+        1.0 + 0.0039 * (WINDING_MOST - 25.0)
+    ) == pytest.approx(watts, rel=1e-9)
+
+
+@pytest.mark.parametrize("stated", [0.3, 0.8, 1.2, 6.0])
+def test_a_stated_resistance_holds_from_winding_to_air(machine: Machine, stated: float) -> None:
+    cooled = resolve(machine.given.replacing({"drive.thermal_resistance": stated}))
+    assert sum(two_nodes(cooled_network(cooled))[:2]) == pytest.approx(stated, rel=1e-6)
+
+
+def test_a_duty_heats_as_its_mean(machine: Machine) -> None:
+    asked = machine.design.requirements
+    n, torque = machine.design.reducer.ratio, asked.continuous_torque
+    speed = asked.input_speed / n
+    half = [
+        {"torque": torque, "speed": speed, "share": 0.5},
+        {"torque": 0.0, "speed": 0.0, "share": 0.5},
+    ]
+    other = resolve(machine.given.replacing({"requirements.duty": half}))
+    assert [case.share for case in duty_cases(other)] == [0.5, 0.5]
+    rest, whole = machine_temperatures(other), machine_temperatures(machine)
+    assert rest.duty.gearbox == pytest.approx(0.5 * whole.duty.gearbox, rel=1e-9)
+    assert rest.duty.current_squared < 0.55 * whole.duty.current_squared
+    alone = machine_temperatures(other, duty=False)
+    assert alone.steady == pytest.approx(whole.steady, rel=1e-12)
+
+
+def test_reference_s_is_too_hot_and_binds(found: MachineTemperatures) -> None:
+    rise, clearance = heat_checks(found)
+    assert (rise.id, rise.status) == ("THERMAL-RISE", "fail")
+    assert (clearance.id, clearance.status) == ("THERMAL-CLEARANCE", "fail")
+    assert clearance.value > 10.0
+    assert found.warnings
+
+
+def test_a_little_torque_of_a_steel_machine_passes_both(machine: Machine) -> None:
+    light = resolve(
+        machine.given.replacing(
+            {
+                "requirements.continuous_torque": 2.0,
+                "requirements.input_speed": 10.0,
+                "housing.material": "AISI 4140 Q&T 540C",
+            }
+        )
+    )
+    _, checks, told = judged_temperatures(light)
+    assert [check.status for check in checks] == ["pass", "pass"]
+    assert checks[1].value <= BINDING_OVERLAP
+    assert not told
+
+
+def test_what_is_not_known_is_said(machine: Machine) -> None:
+    carbon = resolve(machine.given.replacing({"housing.material": "PA6-CF 15% FDM"}))
+    found, checks, told = judged_temperatures(carbon)
+    assert found is None
+    assert checks == ()
+    assert "no temperatures of parts: the catalogue has no" in told[0]
+    assert "PA6-CF" in told[0]
+    origin = actuator_parameters(carbon).origins["thermal.winding_to_housing"]
+    assert origin.startswith("assumed: drive.thermal_resistance (default) split 1 to 2")
