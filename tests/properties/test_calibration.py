@@ -111,8 +111,8 @@ def test_scale_of_the_tolerances_is_found_for_a_drawn_gearbox() -> None:
 
 
 @pytest.mark.deep
-def test_paper_on_two_rows(actuator: ActuatorParameters) -> None:
-    """What the documents state of the paper's actuator: cooling and cogging fitted, the rest not."""
+def test_paper_on_three_rows(actuator: ActuatorParameters) -> None:
+    """What the documents state of the paper's actuator: three rows fitted, these predicted."""
     from cqdd_design.catalog.paper import METRICS as TABLE
     from cqdd_design.roads.calibrate import PAPER_ROWS
 
@@ -120,10 +120,9 @@ def test_paper_on_two_rows(actuator: ActuatorParameters) -> None:
     found = calibrate(actuator, measured, to=PAPER_ROWS)
     assert found.largest_residual < 1e-3
     within = {row.name for row in found.within}
-    assert within == {"no_load_speed", "actuator_inertia", "mass", "backdrive_dynamic"}
-    # Less than the sheet's 55 N mm, and not far from half of it.
-    assert 0.015 < found.factors["motor_cogging"] < 0.03
-    assert found.at_an_end == ()
+    assert within == {"no_load_speed", "backdrive_dynamic"}
+    off = {row.name: row.off for row in found.rows}
+    assert off["efficiency_peak"] == pytest.approx(0.0, abs=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -144,7 +143,7 @@ def test_paper_on_two_rows(actuator: ActuatorParameters) -> None:
         ({"backdrive_static": 1.0}, {"unknowns": ["friction"]}, "is no unknown"),
         ({"torque_ripple": 1.0}, {}, "draw a gearbox with --seed"),
         pytest.param(
-            *({"efficiency_peak": 0.999}, {}, "no friction_load from .* times the computed one"),
+            *({"efficiency_peak": 0.999}, {}, "no friction_load from 0.1 to"),
             marks=pytest.mark.deep,
         ),
     ],

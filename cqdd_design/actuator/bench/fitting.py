@@ -18,7 +18,7 @@ from cqdd_design.actuator.bench.unknowns import UNKNOWNS
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.errors import CqddError, UsageError
 
-CLOSE = 0.02
+CLOSE = 0.05
 """Relative miss of a row below which it counts as fitted."""
 _STEP = 0.02
 """Of a logarithm for its slope: simulated rows are smooth to a part in a thousand only."""
@@ -147,8 +147,8 @@ def fit(
     Raises
     ------
     UsageError
-        Where a row cannot be measured, an unknown ends at an end of its range and a row is missed,
-        or as many unknowns as rows do not come within `CLOSE`.
+        Where a row cannot be measured, or as many unknowns as rows do not come within `CLOSE`,
+        naming the one that ends at an end of its range.
     """
     ranges = {name: UNKNOWNS[name].bounds(parameters) for name in names}
     least, most = np.log(np.array(list(ranges.values()))).T
@@ -159,16 +159,17 @@ def fit(
     asked = ", ".join(f"{row} {value:g}" for row, value in targets.items())
     if np.any(np.abs(left) >= _UNMEASURED):
         raise UsageError(f"cannot calibrate to what cannot be measured: {misses.why}.")
-    missed = np.abs(left).max() > CLOSE
+    if np.abs(left).max() <= CLOSE:
+        return {name: math.exp(value) for name, value in zip(names, found, strict=True)}
     for name, value, low, high in zip(names, found, least, most, strict=True):
-        if missed and min(value - low, high - value) < _AT_END * (high - low):
+        if min(value - low, high - value) < _AT_END * (high - low):
             lower, upper = ranges[name]
             unit = UNKNOWNS[name].unit or "times the computed one"
             raise UsageError(
                 f"no {name} from {lower:.3g} to {upper:.3g} {unit} gives {asked}; check the "
                 "measured values and their units, or leave this row to prediction."
             )
-    if len(names) == len(targets) and missed:
+    if len(names) == len(targets):
         nearest = ", ".join(
             f"{row} {value * math.exp(miss):.3g}"
             for (row, value), miss in zip(targets.items(), left, strict=True)
