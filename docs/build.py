@@ -141,8 +141,9 @@ def _calibrated() -> str:
     for row in found.rows:
         measured = "" if row.measured is None else f"{row.measured:.4g}"
         off = "" if row.off is None else f"{100.0 * row.off:+.0f} %"
+        before, after = ("\u2013" if v is None else f"{v:.3g}" for v in (row.before, row.after))
         rows.append(
-            f"| `{row.name}` | {row.unit} | {measured} | {row.before:.3g} | {row.after:.3g} "
+            f"| `{row.name}` | {row.unit} | {measured} | {before} | {after} "
             f"| {off} | {row.relation} |"
         )
     factors = ", ".join(
@@ -152,8 +153,8 @@ def _calibrated() -> str:
     )
     good = ", ".join(f"`{row.name}`" for row in found.within)
     told = (
-        f"Fitted: {factors}. Within 20 % of the {len(found.predicted)} predicted rows: {good}; "
-        "efficiency is fitted, so it is within 5 points by the fit alone."
+        f"Fitted: {factors}. Within 20 % (efficiency: 5 points) of the {len(found.predicted)} "
+        f"predicted rows: {good}."
     )
     return "\n".join([*head, *rows, "", told])
 

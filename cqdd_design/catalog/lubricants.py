@@ -1,7 +1,7 @@
 """Lubricants by name: viscosity over temperature, density, yield stress, what a film needs.
 
 Viscosity is that of the (base) oil. Between and beyond the 40 and 100 C that makers print it
-follows ASTM D341 (Walther 1931): log10 log10(nu + 0.7) falls along a line over log10 T, nu in
+follows ASTM D341, Walther's equation: log10 log10(nu + 0.7) falls along a line over log10 T, nu in
 mm^2/s and T in kelvin.
 """
 

@@ -179,6 +179,8 @@ CASE: Mapping[str, float | str] = MappingProxyType(
         "reducer.cam_bearing.designation": "6902",
         "reducer.carrier.joint": "hinged",
         "reducer.ring.outer_diameter": 72e-3,
+        "reducer.friction.tooth": 0.08,
+        "reducer.friction.pin": 0.08,
     }
 )
 """The paper's actuator with the loads it was sized for: what its claims are judged on."""

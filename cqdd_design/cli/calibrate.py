@@ -11,6 +11,7 @@ from cqdd_design.cli.options import (
     DesignFile,
     Force,
     OwnMotor,
+    RigStiffness,
     option,
     parse_names,
     parse_positive,
@@ -45,6 +46,7 @@ def calibrate(
         ),
     ] = None,
     voltage: BenchSupply = None,
+    rig_stiffness: RigStiffness = None,
     seed: BenchSeed = None,
     motor_file: OwnMotor = None,
     path: Annotated[
@@ -59,7 +61,7 @@ def calibrate(
     from cqdd_design.design import load_design
     from cqdd_design.files import refuse_overwrite
     from cqdd_design.roads.calibrate import calibrate as fitted
-    from cqdd_design.units import VOLTAGE
+    from cqdd_design.units import STIFFNESS_GAIN, VOLTAGE
 
     supply = parse_positive("--voltage", voltage, VOLTAGE)
     rows = None if measured is None else read_measured(measured)
@@ -74,12 +76,14 @@ def calibrate(
         to=parse_names(to),
         unknowns=parse_names(unknowns),
         voltage=supply,
+        rig_stiffness=parse_positive("--rig-stiffness", rig_stiffness, STIFFNESS_GAIN),
         progress=out.stages(3),
     )
     target = path or Path("exports") / f"{loaded.name}-calibration.json"
     file = write_calibration(found, loaded.sha256, target)
     out.say(*_lines(found))
     out.wrote([file])
+    out.warn(*found.after.warnings)
     out.document(found.to_dict(), design=loaded, files=[file])
 
 
@@ -93,8 +97,8 @@ def _lines(found: Calibration) -> list[str]:
                 row.name,
                 row.unit,
                 "" if row.measured is None else number(row.measured),
-                number(row.before),
-                number(row.after),
+                "-" if row.before is None else number(row.before),
+                "-" if row.after is None else number(row.after),
                 "" if row.off is None else f"{100.0 * row.off:+.1f}",
                 row.relation,
             ]

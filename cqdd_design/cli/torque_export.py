@@ -25,6 +25,7 @@ def export_network(
     """Write a trained network for simulators, onnxruntime, or as a C header."""
     from cqdd_design.exporting.estimators.export import export_artefact
     from cqdd_design.exporting.estimators.options import metadata
+    from cqdd_design.torque.evaluation.lineup import carried
     from cqdd_design.torque.networks.artefact import read_artefact
 
     kinds = read_kinds(to, KINDS)
@@ -37,6 +38,8 @@ def export_network(
         force=force or folder is None,
     )
     out.warn(*written.warnings)
+    if kept := carried(artefact):
+        out.say(kept, "")
     out.warn(*(f"{one.kind} was not written: {one.error.message}" for one in written.refused))
     out.wrote(written.files)
     out.document(metadata(artefact, artefact.mode), files=written.files)

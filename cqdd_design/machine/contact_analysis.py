@@ -147,11 +147,11 @@ def analyse_contact(
     losses = machine.losses if usual else loss_model(model, machine.friction, asked.peak_torque)
     back = contact_sweep(model, -peak, states=states, friction=rubbed)
     bending, missing = _bending(machine, sweep, back)
-    if steady != peak:
-        some = nominal_states(model, perfect_angles(model, _FILM_ANGLES))
-        at_steady = contact_sweep(model, steady, states=some, friction=rubbed)
-    else:
-        some, at_steady = states, sweep
+    # As losses do, films and wear are those of a motor that drives.
+    some = nominal_states(model, perfect_angles(model, _FILM_ANGLES))
+    at_steady = contact_sweep(
+        model, steady, states=some, friction=ContactFriction.of(model, "drive")
+    )
     shares = np.arange(1, _MAP_STEPS + 1) / _MAP_STEPS
     exact = precision(model, steady, angles=angles, friction=friction)
     tight = exact.free.preloaded

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from cqdd_design.actuator.bench.calibrate import Calibration
+from cqdd_design.actuator.bench.calibrate import Calibration, chosen
 from cqdd_design.actuator.bench.calibrate import calibrate as fit
 from cqdd_design.actuator.bench.run import VOLTAGE
 from cqdd_design.actuator.build import actuator_parameters
@@ -16,8 +16,9 @@ from cqdd_design.machine.carrying import carried_torque
 from cqdd_design.roads.bench import drawn_actuators
 from cqdd_design.roads.telling import Progress, silent
 
-#: The rows that the unknowns of the paper's actuator are fitted to.
-PAPER_ROWS = ("continuous_torque", "backdrive_static", "efficiency_peak")
+#: The rows that the unknowns of the paper's actuator are fitted to: its cooling and its cogging.
+#: With the motor's measured drag no friction of a gearbox, not even none, gives its efficiency.
+PAPER_ROWS = ("continuous_torque", "backdrive_static")
 
 
 def calibrate(
@@ -28,6 +29,7 @@ def calibrate(
     to: tuple[str, ...] = (),
     unknowns: tuple[str, ...] = (),
     voltage: float | None = None,
+    rig_stiffness: float | None = None,
     progress: Progress = silent,
 ) -> Calibration:
     """Fit what no drawing tells of a design's actuator to measured rows, and predict the others.
@@ -36,13 +38,15 @@ def calibrate(
     ----------
     measured : mapping of str to float, optional
         Measurements in the bench's units; default the paper's, of its own actuator only, fitted
-        to continuous torque, static backdrive torque and efficiency.
+        to continuous torque and static backdrive torque.
     specimen : Specimen
         Its motor and its gearbox.
     to, unknowns : tuple of str
         Rows to fit to, and what to fit; see `actuator.bench.calibrate.calibrate`.
     voltage : float, optional
         Supply of the dynamic rows, V; default the paper's 24 V.
+    rig_stiffness : float, optional
+        Of what holds the output, N m/rad; see `run_bench`.
     progress : callable
         Told what begins.
 
@@ -59,6 +63,8 @@ def calibrate(
             )
         measured = {name: figure.value for name, figure in METRICS.items()}
         to = to or PAPER_ROWS
+    # A wrong name is refused before anything is built.
+    chosen(measured, to, unknowns)
     machine = specimen.machine(design)
     return fit(
         actuator_parameters(machine, specimen),
@@ -69,5 +75,6 @@ def calibrate(
         rated_current=machine.motor.rated_current,
         drawn=() if specimen.seed is not None else drawn_actuators(machine, specimen),
         gearbox=carried_torque(machine),
+        rig_stiffness=rig_stiffness,
         progress=progress,
     )

@@ -154,6 +154,6 @@ def test_designs_without_measurements_say_so(tmp_path, capfd):
 def test_motors_that_cannot_be_simulated(motor, says, tmp_path, capfd):
     other = tmp_path / "other.toml"
     text = (REPOSITORY / "designs" / "cqdd-10.toml").read_text()
-    other.write_text(text.replace("CubeMars RO100 KV55", motor))
+    other.write_text(text.replace("CubeMars RO100 Lite KV55", motor))
     assert run(["bench", str(other)]) == 3
     assert says in " ".join(capfd.readouterr().err.split())

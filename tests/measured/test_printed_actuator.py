@@ -72,11 +72,11 @@ def test_onyx_rubs_more_than_is_predicted(page: ModuleType) -> None:
 
 
 def test_loaded_branches_are_predicted_too_stiff(page: ModuleType) -> None:
-    """A known miss, three times for PC-CF: docs/measured.md has the reasons. The goal was 1.3."""
+    """A known miss, 2.4 times for PC-CF: docs/measured.md has the reasons. The goal was 1.3."""
     for one in page.SPECIMENS[:2]:
         found = page.predicted(one.material)
         measured = 1.0 / page.mean(page.loops(one.record, page.LARGE), "compliance")
-        assert 2.0 < found.read(page.largest(found)).stiffness / measured < 3.5, one.title
+        assert 2.0 < found.read(page.largest(found)).stiffness / measured < 2.8, one.title
 
 
 def test_the_page_shows_what_the_records_say(page: ModuleType, repository: Path) -> None:

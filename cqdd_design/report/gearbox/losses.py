@@ -52,7 +52,7 @@ def _rows(analysis: ContactAnalysis) -> tuple[tuple[str, str, str], ...]:
     found = analysis.losses
     back = found.backdrive
     turns = "the output turns the gearbox" if found.backdrives else "the gearbox holds itself"
-    at_output = "at the output; without motor cogging, seals and preloads"
+    at_output = "at the output; the gearbox alone, without the motor's drag, seals and preloads"
     torques = [
         "does not turn" if torque is None else with_unit(torque, "N*m", 3)
         for torque in (back.static_torque, back.dynamic_torque)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -91,6 +92,34 @@ def actuator_of(artefacts: Sequence[Artefact]) -> ActuatorParameters | None:
     return None
 
 
+def carried(artefact: Artefact, now: ActuatorParameters | None = None) -> str:
+    """A sentence on the actuator that a network keeps; empty where its file holds none.
+
+    Parameters
+    ----------
+    now : ActuatorParameters, optional
+        What the design makes today; the sentence then tells in what it differs, and is empty where
+        it does not.
+    """
+    kept = actuator_of([artefact])
+    if kept is None:
+        return ""
+    head = f"{artefact.name} keeps the actuator that it was trained on"
+    if now is None:
+        return f"{head} ({kept.name}); another one, or a design that has moved on, is not in it."
+    differing = [
+        f"{part}.{name}"
+        for part in ("motor", "friction", "gear")
+        for name, value in vars(getattr(kept, part)).items()
+        if isinstance(value, float)
+        and not math.isclose(value, getattr(getattr(now, part), name), rel_tol=0.01)
+        and not (math.isnan(value) and math.isnan(getattr(getattr(now, part), name)))
+    ]
+    if not differing:
+        return ""
+    return f"{head}, not the one of this design: {', '.join(differing)} differ."
+
+
 def split_of(artefacts: Sequence[Artefact], seed: int | None) -> tuple[str, int]:
     """Protocol and seed of the split that networks were trained with; trajectory and 0 at last.
 
@@ -139,6 +168,9 @@ def line_up(
         )
     splits = {name: split(data, name, seed) for name in chosen}
     warnings: list[str] = []
+    if actuator is not None:
+        told = (carried(one, actuator) for one in networks.values())
+        warnings += [text for text in dict.fromkeys(told) if text]
     known = actuator or actuator_of(list(networks.values()))
     if known is not None:
         known = with_gains_of(known, data)
