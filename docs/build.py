@@ -141,7 +141,7 @@ def _calibrated() -> str:
     for row in found.rows:
         measured = "" if row.measured is None else f"{row.measured:.4g}"
         off = "" if row.off is None else f"{100.0 * row.off:+.0f} %"
-        before, after = ("–" if v is None else f"{v:.3g}" for v in (row.before, row.after))
+        before, after = ("none" if v is None else f"{v:.3g}" for v in (row.before, row.after))
         rows.append(
             f"| `{row.name}` | {row.unit} | {measured} | {before} | {after} "
             f"| {off} | {row.relation} |"
