@@ -43,6 +43,8 @@ ROTOR_SHARE, ROTOR_RADIUS_SHARE = 0.3, 0.95
 """Rotor of an unknown motor: a ring of this share of its mass at this share of its radius."""
 METAL_HEAT = 600.0
 """Specific heat of steel with aluminium, J/(kg K)."""
+THERMAL_RESISTANCE = 1.2
+"""Winding to ambient where neither the design nor drawn parts tell it, K/W: a common joint's."""
 WINDING_RESISTANCE_SHARE = 1.0 / 3.0
 """Of the whole thermal resistance, between winding and housing."""
 STRIBECK_SPEED = 2.0
@@ -406,15 +408,15 @@ def _stribeck_speed(losses: LossModel, torque: float, input_speed: float) -> flo
 def _thermal(machine: Machine, origins: dict[str, str]) -> ThermalParameters:
     """Winding and housing of the machine's thermal network; by shares where it has none."""
     design, row = machine.design, machine.motor
-    given = "drive.thermal_resistance" not in machine.given.assumed
     origins["thermal.ambient"] = "design: environment.ambient"
     for key in ("derating_begins", "most"):
         origins[f"thermal.{key}"] = "assumed"
     try:
         found = two_nodes(cooled_network(machine))
     except (DesignError, GeometryError) as error:
-        return _thermal_by_shares(design, row, machine.inertia.mass, given, error.message, origins)
-    way = "drive.thermal_resistance (design)" if given else "still air round the drawn parts"
+        return _thermal_by_shares(design, row, machine.inertia.mass, error.message, origins)
+    stated = design.drive.thermal_resistance > 0.0
+    way = "drive.thermal_resistance (design)" if stated else "still air round the drawn parts"
     for key in ("winding_to_housing", "housing_to_ambient"):
         origins[f"thermal.{key}"] = f"computed: thermal network of the parts, {way}"
     for key in ("winding_capacity", "housing_capacity"):
@@ -423,17 +425,16 @@ def _thermal(machine: Machine, origins: dict[str, str]) -> ThermalParameters:
 
 
 def _thermal_by_shares(
-    design: Design, row: Motor, mass: float, given: bool, why: str, origins: dict[str, str]
+    design: Design, row: Motor, mass: float, why: str, origins: dict[str, str]
 ) -> ThermalParameters:
-    whole = design.drive.thermal_resistance
+    stated = design.drive.thermal_resistance
+    whole = stated or THERMAL_RESISTANCE
     motor_mass = row.mass if row.mass is not None else 0.4 * mass
     winding = WINDING_SHARE * motor_mass
     share = WINDING_RESISTANCE_SHARE
-    said = "design" if given else "default"
+    said = "drive.thermal_resistance (design)" if stated else f"{whole:g} K/W"
     for key in ("winding_to_housing", "housing_to_ambient"):
-        origins[f"thermal.{key}"] = (
-            f"assumed: drive.thermal_resistance ({said}) split 1 to 2; {why.rstrip('.')}"
-        )
+        origins[f"thermal.{key}"] = f"assumed: {said} split 1 to 2; {why.rstrip('.')}"
     origins["thermal.winding_capacity"] = (
         f"assumed: copper of {100.0 * WINDING_SHARE:g} % of the motor's mass"
     )

@@ -128,7 +128,8 @@ def _lines(design: Design, sizing: SizingResult) -> list[str]:
         f"{design.name}: {verdict(sizing.checks)} by closed forms; {sizing.objective.binding} "
         "binds, "
         f"{number(sizing.objective.torque_reserve)} times the torque is its limit",
-        "stress, contact equilibrium, life and tolerances: see `check` and `report`",
+        "not judged here: heat, stress, contact equilibrium, life, tolerances; see `check` and "
+        "`report`",
     ]
 
 

@@ -53,8 +53,11 @@ class Drive(FrozenModel):
         QuantityIn(DAMPING_GAIN, "0 N*m*s/rad", "100000 N*m*s/rad", "impedance at the output"),
     ] = default("2 N*m*s/rad")
     thermal_resistance: Annotated[
-        float, QuantityIn(THERMAL_RESISTANCE, "0.001 K/W", "1000 K/W", "winding to ambient")
-    ] = default("1.2 K/W")
+        float,
+        QuantityIn(
+            THERMAL_RESISTANCE, "0 K/W", "1000 K/W", "winding to ambient; 0: of the drawn parts"
+        ),
+    ] = default("0 K/W")
 
 
 class Housing(FrozenModel):

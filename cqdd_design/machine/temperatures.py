@@ -168,7 +168,7 @@ def cooled_network(machine: Machine) -> ThermalNetwork:
         As :func:`.thermal_parts.machine_network`.
     """
     network, design = machine_network(machine), machine.design
-    if "drive.thermal_resistance" in machine.given.assumed:
+    if design.drive.thermal_resistance == 0.0:
         return network
     rise = WINDING_MOST - network.ambient
     watts = rise / design.drive.thermal_resistance

@@ -49,7 +49,7 @@ def test_every_command_shown_runs(page, cqdd, tmp_path):
         program, *arguments = shlex.split(command, comments=True)
         assert program == "cqdd-design", command
         done = cqdd(*arguments, timeout=300)
-        wanted = 4 if arguments[0] == "check" and "cqdd-10.toml" in command else 0
+        wanted = 4 if arguments[0] == "check" else 0  # too hot for ever in still air, all of them
         assert done.code == wanted, f"{command}\n{done.err}"
 
 

@@ -29,9 +29,15 @@ def test_the_first_command_of_a_newcomer(cqdd, tmp_path):
     assert "36 of 36 checks pass" in done.out
 
 
-def test_the_written_design_passes_its_own_check(cqdd):
-    assert cqdd("size", "--ratio", "12").code == 0
-    assert cqdd("check", "designs/sized-12.toml").code == 0
+def test_the_written_design_passes_its_own_check_but_for_heat(cqdd):
+    """Closed forms know nothing of heat, and say so; `check` does."""
+    sized = cqdd("size", "--ratio", "12")
+    assert sized.code == 0
+    assert "not judged here: heat" in sized.out
+    done = cqdd("check", "designs/sized-12.toml", "--json")
+    failed = {one["id"] for one in done.document["checks"] if one["status"] == "fail"}
+    assert failed == {"THERMAL-RISE", "THERMAL-CLEARANCE"}
+    assert done.code == 4
 
 
 def test_every_written_value_says_its_origin(cqdd, tmp_path):

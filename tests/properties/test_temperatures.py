@@ -152,4 +152,4 @@ def test_what_is_not_known_is_said(machine: Machine) -> None:
     assert "no temperatures of parts: the catalogue has no" in told[0]
     assert "PA6-CF" in told[0]
     origin = actuator_parameters(carbon).origins["thermal.winding_to_housing"]
-    assert origin.startswith("assumed: drive.thermal_resistance (default) split 1 to 2")
+    assert origin.startswith("assumed: 1.2 K/W split 1 to 2")
