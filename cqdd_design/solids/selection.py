@@ -211,7 +211,11 @@ def named_output_bearing(
 def _made(name: str, bore: float, outer: float, width: float, source: str) -> ChosenBearing:
     """A bearing that the catalogue does not have."""
     said = "proportions of the layout"
-    return ChosenBearing(Bearing(name, "ball", bore, outer, width, None, None, None, said), source)
+    made = Bearing(
+        name, "ball", bore, outer, width,
+        dynamic_rating=None, static_rating=None, mass=None, source=said, raceway_diameter=None,
+    )  # fmt: skip
+    return ChosenBearing(made, source)
 
 
 def _bulk(row: Bearing) -> tuple[float, str]:
