@@ -84,7 +84,7 @@ def test_weights_that_cannot_be_built_balance_nothing() -> None:
     assert real > 1e-4
     assert static.value == 1e6 * real
     assert static.status == checks["BALANCE-WEIGHTS"].status == "fail"
-    assert "does not go into the 76 mm stator bore" in static.substituted
+    assert "does not go into the 74 mm stator bore" in static.substituted
     assert "choose another motor.name" in checks["BALANCE-WEIGHTS"].remedy
 
 

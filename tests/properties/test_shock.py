@@ -72,8 +72,9 @@ def lossless(actuator: ActuatorParameters) -> ActuatorParameters:
     )  # fmt: skip
     gear = dataclasses.replace(actuator.gear, damping=0.0, **dict.fromkeys(series, none))
     motor = dataclasses.replace(
-        actuator.motor, cogging_amplitude=0.0, iron_loss=0.0, hysteresis=0.0
-    )
+        actuator.motor,
+        cogging_amplitude=0.0, iron_loss=0.0, hysteresis=0.0, coulomb=0.0, viscous=0.0,
+    )  # fmt: skip
     return dataclasses.replace(actuator, friction=friction, gear=gear, motor=motor)
 
 

@@ -10,6 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.catalog import find_bearing
+from cqdd_design.catalog.motors import find_motor
 from cqdd_design.catalog.screws import pin_diameter_limits
 from cqdd_design.design import Requirements
 from cqdd_design.errors import GeometryError
@@ -192,7 +193,8 @@ def test_the_mass_is_that_of_the_parts():
     # The closed form leaves out the fillets of the ring.
     assert points.mass[0] < expected
     assert points.mass[0] == pytest.approx(expected, rel=2e-2)
-    assert points.reflected_inertia[0] - points.gearbox_inertia[0] == pytest.approx(5.6e-4)
+    rotor = find_motor(design.motor.name).rotor_inertia
+    assert points.reflected_inertia[0] - points.gearbox_inertia[0] == pytest.approx(rotor)
 
 
 def test_the_inertia_is_that_of_the_parts():
