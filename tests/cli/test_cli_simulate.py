@@ -63,7 +63,10 @@ def test_a_pendulum_held_at_rest_weighs_what_it_weighs(cqdd, tmp_path):
 
 @pytest.mark.parametrize("model", ["clip", "lugre"])
 def test_a_locked_output_gives_what_is_commanded_less_friction(cqdd, tmp_path, model):
-    """On a slow rise friction is that of breakaway: T = (command - dry) / (1 + load share)."""
+    """On a slow rise friction is that of breakaway: T = (command - dry) / (1 + load share).
+
+    Dry are the gearbox's friction, the motor's own drag, and cogging where the rotor stands.
+    """
     parquet = pytest.importorskip("pyarrow.parquet")
     done = cqdd(
         *("simulate", DESIGN, "--load", "locked", "--signal", "ramp", "--amplitude", "12 N*m"),
@@ -82,9 +85,12 @@ def test_a_locked_output_gives_what_is_commanded_less_friction(cqdd, tmp_path, m
     assert told["command"]["reference"]["slope"] == pytest.approx(20.0)
     assert told["seeds"] == []
     machine = actuator_parameters(resolve(load_design(DESIGN)))
-    friction, ratio = machine.friction, abs(machine.gear.ratio)
+    friction, motor, ratio = machine.friction, machine.motor, abs(machine.gear.ratio)
     rise = 1.0 + friction.stribeck_extra
     dry = rise * (friction.motor_coulomb * ratio + friction.output_coulomb)
+    angle = table["motor_angle [rad]"].to_numpy()
+    cogging = motor.cogging_amplitude * np.sin(motor.cogging_order * angle)
+    dry = dry + ratio * motor.dry_drag + machine.gear.ratio * cogging
     command = table["commanded_torque [N m]"].to_numpy()
     wanted = (command - dry) / (1.0 + rise * friction.load_forward)
     late = command > 4.0
