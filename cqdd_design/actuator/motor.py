@@ -17,9 +17,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.actuator.parameters import DriveParameters, FloatArray, MotorParameters
-from cqdd_design.catalog.motors import CONVENTIONS
+from cqdd_design.catalog.motors import CONVENTIONS, COPPER_COEFFICIENT
 from cqdd_design.errors import DesignError
-from cqdd_design.gearbox.heat.joints import COPPER_COEFFICIENT as COPPER_COEFFICIENT
 
 MAGNET_COEFFICIENT = 0.0011
 """Fall of the flux of NdFeB per kelvin (remanence of common grades: 0.09 to 0.12 % a kelvin)."""

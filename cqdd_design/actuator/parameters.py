@@ -19,8 +19,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.catalog.motors import WINDING_MOST
 from cqdd_design.errors import DesignError
-from cqdd_design.gearbox.checks.allowables import WINDING_MOST
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]

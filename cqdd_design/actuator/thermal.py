@@ -14,12 +14,13 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cqdd_design.actuator.motor import COPPER_COEFFICIENT, resistance_at
+from cqdd_design.actuator.motor import resistance_at
 from cqdd_design.actuator.parameters import (
     FloatArray,
     MotorParameters,
     ThermalParameters,
 )
+from cqdd_design.catalog.motors import COPPER_COEFFICIENT
 from cqdd_design.errors import DesignError
 
 

@@ -24,6 +24,14 @@ CONVENTIONS: dict[str, float] = {
 DRAG = ("coulomb", "viscous", "hysteresis", "iron_loss")
 """Fields of a motor that say what it takes to turn it at a steady speed, no current flowing."""
 
+COPPER_COEFFICIENT = 0.0039
+"""Rise of copper's resistance per kelvin, at 25 deg C."""
+COPPER_REFERENCE = 25.0
+"""Temperature at which a catalogue's resistance holds, deg C."""
+WINDING_MOST = 120.0
+"""Winding, deg C: class E of IEC 60085, which enamelled wire and bonded magnets of robot motors
+keep."""
+
 _NEEDED = {
     "torque constant": "torque_constant",
     "resistance": "line_resistance",

@@ -15,12 +15,16 @@ from typing import NamedTuple
 import numpy as np
 
 from cqdd_design.catalog.materials import find_material
-from cqdd_design.catalog.motors import Motor
+from cqdd_design.catalog.motors import (
+    COPPER_COEFFICIENT,
+    COPPER_REFERENCE,
+    WINDING_MOST,
+    Motor,
+)
 from cqdd_design.errors import ContactError, DesignError, GeometryError
-from cqdd_design.gearbox.checks.allowables import GREASE_MOST, HOUSING_MOST, WINDING_MOST
+from cqdd_design.gearbox.checks.allowables import GREASE_MOST, HOUSING_MOST
 from cqdd_design.gearbox.checks.heat import Tightness, WarmPart, clearance_check, rise_check
 from cqdd_design.gearbox.heat.expansion import AS_DRAWN, COLDEST, HOTTEST, PartTemperatures
-from cqdd_design.gearbox.heat.joints import COPPER_COEFFICIENT, COPPER_REFERENCE
 from cqdd_design.gearbox.heat.network import Heat, ThermalNetwork
 from cqdd_design.gearbox.precision.backlash import Backlash, backlash
 from cqdd_design.geometry.contours import FloatArray

@@ -10,8 +10,9 @@ from stack_conduction import stack_temperatures
 
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.thermal import continuous_current
+from cqdd_design.catalog.motors import WINDING_MOST
 from cqdd_design.design import load_design
-from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP, WINDING_MOST
+from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
 from cqdd_design.gearbox.heat.network import Heat
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.temperatures import (

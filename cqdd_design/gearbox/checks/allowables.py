@@ -313,9 +313,6 @@ def edge_limit_fatigue(material: Material) -> Allowable:
 
 
 # Heat ------------------------------------------------------------------------------------------
-WINDING_MOST = 120.0
-"""Winding, deg C: class E of IEC 60085, which enamelled wire and bonded magnets of robot motors
-keep."""
 GREASE_MOST = 120.0
 """Grease at the teeth, pins and bearings, deg C: upper limit of a lithium grease of NLGI 2 (SKF
 LGMT 2, operating range -30 to 120 deg C); bearing steel is stabilised to the same."""

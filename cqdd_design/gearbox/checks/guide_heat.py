@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cqdd_design.catalog.motors import WINDING_MOST
 from cqdd_design.gearbox.checks import allowables as limits
 from cqdd_design.gearbox.checks.guide_row import CheckGuide
 
@@ -13,7 +14,7 @@ ROWS = (
         "Steady temperature of winding, grease and housing",
         "degC",
         "max",
-        f"winding <= {limits.WINDING_MOST:g}, warmest greased part <= {limits.GREASE_MOST:g}, "
+        f"winding <= {WINDING_MOST:g}, warmest greased part <= {limits.GREASE_MOST:g}, "
         "housing <= what its material bears",
         "At the duty, or at the continuous torque and input speed for ever, parts settle where "
         "their losses are carried off: by still air alone, or by what drive.thermal_resistance "

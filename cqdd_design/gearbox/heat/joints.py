@@ -23,10 +23,6 @@ LINER, LINER_CONDUCTIVITY = 0.25e-3, 0.21
 """Slot liner, m, and W/(m K) (as above)."""
 RESIN_CONDUCTIVITY, FILL = 0.2, 0.4
 """Of the impregnation, W/(m K), and copper's share of a slot (as above)."""
-COPPER_COEFFICIENT = 0.0039
-"""Rise of copper's resistance per kelvin, at 25 deg C."""
-COPPER_REFERENCE = 25.0
-"""Temperature at which a catalogue's resistance holds, deg C."""
 BUSH_FILM = 25e-6
 """Mean film of grease in a plain bush, m."""
 

@@ -7,8 +7,9 @@ import math
 import numpy as np
 
 from cqdd_design.actuator.columns import Constants
-from cqdd_design.actuator.motor import COPPER_COEFFICIENT, MAGNET_COEFFICIENT
+from cqdd_design.actuator.motor import MAGNET_COEFFICIENT
 from cqdd_design.actuator.parameters import FloatArray
+from cqdd_design.catalog.motors import COPPER_COEFFICIENT
 
 
 class PositionLoop:
