@@ -40,7 +40,10 @@ def test_a_network_that_corrects_its_own_actuator(cqdd, tmp_path):
     # Drawn and calibrated as the data say, which nobody had to repeat.
     assert own["drive"]["position_gain"] == 60.0
     assert facts["training_gearbox"] == 1
-    assert own["friction"]["motor_coulomb"] > 0.05
+    fitted = json.loads(CALIBRATION.read_text())["unknowns"]["motor_cogging"]["value"]
+    assert own["motor"]["cogging_amplitude"] == pytest.approx(fitted)
+    # What drags on the input at every load is the motor's own.
+    assert own["motor"]["coulomb"] > 0.05
     scored = cqdd(
         *("torque", "evaluate", *data, "--model", "net.npz", "--rollouts", "0", "--draws", "100"),
         *("--set", "trajectory,gearbox", "--json"),
