@@ -19,8 +19,8 @@ from cqdd_design.actuator.joint_side import (
     ripple_harmonics,
     ripple_rms,
 )
-from cqdd_design.actuator.motor import COPPER_COEFFICIENT
 from cqdd_design.actuator.thermal import single_node
+from cqdd_design.catalog.motors import COPPER_COEFFICIENT
 from cqdd_design.exporting.simulators.stated import effort_limit, provenance
 from cqdd_design.exporting.simulators.xml_text import element, identifier, number, numbers
 
@@ -35,6 +35,8 @@ LONGEST_STEP = 5e-4
 """s."""
 STEP_FRACTION = 0.5
 """Most that the fastest oscillation of a model may turn in a step, rad."""
+DAMPING_INERTIA = 1e-3
+"""Most that the bristles' damping may add to the inertia that they hold, as a share."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -249,13 +251,15 @@ def _lugre(
     Breakaway is reached at the bristles' deflection, or later where `inertia` would swing on them
     too fast for `step`. Their damping is the one given, else critical, in either case no more than
     passive: LuGre generates no energy where sigma2 >= sigma1 (static - coulomb)/coulomb (Barabanov
-    and Ortega 2000; MuJoCo's note, 1.4).
+    and Ortega 2000; MuJoCo's note, 1.4). MuJoCo takes sigma1 for damping also where the bristles
+    slide and it is not felt, and its implicit steps then carry `step` times sigma1 as inertia.
     """
     stiffness = breakaway * reduction / friction.bristle_deflection
     stiffness = min(stiffness, inertia * (STEP_FRACTION / step) ** 2)
     damping = friction.bristle_damping * reduction**2 or 2.0 * math.sqrt(stiffness * inertia)
     if breakaway > coulomb:
         damping = min(damping, viscous * coulomb / (breakaway - coulomb))
+    damping = min(damping, DAMPING_INERTIA * inertia / step)
     return numbers(stiffness, damping, coulomb, breakaway, friction.stribeck_speed / reduction)
 
 
