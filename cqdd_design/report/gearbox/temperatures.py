@@ -31,7 +31,10 @@ def temperatures_view(found: MachineTemperatures) -> Values:
         if asked.duty
         else f"{with_unit(asked.continuous_torque, 'N*m')} for ever at the input speed"
     )
-    air = f"still air of {significant(found.network.ambient)} °C"
+    ambient, stated = found.network.ambient, found.machine.design.drive.thermal_resistance
+    air = f"still air of {significant(ambient)} °C"
+    if stated:
+        air = f"air of {significant(ambient)} °C, {stated:g} K/W from the winding as stated"
     clearance = "of rigid parts, at these temperatures"
     if not np.array_equal(found.reached, found.steady):
         clearance = "of rigid parts, on the way there, the warmest of the gearbox at 200 °C"
