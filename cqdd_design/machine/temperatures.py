@@ -50,6 +50,8 @@ _SHARES: dict[str, dict[Node, float]] = {
 """Which parts a loss warms."""
 _MOST_FACTOR = 1e3
 _HALVINGS = 60
+_WATTS = 1e-3, 1e5
+"""Between which the heat lies that takes a winding to its limit."""
 _GAP_ANGLES = 90
 _TIMES = 48
 _EDGE = 1e-6
@@ -195,11 +197,11 @@ def cooled_network(machine: Machine) -> ThermalNetwork:
     return all_better(_halved(lambda x: warm(all_better(x)), 1.0, _MOST_FACTOR))
 
 
-def _halved(warmer: Callable[[float], bool], least: float, most: float) -> float:
-    """Where a factor is enough, by halving its logarithm."""
+def _halved(too_small: Callable[[float], bool], least: float, most: float) -> float:
+    """Where a number is enough, by halving its logarithm."""
     for _ in range(_HALVINGS):
         middle = math.sqrt(least * most)
-        least, most = (middle, most) if warmer(middle) else (least, middle)
+        least, most = (middle, most) if too_small(middle) else (least, middle)
     return math.sqrt(least * most)
 
 
@@ -216,11 +218,8 @@ def two_nodes(network: ThermalNetwork) -> TwoNodes:
     def at(watts: float) -> FloatArray:
         return network.steady(one._replace(fixed=watts * one.fixed))
 
-    least, most = 1e-3, 1e5
-    for _ in range(_HALVINGS):
-        middle = math.sqrt(least * most)
-        least, most = (least, middle) if at(middle)[w] > WINDING_MOST else (middle, most)
-    found = network.resistances(w, at(math.sqrt(least * most)))
+    watts = _halved(lambda watts: bool(at(watts)[w] <= WINDING_MOST), *_WATTS)
+    found = network.resistances(w, at(watts))
     rest = network.capacity * found
     return TwoNodes(
         winding_to_housing=float(found[w] - found[h]),
@@ -290,8 +289,7 @@ class MachineTemperatures:
     @cached_property
     def times(self) -> FloatArray:
         """Of `history`, s: from seconds until all parts have settled."""
-        slowest = 1.0 / self.network.rates(self.steady).min()
-        return np.asarray(np.geomspace(_LEAST_TIME, _SETTLED * slowest, _TIMES))
+        return np.asarray(np.geomspace(_LEAST_TIME, _SETTLED * self.settling_time, _TIMES))
 
     @cached_property
     def history(self) -> FloatArray:

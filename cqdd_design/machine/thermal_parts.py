@@ -30,6 +30,7 @@ from cqdd_design.gearbox.heat.network import ThermalNetwork
 from cqdd_design.gearbox.heat.surfaces import Surface, annulus_conductance
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.machine.machine import Machine
+from cqdd_design.solids.inertia import GROUPS
 from cqdd_design.solids.layout import Layout, MotorLayout
 from cqdd_design.solids.selection import ChosenBearing
 
@@ -64,20 +65,7 @@ _OWNERS: dict[str, Node] = {
     "eccentric shaft": "shaft",
     "eccentric cam": "shaft",
     "encoder magnet": "shaft",
-    **dict.fromkeys(
-        (
-            "carrier plate",
-            "carrier cap",
-            "carrier column",
-            "column screw",
-            "bearing nut",
-            "shoulder screw",
-            "dowel pin",
-            "pin sleeve",
-            "pin needle cage",
-        ),
-        "carrier",
-    ),
+    **dict.fromkeys(GROUPS["carrier"], "carrier"),
 }
 """Nodes of parts by name; discs have theirs, bearings half to each side, the rest is housing."""
 _SIDES: dict[str, tuple[Node, Node]] = {

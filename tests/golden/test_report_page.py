@@ -15,9 +15,12 @@ from shared_outputs import report_input, sized
 from cqdd_design.actuator.bench import run_bench
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.design import Design
+from cqdd_design.gearbox.heat.expansion import HOTTEST
 from cqdd_design.machine import resolve
 from cqdd_design.machine.body_analysis import judged_bodies
 from cqdd_design.machine.contact_analysis import analyse_contact
+from cqdd_design.machine.temperatures import judged_temperatures
+from cqdd_design.machine.thermal_parts import by_node
 from cqdd_design.report import ReportInput, build_report
 from cqdd_design.report.judgement.shortfalls import shortfalls
 
@@ -333,3 +336,16 @@ def test_stress_of_discs_and_ring_is_a_chapter_and_its_checks_count(
 def test_a_sized_design_shows_what_is_closest(tmp_path_factory: pytest.TempPathFactory) -> None:
     page = build_report(report_input(sized(tmp_path_factory, 12).design))
     assert "Closest to their limits" in page
+
+
+def test_temperatures_are_those_of_the_network(paper_input: ReportInput) -> None:
+    """Every part's, how it is cooled, and that clearances are told on the way there."""
+    found, _, _ = judged_temperatures(paper_input.machine)
+    assert found is not None
+    page = build_report(replace(paper_input, temperatures=found))
+    section = page.partition('<section id="temperatures"')[2].partition("</section>")[0]
+    told = text_of(section)
+    assert "1.2 K/W from the winding as stated" in told
+    for name, value in by_node(found.steady).items():
+        assert f"{name} {float(f'{value:.3g}'):g}" in told
+    assert f"the warmest of the gearbox at {HOTTEST:g} °C" in told

@@ -174,7 +174,7 @@ def compliant_slope(
 ) -> FloatArray:
     """Work of the contacts per radian of the crank at held motions, (A,), N m.
 
-    Forces times the rates at which their contacts close, as :func:`.sweep.energy_slope` has it for
+    Forces times the rates at which their contacts close, as :func:`.energy.energy_slope` has it for
     held plates. A pin's own deflection turns with the crank directions of the discs that push it,
     which stay at the same angles to each other, so that what pins store does not change by itself.
 

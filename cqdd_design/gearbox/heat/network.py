@@ -9,7 +9,7 @@ temperature up to a limit, beyond which it stays: what burns has no use for a ru
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -94,10 +94,6 @@ class ThermalNetwork:
             )
         if not (np.any(self.to_ambient > 0.0) or self.surfaces):
             raise DesignError("a thermal network without a way to the air has no steady state.")
-
-    def in_air(self, ambient: float) -> ThermalNetwork:
-        """The same in other air, deg C."""
-        return replace(self, ambient=ambient)
 
     def outward(self, temperature: FloatArray) -> FloatArray:
         """Conductance of every node to the air at temperatures (N,), W/K."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cqdd_design.gearbox.heat.expansion import HOTTEST
 from cqdd_design.machine.thermal_parts import NODES
 from cqdd_design.report.ink.axes import nice_step
 from cqdd_design.report.ink.charts import Curve, line_chart
@@ -37,7 +38,9 @@ def temperatures_view(found: MachineTemperatures) -> Values:
         air = f"air of {significant(ambient)} °C, {stated:g} K/W from the winding as stated"
     clearance = "of rigid parts, at these temperatures"
     if not np.array_equal(found.reached, found.steady):
-        clearance = "of rigid parts, on the way there, the warmest of the gearbox at 200 °C"
+        clearance = (
+            f"of rigid parts, on the way there, the warmest of the gearbox at {HOTTEST:g} °C"
+        )
     return {
         "told": f"Where the parts settle under {at}, in {air}: {significant(heat, 3)} W in all, of "
         f"which {significant(found.duty.gearbox, 3)} W in the gearbox.",
