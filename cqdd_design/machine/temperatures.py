@@ -101,7 +101,9 @@ def duty_heat(machine: Machine, cases: Iterable[DutyCase]) -> DutyHeat:
     """Mean heat of a duty in every node.
 
     The motor is a DC machine, K as the catalogue's: copper heats its winding, and its own drag, of
-    iron above all, the stator. Where the output drives, the motor brakes what losses leave.
+    iron above all, the stator. Where the output drives, the gearbox loses what being driven takes,
+    spread over its parts as while driving, and the motor brakes what losses leave, or pushes where
+    they take more than the output gives.
 
     Raises
     ------
@@ -115,16 +117,18 @@ def duty_heat(machine: Machine, cases: Iterable[DutyCase]) -> DutyHeat:
     watts, gearbox, squared = dict.fromkeys(NODES, 0.0), 0.0, 0.0
     for torque, speed, share in cases:
         lost = losses.at(speed, torque)
-        for source, power in lost.by_source.items():
-            gearbox += share * power
-            for node, part in _SHARES[source].items():
-                watts[node] += share * part * power
         forward = torque * speed >= 0.0
-        load = abs(torque) + (lost.loss_torque if forward else -lost.loss_torque_backward)
+        taken = lost.loss_torque if forward else lost.loss_torque_backward
+        driven = taken / lost.loss_torque if lost.loss_torque else 1.0
+        for source, power in lost.by_source.items():
+            gearbox += share * driven * power
+            for node, part in _SHARES[source].items():
+                watts[node] += share * part * driven * power
         drag = motor_drag(machine.motor, speed)
         watts["stator"] += share * drag * abs(speed)
-        needed = load / n + (drag if forward else -drag)
-        squared += share * (max(needed, 0.0) / constant) ** 2
+        resisting = taken / n + drag
+        needed = abs(torque) / n + (resisting if forward else -resisting)
+        squared += share * (needed / constant) ** 2
     slope = squared * resistance * COPPER_COEFFICIENT
     watts["winding"] += squared * resistance * (1.0 - COPPER_COEFFICIENT * COPPER_REFERENCE)
     winding = node_values({"winding": 1.0}) > 0.0

@@ -9,18 +9,21 @@ import numpy as np
 import pytest
 from reference_design import DESIGN_S
 
-from cqdd_design.catalog.bearings import BEARING_MATERIAL
+from cqdd_design.catalog.bearings import BEARING_MATERIAL, find_bearing
 from cqdd_design.catalog.materials import find_material, materials
 from cqdd_design.design import load_design
-from cqdd_design.errors import DesignError, UsageError
+from cqdd_design.errors import ContactError, DesignError, UsageError
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.states import nominal_states
+from cqdd_design.gearbox.contact.sweep import contact_sweep, idle_sweep, perfect_angles
 from cqdd_design.gearbox.heat.expansion import (
     AS_DRAWN,
     PartTemperatures,
     growth_of,
     heated,
+    part_materials,
 )
 from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
@@ -37,6 +40,24 @@ def machine() -> Machine:
 
 def test_at_the_drawings_temperature_nothing_moves(machine: Machine) -> None:
     assert heated(machine.contact, machine.design, AS_DRAWN) is machine.contact
+
+
+def test_seats_of_another_material_give_or_take_play(machine: Machine) -> None:
+    """A disc of bronze grows beyond its bearing's outer ring; a disc alone widens the raceway."""
+    bronze = machine.changed({"reducer.disc_material": "Bronze CuSn12"})
+    bearing = find_bearing(bronze.design.reducer.cam_bearing.designation)
+    alpha, steel = (find_material(one).expansion for one in ("Bronze CuSn12", BEARING_MATERIAL))
+    shaft = find_material(part_materials(bronze.design)["shaft"]).expansion
+    grown = growth_of(bronze.design, PartTemperatures.even(60.0)).play
+    wanted = (alpha - steel) * bearing.outer_diameter - (shaft - steel) * bearing.bore_diameter
+    assert grown == pytest.approx(40.0 * wanted, rel=1e-12)
+    assert grown > 5e-6
+    uneven = growth_of(machine.design, PartTemperatures(20.0, 50.0, 20.0, 20.0, 20.0)).play
+    disc = find_material(machine.design.reducer.disc_material).expansion
+    mean = 0.5 * (bearing.bore_diameter + bearing.outer_diameter)
+    assert uneven == pytest.approx(
+        30.0 * (steel * mean + (disc - steel) * bearing.outer_diameter), rel=1e-12
+    )
 
 
 def test_teeth_and_pins_stand_where_their_parts_take_them(machine: Machine) -> None:
@@ -129,3 +150,17 @@ def test_every_figure_of_heat_has_a_source() -> None:
     for one in materials().values():
         told = (one.expansion, one.conductivity, one.specific_heat, one.emissivity)
         assert bool(one.thermal_source) == all(value is not None for value in told), one.name
+
+
+def test_parts_that_hang_between_contacts_have_an_equilibrium_under_next_to_no_load(
+    machine: Machine,
+) -> None:
+    """At 60 deg C the parts of S just touch: without any load they have no place of their own."""
+    model = machine.at(PartTemperatures.even(60.0)).contact
+    states = nominal_states(model, perfect_angles(model, 24))
+    rubbed = ContactFriction.of(model, "drive")
+    with pytest.raises(ContactError):
+        contact_sweep(model, 0.0, states=states, friction=rubbed)
+    idle = idle_sweep(model, 90.0, states, rubbed)
+    assert idle.torque == 0.0
+    assert 0.0 < idle.ring_force.max() < 1.0

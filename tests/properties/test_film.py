@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from hypothesis import strategies as st
 
 from cqdd_design.actuator.build import STRIBECK_SPEED, friction_parameters
 from cqdd_design.catalog.lubricants import find_lubricant, lubricants, walther_viscosity
+from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import CqddError, DesignError, UsageError
 from cqdd_design.gearbox.contact.films import SETTLED, hole_film, ring_film, travel
@@ -27,6 +29,7 @@ from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION, mixed_friction
 from cqdd_design.gearbox.film.wear import wear_depth
 from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.gearbox.losses import LossModel
+from cqdd_design.gearbox.losses.machine import SOURCES, total
 from cqdd_design.gearbox.losses.rolling import seal_torque
 from cqdd_design.gearbox.tolerance import evaluate
 from cqdd_design.machine import Machine, resolve
@@ -230,6 +233,19 @@ def test_breaking_away_is_without_a_film() -> None:
     assert fast.static_torque == slow.static_torque
 
 
+def test_what_slides_breaks_away_at_its_boundary_and_bearings_above_theirs() -> None:
+    """The boundary's coefficient is that of rest already; it is not raised once more."""
+    losses = machine().losses
+    n, ratio = losses.machine.lobe_count, 1.5
+    found = losses.backdrive(static_ratio=ratio).static_torque
+    assert found is not None
+    work = dict(zip(SOURCES, losses.coulomb_work(found, "backdrive", 0.0), strict=True))
+    sliding = work.pop("ring_teeth") + work.pop("output_pins")
+    grease = losses.machine.grease_torque(0.0)
+    bearings = sum(work.values()) + total(losses.machine.drag(0.0)) - grease
+    assert found == pytest.approx(n * (sliding + ratio * bearings + grease), rel=1e-6)
+
+
 def test_the_stribeck_curve_follows_the_films() -> None:
     losses = machine().losses
     found = friction_parameters(losses, TORQUE, FAST)
@@ -285,6 +301,23 @@ def test_wear_of_the_reference_is_a_micrometre_to_a_dozen() -> None:
     assert wear.ring_tooth[0] > 5.0 * wear.disc_flank[0]
 
 
+def test_a_ring_tooth_wears_over_the_way_that_contacts_go_on_it() -> None:
+    """Followed in the plane: the loaded points of one tooth through a whole turn of the crank."""
+    design = S.replacing(FILMS)
+    wear = told(design).wear
+    model = resolve(design).contact
+    turn = nominal_states(model, np.linspace(0.0, 2.0 * np.pi, 1441))
+    sweep = contact_sweep(model, design.requirements.continuous_torque, states=turn)
+    point, loaded = sweep.ring_point[:, 0, 3], sweep.ring_force[:, 0, 3] > 0.0
+    steps = np.hypot(*np.diff(point, axis=0).T)
+    way = float(steps[loaded[1:] & loaded[:-1]].sum())
+    perimeter = resolve(design).analysis.to_dict()["geometry"]["disc_profile_perimeter_mm"] * 1e-3
+    assert 1e-3 < way < 4e-3
+    assert wear.ring_tooth[0] / wear.disc_flank[0] == pytest.approx(
+        perimeter / (model.tooth_count * way), rel=0.03
+    )
+
+
 def test_half_the_time_wears_half() -> None:
     duty = [
         {"torque": "34.2 N*m", "speed": "13.466960508388246 rad/s", "share": 0.5},
@@ -305,6 +338,18 @@ def test_plastics_are_told_their_limit() -> None:
     assert any("MPa m/s that it bears dry" in one for one in of_plastics("POM (acetal)"))
     assert any("the catalogue has no limit of it" in one for one in of_plastics("PEEK"))
     assert of_plastics("AISI 52100 / 100Cr6 hardened") == ()
+
+
+def test_plastics_are_pressed_by_the_mean_force_on_the_projected_area() -> None:
+    (said,) = [one for one in of_plastics("PEEK") if "output pins press" in one]
+    pressure, speed = (
+        float(one) for one in re.findall(r"with ([\d.]+) MPa at ([\d.]+) m/s", said)[0]
+    )
+    pins = S.reducer.output_pins
+    force = swept().pin_force.mean(axis=0).max()
+    area = mean_pin_diameter(pins.diameter) * S.reducer.disc_thickness
+    assert pressure == pytest.approx(force / area / 1e6, rel=5e-3)
+    assert speed == pytest.approx(S.reducer.eccentricity * 1.1 * FAST, rel=5e-3)
 
 
 def test_no_band_of_wear_is_told_of_plastics() -> None:

@@ -16,9 +16,11 @@ from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
 from cqdd_design.gearbox.heat.network import Heat
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.temperatures import (
+    DutyCase,
     MachineTemperatures,
     cooled_network,
     duty_cases,
+    duty_heat,
     heat_checks,
     judged_temperatures,
     machine_temperatures,
@@ -49,6 +51,36 @@ def test_all_heat_leaves_to_the_air(found: MachineTemperatures) -> None:
         ).total,
         rel=1e-12,
     )
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_heat_and_current_close_the_balance_of_power(machine: Machine, sense: float) -> None:
+    """What goes in at one end comes out at the other, or warms gearbox and stator."""
+    torque, speed, n = 30.0, 100.0, machine.design.reducer.ratio
+    found = duty_heat(machine, [DutyCase(torque, sense * speed, 1.0)])
+    row = machine.motor
+    assert row.torque_constant is not None
+    assert row.line_resistance is not None
+    drag = row.coulomb + row.viscous * speed
+    stator = NODES.index("stator")
+    assert drag > 0.05
+    assert found.heat.fixed[stator] == pytest.approx(drag * speed, rel=1e-12)
+    parts = np.delete(found.heat.fixed, [W, stator])
+    assert parts.sum() == pytest.approx(found.gearbox, rel=1e-12)
+    electrical = row.torque_constant * np.sqrt(found.current_squared) * speed
+    mechanical = torque * speed / n
+    warm = found.gearbox + drag * speed
+    assert electrical == pytest.approx(mechanical + sense * warm, rel=1e-9)
+    at = np.full(len(NODES), 80.0)
+    copper = found.current_squared * row.line_resistance * (1.0 + 0.0039 * (80.0 - 25.0))
+    assert found.heat.at(at)[W] == pytest.approx(copper, rel=1e-12)
+
+
+def test_a_motor_pushes_what_its_gearbox_holds(machine: Machine) -> None:
+    """A light load does not turn gearbox and motor: the motor has to, against their friction."""
+    light = duty_heat(machine, [DutyCase(0.5, -100.0, 1.0)])
+    none = duty_heat(machine, [DutyCase(0.0, 100.0, 1.0)])
+    assert 0.0 < light.current_squared < none.current_squared
 
 
 def test_warming_stores_what_does_not_leave(found: MachineTemperatures) -> None:

@@ -15,10 +15,15 @@ import pytest
 
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.heat.joints import (
+    FILL,
     GREASE_CONDUCTIVITY,
+    LINER,
+    LINER_CONDUCTIVITY,
+    RESIN_CONDUCTIVITY,
     ROUGHNESS,
     bearing_conductance,
     film_conductance,
+    winding_conductance,
 )
 from cqdd_design.gearbox.heat.network import Heat, ThermalNetwork
 from cqdd_design.gearbox.heat.surfaces import (
@@ -119,3 +124,15 @@ def test_two_nodes_are_two_exponentials() -> None:
 def test_a_network_without_air_is_refused() -> None:
     with pytest.raises(DesignError, match="without a way to the air"):
         ThermalNetwork(("a",), np.array([1.0]), np.zeros((1, 1)), np.zeros(1), 25.0)
+
+
+def test_a_winding_is_as_much_warmer_as_its_coils_mean_is() -> None:
+    """A slab that heats evenly, cooled on one side: T = (w x - x^2/2) q/k, integrated."""
+    slots, depth, middle, length = 36, 9e-3, 45e-3, 20e-3
+    across = RESIN_CONDUCTIVITY * (1.0 + FILL) / (1.0 - FILL)
+    coil = 0.25 * 2.0 * math.pi * middle / slots
+    x = (np.arange(2000) + 0.5) / 2000.0 * coil
+    mean = float(np.mean(coil * x - 0.5 * x**2)) / across / coil
+    walls = 2.0 * slots * depth * length
+    wanted = walls / (LINER / LINER_CONDUCTIVITY + mean)
+    assert winding_conductance(slots, depth, middle, length) == pytest.approx(wanted, rel=1e-6)

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from cqdd_design.machine.carrying import CarriedTorque
 
 RPM = 30.0 / math.pi
+_PLACES = 13
+"""Of a motor turn, for the held output: prime, or cogging would be met in one phase at all."""
 _HIGHEST_SPEED = 0.95
 """Of an efficiency's grid, over the speed whose back-EMF is the supply."""
 _FINER = 4
@@ -77,7 +79,7 @@ def rated_power(parameters: ActuatorParameters, rated_current: float | None) -> 
 
 
 def _locked_torque(
-    parameters: ActuatorParameters, current: float, positions: int = 12
+    parameters: ActuatorParameters, current: float
 ) -> tuple[FloatArray, dict[str, FloatArray]]:
     """Torque of the locked output at a steady current, at even places of one motor turn, N m.
 
@@ -91,9 +93,9 @@ def _locked_torque(
         Scenario(
             Command("current", slowly),
             Load.driven(Constant(0.0)),
-            Start(output_angle=turn * place / positions),
+            Start(output_angle=turn * place / _PLACES),
         )
-        for place in range(positions)
+        for place in range(_PLACES)
     ]
     run = run_cold(parameters, scenes, rise + hold, 5e-4)
     settled = run.output_torque[:, run.time > rise + 0.5 * hold]
@@ -134,8 +136,8 @@ def stall_torque(parameters: ActuatorParameters, gearbox: CarriedTorque | None =
         "stall_torque",
         float(torques.mean()),
         "predicted",
-        f"Output held still, current ramped to {limit:.3g} A in 0.3 s and held, at 12 places of a "
-        "motor turn: what friction leaves of the peak torque while it rises.",
+        f"Output held still, current ramped to {limit:.3g} A in 0.3 s and held, at {_PLACES} "
+        "places of a motor turn: what friction leaves of the peak torque while it rises.",
         spread=float(torques.std(ddof=1)),
         details={"current_A": limit} | _first_limit(gearbox),
         trace=trace,
