@@ -88,7 +88,7 @@ def grouped(number: int) -> str:
     return f"{number:,}".replace(",", THIN)
 
 
-_PRETTY = {"um": "\u00b5m", "N/um": "N/\u00b5m", "deg": "\u00b0"}
+_PRETTY = {"um": "\u00b5m", "N/um": "N/\u00b5m", "deg": "\u00b0", "degC": "\u00b0C"}
 
 
 def pretty_unit(unit: str) -> str:
@@ -96,8 +96,8 @@ def pretty_unit(unit: str) -> str:
 
     Examples
     --------
-    >>> pretty_unit("N*m")
-    'N\u00b7m'
+    >>> pretty_unit("N*m"), pretty_unit("degC")
+    ('N\u00b7m', '\u00b0C')
     """
     if unit in _PRETTY:
         return _PRETTY[unit]
