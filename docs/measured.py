@@ -18,12 +18,12 @@ import numpy as np
 
 from cqdd_design.actuator.bench.locked import (
     LockedOutput,
-    ShaftDrag,
     friction_line,
     locked_output,
 )
 from cqdd_design.actuator.bench.readings import FrictionLine, LoopReading, read_friction, read_loop
 from cqdd_design.actuator.build import motor_and_drive
+from cqdd_design.actuator.parameters import MotorParameters
 from cqdd_design.design import load_design
 from cqdd_design.errors import ContactError
 from cqdd_design.machine import Machine, resolve
@@ -75,10 +75,9 @@ MASS, SPEED, VOLTAGE = 1.35, 120.0, 44.0
 """kg; rpm without load at that voltage."""
 
 
-def motor_drag(machine: Machine) -> ShaftDrag:
-    """Of the motor alone, by the catalogue: the thesis' own test of it."""
-    motor = motor_and_drive(machine)[0]
-    return ShaftDrag(motor.dry_drag, motor.drag_slope)
+def motor_of(machine: Machine) -> MotorParameters:
+    """By the catalogue, whose drag is the thesis' own test of the motor alone."""
+    return motor_and_drive(machine)[0]
 
 
 @cache
@@ -119,11 +118,11 @@ def machine_of(material: str) -> Machine:
 
 def solved(machine: Machine, wanted: float) -> LockedOutput:
     """Against a locked output up to a motor's torque, or as far as its equilibrium reaches."""
-    drag = motor_drag(machine)
+    motor = motor_of(machine)
     # A motor at `wanted` passes less to the gearbox; where that is out of reach, still less.
     for share in np.arange(1.0, 0.15, -0.05):
         try:
-            return locked_output(machine, share * wanted, drag)
+            return locked_output(machine, share * wanted, motor)
         except ContactError:
             continue
     raise SystemExit(f"{machine.design.name} has no equilibrium up to {wanted:g} N m")
@@ -139,7 +138,7 @@ def predicted(material: str) -> LockedOutput:
 def predicted_friction(material: str) -> FrictionLine:
     """Of the printed actuator without load, up to the 2 revolutions a second of its ramp."""
     machine = machine_of(material)
-    return friction_line(machine, 4.0 * math.pi, motor_drag(machine))
+    return friction_line(machine, 4.0 * math.pi, motor_of(machine))
 
 
 def _off(ours: float, theirs: float) -> str:

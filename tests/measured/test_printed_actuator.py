@@ -60,7 +60,7 @@ def test_friction_without_load_is_predicted_within_forty_percent(page: ModuleTyp
 
 def test_most_of_that_friction_is_the_motors(page: ModuleType) -> None:
     machine = page.machine_of(page.SPECIMENS[0].material)
-    motor = 13.0 * page.motor_drag(machine).coulomb
+    motor = 13.0 * page.motor_of(machine).dry_drag
     assert motor / page.predicted_friction(page.SPECIMENS[0].material).coulomb > 0.9
 
 

@@ -10,17 +10,18 @@ import pytest
 
 from cqdd_design.actuator.bench.locked import (
     LockedOutput,
-    ShaftDrag,
     friction_line,
     locked_output,
 )
 from cqdd_design.actuator.bench.readings import read_friction, read_loop
+from cqdd_design.actuator.parameters import MotorParameters
 from cqdd_design.design import load_design
 from cqdd_design.errors import UsageError
 from cqdd_design.machine import Machine, resolve
 
 PLAY, STIFFNESS, SHARE, DRAG, RATIO = 4e-3, 800.0, 0.2, 1.5, 13
-MOTOR = ShaftDrag(0.1, 8e-4)
+FREE = MotorParameters(0.17, 0.14, 1e-4, 5e-4, 21, 4.0, 12.0)
+MOTOR = replace(FREE, coulomb=0.07, hysteresis=0.03, viscous=7e-4, iron_loss=1e-4)
 
 
 @pytest.fixture(scope="module")
@@ -97,8 +98,8 @@ def test_a_printed_machine_turns_back_from_a_locked_output(machine: Machine) -> 
     assert np.all(found.up - found.down[: len(found.up)] >= 2.0 * found.drag - 1e-12)
     assert found.driven[-1] >= found.driving[-1]
     assert np.all(np.diff(found.driving) > 0.0)
-    without = locked_output(machine, 6.0, ShaftDrag(0.0, 0.0))
-    assert found.drag - without.drag == pytest.approx(13 * MOTOR.coulomb)
+    without = locked_output(machine, 6.0, FREE)
+    assert found.drag - without.drag == pytest.approx(13 * 0.1)
     assert found.driving == pytest.approx(without.driving)
 
 
@@ -121,9 +122,9 @@ def test_a_support_is_in_series_with_the_cam_bearing(machine: Machine) -> None:
 
 def test_friction_without_load_is_the_gearboxs_and_n_times_the_motors(machine: Machine) -> None:
     line = friction_line(machine, 4.0 * np.pi, MOTOR)
-    bare = friction_line(machine, 4.0 * np.pi, ShaftDrag(0.0, 0.0))
-    assert line.coulomb - bare.coulomb == pytest.approx(13 * MOTOR.coulomb)
-    assert line.viscous - bare.viscous == pytest.approx(13**2 * MOTOR.viscous)
+    bare = friction_line(machine, 4.0 * np.pi, FREE)
+    assert line.coulomb - bare.coulomb == pytest.approx(13 * 0.1)
+    assert line.viscous - bare.viscous == pytest.approx(13**2 * 8e-4)
     assert line.viscous_per_turn == pytest.approx(2.0 * np.pi * line.viscous)
 
 

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.actuator.bench.readings import FrictionLine, LoopReading, read_friction, read_loop
-from cqdd_design.actuator.parameters import FloatArray
+from cqdd_design.actuator.parameters import FloatArray, MotorParameters
 from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, PowerSense
 from cqdd_design.gearbox.contact.states import nominal_states
@@ -40,14 +40,6 @@ _SAMPLES = 2000
 """Of a predicted cycle."""
 _STILL = 1e-9
 """Least rise of a branch from point to point, N m: it has one angle for every torque."""
-
-
-@dataclass(frozen=True)
-class ShaftDrag:
-    """What a motor takes to turn without its gearbox, at its shaft: N m, and N m s/rad."""
-
-    coulomb: float
-    viscous: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,15 +124,15 @@ def _branch(
     return torque + _STILL * np.arange(len(torque)), np.concatenate(angles)
 
 
-def locked_output(machine: Machine, peak: float, motor: ShaftDrag) -> LockedOutput:
+def locked_output(machine: Machine, peak: float, motor: MotorParameters) -> LockedOutput:
     """Solve the gearbox of a machine against a locked output.
 
     Parameters
     ----------
     peak : float
         Of the motor's torque, N m at the output, above zero.
-    motor : ShaftDrag
-        Of the motor alone.
+    motor : MotorParameters
+        Whose own drag counts.
 
     Raises
     ------
@@ -160,7 +152,7 @@ def locked_output(machine: Machine, peak: float, motor: ShaftDrag) -> LockedOutp
     states = nominal_states(model, perfect_angles(model, ANGLES))
     play = float(backlash(model, states=states).free.mean())
     rest = float(total(friction.drag(0.0)))
-    drag = n * (rest + motor.coulomb)
+    drag = n * (rest + motor.dry_drag)
     torque = np.concatenate([[0.0], peak * np.array(SHARES)])
 
     def solve(power: PowerSense, load: float) -> tuple[float, float]:
@@ -201,19 +193,19 @@ def _straight_on(
     return angle, lost
 
 
-def friction_line(machine: Machine, fastest: float, motor: ShaftDrag) -> FrictionLine:
+def friction_line(machine: Machine, fastest: float, motor: MotorParameters) -> FrictionLine:
     """Friction of a machine without load over speed, as a straight line.
 
     Parameters
     ----------
     fastest : float
         At the output, rad/s, above zero.
-    motor : ShaftDrag
-        Of the motor alone.
+    motor : MotorParameters
+        Whose own drag counts.
     """
     n = machine.contact.lobe_count
     speed = np.linspace(0.05, 1.0, 40) * fastest
     gearbox = total(machine.friction.drag(n * speed))
-    torque = n * (gearbox + motor.coulomb + motor.viscous * n * speed)
+    torque = n * (gearbox + motor.dry_drag + motor.drag_slope * n * speed)
     both = np.concatenate([speed, -speed]), np.concatenate([torque, -torque])
     return read_friction(*both, least=0.0)
