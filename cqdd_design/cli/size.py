@@ -17,12 +17,13 @@ from cqdd_design.cli.options import (
     read_own_motor,
 )
 from cqdd_design.cli.session import Output
-from cqdd_design.cli.tables import checks_table, number, table, verdict
+from cqdd_design.cli.tables import binding, headline_table, number, table
 from cqdd_design.errors import DesignError, UsageError
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design, Requirements
     from cqdd_design.sizing import SizingResult
+    from cqdd_design.verdict import Verdict
 
 
 def size(
@@ -83,12 +84,12 @@ def size(
         force=force,
         progress=out.stages(road_stages(kinds, report=report)),
     )
-    out.say(*_lines(road.design, road.sizing))
-    out.warn(*(f"{c.id}: {c.remedy}." for c in road.sizing.checks if c.status == "warn"))
-    out.warn(*road.sizing.warnings, *road.short)
+    judged = road.verdict
+    out.say(*_lines(road.design, road.sizing), *_judged(judged))
+    out.warn(*judged.warnings)
     out.wrote(road.files)
-    results, checks = road.sizing.to_dict(), road.sizing.checks
-    out.document(results, design=road.design, checks=checks, files=road.files)
+    results = road.sizing.to_dict() | {"verdict": judged.to_dict()}
+    out.document(results, design=road.design, checks=judged.lines, files=road.files)
 
 
 def _requirements(asked: dict[str, Any], file: Path | None) -> Requirements:
@@ -115,22 +116,20 @@ def _lines(design: Design, sizing: SizingResult) -> list[str]:
         table(defaults),
         f"  and {len(design.assumed) - len(assumed)} defaults of the design file",
         "",
-        f"{sizing.candidates_screened:,} candidates, {sizing.survivors:,} meet every check; "
+        f"{sizing.candidates_screened:,} candidates, {sizing.survivors:,} pass the first screen; "
         "rejected first by:",
         table(rejected, right=(1,)),
-        "",
-        checks_table(sizing.checks),
         "",
         table(_choices(sizing), head=_CHOICE_HEAD, right=tuple(range(1, len(_CHOICE_HEAD)))),
         f"counted: {sizing.objective.scope};",
         "`inertia` weighs the whole machine.",
         "",
-        f"{design.name}: {verdict(sizing.checks)} by closed forms; {sizing.objective.binding} "
-        "binds, "
-        f"{number(sizing.objective.torque_reserve)} times the torque is its limit",
-        "not judged here: heat, stress, contact equilibrium, life, tolerances; see `check` and "
-        "`report`",
     ]
+
+
+def _judged(judged: Verdict) -> list[str]:
+    """The verdict on the design that was written."""
+    return [headline_table(judged), "", binding(judged), "", judged.sentence]
 
 
 _CHOICE_HEAD = (
