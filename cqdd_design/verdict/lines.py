@@ -74,8 +74,8 @@ def _carried(machine: Machine) -> dict[str, Check]:
             reach,
             peak,
             error.message,
-            f"lower requirements.peak_torque to {rounded_down(reach):g} N*m, or make discs and "
-            "pins thicker or the clearances smaller",
+            (f"lower requirements.peak_torque to {rounded_down(reach):g} N*m, or " if reach else "")
+            + "make discs and pins thicker or the clearances smaller",
         )
     # Without an answer what stands there already says so.
     with suppress(ContactError):

@@ -95,24 +95,23 @@ def _peak(demand: Demand, motor: Motor, asked: Requirements) -> Check:
         most,
         asked.peak_torque,
         f"{told}binding: {binding}",
-        f"lower requirements.peak_torque to {rounded_down(most):g} N*m, raise motor.current_limit "
-        "where the driver binds, or take a stronger motor or more ratio",
+        f"{_lower('peak_torque', most)}raise motor.current_limit where the "
+        "driver binds, or take a stronger motor or more ratio",
         model=MODEL,
     )
 
 
 def _continuous(demand: Demand, actuator: ActuatorParameters, asked: Requirements) -> Check:
     most, still = demand.found.most, float(held_torque(actuator, 0.0)[0])
-    # What friction alone overheats holds nothing while it turns.
-    slower = "" if most > 0.0 else "lower requirements.input_speed, or "
     return build_check(
         "MOTOR-CONTINUOUS",
         most,
         asked.continuous_torque,
         f"{most:.4g} N*m at {asked.input_speed * _RPM:.0f} rpm of the motor; {still:.4g} N*m "
         "standing still",
-        f"{slower}lower requirements.continuous_torque to {rounded_down(most):g} N*m, cool it "
-        "(drive.thermal_resistance states how well), or lower friction or the input speed",
+        # What friction alone overheats holds nothing while it turns.
+        f"{_lower('continuous_torque', most)}lower friction or requirements.input_speed, or cool "
+        "it (drive.thermal_resistance states how well)",
         model=MODEL,
     )
 
@@ -121,16 +120,23 @@ def _speed(actuator: ActuatorParameters, asked: Requirements) -> Check:
     fastest = _fastest(actuator, asked.continuous_torque)
     share = asked.input_speed / fastest if fastest > 0.0 else math.inf
     volts = actuator.drive.supply_voltage
-    cure = f"raise motor.voltage to about {volts * share:.3g} V, or " if share < 10.0 else ""
+    cures = [f"raise motor.voltage to about {volts * share:.3g} V"] if share < 10.0 else []
+    if fastest > 0.0:
+        cures.append(f"lower requirements.input_speed to {rounded_down(fastest * _RPM):g} rpm")
     return build_check(
         "MOTOR-SPEED",
         fastest * _RPM,
         asked.input_speed * _RPM,
         f"{volts:g} V drive {asked.continuous_torque:g} N*m up to {fastest * _RPM:.0f} rpm, "
         "winding hot",
-        f"{cure}lower requirements.input_speed to {rounded_down(fastest * _RPM):g} rpm",
+        ", or ".join(cures) or "take a stronger motor or more ratio",
         model=MODEL,
     )
+
+
+def _lower(key: str, most: float) -> str:
+    """To ask for less, where less is reached at all."""
+    return f"lower requirements.{key} to {rounded_down(most):g} N*m, " if most > 0.0 else ""
 
 
 def _fastest(actuator: ActuatorParameters, torque: float) -> float:

@@ -12,7 +12,9 @@ _LOW, _HIGH = limits.COMPUTED_EFFICIENCIES
 _SCREENED = (
     "The first screen of a search takes the catalogue's torque, n and "
     f"{limits.REDUCER_EFFICIENCY:g}; losses leave {_LOW:g} to {_HIGH:g} at ratio 10 and a "
-    "friction of 0.08."
+    "friction of 0.08, for which the motor needs "
+    f"{100.0 * (limits.REDUCER_EFFICIENCY / _HIGH - 1.0):.0f} to "
+    f"{100.0 * (limits.REDUCER_EFFICIENCY / _LOW - 1.0):.0f} % more torque."
 )
 
 ROWS = (
