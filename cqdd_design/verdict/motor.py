@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 
 from cqdd_design.actuator.demands import Demand, demands
+from cqdd_design.actuator.motor import torque_constant_at
 from cqdd_design.actuator.operating import envelope_torque, held_torque
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.catalog.motors import Motor
@@ -146,7 +147,9 @@ def _fastest(actuator: ActuatorParameters, torque: float) -> float:
     def driven(speed: float) -> bool:
         return float(envelope_torque(actuator, speed / n, hot)[0]) >= torque
 
-    low, high = 0.0, actuator.drive.supply_voltage / actuator.motor.torque_constant
+    # Warm magnets turn faster: the speed at which their EMF is the whole supply.
+    constant = float(torque_constant_at(actuator.motor, hot))
+    low, high = 0.0, actuator.drive.supply_voltage / constant
     if not driven(0.0):
         return 0.0
     for _ in range(_HALVINGS):
