@@ -90,11 +90,11 @@ class DutyHeat:
 
 
 def duty_cases(machine: Machine, *, duty: bool = True) -> tuple[DutyCase, ...]:
-    """The duty of the requirements, or the continuous torque at the input speed without one."""
+    """The duty of the requirements, or the continuous torque at its speed without one."""
     asked, n = machine.design.requirements, machine.design.reducer.ratio
     if duty and asked.duty:
         return tuple(DutyCase(one.torque, n * one.speed, one.share) for one in asked.duty)
-    return (DutyCase(asked.continuous_torque, asked.input_speed, 1.0),)
+    return (DutyCase(asked.continuous_torque, asked.held_speed, 1.0),)
 
 
 def duty_heat(machine: Machine, cases: Iterable[DutyCase]) -> DutyHeat:

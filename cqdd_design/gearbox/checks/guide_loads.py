@@ -120,7 +120,7 @@ ROWS = (
         "Cam bearing, basic rating life at continuous torque",
         "h",
         "min",
-        f"L10h = 1e6 (C/P)^p/(60 rpm (1 + 1/n)) >= {limits.LIFE_HOURS:g} h",
+        "L10h = 1e6 (C/P)^p/(60 rpm (1 + 1/n)) >= required life",
         "The crank turns faster against the disc than against the housing.",
         "ISO 281:2007",
     ),
