@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from typing import Any, Literal, get_args
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from pydantic import BaseModel, PrivateAttr, ValidationError, model_validator
 from pydantic.fields import FieldInfo
@@ -25,6 +26,9 @@ from cqdd_design.units import (
     QuantityIn,
     format_quantity,
 )
+
+if TYPE_CHECKING:
+    from cqdd_design.design.duty_log import DutyColumns, DutyLog
 
 SCHEMA_VERSION: Literal[1] = 1
 #: Keys of the motor that follow from requirements which are stated.
@@ -169,7 +173,27 @@ class Design(FrozenModel):
             _delete(mapping, key)
         for key, value in changes.items():
             _insert(mapping, key, value)
-        return Design.from_mapping(mapping, source=self.name, si=True)
+        changed = Design.from_mapping(mapping, source=self.name, si=True)
+        asked, new = self.requirements, changed.requirements
+        if (new.duty_file, new.duty_columns) != (asked.duty_file, asked.duty_columns):
+            return changed
+        return changed.with_duty_log(asked.duty_log)
+
+    def with_duty_log(self, log: DutyLog | None) -> Design:
+        """The same design with what its duty's file says."""
+        changed = self.model_copy(update={"requirements": self.requirements.with_duty_log(log)})
+        changed._assumed = self.assumed
+        return changed
+
+    def under_duty(self, log: DutyLog, columns: DutyColumns | None = None) -> Design:
+        """The design under another duty, which comes from a file, in place of its own."""
+        mapping = self.to_mapping()
+        for key in self.assumed:
+            _delete(mapping, key)
+        for key in ("duty", "duty_file", "duty_columns"):
+            mapping["requirements"].pop(key, None)
+        mapping["requirements"] |= duty_keys(log.source, columns)
+        return Design.from_mapping(mapping, source=self.name, si=True).with_duty_log(log)
 
     def turning_at(self, speed: float) -> Design:
         """The design whose input turns at a speed (rad/s), under whatever torque."""
@@ -184,8 +208,16 @@ class Design(FrozenModel):
     @property
     def sha256(self) -> str:
         """Hash of the resolved design: equal designs, equal hash, whatever the file looks like."""
-        text = json.dumps(self.to_mapping(), sort_keys=True, ensure_ascii=False)
+        log = self.requirements.duty_log
+        mapping = self.to_mapping() | ({} if log is None else {"duty_digest": log.digest})
+        text = json.dumps(mapping, sort_keys=True, ensure_ascii=False)
         return hashlib.sha256(text.encode()).hexdigest()
+
+
+def duty_keys(file: str, columns: DutyColumns | None = None) -> dict[str, Any]:
+    """The keys of requirements that name the file of a duty, and its columns where given."""
+    named = {key: text for key, text in asdict(columns).items() if text} if columns else {}
+    return {"duty_file": file} | ({"duty_columns": named} if named else {})
 
 
 def supply_taken_over(design: Design) -> dict[str, str]:

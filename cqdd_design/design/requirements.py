@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import Field, model_validator
+from pydantic import Field, PrivateAttr, model_validator
 
 from cqdd_design.design.fields import (
+    FreeText,
     FrozenModel,
     MaterialName,
     MotorName,
@@ -14,6 +15,7 @@ from cqdd_design.design.fields import (
     Whole,
     default,
 )
+from cqdd_design.errors import DesignError
 from cqdd_design.units import (
     CURRENT,
     DURATION,
@@ -30,6 +32,9 @@ from cqdd_design.units import (
     QuantityIn,
     format_quantity,
 )
+
+if TYPE_CHECKING:
+    from cqdd_design.design.duty_log import DutyLog
 
 LEAST_RATIO, MOST_RATIO = 4, 119
 
@@ -65,6 +70,17 @@ class DutyPoint(FrozenModel):
         float, QuantityIn(LOAD_SPEED, "-10000 rad/s", "10000 rad/s", "the output of a reducer")
     ]
     share: Annotated[float, Share(0.0, 1.0, "a share of the time")]
+
+
+class DutyColumnNames(FrozenModel):
+    """Columns of the duty's file, where their headings are not the usual ones.
+
+    Each as in the file; a unit in brackets after it where the heading has none.
+    """
+
+    time: FreeText = ""
+    torque: FreeText = ""
+    speed: FreeText = ""
 
 
 _Angle = Annotated[
@@ -103,6 +119,9 @@ class Requirements(FrozenModel):
         float, QuantityIn(DURATION, "1 h", "100000 h", "eleven years without a stop")
     ] = default(DEFAULT_LIFE)
     duty: tuple[DutyPoint, ...] = ()
+    #: Of a duty over time, from the design file's folder.
+    duty_file: FreeText | None = None
+    duty_columns: DutyColumnNames | None = None
     #: Of the output when it meets a rigid stop, beside the rated speed; 0 asks for none.
     shock_speed: Annotated[
         float, QuantityIn(LOAD_SPEED, "0 rad/s", "1000 rad/s", "the output of a reducer")
@@ -167,6 +186,8 @@ class Requirements(FrozenModel):
     ring_material: MaterialName = "AISI 4140 Q&T 540C"
     pin_material: MaterialName = "Alloy steel 12.9 (ISO 7379)"
 
+    _duty_log: DutyLog | None = PrivateAttr(default=None)
+
     @model_validator(mode="before")
     @classmethod
     def _derive_torques(cls, data: Any) -> Any:
@@ -190,6 +211,38 @@ class Requirements(FrozenModel):
     def held_speed(self) -> float:
         """Input speed at which the continuous torque is held for ever, rad/s."""
         return self.input_speed if self.continuous_speed is None else self.continuous_speed
+
+    @property
+    def duty_log(self) -> DutyLog | None:
+        """What the duty's file says; None without one.
+
+        Raises
+        ------
+        DesignError
+            Where a file is named that has not been read, as `load_design` does.
+        """
+        if self.duty_file is not None and self._duty_log is None:
+            raise DesignError(
+                f"requirements.duty_file '{self.duty_file}' has not been read: load the design "
+                "from its file, or attach its duty."
+            )
+        return self._duty_log
+
+    @property
+    def load_cases(self) -> tuple[DutyPoint, ...]:
+        """The steps of the duty, as stated or from its file; none without a duty."""
+        log = self.duty_log
+        if log is None:
+            return self.duty
+        from cqdd_design.design.duty_spectrum import load_cases
+
+        return tuple(DutyPoint.model_construct(**case._asdict()) for case in load_cases(log))
+
+    def with_duty_log(self, log: DutyLog | None) -> Requirements:
+        """The same requirements with what their duty's file says."""
+        changed = self.model_copy()
+        changed._duty_log = log
+        return changed
 
     @property
     def life_hours(self) -> float:
@@ -228,6 +281,10 @@ class Requirements(FrozenModel):
                 f"{format_quantity(self.backlash or 0.0, SMALL_ANGLE)}, which is part of it; "
                 "raise it or lower backlash"
             )
+        if self.duty_file is not None and self.duty:
+            raise ValueError("duty and duty_file are both given; keep one of them")
+        if self.duty_columns is not None and self.duty_file is None:
+            raise ValueError("duty_columns belong to a duty_file, and there is none; name it")
         total = sum(point.share for point in self.duty)
         if total > 1.0 + 1e-6:
             raise ValueError(
@@ -239,7 +296,6 @@ class Requirements(FrozenModel):
 
 def _share_of(torque: Any, share: float) -> Any:
     """A share of a torque that may still be a unit string; unreadable text is passed on as is."""
-    from cqdd_design.errors import DesignError
     from cqdd_design.units import parse_quantity
 
     if isinstance(torque, str):

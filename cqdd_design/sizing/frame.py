@@ -240,7 +240,7 @@ def _load_limits(
 ) -> LoadLimits:
     static, fatigue = allowables.contact_limit_static, allowables.contact_limit_fatigue
     weaker = allowables.weaker
-    senses = [point.torque for point in requirements.duty]
+    senses = [point.torque for point in requirements.load_cases]
     limits = LoadLimits(
         ring_static=weaker(static(disc), static(ring)),
         ring_fatigue=weaker(fatigue(disc), fatigue(ring)),

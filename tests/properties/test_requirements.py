@@ -13,7 +13,8 @@ from cqdd_design.gearbox.tolerance.limits import lasting_pressure, limits
 from cqdd_design.machine import resolve
 from cqdd_design.machine.carrying import compared_limits
 from cqdd_design.machine.contact_analysis import analyse_contact
-from cqdd_design.machine.temperatures import duty_cases, duty_heat, machine_temperatures
+from cqdd_design.machine.duty_heat import duty_cases, duty_heat
+from cqdd_design.machine.temperatures import machine_temperatures
 from cqdd_design.sizing.frame import search_frame
 
 PAPER = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"

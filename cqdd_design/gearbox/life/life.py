@@ -50,9 +50,10 @@ class _Duty:
 def duty_cases(design: Design) -> tuple[tuple[DutyCase, ...], bool]:
     """Load cases of a design, and whether they are assumed."""
     asked = design.requirements
-    if asked.duty:
+    steps = asked.load_cases
+    if steps:
         cases = tuple(
-            DutyCase(p.torque, abs(p.speed), p.share, p.torque * p.speed < 0.0) for p in asked.duty
+            DutyCase(p.torque, abs(p.speed), p.share, p.torque * p.speed < 0.0) for p in steps
         )
         return cases, False
     speed = asked.held_speed / design.reducer.ratio
