@@ -16,28 +16,20 @@ from cqdd_design.cli.options import (
     quantity_option,
     read_own_motor,
 )
+from cqdd_design.cli.requirement_options import read_requirements, stated, with_requirements
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import binding, headline_table, number, table
-from cqdd_design.errors import DesignError, UsageError
 
 if TYPE_CHECKING:
-    from cqdd_design.design import Design, Requirements
+    from cqdd_design.design import Design
     from cqdd_design.sizing import SizingResult
     from cqdd_design.verdict import Verdict
 
 
+@with_requirements
 def size(
     out: Output,
     ratio: Annotated[str | None, option("N", "Reduction, a whole number from 4 to 119.")] = None,
-    peak_torque: Annotated[
-        str | None, quantity_option("At the output; default min(9*N, 90) N*m.")
-    ] = None,
-    continuous_torque: Annotated[
-        str | None, quantity_option("At the output; default 0.38 of the peak.")
-    ] = None,
-    input_speed: Annotated[str | None, quantity_option('Default "1286 rpm".')] = None,
-    outer_diameter: Annotated[str | None, quantity_option('Of the ring; default "72 mm".')] = None,
-    length: Annotated[str | None, quantity_option('Of the disc pack; default "20 mm".')] = None,
     motor: Annotated[str | None, option("NAME", "Default CubeMars RO100 KV55.")] = None,
     motor_file: OwnMotor = None,
     discs: Annotated[int | None, option("N", "Discs on the crank, 1 to 3; default 2.")] = None,
@@ -51,34 +43,30 @@ def size(
     export: Annotated[
         str | None, option("LIST", "Write exports/sized-N/ too: dxf, step, ... as `export`.")
     ] = None,
+    ambient: Annotated[
+        str | None, quantity_option('Of the air round the actuator; default "25 degC".')
+    ] = None,
     force: Force = False,
+    **asked: Any,
 ) -> None:
     """Requirements to a checked design file."""
     from cqdd_design.exporting import read_kinds
     from cqdd_design.roads.size import road_stages, size_and_write
-    from cqdd_design.units import LENGTH, SPEED, TORQUE
+    from cqdd_design.units import TEMPERATURE
 
-    quantities = (
-        ("peak_torque", peak_torque, TORQUE),
-        ("continuous_torque", continuous_torque, TORQUE),
-        ("input_speed", input_speed, SPEED),
-        ("outer_diameter", outer_diameter, LENGTH),
-        ("length", length, LENGTH),
-    )
-    asked: dict[str, Any] = {} if ratio is None else {"ratio": parse_ratio(ratio)}
-    for key, text, dimension in quantities:
-        if parse_option(f"--{key.replace('_', '-')}", text, dimension) is not None:
-            asked[key] = text
+    asked = stated(asked)
+    asked |= {} if ratio is None else {"ratio": parse_ratio(ratio)}
     asked |= {} if motor is None else {"motor": motor}
     asked |= {} if discs is None else {"disc_count": discs}
     kinds = () if export is None else read_kinds(export)
-    wanted = _requirements(asked, requirements)
+    wanted = read_requirements(asked, requirements)
     if report:
         out.note_compilation()
     road = size_and_write(
         wanted,
         target,
         motor=read_own_motor(motor_file),
+        ambient=parse_option("--ambient", ambient, TEMPERATURE),
         kinds=kinds,
         report=report,
         force=force,
@@ -90,20 +78,6 @@ def size(
     out.wrote(road.files)
     results = road.sizing.to_dict() | {"verdict": judged.to_dict()}
     out.document(results, design=road.design, checks=judged.lines, files=road.files)
-
-
-def _requirements(asked: dict[str, Any], file: Path | None) -> Requirements:
-    """Options over a requirements file; what only the options say is a matter of usage."""
-    from cqdd_design.design import load_requirements, requirements_from_mapping
-
-    if file is not None:
-        return load_requirements(file, asked)
-    if "ratio" not in asked:
-        raise UsageError("size needs --ratio N or --requirements FILE.")
-    try:
-        return requirements_from_mapping(asked, source="size")
-    except DesignError as error:
-        raise UsageError(error.message) from None
 
 
 def _lines(design: Design, sizing: SizingResult) -> list[str]:

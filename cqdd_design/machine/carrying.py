@@ -17,7 +17,7 @@ from typing import Literal, NamedTuple
 
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.bearing_life import load_for_life
-from cqdd_design.gearbox.checks.allowables import LIFE_HOURS, STATIC_SAFETY, UNEVEN_SHARING
+from cqdd_design.gearbox.checks.allowables import STATIC_SAFETY, UNEVEN_SHARING
 from cqdd_design.gearbox.checks.equilibrium import MODEL as EQUILIBRIUM
 from cqdd_design.machine.capacity import LoadedContacts
 from cqdd_design.machine.machine import Machine
@@ -207,10 +207,11 @@ def compared_limits(machine: Machine) -> Iterator[Compared]:
     cam = analysis.cam_bearing
     static = (cam.bearing.static_rating or 0.0) / STATIC_SAFETY
     dynamic = cam.bearing.dynamic_rating or 0.0
-    lasting = float(load_for_life(dynamic, LIFE_HOURS, cam.speed, cam.exponent))
+    hours = machine.design.requirements.life_hours
+    lasting = float(load_for_life(dynamic, hours, cam.speed, cam.exponent))
     bearings = {
         "BEARING-STATIC": (f"load for C0/P = {STATIC_SAFETY:g}", cam.peak_load, static),
-        "BEARING-LIFE": (f"load for L10h = {LIFE_HOURS:g} h", cam.continuous_load, lasting),
+        "BEARING-LIFE": (f"load for L10h = {hours:g} h", cam.continuous_load, lasting),
     }
     for check in analysis.checks:
         if check.id in bearings:

@@ -161,7 +161,7 @@ def analyse_contact(
         reversed=back,
         preload=idle_sweep(model, peak, states) if tight else None,
         precision=exact,
-        losses=losses.at(asked.input_speed, steady),
+        losses=losses.at(asked.held_speed, steady),
         map=losses.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),
         life=(
             machine.life

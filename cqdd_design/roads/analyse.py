@@ -124,7 +124,7 @@ def analyse(
     UsageError
         For a temperature outside the range that is worked with.
     """
-    asked = design if speed is None else design.replacing({"requirements.input_speed": speed})
+    asked = design if speed is None else design.turning_at(speed)
     drawn = resolve(asked)
     machine = drawn
     if temperature is not None:

@@ -48,6 +48,7 @@ def size_and_write(
     path: Path | None = None,
     *,
     motor: MotorFile | None = None,
+    ambient: float | None = None,
     kinds: tuple[str, ...] = (),
     report: bool = False,
     force: bool = False,
@@ -63,6 +64,8 @@ def size_and_write(
         exports and report.
     motor : MotorFile, optional
         What a file says of the required motor instead of the catalogue.
+    ambient : float, optional
+        Of the air round the actuator, deg C, written to the design.
     kinds : tuple of str
         Kinds of file to export.
     report : bool
@@ -87,7 +90,7 @@ def size_and_write(
         # Whoever gives a motor's data asks for that motor.
         requirements = requirements.model_copy(update={"motor": requirements.motor})
         row = motor.row(find_motor(requirements.motor))
-    sizing = size(requirements, progress, motor=row)
+    sizing = size(requirements, progress, motor=row, ambient=ambient)
     # Both are written to the file even where they equal their defaults.
     design = sizing.design.replacing({"schema_version": 1, "name": target.stem})
     specimen = Specimen(motor=motor)
@@ -167,7 +170,7 @@ def _origins(design: Design) -> dict[str, str]:
     """A remark for every key of a sized design that is written: where its value comes from."""
     remarks = {}
     for key in design.dotted_keys():
-        if key.startswith("requirements."):
+        if key.startswith("requirements.") or key == "environment.ambient":
             remarks[key] = "given"
         elif key in _TAKEN_OVER:
             wanted = f"requirements.{_TAKEN_OVER[key]}"

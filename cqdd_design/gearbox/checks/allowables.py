@@ -86,8 +86,6 @@ for edges that were wire-cut and trimmed."""
 # Cam bearing ------------------------------------------------------------------------------------
 STATIC_SAFETY = 1.0
 """Least C0/P at the peak torque (ISO 76: normal operation without shocks)."""
-LIFE_HOURS = 1000.0
-"""Least basic rating life at the continuous torque, h."""
 
 # Toleranced gearboxes ----------------------------------------------------------------------------
 BINDING_SHARE = 0.05

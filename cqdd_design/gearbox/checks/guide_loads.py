@@ -130,7 +130,7 @@ ROWS = (
         "Cam bearings together, basic rating life over the duty",
         "h",
         "min",
-        f"L10h = 1e6 (C/P)^p/(60 rpm (1 + 1/n)) >= {limits.LIFE_HOURS:g} h",
+        "L10h = 1e6 (C/P)^p/(60 rpm (1 + 1/n)) >= required life",
         "The crank turns faster against the disc than against the housing. Of several bearings "
         "the first to fail counts, on the load as it varies over the period and the duty; the "
         f"first screen takes the greatest load on one. {SCREENED}",

@@ -42,7 +42,7 @@ def _rows(prefix: str, name: str, pins: str, load: str, turn: str) -> tuple[Chec
             f"Needles of the {name}s, basic rating life at continuous torque",
             "h",
             "min",
-            f"L10h = 1e6 (C/P)^(10/3)/(60 rpm {turn}) >= {limits.LIFE_HOURS:g} h, of all together "
+            f"L10h = 1e6 (C/P)^(10/3)/(60 rpm {turn}) >= required life, of all together "
             "over the duty",
             f"A {name} rolls on the disc as fast as the surface that passes it. {SCREENED}",
             "ISO 281:2007",
