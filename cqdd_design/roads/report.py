@@ -90,12 +90,12 @@ def write_report(
         judged = verdict or judge(
             machine, specimen, samples=samples, sensitivity=True, progress=progress
         )
-        ensemble = judged.evidence.drawn
+        drawn = judged.evidence.drawn
         progress("solving the contact equilibrium")
         contact, unsolved = _contact(machine)
         clearances: tuple[ClearancePoint, ...] = ()
-        if ensemble is not None:
-            angles = ensemble.ensemble.angles
+        if drawn is not None:
+            angles = drawn.continuous.ensemble.angles
             fitting = max(
                 _CLEARANCE_SAMPLES * _REPORT_ANGLES // max(angles, _REPORT_ANGLES),
                 _LEAST_CLEARANCE_SAMPLES,

@@ -109,7 +109,7 @@ def _life(machine: Machine, by_id: dict[str, Check]) -> Figure:
 
 
 def _backlash(evidence: Evidence) -> Figure:
-    drawn = evidence.drawn
+    drawn = evidence.drawn and evidence.drawn.continuous
     title, basis = "backlash of 95 % of the gearboxes", "gearboxes drawn from the tolerances"
     if drawn is None or not len(drawn.values):
         return Figure("backlash_p95", title, None, "arcmin", None, "unknown", basis)

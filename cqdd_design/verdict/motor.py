@@ -108,7 +108,7 @@ def _continuous(demand: Demand, actuator: ActuatorParameters, asked: Requirement
         "MOTOR-CONTINUOUS",
         most,
         asked.continuous_torque,
-        f"{most:.4g} N*m at {asked.input_speed * _RPM:.0f} rpm of the motor; {still:.4g} N*m "
+        f"{most:.4g} N*m at {asked.held_speed * _RPM:.0f} rpm of the motor; {still:.4g} N*m "
         "standing still",
         # What friction alone overheats holds nothing while it turns.
         f"{_lower('continuous_torque', most)}lower friction or requirements.input_speed, or cool "
