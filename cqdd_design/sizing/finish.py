@@ -87,7 +87,7 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
         "circle_radius": _clean(points.pin_circle[row]),
         "material": requirements.pin_material,
     }
-    if size.hole_clearance != frame.default_clearance:
+    if size.hole_clearance != frame.default_fit.hole_clearance:
         pins["hole_clearance"] = _clean(size.hole_clearance)
     mapping: dict[str, Any] = {
         "name": f"sized-{requirements.ratio}{suffix}",
@@ -108,6 +108,8 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
             "ring": {"outer_diameter": requirements.outer_diameter},
         },
     }
+    if frame.equidistant != frame.default_fit.equidistant:
+        mapping["reducer"]["modification"] = {"equidistant": _clean(frame.equidistant)}
     if frame.ambient is not None:
         mapping["environment"] = {"ambient": frame.ambient}
     if "motor" in requirements.model_fields_set:

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
@@ -114,6 +115,23 @@ def good_gearboxes(
         drawn.peak.numbers[~np.any(list(at_peak.values()), axis=0)],
     )
     return good, {name: int(beyond.sum()) for name, beyond in (fails | at_peak).items()}
+
+
+def loads_at_peak(machine: Machine, drawn: Drawn, share: float) -> dict[str, float]:
+    """What a share of the gearboxes has at most at the peak torque, over the limits, by check.
+
+    Pressure at the ring, and load of the cam bearing.
+    """
+    cam, reducer = machine.analysis.cam_bearing, machine.design.reducer
+    steels = (find_material(reducer.disc_material), find_material(reducer.ring_material))
+    yields = allowables.weaker(*(allowables.contact_limit_static(one) for one in steels)).value
+    static = (cam.bearing.static_rating or 0.0) / allowables.STATIC_SAFETY
+    found = _columns(drawn.peak)
+    return {
+        "CONTACT-RING-PEAK": float(np.quantile(found["ring_pressure_max_MPa"], share))
+        / (yields / 1e6),
+        "BEARING-STATIC": float(np.quantile(found["cam_bearing_load_max_N"], share)) / static,
+    }
 
 
 def _columns(drawn: ToleranceResult) -> dict[str, NDArray[np.float64]]:
