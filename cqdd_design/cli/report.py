@@ -5,7 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from cqdd_design.cli.options import BenchSeed, Calibrated, DesignFile, Force, OwnMotor, option
+from cqdd_design.cli.options import (
+    BenchSeed,
+    Calibrated,
+    DesignFile,
+    Duty,
+    DutyColumnNames,
+    Force,
+    OwnMotor,
+    option,
+    under_duty,
+)
 from cqdd_design.cli.session import Output, read_specimen
 
 
@@ -18,14 +28,16 @@ def report(
     seed: BenchSeed = None,
     calibration: Calibrated = None,
     motor_file: OwnMotor = None,
+    duty: Duty = None,
+    duty_columns: DutyColumnNames = None,
     force: Force = False,
 ) -> None:
     """One self-contained HTML file for the design review."""
-    from cqdd_design.cli.tables import verdict
+    from cqdd_design.cli.tables import headline_table
     from cqdd_design.design import load_design
     from cqdd_design.roads.report import REPORT_STAGES, write_report
 
-    loaded = load_design(design)
+    loaded = under_duty(load_design(design), duty, duty_columns)
     out.note_compilation(simulation=True)
     written = write_report(
         loaded,
@@ -37,8 +49,9 @@ def report(
         force=force,
         progress=out.stages(REPORT_STAGES),
     )
-    checks = written.checks
+    judged = written.verdict
     out.wrote([written.file])
-    out.say(f"{loaded.name}: {verdict(checks)}")
-    out.warn(*written.analysis.warnings, *written.short)
-    out.document({}, design=loaded, checks=checks, files=[written.file])
+    out.say(headline_table(judged), "", judged.sentence)
+    out.warn(*judged.warnings)
+    told = {"verdict": judged.to_dict()}
+    out.document(told, design=loaded, checks=judged.lines, files=[written.file])

@@ -8,21 +8,25 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cqdd_design.cli.options import (
+    Duty,
+    DutyColumnNames,
     Force,
     OwnMotor,
     option,
     parse_option,
     parse_ratio,
     quantity_option,
+    read_duty_columns,
     read_own_motor,
 )
 from cqdd_design.cli.requirement_options import read_requirements, stated, with_requirements
 from cqdd_design.cli.session import Output
-from cqdd_design.cli.tables import checks_table, number, table, verdict
+from cqdd_design.cli.tables import binding, headline_table, number, table
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
     from cqdd_design.sizing import SizingResult
+    from cqdd_design.verdict import Verdict
 
 
 @with_requirements
@@ -45,10 +49,13 @@ def size(
     ambient: Annotated[
         str | None, quantity_option('Of the air round the actuator; default "25 degC".')
     ] = None,
+    duty: Duty = None,
+    duty_columns: DutyColumnNames = None,
     force: Force = False,
     **asked: Any,
 ) -> None:
     """Requirements to a checked design file."""
+    from cqdd_design.design.model import duty_keys
     from cqdd_design.exporting import read_kinds
     from cqdd_design.roads.size import road_stages, size_and_write
     from cqdd_design.units import TEMPERATURE
@@ -56,6 +63,8 @@ def size(
     asked = stated(asked)
     asked |= {} if ratio is None else {"ratio": parse_ratio(ratio)}
     asked |= {} if motor is None else {"motor": motor}
+    if (columns := read_duty_columns(duty, duty_columns)) is not None or duty is not None:
+        asked |= duty_keys(str(duty), columns)
     asked |= {} if discs is None else {"disc_count": discs}
     kinds = () if export is None else read_kinds(export)
     wanted = read_requirements(asked, requirements)
@@ -71,12 +80,12 @@ def size(
         force=force,
         progress=out.stages(road_stages(kinds, report=report)),
     )
-    out.say(*_lines(road.design, road.sizing))
-    out.warn(*(f"{c.id}: {c.remedy}." for c in road.sizing.checks if c.status == "warn"))
-    out.warn(*road.sizing.warnings, *road.short)
+    judged = road.verdict
+    out.say(*_lines(road.design, road.sizing), *_judged(judged))
+    out.warn(*judged.warnings)
     out.wrote(road.files)
-    results, checks = road.sizing.to_dict(), road.sizing.checks
-    out.document(results, design=road.design, checks=checks, files=road.files)
+    results = road.sizing.to_dict() | {"verdict": judged.to_dict()}
+    out.document(results, design=road.design, checks=judged.lines, files=road.files)
 
 
 def _lines(design: Design, sizing: SizingResult) -> list[str]:
@@ -89,22 +98,20 @@ def _lines(design: Design, sizing: SizingResult) -> list[str]:
         table(defaults),
         f"  and {len(design.assumed) - len(assumed)} defaults of the design file",
         "",
-        f"{sizing.candidates_screened:,} candidates, {sizing.survivors:,} meet every check; "
+        f"{sizing.candidates_screened:,} candidates, {sizing.survivors:,} pass the first screen; "
         "rejected first by:",
         table(rejected, right=(1,)),
-        "",
-        checks_table(sizing.checks),
         "",
         table(_choices(sizing), head=_CHOICE_HEAD, right=tuple(range(1, len(_CHOICE_HEAD)))),
         f"counted: {sizing.objective.scope};",
         "`inertia` weighs the whole machine.",
         "",
-        f"{design.name}: {verdict(sizing.checks)} by closed forms; {sizing.objective.binding} "
-        "binds, "
-        f"{number(sizing.objective.torque_reserve)} times the torque is its limit",
-        "not judged here: heat, stress, contact equilibrium, life, tolerances; see `check` and "
-        "`report`",
     ]
+
+
+def _judged(judged: Verdict) -> list[str]:
+    """The verdict on the design that was written."""
+    return [headline_table(judged), "", binding(judged), "", judged.sentence]
 
 
 _CHOICE_HEAD = (

@@ -18,10 +18,10 @@ from typing import Literal, NamedTuple
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.bearing_life import load_for_life
 from cqdd_design.gearbox.checks.allowables import STATIC_SAFETY, UNEVEN_SHARING
+from cqdd_design.gearbox.checks.equilibrium import MODEL as EQUILIBRIUM
 from cqdd_design.machine.capacity import LoadedContacts
 from cqdd_design.machine.machine import Machine
 
-EQUILIBRIUM = "contact equilibrium of perfect parts, driving with friction"
 RIGID = f"rigid law x {UNEVEN_SHARING:g}"
 OUT_OF_REACH = "the parts would have to move farther than they reach"
 
@@ -180,7 +180,7 @@ def torque_limits(machine: Machine) -> tuple[TorqueLimit, ...]:
     GeometryError
         When disc, ring or holes cannot exist.
     """
-    contacts = LoadedContacts(machine.contact)
+    contacts = machine.loaded_contacts
     return tuple(_limit(machine, contacts, one) for one in compared_limits(machine))
 
 
@@ -219,12 +219,13 @@ def compared_limits(machine: Machine) -> Iterator[Compared]:
             found = Compared(check.id, title, value, limit, "N", 1.0)
         elif check.id in LIMITS:
             row, per_key = LIMITS[check.id], 1.0
+            value, limit = check.compared
             if row.key == _PIN:
                 # Stresses of a pin grow with its force, which the check counts for uneven sharing.
                 peak = row.load == "peak"
                 load = analysis.rigid_peak if peak else analysis.rigid_continuous
-                per_key = check.value / (UNEVEN_SHARING * load.output_pin_force)
-            found = Compared(check.id, check.title, check.value, check.limit, check.unit, per_key)
+                per_key = value / (UNEVEN_SHARING * load.output_pin_force)
+            found = Compared(check.id, check.title, value, limit, check.unit, per_key)
         else:
             continue
         if min(found.value, found.limit) > 0.0:

@@ -163,7 +163,11 @@ def analyse_contact(
         precision=exact,
         losses=losses.at(asked.held_speed, steady),
         map=losses.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),
-        life=life(design, model, friction=friction != "off"),
+        life=(
+            machine.life
+            if usual and friction != "off"
+            else life(design, model, friction=friction != "off")
+        ),
         running=running(design, model, losses, at_steady, some),
         bending=bending,
         bending_missing=missing,

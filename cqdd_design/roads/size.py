@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,9 +16,10 @@ from cqdd_design.exporting import export, stages
 from cqdd_design.files import WrittenFile, atomic_path, describe_file, refuse_overwrite
 from cqdd_design.roads.telling import Progress, silent
 from cqdd_design.sizing import SizingResult, size
+from cqdd_design.verdict import Verdict, judge
 
 #: How often sizing tells its progress.
-SIZING_STAGES = 2
+SIZING_STAGES = 4
 
 _STAMP = "# `size` replaces this file only while the lines above have this sha256: "
 
@@ -32,14 +34,14 @@ class Road:
         The sized design under the name of its file.
     files : tuple of WrittenFile
         The design file first, then exports, then the report.
-    short : tuple of str
-        Where the models of the report say less than is asked.
+    verdict : Verdict
+        On the design as it was written.
     """
 
     sizing: SizingResult
     design: Design
     files: tuple[WrittenFile, ...]
-    short: tuple[str, ...] = ()
+    verdict: Verdict
 
 
 def size_and_write(
@@ -91,21 +93,42 @@ def size_and_write(
         row = motor.row(find_motor(requirements.motor))
     sizing = size(requirements, progress, motor=row, ambient=ambient)
     # Both are written to the file even where they equal their defaults.
-    design = sizing.design.replacing({"schema_version": 1, "name": target.stem})
+    own = {"schema_version": 1, "name": target.stem}
+    design = _duty_from(sizing.design.replacing(own), target.parent)
     specimen = Specimen(motor=motor)
     files: tuple[WrittenFile, ...] = (_write_fresh(target, design),)
-    short: tuple[str, ...] = ()
+    machine = specimen.machine(design)
+    judged = judge(machine, specimen, sensitivity=report, progress=progress)
     if kinds:
-        files += export(specimen.machine(design), kinds, specimen=specimen, progress=progress)
+        files += export(machine, kinds, specimen=specimen, progress=progress)
     if report:
         # It computes everything there is, and imports as much.
         from cqdd_design.roads.report import write_report
 
         written = write_report(
-            design, specimen=specimen, source=target, sizing=sizing, files=files, progress=progress
+            design,
+            specimen=specimen,
+            source=target,
+            sizing=sizing,
+            files=files,
+            verdict=judged,
+            progress=progress,
         )
-        files, short = (*files, written.file), written.short
-    return Road(sizing, design, files, short)
+        files = (*files, written.file)
+    return Road(sizing, design, files, judged)
+
+
+def _duty_from(design: Design, folder: Path) -> Design:
+    """The design with the file of its duty, found from the working folder, named from another."""
+    named = design.requirements.duty_file
+    if named is None:
+        return design
+    try:
+        place = Path(os.path.relpath(named, folder))
+    except ValueError:  # on another drive
+        place = Path(named).absolute()
+    log = design.requirements.duty_log
+    return design.replacing({"requirements.duty_file": place.as_posix()}).with_duty_log(log)
 
 
 def road_stages(kinds: tuple[str, ...], *, report: bool) -> int:
@@ -114,7 +137,7 @@ def road_stages(kinds: tuple[str, ...], *, report: bool) -> int:
         return SIZING_STAGES + stages(kinds)
     from cqdd_design.roads.report import REPORT_STAGES
 
-    return SIZING_STAGES + stages(kinds) + REPORT_STAGES
+    return SIZING_STAGES + stages(kinds) + REPORT_STAGES - 2
 
 
 def _refuse_edited(path: Path) -> None:

@@ -87,6 +87,12 @@ for edges that were wire-cut and trimmed."""
 STATIC_SAFETY = 1.0
 """Least C0/P at the peak torque (ISO 76: normal operation without shocks)."""
 
+# Toleranced gearboxes ----------------------------------------------------------------------------
+BINDING_SHARE = 0.05
+"""Torque that turns a gearbox without load, over the continuous torque, from which it binds."""
+YIELD_SAMPLES = 256
+"""Gearboxes drawn for the yield: a share of 95 % is known to 3 points (two standard errors)."""
+
 # Balance, motor, manufacture --------------------------------------------------------------------
 LEAST_BALANCED_DISCS = 2
 """Fewest discs that balance statically without counterweights, at any ratio."""

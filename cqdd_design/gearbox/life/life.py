@@ -106,6 +106,7 @@ def life(design: Design, model: ContactModel, *, friction: bool = True) -> LifeR
         duty=cases,
         loads=tuple(
             CaseLoads(
+                ring_force=float(sweep.ring_force.max()),
                 ring_pressure=float(sweep.ring_pressure.max()),
                 pin_pressure=float(sweep.pin_pressure.max()),
                 pin_bending=float(np.abs(stress).max()),

@@ -12,9 +12,6 @@ from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.life import cycles
 from cqdd_design.gearbox.life.fatigue import contact_cycle_factor, contact_cycles
 
-BINDING_SHARE = 0.05
-"""Torque that turns a gearbox without load, over the continuous torque, from which it binds."""
-
 
 def lasting_pressure(design: Design) -> float:
     """Pressure that disc and ring bear for the required hours at the continuous torque, Pa.
@@ -51,7 +48,7 @@ def limits(design: Design) -> dict[str, float]:
     Pressure and cam load are those that last the required hours at the input speed.
     """
     cam = cam_bearing(design, 1.0)
-    found = {"unloaded_torque_Nm": BINDING_SHARE * design.requirements.continuous_torque}
+    found = {"unloaded_torque_Nm": allowables.BINDING_SHARE * design.requirements.continuous_torque}
     pressure = lasting_pressure(design)
     if pressure > 0.0:
         found["ring_pressure_max_MPa"] = pressure / 1e6
