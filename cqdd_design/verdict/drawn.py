@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -18,6 +19,7 @@ LEAST_SAMPLES = 128
 """Gearboxes drawn of a design with many teeth, whose turn takes many angles."""
 _ANGLES = 1000
 """About so many crank angles of the output turn for each gearbox."""
+_ARCMIN = math.degrees(1.0) * 60.0
 _AT_RING = ("CONTACT-RING-PEAK", "CONTACT-RING-CONTINUOUS")
 _AT_CAM = ("BEARING-STATIC", "BEARING-LIFE")
 
@@ -88,6 +90,11 @@ def good_gearboxes(
         > pressure * perfect["ring_pressure_max_MPa"],
         "cam load": column("cam_bearing_load_max_N") > load * perfect["cam_bearing_load_max_N"],
     }
+    asked = machine.design.requirements
+    if asked.backlash is not None:
+        fails["backlash"] = column("backlash_arcmin") > asked.backlash * _ARCMIN
+    if asked.stiffness is not None:
+        fails["stiffness"] = column("stiffness_Nm_per_arcmin") < asked.stiffness / _ARCMIN
     good = ~np.any(list(fails.values()), axis=0)
     shares = {name: float(np.mean(beyond)) for name, beyond in fails.items()}
     return good, shares
@@ -116,6 +123,8 @@ def yield_line(
         "ring pressure": "closer [tolerances] of teeth and profile, or more reserve of pressure "
         "(thicker discs, harder material)",
         "cam load": "closer [tolerances], or a larger cam bearing",
+        "backlash": "smaller clearances with closer [tolerances]",
+        "stiffness": "smaller clearances, or thicker or more output_pins",
     }
     return build_check(
         "YIELD",
