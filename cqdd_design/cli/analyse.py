@@ -9,10 +9,13 @@ import typer
 
 from cqdd_design.cli.options import (
     DesignFile,
+    Duty,
+    DutyColumnNames,
     option,
     parse_option,
     parse_positive,
     quantity_option,
+    under_duty,
 )
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import number, table
@@ -61,6 +64,8 @@ def analyse(
         str | None,
         quantity_option('Of all parts of the gearbox, as in "60 degC"; default 20 degC, as drawn.'),
     ] = None,
+    duty: Duty = None,
+    duty_columns: DutyColumnNames = None,
 ) -> None:
     """Loads, contact equilibrium, precision, losses, life, stress of discs and ring, and shock."""
     from cqdd_design.design import load_design
@@ -71,7 +76,7 @@ def analyse(
     asked_torque = parse_positive("--torque", torque, TORQUE)
     parts_at = parse_option("--temperature", temperature, TEMPERATURE)
     asked_speed = parse_positive("--speed", speed, SPEED)
-    loaded = load_design(design)
+    loaded = under_duty(load_design(design), duty, duty_columns)
     out.note_compilation(simulation=True)
     found = analysed(
         loaded,

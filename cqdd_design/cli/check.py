@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, OwnMotor, option
+from cqdd_design.cli.options import DesignFile, Duty, DutyColumnNames, OwnMotor, option, under_duty
 from cqdd_design.cli.session import Output, read_specimen
 
 if TYPE_CHECKING:
@@ -23,6 +23,8 @@ def check(
     ] = False,
     angles: Annotated[int, option("N", "Crank angles of --assembly.", min=1, max=100_000)] = 72,
     motor_file: OwnMotor = None,
+    duty: Duty = None,
+    duty_columns: DutyColumnNames = None,
 ) -> int:
     """The verdict: every requirement and check of a design (exit code 4 unless it is yes)."""
     from cqdd_design.cli.tables import binding, checks_table, headline_table
@@ -31,7 +33,7 @@ def check(
     from cqdd_design.roads.check import check as judged
     from cqdd_design.verdict.judge import meets, sentence
 
-    loaded = load_design(design)
+    loaded = under_duty(load_design(design), duty, duty_columns)
     out.note_compilation(simulation=True)
     found = judged(
         loaded,

@@ -5,7 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from cqdd_design.cli.options import BenchSeed, Calibrated, DesignFile, Force, OwnMotor, option
+from cqdd_design.cli.options import (
+    BenchSeed,
+    Calibrated,
+    DesignFile,
+    Duty,
+    DutyColumnNames,
+    Force,
+    OwnMotor,
+    option,
+    under_duty,
+)
 from cqdd_design.cli.session import Output, read_specimen
 
 
@@ -18,6 +28,8 @@ def report(
     seed: BenchSeed = None,
     calibration: Calibrated = None,
     motor_file: OwnMotor = None,
+    duty: Duty = None,
+    duty_columns: DutyColumnNames = None,
     force: Force = False,
 ) -> None:
     """One self-contained HTML file for the design review."""
@@ -25,7 +37,7 @@ def report(
     from cqdd_design.design import load_design
     from cqdd_design.roads.report import REPORT_STAGES, write_report
 
-    loaded = load_design(design)
+    loaded = under_duty(load_design(design), duty, duty_columns)
     out.note_compilation(simulation=True)
     written = write_report(
         loaded,

@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cqdd_design.cli.options import (
+    Duty,
+    DutyColumnNames,
     Force,
     OwnMotor,
     option,
     parse_option,
     parse_ratio,
     quantity_option,
+    read_duty_columns,
     read_own_motor,
 )
 from cqdd_design.cli.requirement_options import read_requirements, stated, with_requirements
@@ -46,10 +49,13 @@ def size(
     ambient: Annotated[
         str | None, quantity_option('Of the air round the actuator; default "25 degC".')
     ] = None,
+    duty: Duty = None,
+    duty_columns: DutyColumnNames = None,
     force: Force = False,
     **asked: Any,
 ) -> None:
     """Requirements to a checked design file."""
+    from cqdd_design.design.model import duty_keys
     from cqdd_design.exporting import read_kinds
     from cqdd_design.roads.size import road_stages, size_and_write
     from cqdd_design.units import TEMPERATURE
@@ -57,6 +63,8 @@ def size(
     asked = stated(asked)
     asked |= {} if ratio is None else {"ratio": parse_ratio(ratio)}
     asked |= {} if motor is None else {"motor": motor}
+    if (columns := read_duty_columns(duty, duty_columns)) is not None or duty is not None:
+        asked |= duty_keys(str(duty), columns)
     asked |= {} if discs is None else {"disc_count": discs}
     kinds = () if export is None else read_kinds(export)
     wanted = read_requirements(asked, requirements)

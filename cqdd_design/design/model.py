@@ -185,14 +185,14 @@ class Design(FrozenModel):
         changed._assumed = self.assumed
         return changed
 
-    def under_duty(self, log: DutyLog, columns: DutyColumns | None = None) -> Design:
+    def under_duty(self, log: DutyLog, file: str, columns: DutyColumns | None = None) -> Design:
         """The design under another duty, which comes from a file, in place of its own."""
         mapping = self.to_mapping()
         for key in self.assumed:
             _delete(mapping, key)
         for key in ("duty", "duty_file", "duty_columns"):
             mapping["requirements"].pop(key, None)
-        mapping["requirements"] |= duty_keys(log.source, columns)
+        mapping["requirements"] |= duty_keys(file, columns)
         return Design.from_mapping(mapping, source=self.name, si=True).with_duty_log(log)
 
     def turning_at(self, speed: float) -> Design:

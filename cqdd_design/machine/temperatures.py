@@ -24,6 +24,7 @@ from cqdd_design.machine.duty_heat import DutyHeat, duty_cases, duty_heat, logge
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.thermal_parts import (
     NODES,
+    Node,
     by_node,
     machine_network,
     node_values,
@@ -217,11 +218,13 @@ class MachineTemperatures:
     steady: FloatArray
     cycle: WarmCycle | None = None
 
-    @property
-    def winding(self) -> float:
-        """Greatest temperature of the winding, over a duty's cycle where there is one, deg C."""
-        settled = float(self.steady[NODES.index("winding")])
-        return settled if self.cycle is None else max(settled, self.cycle.winding[0])
+    def hottest(self, node: Node) -> float:
+        """Greatest temperature of a node, over a duty's cycle where there is one, deg C."""
+        k = NODES.index(node)
+        settled = float(self.steady[k])
+        if self.cycle is None:
+            return settled
+        return max(settled, float(self.cycle.temperature[:, k].max()))
 
     @cached_property
     def times(self) -> FloatArray:
@@ -344,7 +347,7 @@ def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
     housing = find_material(found.machine.design.housing.material).service_limit
     greased = max(("ring", "disc", "shaft", "carrier"), key=at.__getitem__)
     parts = (
-        WarmPart("winding", found.winding, WINDING_MOST),
+        WarmPart("winding", found.hottest("winding"), WINDING_MOST),
         WarmPart(f"grease at the {greased}", at[greased], GREASE_MOST),
         WarmPart("housing", at["housing"], HOUSING_MOST if housing is None else housing),
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -92,7 +93,8 @@ def size_and_write(
         row = motor.row(find_motor(requirements.motor))
     sizing = size(requirements, progress, motor=row, ambient=ambient)
     # Both are written to the file even where they equal their defaults.
-    design = sizing.design.replacing({"schema_version": 1, "name": target.stem})
+    own = {"schema_version": 1, "name": target.stem}
+    design = _duty_from(sizing.design.replacing(own), target.parent)
     specimen = Specimen(motor=motor)
     files: tuple[WrittenFile, ...] = (_write_fresh(target, design),)
     machine = specimen.machine(design)
@@ -114,6 +116,19 @@ def size_and_write(
         )
         files = (*files, written.file)
     return Road(sizing, design, files, judged)
+
+
+def _duty_from(design: Design, folder: Path) -> Design:
+    """The design with the file of its duty, found from the working folder, named from another."""
+    named = design.requirements.duty_file
+    if named is None:
+        return design
+    try:
+        place = Path(os.path.relpath(named, folder))
+    except ValueError:  # on another drive
+        place = Path(named).absolute()
+    log = design.requirements.duty_log
+    return design.replacing({"requirements.duty_file": place.as_posix()}).with_duty_log(log)
 
 
 def road_stages(kinds: tuple[str, ...], *, report: bool) -> int:

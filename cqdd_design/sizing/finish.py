@@ -114,7 +114,8 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
         mapping["environment"] = {"ambient": frame.ambient}
     if "motor" in requirements.model_fields_set:
         mapping["motor"] = {"name": requirements.motor}
-    return Design.from_mapping(mapping, source="sizing", si=True)
+    design = Design.from_mapping(mapping, source="sizing", si=True)
+    return design.with_duty_log(requirements.duty_log)
 
 
 def _clean(length: float | np.floating[Any]) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -20,6 +21,7 @@ LEAST_SAMPLES = 128
 """Gearboxes drawn of a design with many teeth, whose turn takes many angles."""
 _ANGLES = 1000
 """About so many crank angles of the output turn for each gearbox."""
+_ARCMIN = math.degrees(1.0) * 60.0
 _PER_TOOTH = 8, 2
 """Crank angles for each tooth, at the continuous torque and at the peak: greatest loads alone."""
 _RING = ("CONTACT-RING-PEAK", "CONTACT-RING-CONTINUOUS")
@@ -106,6 +108,11 @@ def good_gearboxes(
         "cam load over the life": lasts["cam_bearing_load_max_N"]
         > load * perfect["cam_bearing_load_max_N"],
     }
+    asked = machine.design.requirements
+    if asked.backlash is not None:
+        fails["backlash"] = lasts["backlash_arcmin"] > asked.backlash * _ARCMIN
+    if asked.stiffness is not None:
+        fails["stiffness"] = lasts["stiffness_Nm_per_arcmin"] < asked.stiffness / _ARCMIN
     at_peak = {
         "ring pressure at the peak": bears["ring_pressure_max_MPa"] > yields,
         "cam load at the peak": bears["cam_bearing_load_max_N"] > static,
@@ -167,4 +174,6 @@ _CURES = {
     "ring": "closer [tolerances] of teeth and profile, or more reserve of pressure (thicker discs, "
     "harder material)",
     "cam": "closer [tolerances], more clearance, or a larger cam bearing",
+    "backlash": "smaller clearances with closer [tolerances]",
+    "stiffness": "smaller clearances, or thicker or more output_pins",
 }
