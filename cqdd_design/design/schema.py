@@ -29,6 +29,7 @@ def design_schema() -> dict[str, Any]:
             key for key in table.get("required", ()) if key not in DERIVED_DEFAULTS
         ]
         for key, field in table["properties"].items():
+            _without_null(field)
             names = _catalogue_names(table["title"], key)
             if names:
                 field["examples"] = names
@@ -39,6 +40,14 @@ def design_schema() -> dict[str, Any]:
     # The one key that requirements need, the ratio, is taken from the reducer.
     schema["$defs"]["Requirements"]["required"] = []
     return {"$schema": _DIALECT, "$comment": "Written by `cqdd-design schema`.", **schema}
+
+
+def _without_null(field: dict[str, Any]) -> None:
+    """Take from a key that may be left out the null that stands for that: TOML has none."""
+    kinds = field.get("anyOf", [])
+    if {"type": "null"} in kinds:
+        del field["anyOf"], field["default"]
+        field.update(next(kind for kind in kinds if kind != {"type": "null"}))
 
 
 def _catalogue_names(table: str, key: str) -> list[str]:
