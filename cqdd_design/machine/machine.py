@@ -205,12 +205,9 @@ class Machine:
 
         Of discs with more lobes than there is memory for, likewise.
         """
-        from cqdd_design.gearbox.bodies.made import elastic_bodies
+        from cqdd_design.gearbox.bodies.made import bodies_or_none
 
-        try:
-            return elastic_bodies(self.design)
-        except GeometryError:
-            return None
+        return bodies_or_none(self.design)
 
     @cached_property
     def friction(self) -> FrictionMachine:

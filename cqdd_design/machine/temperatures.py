@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -57,10 +57,12 @@ class TwoNodes(NamedTuple):
     housing_capacity: float
 
 
+@lru_cache(maxsize=2)
 def cooled_network(machine: Machine) -> ThermalNetwork:
     """The machine's network; a resistance that its design states, winding to ambient, holds in it.
 
-    A stated resistance holds with the winding at its limit by its own heat alone.
+    A stated resistance holds with the winding at its limit by its own heat alone. All actuators
+    that are drawn of a machine ask for it, so the last are kept.
 
     Raises
     ------
@@ -99,6 +101,7 @@ def _halved(too_small: Callable[[float], bool], least: float, most: float) -> fl
     return math.sqrt(least * most)
 
 
+@lru_cache(maxsize=2)
 def two_nodes(network: ThermalNetwork) -> TwoNodes:
     """Winding and housing alone, surfaces as they are with the winding at its limit.
 
