@@ -9,12 +9,14 @@ import typer
 
 from cqdd_design.cli.options import (
     DesignFile,
+    NamedMotor,
+    OwnMotor,
     option,
     parse_option,
     parse_positive,
     quantity_option,
 )
-from cqdd_design.cli.session import Output
+from cqdd_design.cli.session import Output, read_design
 from cqdd_design.cli.tables import number, table
 
 if TYPE_CHECKING:
@@ -61,17 +63,18 @@ def analyse(
         str | None,
         quantity_option('Of all parts of the gearbox, as in "60 degC"; default 20 degC, as drawn.'),
     ] = None,
+    motor: NamedMotor = None,
+    motor_file: OwnMotor = None,
 ) -> None:
     """Loads, contact equilibrium, precision, losses, life, stress of discs and ring, and shock."""
     from cqdd_design.cli.tables import verdict
-    from cqdd_design.design import load_design
     from cqdd_design.roads.analyse import analyse as analysed
     from cqdd_design.units import SPEED, TEMPERATURE, TORQUE
 
     asked_torque = parse_positive("--torque", torque, TORQUE)
     parts_at = parse_option("--temperature", temperature, TEMPERATURE)
     asked_speed = parse_positive("--speed", speed, SPEED)
-    loaded = load_design(design)
+    loaded = read_design(out, design, motor, motor_file)
     out.note_compilation(simulation=True)
     found = analysed(
         loaded,

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, OwnMotor, option
-from cqdd_design.cli.session import Output, read_specimen
+from cqdd_design.cli.options import DesignFile, NamedMotor, OwnMotor, option
+from cqdd_design.cli.session import Output, read_design, read_specimen
 
 if TYPE_CHECKING:
     from cqdd_design.solids.clearances import AssemblyMotion
@@ -22,18 +22,21 @@ def check(
         typer.Option("--assembly", help="Also turn the solids through a revolution of the output."),
     ] = False,
     angles: Annotated[int, option("N", "Crank angles of --assembly.", min=1, max=100_000)] = 72,
+    motor: NamedMotor = None,
     motor_file: OwnMotor = None,
 ) -> int:
     """Run every check of a design (exit code 4: one fails)."""
     from cqdd_design.cli.tables import checks_table, remedies, verdict
-    from cqdd_design.design import load_design
     from cqdd_design.results import worst_status
     from cqdd_design.roads.check import check as judged
 
-    loaded = load_design(design)
+    loaded = read_design(out, design, motor, motor_file)
     found = judged(
         loaded,
-        read_specimen(out, loaded, motor_file=motor_file),
+        read_specimen(
+            out,
+            loaded,
+        ),
         assembly_angles=angles if assembly else None,
         progress=out.counting("crank angles"),
     )

@@ -11,7 +11,6 @@ import typer
 from cqdd_design.errors import DesignError, UsageError
 
 if TYPE_CHECKING:
-    from cqdd_design.actuator.motor_file import MotorFile
     from cqdd_design.units import Dimension
 
 
@@ -36,11 +35,17 @@ Calibrated = Annotated[
     Path | None,
     typer.Option("--calibration", metavar="FILE", help="Factors that `calibrate` wrote."),
 ]
+NamedMotor = Annotated[
+    str | None,
+    option(
+        "NAME",
+        "Motor of the catalogue, instead of all that the design's [motor] says of one.",
+        "--motor",
+    ),
+]
 OwnMotor = Annotated[
     Path | None,
-    typer.Option(
-        "--motor-file", metavar="FILE", help="Motor in TOML, for what the catalogue says otherwise."
-    ),
+    option("FILE", "Motor in TOML, over the design's [motor] and the catalogue.", "--motor-file"),
 ]
 Supply = Annotated[str | None, quantity_option("Supply; default that of the design.")]
 BenchSupply = Annotated[str | None, quantity_option('Supply of the dynamic rows; default "24 V".')]
@@ -133,12 +138,3 @@ def parse_whole_list(name: str, text: str, count: int, example: str) -> tuple[in
 def parse_names(text: str | None) -> tuple[str, ...]:
     """Names separated by commas; none for None."""
     return tuple(name.strip() for name in (text or "").split(",") if name.strip())
-
-
-def read_own_motor(path: Path | None) -> MotorFile | None:
-    """The motor of ``--motor-file``."""
-    if path is None:
-        return None
-    from cqdd_design.actuator.motor_file import read_motor
-
-    return read_motor(path)

@@ -14,7 +14,6 @@ from cqdd_design.cli.options import (
     parse_option,
     parse_ratio,
     quantity_option,
-    read_own_motor,
 )
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import checks_table, number, table, verdict
@@ -53,6 +52,9 @@ def size(
     force: Force = False,
 ) -> None:
     """Requirements to a checked design file."""
+    from cqdd_design.catalog import find_bare_motor
+    from cqdd_design.design import load_required_motor
+    from cqdd_design.design.motor import read_motor
     from cqdd_design.exporting import read_kinds
     from cqdd_design.roads.size import road_stages, size_and_write
     from cqdd_design.units import LENGTH, SPEED, TORQUE
@@ -70,6 +72,13 @@ def size(
             asked[key] = text
     asked |= {} if motor is None else {"motor": motor}
     asked |= {} if discs is None else {"disc_count": discs}
+    if motor is not None:
+        find_bare_motor(motor)
+    own = None
+    if motor_file is not None:
+        own = read_motor(motor_file)
+    elif motor is None and requirements is not None:
+        own = load_required_motor(requirements)
     kinds = () if export is None else read_kinds(export)
     wanted = _requirements(asked, requirements)
     if report:
@@ -77,7 +86,7 @@ def size(
     road = size_and_write(
         wanted,
         target,
-        motor=read_own_motor(motor_file),
+        motor=own,
         kinds=kinds,
         report=report,
         force=force,

@@ -29,6 +29,7 @@ def design_schema() -> dict[str, Any]:
             key for key in table.get("required", ()) if key not in DERIVED_DEFAULTS
         ]
         for key, field in table["properties"].items():
+            _leave_out_null(field)
             names = _catalogue_names(table["title"], key)
             if names:
                 field["examples"] = names
@@ -41,12 +42,27 @@ def design_schema() -> dict[str, Any]:
     return {"$schema": _DIALECT, "$comment": "Written by `cqdd-design schema`.", **schema}
 
 
+def _leave_out_null(field: dict[str, Any]) -> None:
+    """A key without a value is left out of a file; TOML has no null."""
+    default = field.get("default", "")
+    if default is None:
+        del field["default"]
+    elif isinstance(default, dict):
+        field["default"] = {key: value for key, value in default.items() if value is not None}
+    kinds = [kind for kind in field.get("anyOf", ()) if kind != {"type": "null"}]
+    if len(kinds) == 1:
+        del field["anyOf"]
+        field.update(kinds[0])
+
+
 def _catalogue_names(table: str, key: str) -> list[str]:
     """Names an editor may offer for a key, or none."""
     from cqdd_design.catalog import bearings, materials, motors
 
     if key == "material" or key.endswith("_material"):
         return list(materials())
-    if (key == "motor" and table == "Requirements") or (key == "name" and table == "MotorTable"):
-        return list(motors())
+    if (key == "motor" and table == "Requirements") or (
+        key in ("name", "based_on") and table == "MotorTable"
+    ):
+        return [name for name, one in motors().items() if one.torque_at == "motor"]
     return ["auto", *bearings()] if key == "designation" else []

@@ -9,6 +9,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from cqdd_design.design.model import SCHEMA_VERSION, Design
+from cqdd_design.design.motor import MotorFile, motor_of_requirements
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.requirements import Requirements
 from cqdd_design.errors import DesignError, UsageError, nearest_names
@@ -53,7 +54,21 @@ def load_requirements(path: Path, changes: Mapping[str, Any] | None = None) -> R
     table = data.get("requirements")
     if not isinstance(table, dict):
         raise DesignError(f"{path}: there is no table [requirements] with at least ratio = N.")
-    return requirements_from_mapping({**table, **(changes or {})}, source=str(path))
+    # A design's motor is asked for too, unless its requirements name another.
+    base, _ = motor_of_requirements(data.get("motor"), path)
+    asked = {"motor": base} if base else {}
+    return requirements_from_mapping({**asked, **table, **(changes or {})}, source=str(path))
+
+
+def load_required_motor(path: Path) -> MotorFile | None:
+    """What a requirements or design file says of its motor, other than its name; None for nothing.
+
+    Raises
+    ------
+    DesignError
+        When it is no motor.
+    """
+    return motor_of_requirements(_migrated(_read(path), path).get("motor"), path)[1]
 
 
 def requirements_from_mapping(

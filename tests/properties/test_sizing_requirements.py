@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from cqdd_design.catalog import find_material
 from cqdd_design.design import Requirements
-from cqdd_design.errors import InfeasibleError
+from cqdd_design.errors import DesignError, InfeasibleError
 from cqdd_design.machine import resolve
 from cqdd_design.results import worst_status
 from cqdd_design.sizing import SizingInfeasibleError, size
@@ -225,6 +225,9 @@ def test_a_motor_without_data_is_named_and_its_inertia_is_not_zero():
     assert any("no peak torque" in words for words in found.warnings)
     assert found.objective.reflected_inertia is None
     assert found.objective.to_dict()["reflected_inertia_kgm2"] is None
+    # What no reflected inertia is known of is weighed by mass alone, never with a rotor of none.
+    assert found.objective.score == pytest.approx(found.objective.mass)
+    assert found.objective.to_dict()["weighting"] == {"mass": 1.0, "reflected_inertia": 0.0}
     assert worst_status(found.checks) == "warn"
     known = sized(ratio=10)
     assert known.warnings == ()
@@ -232,7 +235,7 @@ def test_a_motor_without_data_is_named_and_its_inertia_is_not_zero():
 
 
 def test_a_geared_actuator_is_no_motor():
-    with pytest.raises(InfeasibleError, match=r"requirements.motor .* is a geared actuator"):
+    with pytest.raises(DesignError, match=r"motor = 'CubeMars AK80-9 V3': .* is a geared actuator"):
         sized(ratio=10, motor="CubeMars AK80-9 V3")
 
 
