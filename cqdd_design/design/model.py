@@ -12,7 +12,8 @@ from pydantic import BaseModel, PrivateAttr, ValidationError, model_validator
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design.actuator import Drive, Edm, Environment, Housing, Tolerances
 from cqdd_design.design.fields import FrozenModel
-from cqdd_design.design.motor import IN_DESIGN, MotorFile, MotorTable, motor_row, own_table
+from cqdd_design.design.motor import MotorFile, MotorTable
+from cqdd_design.design.motor_row import IN_DESIGN, motor_row, own_table
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.design.requirements import Requirements
@@ -129,14 +130,14 @@ class Design(FrozenModel):
 
     @property
     def motor_row(self) -> Motor:
-        """The motor that ``[motor]`` means, as a row of the catalogue; see `motor.motor_row`."""
+        """The motor that ``[motor]`` means, as a row of the catalogue; see `design.motor_row`."""
         return motor_row(self.motor, self._motor_place)
 
     def with_motor(self, name: str | None = None, motor: MotorFile | None = None) -> Design:
         """The design with another motor in its ``[motor]`` table, behind the same driver.
 
         A motor file goes over what the design says of its motor, and that over the catalogue's row;
-        see `motor.own_table`.
+        see `motor_row.own_table`.
 
         Parameters
         ----------

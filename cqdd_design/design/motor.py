@@ -27,7 +27,6 @@ from typing import Annotated, Any, Literal
 from pydantic import PrivateAttr, ValidationError, model_validator
 
 from cqdd_design.catalog.motors import (
-    DRAG,
     Motor,
     find_bare_motor,
     find_motor,
@@ -60,8 +59,6 @@ from cqdd_design.units import (
 DEFAULT_MOTOR = "CubeMars RO100 KV55"
 NAMELESS = "motor of the design"
 """Of a motor of one's own that is given no name."""
-IN_DESIGN = "design: its [motor]"
-"""Where a value comes from that a design states of its motor."""
 _MOST_BYTES = 1_000_000
 
 Convention = Literal[
@@ -74,15 +71,6 @@ Convention = Literal[
     "emf_phase_rms",
 ]
 
-_Torque = Annotated[float | None, QuantityIn(TORQUE, "0.1 mN*m", "100000 N*m", "a motor has some")]
-_Drag = Annotated[float | None, QuantityIn(TORQUE, "0 N*m", "1000 N*m", "a motor's own drag")]
-_Slope = Annotated[
-    float | None, QuantityIn(DAMPING_GAIN, "0 N*m*s/rad", "100 N*m*s/rad", "a motor's own drag")
-]
-_Mass = Annotated[float | None, QuantityIn(MASS, "0.001 kg", "1000 kg", "a motor has some")]
-_Current = Annotated[float | None, QuantityIn(CURRENT, "0.01 A", "10000 A", "of a DC ampere")]
-_Size = Annotated[float | None, QuantityIn(LENGTH, "0.5 mm", "3000 mm", "a motor of a robot")]
-
 
 class MotorData(FrozenModel):
     """What may be said of a motor; every key may be left out.
@@ -94,60 +82,117 @@ class MotorData(FrozenModel):
     based_on: MotorName | None = None
     torque_constant: Annotated[
         float | None,
-        QuantityIn(TORQUE_CONSTANT, "0.00001 N*m/A", "1000 N*m/A", "K in its convention"),
+        QuantityIn(TORQUE_CONSTANT, "0.00001 N*m/A", "1000 N*m/A", "K, or the EMF over speed"),
     ] = None
     convention: Convention | None = None
     speed_constant: Annotated[
-        float | None, QuantityIn(SPEED_CONSTANT, "0.01 rpm/V", "1000000 rpm/V", "1/K")
+        float | None,
+        QuantityIn(SPEED_CONSTANT, "0.01 rpm/V", "1000000 rpm/V", "KV, instead of K"),
     ] = None
     resistance: Annotated[
-        float | None, QuantityIn(RESISTANCE, "0.00001 ohm", "10000 ohm", "copper has some")
+        float | None,
+        QuantityIn(RESISTANCE, "0.00001 ohm", "10000 ohm", "of the winding at 25 degC"),
     ] = None
     inductance: Annotated[
-        float | None, QuantityIn(INDUCTANCE, "0 uH", "10000000 uH", "0 leaves it out")
+        float | None, QuantityIn(INDUCTANCE, "0 uH", "10000000 uH", "of the winding")
     ] = None
     measured_between: Literal["line", "phase"] | None = None
     pole_pairs: Annotated[int | None, Whole(1, 1000, "of the rotor")] = None
     slots: Annotated[int | None, Whole(1, 1000, "of the stator")] = None
     rotor_inertia: Annotated[
         float | None,
-        QuantityIn(INERTIA, "1e-9 kg*m^2", "10 kg*m^2", "leave out what is not known"),
+        QuantityIn(INERTIA, "1e-9 kg*m^2", "10 kg*m^2", "rotor with its bell, if it is known"),
     ] = None
-    mass: _Mass = None
-    rotor_mass: _Mass = None
-    stator_mass: _Mass = None
-    rated_torque: _Torque = None
-    peak_torque: _Torque = None
-    rated_current: _Current = None
-    peak_current: _Current = None
+    mass: Annotated[float | None, QuantityIn(MASS, "0.001 kg", "1000 kg", "rotor and stator")] = (
+        None
+    )
+    rotor_mass: Annotated[
+        float | None, QuantityIn(MASS, "0.001 kg", "1000 kg", "with its bell; instead of mass")
+    ] = None
+    stator_mass: Annotated[
+        float | None, QuantityIn(MASS, "0.001 kg", "1000 kg", "with its winding; instead of mass")
+    ] = None
+    rated_torque: Annotated[
+        float | None, QuantityIn(TORQUE, "0.1 mN*m", "100000 N*m", "for ever, by its maker")
+    ] = None
+    peak_torque: Annotated[
+        float | None, QuantityIn(TORQUE, "0.1 mN*m", "100000 N*m", "for seconds, by its maker")
+    ] = None
+    rated_current: Annotated[
+        float | None, QuantityIn(CURRENT, "0.01 A", "10000 A", "at the rated torque")
+    ] = None
+    peak_current: Annotated[
+        float | None, QuantityIn(CURRENT, "0.01 A", "10000 A", "at the peak torque")
+    ] = None
     rated_voltage: Annotated[
         float | None, QuantityIn(VOLTAGE, "0.1 V", "10000 V", "at the no-load speed")
     ] = None
     no_load_speed: Annotated[
         float | None, QuantityIn(SPEED, "1 rpm", "1000000 rpm", "at the rated voltage")
     ] = None
-    no_load_current: _Current = None
-    coulomb: _Drag = None
-    viscous: _Slope = None
-    hysteresis: _Drag = None
-    iron_loss: _Slope = None
-    cogging_amplitude: _Drag = None
-    cogging_order: Annotated[int | None, Whole(1, 100_000, "periods in a turn")] = None
+    no_load_current: Annotated[
+        float | None, QuantityIn(CURRENT, "0.001 A", "10000 A", "at the no-load speed")
+    ] = None
+    coulomb: Annotated[
+        float | None,
+        QuantityIn(TORQUE, "0 N*m", "1000 N*m", "drag of the motor alone, whatever its speed"),
+    ] = None
+    viscous: Annotated[
+        float | None,
+        QuantityIn(DAMPING_GAIN, "0 N*m*s/rad", "100 N*m*s/rad", "drag that grows with speed"),
+    ] = None
+    hysteresis: Annotated[
+        float | None,
+        QuantityIn(TORQUE, "0 N*m", "1000 N*m", "of the iron, where coulomb leaves it out"),
+    ] = None
+    iron_loss: Annotated[
+        float | None,
+        QuantityIn(
+            DAMPING_GAIN, "0 N*m*s/rad", "100 N*m*s/rad", "eddies, where viscous leaves them out"
+        ),
+    ] = None
+    cogging_amplitude: Annotated[
+        float | None, QuantityIn(TORQUE, "0 N*m", "1000 N*m", "half of peak to peak")
+    ] = None
+    cogging_order: Annotated[
+        int | None, Whole(1, 100_000, "periods in a turn: lcm of slots and poles")
+    ] = None
     thermal_resistance: Annotated[
         float | None,
-        QuantityIn(THERMAL_RESISTANCE, "0.001 K/W", "1000 K/W", "winding to ambient, built in"),
+        QuantityIn(
+            THERMAL_RESISTANCE,
+            "0.001 K/W",
+            "1000 K/W",
+            "winding to ambient as built in, where drive.thermal_resistance does not say",
+        ),
     ] = None
     winding_limit: Annotated[
-        float | None, QuantityIn(TEMPERATURE, "40 degC", "300 degC", "enamel, bond and magnets")
+        float | None, QuantityIn(TEMPERATURE, "40 degC", "300 degC", "wire, bond and magnets")
     ] = None
-    outer_diameter: _Size = None
-    length: _Size = None
-    bore_diameter: _Size = None
-    hollow_diameter: _Size = None
-    gap_diameter: _Size = None
-    stack_length: _Size = None
-    rotor_length: _Size = None
-    slot_depth: _Size = None
+    outer_diameter: Annotated[
+        float | None, QuantityIn(LENGTH, "1 mm", "3000 mm", "of the rotor's bell")
+    ] = None
+    length: Annotated[float | None, QuantityIn(LENGTH, "1 mm", "3000 mm", "of the whole motor")] = (
+        None
+    )
+    bore_diameter: Annotated[
+        float | None, QuantityIn(LENGTH, "0.5 mm", "3000 mm", "of the stator, for the gearbox")
+    ] = None
+    hollow_diameter: Annotated[
+        float | None, QuantityIn(LENGTH, "0.5 mm", "3000 mm", "through rotor or shaft")
+    ] = None
+    gap_diameter: Annotated[
+        float | None, QuantityIn(LENGTH, "1 mm", "3000 mm", "of the air gap")
+    ] = None
+    stack_length: Annotated[
+        float | None, QuantityIn(LENGTH, "0.5 mm", "3000 mm", "of the laminations")
+    ] = None
+    rotor_length: Annotated[
+        float | None, QuantityIn(LENGTH, "0.5 mm", "3000 mm", "of the ring of magnets")
+    ] = None
+    slot_depth: Annotated[
+        float | None, QuantityIn(LENGTH, "0.5 mm", "1000 mm", "of the stator's slots")
+    ] = None
 
     @model_validator(mode="after")
     def _says_one_thing(self) -> MotorData:
@@ -168,7 +213,7 @@ class MotorData(FrozenModel):
             raise ValueError("mass is that of rotor and stator; keep it, or keep both of them")
         if (self.rotor_mass is None) != (self.stator_mass is None):
             raise ValueError("rotor_mass and stator_mass add up to the mass; give both, or mass")
-        told = _not_inside(self)
+        told = not_inside(self)
         if told:
             raise ValueError(told)
         return self
@@ -230,12 +275,6 @@ _SAME = tuple(
     if field.name in MotorData.model_fields and field.name != "name"
 )
 """Keys that are fields of a catalogue's row."""
-_GROUPS = (
-    ("torque_constant", "convention", "speed_constant"),
-    ("mass", "rotor_mass", "stator_mass"),
-    DRAG,
-)
-"""Keys of which one replaces all: they say one thing in other words, or together."""
 
 
 class MotorTable(MotorData):
@@ -337,109 +376,6 @@ def motor_of_requirements(table: object, source: Path) -> tuple[str, MotorFile |
     return found.base, found if found.data else None
 
 
-def motor_row(table: MotorTable, place: str = IN_DESIGN) -> Motor:
-    """The motor that a table means: the catalogue's row with what the table says instead.
-
-    Parameters
-    ----------
-    place : str
-        Where the table's data stand, in words after their kind: "file: motor.toml".
-
-    Raises
-    ------
-    DesignError
-        When its rotor has more inertia than the whole motor can have, or its diameters do not lie
-        inside one another.
-    """
-    told = table.row_values
-    base = find_bare_motor(table.base) if table.base else None
-    if not told and base is not None and base.name == table.name:
-        return base
-    stated, measured = tuple(told), not told.keys().isdisjoint(DRAG)
-    if measured:
-        # Whoever measured the drag measured all of it: the catalogue's part comes not on top.
-        told |= {key: told.get(key, 0.0) for key in DRAG}
-    drag = "" if base is None else base.drag_source
-    kept = [] if base is None else [name for name in base.taken_over.split() if name not in stated]
-    found = dataclasses.replace(
-        base or _UNKNOWN,
-        **told,
-        name=table.name,
-        stated=stated,
-        stated_in=place,
-        based_on="" if base is None else base.name,
-        taken_over=" ".join(kept),
-        source=place if base is None else f"{place}, over the catalogue's {base.name}",
-        drag_source=place if measured else drag,
-    )
-    wrong = _not_inside(found)
-    if wrong:
-        raise DesignError(f"motor {found.name}: {wrong}.")
-    _refuse_heavy_rotor(found)
-    return found
-
-
-def own_table(table: MotorTable, motor: MotorFile, *, named: bool = False) -> dict[str, Any]:
-    """The keys of a design's motor when a motor file is read over it, in SI, without the driver's.
-
-    A file that names its row of the catalogue, or gives constant and resistance, stands for itself.
-    Any other says what is otherwise about the motor that the design has, key by key.
-
-    Parameters
-    ----------
-    named : bool
-        Whether the table's motor was asked for together with the file: then the file is always
-        read over it.
-
-    Raises
-    ------
-    DesignError
-        Where the file and who asks for the table's motor name two of the catalogue's.
-    """
-    name = motor.name or NAMELESS
-    if named and motor.base not in ("", table.base):
-        raise DesignError(
-            f"{motor.place} is about '{motor.base}', and '{table.base}' is asked for beside it; "
-            "keep one of them."
-        )
-    if motor.base or (motor.stands_alone and not named):
-        base = {} if motor.based_on is None else {"based_on": motor.based_on}
-        return {"name": name, **base, **motor.data}
-    base = {"based_on": table.base} if table.base else {}
-    return {"name": name, **base, **_over(table, motor)}
-
-
-def _over(table: MotorTable, motor: MotorFile) -> dict[str, Any]:
-    """The data of a table with those of a file instead, key by key."""
-    below, above = table.data, motor.data
-    for group in _GROUPS:
-        if not above.keys().isdisjoint(group):
-            below = {key: value for key, value in below.items() if key not in group}
-    if not above.keys().isdisjoint(("resistance", "inductance")):
-        # In the words of the file, line or phase, what is left of the table's.
-        of_row, halved = table.row_values, 0.5 if motor.measured_between == "phase" else 1.0
-        below.pop("measured_between", None)
-        for name in ("resistance", "inductance"):
-            if name in below:
-                below[name] = halved * of_row[f"line_{name}"]
-    return below | above
-
-
-def row_over(name: str, motor: MotorFile, *, named: bool = False) -> Motor:
-    """The motor that a file makes of a catalogue's motor; see `own_table` and `motor_row`."""
-    keys = own_table(MotorTable(name=name), motor, named=named)
-    return motor_row(MotorTable.model_validate(keys, context={"si": True}), f"file: {motor.place}")
-
-
-_NOTHING: dict[str, Any] = {
-    field.name: "" if field.type == "str" else None
-    for field in dataclasses.fields(Motor)
-    if field.default is dataclasses.MISSING
-}
-_UNKNOWN = Motor(**(_NOTHING | {"kind": "own", "torque_at": "motor"}))
-"""A motor of which nothing is known."""
-
-
 def _name_in_catalogue(name: str) -> str:
     """The catalogue's spelling of a name, a geared actuator's too; empty where it has none."""
     try:
@@ -448,7 +384,7 @@ def _name_in_catalogue(name: str) -> str:
         return ""
 
 
-def _not_inside(motor: MotorData | Motor) -> str:
+def not_inside(motor: MotorData | Motor) -> str:
     """What is wrong with diameters that must lie inside one another; empty of sound ones."""
     names = ("bore_diameter", "gap_diameter", "outer_diameter")
     known = [(name, value) for name in names if (value := getattr(motor, name)) is not None]
@@ -459,16 +395,3 @@ def _not_inside(motor: MotorData | Motor) -> str:
                 f"{format_quantity(more, LENGTH)}; check both"
             )
     return ""
-
-
-def _refuse_heavy_rotor(motor: Motor) -> None:
-    """Refuse a rotor with more inertia than the whole motor would have as a thin ring."""
-    if motor.rotor_inertia is None or motor.mass is None or motor.outer_diameter is None:
-        return
-    most = motor.mass * (0.5 * motor.outer_diameter) ** 2
-    if motor.rotor_inertia > most:
-        raise DesignError(
-            f"motor {motor.name}: rotor_inertia {motor.rotor_inertia:.4g} kg m^2 is more than "
-            f"{motor.mass:g} kg within {1e3 * motor.outer_diameter:.4g} mm can have, {most:.3g} "
-            "kg m^2; check both."
-        )

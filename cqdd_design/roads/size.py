@@ -8,7 +8,8 @@ from pathlib import Path
 
 from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import Design, Requirements, save_design
-from cqdd_design.design.motor import MotorFile, row_over
+from cqdd_design.design.motor import MotorFile
+from cqdd_design.design.motor_row import row_over
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting import export, stages
 from cqdd_design.files import WrittenFile, atomic_path, describe_file, refuse_overwrite

@@ -15,7 +15,8 @@ from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.catalog import find_motor, motors
 from cqdd_design.catalog.motors import CONVENTIONS, WINDING_MOST
 from cqdd_design.design import Design, load_design, load_requirements, save_design
-from cqdd_design.design.motor import IN_DESIGN, NAMELESS, MotorFile, MotorTable, row_over
+from cqdd_design.design.motor import NAMELESS, MotorFile, MotorTable
+from cqdd_design.design.motor_row import IN_DESIGN, row_over
 from cqdd_design.design.schema import design_schema
 from cqdd_design.errors import CqddError, DesignError, InfeasibleError
 from cqdd_design.machine import resolve
