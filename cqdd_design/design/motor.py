@@ -45,7 +45,6 @@ from cqdd_design.units import (
     LENGTH,
     MASS,
     RESISTANCE,
-    SPEED,
     SPEED_CONSTANT,
     TEMPERATURE,
     THERMAL_RESISTANCE,
@@ -123,15 +122,6 @@ class MotorData(FrozenModel):
     ] = None
     peak_current: Annotated[
         float | None, QuantityIn(CURRENT, "0.01 A", "10000 A", "at the peak torque")
-    ] = None
-    rated_voltage: Annotated[
-        float | None, QuantityIn(VOLTAGE, "0.1 V", "10000 V", "at the no-load speed")
-    ] = None
-    no_load_speed: Annotated[
-        float | None, QuantityIn(SPEED, "1 rpm", "1000000 rpm", "at the rated voltage")
-    ] = None
-    no_load_current: Annotated[
-        float | None, QuantityIn(CURRENT, "0.001 A", "10000 A", "at the no-load speed")
     ] = None
     coulomb: Annotated[
         float | None,
