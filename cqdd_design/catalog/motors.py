@@ -190,6 +190,16 @@ class Motor:
         return tuple(lacking)
 
     @property
+    def speed_told(self) -> str:
+        """How fast it turns, in words: over its voltage, else without load; empty if unknown."""
+        if self.torque_constant:
+            return f"{1.0 / (self.torque_constant * _RPM):.4g} rpm/V"
+        if self.no_load_speed is None:
+            return ""
+        at = "" if self.rated_voltage is None else f" at {self.rated_voltage:g} V"
+        return f"{self.no_load_speed / _RPM:.4g} rpm{at}"
+
+    @property
     def winding_most(self) -> float:
         """Greatest temperature of the winding that is designed to, deg C.
 

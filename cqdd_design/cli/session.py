@@ -250,7 +250,9 @@ def read_design(
     lost = [key for key, value in loaded.motor.data.items() if kept.get(key) != value]
     if lost:
         before = f"--motor {motor}" if motor_file is None else str(motor_file)
-        out.warn(f"{before} goes before [motor] of {path}, whose {', '.join(lost)} do not apply.")
+        verb = "does" if len(lost) == 1 else "do"
+        keys = ", ".join(lost)
+        out.warn(f"{before} goes before [motor] of {path}, whose {keys} {verb} not apply.")
     return chosen
 
 

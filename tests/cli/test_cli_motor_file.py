@@ -1,4 +1,4 @@
-"""--motor-file: the motor of a file, wherever a command has to do with one."""
+"""--motor, --motor-file and [motor]: one motor, wherever a command has to do with one."""
 
 import tomllib
 
@@ -42,8 +42,14 @@ def test_size_designs_for_the_motor_of_the_file(cqdd, tmp_path, motor_file):
         goal = results["objective"]
         rotor = goal["reflected_inertia_kgm2"] - goal["gearbox_inertia_kgm2"]
         assert rotor == pytest.approx(inertia)
-    # Whoever gives a motor's data asks for that motor.
-    assert tomllib.loads((tmp_path / "b.toml").read_text())["motor"]["name"]
+    # The design says its motor, so that no later command sees another one.
+    motor = tomllib.loads((tmp_path / "b.toml").read_text())["motor"]
+    assert motor["name"] == "rewound"
+    assert motor["based_on"] == "CubeMars RO100 KV55"
+    assert motor["rotor_inertia"] == "0.0002 kg*m^2"
+    checks = cqdd("check", "b.toml", "--json").document["checks"]
+    (peak,) = [one for one in checks if one["id"] == "MOTOR-PEAK"]
+    assert peak["limit"] == 13.0
     motor_file.write_text(SMALL.replace("13 N*m", "2 N*m"))
     weak = cqdd("size", "--ratio", "10", "--motor-file", motor_file, "--out", "c.toml")
     assert weak.code == 3
@@ -72,3 +78,156 @@ def test_the_bill_names_the_motor_of_the_file(cqdd, tmp_path, paper_design_file,
     assert "rewound, stator" in text
     assert "motor.toml" in text
     assert "RO100 KV55, stator" not in text
+
+
+WINDING = """
+torque_constant = "0.1504 N*m/A"
+convention = "torque_per_peak"
+resistance = "71.5 mohm"
+measured_between = "phase"
+"""
+
+
+@pytest.fixture
+def inline(tmp_path, paper_design_file):
+    """The paper's design, with data of its motor in the table."""
+    path = tmp_path / "inline.toml"
+    text = paper_design_file.read_text()
+    assert "[motor]\n" in text
+    path.write_text(text.replace("[motor]\n", '[motor]\npeak_torque = "5 N*m"\n'))
+    return path
+
+
+def peak_of(done):
+    assert done.code in (0, 4), done.err
+    (found,) = [one for one in done.document["checks"] if one["id"] == "MOTOR-PEAK"]
+    return found["limit"]
+
+
+def test_the_option_goes_over_the_table_and_that_over_the_catalogue(cqdd, inline, motor_file):
+    assert peak_of(cqdd("check", inline, "--json")) == 5.0
+    motor_file.write_text('name = "other"\nrated_torque = "3 N*m"\n')
+    done = cqdd("check", inline, "--motor-file", motor_file, "--json")
+    assert peak_of(done) == 5.0
+    assert done.document["design"]["motor"]["rated_torque"] == "3 N*m"
+    motor_file.write_text(SMALL)
+    done = cqdd("check", inline, "--motor-file", motor_file, "--json")
+    assert peak_of(done) == 13.0
+    (told,) = [one for one in done.document["warnings"] if "goes before [motor]" in one]
+    assert "whose peak_torque does not apply" in told
+    done = cqdd("check", inline, "--motor", "CubeMars RO80 KV105", "--json")
+    assert peak_of(done) == 4.0
+    assert any("whose peak_torque does not apply" in one for one in done.document["warnings"])
+    done = cqdd(
+        "check", inline, "--motor", "CubeMars RO80 KV105", "--motor-file", motor_file, "--json"
+    )
+    assert done.document["design"]["motor"]["based_on"] == "CubeMars RO80 KV105"
+
+
+def test_a_motor_of_its_own_leaves_what_it_does_not_say_unknown(cqdd, paper_design_file, tmp_path):
+    own = tmp_path / "own.toml"
+    own.write_text(WINDING)
+    done = cqdd("check", paper_design_file, "--motor-file", own, "--json")
+    ids = {one["id"]: one["status"] for one in done.document["checks"]}
+    # The peak torque of the design's former motor is none of this one's.
+    assert ids.get("MOTOR-PEAK", "unknown") == "unknown"
+    assert ids.get("MOTOR-BORE", "unknown") == "unknown"
+    assert ids["MOTOR-SPEED"] == "pass"
+
+
+#: Every command that takes a motor, with what else it needs; none does its work here.
+COMMANDS = [
+    ("check", "DESIGN"),
+    ("analyse", "DESIGN"),
+    ("bench", "DESIGN"),
+    ("calibrate", "DESIGN"),
+    ("simulate", "DESIGN"),
+    ("compare", "DESIGN"),
+    ("inertia", "DESIGN"),
+    ("export", "DESIGN"),
+    ("report", "DESIGN"),
+    ("size", "--ratio", "10"),
+    ("torque", "generate", "DESIGN"),
+]
+
+
+@pytest.mark.parametrize("words", COMMANDS, ids=lambda words: " ".join(words))
+def test_every_command_refuses_a_geared_actuator(cqdd, paper_design_file, tmp_path, words):
+    """By option, by the design and by a file: exit code 3, its name, and what to take instead."""
+    words = [paper_design_file if word == "DESIGN" else word for word in words]
+    done = cqdd(*words, "--motor", "CubeMars AK80-9 V3")
+    assert done.code == 3, done.err
+    assert "'CubeMars AK80-9 V3' is a geared actuator" in done.err
+    assert "'CubeMars RO80 KV105'" in done.err
+    own = tmp_path / "own.toml"
+    own.write_text('based_on = "CubeMars AK80-9 V3"\ncoulomb = "0.1 N*m"\n')
+    done = cqdd(*words, "--motor-file", own)
+    assert done.code == 3, done.err
+    assert "is a geared actuator" in done.err
+    unknown = cqdd(*words, "--motor", "CubeMars AK81")
+    assert unknown.code == 2, unknown.err
+    assert "the catalogue has no motor 'CubeMars AK81'; the nearest are" in unknown.err
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ('torque_constant = "0.1 N*m/A"\nspeed_constant = "55 rpm/V"', "say the same; keep one"),
+        ('resistance = "-0.1 ohm"', "outside 0.00001 ohm to"),
+        ('torque_constant = "0.1 N*m/A"\nconvention = "rms"', "'torque_per_rms'"),
+        ('rotor_inertia = "1e-4 kg*m"', "not a unit of moment of inertia"),
+        ('resistence = "1 ohm"', "did you mean 'resistance'"),
+    ],
+)
+def test_wrong_data_of_a_motor_end_with_a_sentence(cqdd, tmp_path, paper_design_file, text, says):
+    """In a file and in the table: the same sentence, exit code 3."""
+    own = tmp_path / "own.toml"
+    own.write_text(text)
+    in_file = cqdd("check", paper_design_file, "--motor-file", own)
+    inline = tmp_path / "inline.toml"
+    inline.write_text(paper_design_file.read_text().replace("[motor]\n", f"[motor]\n{text}\n"))
+    in_table = cqdd("check", inline)
+    for done in (in_file, in_table):
+        assert done.code == 3
+        assert says in done.err
+
+
+def test_the_catalogue_shows_torque_speed_bore_inertia_and_what_is_missing(cqdd):
+    listed = cqdd("catalog", "motors").out.splitlines()
+    figures = ("peak_torque_Nm", "rated_torque_Nm", "speed", "bore_diameter_mm")
+    assert listed[0].split()[2:-3] == [*figures]
+    assert listed[0].split()[-3:] == ["rotor_inertia_kgm2", "mass_kg", "missing"]
+    (row,) = [line for line in listed if line.startswith("CubeMars RO80 KV105 ")]
+    assert row.split()[3:] == [
+        "motor",
+        "4",
+        "1.3",
+        "105",
+        "rpm/V",
+        "55",
+        "0.0002612",
+        "0.352",
+        "drag",
+    ]
+    (geared,) = [line for line in listed if line.startswith("CubeMars AK80-9 V3 ")]
+    assert geared.endswith("geared: no motor of a reducer")
+    one = cqdd("catalog", "motors", "CubeMars R100 KV90")
+    assert "line_resistance_ohm" in one.out
+    assert "What hangs on rated torque, rotor inertia, drag, cogging, stator bore stays" in one.out
+    assert "[motor]" in one.out
+    rows = cqdd("catalog", "motors", "--json").document["results"]["rows"]
+    assert rows["CubeMars R100 KV90"]["rotor_inertia_kgm2"] is None
+    assert rows["MIT mini-cheetah motor (U8-class)"]["speed"] == "110.3 rpm/V"
+
+
+def test_size_keeps_the_motor_of_its_requirements_file(cqdd, tmp_path):
+    asked = tmp_path / "asked.toml"
+    asked.write_text(
+        '[requirements]\nratio = 10\npeak_torque = "60 N*m"\n[motor]\nname = "mine"\n'
+        f'peak_torque = "11 N*m"\nrated_torque = "4 N*m"\n{WINDING}'
+    )
+    done = cqdd("size", "--requirements", asked, "--out", "own.toml", "--json")
+    assert done.code == 0, done.err
+    assert done.document["design"]["motor"]["name"] == "mine"
+    assert done.document["results"]["objective"]["reflected_inertia_kgm2"] is None
+    assert peak_of(cqdd("check", "own.toml", "--json")) == 11.0
