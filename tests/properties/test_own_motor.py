@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -305,3 +307,14 @@ def test_the_schema_knows_the_keys_of_a_motor() -> None:
 def test_a_wrong_name_of_a_catalogue_lists_the_nearest() -> None:
     with pytest.raises(CqddError, match="nearest are 'CubeMars RO100 KV55'"):
         with_table(name="CubeMars R0100 KV55")
+
+
+def test_the_page_on_motors_knows_every_key_and_its_table_is_a_motor() -> None:
+    page = (PLACE.parents[1] / "docs" / "how-to-motor.md").read_text(encoding="utf-8")
+    keys = page.partition("## Keys")[2]
+    for key in MotorFile.model_fields:
+        assert f"`{key}`" in keys, key
+    (block,) = re.findall(r"^```toml\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    row = with_table(**tomllib.loads(block)["motor"]).motor_row
+    assert row.torque_constant == pytest.approx(0.1737, rel=1e-3)
+    assert (row.line_resistance, row.mass) == (0.143, find_motor("CubeMars RO100 KV55").mass)
