@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-Status = Literal["pass", "warn", "fail"]
+Status = Literal["pass", "warn", "fail", "unknown"]
 
 
 @dataclass(frozen=True)
@@ -23,8 +23,9 @@ class Check:
         Stable identifier such as ``CONTACT-RING-PEAK``; the argument of ``explain``.
     title : str
         A few words for tables.
-    value, limit : float
-        In `unit` (the unit shown to people, so pressures are in MPa), comparable as they stand.
+    value, limit : float or None
+        In `unit` (the unit shown to people, so pressures are in MPa), comparable as they stand;
+        None where it is not known, which `substituted` explains.
     unit : str
         Unit of both; empty for pure numbers.
     sense : {"max", "min"}
@@ -36,13 +37,15 @@ class Check:
     source : str
         Where rule and limit come from.
     severity : {"fail", "warn"}
-        What a violated limit means. Only motor shortfall and rules of thumb are warnings.
+        What a violated limit means. Only rules of thumb are warnings.
+    basis : str
+        The model that the value comes from.
     """
 
     id: str
     title: str
-    value: float
-    limit: float
+    value: float | None
+    limit: float | None
     unit: str
     sense: Literal["max", "min"]
     formula: str
@@ -51,45 +54,65 @@ class Check:
     remedy: str
     source: str
     severity: Literal["fail", "warn"] = "fail"
+    basis: str = ""
 
     def __post_init__(self) -> None:
         """Refuse numbers that could not be compared."""
-        if not (math.isfinite(self.value) and math.isfinite(self.limit)):
+        if not all(math.isfinite(one) for one in (self.value, self.limit) if one is not None):
             raise ValueError(f"check {self.id} has a value that is not finite")
 
     @property
+    def compared(self) -> tuple[float, float]:
+        """Value and limit of a check that is known; both not numbers of one that is not."""
+        if self.value is None or self.limit is None:
+            return math.nan, math.nan
+        return self.value, self.limit
+
+    @property
+    def known(self) -> bool:
+        """Whether there is a value and a limit to compare it with."""
+        return self.value is not None and self.limit is not None
+
+    @property
     def margin(self) -> float:
-        """How many times the limit is met: 1 is on the limit, below 1 it is violated."""
-        top, bottom = (self.limit, self.value) if self.sense == "max" else (self.value, self.limit)
+        """How many times the limit is met: 1 is on the limit, below 1 it is violated.
+
+        Not a number where it is not known.
+        """
+        value, limit = self.compared
+        top, bottom = (limit, value) if self.sense == "max" else (value, limit)
         if bottom <= 0.0:
             return 1e6 if top >= bottom else 0.0
-        return max(min(top / bottom, 1e6), -1e6)
+        return max(min(top / bottom, 1e6), -1e6) if self.known else math.nan
 
     @property
     def satisfied(self) -> bool:
-        """Whether the limit is met, with a relative slack of 1e-9 for rounding."""
-        slack = 1e-9 * max(abs(self.value), abs(self.limit))
+        """Whether the limit is met, with a relative slack of 1e-9 for rounding; never unknown."""
+        value, limit = self.compared
+        slack = 1e-9 * max(abs(value), abs(limit))
         if self.sense == "max":
-            return self.value <= self.limit + slack
-        return self.value >= self.limit - slack
+            return value <= limit + slack
+        return value >= limit - slack
 
     @property
     def status(self) -> Status:
-        """``pass``, ``warn`` or ``fail``."""
+        """``pass``, ``warn``, ``fail``, or ``unknown``."""
+        if not self.known:
+            return "unknown"
         return "pass" if self.satisfied else self.severity
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form; the first eight keys are a fixed interface."""
         keys = "id title value limit unit margin status source sense formula substituted why remedy"
-        return {key: getattr(self, key) for key in keys.split()}
+        told = {key: getattr(self, key) for key in keys.split()}
+        return told | {"margin": self.margin if self.known else None, "basis": self.basis}
 
 
 def worst_status(checks: Iterable[Check]) -> Status:
-    """``fail`` if any check fails, else ``warn`` if any warns, else ``pass``."""
+    """``fail`` if any check fails, else ``unknown``, ``warn`` or ``pass``."""
     found = {check.status for check in checks}
-    if "fail" in found:
-        return "fail"
-    return "warn" if "warn" in found else "pass"
+    order: tuple[Status, ...] = ("fail", "unknown", "warn")
+    return next((status for status in order if status in found), "pass")
 
 
 @dataclass(frozen=True)

@@ -35,8 +35,8 @@ class Demand:
 
 
 def demands(parameters: ActuatorParameters, requirements: Requirements) -> tuple[Demand, ...]:
-    """Peak torque at standstill, continuous torque at the input speed, every step of the duty."""
-    turning = requirements.input_speed / abs(parameters.gear.ratio)
+    """Peak torque at standstill, continuous torque at its speed, every step of the duty."""
+    turning = requirements.held_speed / abs(parameters.gear.ratio)
     peak, steady = requirements.peak_torque, requirements.continuous_torque
     found = [
         Demand(

@@ -67,9 +67,9 @@ def analyse(
     motor_file: OwnMotor = None,
 ) -> None:
     """Loads, contact equilibrium, precision, losses, life, stress of discs and ring, and shock."""
-    from cqdd_design.cli.tables import verdict
     from cqdd_design.roads.analyse import analyse as analysed
     from cqdd_design.units import SPEED, TEMPERATURE, TORQUE
+    from cqdd_design.verdict.judge import sentence
 
     asked_torque = parse_positive("--torque", torque, TORQUE)
     parts_at = parse_option("--temperature", temperature, TEMPERATURE)
@@ -87,7 +87,7 @@ def analyse(
     )
     results, checks = found.to_dict(), found.checks
     lines = [*_lines(found.gearbox, results), *_shock_lines(found.shocks)]
-    out.say(*lines, "", f"checks: {verdict(checks)} (see `check`)")
+    out.say(*lines, "", f"{sentence(loaded.name, checks)} (`check` draws toleranced ones too)")
     out.warn(*found.warnings)
     out.document(results, design=found.machine.given, checks=checks)
 

@@ -19,7 +19,7 @@ from cqdd_design.cli.options import (
     parse_positive,
 )
 from cqdd_design.cli.session import Output, read_design, read_specimen
-from cqdd_design.cli.tables import number, table, told
+from cqdd_design.cli.tables import headline_table, number, table, told
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -53,6 +53,7 @@ def bench(
     from cqdd_design.roads.bench import bench as measured
     from cqdd_design.roads.bench import compared_actuators, write_traces
     from cqdd_design.units import STIFFNESS_GAIN, VOLTAGE
+    from cqdd_design.verdict import judge
 
     names = parse_names(only)
     asked = parse_positive("--voltage", voltage, VOLTAGE)
@@ -70,15 +71,22 @@ def bench(
         rig_stiffness=parse_positive("--rig-stiffness", rig_stiffness, STIFFNESS_GAIN),
         progress=out.stages(len(names or METRICS)),
     )
+    # One row alone asks nothing of the design.
+    judged = None if names else judge(specimen.machine(loaded), specimen)
     actuators = compared_actuators(loaded, result, others)
     files = () if folder is None else write_traces(result, folder, force=force)
     out.say(*_lines(result))
     if others or not names:
         out.say("", *_comparison(actuators))
+    if judged is not None:
+        out.say("", headline_table(judged), "", judged.sentence)
     out.wrote(files)
     out.warn(*result.warnings)
     document = result.to_dict() | {"comparison": [one.to_dict() for one in actuators]}
-    out.document(document, design=loaded, files=files)
+    if judged is not None:
+        document["verdict"] = judged.to_dict()
+    lines = () if judged is None else judged.lines
+    out.document(document, design=loaded, checks=lines, files=files)
 
 
 def _lines(result: BenchResult) -> list[str]:

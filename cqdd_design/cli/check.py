@@ -25,12 +25,14 @@ def check(
     motor: NamedMotor = None,
     motor_file: OwnMotor = None,
 ) -> int:
-    """Run every check of a design (exit code 4: one fails)."""
-    from cqdd_design.cli.tables import checks_table, remedies, verdict
-    from cqdd_design.results import worst_status
+    """The verdict: every requirement and check of a design (exit code 4 unless it is yes)."""
+    from cqdd_design.cli.tables import binding, checks_table, headline_table
+    from cqdd_design.roads.check import CHECK_STAGES
     from cqdd_design.roads.check import check as judged
+    from cqdd_design.verdict.judge import meets, sentence
 
     loaded = read_design(out, design, motor, motor_file)
+    out.note_compilation(simulation=True)
     found = judged(
         loaded,
         read_specimen(
@@ -38,19 +40,20 @@ def check(
             loaded,
         ),
         assembly_angles=angles if assembly else None,
+        told=out.stages(CHECK_STAGES),
         progress=out.counting("crank angles"),
     )
-    checks, motion, worst = found.checks, found.motion, worst_status(found.checks)
-    out.say(checks_table(checks), "")
+    verdict, motion = found.verdict, found.motion
+    out.say(checks_table(found.lines), "")
     if motion is not None:
         out.say(*_clearances(motion), "")
-    if worst != "pass":
-        out.say(remedies(checks), "")
-    out.say(f"{loaded.name}: {verdict(checks)}")
-    out.warn(*found.warnings)
+    out.say(headline_table(verdict), "", binding(verdict), "")
+    out.say(sentence(loaded.name, found.lines))
+    out.warn(*verdict.warnings)
     seen = {} if motion is None else {"assembly": motion.to_dict()}
-    out.document({"verdict": worst, **seen}, design=loaded, checks=checks)
-    return 4 if worst == "fail" else 0
+    told = verdict.to_dict() | {"meets": meets(found.lines)}
+    out.document({"verdict": told, **seen}, design=loaded, checks=found.lines)
+    return 0 if meets(found.lines) == "yes" else 4
 
 
 def _clearances(motion: AssemblyMotion) -> list[str]:

@@ -30,7 +30,7 @@ def report(
     force: Force = False,
 ) -> None:
     """One self-contained HTML file for the design review."""
-    from cqdd_design.cli.tables import verdict
+    from cqdd_design.cli.tables import headline_table
     from cqdd_design.roads.report import REPORT_STAGES, write_report
 
     loaded = read_design(out, design, motor, motor_file)
@@ -43,8 +43,9 @@ def report(
         force=force,
         progress=out.stages(REPORT_STAGES),
     )
-    checks = written.checks
+    judged = written.verdict
     out.wrote([written.file])
-    out.say(f"{loaded.name}: {verdict(checks)}")
-    out.warn(*written.analysis.warnings, *written.short)
-    out.document({}, design=loaded, checks=checks, files=[written.file])
+    out.say(headline_table(judged), "", judged.sentence)
+    out.warn(*judged.warnings)
+    told = {"verdict": judged.to_dict()}
+    out.document(told, design=loaded, checks=judged.lines, files=[written.file])

@@ -15,27 +15,20 @@ from cqdd_design.cli.options import (
     parse_ratio,
     quantity_option,
 )
+from cqdd_design.cli.requirement_options import read_requirements, stated, with_requirements
 from cqdd_design.cli.session import Output
-from cqdd_design.cli.tables import checks_table, number, table, verdict
-from cqdd_design.errors import DesignError, UsageError
+from cqdd_design.cli.tables import binding, headline_table, number, table
 
 if TYPE_CHECKING:
-    from cqdd_design.design import Design, Requirements
+    from cqdd_design.design import Design
     from cqdd_design.sizing import SizingResult
+    from cqdd_design.verdict import Verdict
 
 
+@with_requirements
 def size(
     out: Output,
     ratio: Annotated[str | None, option("N", "Reduction, a whole number from 4 to 119.")] = None,
-    peak_torque: Annotated[
-        str | None, quantity_option("At the output; default min(9*N, 90) N*m.")
-    ] = None,
-    continuous_torque: Annotated[
-        str | None, quantity_option("At the output; default 0.38 of the peak.")
-    ] = None,
-    input_speed: Annotated[str | None, quantity_option('Default "1286 rpm".')] = None,
-    outer_diameter: Annotated[str | None, quantity_option('Of the ring; default "72 mm".')] = None,
-    length: Annotated[str | None, quantity_option('Of the disc pack; default "20 mm".')] = None,
     motor: Annotated[str | None, option("NAME", "Default CubeMars RO100 KV55.")] = None,
     motor_file: OwnMotor = None,
     discs: Annotated[int | None, option("N", "Discs on the crank, 1 to 3; default 2.")] = None,
@@ -49,7 +42,11 @@ def size(
     export: Annotated[
         str | None, option("LIST", "Write exports/sized-N/ too: dxf, step, ... as `export`.")
     ] = None,
+    ambient: Annotated[
+        str | None, quantity_option('Of the air round the actuator; default "25 degC".')
+    ] = None,
     force: Force = False,
+    **asked: Any,
 ) -> None:
     """Requirements to a checked design file."""
     from cqdd_design.catalog import find_bare_motor
@@ -57,19 +54,10 @@ def size(
     from cqdd_design.design.motor import read_motor
     from cqdd_design.exporting import read_kinds
     from cqdd_design.roads.size import road_stages, size_and_write
-    from cqdd_design.units import LENGTH, SPEED, TORQUE
+    from cqdd_design.units import TEMPERATURE
 
-    quantities = (
-        ("peak_torque", peak_torque, TORQUE),
-        ("continuous_torque", continuous_torque, TORQUE),
-        ("input_speed", input_speed, SPEED),
-        ("outer_diameter", outer_diameter, LENGTH),
-        ("length", length, LENGTH),
-    )
-    asked: dict[str, Any] = {} if ratio is None else {"ratio": parse_ratio(ratio)}
-    for key, text, dimension in quantities:
-        if parse_option(f"--{key.replace('_', '-')}", text, dimension) is not None:
-            asked[key] = text
+    asked = stated(asked)
+    asked |= {} if ratio is None else {"ratio": parse_ratio(ratio)}
     asked |= {} if motor is None else {"motor": motor}
     asked |= {} if discs is None else {"disc_count": discs}
     if motor is not None:
@@ -80,38 +68,25 @@ def size(
     elif motor is None and requirements is not None:
         own = load_required_motor(requirements)
     kinds = () if export is None else read_kinds(export)
-    wanted = _requirements(asked, requirements)
+    wanted = read_requirements(asked, requirements)
     if report:
         out.note_compilation()
     road = size_and_write(
         wanted,
         target,
         motor=own,
+        ambient=parse_option("--ambient", ambient, TEMPERATURE),
         kinds=kinds,
         report=report,
         force=force,
         progress=out.stages(road_stages(kinds, report=report)),
     )
-    out.say(*_lines(road.design, road.sizing))
-    out.warn(*(f"{c.id}: {c.remedy}." for c in road.sizing.checks if c.status == "warn"))
-    out.warn(*road.sizing.warnings, *road.short)
+    judged = road.verdict
+    out.say(*_lines(road.design, road.sizing), *_judged(judged))
+    out.warn(*judged.warnings)
     out.wrote(road.files)
-    results, checks = road.sizing.to_dict(), road.sizing.checks
-    out.document(results, design=road.design, checks=checks, files=road.files)
-
-
-def _requirements(asked: dict[str, Any], file: Path | None) -> Requirements:
-    """Options over a requirements file; what only the options say is a matter of usage."""
-    from cqdd_design.design import load_requirements, requirements_from_mapping
-
-    if file is not None:
-        return load_requirements(file, asked)
-    if "ratio" not in asked:
-        raise UsageError("size needs --ratio N or --requirements FILE.")
-    try:
-        return requirements_from_mapping(asked, source="size")
-    except DesignError as error:
-        raise UsageError(error.message) from None
+    results = road.sizing.to_dict() | {"verdict": judged.to_dict()}
+    out.document(results, design=road.design, checks=judged.lines, files=road.files)
 
 
 def _lines(design: Design, sizing: SizingResult) -> list[str]:
@@ -124,22 +99,20 @@ def _lines(design: Design, sizing: SizingResult) -> list[str]:
         table(defaults),
         f"  and {len(design.assumed) - len(assumed)} defaults of the design file",
         "",
-        f"{sizing.candidates_screened:,} candidates, {sizing.survivors:,} meet every check; "
+        f"{sizing.candidates_screened:,} candidates, {sizing.survivors:,} pass the first screen; "
         "rejected first by:",
         table(rejected, right=(1,)),
-        "",
-        checks_table(sizing.checks),
         "",
         table(_choices(sizing), head=_CHOICE_HEAD, right=tuple(range(1, len(_CHOICE_HEAD)))),
         f"counted: {sizing.objective.scope};",
         "`inertia` weighs the whole machine.",
         "",
-        f"{design.name}: {verdict(sizing.checks)} by closed forms; {sizing.objective.binding} "
-        "binds, "
-        f"{number(sizing.objective.torque_reserve)} times the torque is its limit",
-        "not judged here: heat, stress, contact equilibrium, life, tolerances; see `check` and "
-        "`report`",
     ]
+
+
+def _judged(judged: Verdict) -> list[str]:
+    """The verdict on the design that was written."""
+    return [headline_table(judged), "", binding(judged), "", judged.sentence]
 
 
 _CHOICE_HEAD = (

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from cqdd_design.results import Check
+    from cqdd_design.verdict import Verdict
 
 
 def table(
@@ -55,13 +56,14 @@ def checks_table(checks: Sequence[Check]) -> str:
     for check in checks:
         relation = "<=" if check.sense == "max" else ">="
         margin = f"{check.margin:.3g}" if abs(check.margin) < 100.0 else "large"
+        margin = margin if check.known else "?"
         rows.append(
             [
                 check.status.upper() if check.status != "pass" else "pass",
                 check.id,
-                number(check.value),
+                _maybe(check.value),
                 relation,
-                number(check.limit),
+                _maybe(check.limit),
                 check.unit,
                 margin,
                 check.title,
@@ -71,16 +73,42 @@ def checks_table(checks: Sequence[Check]) -> str:
     return table(rows, head=head, right=(2, 4, 6))
 
 
-def verdict(checks: Sequence[Check]) -> str:
-    """One sentence over all checks."""
-    failed = sum(check.status == "fail" for check in checks)
-    warned = sum(check.status == "warn" for check in checks)
-    parts = [f"{len(checks) - failed - warned} of {len(checks)} checks pass"]
-    if failed:
-        parts.append(f"{failed} FAIL")
-    if warned:
-        parts.append(f"{warned} warn")
-    return ", ".join(parts)
+def _maybe(value: float | None) -> str:
+    """A number, or that it is not known."""
+    return "?" if value is None else number(value)
+
+
+def headline_table(judged: Verdict) -> str:
+    """The seven figures: status, what, value, what is asked, unit, and what it rests on."""
+    rows = [
+        [
+            one.status.upper() if one.status != "pass" else "pass",
+            one.title,
+            _maybe(one.value),
+            "-" if one.required is None else number(one.required),
+            one.unit,
+            one.basis,
+        ]
+        for one in judged.headline
+    ]
+    return table(rows, head=["", "figure", "value", "asked", "unit", "by"], right=(2, 3))
+
+
+def binding(judged: Verdict) -> str:
+    """What limits a design, and what to change: what is not met, or else the closest lines."""
+    short = [line for line in judged.limits if line.status != "pass"]
+    if short:
+        return "what is not met, and what would change that:\n" + told(
+            [
+                (
+                    line.id,
+                    f"{line.substituted}: {line.remedy}" if not line.known else line.remedy,
+                )
+                for line in short
+            ]
+        )
+    closest = ", ".join(f"{line.id} {line.margin:.3g}" for line in judged.limits)
+    return f"closest to their limits, by margin: {closest}"
 
 
 def remedies(checks: Sequence[Check]) -> str:

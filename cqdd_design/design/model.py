@@ -5,9 +5,11 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Literal, get_args, get_origin
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from pydantic import BaseModel, PrivateAttr, ValidationError, model_validator
+from pydantic.fields import FieldInfo
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design.actuator import Drive, Edm, Environment, Housing, Tolerances
@@ -19,9 +21,21 @@ from cqdd_design.design.reducer import Reducer
 from cqdd_design.design.requirements import Requirements
 from cqdd_design.errors import DesignError, is_unprintable
 from cqdd_design.files import refuse_extremes
-from cqdd_design.units import Dimension, QuantityIn, format_quantity
+from cqdd_design.units import (
+    CURRENT,
+    TEMPERATURE,
+    VOLTAGE,
+    Dimension,
+    QuantityIn,
+    format_quantity,
+)
+
+if TYPE_CHECKING:
+    from cqdd_design.design.duty_log import DutyColumns, DutyLog
 
 SCHEMA_VERSION: Literal[1] = 1
+#: Keys of the motor that follow from requirements which are stated.
+_SUPPLY = {"voltage": "voltage", "current_limit": "current"}
 #: Bytes of a name; file names add theirs, and 255 is the most that file systems take.
 _LONGEST_NAME = 200
 
@@ -50,8 +64,8 @@ class Design(FrozenModel):
 
     @model_validator(mode="before")
     @classmethod
-    def _ratio_once(cls, data: Any) -> Any:
-        """The requirements' ratio is that of the reducer unless the file says it again."""
+    def _said_once(cls, data: Any) -> Any:
+        """What one table says holds in another that is silent: ratio, supply and current."""
         if not isinstance(data, dict):
             return data
         filled = dict(data)
@@ -59,6 +73,11 @@ class Design(FrozenModel):
         requirements = filled.get("requirements", {})
         if isinstance(reducer, dict) and isinstance(requirements, dict) and "ratio" in reducer:
             filled["requirements"] = {"ratio": reducer["ratio"], **requirements}
+        motor = filled.get("motor", {})
+        if isinstance(motor, dict) and isinstance(requirements, dict):
+            stated = {key: requirements[own] for key, own in _SUPPLY.items() if own in requirements}
+            if stated:
+                filled["motor"] = {**stated, **motor}
         return filled
 
     @model_validator(mode="after")
@@ -73,6 +92,7 @@ class Design(FrozenModel):
                 f"requirements.ratio {self.requirements.ratio} is not reducer.ratio "
                 f"{self.reducer.ratio}; make them equal or leave requirements.ratio out"
             )
+        self._refuse_contradictions()
         if (
             not self.name.strip(" .")
             or len(self.name.encode("utf-8", "replace")) > _LONGEST_NAME
@@ -83,6 +103,25 @@ class Design(FrozenModel):
                 f"use letters, digits, blanks, '-' and '_', {_LONGEST_NAME} bytes at most"
             )
         return self
+
+    def _refuse_contradictions(self) -> None:
+        """Refuse requirements that other tables contradict."""
+        asked, ambient = self.requirements, self.environment.ambient
+        for key, own in _SUPPLY.items():
+            dimension = VOLTAGE if own == "voltage" else CURRENT
+            there, most = getattr(self.motor, key), getattr(asked, own)
+            if most is not None and there > most * (1.0 + 1e-12):
+                raise ValueError(
+                    f"motor.{key} {format_quantity(there, dimension)} is above requirements.{own} "
+                    f"{format_quantity(most, dimension)}; make them equal or leave motor.{key} out"
+                )
+        if asked.surface_temperature is not None and asked.surface_temperature <= ambient:
+            raise ValueError(
+                "requirements.surface_temperature "
+                f"{format_quantity(asked.surface_temperature, TEMPERATURE)} is not above "
+                f"environment.ambient {format_quantity(ambient, TEMPERATURE)}: nothing that loses "
+                "heat is as cold as the air; raise it or lower ambient"
+            )
 
     @classmethod
     def from_mapping(
@@ -153,6 +192,7 @@ class Design(FrozenModel):
         """
         if name is not None:
             found = self._with_motor_table({"name": name})
+            found._motor_place = IN_DESIGN
             return found if motor is None else found._with_motor_file(motor, named=True)
         return self if motor is None else self._with_motor_file(motor)
 
@@ -171,18 +211,14 @@ class Design(FrozenModel):
             _delete(mapping, key)
         table = mapping.pop("motor", {})
         driver = {key: table[key] for key in ("voltage", "current_limit") if key in table}
-        return Design.from_mapping(
-            mapping | {"motor": {**keys, **driver}}, source=self.name, si=True
-        )
+        return self._rebuilt(mapping | {"motor": {**keys, **driver}})
 
     def leaving(self, *keys: str) -> Design:
         """A design in which dotted keys are left to their defaults."""
         mapping = self.to_mapping()
         for key in (*self.assumed, *keys):
             _delete(mapping, key)
-        found = Design.from_mapping(mapping, source=self.name, si=True)
-        found._motor_place = self._motor_place
-        return found
+        return self._rebuilt(mapping)
 
     def dotted_keys(self) -> tuple[str, ...]:
         """All dotted keys of the resolved design, in file order."""
@@ -202,30 +238,80 @@ class Design(FrozenModel):
             _delete(mapping, key)
         for key, value in changes.items():
             _insert(mapping, key, value)
-        found = Design.from_mapping(mapping, source=self.name, si=True)
-        found._motor_place = self._motor_place
-        return found
+        return self._rebuilt(mapping)
+
+    def _rebuilt(self, mapping: Mapping[str, Any]) -> Design:
+        """The design of other values, with what this one read from files that it still names."""
+        changed = Design.from_mapping(mapping, source=self.name, si=True)
+        changed._motor_place = self._motor_place
+        asked, new = self.requirements, changed.requirements
+        if (new.duty_file, new.duty_columns) != (asked.duty_file, asked.duty_columns):
+            return changed
+        return changed.with_duty_log(asked.duty_log)
+
+    def with_duty_log(self, log: DutyLog | None) -> Design:
+        """The same design with what its duty's file says."""
+        changed = self.model_copy(update={"requirements": self.requirements.with_duty_log(log)})
+        changed._assumed, changed._motor_place = self._assumed, self._motor_place
+        return changed
+
+    def under_duty(self, log: DutyLog, columns: DutyColumns | None = None) -> Design:
+        """The design under another duty, which comes from a file, in place of its own."""
+        mapping = self.to_mapping()
+        for key in self.assumed:
+            _delete(mapping, key)
+        for key in ("duty", "duty_file", "duty_columns"):
+            mapping["requirements"].pop(key, None)
+        mapping["requirements"] |= duty_keys(log.source, columns)
+        return self._rebuilt(mapping).with_duty_log(log)
+
+    def turning_at(self, speed: float) -> Design:
+        """The design whose input turns at a speed (rad/s), under whatever torque."""
+        asked = self.requirements
+        changes: dict[str, float] = {"requirements.input_speed": speed}
+        if asked.continuous_speed is not None:
+            changes["requirements.continuous_speed"] = speed
+        if asked.speed_at_peak is not None:
+            changes["requirements.speed_at_peak"] = min(asked.speed_at_peak, speed / asked.ratio)
+        return self.replacing(changes)
 
     @property
     def sha256(self) -> str:
         """Hash of the resolved design: equal designs, equal hash, whatever the file looks like."""
-        text = json.dumps(self.to_mapping(), sort_keys=True, ensure_ascii=False)
+        log = self.requirements.duty_log
+        mapping = self.to_mapping() | ({} if log is None else {"duty_digest": log.digest})
+        text = json.dumps(mapping, sort_keys=True, ensure_ascii=False)
         return hashlib.sha256(text.encode()).hexdigest()
+
+
+def duty_keys(file: str, columns: DutyColumns | None = None) -> dict[str, Any]:
+    """The keys of requirements that name the file of a duty, and its columns where given."""
+    named = {key: text for key, text in asdict(columns).items() if text} if columns else {}
+    return {"duty_file": file} | ({"duty_columns": named} if named else {})
+
+
+def supply_taken_over(design: Design) -> dict[str, str]:
+    """Keys of the motor's supply that follow from a requirement where left out, and from which."""
+    return {
+        f"motor.{key}": f"requirements.{own}"
+        for key, own in _SUPPLY.items()
+        if getattr(design.requirements, own) is not None
+    }
 
 
 def dump(model: BaseModel) -> dict[str, Any]:
     """A model as nested tables with unit strings."""
     result: dict[str, Any] = {}
-    for name, field in type(model).model_fields.items():
-        value = getattr(model, name)
-        dimension = field_dimension(field.metadata)
+    for attribute, field in type(model).model_fields.items():
+        value, name = getattr(model, attribute), field.alias or attribute
+        dimension = field_dimension(field)
+        if value is None:  # not asked for, and TOML has no word for it
+            continue
         if isinstance(value, BaseModel):
             result[name] = dump(value)
         elif isinstance(value, tuple):
             if value:
                 result[name] = [dump(item) for item in value]
-        elif value is None:
-            continue
         elif dimension is not None:
             result[name] = format_quantity(value, dimension)
         else:
@@ -233,13 +319,12 @@ def dump(model: BaseModel) -> dict[str, Any]:
     return result
 
 
-def field_dimension(metadata: list[Any]) -> Dimension | None:
-    """The dimension of a quantity field, or None for other fields."""
-    for item in metadata:
+def field_dimension(field: FieldInfo) -> Dimension | None:
+    """The dimension of a quantity field, optional or not, or None for other fields."""
+    optional = [args for args in map(get_args, get_args(field.annotation)) if args]
+    for item in (*field.metadata, *(part for args in optional for part in args[1:])):
         if isinstance(item, QuantityIn):
             return item.dimension
-        if get_origin(item) is Annotated:
-            return field_dimension(list(get_args(item)[1:]))
     return None
 
 

@@ -79,110 +79,148 @@ class MotorData(FrozenModel):
 
     name: FreeText = ""
     based_on: MotorName | None = None
-    torque_constant: Annotated[
-        float | None,
-        QuantityIn(TORQUE_CONSTANT, "0.00001 N*m/A", "1000 N*m/A", "K, or the EMF over speed"),
-    ] = None
+    torque_constant: (
+        Annotated[
+            float,
+            QuantityIn(TORQUE_CONSTANT, "0.00001 N*m/A", "1000 N*m/A", "K, or the EMF over speed"),
+        ]
+        | None
+    ) = None
     convention: Convention | None = None
-    speed_constant: Annotated[
-        float | None,
-        QuantityIn(SPEED_CONSTANT, "0.01 rpm/V", "1000000 rpm/V", "KV, instead of K"),
-    ] = None
-    resistance: Annotated[
-        float | None,
-        QuantityIn(RESISTANCE, "0.00001 ohm", "10000 ohm", "of the winding at 25 degC"),
-    ] = None
-    inductance: Annotated[
-        float | None, QuantityIn(INDUCTANCE, "0 uH", "10000000 uH", "of the winding")
-    ] = None
+    speed_constant: (
+        Annotated[
+            float,
+            QuantityIn(SPEED_CONSTANT, "0.01 rpm/V", "1000000 rpm/V", "KV, instead of K"),
+        ]
+        | None
+    ) = None
+    resistance: (
+        Annotated[
+            float,
+            QuantityIn(RESISTANCE, "0.00001 ohm", "10000 ohm", "of the winding at 25 degC"),
+        ]
+        | None
+    ) = None
+    inductance: (
+        Annotated[float, QuantityIn(INDUCTANCE, "0 uH", "10000000 uH", "of the winding")] | None
+    ) = None
     measured_between: Literal["line", "phase"] | None = None
-    pole_pairs: Annotated[int | None, Whole(1, 1000, "of the rotor")] = None
-    slots: Annotated[int | None, Whole(1, 1000, "of the stator")] = None
-    rotor_inertia: Annotated[
-        float | None,
-        QuantityIn(INERTIA, "1e-9 kg*m^2", "10 kg*m^2", "rotor with its bell, if it is known"),
-    ] = None
-    mass: Annotated[float | None, QuantityIn(MASS, "0.001 kg", "1000 kg", "rotor and stator")] = (
+    pole_pairs: Annotated[int, Whole(1, 1000, "of the rotor")] | None = None
+    slots: Annotated[int, Whole(1, 1000, "of the stator")] | None = None
+    rotor_inertia: (
+        Annotated[
+            float,
+            QuantityIn(INERTIA, "1e-9 kg*m^2", "10 kg*m^2", "rotor with its bell, if it is known"),
+        ]
+        | None
+    ) = None
+    mass: Annotated[float, QuantityIn(MASS, "0.001 kg", "1000 kg", "rotor and stator")] | None = (
         None
     )
-    rotor_mass: Annotated[
-        float | None, QuantityIn(MASS, "0.001 kg", "1000 kg", "with its bell; instead of mass")
-    ] = None
-    stator_mass: Annotated[
-        float | None, QuantityIn(MASS, "0.001 kg", "1000 kg", "with its winding; instead of mass")
-    ] = None
-    rated_torque: Annotated[
-        float | None, QuantityIn(TORQUE, "0.1 mN*m", "100000 N*m", "for ever, by its maker")
-    ] = None
-    peak_torque: Annotated[
-        float | None, QuantityIn(TORQUE, "0.1 mN*m", "100000 N*m", "for seconds, by its maker")
-    ] = None
-    rated_current: Annotated[
-        float | None, QuantityIn(CURRENT, "0.01 A", "10000 A", "at the rated torque")
-    ] = None
-    peak_current: Annotated[
-        float | None, QuantityIn(CURRENT, "0.01 A", "10000 A", "at the peak torque")
-    ] = None
-    coulomb: Annotated[
-        float | None,
-        QuantityIn(TORQUE, "0 N*m", "1000 N*m", "drag of the motor alone, whatever its speed"),
-    ] = None
-    viscous: Annotated[
-        float | None,
-        QuantityIn(DAMPING_GAIN, "0 N*m*s/rad", "100 N*m*s/rad", "drag that grows with speed"),
-    ] = None
-    hysteresis: Annotated[
-        float | None,
-        QuantityIn(TORQUE, "0 N*m", "1000 N*m", "of the iron, where coulomb leaves it out"),
-    ] = None
-    iron_loss: Annotated[
-        float | None,
-        QuantityIn(
-            DAMPING_GAIN, "0 N*m*s/rad", "100 N*m*s/rad", "eddies, where viscous leaves them out"
-        ),
-    ] = None
-    cogging_amplitude: Annotated[
-        float | None, QuantityIn(TORQUE, "0 N*m", "1000 N*m", "half of peak to peak")
-    ] = None
-    cogging_order: Annotated[
-        int | None, Whole(1, 100_000, "periods in a turn: lcm of slots and poles")
-    ] = None
-    thermal_resistance: Annotated[
-        float | None,
-        QuantityIn(
-            THERMAL_RESISTANCE,
-            "0.001 K/W",
-            "1000 K/W",
-            "winding to ambient as built in, where drive.thermal_resistance does not say",
-        ),
-    ] = None
-    winding_limit: Annotated[
-        float | None, QuantityIn(TEMPERATURE, "40 degC", "300 degC", "wire, bond and magnets")
-    ] = None
-    outer_diameter: Annotated[
-        float | None, QuantityIn(LENGTH, "1 mm", "3000 mm", "of the rotor's bell")
-    ] = None
-    length: Annotated[float | None, QuantityIn(LENGTH, "1 mm", "3000 mm", "of the whole motor")] = (
+    rotor_mass: (
+        Annotated[float, QuantityIn(MASS, "0.001 kg", "1000 kg", "with its bell; instead of mass")]
+        | None
+    ) = None
+    stator_mass: (
+        Annotated[
+            float, QuantityIn(MASS, "0.001 kg", "1000 kg", "with its winding; instead of mass")
+        ]
+        | None
+    ) = None
+    rated_torque: (
+        Annotated[float, QuantityIn(TORQUE, "0.1 mN*m", "100000 N*m", "for ever, by its maker")]
+        | None
+    ) = None
+    peak_torque: (
+        Annotated[float, QuantityIn(TORQUE, "0.1 mN*m", "100000 N*m", "for seconds, by its maker")]
+        | None
+    ) = None
+    rated_current: (
+        Annotated[float, QuantityIn(CURRENT, "0.01 A", "10000 A", "at the rated torque")] | None
+    ) = None
+    peak_current: (
+        Annotated[float, QuantityIn(CURRENT, "0.01 A", "10000 A", "at the peak torque")] | None
+    ) = None
+    coulomb: (
+        Annotated[
+            float,
+            QuantityIn(TORQUE, "0 N*m", "1000 N*m", "drag of the motor alone, whatever its speed"),
+        ]
+        | None
+    ) = None
+    viscous: (
+        Annotated[
+            float,
+            QuantityIn(DAMPING_GAIN, "0 N*m*s/rad", "100 N*m*s/rad", "drag that grows with speed"),
+        ]
+        | None
+    ) = None
+    hysteresis: (
+        Annotated[
+            float,
+            QuantityIn(TORQUE, "0 N*m", "1000 N*m", "of the iron, where coulomb leaves it out"),
+        ]
+        | None
+    ) = None
+    iron_loss: (
+        Annotated[
+            float,
+            QuantityIn(
+                DAMPING_GAIN,
+                "0 N*m*s/rad",
+                "100 N*m*s/rad",
+                "eddies, where viscous leaves them out",
+            ),
+        ]
+        | None
+    ) = None
+    cogging_amplitude: (
+        Annotated[float, QuantityIn(TORQUE, "0 N*m", "1000 N*m", "half of peak to peak")] | None
+    ) = None
+    cogging_order: (
+        Annotated[int, Whole(1, 100_000, "periods in a turn: lcm of slots and poles")] | None
+    ) = None
+    thermal_resistance: (
+        Annotated[
+            float,
+            QuantityIn(
+                THERMAL_RESISTANCE,
+                "0.001 K/W",
+                "1000 K/W",
+                "winding to ambient as built in, where drive.thermal_resistance does not say",
+            ),
+        ]
+        | None
+    ) = None
+    winding_limit: (
+        Annotated[float, QuantityIn(TEMPERATURE, "40 degC", "300 degC", "wire, bond and magnets")]
+        | None
+    ) = None
+    outer_diameter: (
+        Annotated[float, QuantityIn(LENGTH, "1 mm", "3000 mm", "of the rotor's bell")] | None
+    ) = None
+    length: Annotated[float, QuantityIn(LENGTH, "1 mm", "3000 mm", "of the whole motor")] | None = (
         None
     )
-    bore_diameter: Annotated[
-        float | None, QuantityIn(LENGTH, "0.5 mm", "3000 mm", "of the stator, for the gearbox")
-    ] = None
-    hollow_diameter: Annotated[
-        float | None, QuantityIn(LENGTH, "0.5 mm", "3000 mm", "through rotor or shaft")
-    ] = None
-    gap_diameter: Annotated[
-        float | None, QuantityIn(LENGTH, "1 mm", "3000 mm", "of the air gap")
-    ] = None
-    stack_length: Annotated[
-        float | None, QuantityIn(LENGTH, "0.5 mm", "3000 mm", "of the laminations")
-    ] = None
-    rotor_length: Annotated[
-        float | None, QuantityIn(LENGTH, "0.5 mm", "3000 mm", "of the ring of magnets")
-    ] = None
-    slot_depth: Annotated[
-        float | None, QuantityIn(LENGTH, "0.5 mm", "1000 mm", "of the stator's slots")
-    ] = None
+    bore_diameter: (
+        Annotated[float, QuantityIn(LENGTH, "0.5 mm", "3000 mm", "of the stator, for the gearbox")]
+        | None
+    ) = None
+    hollow_diameter: (
+        Annotated[float, QuantityIn(LENGTH, "0.5 mm", "3000 mm", "through rotor or shaft")] | None
+    ) = None
+    gap_diameter: (
+        Annotated[float, QuantityIn(LENGTH, "1 mm", "3000 mm", "of the air gap")] | None
+    ) = None
+    stack_length: (
+        Annotated[float, QuantityIn(LENGTH, "0.5 mm", "3000 mm", "of the laminations")] | None
+    ) = None
+    rotor_length: (
+        Annotated[float, QuantityIn(LENGTH, "0.5 mm", "3000 mm", "of the ring of magnets")] | None
+    ) = None
+    slot_depth: (
+        Annotated[float, QuantityIn(LENGTH, "0.5 mm", "1000 mm", "of the stator's slots")] | None
+    ) = None
 
     @model_validator(mode="after")
     def _says_one_thing(self) -> MotorData:

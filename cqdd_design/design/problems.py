@@ -111,4 +111,5 @@ def _known_keys(model: type[BaseModel], tables: tuple[Any, ...]) -> list[str]:
         if not hasattr(current, "model_fields"):
             inner = [a for a in getattr(current, "__args__", ()) if hasattr(a, "model_fields")]
             current = inner[0] if inner else None
-    return list(current.model_fields) if hasattr(current, "model_fields") else []
+    fields = getattr(current, "model_fields", {})
+    return [field.alias or name for name, field in fields.items()]

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import model_validator
+from pydantic import Field, PrivateAttr, model_validator
 
 from cqdd_design.design.fields import (
+    FreeText,
     FrozenModel,
     MaterialName,
     MotorName,
@@ -14,7 +15,26 @@ from cqdd_design.design.fields import (
     Whole,
     default,
 )
-from cqdd_design.units import LENGTH, LOAD_SPEED, SPEED, TORQUE, QuantityIn, format_quantity
+from cqdd_design.errors import DesignError
+from cqdd_design.units import (
+    CURRENT,
+    DURATION,
+    INERTIA,
+    LENGTH,
+    LOAD_SPEED,
+    MASS,
+    SMALL_ANGLE,
+    SPEED,
+    STIFFNESS,
+    TEMPERATURE,
+    TORQUE,
+    VOLTAGE,
+    QuantityIn,
+    format_quantity,
+)
+
+if TYPE_CHECKING:
+    from cqdd_design.design.duty_log import DutyLog
 
 LEAST_RATIO, MOST_RATIO = 4, 119
 
@@ -31,6 +51,13 @@ DEFAULT_PEAK_MOST = 90.0
 DEFAULT_CONTINUOUS_SHARE = 0.38
 #: No-load speed of the paper's motor on 24 V, measured through its gearbox, rpm.
 DEFAULT_INPUT_SPEED = "1286 rpm"
+#: Default life at the continuous torque or over the duty.
+DEFAULT_LIFE = "1000 h"
+#: Default share of toleranced gearboxes that meet every requirement.
+DEFAULT_YIELD = 0.95
+#: Seconds.
+HOUR = 3600.0
+_ROUNDING = 1.0 + 1e-12
 
 
 class DutyPoint(FrozenModel):
@@ -45,10 +72,27 @@ class DutyPoint(FrozenModel):
     share: Annotated[float, Share(0.0, 1.0, "a share of the time")]
 
 
+class DutyColumnNames(FrozenModel):
+    """Columns of the duty's file, where their headings are not the usual ones.
+
+    Each as in the file; a unit in brackets after it where the heading has none.
+    """
+
+    time: FreeText = ""
+    torque: FreeText = ""
+    speed: FreeText = ""
+
+
+_Angle = Annotated[
+    float, QuantityIn(SMALL_ANGLE, "0.01 arcmin", "600 arcmin", "play of a gear train")
+]
+
+
 class Requirements(FrozenModel):
     """The requirements a gearbox is sized for and checked against.
 
-    Only `ratio` has no default. Torques are at the output, speed at the input.
+    Only `ratio` has no default. Torques are at the output, speed at the input. What is None is not
+    asked for: it is not judged, and not written to files.
     """
 
     ratio: Ratio
@@ -61,7 +105,23 @@ class Requirements(FrozenModel):
     input_speed: Annotated[
         float, QuantityIn(SPEED, "1 rpm", "30000 rpm", "greased eccentric bearings")
     ] = default(DEFAULT_INPUT_SPEED)
+    #: Of the input, at which the continuous torque is held for ever; None: the input speed.
+    continuous_speed: (
+        Annotated[float, QuantityIn(SPEED, "1 rpm", "30000 rpm", "greased eccentric bearings")]
+        | None
+    ) = None
+    #: Of the output, up to which the peak torque is reached; None: at a standstill.
+    speed_at_peak: (
+        Annotated[float, QuantityIn(LOAD_SPEED, "0 rad/s", "1000 rad/s", "the output of a reducer")]
+        | None
+    ) = None
+    life: Annotated[
+        float, QuantityIn(DURATION, "1 h", "100000 h", "eleven years without a stop")
+    ] = default(DEFAULT_LIFE)
     duty: tuple[DutyPoint, ...] = ()
+    #: Of a duty over time, from the design file's folder.
+    duty_file: FreeText | None = None
+    duty_columns: DutyColumnNames | None = None
     #: Of the output when it meets a rigid stop, beside the rated speed; 0 asks for none.
     shock_speed: Annotated[
         float, QuantityIn(LOAD_SPEED, "0 rad/s", "1000 rad/s", "the output of a reducer")
@@ -72,11 +132,61 @@ class Requirements(FrozenModel):
     length: Annotated[
         float, QuantityIn(LENGTH, "3 mm", "500 mm", "length of the pack of discs")
     ] = default("20 mm")
+    #: Diameter that cables or a shaft need through the middle.
+    bore: Annotated[float, QuantityIn(LENGTH, "0.5 mm", "500 mm", "cables or a shaft")] | None = (
+        None
+    )
+    #: Of the whole actuator.
+    mass: (
+        Annotated[float, QuantityIn(MASS, "0.01 kg", "1000 kg", "a joint that a robot carries")]
+        | None
+    ) = None
+    #: At the output, of everything that turns.
+    reflected_inertia: (
+        Annotated[
+            float, QuantityIn(INERTIA, "1e-7 kg*m^2", "10000 kg*m^2", "rotor times ratio squared")
+        ]
+        | None
+    ) = None
+    #: At most, of the output with the input held; of the toleranced gearboxes 95 % have less.
+    backlash: _Angle | None = None
+    #: At most, at 3 % of the continuous torque to either side.
+    lost_motion: _Angle | None = None
+    #: At least, of the output with the input held.
+    stiffness: (
+        Annotated[
+            float, QuantityIn(STIFFNESS, "1 N*m/rad", "100000000 N*m/rad", "a joint with teeth")
+        ]
+        | None
+    ) = None
+    #: At least, of the gearbox that drives, at the continuous torque or over the duty.
+    efficiency: Annotated[float, Share(0.01, 0.999, "what leaves over what enters")] | None = None
+    #: At most, of the housing outside.
+    surface_temperature: (
+        Annotated[
+            float, QuantityIn(TEMPERATURE, "0 degC", "200 degC", "what is touched or stands beside")
+        ]
+        | None
+    ) = None
+    #: Of the supply there is.
+    voltage: (
+        Annotated[float, QuantityIn(VOLTAGE, "1 V", "1000 V", "supply of the driver")] | None
+    ) = None
+    #: At most, of the motor.
+    current: (
+        Annotated[float, QuantityIn(CURRENT, "0.01 A", "2000 A", "limit of the driver")] | None
+    ) = None
+    #: Share of toleranced gearboxes that meet every requirement; ``yield`` in files.
+    yield_share: Annotated[float, Share(0.01, 1.0, "a share of the gearboxes made")] = Field(
+        default=DEFAULT_YIELD, alias="yield"
+    )
     motor: MotorName = "CubeMars RO100 KV55"
     disc_count: DiscCount = 2
     disc_material: MaterialName = "AISI 4140 Q&T 540C"
     ring_material: MaterialName = "AISI 4140 Q&T 540C"
     pin_material: MaterialName = "Alloy steel 12.9 (ISO 7379)"
+
+    _duty_log: DutyLog | None = PrivateAttr(default=None)
 
     @model_validator(mode="before")
     @classmethod
@@ -97,23 +207,95 @@ class Requirements(FrozenModel):
             filled["continuous_torque"] = _share_of(filled["peak_torque"], DEFAULT_CONTINUOUS_SHARE)
         return filled
 
+    @property
+    def held_speed(self) -> float:
+        """Input speed at which the continuous torque is held for ever, rad/s."""
+        return self.input_speed if self.continuous_speed is None else self.continuous_speed
+
+    @property
+    def duty_log(self) -> DutyLog | None:
+        """What the duty's file says; None without one.
+
+        Raises
+        ------
+        DesignError
+            Where a file is named that has not been read, as `load_design` does.
+        """
+        if self.duty_file is not None and self._duty_log is None:
+            raise DesignError(
+                f"requirements.duty_file '{self.duty_file}' has not been read: load the design "
+                "from its file, or attach its duty."
+            )
+        return self._duty_log
+
+    @property
+    def load_cases(self) -> tuple[DutyPoint, ...]:
+        """The steps of the duty, as stated or from its file; none without a duty."""
+        log = self.duty_log
+        if log is None:
+            return self.duty
+        from cqdd_design.design.duty_spectrum import load_cases
+
+        return tuple(DutyPoint.model_construct(**case._asdict()) for case in load_cases(log))
+
+    def with_duty_log(self, log: DutyLog | None) -> Requirements:
+        """The same requirements with what their duty's file says."""
+        changed = self.model_copy()
+        changed._duty_log = log
+        return changed
+
+    @property
+    def life_hours(self) -> float:
+        """Required life, h."""
+        return self.life / HOUR
+
     @model_validator(mode="after")
-    def _continuous_within_peak(self) -> Requirements:
-        if self.continuous_torque > self.peak_torque * (1.0 + 1e-12):
+    def _without_contradiction(self) -> Requirements:
+        if self.continuous_torque > self.peak_torque * _ROUNDING:
             raise ValueError(
                 f"continuous_torque {format_quantity(self.continuous_torque, TORQUE)} is above "
                 f"peak_torque {format_quantity(self.peak_torque, TORQUE)}; "
                 "lower it or raise peak_torque"
             )
+        fastest = format_quantity(self.input_speed, SPEED)
+        if self.held_speed > self.input_speed * _ROUNDING:
+            raise ValueError(
+                f"continuous_speed {format_quantity(self.held_speed, SPEED)} is above input_speed "
+                f"{fastest}, the fastest that is asked for; lower it or raise input_speed"
+            )
+        peak_speed = (self.speed_at_peak or 0.0) * self.ratio
+        if peak_speed > self.input_speed * _ROUNDING:
+            raise ValueError(
+                f"speed_at_peak {format_quantity(peak_speed / self.ratio, LOAD_SPEED)} turns the "
+                f"input at {peak_speed / SPEED.si_factor:.5g} rpm, above input_speed {fastest}; "
+                "lower it or raise input_speed"
+            )
+        if self.bore is not None and self.bore >= self.outer_diameter:
+            raise ValueError(
+                f"bore {format_quantity(self.bore, LENGTH)} is not within outer_diameter "
+                f"{format_quantity(self.outer_diameter, LENGTH)}; lower it or raise outer_diameter"
+            )
+        if self.lost_motion is not None and self.lost_motion < (self.backlash or 0.0):
+            raise ValueError(
+                f"lost_motion {format_quantity(self.lost_motion, SMALL_ANGLE)} is below backlash "
+                f"{format_quantity(self.backlash or 0.0, SMALL_ANGLE)}, which is part of it; "
+                "raise it or lower backlash"
+            )
+        if self.duty_file is not None and self.duty:
+            raise ValueError("duty and duty_file are both given; keep one of them")
+        if self.duty_columns is not None and self.duty_file is None:
+            raise ValueError("duty_columns belong to a duty_file, and there is none; name it")
         total = sum(point.share for point in self.duty)
-        if self.duty and abs(total - 1.0) > 1e-6:
-            raise ValueError(f"the shares of duty add up to {total:g}; they must add up to 1")
+        if total > 1.0 + 1e-6:
+            raise ValueError(
+                f"the shares of duty add up to {total:g}, more than all of the time; lower them "
+                "to 1 or less: what is missing is rest"
+            )
         return self
 
 
 def _share_of(torque: Any, share: float) -> Any:
     """A share of a torque that may still be a unit string; unreadable text is passed on as is."""
-    from cqdd_design.errors import DesignError
     from cqdd_design.units import parse_quantity
 
     if isinstance(torque, str):

@@ -29,7 +29,7 @@ def design_schema() -> dict[str, Any]:
             key for key in table.get("required", ()) if key not in DERIVED_DEFAULTS
         ]
         for key, field in table["properties"].items():
-            _leave_out_null(field)
+            _without_null(field)
             names = _catalogue_names(table["title"], key)
             if names:
                 field["examples"] = names
@@ -42,17 +42,17 @@ def design_schema() -> dict[str, Any]:
     return {"$schema": _DIALECT, "$comment": "Written by `cqdd-design schema`.", **schema}
 
 
-def _leave_out_null(field: dict[str, Any]) -> None:
-    """A key without a value is left out of a file; TOML has no null."""
+def _without_null(field: dict[str, Any]) -> None:
+    """Take from a key that may be left out the null that stands for that: TOML has none."""
     default = field.get("default", "")
     if default is None:
         del field["default"]
     elif isinstance(default, dict):
         field["default"] = {key: value for key, value in default.items() if value is not None}
-    kinds = [kind for kind in field.get("anyOf", ()) if kind != {"type": "null"}]
-    if len(kinds) == 1:
+    kinds = field.get("anyOf", [])
+    if {"type": "null"} in kinds:
         del field["anyOf"]
-        field.update(kinds[0])
+        field.update(next(kind for kind in kinds if kind != {"type": "null"}))
 
 
 def _catalogue_names(table: str, key: str) -> list[str]:

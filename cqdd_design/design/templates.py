@@ -25,10 +25,31 @@ _REMARKS_AT = 44
 """Column of the remarks."""
 _NOT_OF_ROW = ("name", "based_on", "speed_constant", "winding_limit")
 """Keys of a motor whose row says them otherwise."""
-_LISTS: Mapping[str, str] = MappingProxyType(
-    {"duty": '[{ torque = "30 N*m", speed = "10 rad/s", share = 1.0 }]'}
+_TABLES: Mapping[str, str] = MappingProxyType(
+    {
+        "duty": '[{ torque = "30 N*m", speed = "10 rad/s", share = 0.7 }]',
+        "duty_columns": '{ time = "t [s]", torque = "T [N m]", speed = "w [rad/s]" }',
+    }
 )
-"""How a list of tables is written."""
+"""How lists of tables and tables in a line are written."""
+_ASKED: Mapping[str, Any] = MappingProxyType(
+    {
+        "continuous_speed": "600 rpm",
+        "speed_at_peak": "3 rad/s",
+        "duty_file": "duty.csv",
+        "bore": "8 mm",
+        "mass": "1.5 kg",
+        "reflected_inertia": "0.08 kg*m^2",
+        "backlash": "6 arcmin",
+        "lost_motion": "4 arcmin",
+        "stiffness": "8000 N*m/rad",
+        "efficiency": 0.75,
+        "surface_temperature": "70 degC",
+        "voltage": "48 V",
+        "current": "50 A",
+    }
+)
+"""Examples of what is asked for only where it is stated."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +115,7 @@ def _of_row(row: Motor) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for key, field in MotorData.model_fields.items():
         value = values.get(key, getattr(row, key, None))
-        dimension = field_dimension(field.metadata)
+        dimension = field_dimension(field)
         if key in _NOT_OF_ROW or value is None:
             continue
         if dimension is not None:
@@ -166,19 +187,20 @@ def _models(model: type[BaseModel]) -> dict[str, type[BaseModel]]:
 
 def _lines(model: type[BaseModel], values: Mapping[str, Any], given: set[str]) -> Iterator[str]:
     """A line for every key, but for those of a motor's data, which have a template of their own."""
-    for key, field in model.model_fields.items():
+    for attribute, field in model.model_fields.items():
+        key = field.alias or attribute
         if key in _models(model):
             continue
         if issubclass(model, MotorData) and key in MotorData.model_fields and key != "name":
             continue
         if key in values:
             yield _line(key, values[key], _range(field), given=key in given)
-        elif key in _LISTS:
-            yield f"# {key} = {_LISTS[key]}"
+        elif key in _TABLES:
+            yield f"# {key} = {_TABLES[key]}"
         elif field.default is None:
-            dimension = field_dimension(field.metadata)
-            example = "" if dimension is None else dimension.example().strip('"')
-            yield _line(key, example, _range(field), given=False)
+            dimension = field_dimension(field)
+            plain = "" if dimension is None else dimension.example().strip('"')
+            yield _line(key, _ASKED.get(key, plain), _range(field), given=False)
     if issubclass(model, MotorData):
         yield "# and the keys of `cqdd-design new motor`, for a motor that the catalogue lacks"
 

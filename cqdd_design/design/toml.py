@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, MutableMapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
@@ -20,6 +20,9 @@ from cqdd_design.files import (
     refuse_extremes,
     write_atomically,
 )
+
+if TYPE_CHECKING:
+    from cqdd_design.design.duty_log import DutyLog
 
 #: A design file is a few kilobytes; anything past this is the wrong file.
 LARGEST_FILE = 1_000_000
@@ -37,11 +40,28 @@ def load_design(path: Path) -> Design:
     """
     data = _read(path)
     data.setdefault("name", path.stem)
-    return Design.from_mapping(_migrated(data, path), source=str(path))
+    design = Design.from_mapping(_migrated(data, path), source=str(path))
+    log = _duty(design.requirements, path.parent)
+    return design if log is None else design.with_duty_log(log)
+
+
+def _duty(asked: Requirements, folder: Path) -> DutyLog | None:
+    """The duty whose file requirements name, from a folder on."""
+    if asked.duty_file is None:
+        return None
+    # Reading it takes numpy, which most files do without.
+    from cqdd_design.design.duty_file import read_duty
+    from cqdd_design.design.duty_log import DutyColumns
+
+    named = asked.duty_columns
+    columns = None if named is None else DutyColumns(named.time, named.torque, named.speed)
+    return read_duty(folder / asked.duty_file, columns)
 
 
 def load_requirements(path: Path, changes: Mapping[str, Any] | None = None) -> Requirements:
     """Read the ``[requirements]`` table of a requirements or design file.
+
+    A duty's file that it names is read, and its name is one from the working folder on.
 
     Parameters
     ----------
@@ -54,10 +74,15 @@ def load_requirements(path: Path, changes: Mapping[str, Any] | None = None) -> R
     table = data.get("requirements")
     if not isinstance(table, dict):
         raise DesignError(f"{path}: there is no table [requirements] with at least ratio = N.")
+    given = dict(changes or {})
+    if "duty_file" in given:
+        table = {key: value for key, value in table.items() if not key.startswith("duty")}
+    elif isinstance(table.get("duty_file"), str):
+        given["duty_file"] = str(path.parent / table["duty_file"])
     # A design's motor is asked for too, unless its requirements name another.
     base, _ = motor_of_requirements(data.get("motor"), path)
     asked = {"motor": base} if base else {}
-    return requirements_from_mapping({**asked, **table, **(changes or {})}, source=str(path))
+    return requirements_from_mapping({**asked, **table, **given}, source=str(path))
 
 
 def load_required_motor(path: Path) -> MotorFile | None:
@@ -74,12 +99,17 @@ def load_required_motor(path: Path) -> MotorFile | None:
 def requirements_from_mapping(
     data: Mapping[str, Any], *, source: str = "requirements"
 ) -> Requirements:
-    """Validate a mapping of requirement keys (unit strings); a `DesignError` says what is wrong."""
+    """Validate a mapping of requirement keys (unit strings); a `DesignError` says what is wrong.
+
+    The file of a duty is read, from the working folder on.
+    """
     refuse_extremes(data, source, wrong=DesignError)
     try:
-        return Requirements.model_validate(dict(data))
+        asked = Requirements.model_validate(dict(data))
     except ValidationError as error:
         raise describe_problems(error, Requirements, source) from None
+    log = _duty(asked, Path())
+    return asked if log is None else asked.with_duty_log(log)
 
 
 def save_design(

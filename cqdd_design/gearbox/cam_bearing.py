@@ -158,27 +158,33 @@ def rate(bearing: Bearing, peak_load: float, continuous_load: float, speed: floa
     return BearingResult(bearing, peak_load, continuous_load, speed, safety, life)
 
 
-def passes(result: BearingResult) -> bool:
-    """Whether both ratings meet their limits."""
+def passes(result: BearingResult, hours: float) -> bool:
+    """Whether both ratings meet their limits, the life these hours."""
     return (
         result.static_safety is not None
         and result.life_hours is not None
         and result.static_safety >= allowables.STATIC_SAFETY
-        and result.life_hours >= allowables.LIFE_HOURS
+        and result.life_hours >= hours
     )
 
 
-def _reserve(result: BearingResult) -> float:
-    """Load reserve of a rated bearing: how many times the load it could carry."""
+def _reserve(result: BearingResult, hours: float) -> float:
+    """Load reserve of a rated bearing over some hours: how many times the load it could carry."""
     safety, life = result.static_safety or 0.0, result.life_hours or 0.0
-    by_life = float((life / allowables.LIFE_HOURS) ** (1.0 / result.exponent))
+    by_life = float((life / hours) ** (1.0 / result.exponent))
     return min(safety / allowables.STATIC_SAFETY, by_life)
 
 
 def choose(
-    candidates: Iterable[Bearing], peak_load: float, continuous_load: float, speed: float
+    candidates: Iterable[Bearing],
+    peak_load: float,
+    continuous_load: float,
+    speed: float,
+    hours: float,
 ) -> BearingResult | None:
     """Return the smallest candidate that passes, or else the one with the most reserve.
+
+    Loads and speed are those of `rate`, and the hours those that it has to last.
 
     Returns
     -------
@@ -187,16 +193,16 @@ def choose(
     """
     rated = [rate(bearing, peak_load, continuous_load, speed) for bearing in candidates]
     for result in rated:
-        if passes(result):
+        if passes(result, hours):
             return result
-    return max(rated, key=_reserve, default=None)
+    return max(rated, key=lambda result: _reserve(result, hours), default=None)
 
 
 def relative_speed(design: Design) -> float:
-    """Speed of the crank against the discs at the required input speed, rad/s."""
+    """Speed of the crank against the discs at the continuous torque's input speed, rad/s."""
     return float(
         kinematics.cam_bearing_speed_ring_fixed(
-            design.reducer.ratio, design.requirements.input_speed
+            design.reducer.ratio, design.requirements.held_speed
         )
     )
 

@@ -106,7 +106,7 @@ def pin_strength(design: Design, peak: RigidMaxima, continuous: RigidMaxima) -> 
     paper_shear = allowables.PAPER_SHEAR_SHARE * _ultimate(material)
     per_pin = float(output_pins.single_shear_torque_per_pin(d, paper_shear, pins.circle_radius))
     bending_limit = allowables.pin_limit_peak(material).value
-    senses = [point.torque for point in design.requirements.duty]
+    senses = [point.torque for point in design.requirements.load_cases]
 
     def capacity(force: float) -> float:
         return float(

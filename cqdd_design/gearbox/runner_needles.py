@@ -47,4 +47,4 @@ def _rated(
     if runner.cage is None:
         return None
     peak, continuous = (UNEVEN_SHARING * force / runner.rows for force in forces)
-    return rate(runner.cage, peak, continuous, turn * design.requirements.input_speed)
+    return rate(runner.cage, peak, continuous, turn * design.requirements.held_speed)

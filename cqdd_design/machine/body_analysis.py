@@ -62,7 +62,7 @@ def analyse_bodies(
         return [contact_sweep(model, t, states=states, friction=rubbed) for t in (size, -size)]
 
     at_peak = both(peak)
-    senses = [case.torque for case in asked.duty]
+    senses = [case.torque for case in asked.load_cases]
     strengths = [
         find_material(name).ultimate_strength or math.inf
         for name in (design.reducer.disc_material, design.reducer.ring_material)

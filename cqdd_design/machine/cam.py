@@ -34,7 +34,11 @@ def named_bearing(design: Design) -> Design:
     peak = rigid_maxima(stages, design.requirements.peak_torque).cam_bearing_load
     most = largest_outer_diameter(design, 2.0 * stages.hole_radius, valley)
     chosen = choose(
-        fitting_bearings(design, most), peak, continuous_load(design, peak), relative_speed(design)
+        fitting_bearings(design, most),
+        peak,
+        continuous_load(design, peak),
+        relative_speed(design),
+        design.requirements.life_hours,
     )
     if chosen is None:
         raise InfeasibleError(

@@ -101,6 +101,17 @@ class LoadedContacts:
                 return math.exp(self._last_with_equilibrium(low, high))
         return float(math.exp(brentq(over, low, high, xtol=_TOLERANCE)))
 
+    def reach(self, torque: float) -> float:
+        """The most torque up to `torque` (N m) that has an equilibrium; 0 where none has."""
+        if self._has_equilibrium(torque):
+            return torque
+        low = 0.5 * torque
+        while not self._has_equilibrium(low):
+            low *= 0.5
+            if low < _LEAST_TORQUE:
+                return 0.0
+        return math.exp(self._last_with_equilibrium(math.log(low), math.log(2.0 * low)))
+
     def _has_equilibrium(self, torque: float) -> bool:
         try:
             for angles in (_SEARCHED_ANGLES, ANGLES):

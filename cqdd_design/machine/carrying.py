@@ -17,11 +17,11 @@ from typing import Literal, NamedTuple
 
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.bearing_life import load_for_life
-from cqdd_design.gearbox.checks.allowables import LIFE_HOURS, STATIC_SAFETY, UNEVEN_SHARING
+from cqdd_design.gearbox.checks.allowables import STATIC_SAFETY, UNEVEN_SHARING
+from cqdd_design.gearbox.checks.equilibrium import MODEL as EQUILIBRIUM
 from cqdd_design.machine.capacity import LoadedContacts
 from cqdd_design.machine.machine import Machine
 
-EQUILIBRIUM = "contact equilibrium of perfect parts, driving with friction"
 RIGID = f"rigid law x {UNEVEN_SHARING:g}"
 OUT_OF_REACH = "the parts would have to move farther than they reach"
 
@@ -180,7 +180,7 @@ def torque_limits(machine: Machine) -> tuple[TorqueLimit, ...]:
     GeometryError
         When disc, ring or holes cannot exist.
     """
-    contacts = LoadedContacts(machine.contact)
+    contacts = machine.loaded_contacts
     return tuple(_limit(machine, contacts, one) for one in compared_limits(machine))
 
 
@@ -207,10 +207,11 @@ def compared_limits(machine: Machine) -> Iterator[Compared]:
     cam = analysis.cam_bearing
     static = (cam.bearing.static_rating or 0.0) / STATIC_SAFETY
     dynamic = cam.bearing.dynamic_rating or 0.0
-    lasting = float(load_for_life(dynamic, LIFE_HOURS, cam.speed, cam.exponent))
+    hours = machine.design.requirements.life_hours
+    lasting = float(load_for_life(dynamic, hours, cam.speed, cam.exponent))
     bearings = {
         "BEARING-STATIC": (f"load for C0/P = {STATIC_SAFETY:g}", cam.peak_load, static),
-        "BEARING-LIFE": (f"load for L10h = {LIFE_HOURS:g} h", cam.continuous_load, lasting),
+        "BEARING-LIFE": (f"load for L10h = {hours:g} h", cam.continuous_load, lasting),
     }
     for check in analysis.checks:
         if check.id in bearings:
@@ -218,12 +219,13 @@ def compared_limits(machine: Machine) -> Iterator[Compared]:
             found = Compared(check.id, title, value, limit, "N", 1.0)
         elif check.id in LIMITS:
             row, per_key = LIMITS[check.id], 1.0
+            value, limit = check.compared
             if row.key == _PIN:
                 # Stresses of a pin grow with its force, which the check counts for uneven sharing.
                 peak = row.load == "peak"
                 load = analysis.rigid_peak if peak else analysis.rigid_continuous
-                per_key = check.value / (UNEVEN_SHARING * load.output_pin_force)
-            found = Compared(check.id, check.title, check.value, check.limit, check.unit, per_key)
+                per_key = value / (UNEVEN_SHARING * load.output_pin_force)
+            found = Compared(check.id, check.title, value, limit, check.unit, per_key)
         else:
             continue
         if min(found.value, found.limit) > 0.0:

@@ -161,9 +161,13 @@ def analyse_contact(
         reversed=back,
         preload=idle_sweep(model, peak, states) if tight else None,
         precision=exact,
-        losses=losses.at(asked.input_speed, steady),
+        losses=losses.at(asked.held_speed, steady),
         map=losses.efficiency_map(shares * asked.input_speed, shares * asked.peak_torque),
-        life=life(design, model, friction=friction != "off"),
+        life=(
+            machine.life
+            if usual and friction != "off"
+            else life(design, model, friction=friction != "off")
+        ),
         running=running(design, model, losses, at_steady, some),
         bending=bending,
         bending_missing=missing,

@@ -27,8 +27,10 @@ if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.laws import LineModel
     from cqdd_design.gearbox.contact.model import ContactModel
     from cqdd_design.gearbox.heat.expansion import PartTemperatures
+    from cqdd_design.gearbox.life import LifeResult
     from cqdd_design.gearbox.losses import FrictionMachine, LossModel
     from cqdd_design.gearbox.losses.rolling import BearingFriction
+    from cqdd_design.machine.capacity import LoadedContacts
     from cqdd_design.results import MassProperties
     from cqdd_design.solids.inertia import GearboxInertia
 
@@ -203,6 +205,20 @@ class Machine:
         from cqdd_design.gearbox.heat.expansion import heated
 
         return heated(drawn, self.design, self.temperatures)
+
+    @cached_property
+    def loaded_contacts(self) -> LoadedContacts:
+        """Greatest forces and pressures of perfect parts over torques."""
+        from cqdd_design.machine.capacity import LoadedContacts
+
+        return LoadedContacts(self.contact)
+
+    @cached_property
+    def life(self) -> LifeResult:
+        """Over the duty of the requirements; ContactError where a case has no equilibrium."""
+        from cqdd_design.gearbox.life import life
+
+        return life(self.design, self.contact)
 
     @cached_property
     def bodies(self) -> ElasticBodies | None:

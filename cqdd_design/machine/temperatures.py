@@ -1,13 +1,9 @@
-"""How warm a machine's parts get at a duty, and what that does to its clearances.
-
-Losses are those of the gearbox as drawn, at 20 deg C: what warmth changes about them, preload above
-all, is not fed back. Half of what rubs between two parts warms either of them.
-"""
+"""How warm a machine's parts get at a duty, and what that does to its clearances."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -15,23 +11,19 @@ from typing import NamedTuple
 import numpy as np
 
 from cqdd_design.catalog.materials import find_material
-from cqdd_design.catalog.motors import (
-    COPPER_COEFFICIENT,
-    COPPER_REFERENCE,
-    WINDING_MOST,
-    Motor,
-)
+from cqdd_design.catalog.motors import WINDING_MOST
 from cqdd_design.errors import ContactError, DesignError, GeometryError
 from cqdd_design.gearbox.checks.allowables import GREASE_MOST, HOUSING_MOST
 from cqdd_design.gearbox.checks.heat import Tightness, WarmPart, clearance_check, rise_check
+from cqdd_design.gearbox.heat.cycle import settled_cycle
 from cqdd_design.gearbox.heat.expansion import AS_DRAWN, COLDEST, HOTTEST, PartTemperatures
 from cqdd_design.gearbox.heat.network import Heat, ThermalNetwork
 from cqdd_design.gearbox.precision.backlash import Backlash, backlash
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.machine.duty_heat import DutyHeat, duty_cases, duty_heat, logged_heat
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.thermal_parts import (
     NODES,
-    Node,
     by_node,
     machine_network,
     node_values,
@@ -39,15 +31,6 @@ from cqdd_design.machine.thermal_parts import (
 )
 from cqdd_design.results import Check
 
-_SHARES: dict[str, dict[Node, float]] = {
-    "ring_teeth": {"ring": 0.5, "disc": 0.5},
-    "output_pins": {"disc": 0.5, "carrier": 0.5},
-    "cam_bearings": {"disc": 0.5, "shaft": 0.5},
-    "support_bearings": {"shaft": 0.5, "housing": 0.25, "carrier": 0.25},
-    "output_bearing": {"housing": 0.5, "carrier": 0.5},
-    "grease": {"disc": 0.5, "carrier": 0.5},
-}
-"""Which parts a loss warms."""
 _MOST_FACTOR = 1e3
 _HALVINGS = 60
 _WATTS = 1e-3, 1e5
@@ -58,104 +41,10 @@ _EDGE = 1e-6
 """Kept off the end of the range of temperatures, K, for rounding."""
 _LEAST_TIME, _SETTLED = 5.0, 6.0
 """First time of a history, s, and its last over the slowest time constant."""
+_SHOWN = 200
+"""Times of a duty's cycle in JSON."""
 _LOOKS = 6
 """States on the way from the coldest start at which clearances are looked at."""
-
-
-class DutyCase(NamedTuple):
-    """Output torque, N m, input speed, rad/s, both with their sign, and share of the time."""
-
-    torque: float
-    input_speed: float
-    share: float
-
-
-@dataclass(frozen=True, eq=False)
-class DutyHeat:
-    """What a duty loses, W.
-
-    Attributes
-    ----------
-    heat : Heat
-        By node.
-    gearbox : float
-        Mean of the gearbox's losses.
-    current_squared : float
-        Mean square of the motor's current, A^2.
-    """
-
-    heat: Heat
-    gearbox: float
-    current_squared: float
-
-
-def duty_cases(machine: Machine, *, duty: bool = True) -> tuple[DutyCase, ...]:
-    """The duty of the requirements, or the continuous torque at the input speed without one."""
-    asked, n = machine.design.requirements, machine.design.reducer.ratio
-    if duty and asked.duty:
-        return tuple(DutyCase(one.torque, n * one.speed, one.share) for one in asked.duty)
-    return (DutyCase(asked.continuous_torque, asked.input_speed, 1.0),)
-
-
-def duty_heat(machine: Machine, cases: Iterable[DutyCase]) -> DutyHeat:
-    """Mean heat of a duty in every node.
-
-    The motor is a DC machine, K as the catalogue's: copper heats its winding, and its own drag, of
-    iron above all, the stator. Where the output drives, the gearbox loses what being driven takes,
-    spread over its parts as while driving, and the motor brakes what losses leave, or pushes where
-    they take more than the output gives.
-
-    Raises
-    ------
-    DesignError
-        When the catalogue has no torque constant or no resistance of the motor.
-    ContactError
-        When the gearbox has no equilibrium.
-    """
-    constant, resistance = _winding(machine)
-    losses, n = machine.losses, machine.design.reducer.ratio
-    watts, gearbox, squared = dict.fromkeys(NODES, 0.0), 0.0, 0.0
-    for torque, speed, share in cases:
-        lost = losses.at(speed, torque)
-        forward = torque * speed >= 0.0
-        taken = lost.loss_torque if forward else lost.loss_torque_backward
-        driven = taken / lost.loss_torque if lost.loss_torque else 1.0
-        for source, power in lost.by_source.items():
-            gearbox += share * driven * power
-            for node, part in _SHARES[source].items():
-                watts[node] += share * part * driven * power
-        drag = motor_drag(machine.motor, speed)
-        watts["stator"] += share * drag * abs(speed)
-        resisting = taken / n + drag
-        needed = abs(torque) / n + (resisting if forward else -resisting)
-        squared += share * (needed / constant) ** 2
-    slope = squared * resistance * COPPER_COEFFICIENT
-    watts["winding"] += squared * resistance * (1.0 - COPPER_COEFFICIENT * COPPER_REFERENCE)
-    winding = node_values({"winding": 1.0}) > 0.0
-    heat = Heat(
-        node_values(watts),
-        np.where(winding, slope, 0.0),
-        np.where(winding, machine.motor.winding_most, np.inf),
-    )
-    return DutyHeat(heat, gearbox, squared)
-
-
-def _winding(machine: Machine) -> tuple[float, float]:
-    row = machine.motor
-    if not row.torque_constant or not row.line_resistance:
-        raise DesignError(
-            f"no temperatures: the torque constant or the resistance of '{row.name}' is not known, "
-            "and so the heat of its winding is not; give torque_constant and resistance in [motor] "
-            "or with --motor-file, or name a motor that has them, such as 'CubeMars RO100 KV55'."
-        )
-    return row.torque_constant, row.line_resistance
-
-
-def motor_drag(row: Motor, speed: float) -> float:
-    """Torque that a motor's own drag takes at a speed (rad/s), N m; 0 where none is known."""
-    steady = (row.coulomb or 0.0) + (row.hysteresis or 0.0)
-    grows = (row.viscous or 0.0) + (row.iron_loss or 0.0)
-    return steady + grows * abs(speed) if speed else 0.0
 
 
 class TwoNodes(NamedTuple):
@@ -273,6 +162,41 @@ def warm_clearance(machine: Machine, temperatures: PartTemperatures) -> WarmClea
 
 
 @dataclass(frozen=True, eq=False)
+class WarmCycle:
+    """Temperatures over one cycle of a duty, the same in every one.
+
+    Attributes
+    ----------
+    time : array (K,)
+        From the beginning of the cycle, s.
+    temperature : array (K, N)
+        At these times, deg C.
+    """
+
+    time: FloatArray
+    temperature: FloatArray
+
+    @property
+    def winding(self) -> tuple[float, float]:
+        """Greatest temperature of the winding, deg C, and when it has it, s."""
+        values = self.temperature[:, NODES.index("winding")]
+        hottest = int(values.argmax())
+        return float(values[hottest]), float(self.time[hottest])
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form, some hundred times of the cycle and the hottest."""
+        most, when = self.winding
+        some = np.unique(np.linspace(0, len(self.time) - 1, _SHOWN).round().astype(int))
+        return {
+            "winding_peak_degC": most,
+            "winding_peak_at_s": when,
+            "winding_least_degC": float(self.temperature[:, NODES.index("winding")].min()),
+            "time_s": self.time[some].tolist(),
+            "cycle_degC": {n: self.temperature[some, i].tolist() for i, n in enumerate(NODES)},
+        }
+
+
+@dataclass(frozen=True, eq=False)
 class MachineTemperatures:
     """Temperatures of a machine's parts at a duty, in the air of its surroundings.
 
@@ -282,13 +206,22 @@ class MachineTemperatures:
     network : ThermalNetwork
     duty : DutyHeat
     steady : array (N,)
-        Of :data:`.thermal_parts.NODES`, deg C.
+        Of :data:`.thermal_parts.NODES`, deg C, under the mean heat of the duty.
+    cycle : WarmCycle or None
+        Of a duty over time, once its cycles repeat.
     """
 
     machine: Machine
     network: ThermalNetwork
     duty: DutyHeat
     steady: FloatArray
+    cycle: WarmCycle | None = None
+
+    @property
+    def winding(self) -> float:
+        """Greatest temperature of the winding, over a duty's cycle where there is one, deg C."""
+        settled = float(self.steady[NODES.index("winding")])
+        return settled if self.cycle is None else max(settled, self.cycle.winding[0])
 
     @cached_property
     def times(self) -> FloatArray:
@@ -370,6 +303,7 @@ class MachineTemperatures:
             "backlash_arcmin": math.degrees(hot.free.mean) * 60.0,
             "least_gap_um": hot.least_gap * 1e6,
             "preload_overlap_um": hot.overlap * 1e6,
+            "cycle": None if self.cycle is None else self.cycle.to_dict(),
             "history_s": self.times.tolist(),
             "history_degC": {n: self.history[:, i].tolist() for i, n in enumerate(NODES)},
         }
@@ -389,8 +323,13 @@ def machine_temperatures(machine: Machine, *, duty: bool = True) -> MachineTempe
         When the network or the losses are not known.
     """
     network = cooled_network(machine)
-    found = duty_heat(machine, duty_cases(machine, duty=duty))
-    return MachineTemperatures(machine, network, found, network.steady(found.heat))
+    log = machine.design.requirements.duty_log if duty else None
+    if log is None:
+        found = duty_heat(machine, duty_cases(machine, duty=duty))
+        return MachineTemperatures(machine, network, found, network.steady(found.heat))
+    steps, heats, found = logged_heat(machine, log)
+    cycle = WarmCycle(np.cumsum(steps), settled_cycle(network, steps, heats))
+    return MachineTemperatures(machine, network, found, network.steady(found.heat), cycle)
 
 
 def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
@@ -405,7 +344,7 @@ def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
     housing = find_material(found.machine.design.housing.material).service_limit
     greased = max(("ring", "disc", "shaft", "carrier"), key=at.__getitem__)
     parts = (
-        WarmPart("winding", at["winding"], found.machine.motor.winding_most),
+        WarmPart("winding", found.winding, found.machine.motor.winding_most),
         WarmPart(f"grease at the {greased}", at[greased], GREASE_MOST),
         WarmPart("housing", at["housing"], HOUSING_MOST if housing is None else housing),
     )

@@ -158,7 +158,7 @@ def conductances(machine: Machine, layout: Layout, motor: MotorLayout) -> Conduc
     metal = _known(design.housing.material, "conductivity")
     shaft = layout.shaft
     turn = 1.0 + 1.0 / design.reducer.ratio
-    speed = design.requirements.input_speed
+    speed = design.requirements.held_speed
     ring, disc, pins = _grease(machine, layout)
     pairs: dict[tuple[Node, Node], float] = {
         **_motor_pairs(machine, motor, layout.unit, metal),

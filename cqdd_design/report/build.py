@@ -37,7 +37,6 @@ from cqdd_design.report.judgement.facts import derived_values, head_facts
 from cqdd_design.report.judgement.origins import Value, defaults, values_by_group
 from cqdd_design.report.judgement.planetary import planetary_view
 from cqdd_design.report.judgement.search import sizing_view
-from cqdd_design.report.judgement.shortfalls import shortfalls
 from cqdd_design.report.judgement.verdict import pin_figure, verdict
 
 if TYPE_CHECKING:
@@ -60,7 +59,7 @@ def build_report(results: ReportInput) -> str:
     str
         HTML, to be written as UTF-8.
     """
-    judged = verdict(results.design, results.checks, shortfalls(results))
+    judged = verdict(results.verdict)
     shown = [chapter for chapter in _chapters(results) if chapter.values is not None]
     context: Values = {
         "design": results.design,
@@ -89,7 +88,7 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
     design, gearbox, contact = results.design, results.gearbox, results.contact
     outlines = Outlines.from_design(design, gearbox.cam_bearing.bearing)
     groups, law = values_by_group(design, results.comments), gearbox.rigid
-    pictures, tolerance = results.pictures, results.tolerance
+    pictures, found = results.pictures, results.evidence
     uneven, pin_count = significant(UNEVEN_SHARING), design.reducer.output_pins.count
 
     def chapter(name: str, title: str, values: Values | None) -> _Chapter:
@@ -132,16 +131,16 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
             "temperatures",
             "Temperatures",
             None
-            if results.temperatures is None
-            else {"temperatures": temperatures_view(results.temperatures)},
+            if found.temperatures is None
+            else {"temperatures": temperatures_view(found.temperatures)},
         ),
         of_contact("life", "Life", lambda found: life_view(found.life)),
         chapter(
             "tolerances",
             "Tolerances",
             None
-            if tolerance is None
-            else {"tolerances": tolerance_view(tolerance, results.clearances)},
+            if found.drawn is None
+            else {"tolerances": tolerance_view(found.drawn, results.clearances)},
         ),
         chapter("actuator", "Actuator", _actuator(results)),
         chapter(
@@ -173,9 +172,10 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
 
 
 def _stress(results: ReportInput, outlines: Outlines) -> Values | None:
-    if results.stress is None:
+    found = results.evidence
+    if found.stress is None:
         return None
-    return {"stress": stress_view(results.stress, results.stress_checks, outlines)}
+    return {"stress": stress_view(found.stress, found.stress_checks, outlines)}
 
 
 def _actuator(results: ReportInput) -> Values | None:
@@ -202,9 +202,7 @@ def _bodies(results: ReportInput) -> Values | None:
 def _closing(results: ReportInput, groups: tuple[tuple[str, tuple[Value, ...]], ...]) -> Values:
     design, analysis = results.design, results.gearbox
     parts = () if results.bodies is None else results.bodies.parts
-    literature, catalogue = sources_used(
-        analysis, parts, (*results.stress_checks, *results.heat_checks)
-    )
+    literature, catalogue = sources_used(analysis, parts, results.checks)
     return {
         "symbols": paper_symbols(design),
         "errata": ERRATA,

@@ -18,14 +18,13 @@ if TYPE_CHECKING:
     from cqdd_design.actuator.bench import BenchResult
     from cqdd_design.actuator.parameters import ActuatorParameters
     from cqdd_design.actuator.shock import Shock
-    from cqdd_design.gearbox.bodies.strength import BodyStrength
     from cqdd_design.gearbox.tolerance.clearance import ClearancePoint
-    from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
     from cqdd_design.machine.contact_analysis import ContactAnalysis
-    from cqdd_design.machine.temperatures import MachineTemperatures
     from cqdd_design.report.machine_view.model import ViewerData
     from cqdd_design.report.machine_view.stills import MachineViews
     from cqdd_design.sizing.result import SizingResult
+    from cqdd_design.verdict import Verdict
+    from cqdd_design.verdict.evidence import Evidence
 
 
 @dataclass(frozen=True)
@@ -52,16 +51,8 @@ class ReportInput:
         Written in the same run.
     contact : ContactAnalysis or None
         At the torques of the requirements: contact, precision, losses and life.
-    stress : BodyStrength or None
-        Of discs and ring, at the torques of the requirements.
-    stress_checks : tuple of Check
-        Of that stress.
-    temperatures : MachineTemperatures or None
-        Of the parts, at the duty of the requirements or at the continuous torque.
-    heat_checks : tuple of Check
-        Of them, and of the clearances they leave.
-    tolerance : ToleranceResult or None
-        An ensemble of toleranced gearboxes.
+    verdict : Verdict
+        With the evidence that several chapters show.
     clearances : tuple of ClearancePoint
         What other clearances would make of it.
     pictures : (MachineViews, ViewerData) or None
@@ -78,17 +69,13 @@ class ReportInput:
     gearbox: GearboxAnalysis
     planetary: PlanetaryComparison
     provenance: Provenance
+    verdict: Verdict
     comments: Mapping[str, str] = field(default_factory=dict)
     bodies: Bodies | None = None
     notes: tuple[str, ...] = ()
     sizing: SizingResult | None = None
     files: tuple[WrittenFile, ...] = ()
     contact: ContactAnalysis | None = None
-    stress: BodyStrength | None = None
-    stress_checks: tuple[Check, ...] = ()
-    temperatures: MachineTemperatures | None = None
-    heat_checks: tuple[Check, ...] = ()
-    tolerance: ToleranceResult | None = None
     clearances: tuple[ClearancePoint, ...] = ()
     pictures: tuple[MachineViews, ViewerData] | None = None
     bench: tuple[ActuatorParameters, BenchResult] | None = None
@@ -96,9 +83,14 @@ class ReportInput:
     shocks: Mapping[str, Shock] = field(default_factory=dict)
 
     @property
+    def evidence(self) -> Evidence:
+        """What the verdict rests on."""
+        return self.verdict.evidence
+
+    @property
     def checks(self) -> tuple[Check, ...]:
-        """Those of the closed forms, of discs and ring, and of heat, where there are any."""
-        return (*self.gearbox.checks, *self.stress_checks, *self.heat_checks)
+        """Lines of the verdict."""
+        return self.verdict.lines
 
     @property
     def design(self) -> Design:

@@ -14,10 +14,10 @@ from cqdd_design.gearbox.contact.laws import LineModel
 from cqdd_design.gearbox.contact.rubbing import FrictionChoice
 from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.machine import Machine, resolve
-from cqdd_design.machine.body_analysis import analyse_bodies, judged_bodies, no_stress
+from cqdd_design.machine.body_analysis import analyse_bodies, no_stress
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
-from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
+from cqdd_design.verdict import Verdict, judge
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +26,8 @@ class Analysis:
 
     Attributes
     ----------
+    verdict : Verdict
+        On the design as drawn, without toleranced gearboxes.
     contact : ContactAnalysis or None
         None for a gearbox that cannot carry the torque.
     missing : str
@@ -34,42 +36,33 @@ class Analysis:
         Stress in discs and ring under the forces of the equilibrium.
     bodies_missing : str
         Why there is none.
-    body_checks : tuple of Check
-        Of that stress, at the torques of the requirements.
     shocks : mapping of str to Shock
         Stops of the output from the rated speed, and from a given one.
     shock_missing : str
         Why there are none.
-    temperatures : MachineTemperatures or None
-        Of the parts, at the duty of the requirements or at the continuous torque.
-    heat_checks : tuple of Check
-        Of them, and of the clearances they leave.
-    heat_warnings : tuple of str
-        What they leave out, or why there are none.
     """
 
     machine: Machine
     gearbox: GearboxAnalysis
+    verdict: Verdict
     contact: ContactAnalysis | None
     missing: str
     bodies: BodyStrength | None = None
     bodies_missing: str = ""
-    body_checks: tuple[Check, ...] = ()
     shocks: Mapping[str, Shock] = field(default_factory=dict)
     shock_missing: str = ""
-    temperatures: MachineTemperatures | None = None
-    heat_checks: tuple[Check, ...] = ()
-    heat_warnings: tuple[str, ...] = ()
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Those of the closed forms, of discs and ring, and of heat, where there are any."""
-        return (*self.gearbox.checks, *self.body_checks, *self.heat_checks)
+        """Lines of the verdict but that of toleranced gearboxes, which `check` draws."""
+        return tuple(line for line in self.verdict.lines if line.id != "YIELD")
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """What was not checked or cannot be relied on."""
-        closed = (*self.gearbox.warnings, *self.machine.too_warm, *self.heat_warnings)
+        found = self.verdict.evidence
+        warm = found.temperatures.warnings if found.temperatures else (found.heat_missing,)
+        closed = (*self.gearbox.warnings, *self.machine.too_warm, *warm)
         if self.contact is None:
             return (*closed, f"no contact analysis: {self.missing}")
         told = () if self.bodies else (no_stress(self.machine, self.bodies_missing),)
@@ -88,8 +81,8 @@ class Analysis:
         bodies = None if self.bodies is None else self.bodies.to_dict()
         shock = {name: one.to_dict() for name, one in self.shocks.items()} or None
         warm: dict[str, object] = dict.fromkeys(("temperatures_degC", "heat"))
-        if self.temperatures is not None:
-            warm = self.temperatures.to_dict()
+        if self.verdict.evidence.temperatures is not None:
+            warm = self.verdict.evidence.temperatures.to_dict()
         found = {"bodies": bodies, "shock": shock} | warm
         return self.gearbox.to_dict() | self.contact.to_dict() | found
 
@@ -131,23 +124,14 @@ def analyse(
     UsageError
         For a temperature outside the range that is worked with.
     """
-    asked = design if speed is None else design.replacing({"requirements.input_speed": speed})
+    asked = design if speed is None else design.turning_at(speed)
     drawn = resolve(asked)
     machine = drawn
     if temperature is not None:
         machine = drawn.at(PartTemperatures.even(temperature))
     gearbox = machine.analyse(torque=torque, angles=angles)
-    # What settles is a matter of the duty, whatever temperature is asked for.
-    warm, heat_checks, heat_warnings = judged_temperatures(drawn)
-    found = Analysis(
-        machine,
-        gearbox,
-        contact=None,
-        missing="",
-        temperatures=warm,
-        heat_checks=heat_checks,
-        heat_warnings=heat_warnings,
-    )
+    # What is judged, and what settles, are a matter of the design, whatever is asked for here.
+    found = Analysis(machine, gearbox, judge(drawn, samples=0), contact=None, missing="")
     try:
         contact = analyse_contact(
             machine, torque=torque, angles=angles, line_model=line_model, friction=friction
@@ -157,11 +141,7 @@ def analyse(
     stops, unknown = shocks(machine)
     found = replace(found, contact=contact, shocks=stops, shock_missing=unknown)
     try:
-        checks, bodies = judged_bodies(machine, line_model, friction)
-        if torque is not None:
-            bodies = analyse_bodies(
-                machine, torque=torque, line_model=line_model, friction=friction
-            )
+        bodies = analyse_bodies(machine, torque=torque, line_model=line_model, friction=friction)
     except (ContactError, GeometryError) as error:
         return replace(found, bodies_missing=error.message)
-    return replace(found, bodies=bodies, body_checks=checks)
+    return replace(found, bodies=bodies)

@@ -1,4 +1,4 @@
-"""Judge a design by every check; where asked, turn its solids through a revolution too."""
+"""Judge a design by its verdict; where asked, turn its solids through a revolution too."""
 
 from __future__ import annotations
 
@@ -11,25 +11,31 @@ from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
 from cqdd_design.gearbox.checks.guide import check_guide
 from cqdd_design.results import Check
+from cqdd_design.roads.telling import Progress, silent
+from cqdd_design.verdict import Verdict, judge
 
 if TYPE_CHECKING:
     from cqdd_design.solids.clearances import AssemblyMotion
 
+#: How often `check` tells what begins.
+CHECK_STAGES = 2
+
 
 @dataclass(frozen=True)
 class Judgement:
-    """What the checks say of a design.
+    """What a design is judged to be.
 
     Attributes
     ----------
-    warnings : tuple of str
-        What could not be checked, and why.
+    verdict : Verdict
+    lines : tuple of Check
+        Of the verdict, and of the solids where they were turned.
     motion : AssemblyMotion or None
         What a revolution of the output showed, where it was asked for.
     """
 
-    checks: tuple[Check, ...]
-    warnings: tuple[str, ...]
+    verdict: Verdict
+    lines: tuple[Check, ...]
     motion: AssemblyMotion | None = None
 
 
@@ -38,9 +44,10 @@ def check(
     specimen: Specimen = AS_DRAWN,
     *,
     assembly_angles: int | None = None,
+    told: Progress = silent,
     progress: Callable[[int, int], None] | None = None,
 ) -> Judgement:
-    """Judge a design: loads by closed forms, stress of discs and ring by the contact equilibrium.
+    """Judge a design against its requirements; see `verdict.judge`.
 
     Parameters
     ----------
@@ -48,6 +55,8 @@ def check(
         Whose motor is judged.
     assembly_angles : int, optional
         Crank angles at which all solids are looked at for collisions; default not at all.
+    told : callable
+        Told in a few words what begins, `CHECK_STAGES` times.
     progress : callable, optional
         Told how many of these angles are done, and of how many.
 
@@ -56,17 +65,10 @@ def check(
     GeometryError
         When disc, ring or holes cannot exist, or, looked at as solids, the parts.
     """
-    from cqdd_design.machine.body_analysis import judged_or_told
-    from cqdd_design.machine.temperatures import judged_temperatures
-
     machine = specimen.machine(design)
-    found = machine.analysis
-    _, stress, unstressed = judged_or_told(machine)
-    _, warm, unknown = judged_temperatures(machine)
-    checks = (*found.checks, *stress, *warm)
-    warnings = (*found.warnings, *unstressed, *unknown)
+    verdict = judge(machine, specimen, progress=told)
     if assembly_angles is None:
-        return Judgement(checks, warnings)
+        return Judgement(verdict, verdict.lines)
     from cqdd_design.solids.clearances import assembly_motion, output_revolution
 
     motion = assembly_motion(
@@ -75,7 +77,7 @@ def check(
         output_revolution(machine.design, assembly_angles),
         progress=progress,
     )
-    return Judgement((*checks, assembly_check(motion)), warnings, motion)
+    return Judgement(verdict, (*verdict.lines, assembly_check(motion)), motion)
 
 
 def assembly_check(motion: AssemblyMotion) -> Check:
@@ -101,4 +103,5 @@ def assembly_check(motion: AssemblyMotion) -> Check:
         why=guide.why,
         remedy=remedy,
         source=guide.source,
+        basis=guide.basis,
     )

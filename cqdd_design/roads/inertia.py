@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cqdd_design.actuator.build import motor_and_drive
 from cqdd_design.actuator.density import density_torque, torques_of_drive
@@ -110,7 +110,7 @@ def inertia(
 
     machine = specimen.machine(design)
     if speed is not None:
-        machine = machine.changed({"requirements.input_speed": speed})
+        machine = replace(machine, design=machine.design.turning_at(speed))
     progress("building solids and meshes")
     bodies = weigh(machine, mass_properties)
     paper = paper_disc_count(design.reducer.ratio)

@@ -15,9 +15,10 @@ from cqdd_design.exporting import export, stages
 from cqdd_design.files import WrittenFile, atomic_path, describe_file, refuse_overwrite
 from cqdd_design.roads.telling import Progress, silent
 from cqdd_design.sizing import SizingResult, size
+from cqdd_design.verdict import Verdict, judge
 
 #: How often sizing tells its progress.
-SIZING_STAGES = 2
+SIZING_STAGES = 4
 
 _STAMP = "# `size` replaces this file only while the lines above have this sha256: "
 
@@ -32,14 +33,14 @@ class Road:
         The sized design under the name of its file.
     files : tuple of WrittenFile
         The design file first, then exports, then the report.
-    short : tuple of str
-        Where the models of the report say less than is asked.
+    verdict : Verdict
+        On the design as it was written.
     """
 
     sizing: SizingResult
     design: Design
     files: tuple[WrittenFile, ...]
-    short: tuple[str, ...] = ()
+    verdict: Verdict
 
 
 def size_and_write(
@@ -47,6 +48,7 @@ def size_and_write(
     path: Path | None = None,
     *,
     motor: MotorFile | None = None,
+    ambient: float | None = None,
     kinds: tuple[str, ...] = (),
     report: bool = False,
     force: bool = False,
@@ -62,6 +64,8 @@ def size_and_write(
         exports and report.
     motor : MotorFile, optional
         What a file says of the required motor instead of the catalogue; the design says it too.
+    ambient : float, optional
+        Of the air round the actuator, deg C, written to the design.
     kinds : tuple of str
         Kinds of file to export.
     report : bool
@@ -86,7 +90,7 @@ def size_and_write(
         # Whoever gives a motor's data asks for that motor.
         requirements = requirements.model_copy(update={"motor": requirements.motor})
         row = row_over(requirements.motor, motor, named=named)
-    sizing = size(requirements, progress, motor=row)
+    sizing = size(requirements, progress, motor=row, ambient=ambient)
     # Both are written to the file even where they equal their defaults.
     design = sizing.design.replacing({"schema_version": 1, "name": target.stem})
     if motor is not None:
@@ -94,18 +98,25 @@ def size_and_write(
         design = design if named else design.leaving("requirements.motor")
     specimen = Specimen()
     files: tuple[WrittenFile, ...] = (_write_fresh(target, design),)
-    short: tuple[str, ...] = ()
+    machine = specimen.machine(design)
+    judged = judge(machine, specimen, sensitivity=report, progress=progress)
     if kinds:
-        files += export(specimen.machine(design), kinds, specimen=specimen, progress=progress)
+        files += export(machine, kinds, specimen=specimen, progress=progress)
     if report:
         # It computes everything there is, and imports as much.
         from cqdd_design.roads.report import write_report
 
         written = write_report(
-            design, specimen=specimen, source=target, sizing=sizing, files=files, progress=progress
+            design,
+            specimen=specimen,
+            source=target,
+            sizing=sizing,
+            files=files,
+            verdict=judged,
+            progress=progress,
         )
-        files, short = (*files, written.file), written.short
-    return Road(sizing, design, files, short)
+        files = (*files, written.file)
+    return Road(sizing, design, files, judged)
 
 
 def road_stages(kinds: tuple[str, ...], *, report: bool) -> int:
@@ -114,7 +125,7 @@ def road_stages(kinds: tuple[str, ...], *, report: bool) -> int:
         return SIZING_STAGES + stages(kinds)
     from cqdd_design.roads.report import REPORT_STAGES
 
-    return SIZING_STAGES + stages(kinds) + REPORT_STAGES
+    return SIZING_STAGES + stages(kinds) + REPORT_STAGES - 2
 
 
 def _refuse_edited(path: Path) -> None:
@@ -161,7 +172,7 @@ def _origins(design: Design) -> dict[str, str]:
     """A remark for every key of a sized design that is written: where its value comes from."""
     remarks = {}
     for key in design.dotted_keys():
-        if key.startswith(("requirements.", "motor.")):
+        if key.startswith(("requirements.", "motor.")) or key == "environment.ambient":
             remarks[key] = "given"
         elif key in _TAKEN_OVER:
             wanted = f"requirements.{_TAKEN_OVER[key]}"

@@ -190,7 +190,7 @@ def _mass(bearing: Bearing) -> float:
 
 
 def bearing_table(
-    rows: tuple[Bearing, ...], cam_speed: float, continuous_share: float
+    rows: tuple[Bearing, ...], cam_speed: float, continuous_share: float, hours: float
 ) -> BearingTable:
     """The arrays of some bearings.
 
@@ -200,10 +200,12 @@ def bearing_table(
         Of the eccentric relative to a disc, rad/s.
     continuous_share : float
         Continuous over peak torque.
+    hours : float
+        Required life.
     """
     dynamic = np.array([b.dynamic_rating or 0.0 for b in rows])
     exponent = np.array([rating.life_exponent(rolling_element(b)) for b in rows])
-    life = rating.load_for_life(dynamic, allowables.LIFE_HOURS, cam_speed, exponent)
+    life = rating.load_for_life(dynamic, hours, cam_speed, exponent)
     return BearingTable(
         outer=np.array([b.outer_diameter for b in rows]),
         bore=np.array([b.bore_diameter for b in rows]),

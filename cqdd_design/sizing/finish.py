@@ -108,6 +108,8 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
             "ring": {"outer_diameter": requirements.outer_diameter},
         },
     }
+    if frame.ambient is not None:
+        mapping["environment"] = {"ambient": frame.ambient}
     if "motor" in requirements.model_fields_set:
         mapping["motor"] = {"name": requirements.motor}
     return Design.from_mapping(mapping, source="sizing", si=True)
@@ -123,13 +125,12 @@ def _requirements_given(requirements: Requirements) -> dict[str, Any]:
 
     Torques equal to what would be derived anyway count as derived.
     """
-    stated = dump(requirements)
+    stated, fields = dump(requirements), Requirements.model_fields
+    given = {fields[name].alias or name for name in requirements.model_fields_set}
     peak, continuous = "peak_torque", "continuous_torque"
     by_ratio = Requirements.model_validate({"ratio": requirements.ratio})
     by_peak = Requirements.model_validate({"ratio": requirements.ratio, peak: stated[peak]})
     derived = {peak: dump(by_ratio)[peak], continuous: dump(by_peak)[continuous]}
     return {
-        key: value
-        for key, value in stated.items()
-        if key in requirements.model_fields_set and value != derived.get(key)
+        key: value for key, value in stated.items() if key in given and value != derived.get(key)
     }

@@ -87,6 +87,8 @@ class Frame:
         Ascending.
     bearings : tuple of Bearing
         Rated cam bearings that no other one beats in every respect, smallest first.
+    ambient : float or None
+        Of the air round the actuator, deg C; None for a design's default.
     """
 
     requirements: Requirements
@@ -111,6 +113,7 @@ class Frame:
     motor: Motor
     pin_sizes: tuple[PinSize, ...]
     bearings: tuple[Bearing, ...]
+    ambient: float | None = None
 
     @property
     def rotor_inertia(self) -> float | None:
@@ -144,16 +147,21 @@ class Frame:
 
     def bearing_table(self) -> BearingTable:
         """The cam bearings as arrays."""
-        return bearing_table(self.bearings, self.cam_speed, self.continuous_share)
+        hours = self.requirements.life_hours
+        return bearing_table(self.bearings, self.cam_speed, self.continuous_share, hours)
 
 
-def search_frame(requirements: Requirements, motor: Motor | None = None) -> Frame:
+def search_frame(
+    requirements: Requirements, motor: Motor | None = None, ambient: float | None = None
+) -> Frame:
     """Read the requirements, the design defaults and the catalogues.
 
     Parameters
     ----------
     motor : Motor, optional
         Default the catalogue's row of the motor that the requirements name.
+    ambient : float, optional
+        Of the air, deg C; default that of a design.
 
     Raises
     ------
@@ -184,7 +192,7 @@ def search_frame(requirements: Requirements, motor: Motor | None = None) -> Fram
         pin_ends=pin_ends(template),
         most_thickness=most,
         cam_speed=float(
-            kinematics.cam_bearing_speed_ring_fixed(requirements.ratio, requirements.input_speed)
+            kinematics.cam_bearing_speed_ring_fixed(requirements.ratio, requirements.held_speed)
         ),
         limits=_load_limits(requirements, disc, ring, pin),
         ring_modulus=hertz.pair_modulus(disc, ring),
@@ -195,6 +203,7 @@ def search_frame(requirements: Requirements, motor: Motor | None = None) -> Fram
         motor=motor or find_motor(requirements.motor),
         pin_sizes=sizes,
         bearings=cam_bearings(requirements, most, spacing, sizes[0].mean_diameter),
+        ambient=ambient,
     )
 
 
@@ -222,7 +231,7 @@ def _load_limits(
 ) -> LoadLimits:
     static, fatigue = allowables.contact_limit_static, allowables.contact_limit_fatigue
     weaker = allowables.weaker
-    senses = [point.torque for point in requirements.duty]
+    senses = [point.torque for point in requirements.load_cases]
     limits = LoadLimits(
         ring_static=weaker(static(disc), static(ring)),
         ring_fatigue=weaker(fatigue(disc), fatigue(ring)),

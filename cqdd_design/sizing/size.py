@@ -18,6 +18,7 @@ def size(
     progress: Callable[[str], None] | None = None,
     *,
     motor: Motor | None = None,
+    ambient: float | None = None,
 ) -> SizingResult:
     """Size a gearbox.
 
@@ -33,6 +34,8 @@ def size(
         Called with a sentence at every stage.
     motor : Motor, optional
         Default the catalogue's row of the motor that the requirements name.
+    ambient : float, optional
+        Of the air round the actuator, deg C; default that of a design.
 
     Raises
     ------
@@ -48,7 +51,7 @@ def size(
     """
     say = progress or (lambda _: None)
     started = time.perf_counter()
-    frame = search_frame(requirements, motor)
+    frame = search_frame(requirements, motor, ambient)
     say("screening candidates against every limit")
     search = Search.of(frame)
     found = search.found

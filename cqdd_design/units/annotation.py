@@ -76,8 +76,7 @@ class QuantityIn:
             self._validate,
             core_schema.float_schema(allow_inf_nan=False),
             serialization=core_schema.plain_serializer_function_ser_schema(
-                lambda value: None if value is None else format_quantity(value, self.dimension),
-                when_used="json",
+                lambda value: format_quantity(value, self.dimension), when_used="json"
             ),
         )
 

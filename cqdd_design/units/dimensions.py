@@ -105,6 +105,13 @@ STIFFNESS_GAIN = Dimension(
     (("N*m/rad", 1.0),),
     "a gain on an angle is torque per angle, N*m/rad",
 )
+STIFFNESS = Dimension(
+    "stiffness",
+    "N*m/rad",
+    STIFFNESS_GAIN.kinds,
+    (("N*m/rad", 1.0), ("N*m/arcmin", 60.0 / _DEG), ("N*m/deg", 1.0 / _DEG)),
+    "a stiffness is torque per angle, N*m/rad or N*m/arcmin",
+)
 DAMPING_GAIN = Dimension(
     "rotational damping",
     "N*m*s/rad",
@@ -123,6 +130,9 @@ TEMPERATURE = Dimension(
 )
 """Inside, temperatures are in degrees Celsius: those of parts, and of data sheets."""
 TIME = Dimension("time", "s", "time", (("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("min", 60.0)))
+DURATION = Dimension(
+    "duration", "h", TIME.kinds, (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("day", 86400.0))
+)
 VISCOSITY = Dimension(
     "kinematic viscosity", "mm^2/s", "length^2/time", (("mm^2/s", 1e-6), ("m^2/s", 1.0))
 )

@@ -56,7 +56,7 @@ def test_stress_of_discs_and_ring_stands_beside_its_checks(cqdd, paper_design_fi
         assert check["status"] == ("pass" if check["value"] <= check["limit"] else "fail")
         assert checks[f"{part.upper()}-FATIGUE"]["value"] > 0.0
     told_checks = cqdd("check", paper_design_file, "--json").document["checks"]
-    assert {one["id"]: one["value"] for one in told_checks} == {
+    assert {one["id"]: one["value"] for one in told_checks if one["id"] != "YIELD"} == {
         name: one["value"] for name, one in checks.items()
     }
     less = told(cqdd, paper_design_file)["bodies"]

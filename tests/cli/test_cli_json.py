@@ -129,7 +129,7 @@ def test_check_says_what_would_make_it_pass(cqdd, paper_design_file):
     assert done.code == 4
     assert "CONTACT-RING-PEAK" in done.out
     assert "raise disc_thickness" in done.out
-    assert "checks pass" in done.out.splitlines()[-1]
+    assert "does NOT meet its requirements" in done.out.splitlines()[-1]
 
 
 def test_analyse_torque_moves_loads_and_not_checks(cqdd, paper_design_file):

@@ -25,6 +25,7 @@ from cqdd_design.report import ReportInput, read_comments
 from cqdd_design.roads.telling import provenance
 from cqdd_design.sizing import SizingResult, size
 from cqdd_design.sizing.comparison import compare_with_planetary
+from cqdd_design.verdict import judge
 
 PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 
@@ -48,7 +49,7 @@ def shared(factory: pytest.TempPathFactory, name: str, make: Callable[[], Made])
 
 
 def report_input(design: Design, file: Path | None = None) -> ReportInput:
-    """What a report of the rigid law and the parts is made from, without the costly chapters."""
+    """What a report is made from, without toleranced gearboxes and the costly chapters."""
     machine = resolve(design)
     bodies, notes = weigh_if_possible(machine)
     return ReportInput(
@@ -56,6 +57,7 @@ def report_input(design: Design, file: Path | None = None) -> ReportInput:
         gearbox=machine.analysis,
         planetary=compare_with_planetary(machine),
         provenance=provenance(design),
+        verdict=judge(machine, samples=0),
         comments={} if file is None else read_comments(file),
         bodies=bodies,
         notes=notes,

@@ -156,12 +156,6 @@ def test_continuous_above_peak_is_refused():
         )
 
 
-def test_duty_shares_add_up_to_one():
-    duty = [{"torque": "30 N*m", "speed": "10 rad/s", "share": 0.7}]
-    with pytest.raises(DesignError, match="add up to"):
-        requirements_from_mapping({"ratio": 10, "duty": duty})
-
-
 @pytest.mark.parametrize(
     ("content", "error", "says"),
     [

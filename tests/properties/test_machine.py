@@ -147,7 +147,7 @@ def test_a_motor_of_a_file_is_the_machine_s() -> None:
 
 def test_a_motor_of_a_file_is_judged_as_one_that_was_asked_for() -> None:
     checks = {one.id: one for one in resolve(design().with_motor(motor=OWN)).analysis.checks}
-    assert checks["MOTOR-PEAK"].limit == 3.0
+    assert checks["MOTOR-PEAK"].value == pytest.approx(3.0 * 12 * 0.88)
     assert checks["MOTOR-PEAK"].status == "fail"
     usual = {one.id: one for one in resolve(design()).analysis.checks}
-    assert usual["MOTOR-PEAK"].limit == 12.0
+    assert usual["MOTOR-PEAK"].value == pytest.approx(12.0 * 12 * 0.88)

@@ -261,7 +261,7 @@ def test_every_part_weighs_by_its_own_material():
 
 def test_a_bearing_without_a_mass_weighs_two_thirds_of_its_annulus():
     bearing = replace(find_bearing("6902"), mass=None)
-    table = bearing_table((bearing,), 100.0, 0.4)
+    table = bearing_table((bearing,), 100.0, 0.4, 1000.0)
     annulus = 7800.0 * math.pi / 4.0 * (0.028**2 - 0.015**2) * 0.007
     assert table.mass[0] == pytest.approx(2.0 / 3.0 * annulus)
     # The catalogue's own masses are within a quarter of that.

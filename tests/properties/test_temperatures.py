@@ -15,12 +15,10 @@ from cqdd_design.design import load_design
 from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
 from cqdd_design.gearbox.heat.network import Heat
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.duty_heat import DutyCase, duty_cases, duty_heat
 from cqdd_design.machine.temperatures import (
-    DutyCase,
     MachineTemperatures,
     cooled_network,
-    duty_cases,
-    duty_heat,
     heat_checks,
     judged_temperatures,
     machine_temperatures,

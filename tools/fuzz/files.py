@@ -126,7 +126,7 @@ def motor_file(draw: random.Random) -> bytes:
 
     lines, others = [], []
     for key, field in MotorData.model_fields.items():
-        dimension = field_dimension(field.metadata)
+        dimension = field_dimension(field)
         if dimension is None:
             others.append(key)
         elif draw.random() < 0.15:

@@ -86,8 +86,14 @@ for edges that were wire-cut and trimmed."""
 # Cam bearing ------------------------------------------------------------------------------------
 STATIC_SAFETY = 1.0
 """Least C0/P at the peak torque (ISO 76: normal operation without shocks)."""
-LIFE_HOURS = 1000.0
-"""Least basic rating life at the continuous torque, h."""
+
+# Toleranced gearboxes ----------------------------------------------------------------------------
+BINDING_SHARE = 0.05
+"""Torque that turns a gearbox without load, over the continuous torque, from which it binds."""
+YIELD_SAMPLES = 256
+"""Gearboxes drawn for the yield: a share of 95 % is known to 3 points (two standard errors)."""
+YIELD_LEAST = 0.95
+"""Least share of them that has to meet the requirements."""
 
 # Balance, motor, manufacture --------------------------------------------------------------------
 LEAST_BALANCED_DISCS = 2

@@ -6,7 +6,11 @@ from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.design import Design
 from cqdd_design.gearbox.bodies.strength import LIGAMENTS, BodyStrength, Swing
 from cqdd_design.gearbox.bodies.stress import Region
-from cqdd_design.gearbox.checks.allowables import edge_limit_fatigue, edge_limit_peak
+from cqdd_design.gearbox.checks.allowables import (
+    Allowable,
+    edge_limit_fatigue,
+    edge_limit_peak,
+)
 from cqdd_design.gearbox.checks.remedies import torque_words
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_up
@@ -49,7 +53,7 @@ def _static(
     return build_check(
         f"{part}-STRESS",
         stress / _MEGA,
-        allowed.value / _MEGA,
+        _known(allowed),
         f"{stress / _MEGA:.1f} MPa in {kind} at disc {peak.disc + 1}{where}, "
         f"b {design.reducer.disc_thickness * 1e3:g} mm, at {peak.torque:g} N*m",
         _remedy(first, design, stress, allowed.value, "peak", design.requirements.peak_torque),
@@ -66,7 +70,7 @@ def _fatigue(
     return build_check(
         f"{part}-FATIGUE",
         stress / _MEGA,
-        allowed.value / _MEGA,
+        _known(allowed),
         _cycle_words(swing, material, design.requirements.continuous_torque),
         _remedy(
             first,
@@ -78,6 +82,11 @@ def _fatigue(
         ),
         basis=allowed.basis,
     )
+
+
+def _known(allowed: Allowable) -> float | None:
+    """A limit in MPa; None where the catalogue supports none."""
+    return allowed.value / _MEGA if allowed.value > 0.0 else None
 
 
 def _cycle_words(swing: Swing, material: Material, torque: float) -> str:

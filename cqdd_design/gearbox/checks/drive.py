@@ -129,6 +129,7 @@ def _known_data(known: int, wanted: int, words: str) -> Check:
         float(wanted),
         words,
         "name a motor whose row gives them, such as 'CubeMars RO100 KV55'",
+        severity="warn",
     )
 
 
@@ -136,8 +137,7 @@ def _make(
     state: GearboxState, check_id: str, value: float, limit: float, numbers: str, remedy: str
 ) -> Check:
     """A check of the motor: a shortfall is a failure where the design names its motor."""
-    assumed = "motor.name" in state.design.assumed
-    severity: Literal["fail"] | None = None if assumed else "fail"
+    severity: Literal["warn"] | None = "warn" if "motor.name" in state.design.assumed else None
     return build_check(check_id, value, limit, numbers, remedy, severity=severity)
 
 
@@ -145,14 +145,14 @@ def _torque_check(
     state: GearboxState, check_id: str, key: str, torque: float, available: float
 ) -> Check:
     n, eta = state.design.reducer.ratio, allowables.REDUCER_EFFICIENCY
-    needed = torque / (n * eta)
+    needed, reached = torque / (n * eta), available * n * eta
     return _make(
         state,
         check_id,
-        needed,
-        available,
-        f"{torque:g} N*m/({n} x {eta:g}) = {needed:.3f} N*m",
-        f"lower requirements.{key} to {rounded_down(available * n * eta):g} N*m, or take a motor "
+        reached,
+        torque,
+        f"{available:g} N*m x {n} x {eta:g} = {reached:.4g} N*m",
+        f"lower requirements.{key} to {rounded_down(reached):g} N*m, or take a motor "
         f"with {rounded_up(needed):g} N*m; both with the assumed efficiency of {eta:g}, above what "
         "the losses leave",
     )

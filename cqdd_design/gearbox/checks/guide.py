@@ -9,6 +9,7 @@ from __future__ import annotations
 from cqdd_design.errors import UsageError, did_you_mean
 from cqdd_design.gearbox.checks import (
     guide_bodies,
+    guide_drawn,
     guide_drive,
     guide_heat,
     guide_loads,
@@ -26,6 +27,7 @@ CHECK_GUIDE: dict[str, CheckGuide] = {
         *guide_bodies.ROWS,
         *guide_heat.ROWS,
         *guide_drive.ROWS,
+        *guide_drawn.ROWS,
     )
 }
 

@@ -3,7 +3,13 @@
 from __future__ import annotations
 
 from cqdd_design.gearbox.checks import allowables as limits
-from cqdd_design.gearbox.checks.guide_row import BODIES, GOODMAN, HOUSE, CheckGuide
+from cqdd_design.gearbox.checks.guide_row import (
+    BODIES,
+    FINITE_ELEMENTS,
+    GOODMAN,
+    HOUSE,
+    CheckGuide,
+)
 
 _PARTS = (
     ("LIGAMENT", "round the holes of a disc", "A ligament that {} opens its hole"),
@@ -22,8 +28,9 @@ ROWS = tuple(
             "max",
             f"|sigma| <= S_y/{limits.PIN_SAFETY_AT_PEAK:g}",
             f"{why.format('yields')}. Contacts and fits are left out: their pressure is judged by "
-            "itself. Found where finite elements are affordable, in `analyse` and in the report.",
+            "itself.",
             f"{BODIES}; limit: {HOUSE}",
+            basis=FINITE_ELEMENTS,
         ),
         CheckGuide(
             f"{part}-FATIGUE",
@@ -32,8 +39,9 @@ ROWS = tuple(
             "max",
             "sigma_a/(1 - sigma_m/S_u) <= S_e",
             f"{why.format('cracks')}: the same place is pulled and pressed at every turn of the "
-            "crank. Compression is given no credit. Found in `analyse` and in the report.",
+            "crank. Compression is given no credit.",
             f"{BODIES}; {GOODMAN}",
+            basis=FINITE_ELEMENTS,
         ),
     )
 )

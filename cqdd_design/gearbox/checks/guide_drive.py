@@ -6,12 +6,14 @@ from cqdd_design.gearbox.balance import BALANCING_PLANES
 from cqdd_design.gearbox.checks import allowables as limits
 from cqdd_design.gearbox.checks.guide_row import HOUSE, PAPER, CheckGuide
 
-_EFFICIENCY = "motor catalogue; efficiency assumed at the low end of measured steel cycloid drives"
+_EFFICIENCY = "motor catalogue; losses of the gearbox, cqdd_design.gearbox.losses"
+_SCREEN = f"catalogue and an assumed efficiency of {limits.REDUCER_EFFICIENCY:g}, a first screen"
 _LOW, _HIGH = limits.COMPUTED_EFFICIENCIES
-_COMPUTED = (
-    f"The efficiency of {limits.REDUCER_EFFICIENCY:g} is assumed: the losses that `analyse` "
-    f"computes leave {_LOW:g} to {_HIGH:g} at ratio 10 and a friction of 0.08, for which the motor "
-    f"needs {100.0 * (limits.REDUCER_EFFICIENCY / _HIGH - 1.0):.0f} to "
+_SCREENED = (
+    "The first screen of a search takes the catalogue's torque, n and "
+    f"{limits.REDUCER_EFFICIENCY:g}; losses leave {_LOW:g} to {_HIGH:g} at ratio 10 and a "
+    "friction of 0.08, for which the motor needs "
+    f"{100.0 * (limits.REDUCER_EFFICIENCY / _HIGH - 1.0):.0f} to "
     f"{100.0 * (limits.REDUCER_EFFICIENCY / _LOW - 1.0):.0f} % more torque."
 )
 
@@ -63,33 +65,36 @@ ROWS = (
     ),
     CheckGuide(
         "MOTOR-PEAK",
-        "Motor peak torque",
+        "Peak torque of motor and driver at standstill",
         "N*m",
-        "max",
-        f"T_peak/(n eta) <= T_motor,peak, eta = {limits.REDUCER_EFFICIENCY:g}",
-        f"The motor has to reach the peak torque through the reducer and its losses. {_COMPUTED}",
+        "min",
+        "least of driver, voltage and motor's peak torque at rest, after friction >= peak torque",
+        "The motor has to reach the peak torque through the gearbox, about to turn against its "
+        f"friction. {_SCREENED}",
         _EFFICIENCY,
-        "warn",
+        basis=_SCREEN,
     ),
     CheckGuide(
         "MOTOR-CONTINUOUS",
-        "Motor rated torque",
+        "Torque held for ever at the input speed",
         "N*m",
-        "max",
-        f"T_continuous/(n eta) <= T_motor,rated, eta = {limits.REDUCER_EFFICIENCY:g}",
-        f"Above its rated torque the winding overheats in continuous duty. {_COMPUTED}",
+        "min",
+        "torque whose heat the winding stands for ever at the input speed >= continuous torque",
+        "Copper, iron, drag and the gearbox's friction warm the winding to what the air carries "
+        f"off; driver and voltage count too. {_SCREENED}",
         _EFFICIENCY,
-        "warn",
+        basis=_SCREEN,
     ),
     CheckGuide(
         "MOTOR-SPEED",
-        "Motor no-load speed",
+        "Motor speed under the continuous torque",
         "rpm",
         "min",
-        "KV U >= input speed",
-        "At the supply voltage the motor has to reach the input speed at all.",
+        "fastest at which the voltage drives the continuous torque, winding hot >= input speed",
+        "What the winding's resistance takes of the voltage is no speed. The first screen takes "
+        "the speed without load, KV U.",
         "motor catalogue",
-        "warn",
+        basis=_SCREEN,
     ),
     CheckGuide(
         "MOTOR-BORE",
@@ -99,18 +104,16 @@ ROWS = (
         "D_ring <= stator bore",
         "The reducer sits inside the stator.",
         f"motor catalogue; {PAPER}, section III-A",
-        "warn",
     ),
     CheckGuide(
         "MOTOR-DATA",
-        "Motor data that the checks need",
+        "Motor data that the lines need",
         "",
         "min",
-        "known figures of: peak torque, rated torque, speed constant, stator bore",
-        "What is not known cannot be checked: without these figures nothing says that the motor "
+        "known figures of: peak torque, stator bore, rotor inertia, resistance, torque constant",
+        "What is not known cannot be judged: without these figures nothing says that the motor "
         "is enough. Shown only where one is missing, or a geared actuator stands for a motor.",
         "motor catalogue",
-        "warn",
     ),
     CheckGuide(
         "ASSEMBLY-CLEAR",
@@ -120,5 +123,27 @@ ROWS = (
         "overlaps thicker than the facets of both meshes <= 0",
         "A part in the wrong phase, or too long, shows as an overlap somewhere in a revolution.",
         "intersection of the solids' meshes at every crank angle (`check --assembly`)",
+    ),
+    CheckGuide(
+        "CONTACT-REACH",
+        "Torque up to which the gearbox has an equilibrium",
+        "N*m",
+        "min",
+        "torque with a contact equilibrium at every crank angle, both senses >= peak torque",
+        "Beyond it parts would have to move farther than a quarter of the eccentricity: teeth "
+        "jump, or nothing holds. Shown only where it is less than the peak torque.",
+        "contact equilibrium, cqdd_design.gearbox.contact",
+        basis="contact equilibrium of perfect parts, driving with friction",
+    ),
+    CheckGuide(
+        "DUTY-ENVELOPE",
+        "Steps of the duty beyond motor or driver",
+        "",
+        "max",
+        "steps outside the torque and speed that driver, voltage and motor reach <= 0",
+        "What the actuator cannot do it will not do: the load runs away or stands. Shown only "
+        "with a duty.",
+        "motor catalogue; losses of the gearbox",
+        basis="operating points of the simulated actuator",
     ),
 )

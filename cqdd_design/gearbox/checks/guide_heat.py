@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from cqdd_design.catalog.motors import WINDING_MOST
 from cqdd_design.gearbox.checks import allowables as limits
-from cqdd_design.gearbox.checks.guide_row import CheckGuide
+from cqdd_design.gearbox.checks.guide_row import NETWORK, CheckGuide
 
-_NETWORK = "thermal network of the drawn parts, cqdd_design.machine.thermal_parts"
+_NETWORK = f"{NETWORK}, cqdd_design.machine.thermal_parts"
 
 ROWS = (
     CheckGuide(
@@ -21,6 +21,7 @@ ROWS = (
         "states. Shown is the part that uses most of the rise it is allowed. Losses are those at "
         "20 degC.",
         f"{_NETWORK}; limits: IEC 60085 class E, SKF LGMT 2, catalogue of materials",
+        basis=NETWORK,
     ),
     CheckGuide(
         "THERMAL-CLEARANCE",
@@ -34,5 +35,6 @@ ROWS = (
         "heat rise, and the gearbox may stall. Looked at are the coldest start, states on the way "
         "from it, and the steady one.",
         f"{_NETWORK}; backlash of rigid parts, cqdd_design.gearbox.heat.expansion",
+        basis=NETWORK,
     ),
 )

@@ -8,20 +8,22 @@ from cqdd_design.gearbox.checks.guide_row import (
     JOHNSON,
     PAPER,
     PITTING,
+    RIGID,
+    SCREENED,
     SHIGLEY,
     WANG,
     CheckGuide,
 )
 
-_UNEVEN = f"{limits.UNEVEN_SHARING:g}"
 _YIELD = f"S_y/{limits.PIN_SAFETY_AT_PEAK:g}"
 _PAPER_SHEAR = f"S_u/{1.0 / limits.PAPER_SHEAR_SHARE:g}"
-_PRESSURE = f"p0 = sqrt({_UNEVEN} F E*/(pi b R_eq)) <= "
+_PRESSURE = "p0 = sqrt(F E*/(pi b R_eq)) <= "
 _RING, _PIN = ("RING", "at the ring"), ("PIN", "of pins in holes")
 _PEAK = ("PEAK", f"{limits.FIRST_YIELD_FACTOR:g} S_y", JOHNSON)
 _CONTINUOUS = (
     "CONTINUOUS",
-    f"{limits.AGMA_SLOPE / 1e6:g} HB + {limits.AGMA_BASE / 1e6:g} MPa",
+    f"what lasts the required hours over the duty, {limits.AGMA_SLOPE / 1e6:g} HB + "
+    f"{limits.AGMA_BASE / 1e6:g} MPa at 1e7 cycles",
     PITTING,
 )
 
@@ -32,14 +34,15 @@ _CONTACTS = tuple(
         "MPa",
         "max",
         _PRESSURE + limit,
-        f"Above it {what}.",
+        f"Above it {what}. {SCREENED}",
         source,
+        basis=RIGID,
     )
     for (place, where), (load, limit, source), what in (
         (_RING, _PEAK, "the material yields below the surface and the flank dents"),
-        (_RING, _CONTINUOUS, "the flank pits within some 1e7 load cycles"),
+        (_RING, _CONTINUOUS, "the flank pits before its hours are over"),
         (_PIN, _PEAK, "pin or hole yields below the surface"),
-        (_PIN, _CONTINUOUS, "pin or hole pits within some 1e7 load cycles"),
+        (_PIN, _CONTINUOUS, "pin or hole pits before its hours are over"),
     )
 )
 
@@ -54,6 +57,7 @@ ROWS = (
         "The paper's own figure: every pin in single shear at full load and full radius at once. "
         "It leaves out sharing, bending and fatigue, and is reported for comparison.",
         f"{PAPER}, section III-A",
+        basis="the paper's method, for comparison",
     ),
     CheckGuide(
         "PIN-SHARED",
@@ -63,46 +67,51 @@ ROWS = (
         f"D N_w R_w F/k >= peak torque, F = (pi/4) d^2 {_PAPER_SHEAR}, k = 4 (even N_w)",
         "The paper's shear strength with the torque shared as rigid discs share it.",
         f"{PAPER} (strength); rigid sharing: Kudryavtsev 1966; {WANG}",
+        basis="the paper's strength and rigid sharing, for comparison",
     ),
     CheckGuide(
         "PIN-SHEAR-PEAK",
         "Shear stress of the output pins, peak torque",
         "MPa",
         "max",
-        f"tau = {_UNEVEN} F/((pi/4) d^2) <= {limits.SHEAR_YIELD_SHARE:g} {_YIELD}",
-        "A pin sheared past yield takes a set and the sharing is lost.",
+        f"tau = F/((pi/4) d^2) <= {limits.SHEAR_YIELD_SHARE:g} {_YIELD}",
+        f"A pin sheared past yield takes a set and the sharing is lost. {SCREENED}",
         SHIGLEY,
+        basis=RIGID,
     ),
     CheckGuide(
         "PIN-BENDING-PEAK",
         "Bending stress of the output pins, peak torque",
         "MPa",
         "max",
-        f"sigma = 32 M/(pi d^3) <= {_YIELD}, M = {_UNEVEN} F arm; the arm is that of a slender "
+        f"sigma = 32 M/(pi d^3) <= {_YIELD}, M from the forces of all discs on a slender "
         "beam between plate and cap, which turns until the pins' and columns' torque on it is zero",
         "Thin pins bend long before they shear; a bent pin jams in its holes. A cap that hangs on "
-        "the pins bears none of the torque: they carry it to the plate, bent there.",
+        f"the pins bears none of the torque: they carry it to the plate, bent there. {SCREENED}",
         f"beam theory; {SHIGLEY}; {WANG} (pin stress)",
+        basis=RIGID,
     ),
     CheckGuide(
         "PIN-BENDING-CONTINUOUS",
         "Bending stress of the output pins, continuous torque",
         "MPa",
         "max",
-        "sigma = 32 M/(pi d^3) <= pulsating fatigue strength",
+        "sigma = 32 M/(pi d^3) <= what lasts the required hours over the duty",
         "Every pin is loaded and unloaded once per disc and relative turn: a million cycles in a "
-        "day's running.",
+        f"day's running. {SCREENED}",
         f"about S_u/{1.0 / limits.PIN_FATIGUE_SHARE:g} for shoulder screws ({HOUSE}); "
         "Goodman line where the duty reverses",
+        basis=RIGID,
     ),
     CheckGuide(
         "PIN-BEARING-PEAK",
         "Mean pressure of pins in holes, peak torque",
         "MPa",
         "max",
-        f"{_UNEVEN} F/(d b) <= {_YIELD} of the weaker part",
-        "Above it the hole stretches.",
+        f"F/(d b) <= {_YIELD} of the weaker part",
+        f"Above it the hole stretches. {SCREENED}",
         SHIGLEY,
+        basis=RIGID,
     ),
     CheckGuide(
         "BEARING-STATIC",
@@ -112,17 +121,21 @@ ROWS = (
         f"C0/P >= {limits.STATIC_SAFETY:g}, "
         "P = |sum of ring forces + sum of pin forces| of one disc",
         "Beyond C0 the balls dent the raceway. The output-pin reaction counts: leaving it out "
-        "understates P by a fifth and overstates the life almost twofold.",
+        f"understates P by a fifth and overstates the life almost twofold. {SCREENED}",
         "ISO 76:2006",
+        basis=RIGID,
     ),
     CheckGuide(
         "BEARING-LIFE",
-        "Cam bearing, basic rating life at continuous torque",
+        "Cam bearings together, basic rating life over the duty",
         "h",
         "min",
-        f"L10h = 1e6 (C/P)^p/(60 rpm (1 + 1/n)) >= {limits.LIFE_HOURS:g} h",
-        "The crank turns faster against the disc than against the housing.",
+        "L10h = 1e6 (C/P)^p/(60 rpm (1 + 1/n)) >= required life",
+        "The crank turns faster against the disc than against the housing. Of several bearings "
+        "the first to fail counts, on the load as it varies over the period and the duty; the "
+        f"first screen takes the greatest load on one. {SCREENED}",
         "ISO 281:2007",
+        basis=RIGID,
     ),
     CheckGuide(
         "BEARING-RACEWAY",

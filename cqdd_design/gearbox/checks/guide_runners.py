@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 from cqdd_design.gearbox.checks import allowables as limits
-from cqdd_design.gearbox.checks.guide_row import HOUSE, SHIGLEY, CheckGuide
+from cqdd_design.gearbox.checks.guide_row import (
+    HOUSE,
+    RIGID,
+    SCREENED,
+    SHIGLEY,
+    CheckGuide,
+)
 
-_UNEVEN = f"{limits.UNEVEN_SHARING:g}"
 _HARD = f"ISO 76 and ISO 281 presume raceways of {limits.HARDENED_HRC:g} HRC and more"
 
 
@@ -27,18 +32,21 @@ def _rows(prefix: str, name: str, pins: str, load: str, turn: str) -> tuple[Chec
             f"Needles of the {name}s, static safety at peak torque",
             "",
             "min",
-            f"C0/P >= {limits.STATIC_SAFETY:g}, P = {_UNEVEN} F, F {load} on one disc",
-            f"Beyond C0 the needles dent pin and {name}, which then turn no more.",
+            f"C0/P >= {limits.STATIC_SAFETY:g}, P = F, F {load} on one disc",
+            f"Beyond C0 the needles dent pin and {name}, which then turn no more. {SCREENED}",
             "ISO 76:2006",
+            basis=RIGID,
         ),
         CheckGuide(
             f"{prefix}-LIFE",
             f"Needles of the {name}s, basic rating life at continuous torque",
             "h",
             "min",
-            f"L10h = 1e6 (C/P)^(10/3)/(60 rpm {turn}) >= {limits.LIFE_HOURS:g} h, P = {_UNEVEN} F",
-            f"A {name} rolls on the disc as fast as the surface that passes it.",
+            f"L10h = 1e6 (C/P)^(10/3)/(60 rpm {turn}) >= required life, of all together "
+            "over the duty",
+            f"A {name} rolls on the disc as fast as the surface that passes it. {SCREENED}",
             "ISO 281:2007",
+            basis=RIGID,
         ),
         CheckGuide(
             f"{prefix}-RACEWAY",
@@ -62,9 +70,11 @@ ROWS = (
             f"Bending stress of ring pins under rollers, {load} torque",
             "MPa",
             "max",
-            f"sigma = 32 M/(pi d^3) <= {limit}, M = {_UNEVEN} F (a(L-a)/L - b/8)",
-            "A pin in a pocket is backed all along; under rollers it spans from housing to clamp.",
+            f"sigma = 32 M/(pi d^3) <= {limit}, M = F (a(L-a)/L - b/8)",
+            "A pin in a pocket is backed all along; under rollers it spans from housing to clamp. "
+            f"{SCREENED}",
             f"beam theory; {SHIGLEY}",
+            basis=RIGID,
         )
         for load, limit in (
             ("peak", f"S_y/{limits.PIN_SAFETY_AT_PEAK:g}"),

@@ -150,7 +150,8 @@ def _bearing(state: GearboxState) -> tuple[Check, ...]:
     rpm = cam.speed * 30.0 / math.pi
     safety, life = cam.static_safety or 0.0, cam.life_hours or 0.0
     static, dynamic = bearing.static_rating or 0.0, bearing.dynamic_rating or 0.0
-    at_life = float(load_for_life(dynamic, allowables.LIFE_HOURS, cam.speed, exponent))
+    hours = requirements.life_hours
+    at_life = float(load_for_life(dynamic, hours, cam.speed, exponent))
     other = _other_bearing(state)
     needed = cam.continuous_load * dynamic / at_life if at_life > 0.0 else math.nan
     checks = [
@@ -165,7 +166,7 @@ def _bearing(state: GearboxState) -> tuple[Check, ...]:
         build_check(
             "BEARING-LIFE",
             life,
-            allowables.LIFE_HOURS,
+            hours,
             f"{bearing.designation}: 1e6 ({dynamic:.0f} N/{cam.continuous_load:.1f} N)^"
             f"{exponent:.3g}/(60 x {rpm:.0f} rpm) = {life:.0f} h",
             (f"needs C of {needed / 1e3:.3g} kN: " if math.isfinite(needed) else "")
@@ -191,11 +192,12 @@ def _other_bearing(state: GearboxState) -> str:
     """Say what the catalogue offers in the same space."""
     fitting = cam_bearing.fitting_bearings(state.design, state.geometry.largest_cam_bearing)
     cam = state.cam_bearing
-    best = cam_bearing.choose(fitting, cam.peak_load, cam.continuous_load, cam.speed)
+    hours = state.design.requirements.life_hours
+    best = cam_bearing.choose(fitting, cam.peak_load, cam.continuous_load, cam.speed, hours)
     most = state.geometry.largest_cam_bearing * 1e3
     if best is None:
         return f"no catalogue bearing fits the {most:.1f} mm there are"
-    if cam_bearing.passes(best):
+    if cam_bearing.passes(best, hours):
         return f"{_describe(best.bearing)} fits and carries it"
     return (
         f"none that fits {most:.1f} mm carries it (the best is {_describe(best.bearing)}), so "

@@ -74,7 +74,8 @@ def _needles(
     requirements, cage, material = state.design.requirements, found.bearing, find_material(steel)
     static, dynamic = cage.static_rating or 0.0, cage.dynamic_rating or 0.0
     safety, life = found.static_safety or 0.0, found.life_hours or 0.0
-    at_life = float(load_for_life(dynamic, allowables.LIFE_HOURS, found.speed, found.exponent))
+    hours = requirements.life_hours
+    at_life = float(load_for_life(dynamic, hours, found.speed, found.exponent))
     share = at_life / found.continuous_load
     return (
         build_check(
@@ -88,7 +89,7 @@ def _needles(
         build_check(
             f"{seat.prefix}-LIFE",
             life,
-            allowables.LIFE_HOURS,
+            hours,
             f"{cage.designation}: 1e6 ({dynamic:.0f} N/{found.continuous_load:.1f} N)^"
             f"{found.exponent:.3g}/(60 x {found.speed * 30.0 / math.pi:.0f} rpm) = {life:.0f} h",
             f"use {seat.larger}; or " + lower_torque(requirements.continuous_torque, share),

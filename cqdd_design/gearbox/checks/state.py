@@ -48,13 +48,14 @@ class GearboxState:
 
 def build_check(
     check_id: str,
-    value: float,
-    limit: float,
+    value: float | None,
+    limit: float | None,
     substituted: str,
     remedy: str,
     *,
     severity: Literal["fail", "warn"] | None = None,
     basis: str = "",
+    model: str = "",
 ) -> Check:
     """One check from its guide and this design's numbers.
 
@@ -62,8 +63,8 @@ def build_check(
     ----------
     check_id : str
         Key of the guide.
-    value, limit : float
-        In the guide's unit.
+    value, limit : float or None
+        In the guide's unit; None where not known, for reasons that `substituted` gives.
     substituted : str
         The rule with numbers.
     remedy : str
@@ -72,6 +73,8 @@ def build_check(
         Overrides the guide's.
     basis : str
         Origin of a limit that depends on a material; joins the source.
+    model : str
+        What the value comes from; default what the guide says.
     """
     guide = CHECK_GUIDE[check_id]
     check = Check(
@@ -87,6 +90,7 @@ def build_check(
         remedy=remedy,
         source=f"{guide.source}; limit: {basis}" if basis else guide.source,
         severity=severity or guide.severity,
+        basis=model or guide.basis,
     )
     if not check.satisfied:
         return check

@@ -11,7 +11,6 @@ from cqdd_design.catalog.finishes import rubbing_limits
 from cqdd_design.catalog.lubricants import find_lubricant
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
-from cqdd_design.gearbox.checks.allowables import LIFE_HOURS
 from cqdd_design.gearbox.contact.films import hole_film, ring_film, travel
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.rubbing import slip
@@ -145,7 +144,7 @@ def running(
     sweep: ContactSweep,
     states: NominalStates,
 ) -> Running:
-    """Films of a sweep at the input speed of the requirements, and wear under the duty.
+    """Films of a sweep at the speed of the continuous torque, and wear under the duty.
 
     Parameters
     ----------
@@ -156,7 +155,7 @@ def running(
     states : NominalStates
         That it was solved at.
     """
-    speed = design.requirements.input_speed
+    speed = design.requirements.held_speed
     lubricant, _ = find_lubricant(design.reducer.friction.lubricant)
     teeth = ring_film(model, states, slip(model, states), sweep.ring_force, speed)
     pins = hole_film(model, sweep.pin_force, speed)
@@ -190,7 +189,7 @@ def _wear(
 ) -> Wear:
     cases, _ = duty_cases(design)
     n, discs, length = model.lobe_count, model.disc_count, model.contact_length
-    seconds = 3600.0 * LIFE_HOURS
+    seconds = design.requirements.life
     rubbed = sum(
         case.share * seconds * case.speed * n * losses.rubbed_at(case.torque) for case in cases
     )
@@ -214,7 +213,7 @@ def _wear(
         hole = band(pins, model.pin_count * 2.0 * math.pi * model.hole_radius * length)
         pin = band(pins, model.pin_count * 2.0 * math.pi * model.pin_contact_radius * length)
     return Wear(
-        hours=LIFE_HOURS,
+        hours=design.requirements.life_hours,
         disc_flank=disc_flank,
         ring_tooth=ring_tooth,
         hole=hole,

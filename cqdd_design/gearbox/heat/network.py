@@ -158,7 +158,7 @@ class ThermalNetwork:
         for end in np.atleast_1d(np.asarray(times, dtype=float)):
             while end - before > 1e-12 * max(end, 1.0):
                 kept, fixed = self._linear(heat, now)
-                rates, modes = _modes(kept, self.capacity)
+                rates, modes = modes_of(kept, self.capacity)
                 step = end - before
                 if self.surfaces or np.any(heat.slope):
                     step = min(step, max(_STEP_SHARE * before, _STEP_SHARE / rates.max()))
@@ -183,10 +183,10 @@ class ThermalNetwork:
 
     def rates(self, temperature: FloatArray) -> FloatArray:
         """Rates (N,) at which differences die away, surfaces as at temperatures (N,), 1/s."""
-        return _modes(self.matrix(self.outward(temperature)), self.capacity)[0]
+        return modes_of(self.matrix(self.outward(temperature)), self.capacity)[0]
 
 
-def _modes(kept: FloatArray, capacity: FloatArray) -> tuple[FloatArray, FloatArray]:
+def modes_of(kept: FloatArray, capacity: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Rates (N,), 1/s, and modes (N, N) of the symmetric form C^-1/2 K C^-1/2."""
     root = np.sqrt(capacity)
     rates, modes = np.linalg.eigh(kept / np.outer(root, root))

@@ -24,7 +24,7 @@ class CamLife:
     Attributes
     ----------
     speed : float
-        Mean relative speed of crank and disc over the duty, rad/s.
+        Mean relative speed of crank and disc over the duty, rests included, rad/s.
     equivalent_load : tuple of float
         Of every disc's bearing over the period and the duty, N.
     hours : tuple of (float or None) or None
@@ -110,7 +110,7 @@ def cam_life(
     element = rolling_element(bearing)
     exponent = life_exponent(element)
     equal = equivalent_load(loads, shares, speeds, exponent)
-    speed = float(shares @ speeds / shares.sum())
+    speed = float(shares @ speeds)
     moving = shares * speeds > 0.0
     hours: tuple[float | None, ...] | None = None
     together = greatest = None

@@ -50,12 +50,13 @@ class _Duty:
 def duty_cases(design: Design) -> tuple[tuple[DutyCase, ...], bool]:
     """Load cases of a design, and whether they are assumed."""
     asked = design.requirements
-    if asked.duty:
+    steps = asked.load_cases
+    if steps:
         cases = tuple(
-            DutyCase(p.torque, abs(p.speed), p.share, p.torque * p.speed < 0.0) for p in asked.duty
+            DutyCase(p.torque, abs(p.speed), p.share, p.torque * p.speed < 0.0) for p in steps
         )
         return cases, False
-    speed = asked.input_speed / design.reducer.ratio
+    speed = asked.held_speed / design.reducer.ratio
     return (DutyCase(asked.continuous_torque, speed, 1.0),), True
 
 
@@ -83,6 +84,7 @@ def life(design: Design, model: ContactModel, *, friction: bool = True) -> LifeR
     a sleeve that turns spreads its load over its rim. What turns inside it is judged on its own.
     """
     cases, assumed = duty_cases(design)
+    asked = design.requirements
     angles = cycles.crank_angles(model.lobe_count, model.pin_count)
     states = nominal_states(model, angles)
 
@@ -104,6 +106,7 @@ def life(design: Design, model: ContactModel, *, friction: bool = True) -> LifeR
         duty=cases,
         loads=tuple(
             CaseLoads(
+                ring_force=float(sweep.ring_force.max()),
                 ring_pressure=float(sweep.ring_pressure.max()),
                 pin_pressure=float(sweep.pin_pressure.max()),
                 pin_bending=float(np.abs(stress).max()),
@@ -113,7 +116,7 @@ def life(design: Design, model: ContactModel, *, friction: bool = True) -> LifeR
             for sweep, stress, turns in zip(duty.sweeps, stresses, duty.turns, strict=True)
         ),
         assumed=assumed,
-        required_hours=allowables.LIFE_HOURS,
+        required_hours=asked.life_hours,
         parts=parts,
         cam=_cam(duty),
         notes=_notes(parts),
@@ -176,11 +179,13 @@ def _contacts(duty: _Duty) -> list[PartLife]:
         ("disc holes", hole, again, reducer.disc_material, hole_at),
         ("output pins, contact", hole, again, reducer.output_pins.material, hole_at),
     )
-    return [_contact(duty.turns, *row) for row in rows]
+    hours = duty.design.requirements.life_hours
+    return [_contact(duty.turns, hours, *row) for row in rows]
 
 
 def _contact(
     turns: FloatArray,
+    hours: float,
     name: str,
     pressures: Pressures,
     cycle_count: int,
@@ -192,7 +197,7 @@ def _contact(
     if limit.value <= 0.0:
         return _unknown(name, greatest, limit, cycle_count)
     damage = pressures.damage(turns, limit.value)
-    reserve = pressures.reserve(turns, limit.value, allowables.LIFE_HOURS)
+    reserve = pressures.reserve(turns, limit.value, hours)
     worst = int(damage.argmax())
     place = "" if reserve is None else words(worst)
     return _part(
@@ -234,11 +239,12 @@ def _pin_bending(duty: _Duty) -> tuple[PartLife, list[NDArray[np.complex128]]]:
     swing = max(swings, default=0.0)
     place, reserve = "", None
     if swing > 0.0:
+        hours = duty.design.requirements.life_hours
         worst = fibres[max(range(len(fibres)), key=lambda k: (rates[k], swings[k]))]
         places = ["at the plate", *(f"at disc {d + 1}" for d in range(reducer.disc_count))]
         place = [*places, "at the cap"][worst.section]
         reserve = min(
-            fatigue.largest_factor(partial(one.damage, endurance, ultimate), allowables.LIFE_HOURS)
+            fatigue.largest_factor(partial(one.damage, endurance, ultimate), hours)
             for one in fibres
         )
     stress = swing if reverses else fatigue.goodman_pulsating(swing, ultimate)

@@ -43,6 +43,8 @@ class CaseLoads:
 
     Attributes
     ----------
+    ring_force : float
+        Of one tooth on a disc, N.
     ring_pressure, pin_pressure : float
         Hertz pressure of flank on tooth and of pin in hole, Pa.
     pin_bending : float
@@ -53,6 +55,7 @@ class CaseLoads:
         Output turns in an hour of the duty, the share of time in them.
     """
 
+    ring_force: float
     ring_pressure: float
     pin_pressure: float
     pin_bending: float
@@ -62,6 +65,7 @@ class CaseLoads:
     def to_dict(self) -> dict[str, float]:
         """Return the JSON form."""
         return {
+            "ring_force_max_N": self.ring_force,
             "ring_pressure_max_MPa": self.ring_pressure / 1e6,
             "output_pressure_max_MPa": self.pin_pressure / 1e6,
             "pin_bending_max_MPa": self.pin_bending / 1e6,

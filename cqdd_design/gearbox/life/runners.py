@@ -79,7 +79,7 @@ class RunnerDuty(NamedTuple):
     design: Design
     sweeps: Sequence[ContactSweep]
     shares: FloatArray
-    """Of time, (C,)."""
+    """Of time, (C,); what is missing to 1 is rest."""
     speeds: FloatArray
     """Of the output without their signs, (C,), rad/s."""
 
@@ -155,7 +155,7 @@ def _life(
 ) -> RunnerLife:
     # Turns of the runner on its pin per second, at every load of every case.
     turns = history.path * duty.crank_speeds[:, None, None] / (np.pi * runner.diameter)
-    share = duty.shares / duty.shares.sum()
+    share = duty.shares
     mean_turns = float(share @ turns.mean(axis=(1, 2)))
     hours = together = pressure_velocity = None
     if runner.cage is None:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from cqdd_design.gearbox.losses.machine import SOURCES
 from cqdd_design.geometry.contours import FloatArray
@@ -51,16 +51,30 @@ class FilmWork:
     torque: FloatArray
     lowered: FloatArray
 
-    def share(self, torque: ArrayLike, crank_speed: float) -> FloatArray:
-        """Shares of the way at torques (...) and one speed (rad/s), by source, (..., 6)."""
-        at = (abs(crank_speed) / self.reference) ** _POWER
+    def share(self, torque: ArrayLike, crank_speed: ArrayLike) -> FloatArray:
+        """Shares of the way at torques and speeds (rad/s), both (...), by source, (..., 6)."""
+        size, turning = np.broadcast_arrays(np.abs(torque), np.abs(crank_speed))
         grid = np.array(SPEED_SHARES) ** _POWER
-        size = np.abs(np.asarray(torque, dtype=float))
-        rows = np.array([[np.interp(at, grid, curve) for curve in one.T] for one in self.lowered])
-        teeth, pins = (np.interp(size, self.torque, column) for column in rows.T)
+        low, up = _between(grid, (turning / self.reference) ** _POWER)
+        below, over = _between(self.torque, size)
+        up, over = up[..., None], over[..., None]
+
+        def along(row: NDArray[np.int64]) -> FloatArray:
+            steps = self.lowered[row, low], self.lowered[row, low + 1]
+            return np.asarray((1.0 - up) * steps[0] + up * steps[1])
+
+        pair = (1.0 - over) * along(below) + over * along(below + 1)
+        teeth, pins = pair[..., 0], pair[..., 1]
         both = 0.5 * (teeth + pins)
         named = {"ring_teeth": teeth, "output_pins": pins}
         return np.stack([named.get(source, both) for source in SOURCES], axis=-1)
+
+
+def _between(grid: FloatArray, values: FloatArray) -> tuple[NDArray[np.int64], FloatArray]:
+    """The step of a rising grid in which values lie, and how far along it; at an end beyond it."""
+    step = np.clip(np.searchsorted(grid, values, side="right") - 1, 0, len(grid) - 2)
+    along = (values - grid[step]) / (grid[step + 1] - grid[step])
+    return step, np.clip(along, 0.0, 1.0)
 
 
 def lowered_friction(

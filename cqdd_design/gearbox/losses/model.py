@@ -167,7 +167,7 @@ class LossModel:
         self,
         torque: ArrayLike,
         sense: PowerSense = "drive",
-        crank_speed: float | None = None,
+        crank_speed: ArrayLike | None = None,
     ) -> FloatArray:
         """Coulomb work per radian of crank by source, (..., 6), N m.
 
@@ -176,14 +176,23 @@ class LossModel:
 
         Parameters
         ----------
-        crank_speed : float, optional
-            rad/s, either sense, where films know it; default that of the sweeps.
+        crank_speed : array_like, optional
+            rad/s, either sense, where films know it, of all torques or of each; default that of
+            the sweeps.
         """
         found = self._between(torque, self.work[SENSES.index(sense)])
         if self.film is None or crank_speed is None:
             return found
         rest = self._between(torque, self.film.at_rest[SENSES.index(sense)])
         return np.asarray(rest + self.film.share(torque, crank_speed) * (found - rest))
+
+    def crank_torque(
+        self, input_speed: FloatArray, torque: FloatArray, sense: PowerSense
+    ) -> FloatArray:
+        """Friction torque at the crank by source, (M, 6), N m, at speeds and torques (M,)."""
+        drag = self.machine.drag(input_speed)
+        columns = np.stack([drag[name] for name in SOURCES], axis=-1)
+        return np.asarray(columns + self.coulomb_work(torque, sense, input_speed))
 
     def rubbed_at(self, torque: ArrayLike) -> FloatArray:
         """Normal force times sliding path per radian of crank, teeth and pins, (..., 2), N m."""

@@ -12,6 +12,7 @@ import numpy as np
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError, UsageError
 from cqdd_design.gearbox.bodies.made import elastic_bodies
+from cqdd_design.gearbox.checks.allowables import BINDING_SHARE
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import output_turn_count
 from cqdd_design.gearbox.heat.expansion import AS_DRAWN, PartTemperatures, growth_of, heated
@@ -25,7 +26,7 @@ from cqdd_design.gearbox.tolerance.evaluate import (
     evaluate_gearboxes,
     marked_angles,
 )
-from cqdd_design.gearbox.tolerance.limits import BINDING_SHARE, limits
+from cqdd_design.gearbox.tolerance.limits import limits
 from cqdd_design.gearbox.tolerance.sobol import SobolIndices, sobol_indices
 from cqdd_design.geometry.contours import FloatArray
 

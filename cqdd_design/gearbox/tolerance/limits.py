@@ -12,16 +12,13 @@ from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.life import cycles
 from cqdd_design.gearbox.life.fatigue import contact_cycle_factor, contact_cycles
 
-BINDING_SHARE = 0.05
-"""Torque that turns a gearbox without load, over the continuous torque, from which it binds."""
-
 
 def lasting_pressure(design: Design) -> float:
-    """Pressure that disc and ring bear for the required hours at the input speed, Pa.
+    """Pressure that disc and ring bear for the required hours at the continuous torque, Pa.
 
     Every point of a flank is met n + 1 times an output turn. 0 where the catalogue knows no limit.
     """
-    met = allowables.LIFE_HOURS * _met_per_hour(design)
+    met = design.requirements.life_hours * _met_per_hour(design)
     return _pressure_limit(design) * float(contact_cycle_factor(met))
 
 
@@ -34,7 +31,7 @@ def lasting_hours(design: Design, pressure: float) -> float | None:
 
 
 def _met_per_hour(design: Design) -> float:
-    turns = 3600.0 * design.requirements.input_speed / (2.0 * math.pi) / design.reducer.ratio
+    turns = 3600.0 * design.requirements.held_speed / (2.0 * math.pi) / design.reducer.ratio
     return turns * cycles.disc_cycles(design.reducer.ratio)
 
 
@@ -51,14 +48,17 @@ def limits(design: Design) -> dict[str, float]:
     Pressure and cam load are those that last the required hours at the input speed.
     """
     cam = cam_bearing(design, 1.0)
-    found = {"unloaded_torque_Nm": BINDING_SHARE * design.requirements.continuous_torque}
+    found = {"unloaded_torque_Nm": allowables.BINDING_SHARE * design.requirements.continuous_torque}
     pressure = lasting_pressure(design)
     if pressure > 0.0:
         found["ring_pressure_max_MPa"] = pressure / 1e6
     if cam.bearing.dynamic_rating:
         found["cam_bearing_load_max_N"] = float(
             load_for_life(
-                cam.bearing.dynamic_rating, allowables.LIFE_HOURS, cam.speed, cam.exponent
+                cam.bearing.dynamic_rating,
+                design.requirements.life_hours,
+                cam.speed,
+                cam.exponent,
             )
         )
     return found

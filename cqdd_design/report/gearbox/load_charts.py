@@ -114,8 +114,9 @@ def _pressure_limits(checks: dict[str, Check]) -> list[Level]:
     found = []
     for check_id, name in (("CONTACT-RING-PEAK", "ring"), ("CONTACT-PIN-PEAK", "pins")):
         check = checks.get(check_id)
-        if check is not None and check.limit > 0.0:
-            found.append(Level(f"limit {name} {significant(check.limit)} MPa", check.limit))
+        limit = None if check is None else check.limit
+        if limit:
+            found.append(Level(f"limit {name} {significant(limit)} MPa", limit))
     if len(found) == 2 and found[0].value == found[1].value:
         return [Level(f"limit {significant(found[0].value)} MPa", found[0].value)]
     return found

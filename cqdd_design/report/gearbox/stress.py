@@ -50,8 +50,8 @@ def stress_view(strength: BodyStrength, checks: Iterable[Check], outlines: Outli
                 shown
                 for kind in ("STRESS", "FATIGUE")
                 for shown in (
-                    with_unit(by_id[f"{part}-{kind}"].value, "MPa", 3),
-                    with_unit(by_id[f"{part}-{kind}"].limit, "MPa", 3),
+                    with_unit(by_id[f"{part}-{kind}"].compared[0], "MPa", 3),
+                    with_unit(by_id[f"{part}-{kind}"].compared[1], "MPa", 3),
                 )
             ),
         )

@@ -29,7 +29,7 @@ def temperatures_view(found: MachineTemperatures) -> Values:
     asked = found.machine.design.requirements
     at = (
         "the duty"
-        if asked.duty
+        if asked.load_cases
         else f"{with_unit(asked.continuous_torque, 'N*m')} for ever at the input speed"
     )
     ambient, stated = found.network.ambient, found.machine.cooling.value

@@ -27,8 +27,17 @@ _HEADINGS = {
     "BALANCE": "Balance and number of discs",
     "DISC": "Balance and number of discs",
     "EDM": "Wire EDM",
+    "YIELD": "Toleranced gearboxes",
+    "SLEEVE": "Sleeves and rollers",
+    "ROLLER": "Sleeves and rollers",
+    "DUTY": "Motor",
 }
-WORDS: dict[Status, str] = {"pass": "passes", "warn": "warning", "fail": "fails"}
+WORDS: dict[Status, str] = {
+    "pass": "passes",
+    "warn": "warning",
+    "fail": "fails",
+    "unknown": "not known",
+}
 _MANY = 1000.0
 
 
@@ -37,21 +46,25 @@ def check_row(check: Check) -> Values:
     sign = "≤" if check.sense == "max" else "≥"
     return {
         "check": check,
-        "value": with_unit(_quiet(check.value, check.limit), check.unit),
-        "limit": f"{sign} {with_unit(check.limit, check.unit)}",
+        "value": _told(check.value, check),
+        "limit": "not known" if check.limit is None else f"{sign} {_told(check.limit, check)}",
         "margin": margin_text(check),
         "formula": mathml(check.formula),
-        "bar": margin_bar(check),
+        "bar": margin_bar(check) if check.known else "",
         "substituted": printed(check.substituted),
         "remedy": "" if check.satisfied else sentence(printed(check.remedy)),
+        "basis": printed(check.basis),
         "source": printed(check.source).rstrip("."),
         "word": WORDS[check.status],
     }
 
 
-def _quiet(value: float, limit: float) -> float:
-    """Zero where a value is rounding beside its limit."""
-    return 0.0 if abs(value) < 1e-12 * abs(limit) else value
+def _told(value: float | None, check: Check) -> str:
+    """A value with its unit; zero where it is rounding beside its limit."""
+    if value is None:
+        return "not known"
+    quiet = 1e-12 * abs(check.limit or 0.0)
+    return with_unit(0.0 if abs(value) < quiet else value, check.unit)
 
 
 def margin_text(check: Check) -> str:
@@ -59,6 +72,8 @@ def margin_text(check: Check) -> str:
 
     A margin that rounds to one although the check fails gets the digits that tell.
     """
+    if not check.known:
+        return "not known"
     if abs(check.margin) >= _MANY:
         return "ample"
     for digits in (3, 4, 5, 6):
@@ -124,11 +139,12 @@ def check_groups(checks: Iterable[Check]) -> tuple[tuple[str, Status, tuple[Valu
 
 
 def _severity(check: Check) -> tuple[int, float]:
-    return ({"fail": 0, "warn": 1, "pass": 2}[check.status], check.margin)
+    order = {"fail": 0, "unknown": 1, "warn": 2, "pass": 3}[check.status]
+    return order, check.margin if check.known else 0.0
 
 
 def failing(checks: Sequence[Check]) -> tuple[Values, ...]:
-    """Failures, then warnings, each by least margin."""
+    """Failures, what is not known, then warnings, each by least margin."""
     found = sorted((c for c in checks if not c.satisfied), key=_severity)
     return tuple(check_row(check) for check in found)
 

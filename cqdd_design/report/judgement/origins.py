@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from cqdd_design.design import LARGEST_FILE, Design
+from cqdd_design.design.model import supply_taken_over
 from cqdd_design.design.reducer import PIN_CIRCLE_SHARE, RING_WALL
 from cqdd_design.design.requirements import (
     DEFAULT_CONTINUOUS_SHARE,
@@ -99,12 +100,15 @@ def values_by_group(
         Dotted key to comment, from :func:`read_comments`.
     """
     assumed = set(design.assumed)
+    derived = supply_taken_over(design)
     groups: dict[str, list[Value]] = {}
     for key, raw in _flat(design.to_mapping(), ""):
         table = key.rpartition(".")[0]
         if not table:
             continue
         origin, note = _origin(key, assumed, comments)
+        if origin == "default" and key in derived:
+            origin, note = "derived", derived[key]
         value = Value(key, label_of(key), _shown(key, raw), origin, note)
         groups.setdefault(GROUPS.get(table, table), []).append(value)
     return tuple((name, tuple(rows)) for name, rows in groups.items())

@@ -1,82 +1,61 @@
-"""The verdict: pass, warn or fail, what fails and what would change it, and the paper's figure."""
+"""The verdict as the report shows it, and the paper's figure of the output pins."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 from cqdd_design.catalog.paper import PIN_TORQUE, PINS_TORQUE
 from cqdd_design.design import Design
 from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.report.ink.numbers import TIMES, decimals, significant, with_unit
 from cqdd_design.report.ink.page import Values
-from cqdd_design.report.judgement.check_rows import closest, failing
-from cqdd_design.report.judgement.shortfalls import Shortfall
-from cqdd_design.results import Check, worst_status
+from cqdd_design.report.judgement.check_rows import WORDS, closest, failing, printed, sentence
+from cqdd_design.results import Status
+from cqdd_design.verdict import Verdict
+from cqdd_design.verdict.headline import Figure
+from cqdd_design.verdict.judge import Meets
 
 _CLOSEST = 6
-"""Checks shown for a design that fails none."""
+"""Lines shown of a design that fails none."""
 
-_SCREEN = (
-    " The checks are a first screen: but for the stress of discs and ring, rigid parts share the "
-    "load there. The contact equilibrium, the life and the test bench below judge the same loads "
-    "more closely, and where they say less, they count."
-)
+_BADGES: dict[Meets, tuple[Status, str]] = {
+    "yes": ("pass", "Meets its requirements"),
+    "no": ("fail", "Does not meet its requirements"),
+    "unknown": ("unknown", "Not shown to meet its requirements"),
+}
 
 
-def verdict(design: Design, checks: Sequence[Check], short: Sequence[Shortfall] = ()) -> Values:
-    """What a reader must know first: failures and warnings, or the least margins where none.
+def verdict(judged: Verdict) -> Values:
+    """What a reader must know first: the answer, seven figures, and what is in the way of a yes.
 
-    Parameters
-    ----------
-    short : sequence of Shortfall
-        What closer models find not to be met: no design that has any is shown as passing.
+    Where nothing is, the lines with the least margins.
     """
-    name, asked = design.name, design.requirements
-    status = worst_status(checks)
-    total = len(checks)
-    failed = sum(check.status == "fail" for check in checks)
-    warned = sum(check.status == "warn" for check in checks)
-    at = (
-        f"at {with_unit(asked.peak_torque, 'N*m')} peak and "
-        f"{with_unit(asked.continuous_torque, 'N*m')} continuous torque"
-    )
-    least = min(checks, key=lambda check: check.margin)
-    if status == "fail":
-        badge = f"Fails {failed} of {total} checks"
-        headline = f"{name} does not meet its requirements: {at}, {failed} of {total} checks fail."
-    elif status == "warn":
-        badge = f"Passes, {_count(warned, 'warning')}"
-        headline = (
-            f"{name} passes {total - warned} of {total} checks {at}; "
-            f"{_count(warned, 'is a warning', 'are warnings')}."
-        )
-    else:
-        badge = f"Passes all {total} checks"
-        headline = f"{name} passes all {total} checks {at}."
-    if short and status != "fail":
-        status = "warn"
-        badge = "Checks pass, closer models do not"
-        headline = headline.removesuffix(".") + ", but closer models say less than is asked."
-    also = (
-        f" {_count(warned, 'more is a warning', 'more are warnings')}." if failed and warned else ""
-    )
+    asked, lines = judged.evidence.machine.design.requirements, judged.lines
+    status, badge = _BADGES[judged.meets]
+    least = min((line for line in lines if line.known), key=lambda line: line.margin)
     margin = significant(least.margin, 3)
-    screen = "" if failed or short else _SCREEN
     return {
         "status": status,
         "badge": badge,
-        "headline": headline,
-        "detail": f"The least margin is {margin}, in "
-        f"“{least.title[0].lower()}{least.title[1:]}”.{also}{screen}",
-        "rows": failing(checks),
-        "short": short,
-        "closest": () if failed else closest(checks, _CLOSEST),
+        "headline": f"{judged.sentence}.",
+        "detail": f"Judged at {with_unit(asked.peak_torque, 'N*m')} peak and "
+        f"{with_unit(asked.continuous_torque, 'N*m')} continuous torque. The least margin is "
+        f"{margin}, in “{least.title[0].lower()}{least.title[1:]}”.",
+        "figures": tuple(_figure(one) for one in judged.headline),
+        "rows": failing(lines),
+        "closest": () if judged.meets == "no" else closest(lines, _CLOSEST),
         "least": margin,
     }
 
 
-def _count(number: int, one: str, many: str = "") -> str:
-    return f"{number} {one if number == 1 else many or one + 's'}"
+def _figure(one: Figure) -> Values:
+    """One of the seven, as shown."""
+    return {
+        "title": sentence(one.title).rstrip("."),
+        "value": "not known" if one.value is None else with_unit(one.value, one.unit, 3),
+        "required": "" if one.required is None else with_unit(one.required, one.unit),
+        "status": one.status,
+        "word": WORDS[one.status],
+        "basis": printed(one.basis),
+    }
 
 
 _HELD = {

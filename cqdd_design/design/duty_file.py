@@ -1,0 +1,339 @@
+"""Duties from CSV files: time, torque and speed at the output, whatever the columns are called.
+
+Numbers are read by numpy in pieces, so that a million rows take a second and little memory. Only
+where that fails is the file read again, cell by cell, to say which one is wrong.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO, NamedTuple, NoReturn
+
+import numpy as np
+
+from cqdd_design.design.duty_log import DutyColumns, DutyLog, FloatArray
+from cqdd_design.errors import DesignError, UsageError, did_you_mean, shown
+from cqdd_design.files import open_regular_file
+from cqdd_design.files.sampling import first_that_does_not_rise, gap_in_even_rows
+from cqdd_design.units import LOAD_SPEED, TIME, TORQUE, Dimension, format_quantity, parse_quantity
+
+MOST_ROWS = 10_000_000
+"""A day at 100 Hz, and some."""
+MOST_TORQUE, MOST_SPEED = 1e5, 1e4
+"""N m and rad/s: a robot joint, not a mill; the bounds of a step of `duty`."""
+_PIECE = 100_000
+_BYTES = 1 << 20
+_LONGEST_LINE = 100_000
+_DELIMITERS = ",;\t"
+_EVEN_FROM = 20
+"""Intervals from which a sampling is known to be even."""
+_NAMES: dict[str, tuple[Dimension, tuple[str, ...]]] = {
+    "time": (TIME, ("time", "t")),
+    "torque": (TORQUE, ("torque", "tau", "moment")),
+    "speed": (LOAD_SPEED, ("speed", "velocity", "omega", "rate")),
+}
+"""Quantities, and what their columns are usually called."""
+
+
+class _Column(NamedTuple):
+    """Where a quantity stands, its heading, and the SI value of its unit."""
+
+    quantity: str
+    place: int
+    heading: str
+    factor: float
+
+
+def duty_template() -> str:
+    """A short duty to fill in, as text of a CSV file: a step of a knee."""
+    rows = ((0.0, 5, 0.5), (0.1, 30, 1.0), (0.3, 22, -2.0), (0.5, -4, -3.5), (0.7, -6, 4.0))
+    lines = [f"{t:g},{torque:g},{speed:g}" for t, torque, speed in (*rows, (1.0, 5, 0.5))]
+    return "\n".join(["time [s],torque [N*m],speed [rad/s]", *lines, ""])
+
+
+def read_columns(text: str) -> DutyColumns:
+    """The columns of ``time=t [ms],torque=tau [N*m]``, in any order, none or all of the three.
+
+    Raises
+    ------
+    UsageError
+        For anything else.
+    """
+    found: dict[str, str] = {}
+    for part in text.split(","):
+        name, equals, column = (piece.strip() for piece in part.partition("="))
+        if name not in _NAMES or not equals or not column or name in found:
+            raise UsageError(
+                f"--duty-columns {text!r} names the columns like "
+                '"time=t [ms],torque=tau [N*m],speed=dq [deg/s]", each once.'
+            )
+        found[name] = column
+    return DutyColumns(**found)
+
+
+def read_duty(path: Path, columns: DutyColumns | None = None) -> DutyLog:
+    """Read a duty.
+
+    Parameters
+    ----------
+    path : Path
+        Columns apart by commas, semicolons or tabs, under one line of headings such as
+        ``time [s],torque [N*m],speed [rad/s]``; lines before that begin with ``#``. Other columns
+        are left alone. Samples need not be even.
+    columns : DutyColumns, optional
+        Which columns are meant, and their units, where the headings do not say.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file, or it cannot be read.
+    DesignError
+        When it is no duty: a column or a unit missing, a cell that is no finite number, a time
+        that does not rise, a gap in even rows, fewer than two rows or too many, values no joint
+        has. The message names line and column.
+    """
+    asked = columns or DutyColumns()
+    with open_regular_file(path) as stream:
+        stamp = hashlib.sha256()
+        while piece := stream.read(_BYTES):
+            stamp.update(piece)
+        stream.seek(0)
+        text = _text(stream)
+        head, delimiter, line = _headings(path, text)
+        found = [_column(path, head, name, getattr(asked, name)) for name in _NAMES]
+        read = _numbers(path, text, delimiter, [one.place for one in found])
+    if read is None:
+        _refuse_first_wrong(path, line, delimiter, found, len(head))
+    log = DutyLog(path.name, f"{stamp.hexdigest()} {asked}", line + 1, *_scaled(read, found))
+    _judge(path, log, found)
+    return log
+
+
+def _text(stream: BinaryIO) -> io.TextIOWrapper:
+    return io.TextIOWrapper(stream, encoding="utf-8-sig", errors="replace", newline=None)
+
+
+def _headings(path: Path, text: io.TextIOWrapper) -> tuple[list[str], str, int]:
+    """The cells of the line of headings, what parts them, and its number."""
+    number = 0
+    while True:
+        line = text.readline(_LONGEST_LINE)
+        number += 1
+        if not line:
+            raise DesignError(
+                f"{path} is empty; a duty begins with the line time [s],torque [N*m],speed [rad/s]."
+            )
+        if line.strip() and not line.startswith("#"):
+            break
+    if "\0" in line or "\ufffd" in line:
+        raise DesignError(f"{path} is not a text file in UTF-8; save the duty as CSV.")
+    delimiter = max(_DELIMITERS, key=line.count)
+    cells = next(csv.reader([line], delimiter=delimiter))
+    return [cell.strip() for cell in cells], delimiter, number
+
+
+def _column(path: Path, head: list[str], quantity: str, wanted: str) -> _Column:
+    """The column of a quantity, by the name that is wanted or by its usual ones."""
+    dimension, usual = _NAMES[quantity]
+    name, unit = _split(wanted)
+    if wanted:
+        places = [k for k, cell in enumerate(head) if cell == wanted]
+        places = places or [k for k, cell in enumerate(head) if _split(cell)[0] == name]
+    else:
+        places = [k for k, cell in enumerate(head) if _split(cell)[0].lower() in usual]
+    if len(places) != 1:
+        there = ", ".join(head[:12]) + (", ..." if len(head) > 12 else "")
+        if len(places) > 1:
+            fault = f"has {len(places)} columns for {quantity}"
+        elif wanted:
+            fault = f"has no column '{wanted}' for {quantity}{did_you_mean(wanted, head)}"
+        else:
+            fault = f"has no column named {' or '.join(usual[:2])}"
+        raise DesignError(
+            f"{path} {fault}; it has {there}. Name the one that is meant, as in "
+            f'duty_columns = {{{quantity} = "{head[0][:40]}"}} or --duty-columns '
+            f'"{quantity}={head[0][:40]}".'
+        )
+    place = places[0]
+    own = _split(head[place])[1]
+    if unit and own and unit != own and head[place] != wanted:
+        raise DesignError(
+            f"{path}: column '{head[place]}' says {own}, and duty_columns says {unit}; keep one."
+        )
+    return _Column(quantity, place, head[place], _factor(path, head[place], unit or own, dimension))
+
+
+def _split(heading: str) -> tuple[str, str]:
+    """Name and unit of a heading such as ``speed [rad/s]``."""
+    name, bracket, rest = heading.strip().partition("[")
+    return name.strip(), rest.rstrip("] ").strip() if bracket else ""
+
+
+def _factor(path: Path, heading: str, unit: str, dimension: Dimension) -> float:
+    if not unit:
+        raise DesignError(
+            f"{path}: column '{heading}' has no unit; write it like "
+            f"'{_split(heading)[0]} [{dimension.unit}]', or name it in duty_columns."
+        )
+    try:
+        return parse_quantity(f"1 {unit}", dimension)
+    except DesignError as error:
+        raise DesignError(
+            f"{path}: column '{heading}' must be a {dimension.name}: {error.message.rstrip('.')}."
+        ) from None
+
+
+class _Counted:
+    """Lines of a text, counted; a blank one is not passed on as a row would be."""
+
+    def __init__(self, text: io.TextIOWrapper) -> None:
+        self._text = text
+        self.rows = 0
+        self.blank_inside = False
+        self._blank = False
+
+    def __iter__(self) -> Iterator[str]:
+        while line := self._text.readline(_LONGEST_LINE):
+            if not line.strip():
+                self._blank = True
+                continue
+            self.blank_inside |= self._blank
+            self.rows += 1
+            yield line
+
+
+def _numbers(
+    path: Path, text: io.TextIOWrapper, delimiter: str, places: list[int]
+) -> list[FloatArray] | None:
+    """The columns, or None where a cell is no finite number or a line is blank or short."""
+    lines = _Counted(text)
+    feed = iter(lines)
+    pieces = []
+    while True:
+        before = lines.rows
+        piece = [line for _, line in zip(range(_PIECE), feed, strict=False)]
+        if not piece:
+            break
+        if lines.rows > MOST_ROWS:
+            raise DesignError(
+                f"{path} has more than {MOST_ROWS:,} rows; leave rows out, or cut the duty into "
+                "one cycle."
+            )
+        try:
+            found = np.loadtxt(
+                piece,
+                delimiter=delimiter,
+                usecols=places,
+                ndmin=2,
+                comments=None,
+                quotechar='"',
+            )
+        except (ValueError, IndexError):
+            return None
+        if len(found) != lines.rows - before or not np.all(np.isfinite(found)):
+            return None
+        pieces.append(found)
+    if lines.blank_inside:
+        return None
+    if not pieces:
+        raise DesignError(f"{path} has headings and no rows; a duty needs two or more.")
+    return [np.concatenate([piece[:, k] for piece in pieces]) for k in range(len(places))]
+
+
+def _refuse_first_wrong(
+    path: Path, head_line: int, delimiter: str, columns: list[_Column], width: int
+) -> NoReturn:
+    """Say which cell is the first that is no finite number."""
+    with open_regular_file(path) as stream:
+        text = _text(stream)
+        for number, line in enumerate(iter(lambda: text.readline(_LONGEST_LINE), ""), 1):
+            if number <= head_line:
+                continue
+            where = f"{path}, line {number}"
+            if not line.strip():
+                raise DesignError(f"{where} is empty; take it out, or fill in its row.")
+            try:
+                cells = next(csv.reader([line], delimiter=delimiter))
+            except (csv.Error, StopIteration):
+                raise DesignError(f"{where} cannot be read as CSV.") from None
+            for column in columns:
+                _refuse_cell(where, cells, column, width)
+    raise DesignError(f"{path} cannot be read as numbers; save the duty as CSV.")
+
+
+def _refuse_cell(where: str, cells: list[str], column: _Column, width: int) -> None:
+    if column.place >= len(cells):
+        raise DesignError(
+            f"{where} has {len(cells)} cells, and the headings {width}: there is no "
+            f"'{column.heading}'; complete the line, or take it out."
+        )
+    cell = cells[column.place].strip()
+    if not cell:
+        raise DesignError(
+            f"{where}: a gap, '{column.heading}' is empty; fill it in, or take the line out."
+        )
+    try:
+        value = float(cell)
+    except ValueError:
+        raise DesignError(
+            f"{where}: {shown(cell, 40)} in column '{column.heading}' is no number; write it with "
+            "a decimal point and without a unit."
+        ) from None
+    if not math.isfinite(value):
+        raise DesignError(
+            f"{where}: column '{column.heading}' is {cell[:20]}; take the line out, or give a "
+            "finite number."
+        )
+
+
+def _scaled(read: list[FloatArray], columns: list[_Column]) -> tuple[FloatArray, ...]:
+    """Time from the first row on, torque and speed, SI."""
+    time, torque, speed = (
+        values * column.factor for values, column in zip(read, columns, strict=True)
+    )
+    return time, torque, speed
+
+
+def _judge(path: Path, log: DutyLog, columns: list[_Column]) -> None:
+    """Refuse rows that are no duty, naming line and column."""
+    if log.rows < 2:
+        raise DesignError(
+            f"{path} has one row; a duty needs two or more. For one steady load write duty = "
+            '[{torque = "30 N*m", speed = "5 rad/s", share = 1.0}].'
+        )
+    heading = columns[0].heading
+    wrong = first_that_does_not_rise(log.time)
+    if wrong is not None:
+        here, before = (log.time[k] / columns[0].factor for k in (wrong, wrong - 1))
+        fault = (
+            f"{here:.9g} in column '{heading}' stands in the line before too; keep one row for "
+            "each time"
+            if here == before
+            else f"{here:.9g} in column '{heading}' does not rise above {before:.9g} in the line "
+            "before; sort the rows by time"
+        )
+        raise DesignError(f"{path}, line {log.line(wrong)}: {fault}.")
+    gap = gap_in_even_rows(log.time, _EVEN_FROM)
+    if gap is not None:
+        raise DesignError(
+            f"{path}, line {log.line(gap[0])}: a gap of {gap[1]:.6g} s in column '{heading}', "
+            f"where rows are {gap[2]:.6g} s apart; fill it in with rows of what happens "
+            "there, rest included."
+        )
+    for values, most, column, dimension in (
+        (log.torque, MOST_TORQUE, columns[1], TORQUE),
+        (log.speed, MOST_SPEED, columns[2], LOAD_SPEED),
+    ):
+        large = np.flatnonzero(np.abs(values) > most)
+        if large.size:
+            row = int(large[0])
+            raise DesignError(
+                f"{path}, line {log.line(row)}: column '{column.heading}' is "
+                f"{format_quantity(float(values[row]), dimension)}, more than any joint has "
+                f"({format_quantity(most, dimension)}); is the unit right?"
+            )

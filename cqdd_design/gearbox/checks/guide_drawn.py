@@ -1,0 +1,24 @@
+"""Rule, reason and source of what toleranced gearboxes are judged by."""
+
+from __future__ import annotations
+
+from cqdd_design.gearbox.checks import allowables as limits
+from cqdd_design.gearbox.checks.guide_row import DRAWN, HOUSE, CheckGuide
+
+ROWS = (
+    CheckGuide(
+        "YIELD",
+        "Toleranced gearboxes that meet every line and do not bind",
+        "%",
+        "min",
+        f"share of {limits.YIELD_SAMPLES} gearboxes >= requirements.yield",
+        "Parts are as good as their tolerances. A gearbox drawn from them counts where it turns "
+        f"without load at less than {limits.BINDING_SHARE:.0%} of the continuous torque, where its "
+        "greatest pressure and cam load at the continuous torque exceed those of perfect parts by "
+        "no more than the reserves of the lines at the ring and of the cam bearing, and where its "
+        "backlash and stiffness are those asked for. Pins in their holes are judged with perfect "
+        "parts alone.",
+        f"{DRAWN}; {HOUSE}",
+        basis=DRAWN,
+    ),
+)

@@ -1,0 +1,117 @@
+"""What a verdict rests on: every model that has something to say, asked once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.actuator.specimen import Specimen
+from cqdd_design.errors import ContactError, CqddError, UsageError
+from cqdd_design.gearbox.bodies.strength import BodyStrength
+from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
+from cqdd_design.machine import Machine
+from cqdd_design.machine.body_analysis import judged_or_told
+from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
+from cqdd_design.results import Check
+from cqdd_design.verdict.drawn import drawn_gearboxes
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """Results that lines are made of; what could not be had is None, with the reason.
+
+    Attributes
+    ----------
+    machine : Machine
+    stress : BodyStrength or None
+        Of discs and ring, at the torques of the requirements.
+    stress_checks : tuple of Check
+        Of that stress.
+    temperatures : MachineTemperatures or None
+        At the duty, or at the continuous torque.
+    heat_checks : tuple of Check
+        Of them, and of the clearances they leave.
+    actuator : ActuatorParameters or None
+        As it is simulated, of perfect parts.
+    drawn : ToleranceResult or None
+        Toleranced gearboxes at the continuous torque.
+    stress_missing, heat_missing, actuator_missing, drawn_missing : str
+        Why there are none.
+    """
+
+    machine: Machine
+    stress: BodyStrength | None
+    stress_checks: tuple[Check, ...]
+    stress_missing: str
+    temperatures: MachineTemperatures | None
+    heat_checks: tuple[Check, ...]
+    heat_missing: str
+    actuator: ActuatorParameters | None
+    actuator_missing: str
+    drawn: ToleranceResult | None
+    drawn_missing: str
+
+
+def gather(
+    machine: Machine,
+    specimen: Specimen,
+    *,
+    samples: int,
+    sensitivity: bool = False,
+    progress: Progress = lambda _: None,
+) -> Evidence:
+    """Ask every model about a machine.
+
+    Parameters
+    ----------
+    samples : int
+        Toleranced gearboxes; 0 draws none.
+    sensitivity : bool
+        Whether to rank the tolerances too.
+    progress : callable
+        Told in a few words what begins, twice.
+
+    Raises
+    ------
+    GeometryError
+        When disc, ring or holes cannot exist.
+    """
+    progress("judging loads, stress, life, heat and motor")
+    stress, stress_checks, unstressed = judged_or_told(machine)
+    warm, heat_checks, cold = judged_temperatures(machine)
+    actuator, no_actuator = _actuator(machine, specimen)
+    progress("drawing toleranced gearboxes")
+    drawn, undrawn = _drawn(machine, samples, sensitivity)
+    return Evidence(
+        machine=machine,
+        stress=stress,
+        stress_checks=stress_checks,
+        stress_missing="" if stress else " ".join(unstressed),
+        temperatures=warm,
+        heat_checks=heat_checks,
+        heat_missing="" if warm else " ".join(cold),
+        actuator=actuator,
+        actuator_missing=no_actuator,
+        drawn=drawn,
+        drawn_missing=undrawn,
+    )
+
+
+def _actuator(machine: Machine, specimen: Specimen) -> tuple[ActuatorParameters | None, str]:
+    try:
+        return actuator_parameters(machine, specimen), ""
+    except CqddError as error:
+        return None, f"the actuator cannot be simulated: {error.message}"
+
+
+def _drawn(machine: Machine, samples: int, sensitivity: bool) -> tuple[ToleranceResult | None, str]:
+    if not samples:
+        return None, "no gearboxes were drawn"
+    try:
+        return drawn_gearboxes(machine, samples, sensitivity=sensitivity), ""
+    except (ContactError, UsageError) as error:
+        return None, f"no gearboxes could be drawn: {error.message}"

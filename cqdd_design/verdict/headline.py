@@ -1,0 +1,154 @@
+"""The seven figures a designer looks at first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from cqdd_design.errors import ContactError, GeometryError
+from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS
+from cqdd_design.machine import Machine
+from cqdd_design.machine.carrying import carried_torque
+from cqdd_design.results import Check, Status
+from cqdd_design.verdict.evidence import Evidence
+
+_LIFE_LINES = (
+    "CONTACT-RING-CONTINUOUS",
+    "CONTACT-PIN-CONTINUOUS",
+    "PIN-BENDING-CONTINUOUS",
+    "BEARING-LIFE",
+    "SLEEVE-LIFE",
+    "ROLLER-LIFE",
+)
+
+
+_WAYS = 2
+"""The motor and the gearbox."""
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One figure with what is asked of it.
+
+    Attributes
+    ----------
+    value, required : float or None
+        In `unit`; None where not known, and where nothing is asked.
+    basis : str
+        The model it comes from, and what it counts.
+    """
+
+    id: str
+    title: str
+    value: float | None
+    unit: str
+    required: float | None
+    status: Status
+    basis: str
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form."""
+        return dict(vars(self))
+
+
+def headline(evidence: Evidence, lines: Sequence[Check]) -> tuple[Figure, ...]:
+    """Peak and continuous torque, life, backlash, efficiency, temperature and mass."""
+    by_id = {line.id: line for line in lines}
+    machine = evidence.machine
+    return (
+        _peak(machine, by_id["MOTOR-PEAK"], lines),
+        _of_line("continuous_torque", "continuous torque", by_id["MOTOR-CONTINUOUS"]),
+        _life(machine, by_id),
+        _backlash(evidence),
+        _efficiency(machine),
+        _of_line("temperature", "temperature", by_id["THERMAL-RISE"]),
+        _mass(machine),
+    )
+
+
+def _of_line(name: str, title: str, line: Check) -> Figure:
+    return Figure(name, title, line.value, line.unit, line.limit, line.status, line.basis)
+
+
+def _peak(machine: Machine, motor: Check, lines: Sequence[Check]) -> Figure:
+    """What motor and gearbox both reach."""
+    required = machine.design.requirements.peak_torque
+    title, name = "peak torque at standstill", "peak_torque"
+    carried = carried_torque(machine)
+    ways = [] if motor.value is None else [(motor.value, motor.basis)]
+    ways += [(one.torque, f"{one.words}: {one.model}") for one in carried.limits[:1]]
+    value, basis = min(ways, default=(None, motor.basis))
+    status: Status = "pass"
+    if value is not None and value < required * (1.0 - 1e-9):
+        status = "fail"
+    elif len(ways) < _WAYS or carried.unknown:
+        # What is known reaches it, but something is not known.
+        value, status = None, "unknown"
+    return Figure(name, title, value, "N*m", required, status, basis)
+
+
+def _life(machine: Machine, by_id: dict[str, Check]) -> Figure:
+    """Of what gives way first under the duty."""
+    lines = [by_id[one] for one in _LIFE_LINES if one in by_id]
+    status: Status = "unknown" if any(not line.known for line in lines) else "pass"
+    try:
+        life = machine.life
+    except ContactError:
+        return Figure("life", "life", None, "h", None, "unknown", DUTY_MODEL)
+    hours = {part.part: part.hours for part in life.parts}
+    hours["cam bearings together"] = life.cam.set_hours
+    hours |= {one.name: one.set_hours for one in life.runners}
+    ended = {part: value for part, value in hours.items() if value is not None}
+    first = min(ended, key=lambda part: ended[part], default="")
+    value = ended.get(first, ENDLESS)
+    if value < life.required_hours * (1.0 - 1e-9):
+        status = "fail"
+    basis = f"{first}: {DUTY_MODEL}" if first else DUTY_MODEL
+    shown = None if status == "unknown" else value
+    return Figure("life", "life", shown, "h", life.required_hours, status, basis)
+
+
+def _backlash(evidence: Evidence) -> Figure:
+    drawn = evidence.drawn
+    title, basis = "backlash of 95 % of the gearboxes", "gearboxes drawn from the tolerances"
+    if drawn is None or not len(drawn.values):
+        return Figure("backlash_p95", title, None, "arcmin", None, "unknown", basis)
+    value = float(drawn.statistics()["backlash_arcmin"]["p95"])
+    return Figure("backlash_p95", title, value, "arcmin", None, "pass", basis)
+
+
+def _efficiency(machine: Machine) -> Figure:
+    """Work out over work in while the motor drives, over the duty."""
+    name, title, basis = "efficiency", "efficiency of the gearbox", "losses by the equilibrium"
+    try:
+        cases = machine.life.duty
+        ratio, given, taken = machine.design.reducer.ratio, 0.0, 0.0
+        for case in cases:
+            if case.driven or case.speed == 0.0 or case.torque == 0.0 or case.share == 0.0:
+                continue
+            losses = machine.losses.at(ratio * case.speed, abs(case.torque))
+            power = case.share * abs(case.torque) * case.speed
+            given += power
+            taken += power + case.share * losses.total
+    except ContactError:
+        return Figure(name, title, None, "", None, "unknown", basis)
+    if taken <= 0.0:
+        return Figure(name, title, None, "", None, "unknown", f"{basis}: the motor never drives")
+    return Figure(name, title, given / taken, "", None, "pass", f"{basis}, over the duty")
+
+
+def _mass(machine: Machine) -> Figure:
+    try:
+        inertia = machine.inertia
+    except GeometryError as error:
+        return Figure("mass", "mass", None, "kg", None, "unknown", error.message)
+    known = not inertia.motor_missing or inertia.motor_by_catalogue is not None
+    return Figure(
+        "mass",
+        "mass",
+        inertia.mass if known else None,
+        "kg",
+        None,
+        "pass" if known else "unknown",
+        inertia.mass_scope,
+    )

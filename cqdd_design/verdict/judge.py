@@ -1,0 +1,147 @@
+"""The one judgement of a machine: every command that says whether a design will do says this."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
+from cqdd_design.gearbox.checks.allowables import YIELD_SAMPLES
+from cqdd_design.machine import Machine
+from cqdd_design.results import Check, worst_status
+from cqdd_design.verdict.evidence import Evidence, Progress, gather
+from cqdd_design.verdict.headline import Figure, headline
+from cqdd_design.verdict.lines import verdict_lines
+
+Meets = Literal["yes", "no", "unknown"]
+_LIMITS = 6
+"""Lines told as what binds, where none fails."""
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict:
+    """Whether a machine meets its requirements.
+
+    Attributes
+    ----------
+    name : str
+        Of the design.
+    lines : tuple of Check
+        Every requirement and check.
+    headline : tuple of Figure
+        The seven figures a designer looks at first.
+    evidence : Evidence
+        What they were made of.
+    """
+
+    name: str
+    lines: tuple[Check, ...]
+    headline: tuple[Figure, ...]
+    evidence: Evidence
+
+    @property
+    def meets(self) -> Meets:
+        """``yes`` only where no line fails and none is unknown."""
+        return meets(self.lines)
+
+    @property
+    def limits(self) -> tuple[Check, ...]:
+        """What binds: failures by least margin, what is not known, warnings, then the closest."""
+        order = {"fail": 0, "unknown": 1, "warn": 2, "pass": 3}
+
+        def place(line: Check) -> tuple[int, float]:
+            return order[line.status], line.margin if line.known else 0.0
+
+        ranked = sorted(self.lines, key=place)
+        broken = sum(line.status != "pass" for line in ranked)
+        return tuple(ranked[: max(broken, _LIMITS)])
+
+    @property
+    def sentence(self) -> str:
+        """All of it in one."""
+        return sentence(self.name, self.lines)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Why something could not be judged."""
+        found = self.evidence
+        reasons = (
+            *found.machine.analysis.warnings,
+            found.stress_missing,
+            found.heat_missing,
+            found.actuator_missing,
+            found.drawn_missing,
+        )
+        return tuple(dict.fromkeys(one for one in reasons if one))
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form (``verdict``)."""
+        return {
+            "meets": self.meets,
+            "headline": [figure.to_dict() for figure in self.headline],
+            "limits": [
+                {
+                    "id": line.id,
+                    "status": line.status,
+                    "reserve": line.margin if line.known else None,
+                    "remedy": line.remedy,
+                }
+                for line in self.limits
+            ],
+        }
+
+
+def meets(lines: Iterable[Check]) -> Meets:
+    """``yes`` only where no line fails and none is unknown; a warning does not hinder."""
+    answers: dict[str, Meets] = {"fail": "no", "unknown": "unknown"}
+    return answers.get(worst_status(lines), "yes")
+
+
+def sentence(name: str, lines: Iterable[Check]) -> str:
+    """Whether a design meets its requirements, with the number of lines that do not."""
+    every = tuple(lines)
+    counts = {status: sum(line.status == status for line in every) for status in _TOLD}
+    told = [f"{counts[status]} {words}" for status, words in _TOLD.items() if counts[status]]
+    answer = {
+        "yes": "meets its requirements",
+        "no": "does NOT meet its requirements",
+        "unknown": "is not shown to meet its requirements",
+    }[meets(every)]
+    return f"{name} {answer}: of {len(every)} lines " + ", ".join(told)
+
+
+_TOLD = {"pass": "pass", "warn": "warn", "fail": "FAIL", "unknown": "are UNKNOWN"}
+
+
+def judge(
+    machine: Machine,
+    specimen: Specimen = AS_DRAWN,
+    *,
+    samples: int = YIELD_SAMPLES,
+    sensitivity: bool = False,
+    progress: Progress = lambda _: None,
+) -> Verdict:
+    """Judge a machine.
+
+    Parameters
+    ----------
+    specimen : Specimen
+        Whose motor and fitted values count; its gearbox is of perfect parts.
+    samples : int
+        Toleranced gearboxes drawn for the line ``YIELD``; with 0 it is unknown.
+    sensitivity : bool
+        Whether to rank the tolerances too.
+    progress : callable
+        Told in a few words what begins, twice.
+
+    Raises
+    ------
+    GeometryError
+        When disc, ring or holes cannot exist.
+    """
+    evidence = gather(
+        machine, specimen, samples=samples, sensitivity=sensitivity, progress=progress
+    )
+    lines = verdict_lines(evidence)
+    return Verdict(machine.given.name, lines, headline(evidence, lines), evidence)

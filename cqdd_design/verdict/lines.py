@@ -1,0 +1,88 @@
+"""Lines of a verdict from its evidence: what the first screen says gives way to closer models."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+
+from cqdd_design.errors import ContactError
+from cqdd_design.gearbox.checks.equilibrium import (
+    DUTY_MODEL,
+    MODEL,
+    PeakLoads,
+    lasting_checks,
+    peak_checks,
+)
+from cqdd_design.gearbox.checks.guide_row import RIGID
+from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.geometry.limits import rounded_down
+from cqdd_design.machine import Machine
+from cqdd_design.results import Check
+from cqdd_design.verdict.drawn import yield_line
+from cqdd_design.verdict.evidence import Evidence
+from cqdd_design.verdict.motor import motor_lines
+
+_BODIES = tuple(
+    f"{part}-{kind}" for part in ("LIGAMENT", "ROOT", "RING") for kind in ("STRESS", "FATIGUE")
+)
+_HEAT = ("THERMAL-RISE", "THERMAL-CLEARANCE")
+
+
+def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
+    """Every line, in the order of the first screen, then bodies, heat, motor and yield."""
+    machine = evidence.machine
+    carried = _carried(machine)
+    lines: list[Check] = []
+    for check in machine.analysis.checks:
+        if check.id.startswith("MOTOR-"):
+            continue
+        lines.append(carried.pop(check.id, check))
+    lines += carried.values()
+    lines += evidence.stress_checks or _missing(_BODIES, evidence.stress_missing)
+    lines += evidence.heat_checks or _missing(_HEAT, evidence.heat_missing)
+    lines += motor_lines(
+        machine,
+        evidence.actuator,
+        evidence.actuator_missing,
+        cooling_known=evidence.temperatures is not None,
+    )
+    return (*lines, yield_line(machine, evidence.drawn, evidence.drawn_missing, lines))
+
+
+def _carried(machine: Machine) -> dict[str, Check]:
+    """Lines of the contact equilibrium by id; unknown where it has no answer."""
+    state, contacts = machine.analysis, machine.loaded_contacts
+    peak = machine.design.requirements.peak_torque
+    found: dict[str, Check] = {
+        check.id: build_check(
+            check.id,
+            None,
+            check.limit,
+            "the gearbox has no contact equilibrium at this load",
+            "see CONTACT-REACH",
+            model=DUTY_MODEL if check.id.endswith(("CONTINUOUS", "LIFE")) else MODEL,
+        )
+        for check in state.checks
+        if check.basis == RIGID
+    }
+    try:
+        loads = PeakLoads.of(peak, contacts.greatest(peak))
+        found |= {check.id: check for check in peak_checks(state, loads)}
+    except ContactError as error:
+        reach = contacts.reach(peak)
+        found["CONTACT-REACH"] = build_check(
+            "CONTACT-REACH",
+            reach,
+            peak,
+            error.message,
+            (f"lower requirements.peak_torque to {rounded_down(reach):g} N*m, or " if reach else "")
+            + "make discs and pins thicker or the clearances smaller",
+        )
+    # Without an answer what stands there already says so.
+    with suppress(ContactError):
+        found |= {check.id: check for check in lasting_checks(state, machine.life)}
+    return found
+
+
+def _missing(ids: tuple[str, ...], why: str) -> tuple[Check, ...]:
+    """Lines of a model that has no answer."""
+    return tuple(build_check(one, None, None, why, "see why there is none") for one in ids)

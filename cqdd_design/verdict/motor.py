@@ -1,0 +1,187 @@
+"""Lines of the motor: what it reaches through this gearbox, and what of it is not known."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from cqdd_design.actuator.demands import Demand, demands
+from cqdd_design.actuator.motor import torque_constant_at
+from cqdd_design.actuator.operating import envelope_torque, held_torque
+from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.catalog.motors import Motor
+from cqdd_design.design import Requirements
+from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.geometry.limits import rounded_down
+from cqdd_design.machine import Machine
+from cqdd_design.results import Check
+
+MODEL = "operating points of the simulated actuator"
+_RPM = 30.0 / math.pi
+_HALVINGS = 50
+_FIGURES = (
+    ("peak_torque", "peak torque"),
+    ("bore_diameter", "stator bore"),
+    ("rotor_inertia", "rotor inertia"),
+    ("line_resistance", "resistance"),
+    ("torque_constant", "torque constant"),
+)
+GIVE = "give them in the design's [motor] table or with --motor-file, or name a motor that has them"
+
+
+def missing_figures(motor: Motor) -> tuple[str, ...]:
+    """What the catalogue, or a file instead, does not say of a motor."""
+    return tuple(words for key, words in _FIGURES if getattr(motor, key) is None)
+
+
+def motor_lines(
+    machine: Machine, actuator: ActuatorParameters | None, why: str, *, cooling_known: bool
+) -> tuple[Check, ...]:
+    """All lines of this chapter.
+
+    Parameters
+    ----------
+    actuator : ActuatorParameters or None
+        None where it cannot be simulated.
+    why : str
+        Why not.
+    cooling_known : bool
+        Whether the way of the heat is drawn or stated, and not assumed.
+    """
+    asked, motor = machine.design.requirements, machine.motor
+    lines = list(_data(motor))
+    if actuator is None:
+        return (*(_unknown(one, asked, why) for one in _LIMITS), *lines, _bore(machine))
+    peak, steady, *duty = demands(actuator, asked)
+    lines += [
+        _peak(peak, motor, asked),
+        _continuous(steady, actuator, asked)
+        if cooling_known
+        else _unknown("MOTOR-CONTINUOUS", asked, "how the heat leaves the machine is not known"),
+        _speed(actuator, asked),
+        _bore(machine),
+    ]
+    return (*lines, _duty(duty)) if duty else tuple(lines)
+
+
+_LIMITS = ("MOTOR-PEAK", "MOTOR-CONTINUOUS", "MOTOR-SPEED")
+
+
+def _unknown(check_id: str, asked: Requirements, why: str) -> Check:
+    limit = {
+        "MOTOR-PEAK": asked.peak_torque,
+        "MOTOR-CONTINUOUS": asked.continuous_torque,
+        "MOTOR-SPEED": asked.input_speed * _RPM,
+    }[check_id]
+    return build_check(check_id, None, limit, why, GIVE, model=MODEL)
+
+
+def _data(motor: Motor) -> tuple[Check, ...]:
+    missing = missing_figures(motor)
+    if not missing:
+        return ()
+    told = f"not known of '{motor.name}': {', '.join(missing)}"
+    return (build_check("MOTOR-DATA", None, float(len(_FIGURES)), told, GIVE, model=MODEL),)
+
+
+def _peak(demand: Demand, motor: Motor, asked: Requirements) -> Check:
+    most = demand.found.most
+    binding = ", ".join(demand.found.binding) or "nothing"
+    told = f"{most:.4g} N*m at rest, {demand.found.need.current:.3g} A for the peak torque; "
+    if motor.peak_torque is None and most >= asked.peak_torque:
+        why = f"{told}the motor's own peak torque is not known"
+        return build_check("MOTOR-PEAK", None, asked.peak_torque, why, GIVE, model=MODEL)
+    return build_check(
+        "MOTOR-PEAK",
+        most,
+        asked.peak_torque,
+        f"{told}binding: {binding}",
+        f"{_lower('peak_torque', most)}raise motor.current_limit where the "
+        "driver binds, or take a stronger motor or more ratio",
+        model=MODEL,
+    )
+
+
+def _continuous(demand: Demand, actuator: ActuatorParameters, asked: Requirements) -> Check:
+    most, still = demand.found.most, float(held_torque(actuator, 0.0)[0])
+    return build_check(
+        "MOTOR-CONTINUOUS",
+        most,
+        asked.continuous_torque,
+        f"{most:.4g} N*m at {asked.input_speed * _RPM:.0f} rpm of the motor; {still:.4g} N*m "
+        "standing still",
+        # What friction alone overheats holds nothing while it turns.
+        f"{_lower('continuous_torque', most)}lower friction or requirements.input_speed, or cool "
+        "it (drive.thermal_resistance states how well)",
+        model=MODEL,
+    )
+
+
+def _speed(actuator: ActuatorParameters, asked: Requirements) -> Check:
+    fastest = _fastest(actuator, asked.continuous_torque)
+    share = asked.input_speed / fastest if fastest > 0.0 else math.inf
+    volts = actuator.drive.supply_voltage
+    cures = [f"raise motor.voltage to about {volts * share:.3g} V"] if share < 10.0 else []
+    if fastest > 0.0:
+        cures.append(f"lower requirements.input_speed to {rounded_down(fastest * _RPM):g} rpm")
+    return build_check(
+        "MOTOR-SPEED",
+        fastest * _RPM,
+        asked.input_speed * _RPM,
+        f"{volts:g} V drive {asked.continuous_torque:g} N*m up to {fastest * _RPM:.0f} rpm, "
+        "winding hot",
+        ", or ".join(cures) or "take a stronger motor or more ratio",
+        model=MODEL,
+    )
+
+
+def _lower(key: str, most: float) -> str:
+    """To ask for less, where less is reached at all."""
+    return f"lower requirements.{key} to {rounded_down(most):g} N*m, " if most > 0.0 else ""
+
+
+def _fastest(actuator: ActuatorParameters, torque: float) -> float:
+    """Fastest motor speed at which a torque at the output (N m) is driven, rad/s; 0 if at none."""
+    n, hot = abs(actuator.gear.ratio), actuator.thermal.most
+
+    def driven(speed: float) -> bool:
+        return float(envelope_torque(actuator, speed / n, hot)[0]) >= torque
+
+    # Warm magnets turn faster: the speed at which their EMF is the whole supply.
+    constant = float(torque_constant_at(actuator.motor, hot))
+    low, high = 0.0, actuator.drive.supply_voltage / constant
+    if not driven(0.0):
+        return 0.0
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if driven(middle) else (low, middle)
+    return low
+
+
+def _bore(machine: Machine) -> Check:
+    """The ring inside the stator."""
+    outer, motor = machine.design.reducer.ring.outer_diameter, machine.motor
+    if motor.bore_diameter is None or motor.torque_at != "motor":
+        told = f"ring {outer * 1e3:.4g} mm; the stator bore of '{motor.name}' is not known"
+        return build_check("MOTOR-BORE", outer * 1e3, None, told, GIVE)
+    screened = next(check for check in machine.analysis.checks if check.id == "MOTOR-BORE")
+    return replace(screened, severity="fail")
+
+
+def _duty(steps: list[Demand]) -> Check:
+    outside = [step for step in steps if not step.found.inside]
+    told = "; ".join(
+        f"{step.name}: {step.torque:g} N*m at {step.speed:g} rad/s, {' and '.join(b)}"
+        for step in outside[:3]
+        for b in [step.found.binding]
+    )
+    more = f" and {len(outside) - 3} more" if len(outside) > 3 else ""
+    return build_check(
+        "DUTY-ENVELOPE",
+        float(len(outside)),
+        0.0,
+        f"{told}{more}" or f"all {len(steps)} steps are inside",
+        "lower torque or speed of these steps, raise motor.voltage or motor.current_limit, or "
+        "take a stronger motor",
+        model=MODEL,
+    )

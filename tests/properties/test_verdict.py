@@ -1,0 +1,266 @@
+"""The one judgement: where its values come from, what is not known, and when it says yes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.operating import held_torque, needed
+from cqdd_design.actuator.specimen import AS_DRAWN
+from cqdd_design.design import load_design
+from cqdd_design.gearbox.checks.equilibrium import ENDLESS
+from cqdd_design.gearbox.contact.rubbing import ContactFriction
+from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.gearbox.life.fatigue import contact_cycles
+from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS
+from cqdd_design.machine import Machine, resolve
+from cqdd_design.results import Check
+from cqdd_design.verdict import Verdict, judge
+from cqdd_design.verdict.drawn import good_gearboxes, yield_line
+from cqdd_design.verdict.judge import meets, sentence
+from cqdd_design.verdict.lines import verdict_lines
+from cqdd_design.verdict.motor import missing_figures, motor_lines
+
+DESIGNS = Path(__file__).resolve().parents[2] / "designs"
+SAMPLES = 24
+
+
+@pytest.fixture(scope="module")
+def machine() -> Machine:
+    """At torques near what it bears, so that lines pass and fail."""
+    design = load_design(DESIGNS / "reference-s.toml")
+    return resolve(
+        design.replacing({"requirements.peak_torque": 50.0, "requirements.continuous_torque": 14.0})
+    )
+
+
+@pytest.fixture(scope="module")
+def judged(machine: Machine) -> Verdict:
+    return judge(machine, samples=SAMPLES)
+
+
+def by_id(lines: tuple[Check, ...]) -> dict[str, Check]:
+    return {line.id: line for line in lines}
+
+
+def test_peak_loads_are_those_of_sweeps_in_both_senses(machine: Machine, judged: Verdict) -> None:
+    """Solved again by hand: pressures, shear and cam load at the peak torque, with friction."""
+    model, reducer = machine.contact, machine.design.reducer
+    friction = ContactFriction.of(model, "drive")
+    sweeps = [
+        contact_sweep(model, torque, perfect_angles(model, 400), friction=friction)
+        for torque in (50.0, -50.0)
+    ]
+    ring = max(float(sweep.ring_pressure.max()) for sweep in sweeps) / 1e6
+    hole = max(float(sweep.pin_pressure.max()) for sweep in sweeps) / 1e6
+    pin = max(float(sweep.pin_force.max()) for sweep in sweeps)
+    cam = max(float(sweep.cam_load.max()) for sweep in sweeps)
+    area = math.pi / 4.0 * (1e3 * reducer.output_pins.diameter) ** 2
+    lines = by_id(judged.lines)
+    rating = machine.cam.static_rating
+    assert rating is not None
+    for name, value in (
+        ("CONTACT-RING-PEAK", ring),
+        ("CONTACT-PIN-PEAK", hole),
+        ("PIN-SHEAR-PEAK", pin / area),
+        ("BEARING-STATIC", rating / cam),
+    ):
+        assert lines[name].value == pytest.approx(value, rel=4e-3), name
+        assert "contact equilibrium" in lines[name].basis
+    # The screen's value is another one, and says what it is.
+    screen = by_id(machine.analysis.checks)["CONTACT-RING-PEAK"]
+    assert "first screen" in screen.basis
+    assert screen.value != pytest.approx(lines["CONTACT-RING-PEAK"].value, rel=0.05)
+
+
+def test_at_its_limit_a_flank_lasts_just_the_hours(machine: Machine, judged: Verdict) -> None:
+    """Cycles at the limit of the line are those of the required life, times what a place sees."""
+    line = by_id(judged.lines)["CONTACT-RING-CONTINUOUS"]
+    life = machine.life
+    turns = life.required_hours * life.loads[0].turns_per_hour
+    assert line.limit is not None
+    part = min(life.parts[:2], key=lambda one: one.reserve or math.inf)
+    borne = float(contact_cycles(line.limit * 1e6, part.limit))
+    # No place sees the greatest pressure at every tooth it meets.
+    assert turns <= borne * 1.02 <= 1.05 * part.cycles_per_output_turn * turns
+    assert line.margin == pytest.approx(part.reserve)
+    assert (line.margin >= 1.0) == part.lasts(life.required_hours)
+
+
+def test_lines_pass_exactly_where_the_life_does(machine: Machine, judged: Verdict) -> None:
+    lines, life = by_id(judged.lines), machine.life
+    hours = min(part.hours or ENDLESS for part in life.parts)
+    passing = all(
+        lines[f"{name}-CONTINUOUS"].status == "pass"
+        for name in ("CONTACT-RING", "CONTACT-PIN", "PIN-BENDING")
+    )
+    assert passing == (hours >= life.required_hours)
+    assert lines["BEARING-LIFE"].value == life.cam.set_hours
+    figure = next(one for one in judged.headline if one.id == "life")
+    assert figure.value == min(hours, life.cam.set_hours or ENDLESS)
+
+
+def test_a_speed_at_its_limit_takes_the_whole_voltage(machine: Machine, judged: Verdict) -> None:
+    actuator = actuator_parameters(machine)
+    line = by_id(judged.lines)["MOTOR-SPEED"]
+    assert line.value is not None
+    speed = line.value * math.pi / 30.0 / machine.design.reducer.ratio
+    need = needed(actuator, 14.0, speed, actuator.thermal.most)
+    volts = need.voltage / actuator.drive.supply_voltage
+    amperes = need.current / actuator.drive.current_limit
+    assert max(volts, amperes) == pytest.approx(1.0, rel=2e-3)
+
+
+def test_continuous_means_for_ever_at_the_input_speed(machine: Machine, judged: Verdict) -> None:
+    slow = machine.design.replacing({"requirements.input_speed": 20.0})
+    actuator = actuator_parameters(resolve(slow))
+    held = float(held_torque(actuator, 20.0 / slow.reducer.ratio)[0])
+    lines = motor_lines(resolve(slow), actuator, "", cooling_known=True)
+    line = by_id(lines)["MOTOR-CONTINUOUS"]
+    assert line.value == pytest.approx(held)
+    assert held > (by_id(judged.lines)["MOTOR-CONTINUOUS"].value or 0.0)
+    assert f"{float(held_torque(actuator, 0.0)[0]):.4g} N*m standing still" in line.substituted
+    unsure = motor_lines(resolve(slow), actuator, "", cooling_known=False)
+    assert by_id(unsure)["MOTOR-CONTINUOUS"].status == "unknown"
+
+
+def test_the_first_figure_is_the_weaker_of_motor_and_gearbox(judged: Verdict) -> None:
+    figure, lines = judged.headline[0], by_id(judged.lines)
+    motor = lines["MOTOR-PEAK"].value
+    assert motor is not None
+    assert figure.value is not None
+    assert figure.value <= motor
+    ring = lines["CONTACT-RING-PEAK"]
+    assert (figure.value < 50.0) == (motor < 50.0 or not ring.satisfied)
+
+
+@pytest.mark.parametrize("key", ["peak_torque", "bore_diameter", "rotor_inertia"])
+def test_a_motor_without_a_figure_never_passes(machine: Machine, key: str) -> None:
+    blank = replace(machine, motor=replace(machine.motor, **{key: None}))
+    (words,) = missing_figures(blank.motor)
+    lines = by_id(motor_lines(blank, actuator_parameters(blank, AS_DRAWN), "", cooling_known=True))
+    assert lines["MOTOR-DATA"].status == "unknown"
+    assert words in lines["MOTOR-DATA"].substituted
+    assert "--motor-file" in lines["MOTOR-DATA"].remedy
+    assert meets(lines.values()) != "yes"
+    if key == "bore_diameter":
+        assert lines["MOTOR-BORE"].status == "unknown"
+    if key == "peak_torque":
+        assert lines["MOTOR-PEAK"].status == "unknown"
+        # Enough of what is known to say no is a no.
+        more = machine.design.replacing({"requirements.peak_torque": 500.0})
+        asked = resolve(more, blank.motor)
+        found = motor_lines(asked, actuator_parameters(asked), "", cooling_known=True)
+        assert by_id(found)["MOTOR-PEAK"].status == "fail"
+
+
+def test_without_an_actuator_every_limit_of_the_motor_is_unknown(machine: Machine) -> None:
+    lines = by_id(motor_lines(machine, None, "no resistance", cooling_known=True))
+    for name in ("MOTOR-PEAK", "MOTOR-CONTINUOUS", "MOTOR-SPEED"):
+        assert lines[name].status == "unknown"
+        assert lines[name].substituted == "no resistance"
+
+
+def test_a_torque_without_an_equilibrium_is_a_failure(machine: Machine, judged: Verdict) -> None:
+    high = resolve(machine.design.replacing({"requirements.peak_torque": 20_000.0}))
+    lines = by_id(verdict_lines(replace(judged.evidence, machine=high)))
+    reach = lines["CONTACT-REACH"]
+    assert reach.status == "fail"
+    assert reach.value is not None
+    assert 50.0 < reach.value < 20_000.0
+    assert lines["CONTACT-RING-PEAK"].status == "unknown"
+    model = high.contact
+    contact_sweep(model, 0.99 * reach.value, friction=ContactFriction.of(model, "drive"))
+    assert meets(lines.values()) == "no"
+
+
+def test_what_could_not_be_computed_is_unknown(judged: Verdict) -> None:
+    nothing = replace(
+        judged.evidence,
+        stress_checks=(),
+        stress_missing="too thin to mesh",
+        heat_checks=(),
+        heat_missing="no expansion",
+        temperatures=None,
+        drawn=None,
+        drawn_missing="nothing drawn",
+    )
+    lines = by_id(verdict_lines(nothing))
+    for name in ("RING-STRESS", "ROOT-FATIGUE", "THERMAL-RISE", "YIELD", "MOTOR-CONTINUOUS"):
+        assert lines[name].status == "unknown", name
+        assert not lines[name].satisfied
+    assert lines["RING-STRESS"].substituted == "too thin to mesh"
+
+
+def test_strengths_that_the_catalogue_lacks_are_unknown() -> None:
+    design = load_design(DESIGNS / "printed-13.toml")
+    lines = by_id(judge(resolve(design), samples=0).lines)
+    assert lines["CONTACT-RING-CONTINUOUS"].status == "unknown"
+    assert lines["CONTACT-RING-CONTINUOUS"].limit is None
+    assert "no contact fatigue" in lines["CONTACT-RING-CONTINUOUS"].substituted
+
+
+def test_a_gearbox_counts_where_it_does_not_bind_and_stays_within_reserves(
+    machine: Machine, judged: Verdict
+) -> None:
+    drawn, lines = judged.evidence.drawn, judged.lines
+    assert drawn is not None
+    assert len(drawn.values) + drawn.lost == SAMPLES
+    # Lines with ample reserve leave binding alone, and none at all leaves nothing.
+    named = ("CONTACT-RING-PEAK", "CONTACT-RING-CONTINUOUS", "BEARING-STATIC", "BEARING-LIFE")
+
+    def with_margin(margin: float) -> tuple[Check, ...]:
+        return tuple(
+            replace(line, value=1.0 if line.sense == "max" else margin)
+            if line.id in named and line.sense == "min"
+            else line
+            for line in (
+                replace(one, limit=margin, value=1.0)
+                if one.id in named and one.sense == "max"
+                else replace(one, limit=1.0)
+                if one.id in named
+                else one
+                for one in lines
+            )
+        )
+
+    ample = good_gearboxes(machine, drawn, with_margin(1e3))
+    assert ample is not None
+    torque = drawn.values[:, OUTPUTS.index("unloaded_torque_Nm")]
+    assert np.array_equal(ample[0], torque <= 0.05 * 14.0)
+    none = good_gearboxes(machine, drawn, with_margin(0.5))
+    assert none is not None
+    assert not none[0].any()
+    line = yield_line(machine, replace(drawn, lost=SAMPLES), "", with_margin(1e3))
+    assert line.value == pytest.approx(100.0 * ample[0].sum() / (len(ample[0]) + SAMPLES))
+    unsure = tuple(replace(one, value=None) if one.id == named[0] else one for one in lines)
+    assert yield_line(machine, drawn, "", unsure).status == "unknown"
+
+
+def test_yes_needs_every_line_known_and_none_that_fails(judged: Verdict) -> None:
+    line = next(one for one in judged.lines if one.status == "pass")
+    bad = replace(line, value=2.0 * (line.limit or 1.0), sense="max")
+    unknown, rule = replace(line, value=None), replace(bad, severity="warn")
+    assert meets((line,)) == "yes"
+    assert meets((line, rule)) == "yes"
+    assert meets((line, unknown)) == "unknown"
+    assert meets((line, unknown, bad)) == "no"
+    assert sentence("knee", (line, unknown, bad, rule)) == (
+        "knee does NOT meet its requirements: of 4 lines 1 pass, 1 warn, 1 FAIL, 1 are UNKNOWN"
+    )
+    assert unknown.to_dict()["value"] is None
+    assert unknown.to_dict()["margin"] is None
+
+
+def test_what_binds_comes_first(judged: Verdict) -> None:
+    order = ["fail", "unknown", "warn", "pass"]
+    places = [order.index(line.status) for line in judged.limits]
+    assert places == sorted(places)
+    failing = [line.margin for line in judged.limits if line.status == "fail"]
+    assert failing == sorted(failing)
+    assert len(judged.limits) >= 6
