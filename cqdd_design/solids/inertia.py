@@ -167,6 +167,12 @@ class GearboxInertia:
         return self.total.mass + (self.motor_by_catalogue or 0.0)
 
     @property
+    def whole_mass(self) -> float | None:
+        """Mass of the actuator with its motor, kg; None where the motor's is not known."""
+        unknown = self.motor_missing and self.motor_by_catalogue is None
+        return None if unknown else self.mass
+
+    @property
     def mass_scope(self) -> str:
         """What `mass` counts, in words."""
         motor = f"{self.motor.name} by its catalogue, stator and rotor, {ROTOR_SCOPE}"
@@ -258,7 +264,7 @@ class GearboxInertia:
         """The JSON form (``results`` of ``inertia``, without ``balance``)."""
         return {
             "parts": [part.to_dict() for part in self.parts],
-            "total_mass_kg": self.mass,
+            "total_mass_kg": self.whole_mass,
             "total_mass_scope": self.mass_scope,
             "drawn_mass_kg": self.total.mass,
             "motor_mass_from_catalogue_kg": self.motor_by_catalogue,

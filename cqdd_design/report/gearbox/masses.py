@@ -35,7 +35,9 @@ def bodies_view(design: Design, bodies: Bodies) -> Values:
             _part_row(row, by_name.get(row.part), inertia)
             for row in bill_of_materials(bodies.inertia.motor, bodies.parts)
         ),
-        "total_mass": with_unit(inertia.mass, "kg", 4),
+        "total_mass": "not known"
+        if inertia.whole_mass is None
+        else with_unit(inertia.whole_mass, "kg", 4),
         "total_of": printed(inertia.mass_scope),
         "groups": _groups(inertia),
         "paper": _beside_the_paper(design, inertia) if beside else (),
