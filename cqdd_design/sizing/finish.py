@@ -46,8 +46,8 @@ def finish(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> 
     if not rotor_known:
         motor = evaluator.frame.motor.name
         warnings += (
-            f"motor '{motor}' has no rotor inertia in the catalogue, so the inertia that the "
-            "search weighs is that of the gearbox alone.",
+            f"the rotor inertia of '{motor}' is not known, and so the reflected inertia is not "
+            "either: candidates were weighed by their mass alone.",
         )
     objective = Objective(
         score=float(points.objective[row]),

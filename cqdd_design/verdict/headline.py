@@ -149,13 +149,13 @@ def mass(machine: Machine) -> Figure:
         inertia = machine.inertia
     except GeometryError as error:
         return Figure("mass", "mass", None, "kg", None, "unknown", error.message)
-    known = not inertia.motor_missing or inertia.motor_by_catalogue is not None
+    whole = inertia.whole_mass
     return Figure(
         "mass",
         "mass",
-        inertia.mass if known else None,
+        whole,
         "kg",
         None,
-        "pass" if known else "unknown",
+        "unknown" if whole is None else "pass",
         inertia.mass_scope,
     )
