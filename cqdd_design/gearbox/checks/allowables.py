@@ -92,8 +92,6 @@ BINDING_SHARE = 0.05
 """Torque that turns a gearbox without load, over the continuous torque, from which it binds."""
 YIELD_SAMPLES = 256
 """Gearboxes drawn for the yield: a share of 95 % is known to 3 points (two standard errors)."""
-YIELD_LEAST = 0.95
-"""Least share of them that has to meet the requirements."""
 
 # Balance, motor, manufacture --------------------------------------------------------------------
 LEAST_BALANCED_DISCS = 2

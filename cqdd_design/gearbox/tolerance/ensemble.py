@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cqdd_design.design import Design
 from cqdd_design.errors import UsageError
@@ -159,6 +160,8 @@ class ToleranceResult:
         Gearboxes asked for.
     values : array (S, 9)
         Of every gearbox that was solved, in the order and units of `OUTPUTS`.
+    numbers : array (S,)
+        Which of the drawn gearboxes these are.
     sensitivity : tuple of SobolIndices or None
         Of every output over `GROUPS`; None where it was not computed.
     base : int
@@ -175,6 +178,7 @@ class ToleranceResult:
     ensemble: Ensemble
     asked: int
     values: FloatArray
+    numbers: NDArray[np.intp]
     sensitivity: tuple[SobolIndices, ...] | None
     base: int
     lost: int
@@ -403,6 +407,7 @@ def run_ensemble(
         ensemble=ensemble,
         asked=samples,
         values=values[~jams],
+        numbers=np.flatnonzero(~jams),
         sensitivity=indices,
         base=base,
         lost=int(jams.sum()),
