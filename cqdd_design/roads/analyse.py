@@ -95,7 +95,8 @@ class Analysis:
             duty = "duty" if asked.load_cases else "continuous torque"
             told = {name: duty if load == "duty" else load for name, load in _AT.items()}
             told |= dict.fromkeys(_UNLOADED, UNLOADED)
-        return told | {"duty": "requirements", "checks": "requirements"}
+        over_time = {} if asked.duty_log is None else {"duty": "requirements"}
+        return told | over_time | {"checks": "requirements"}
 
     @property
     def checks(self) -> tuple[Check, ...]:
