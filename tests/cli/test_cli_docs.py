@@ -39,11 +39,11 @@ def console_commands(page: Path) -> list[str]:
 def test_every_command_shown_runs(page, cqdd, tmp_path):
     """In the order of the page, from a folder with the repository's designs and the page's files.
 
-    A block of TOML that begins with a file's name is that file.
+    A block of TOML or CSV that begins with a file's name is that file.
     """
     shutil.copytree(REPOSITORY / "designs", tmp_path / "designs")
-    for block in blocks(page, "toml"):
-        if name := re.match(r"# ([\w-]+\.toml)\b", block):
+    for block in (*blocks(page, "toml"), *blocks(page, "csv")):
+        if name := re.match(r"# ([\w-]+\.(?:toml|csv))\b", block):
             (tmp_path / name[1]).write_text(block)
     for command in console_commands(page):
         program, *arguments = shlex.split(command, comments=True)
