@@ -11,7 +11,6 @@ import typer
 from cqdd_design.errors import DesignError, UsageError
 
 if TYPE_CHECKING:
-    from cqdd_design.actuator.motor_file import MotorFile
     from cqdd_design.design import Design
     from cqdd_design.design.duty_log import DutyColumns
     from cqdd_design.units import Dimension
@@ -38,11 +37,17 @@ Calibrated = Annotated[
     Path | None,
     typer.Option("--calibration", metavar="FILE", help="Factors that `calibrate` wrote."),
 ]
+NamedMotor = Annotated[
+    str | None,
+    option(
+        "NAME",
+        "Motor of the catalogue, instead of all that the design's [motor] says of one.",
+        "--motor",
+    ),
+]
 OwnMotor = Annotated[
     Path | None,
-    typer.Option(
-        "--motor-file", metavar="FILE", help="Motor in TOML, for what the catalogue says otherwise."
-    ),
+    option("FILE", "Motor in TOML, over the design's [motor] and the catalogue.", "--motor-file"),
 ]
 Duty = Annotated[
     Path | None,
@@ -170,12 +175,3 @@ def under_duty(design: Design, duty: Path | None, columns: str | None) -> Design
     from cqdd_design.design.duty_file import read_duty
 
     return design.under_duty(read_duty(duty, named), str(duty), named)
-
-
-def read_own_motor(path: Path | None) -> MotorFile | None:
-    """The motor of ``--motor-file``."""
-    if path is None:
-        return None
-    from cqdd_design.actuator.motor_file import read_motor
-
-    return read_motor(path)

@@ -17,7 +17,6 @@ from cqdd_design.cli.options import (
     parse_ratio,
     quantity_option,
     read_duty_columns,
-    read_own_motor,
 )
 from cqdd_design.cli.requirement_options import read_requirements, stated, with_requirements
 from cqdd_design.cli.session import Output
@@ -55,7 +54,10 @@ def size(
     **asked: Any,
 ) -> None:
     """Requirements to a checked design file."""
+    from cqdd_design.catalog import find_bare_motor
+    from cqdd_design.design import load_required_motor
     from cqdd_design.design.model import duty_keys
+    from cqdd_design.design.motor import read_motor
     from cqdd_design.exporting import read_kinds
     from cqdd_design.roads.size import road_stages, size_and_write
     from cqdd_design.units import TEMPERATURE
@@ -66,6 +68,13 @@ def size(
     if (columns := read_duty_columns(duty, duty_columns)) is not None or duty is not None:
         asked |= duty_keys(str(duty), columns)
     asked |= {} if discs is None else {"disc_count": discs}
+    if motor is not None:
+        find_bare_motor(motor)
+    own = None
+    if motor_file is not None:
+        own = read_motor(motor_file)
+    elif motor is None and requirements is not None:
+        own = load_required_motor(requirements)
     kinds = () if export is None else read_kinds(export)
     wanted = read_requirements(asked, requirements)
     if report:
@@ -73,7 +82,7 @@ def size(
     road = size_and_write(
         wanted,
         target,
-        motor=read_own_motor(motor_file),
+        motor=own,
         ambient=parse_option("--ambient", ambient, TEMPERATURE),
         kinds=kinds,
         report=report,

@@ -145,7 +145,7 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
             "Tolerances",
             None
             if found.drawn is None
-            else {"tolerances": tolerance_view(found.drawn, results.clearances)},
+            else {"tolerances": tolerance_view(found.drawn.continuous, results.clearances)},
         ),
         chapter("actuator", "Actuator", _actuator(results)),
         chapter(

@@ -46,8 +46,8 @@ def finish(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> 
     if not rotor_known:
         motor = evaluator.frame.motor.name
         warnings += (
-            f"motor '{motor}' has no rotor inertia in the catalogue, so the inertia that the "
-            "search weighs is that of the gearbox alone.",
+            f"the rotor inertia of '{motor}' is not known, and so the reflected inertia is not "
+            "either: candidates were weighed by their mass alone.",
         )
     objective = Objective(
         score=float(points.objective[row]),
@@ -87,7 +87,7 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
         "circle_radius": _clean(points.pin_circle[row]),
         "material": requirements.pin_material,
     }
-    if size.hole_clearance != frame.default_clearance:
+    if size.hole_clearance != frame.default_fit.hole_clearance:
         pins["hole_clearance"] = _clean(size.hole_clearance)
     mapping: dict[str, Any] = {
         "name": f"sized-{requirements.ratio}{suffix}",
@@ -108,6 +108,8 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
             "ring": {"outer_diameter": requirements.outer_diameter},
         },
     }
+    if frame.equidistant != frame.default_fit.equidistant:
+        mapping["reducer"]["modification"] = {"equidistant": _clean(frame.equidistant)}
     if frame.ambient is not None:
         mapping["environment"] = {"ambient": frame.ambient}
     if "motor" in requirements.model_fields_set:

@@ -2,8 +2,8 @@
 
 Counted: discs, ring (as long as the pack), shoulders of the output pins over their free span, cam
 bearings, and solid eccentrics in their bores. Housing, carrier plates and shaft ends are much the
-same for every candidate and left out. The inertia counts the motor's rotor where its catalogue row
-has one, because only what a candidate adds to it matters.
+same for every candidate and left out. The inertia counts the motor's rotor, because only what a
+candidate adds to it matters; where the rotor's is not known, candidates are weighed by mass alone.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Weights:
     gearbox_inertia : array
         At the crank, without the rotor, kg m^2.
     reflected_inertia : array
-        At the crank, with the rotor where its inertia is known, kg m^2.
+        At the crank, with the rotor, kg m^2; nan where the rotor's is not known.
     """
 
     mass: FloatArray
@@ -49,9 +49,10 @@ class Weights:
         """mass^0.7 inertia^0.3, in kg and kg m^2: what the search makes small.
 
         A product needs no reference values: one per cent of mass counts as much as 2.3 per cent
-        of inertia, whatever the size of the gearbox.
+        of inertia, whatever the size of the gearbox. Mass alone where the inertia is not known.
         """
-        return np.asarray(self.mass**MASS_WEIGHT * self.reflected_inertia**INERTIA_WEIGHT)
+        both = self.mass**MASS_WEIGHT * self.reflected_inertia**INERTIA_WEIGHT
+        return np.asarray(np.where(np.isnan(self.reflected_inertia), self.mass, both))
 
 
 def weigh(
@@ -103,6 +104,5 @@ def weigh(
     orbiting = (disc + half_bearing) * e * e
     spinning = (disc_spin + half_bearing * seat * seat) / n2
     inertia = discs * (turning + orbiting + spinning) + pins * circle * circle / n2
-    # An unknown rotor is left out here and the result says so (`SizingResult.warnings`).
-    turned = inertia if frame.rotor_inertia is None else inertia + frame.rotor_inertia
+    turned = inertia + (np.nan if frame.rotor_inertia is None else frame.rotor_inertia)
     return Weights(np.asarray(mass), np.asarray(inertia), np.asarray(turned))

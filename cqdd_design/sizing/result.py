@@ -16,14 +16,14 @@ class Objective:
     Attributes
     ----------
     score : float
-        mass^0.7 x inertia^0.3 (kg, kg m^2), which the search makes small.
+        mass^0.7 x inertia^0.3 (kg, kg m^2), which the search makes small; the mass alone where the
+        rotor's inertia is not known.
     mass : float
         Of discs, ring, output pins, cam bearings and eccentrics, kg.
     gearbox_inertia : float
         Of the same parts at the crank, kg m^2.
     reflected_inertia : float or None
-        With the motor's rotor; None where the catalogue has no inertia of it, and the score then
-        weighs the gearbox's own.
+        With the motor's rotor; None where its inertia is not known.
     torque_reserve : float
         Factor by which both required torques could grow until a check is on its limit.
     binding : str
@@ -43,7 +43,8 @@ class Objective:
     @property
     def scope(self) -> str:
         """What masses and inertias count."""
-        rotor = "" if self.reflected_inertia is None else "; inertia with the motor's rotor"
+        known = self.reflected_inertia is not None
+        rotor = "; inertia with the motor's rotor" if known else "; inertia unknown, as the rotor's"
         return f"{SCOPE}{rotor}"
 
     def to_dict(self) -> dict[str, object]:
@@ -57,7 +58,9 @@ class Objective:
             "torque_reserve": self.torque_reserve,
             "least_margin": self.least_margin,
             "binding": self.binding,
-            "weighting": {"mass": MASS_WEIGHT, "reflected_inertia": INERTIA_WEIGHT},
+            "weighting": {"mass": 1.0, "reflected_inertia": 0.0}
+            if self.reflected_inertia is None
+            else {"mass": MASS_WEIGHT, "reflected_inertia": INERTIA_WEIGHT},
         }
 
 

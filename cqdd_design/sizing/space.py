@@ -14,7 +14,7 @@ from cqdd_design.sizing.stage_tables import StageTables
 
 IntArray = NDArray[np.intp]
 
-PIN_COUNTS = (4, 5, 6, 8, 10, 12, 14, 16)
+PIN_COUNTS = (4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 24)
 """Pin counts tried at every ratio, beside those that divide it."""
 _MOST_PINS = 20
 _MOST_BEARINGS = 14

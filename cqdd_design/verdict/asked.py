@@ -161,7 +161,8 @@ def _lost_motion(evidence: Evidence) -> Iterator[Check]:
 
 
 def _stiffness(evidence: Evidence) -> Iterator[Check]:
-    wanted, drawn = evidence.machine.design.requirements.stiffness, evidence.drawn
+    wanted = evidence.machine.design.requirements.stiffness
+    drawn = evidence.drawn and evidence.drawn.continuous
     if wanted is None:
         return
     limit = wanted / _ARCMIN

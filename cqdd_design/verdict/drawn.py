@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
@@ -20,19 +22,28 @@ LEAST_SAMPLES = 128
 _ANGLES = 1000
 """About so many crank angles of the output turn for each gearbox."""
 _ARCMIN = math.degrees(1.0) * 60.0
-_AT_RING = ("CONTACT-RING-PEAK", "CONTACT-RING-CONTINUOUS")
-_AT_CAM = ("BEARING-STATIC", "BEARING-LIFE")
+_PER_TOOTH = 8, 2
+"""Crank angles for each tooth, at the continuous torque and at the peak: greatest loads alone."""
+_RING = ("CONTACT-RING-PEAK", "CONTACT-RING-CONTINUOUS")
+_CAM = ("BEARING-STATIC", "BEARING-LIFE")
 
 
-def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> ToleranceResult:
-    """Toleranced gearboxes at the continuous torque, over a whole output turn.
+class Drawn(NamedTuple):
+    """The same toleranced gearboxes over a whole output turn, under two torques."""
+
+    continuous: ToleranceResult
+    peak: ToleranceResult
+
+
+def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Drawn:
+    """Toleranced gearboxes at the continuous and at the peak torque.
 
     Parameters
     ----------
     samples : int
         Gearboxes; fewer of designs with many teeth, but not below `LEAST_SAMPLES`.
     sensitivity : bool
-        Whether to rank the tolerances too, which takes twice as many.
+        Whether to rank the tolerances too, at the continuous torque, which takes twice as many.
 
     Raises
     ------
@@ -41,26 +52,33 @@ def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Tol
     """
     ratio = machine.design.reducer.ratio
     # Eight angles a tooth as in `tolerance`, down to two where there are many teeth.
-    per_tooth = min(max(_ANGLES // (ratio * (ratio + 1)), 2), 8)
+    most, least = _PER_TOOTH
+    per_tooth = min(max(_ANGLES // (ratio * (ratio + 1)), least), most)
     angles = per_tooth * ratio * (ratio + 1)
     fitting = samples * _ANGLES // max(angles, _ANGLES)
-    found = run_ensemble(
-        make_ensemble(machine.design, angles=angles),
-        max(fitting, min(samples, LEAST_SAMPLES)),
-        sensitivity=sensitivity,
+    count = max(fitting, min(samples, LEAST_SAMPLES))
+    peak = machine.design.requirements.peak_torque
+    found = Drawn(
+        run_ensemble(make_ensemble(machine.design, angles=angles), count, sensitivity=sensitivity),
+        run_ensemble(
+            make_ensemble(machine.design, angles=least * ratio * (ratio + 1), torque=peak),
+            count,
+            sensitivity=False,
+        ),
     )
-    if found.interrupted:
+    if any(one.interrupted for one in found):
         raise KeyboardInterrupt
     return found
 
 
 def good_gearboxes(
-    machine: Machine, drawn: ToleranceResult, lines: Sequence[Check]
-) -> tuple[NDArray[np.bool_], dict[str, float]] | None:
-    """Which gearboxes meet everything, and the share that fails each thing.
+    machine: Machine, drawn: Drawn, lines: Sequence[Check]
+) -> tuple[NDArray[np.intp], dict[str, int]] | None:
+    """Which gearboxes meet everything, by number, and how many fail each thing.
 
-    Pressure and cam load of a gearbox may exceed those of perfect parts at the same torque by as
-    much as the lines of perfect parts have in reserve.
+    At the peak torque pressure and cam load stand against the limits of the lines of perfect
+    parts. Over the life they may exceed those of perfect parts at the continuous torque by as much
+    as these lines have in reserve.
 
     Parameters
     ----------
@@ -69,69 +87,93 @@ def good_gearboxes(
 
     Returns
     -------
-    array of bool (S,), dict
+    array of int, dict
         None where a line that is needed is not known.
     """
     by_id = {line.id: line for line in lines}
-    if not all(check in by_id and by_id[check].known for check in (*_AT_RING, *_AT_CAM)):
+    if not all(check in by_id and by_id[check].known for check in (*_RING, *_CAM)):
         return None
     torque = machine.design.requirements.continuous_torque
     perfect = machine.loaded_contacts.greatest(torque)
-    exponent = machine.analysis.cam_bearing.exponent
-    pressure = min(by_id[check].margin for check in _AT_RING)
-    load = min(by_id["BEARING-STATIC"].margin, by_id["BEARING-LIFE"].margin ** (1.0 / exponent))
-
-    def column(name: str) -> NDArray[np.float64]:
-        return drawn.values[:, OUTPUTS.index(name)]
-
+    cam = machine.analysis.cam_bearing
+    pressure = by_id["CONTACT-RING-CONTINUOUS"].margin
+    load = by_id["BEARING-LIFE"].margin ** (1.0 / cam.exponent)
+    static = (cam.bearing.static_rating or 0.0) / allowables.STATIC_SAFETY
+    _, yields = by_id["CONTACT-RING-PEAK"].compared
+    lasts, bears = _columns(drawn.continuous), _columns(drawn.peak)
     fails = {
-        "bind": column("unloaded_torque_Nm") > allowables.BINDING_SHARE * torque,
-        "ring pressure": column("ring_pressure_max_MPa")
+        "bind": lasts["unloaded_torque_Nm"] > allowables.BINDING_SHARE * torque,
+        "ring pressure over the life": lasts["ring_pressure_max_MPa"]
         > pressure * perfect["ring_pressure_max_MPa"],
-        "cam load": column("cam_bearing_load_max_N") > load * perfect["cam_bearing_load_max_N"],
+        "cam load over the life": lasts["cam_bearing_load_max_N"]
+        > load * perfect["cam_bearing_load_max_N"],
     }
     asked = machine.design.requirements
     if asked.backlash is not None:
-        fails["backlash"] = column("backlash_arcmin") > asked.backlash * _ARCMIN
+        fails["backlash"] = lasts["backlash_arcmin"] > asked.backlash * _ARCMIN
     if asked.stiffness is not None:
-        fails["stiffness"] = column("stiffness_Nm_per_arcmin") < asked.stiffness / _ARCMIN
-    good = ~np.any(list(fails.values()), axis=0)
-    shares = {name: float(np.mean(beyond)) for name, beyond in fails.items()}
-    return good, shares
+        fails["stiffness"] = lasts["stiffness_Nm_per_arcmin"] < asked.stiffness / _ARCMIN
+    at_peak = {
+        "ring pressure at the peak": bears["ring_pressure_max_MPa"] > yields,
+        "cam load at the peak": bears["cam_bearing_load_max_N"] > static,
+    }
+    good = np.intersect1d(
+        drawn.continuous.numbers[~np.any(list(fails.values()), axis=0)],
+        drawn.peak.numbers[~np.any(list(at_peak.values()), axis=0)],
+    )
+    return good, {name: int(beyond.sum()) for name, beyond in (fails | at_peak).items()}
 
 
-def yield_line(
-    machine: Machine, drawn: ToleranceResult | None, why: str, lines: Sequence[Check]
-) -> Check:
+def loads_at_peak(machine: Machine, drawn: Drawn, share: float) -> dict[str, float]:
+    """What a share of the gearboxes has at most at the peak torque, over the limits, by check.
+
+    Pressure at the ring, and load of the cam bearing.
+    """
+    cam, reducer = machine.analysis.cam_bearing, machine.design.reducer
+    steels = (find_material(reducer.disc_material), find_material(reducer.ring_material))
+    yields = allowables.weaker(*(allowables.contact_limit_static(one) for one in steels)).value
+    static = (cam.bearing.static_rating or 0.0) / allowables.STATIC_SAFETY
+    found = _columns(drawn.peak)
+    return {
+        "CONTACT-RING-PEAK": float(np.quantile(found["ring_pressure_max_MPa"], share))
+        / (yields / 1e6),
+        "BEARING-STATIC": float(np.quantile(found["cam_bearing_load_max_N"], share)) / static,
+    }
+
+
+def _columns(drawn: ToleranceResult) -> dict[str, NDArray[np.float64]]:
+    return dict(zip(OUTPUTS, drawn.values.T, strict=True))
+
+
+def yield_line(machine: Machine, drawn: Drawn | None, why: str, lines: Sequence[Check]) -> Check:
     """The line ``YIELD``; `why` says why nothing was drawn."""
     limit = 100.0 * machine.design.requirements.yield_share
     cure = "see what is not known of pressure and cam load"
     if drawn is None:
         return build_check("YIELD", None, limit, why, "see why none could be drawn")
-    found = good_gearboxes(machine, drawn, lines) if len(drawn.values) else None
+    solved = min(len(one.values) for one in drawn)
+    found = good_gearboxes(machine, drawn, lines) if solved else None
     if found is None:
         return build_check("YIELD", None, limit, "limits of drawn gearboxes are not known", cure)
-    good, shares = found
-    count = len(good) + drawn.lost
-    share = float(good.sum()) / count
-    told = ", ".join(f"{100.0 * one:.1f} % {name}" for name, one in shares.items() if one > 0.0)
-    jams = f"; {drawn.lost} jam" if drawn.lost else ""
-    worst = max(shares, key=lambda name: shares[name])
-    cures = {
-        "bind": "give modification.equidistant and hole_clearance some um more, or closer "
-        "[tolerances]",
-        "ring pressure": "closer [tolerances] of teeth and profile, or more reserve of pressure "
-        "(thicker discs, harder material)",
-        "cam load": "closer [tolerances], or a larger cam bearing",
-        "backlash": "smaller clearances with closer [tolerances]",
-        "stiffness": "smaller clearances, or thicker or more output_pins",
-    }
+    good, fails = found
+    count = len(drawn.continuous.values) + drawn.continuous.lost
+    told = [f"{number} {name}" for name, number in fails.items() if number]
+    told += [f"{one.lost} jam at {one.ensemble.torque:g} N*m" for one in drawn if one.lost]
+    worst = max(fails, key=lambda name: fails[name])
     return build_check(
         "YIELD",
-        100.0 * share,
+        100.0 * len(good) / count,
         limit,
-        f"{int(good.sum())} of {count} gearboxes at {drawn.ensemble.torque:g} N*m"
-        + (f": {told}" if told else "")
-        + jams,
-        cures[worst],
+        f"{len(good)} of {count} gearboxes" + (f"; {', '.join(told)}" if told else ""),
+        _CURES[worst.partition(" ")[0]],
     )
+
+
+_CURES = {
+    "bind": "give modification.equidistant and hole_clearance some um more, or closer [tolerances]",
+    "ring": "closer [tolerances] of teeth and profile, or more reserve of pressure (thicker discs, "
+    "harder material)",
+    "cam": "closer [tolerances], more clearance, or a larger cam bearing",
+    "backlash": "smaller clearances with closer [tolerances]",
+    "stiffness": "smaller clearances, or thicker or more output_pins",
+}

@@ -10,12 +10,11 @@ from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.errors import ContactError, CqddError, UsageError
 from cqdd_design.gearbox.bodies.strength import BodyStrength
-from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
 from cqdd_design.machine import Machine
 from cqdd_design.machine.body_analysis import judged_or_told
 from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
-from cqdd_design.verdict.drawn import drawn_gearboxes
+from cqdd_design.verdict.drawn import Drawn, drawn_gearboxes
 
 Progress = Callable[[str], None]
 
@@ -37,8 +36,8 @@ class Evidence:
         Of them, and of the clearances they leave.
     actuator : ActuatorParameters or None
         As it is simulated, of perfect parts.
-    drawn : ToleranceResult or None
-        Toleranced gearboxes at the continuous torque.
+    drawn : Drawn or None
+        Toleranced gearboxes at the continuous and at the peak torque.
     stress_missing, heat_missing, actuator_missing, drawn_missing : str
         Why there are none.
     """
@@ -52,7 +51,7 @@ class Evidence:
     heat_missing: str
     actuator: ActuatorParameters | None
     actuator_missing: str
-    drawn: ToleranceResult | None
+    drawn: Drawn | None
     drawn_missing: str
 
 
@@ -108,7 +107,7 @@ def _actuator(machine: Machine, specimen: Specimen) -> tuple[ActuatorParameters 
         return None, f"the actuator cannot be simulated: {error.message}"
 
 
-def _drawn(machine: Machine, samples: int, sensitivity: bool) -> tuple[ToleranceResult | None, str]:
+def _drawn(machine: Machine, samples: int, sensitivity: bool) -> tuple[Drawn | None, str]:
     if not samples:
         return None, "no gearboxes were drawn"
     try:

@@ -115,7 +115,7 @@ def _life(machine: Machine, by_id: dict[str, Check]) -> Figure:
 
 def backlash(evidence: Evidence) -> Figure:
     """Of the drawn gearboxes."""
-    drawn = evidence.drawn
+    drawn = evidence.drawn and evidence.drawn.continuous
     title, basis = "backlash of 95 % of the gearboxes", "gearboxes drawn from the tolerances"
     if drawn is None or not len(drawn.values):
         return Figure("backlash_p95", title, None, "arcmin", None, "unknown", basis)
@@ -149,13 +149,13 @@ def mass(machine: Machine) -> Figure:
         inertia = machine.inertia
     except GeometryError as error:
         return Figure("mass", "mass", None, "kg", None, "unknown", error.message)
-    known = not inertia.motor_missing or inertia.motor_by_catalogue is not None
+    whole = inertia.whole_mass
     return Figure(
         "mass",
         "mass",
-        inertia.mass if known else None,
+        whole,
         "kg",
         None,
-        "pass" if known else "unknown",
+        "unknown" if whole is None else "pass",
         inertia.mass_scope,
     )

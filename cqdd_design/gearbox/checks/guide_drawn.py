@@ -14,10 +14,10 @@ ROWS = (
         f"share of {limits.YIELD_SAMPLES} gearboxes >= requirements.yield",
         "Parts are as good as their tolerances. A gearbox drawn from them counts where it turns "
         f"without load at less than {limits.BINDING_SHARE:.0%} of the continuous torque, where its "
-        "greatest pressure and cam load at the continuous torque exceed those of perfect parts by "
-        "no more than the reserves of the lines at the ring and of the cam bearing, and where its "
-        "backlash and stiffness are those asked for. Pins in their holes are judged with perfect "
-        "parts alone.",
+        "greatest pressure at the ring and cam load at the peak torque stay within the limits of "
+        "perfect parts, and where at the continuous torque they exceed those of perfect parts by "
+        "no more than these have in reserve over the life. Pins in their holes are judged with "
+        "perfect parts alone.",
         f"{DRAWN}; {HOUSE}",
         basis=DRAWN,
     ),
