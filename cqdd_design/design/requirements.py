@@ -78,9 +78,9 @@ class DutyColumnNames(FrozenModel):
     Each as in the file; a unit in brackets after it where the heading has none.
     """
 
-    time: FreeText = ""
-    torque: FreeText = ""
-    speed: FreeText = ""
+    time: FreeText | None = None
+    torque: FreeText | None = None
+    speed: FreeText | None = None
 
 
 _Angle = Annotated[
