@@ -112,6 +112,7 @@ def _lines(road: Road) -> list[str]:
     from cqdd_design.roads.size import CHOSEN
 
     design, sizing = road.design, road.sizing
+    others = sum(not key.startswith("requirements.") for key in design.assumed)
     chosen = CHOSEN if road.verdict is not None else frozenset[str]()
     assumed = [key.split(".")[1] for key in design.assumed if key.startswith("requirements.")]
     assumed = [key for key in assumed if key not in chosen]
@@ -123,7 +124,7 @@ def _lines(road: Road) -> list[str]:
     return [
         "assumed because you did not say (name them to change them):",
         table(defaults),
-        f"  and {len(design.assumed) - len(assumed)} defaults of the design file",
+        f"  and {others} defaults of the design file",
         "",
         f"{sizing.candidates_screened:,} candidates, {sizing.survivors:,} pass the first screen; "
         "rejected first by:",
