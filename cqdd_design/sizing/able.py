@@ -21,7 +21,7 @@ HELD_SPEED = 300.0 * math.pi / 30.0
 a turn a second of an output at ratio 10. At its usual input speed a motor of this size is warmed to
 its limit by its own drag in still air."""
 PEAK, CONTINUOUS = "peak_torque", "continuous_torque"
-_EFFICIENCY = 0.65
+_EFFICIENCY = 0.72
 """Of motor, drag and gearbox at a first guess of the peak."""
 _LASTING = 0.12
 """Continuous over peak torque at a first guess."""
@@ -29,7 +29,7 @@ _SPARE = 0.95
 """Of what the winding stands for ever: other parts may be at their limit before."""
 _DIGITS = 2
 _SAME = 0.05
-"""A torque is left as it is where what the motor can do is so near to it."""
+"""A torque is left as it is where what the motor can do is not more above it."""
 
 
 def first_guess(requirements: Requirements, motor: Motor | None) -> Requirements:
@@ -83,10 +83,10 @@ def what_it_can(machine: Machine, requirements: Requirements) -> Requirements | 
                 f"{actuator.thermal.ambient:g} degC: its own drag and the gearbox's heat it to its "
                 "limit; state continuous_speed, a duty, or another motor."
             )
-        if not 1.0 - _SAME <= requirements.continuous_torque / most <= 1.0:
-            changed[CONTINUOUS] = min(
-                rounded_down(most, _DIGITS), changed.get(PEAK, requirements.peak_torque)
-            )
+        able = min(rounded_down(most, _DIGITS), changed.get(PEAK, requirements.peak_torque))
+        asked = requirements.continuous_torque
+        if asked > most or asked < able * (1.0 - _SAME):
+            changed[CONTINUOUS] = able
     return _with(requirements, changed) if changed else None
 
 

@@ -62,10 +62,24 @@ _RING, _CAM = "CONTACT-RING-PEAK", "BEARING-STATIC"
 
 
 class Space(NamedTuple):
-    """What a search does not vary: requirements with materials and disc count, and clearances."""
+    """What a search by closed forms does not vary."""
 
-    requirements: Requirements
+    disc_count: int
+    disc_material: str
+    ring_material: str
     fit: Fit
+
+    def of(self, requirements: Requirements) -> Requirements:
+        """The requirements with these discs and materials, which are tried and not asked for."""
+        tried = requirements.model_copy(
+            update={
+                "disc_count": self.disc_count,
+                "disc_material": self.disc_material,
+                "ring_material": self.ring_material,
+            }
+        )
+        tried.model_fields_set.intersection_update(requirements.model_fields_set)
+        return tried
 
 
 @dataclass(frozen=True)
@@ -126,7 +140,8 @@ class _Hunt:
 
     def frame(self, space: Space, needs: Mapping[str, float]) -> Frame:
         """The frame of a space; needs of part errors count on top."""
-        frame = search_frame(space.requirements, self.motor, self.ambient, space.fit)
+        asked = space.of(self.requirements)
+        frame = search_frame(asked, self.motor, self.ambient, space.fit)
         every = {*needs, *self.extra}
         both = {one: needs.get(one, 1.0) * self.extra.get(one, 1.0) for one in every}
         return replace(frame, needs=both)
@@ -161,49 +176,57 @@ def size_to_verdict(
     guess = first_guess(requirements, motor)
     hunt = _Hunt(guess, motor, ambient, progress, stage_tables(requirements.ratio))
     progress("searching by closed forms, held against the contact equilibrium")
-    found = _lightest(hunt)
-    for _ in range(_WEAKER):
-        less = None if found is not None else weaker(hunt.requirements, _LESS)
-        if less is None:
-            break
-        hunt.requirements = less
-        found = _lightest(hunt)
+    found = _or_weaker(hunt, lambda: _lightest(hunt))
     last: Verdict | None = None
     for _ in range(_TRIALS):
         if found is None:
             break
         machine = resolve(found.sized.design, motor)
+        fit: Fit | None = found.space.fit
         can = what_it_can(machine, hunt.requirements) if hunt.requirements.derived else None
         if can is not None:
-            space = found.space
-            torques = {one: getattr(can, one) for one in (PEAK, CONTINUOUS)}
-            asked = space.requirements.model_copy(update=torques)
             hunt.requirements = can
-            found = _agreed(hunt, space._replace(requirements=asked), None, found.needs)
-            continue
-        step = _closer_look(hunt, found, machine)
-        if step is None:
-            progress(f"judging {found.sized.design.name} by the whole verdict")
-            hunt.judged += 1
-            last = judge(machine)
-            if last.meets == "yes":
-                sizing = _result(found, time.perf_counter() - began)
-                added = hunt.requirements.model_fields_set - requirements.model_fields_set
-                derived = requirements.derived | added
-                return VerifiedDesign(sizing, last, derived, hunt.judged)
-            step = _next_step(hunt, last)
-        if step is None:
-            break
-        space = found.space
-        if step > 0.0:
-            wider = _wider(space.fit.hole_clearance + step)
-            if wider is None:
+        else:
+            step = _closer_look(hunt, found, machine)
+            if step is None:
+                progress(f"judging {found.sized.design.name} by the whole verdict")
+                hunt.judged += 1
+                last = judge(machine)
+                if last.meets == "yes":
+                    return _verified(hunt, found, last, requirements, began)
+                step = _next_step(hunt, last)
+            if step is None:
                 break
-            space = space._replace(fit=wider)
-        found = _agreed(hunt, space, None, found.needs)
-    if last is not None:
-        raise _refused(last)
-    raise _nothing(hunt)
+            fit = _wider(found.space.fit, step)
+        if fit is None:
+            break
+        found = _again(hunt, found, fit)
+    raise _refused(last) if last is not None else _nothing(hunt)
+
+
+def _again(hunt: _Hunt, found: Found, fit: Fit) -> Found | None:
+    """The search repeated near a design, with what has been learnt since."""
+    space = found.space._replace(fit=fit)
+    return _or_weaker(hunt, lambda: _agreed(hunt, space, None, found.needs))
+
+
+def _or_weaker(hunt: _Hunt, search: Callable[[], Found | None]) -> Found | None:
+    """A search, repeated for less torque where none was stated and none is carried."""
+    for _ in range(_WEAKER):
+        found = search()
+        less = None if found is not None else weaker(hunt.requirements, _LESS)
+        if less is None:
+            return found
+        hunt.requirements = less
+    return None
+
+
+def _verified(
+    hunt: _Hunt, found: Found, verdict: Verdict, asked: Requirements, began: float
+) -> VerifiedDesign:
+    added = hunt.requirements.model_fields_set - asked.model_fields_set
+    sizing = _result(found, time.perf_counter() - began)
+    return VerifiedDesign(sizing, verdict, asked.derived | added, hunt.judged)
 
 
 def _result(found: Found, seconds: float) -> SizingResult:
@@ -223,7 +246,7 @@ def _result(found: Found, seconds: float) -> SizingResult:
 
 def _nothing(hunt: _Hunt) -> SizingInfeasibleError:
     """Why no design bears the loads: by closed forms, or because the equilibrium takes more."""
-    space = next(_spaces(hunt.requirements, FITS[0]))
+    first, space = hunt.requirements, next(_spaces(hunt.requirements, FITS[0]))
     search = Search.of(hunt.frame(space, {}), hunt.tables)
     most = search.most_reserve()
     if most is None or float(most.reserve[0]) < 1.0:
@@ -240,7 +263,7 @@ def _nothing(hunt: _Hunt) -> SizingInfeasibleError:
             break
     carried = rounded_down(hunt.requirements.peak_torque)
     return SizingInfeasibleError(
-        f"{space.requirements.peak_torque:g} N*m at ratio {space.requirements.ratio} fit by closed "
+        f"{first.peak_torque:g} N*m at ratio {first.ratio} fit by closed "
         f"forms alone: by the contact equilibrium about {carried:g} N*m are carried in this space. "
         f"Lower peak_torque to {carried:g} N*m, or raise outer_diameter or length.",
         binding=(_RING,),
@@ -248,8 +271,12 @@ def _nothing(hunt: _Hunt) -> SizingInfeasibleError:
     )
 
 
-def _wider(least: float) -> Fit | None:
-    """The closest fit whose holes have at least this clearance, m; None beyond the widest."""
+def _wider(fit: Fit, step: float) -> Fit | None:
+    """The closest fit with so much more clearance of the holes, m; None beyond the widest.
+
+    The same where the step is 0.
+    """
+    least = fit.hole_clearance + step
     return next((one for one in FITS if one.hole_clearance >= least), None)
 
 
@@ -258,19 +285,16 @@ def _spaces(requirements: Requirements, fit: Fit) -> Iterator[Space]:
     stated = requirements.model_fields_set
     counts = (requirements.disc_count,) if "disc_count" in stated else DISC_COUNTS
     for count in counts:
-        for material in MATERIALS:
-            update = {
-                "disc_count": count,
-                **{
-                    key: material for key in ("disc_material", "ring_material") if key not in stated
-                },
-            }
-            tried = requirements.model_copy(update=update)
-            # What is tried is not asked for.
-            tried.model_fields_set.intersection_update(stated)
-            yield Space(tried, fit)
-            if {"disc_material", "ring_material"} <= stated:
-                break
+        tried = [
+            Space(
+                count,
+                requirements.disc_material if "disc_material" in stated else material,
+                requirements.ring_material if "ring_material" in stated else material,
+                fit,
+            )
+            for material in MATERIALS
+        ]
+        yield from dict.fromkeys(tried)
 
 
 def _lightest(hunt: _Hunt) -> Found | None:
