@@ -14,8 +14,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
+import numpy as np
+
 from cqdd_design.catalog.motors import Motor
-from cqdd_design.design import Requirements
+from cqdd_design.design import Design, Requirements
 from cqdd_design.errors import ContactError, DesignError, InfeasibleError
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine, resolve
@@ -23,6 +25,7 @@ from cqdd_design.machine.temperatures import judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, first_guess, weaker, what_it_can
 from cqdd_design.sizing.exact import exact_checks, shortfalls
+from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.frame import USUAL_FIT, Fit, Frame, search_frame
 from cqdd_design.sizing.infeasible import SizingInfeasibleError, no_design
 from cqdd_design.sizing.points import Evaluator, Points
@@ -30,7 +33,7 @@ from cqdd_design.sizing.result import SizedDesign, SizingResult
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.stage_tables import StageTables, stage_tables
 from cqdd_design.verdict import Verdict, judge
-from cqdd_design.verdict.drawn import Drawn, drawn_gearboxes, good_gearboxes, loads_at_peak
+from cqdd_design.verdict.drawn import Allowed, Drawn, drawn_gearboxes, good_gearboxes, used
 
 Progress = Callable[[str], None]
 
@@ -58,7 +61,7 @@ _LESS, _WEAKER = 0.8, 10
 """Share of a torque that is tried next where no gearbox carries it, and how often."""
 _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
-_RING, _CAM = "CONTACT-RING-PEAK", "BEARING-STATIC"
+_RING, _PINS, _CAM = "CONTACT-RING-PEAK", "CONTACT-PIN-PEAK", "BEARING-STATIC"
 
 
 class Space(NamedTuple):
@@ -349,9 +352,12 @@ def _agreed(
             return None
         machine = resolve(design.design, hunt.motor)
         try:
-            short, holds = shortfalls(machine), _holds(exact_checks(machine), hunt.extra)
+            short, holds = (
+                shortfalls(machine),
+                _holds(exact_checks(machine), machine.design, hunt.extra),
+            )
         except (ContactError, DesignError):
-            needs = {one: 1.5 * needs.get(one, 1.0) for one in (_RING, _CAM, "CONTACT-PIN-PEAK")}
+            needs = {one: 1.5 * needs.get(one, 1.0) for one in (_RING, _PINS, _CAM)}
             continue
         if holds and (best is None or design.objective.score < best.sized.objective.score):
             best = Found(space, now, needs, design, point)
@@ -367,16 +373,12 @@ def _agreed(
     return best
 
 
-def _holds(checks: tuple[Check, ...], extra: Mapping[str, float]) -> bool:
+def _holds(checks: tuple[Check, ...], design: Design, extra: Mapping[str, float]) -> bool:
     """Whether every line has the reserve that is needed, a rounding's worth aside."""
-
-    def enough(check: Check) -> bool:
-        wanted = extra.get(check.id, 1.0)
-        # A pressure grows with the root of the torque.
-        least = math.sqrt(wanted) if check.id.startswith("CONTACT-") else wanted
-        return check.known and check.margin >= least * (1.0 - 1e-4)
-
-    return all(enough(one) for one in checks)
+    return all(
+        one.known and torque_reserve(one, design) >= extra.get(one.id, 1.0) * (1.0 - 2e-4)
+        for one in checks
+    )
 
 
 def _closer_look(hunt: _Hunt, found: Found, machine: Machine) -> float | None:
@@ -417,15 +419,20 @@ def _spread(hunt: _Hunt, machine: Machine, drawn: Drawn, lines: tuple[Check, ...
     jams = max(one.lost for one in drawn)
     if fails["bind"] + jams > 0.5 * (1.0 - share) * count:
         return _LEAST_STEP
-    margins = {line.id: line.margin for line in lines}
+    allowed = Allowed.of(machine, lines)
+    assert allowed is not None
+    by_id = {line.id: line for line in lines}
+    quantile = 1.0 - (1.0 - share) / len(fails)
     over = {
-        check: ratio for check, ratio in loads_at_peak(machine, drawn, share).items() if ratio > 1.0
+        check: float(np.quantile(ratio, quantile)) for check, ratio in used(allowed, drawn).items()
     }
-    for check, ratio in over.items():
-        # So much more than the perfect parts of this design have.
-        wanted = _SPARE * ratio * margins[check]
-        hunt.extra[check] = wanted**2 if check == _RING else wanted
-    return 0.0 if over else _LEAST_STEP
+    short = {check: ratio for check, ratio in over.items() if ratio > 1.0}
+    for check, ratio in short.items():
+        # So much more than the perfect parts of this design have; pressure is a root of torque.
+        more = _SPARE * ratio
+        reserve = torque_reserve(by_id[check], machine.design)
+        hunt.extra[check] = reserve * (more**2 if check.startswith("CONTACT-") else more)
+    return 0.0 if short else _LEAST_STEP
 
 
 def _next_step(hunt: _Hunt, judged: Verdict) -> float | None:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.catalog.materials import find_material
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
@@ -71,14 +71,60 @@ def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Dra
     return found
 
 
+@dataclass(frozen=True)
+class Allowed:
+    """What a toleranced gearbox may reach at the ring (MPa) and at a cam bearing (N).
+
+    At the continuous torque, as much more than perfect parts as these have in reserve over the
+    life; at the peak torque, the limits of perfect parts.
+    """
+
+    lasting_pressure: float
+    lasting_load: float
+    peak_pressure: float
+    peak_load: float
+
+    @classmethod
+    def of(cls, machine: Machine, lines: Sequence[Check]) -> Allowed | None:
+        """From the lines of perfect parts; None where one that is needed is not known."""
+        by_id = {line.id: line for line in lines}
+        if not all(check in by_id and by_id[check].known for check in (*_RING, *_CAM)):
+            return None
+        perfect = machine.loaded_contacts.greatest(machine.design.requirements.continuous_torque)
+        cam = machine.analysis.cam_bearing
+        pressure = by_id["CONTACT-RING-CONTINUOUS"].margin
+        load = by_id["BEARING-LIFE"].margin ** (1.0 / cam.exponent)
+        return cls(
+            lasting_pressure=pressure * perfect["ring_pressure_max_MPa"],
+            lasting_load=load * perfect["cam_bearing_load_max_N"],
+            peak_pressure=by_id["CONTACT-RING-PEAK"].compared[1],
+            peak_load=(cam.bearing.static_rating or 0.0) / allowables.STATIC_SAFETY,
+        )
+
+
+def used(allowed: Allowed, drawn: Drawn) -> dict[str, NDArray[np.float64]]:
+    """Pressure and cam load of every gearbox over what is allowed, by the line it stands for."""
+    lasts, bears = _columns(drawn.continuous), _columns(drawn.peak)
+    return {
+        "CONTACT-RING-CONTINUOUS": lasts["ring_pressure_max_MPa"] / allowed.lasting_pressure,
+        "BEARING-LIFE": lasts["cam_bearing_load_max_N"] / allowed.lasting_load,
+        "CONTACT-RING-PEAK": bears["ring_pressure_max_MPa"] / allowed.peak_pressure,
+        "BEARING-STATIC": bears["cam_bearing_load_max_N"] / allowed.peak_load,
+    }
+
+
+_WORDS = {
+    "CONTACT-RING-CONTINUOUS": "ring pressure over the life",
+    "BEARING-LIFE": "cam load over the life",
+    "CONTACT-RING-PEAK": "ring pressure at the peak",
+    "BEARING-STATIC": "cam load at the peak",
+}
+
+
 def good_gearboxes(
     machine: Machine, drawn: Drawn, lines: Sequence[Check]
 ) -> tuple[NDArray[np.intp], dict[str, int]] | None:
     """Which gearboxes meet everything, by number, and how many fail each thing.
-
-    At the peak torque pressure and cam load stand against the limits of the lines of perfect
-    parts. Over the life they may exceed those of perfect parts at the continuous torque by as much
-    as these lines have in reserve.
 
     Parameters
     ----------
@@ -90,55 +136,25 @@ def good_gearboxes(
     array of int, dict
         None where a line that is needed is not known.
     """
-    by_id = {line.id: line for line in lines}
-    if not all(check in by_id and by_id[check].known for check in (*_RING, *_CAM)):
+    allowed = Allowed.of(machine, lines)
+    if allowed is None:
         return None
-    torque = machine.design.requirements.continuous_torque
-    perfect = machine.loaded_contacts.greatest(torque)
-    cam = machine.analysis.cam_bearing
-    pressure = by_id["CONTACT-RING-CONTINUOUS"].margin
-    load = by_id["BEARING-LIFE"].margin ** (1.0 / cam.exponent)
-    static = (cam.bearing.static_rating or 0.0) / allowables.STATIC_SAFETY
-    _, yields = by_id["CONTACT-RING-PEAK"].compared
-    lasts, bears = _columns(drawn.continuous), _columns(drawn.peak)
-    fails = {
-        "bind": lasts["unloaded_torque_Nm"] > allowables.BINDING_SHARE * torque,
-        "ring pressure over the life": lasts["ring_pressure_max_MPa"]
-        > pressure * perfect["ring_pressure_max_MPa"],
-        "cam load over the life": lasts["cam_bearing_load_max_N"]
-        > load * perfect["cam_bearing_load_max_N"],
-    }
-    asked = machine.design.requirements
+    asked, lasts = machine.design.requirements, _columns(drawn.continuous)
+    most = allowables.BINDING_SHARE * asked.continuous_torque
+    fails = {"bind": (drawn.continuous, lasts["unloaded_torque_Nm"] > most)}
     if asked.backlash is not None:
-        fails["backlash"] = lasts["backlash_arcmin"] > asked.backlash * _ARCMIN
+        wide = lasts["backlash_arcmin"] > asked.backlash * _ARCMIN
+        fails["backlash"] = (drawn.continuous, wide)
     if asked.stiffness is not None:
-        fails["stiffness"] = lasts["stiffness_Nm_per_arcmin"] < asked.stiffness / _ARCMIN
-    at_peak = {
-        "ring pressure at the peak": bears["ring_pressure_max_MPa"] > yields,
-        "cam load at the peak": bears["cam_bearing_load_max_N"] > static,
-    }
-    good = np.intersect1d(
-        drawn.continuous.numbers[~np.any(list(fails.values()), axis=0)],
-        drawn.peak.numbers[~np.any(list(at_peak.values()), axis=0)],
-    )
-    return good, {name: int(beyond.sum()) for name, beyond in (fails | at_peak).items()}
-
-
-def loads_at_peak(machine: Machine, drawn: Drawn, share: float) -> dict[str, float]:
-    """What a share of the gearboxes has at most at the peak torque, over the limits, by check.
-
-    Pressure at the ring, and load of the cam bearing.
-    """
-    cam, reducer = machine.analysis.cam_bearing, machine.design.reducer
-    steels = (find_material(reducer.disc_material), find_material(reducer.ring_material))
-    yields = allowables.weaker(*(allowables.contact_limit_static(one) for one in steels)).value
-    static = (cam.bearing.static_rating or 0.0) / allowables.STATIC_SAFETY
-    found = _columns(drawn.peak)
-    return {
-        "CONTACT-RING-PEAK": float(np.quantile(found["ring_pressure_max_MPa"], share))
-        / (yields / 1e6),
-        "BEARING-STATIC": float(np.quantile(found["cam_bearing_load_max_N"], share)) / static,
-    }
+        soft = lasts["stiffness_Nm_per_arcmin"] < asked.stiffness / _ARCMIN
+        fails["stiffness"] = (drawn.continuous, soft)
+    for check, share in used(allowed, drawn).items():
+        at_peak = check in {"CONTACT-RING-PEAK", "BEARING-STATIC"}
+        fails[_WORDS[check]] = (drawn.peak if at_peak else drawn.continuous, share > 1.0)
+    good = np.intersect1d(drawn.continuous.numbers, drawn.peak.numbers)
+    for ensemble, beyond in fails.values():
+        good = np.setdiff1d(good, ensemble.numbers[beyond])
+    return good, {name: int(beyond.sum()) for name, (_, beyond) in fails.items()}
 
 
 def _columns(drawn: ToleranceResult) -> dict[str, NDArray[np.float64]]:
