@@ -332,7 +332,7 @@ def test_ring_teeth_that_overlap(complaint):
     "ratio", ["3", "10.5", "-10", "0", "1000", "nan", "abc", "inf", "-inf", ""]
 )
 def test_wrong_ratio(cqdd, tmp_path, ratio):
-    done = cqdd("size", "--ratio", ratio)
+    done = cqdd("size", "--quick", "--ratio", ratio)
     assert done.code == 2
     assert len(done.err.strip().splitlines()) == 1
     assert f"--ratio {ratio}" in done.err
@@ -345,7 +345,9 @@ def test_wrong_ratio(cqdd, tmp_path, ratio):
     [("3", "4"), ("0", "4"), ("1000", "119"), ("-10", "10"), ("10.5", "10 and 11")],
 )
 def test_wrong_ratio_names_the_nearest(cqdd, ratio, nearest):
-    assert re.search(rf"nearest (is|are) {nearest}\b", cqdd("size", "--ratio", ratio).err)
+    assert re.search(
+        rf"nearest (is|are) {nearest}\b", cqdd("size", "--quick", "--ratio", ratio).err
+    )
 
 
 @pytest.mark.parametrize(
@@ -375,7 +377,7 @@ def test_wrong_option(cqdd, paper_design_file, arguments, said):
 
 
 def test_wrong_quantity_of_size(cqdd):
-    done = cqdd("size", "--ratio", "10", "--peak-torque", "90")
+    done = cqdd("size", "--quick", "--ratio", "10", "--peak-torque", "90")
     assert done.code == 2
     assert "--peak-torque" in done.err
     assert '"90 N*m"' in done.err

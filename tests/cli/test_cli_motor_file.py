@@ -22,7 +22,7 @@ def motor_file(tmp_path):
 
 def test_check_judges_the_motor_of_the_file(cqdd, tmp_path, motor_file):
     design = tmp_path / "sized-10.toml"
-    assert cqdd("size", "--ratio", "10", "--out", design).code == 0
+    assert cqdd("size", "--quick", "--ratio", "10", "--out", design).code == 0
     usual = {one["id"]: one for one in cqdd("check", design, "--json").document["checks"]}
     motor_file.write_text(SMALL.replace("13 N*m", "2 N*m"))
     done = cqdd("check", design, "--motor-file", motor_file, "--json")
@@ -33,8 +33,12 @@ def test_check_judges_the_motor_of_the_file(cqdd, tmp_path, motor_file):
 
 
 def test_size_designs_for_the_motor_of_the_file(cqdd, tmp_path, motor_file):
-    usual = cqdd("size", "--ratio", "10", "--out", "a.toml", "--json").document["results"]
-    done = cqdd("size", "--ratio", "10", "--motor-file", motor_file, "--out", "b.toml", "--json")
+    usual = cqdd("size", "--quick", "--ratio", "10", "--out", "a.toml", "--json").document[
+        "results"
+    ]
+    done = cqdd(
+        "size", "--quick", "--ratio", "10", "--motor-file", motor_file, "--out", "b.toml", "--json"
+    )
     assert done.code == 0, done.err
     own = done.document["results"]
     for results, inertia in ((usual, 8.7e-4), (own, 2e-4)):
@@ -48,7 +52,7 @@ def test_size_designs_for_the_motor_of_the_file(cqdd, tmp_path, motor_file):
     assert motor["rotor_inertia"] == "0.0002 kg*m^2"
     assert motor["peak_torque"] == "13 N*m"
     motor_file.write_text(SMALL.replace("13 N*m", "2 N*m"))
-    weak = cqdd("size", "--ratio", "10", "--motor-file", motor_file, "--out", "c.toml")
+    weak = cqdd("size", "--quick", "--ratio", "10", "--motor-file", motor_file, "--out", "c.toml")
     assert weak.code == 3
     assert "motor 'rewound' does not meet" in weak.err
 
@@ -149,7 +153,7 @@ COMMANDS = [
     ("inertia", "DESIGN"),
     ("export", "DESIGN"),
     ("report", "DESIGN"),
-    ("size", "--ratio", "10"),
+    ("size", "--quick", "--ratio", "10"),
     ("torque", "generate", "DESIGN"),
 ]
 
@@ -229,7 +233,7 @@ def test_size_keeps_the_motor_of_its_requirements_file(cqdd, tmp_path):
         '[requirements]\nratio = 10\npeak_torque = "60 N*m"\n[motor]\nname = "mine"\n'
         f'peak_torque = "11 N*m"\nrated_torque = "4 N*m"\n{WINDING}'
     )
-    done = cqdd("size", "--requirements", asked, "--out", "own.toml", "--json")
+    done = cqdd("size", "--quick", "--requirements", asked, "--out", "own.toml", "--json")
     assert done.code == 0, done.err
     assert done.document["design"]["motor"]["name"] == "mine"
     assert done.document["results"]["objective"]["reflected_inertia_kgm2"] is None

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 COMMANDS = {
-    "size": lambda design, out: ["size", "--ratio", "10", "--out", out / "sized.toml"],
+    "size": lambda design, out: ["size", "--quick", "--ratio", "10", "--out", out / "sized.toml"],
     "export": lambda design, out: ["export", design, "--to", "dxf", "--out", out],
     "report": lambda design, out: ["report", design, "--out", out / "report.html"],
 }

@@ -21,7 +21,9 @@ def stages_told(err: str) -> list[tuple[int, int]]:
     ],
 )
 def test_size_counts_the_stages_that_it_tells(cqdd, tmp_path, kinds):
-    done = cqdd("size", "--ratio", "10", "--export", kinds, "--out", str(tmp_path / "found.toml"))
+    done = cqdd(
+        "size", "--quick", "--ratio", "10", "--export", kinds, "--out", str(tmp_path / "found.toml")
+    )
     assert done.code == 0, done.err
     told = stages_told(done.err)
     assert [one for one, _ in told] == list(range(1, len(told) + 1))
