@@ -108,7 +108,9 @@ def size_and_write(
         design = design.with_motor(requirements.motor if named else None, motor)
         design = design if named else design.leaving("requirements.motor")
     specimen = Specimen()
-    files: tuple[WrittenFile, ...] = (_write_fresh(target, design, derived),)
+    files: tuple[WrittenFile, ...] = (
+        _write_fresh(target, design, derived, frozenset() if quick else CHOSEN),
+    )
     machine = specimen.machine(design)
     if verdict is not None:
         verdict = replace(verdict, name=target.stem)
@@ -162,11 +164,13 @@ def _digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-def _write_fresh(path: Path, design: Design, derived: frozenset[str]) -> WrittenFile:
+def _write_fresh(
+    path: Path, design: Design, derived: frozenset[str], chosen: frozenset[str]
+) -> WrittenFile:
     """Write a design file anew, with its stamp: a former one leaves no comments behind."""
     with atomic_path(path) as temporary:
         temporary.unlink()
-        save_design(temporary, design, comments=_origins(design, derived))
+        save_design(temporary, design, comments=_origins(design, derived, chosen))
         content = temporary.read_bytes()
         temporary.write_bytes(content + f"{_STAMP}{_digest(content)}\n".encode())
     return describe_file(path, "design")
@@ -187,7 +191,7 @@ _TAKEN_OVER = {
 CHOSEN = frozenset({"disc_count", "disc_material", "ring_material"})
 
 
-def _origins(design: Design, derived: frozenset[str]) -> dict[str, str]:
+def _origins(design: Design, derived: frozenset[str], chosen: frozenset[str]) -> dict[str, str]:
     """A remark for every key of a sized design that is written: where its value comes from."""
     remarks = {}
     for key in design.dotted_keys():
@@ -196,7 +200,7 @@ def _origins(design: Design, derived: frozenset[str]) -> dict[str, str]:
         elif key in _TAKEN_OVER:
             wanted = _TAKEN_OVER[key]
             stated = f"requirements.{wanted}" not in design.assumed
-            usual = "sized" if wanted in CHOSEN else "assumed"
+            usual = "sized" if wanted in chosen else "assumed"
             remarks[key] = "given" if stated else usual
         elif key.startswith("reducer."):
             remarks[key] = "sized"

@@ -20,10 +20,8 @@ def stages_told(err: str) -> list[tuple[int, int]]:
         pytest.param("dxf,bom", marks=pytest.mark.deep),
     ],
 )
-def test_size_counts_the_stages_that_it_tells(cqdd, tmp_path, kinds):
-    done = cqdd(
-        "size", "--quick", "--ratio", "10", "--export", kinds, "--out", str(tmp_path / "found.toml")
-    )
+def test_export_counts_the_stages_that_it_tells(cqdd, paper_design_file, tmp_path, kinds):
+    done = cqdd("export", paper_design_file, "--to", kinds, "--out", tmp_path / "files")
     assert done.code == 0, done.err
     told = stages_told(done.err)
     assert [one for one, _ in told] == list(range(1, len(told) + 1))
