@@ -20,7 +20,6 @@ from cqdd_design.sizing.columns import Columns
 
 PIN_FIT_ALLOWANCE = 1e-6
 """Least play left between the largest pin of its tolerance band and its hole, m."""
-_MOST_SIZES = 6
 _PIN_SHARE = 0.2
 """Thickest pin searched, as a share of the ring's outside diameter."""
 _ROUNDING = 1e-9
@@ -94,7 +93,7 @@ def pin_sizes(requirements: Requirements, default_clearance: float) -> tuple[Pin
             f" raise it to at least {math.ceil(least / _PIN_SHARE * 1e3 - _ROUNDING):g} mm."
         )
     fitting.sort(key=lambda screw: screw.shoulder_diameter)
-    return tuple(_pin_size(screw, default_clearance) for screw in fitting[-_MOST_SIZES:])
+    return tuple(_pin_size(screw, default_clearance) for screw in fitting)
 
 
 def _pin_size(screw: ShoulderScrew, default_clearance: float) -> PinSize:

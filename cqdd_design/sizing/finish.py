@@ -46,11 +46,12 @@ def finish(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> 
     if not rotor_known:
         motor = evaluator.frame.motor.name
         warnings += (
-            f"motor '{motor}' has no rotor inertia in the catalogue, so the inertia that the "
-            "search weighs is that of the gearbox alone.",
+            f"motor '{motor}' has no rotor inertia in the catalogue, so the inertia at the input "
+            "is that of the gearbox alone.",
         )
     objective = Objective(
         score=float(points.objective[row]),
+        goal=evaluator.frame.goal,
         mass=float(points.mass[row]),
         gearbox_inertia=float(points.gearbox_inertia[row]),
         reflected_inertia=float(points.reflected_inertia[row]) if rotor_known else None,
@@ -87,7 +88,7 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
         "circle_radius": _clean(points.pin_circle[row]),
         "material": requirements.pin_material,
     }
-    if size.hole_clearance != frame.default_clearance:
+    if size.hole_clearance != frame.default_fit.hole_clearance:
         pins["hole_clearance"] = _clean(size.hole_clearance)
     mapping: dict[str, Any] = {
         "name": f"sized-{requirements.ratio}{suffix}",
@@ -105,9 +106,11 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
             # Stated, since forces hang on it: no room is searched for columns.
             "carrier": {"joint": "clamped"},
             "cam_bearing": {"designation": frame.bearings[points.bearing[row]].designation},
-            "ring": {"outer_diameter": requirements.outer_diameter},
+            "ring": {"outer_diameter": _clean(2.0 * points.outer_radius[row])},
         },
     }
+    if frame.equidistant != frame.default_fit.equidistant:
+        mapping["reducer"]["modification"] = {"equidistant": _clean(frame.equidistant)}
     if frame.ambient is not None:
         mapping["environment"] = {"ambient": frame.ambient}
     if "motor" in requirements.model_fields_set:

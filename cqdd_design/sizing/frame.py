@@ -8,7 +8,9 @@ design: defaults from the design model, allowables from
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Literal, NamedTuple, get_args
 
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.catalog.materials import Material, find_material
@@ -31,6 +33,22 @@ from cqdd_design.sizing.bought_parts import (
 
 THICKNESS_STEP = 1e-4
 """Discs are ground to tenths of a millimetre, m."""
+
+
+Goal = Literal["mass", "inertia", "backlash", "efficiency", "size"]
+GOALS: tuple[Goal, ...] = get_args(Goal)
+"""What a search can make small, see :mod:`cqdd_design.sizing.goals`."""
+
+
+class Fit(NamedTuple):
+    """Gap left at every tooth, and clearance of a hole on its diameter to the mean pin, m."""
+
+    equidistant: float
+    hole_clearance: float
+
+
+USUAL_FIT = Fit(6e-6, 16e-6)
+"""That of a design which states none."""
 
 
 @dataclass(frozen=True)
@@ -69,8 +87,8 @@ class Frame:
     spacing, equidistant, radial, relief_clearance, wire_radius : float
         Design defaults: gap between discs, profile modification, relief of the ring, wire with
         its spark gap.
-    default_clearance : float
-        Of the output holes, m.
+    default_fit : Fit
+        Of a design that states none.
     clocking : float
         Of the first output hole, a quarter lobe pitch, rad.
     pin_ends : tuple of str
@@ -89,6 +107,10 @@ class Frame:
         Rated cam bearings that no other one beats in every respect, smallest first.
     ambient : float or None
         Of the air round the actuator, deg C; None for a design's default.
+    goal : Goal
+        What the search makes small.
+    needs : mapping of str to float
+        Torque reserve by load check that closed forms have to show, see `needed`.
     """
 
     requirements: Requirements
@@ -99,7 +121,7 @@ class Frame:
     radial: float
     relief_clearance: float
     wire_radius: float
-    default_clearance: float
+    default_fit: Fit
     clocking: float
     pin_ends: tuple[PinEnd, PinEnd]
     most_thickness: float
@@ -114,6 +136,15 @@ class Frame:
     pin_sizes: tuple[PinSize, ...]
     bearings: tuple[Bearing, ...]
     ambient: float | None = None
+    goal: Goal = "mass"
+    needs: Mapping[str, float] = field(default_factory=dict)
+
+    def needed(self, check: str) -> float:
+        """Torque reserve that a load check has to have by closed forms; 1 where nothing is known.
+
+        What the contact equilibrium found the closed form to be short of, elsewhere near by.
+        """
+        return self.needs.get(check, 1.0)
 
     @property
     def rotor_inertia(self) -> float | None:
@@ -142,17 +173,27 @@ class Frame:
 
     @property
     def outer_radius(self) -> float:
-        """Of the ring, m."""
-        return 0.5 * self.requirements.outer_diameter
+        """Of the largest ring, m: what is asked for, or what goes into the motor's bore."""
+        asked, bore = self.requirements.outer_diameter, self.motor.bore_diameter
+        return 0.5 * (asked if bore is None else min(asked, bore))
 
     def bearing_table(self) -> BearingTable:
         """The cam bearings as arrays."""
         hours = self.requirements.life_hours
-        return bearing_table(self.bearings, self.cam_speed, self.continuous_share, hours)
+        table = bearing_table(self.bearings, self.cam_speed, self.continuous_share, hours)
+        return replace(
+            table,
+            static_load=table.static_load / self.needed("BEARING-STATIC"),
+            life_load=table.life_load / self.needed("BEARING-LIFE"),
+        )
 
 
 def search_frame(
-    requirements: Requirements, motor: Motor | None = None, ambient: float | None = None
+    requirements: Requirements,
+    motor: Motor | None = None,
+    ambient: float | None = None,
+    fit: Fit = USUAL_FIT,
+    goal: Goal = "mass",
 ) -> Frame:
     """Read the requirements, the design defaults and the catalogues.
 
@@ -162,6 +203,10 @@ def search_frame(
         Default the catalogue's row of the motor that the requirements name.
     ambient : float, optional
         Of the air, deg C; default that of a design.
+    fit : Fit
+        Clearances of teeth and of pins in holes; default those of a design.
+    goal : Goal
+        What the search makes small.
 
     Raises
     ------
@@ -177,17 +222,17 @@ def search_frame(
     count, spacing = requirements.disc_count, reducer.disc_spacing
     thickness = (requirements.length - (count - 1) * spacing) / count
     most = math.floor(thickness / THICKNESS_STEP + 1e-6) * THICKNESS_STEP
-    sizes = pin_sizes(requirements, pins.hole_clearance)
+    sizes = pin_sizes(requirements, fit.hole_clearance)
     return Frame(
         requirements=requirements,
         lobe_count=requirements.ratio,
         disc_count=count,
         spacing=spacing,
-        equidistant=reducer.modification.equidistant,
+        equidistant=fit.equidistant,
         radial=reducer.modification.radial,
         relief_clearance=reducer.ring.relief_clearance,
         wire_radius=template.edm.wire_offset,
-        default_clearance=pins.hole_clearance,
+        default_fit=Fit(reducer.modification.equidistant, pins.hole_clearance),
         clocking=pins.hole_clocking,
         pin_ends=pin_ends(template),
         most_thickness=most,
@@ -204,6 +249,7 @@ def search_frame(
         pin_sizes=sizes,
         bearings=cam_bearings(requirements, most, spacing, sizes[0].mean_diameter),
         ambient=ambient,
+        goal=goal,
     )
 
 

@@ -50,12 +50,20 @@ def ring_reserves(
     scale = UNEVEN_SHARING * frame.disc_torque * frame.ring_modulus / (b * radius * radius)
     squared = scale * number * number
     limits = frame.limits
-    return {
-        "CONTACT-RING-PEAK": np.asarray(limits.ring_static.value**2 / squared),
-        "CONTACT-RING-CONTINUOUS": np.asarray(
-            limits.ring_fatigue.value**2 / (squared * frame.continuous_share)
-        ),
-    }
+    return _held_against(
+        frame,
+        {
+            "CONTACT-RING-PEAK": np.asarray(limits.ring_static.value**2 / squared),
+            "CONTACT-RING-CONTINUOUS": np.asarray(
+                limits.ring_fatigue.value**2 / (squared * frame.continuous_share)
+            ),
+        },
+    )
+
+
+def _held_against(frame: Frame, found: dict[str, FloatArray]) -> dict[str, FloatArray]:
+    """Reserves over those that are needed, by check."""
+    return {check: value / frame.needed(check) for check, value in found.items()}
 
 
 def pin_reserves_per_radius(
@@ -95,7 +103,7 @@ def pin_reserves_per_radius(
     bending = output_pins.bending_stress(uneven, arm, d)
     paper_shear = allowables.PAPER_SHEAR_SHARE * limits.pin_ultimate
     peak = frame.requirements.peak_torque
-    return {
+    found = {
         "CONTACT-PIN-PEAK": (limits.pin_static.value / pressure) ** 2,
         "CONTACT-PIN-CONTINUOUS": (limits.pin_fatigue.value / pressure) ** 2 / share,
         "PIN-PAPER": count * output_pins.single_shear_torque_per_pin(d, paper_shear, 1.0) / peak,
@@ -105,6 +113,7 @@ def pin_reserves_per_radius(
         "PIN-BENDING-CONTINUOUS": limits.bending_continuous.value / (bending * share),
         "PIN-BEARING-PEAK": limits.bearing.value / output_pins.bearing_pressure(uneven, d, b),
     }
+    return _held_against(frame, found)
 
 
 def cam_load(
