@@ -23,6 +23,7 @@ import io
 import json
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
@@ -75,30 +76,42 @@ def _kinds(command: str) -> str:
 
 
 class _Records:
-    """Pytest plugin: collects what tests recorded about their comparisons."""
+    """Pytest plugin: collects what tests recorded about their comparisons, with file and name."""
 
-    def __init__(self, name: str) -> None:
-        self._name = name
-        self.rows: list[tuple[Any, ...]] = []
+    def __init__(self) -> None:
+        self.rows: list[tuple[str, str, tuple[Any, ...]]] = []
 
     def pytest_runtest_logreport(self, report: object) -> None:
         if getattr(report, "when", "") == "call":
+            file = Path(getattr(report, "nodeid", "").partition("::")[0]).name
             properties = getattr(report, "user_properties", [])
-            self.rows += [tuple(value) for name, value in properties if name == self._name]
+            self.rows += [(file, name, tuple(value)) for name, value in properties]
+
+
+@cache
+def _run(test: str) -> list[tuple[str, str, tuple[Any, ...]]]:
+    """What the tests of a file or folder recorded; several pages ask for some."""
+    import pytest
+
+    seen = _Records()
+    quiet = io.StringIO()
+    place = str(DOCS.parent / "tests" / test)
+    with contextlib.redirect_stdout(quiet):
+        code = pytest.main([place, "-q", "-p", "no:cacheprovider", "-p", "no:xdist"], [seen])
+    if code != 0:
+        raise SystemExit(f"{test} does not pass:\n{quiet.getvalue()}")
+    return seen.rows
 
 
 def _records(name: str, *tests: str) -> list[tuple[Any, ...]]:
-    """What the tests of some files or folders recorded under a name, from a run of them."""
-    import pytest
-
-    seen = _Records(name)
-    quiet = io.StringIO()
-    places = [str(DOCS.parent / "tests" / one) for one in tests]
-    with contextlib.redirect_stdout(quiet):
-        code = pytest.main([*places, "-q", "-p", "no:cacheprovider", "-p", "no:xdist"], [seen])
-    if code != 0:
-        raise SystemExit(f"{', '.join(tests)} do not pass:\n{quiet.getvalue()}")
-    return seen.rows
+    """What the tests of some files recorded under a name, from a run of them."""
+    found = []
+    for test in tests:
+        folder, _, file = test.rpartition("/")
+        # A page has all of tests/published, which is run once for those that have some of it.
+        rows = _run(folder if folder == "published" else test)
+        found += [value for of, said, value in rows if of == file and said == name]
+    return found
 
 
 def validation_page() -> str:
@@ -106,7 +119,8 @@ def validation_page() -> str:
     from validation import page
 
     folder = DOCS.parent / "tests" / "published"
-    return page(_records("published", "published"), folder / "data" / "published_examples.csv")
+    records = [value for _, name, value in _run("published") if name == "published"]
+    return page(records, folder / "data" / "published_examples.csv")
 
 
 def _recorded(*names: str) -> str:
@@ -128,11 +142,11 @@ def _actuator_validated() -> str:
 
 def _calibrated() -> str:
     """Every row of the bench before and after calibration, beside the paper's."""
-    from cqdd_design.actuator.bench.unknowns import UNKNOWNS
-    from cqdd_design.design import load_design
-    from cqdd_design.roads.calibrate import calibrate
+    import measured
 
-    found = calibrate(load_design(DOCS.parent / "designs" / "cqdd-10.toml"))
+    from cqdd_design.actuator.bench.unknowns import UNKNOWNS
+
+    found = measured.papers_fit()
     head = [
         "| row | unit | paper | computed | calibrated | off | agreement is |",
         "|---|---|---|---|---|---|---|",

@@ -43,7 +43,7 @@ NO_FORMULAS = ("__main__.py", "cli/", "environment.py", "errors.py", "exporting/
 ROOM_TESTS = {
     "actuator": ("test_actuator_*", "test_bench*", "test_recording*", "test_calibration*"),
     "catalog": ("test_catalog_*", "test_cli_lookups*", "test_gearbox_*", "test_actuator_param*"),
-    "design": ("test_design_*", "test_motor_file*", "test_cli_bad_input*"),
+    "design": ("test_design_*", "test_motor_file*", "test_own_motor*", "test_cli_bad_input*"),
     "exporting": (
         "test_exporting_*",
         "test_torque_c_header*",

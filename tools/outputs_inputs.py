@@ -6,6 +6,7 @@ import math
 
 MOTOR = """\
 name = "RO100, measured"
+based_on = "CubeMars RO100 KV55"
 torque_constant = "0.1504 N*m/A"
 convention = "torque_per_peak"
 resistance = "71.5 mohm"

@@ -51,6 +51,8 @@ STRIBECK_SPEED = 2.0
 """Motor speed by which breakaway has fallen off where friction is stated as coefficients, rad/s."""
 _SPEEDS = 64
 """Between rest and the input speed, over which a Stribeck curve follows that of the films."""
+DERATING_SPAN = 20.0
+"""Kelvins below the winding's most, from which the driver lowers the current."""
 DAMPING_RATIO = 0.03
 """Of the motor swinging on the gearbox's stiffness: greased steel joints, 0.01 to 0.05."""
 
@@ -147,8 +149,6 @@ def motor_and_drive(
     """
     origins: dict[str, str] = {}
     motor = _motor(machine.motor, machine.inertia, origins)
-    if specimen.motor is not None:
-        origins |= specimen.motor.origins()
     return motor, _drive(machine.design, motor, supply_voltage, origins), origins
 
 
@@ -163,39 +163,35 @@ def _split(inertia: GearboxInertia) -> _Split:
 
 
 def _motor(row: Motor, inertia: GearboxInertia, origins: dict[str, str]) -> MotorParameters:
-    if row.torque_at != "motor":
-        raise DesignError(
-            f"{row.name} is a geared actuator, whose data count at its output; name a bare motor "
-            "in motor.name (see `cqdd-design catalog motors`)."
-        )
     for key, value in (
-        ("torque constant", row.torque_constant),
+        ("torque_constant", row.torque_constant),
         ("resistance", row.line_resistance),
     ):
         if not value:
             raise DesignError(
-                f"the catalogue has no {key} of {row.name}, without which it cannot be simulated; "
-                "name a motor that has one, such as 'CubeMars RO100 KV55'."
+                f"the {key.replace('_', ' ')} of {row.name} is not known, without which it cannot "
+                f"be simulated; give {key} in [motor] or with --motor-file, or name a motor that "
+                "has one, such as 'CubeMars RO100 KV55'."
             )
     assert row.torque_constant is not None
     assert row.line_resistance is not None
     constant, resistance = row.torque_constant, row.line_resistance
     by_speed = "1/KV in SI" if row.speed_constant else "as printed"
-    constant_told = row.told_by("speed_constant" if row.speed_constant else "")
-    origins["motor.torque_constant"] = f"catalogue: {constant_told}, {by_speed}"
-    origins["motor.resistance"] = f"catalogue: {row.told_by('line_resistance')}, line to line"
+    constant_from = row.origin("speed_constant" if row.speed_constant else "")
+    origins["motor.torque_constant"] = f"{constant_from}, {by_speed}"
+    origins["motor.resistance"] = f"{row.origin('line_resistance')}, line to line"
     inductance, pairs = row.line_inductance, row.pole_pairs
-    origins["motor.inductance"] = f"catalogue: {row.told_by('line_inductance')}, line to line"
+    origins["motor.inductance"] = f"{row.origin('line_inductance')}, line to line"
     if inductance is None:
         inductance = ELECTRICAL_TIME * resistance
         origins["motor.inductance"] = f"assumed: L/R of {1e3 * ELECTRICAL_TIME:g} ms"
-    origins["motor.pole_pairs"] = f"catalogue: {row.told_by('pole_pairs')}"
+    origins["motor.pole_pairs"] = row.origin("pole_pairs")
     if pairs is None:
         pairs = POLE_PAIRS
         origins["motor.pole_pairs"] = "assumed"
     origins["motor.reference_temperature"] = "assumed: the catalogue's values hold at 25 deg C"
     for key, value in (("rated_torque", row.rated_torque), ("peak_torque", row.peak_torque)):
-        origins[f"motor.{key}"] = f"catalogue: {row.told_by(key)}" if value else "missing"
+        origins[f"motor.{key}"] = row.origin(key) if value else "missing"
     return MotorParameters(
         torque_constant=constant,
         resistance=resistance,
@@ -213,13 +209,8 @@ def _drag(row: Motor, pole_pairs: int, origins: dict[str, str]) -> dict[str, Any
     found: dict[str, Any] = {}
     for key in (*DRAG, "cogging_amplitude"):
         value = getattr(row, key)
-        source = row.drag_source if key in DRAG else row.cogging_source
         found[key] = value or 0.0
-        origins[f"motor.{key}"] = (
-            "assumed: 0, the catalogue gives none"
-            if value is None
-            else f"catalogue: {row.told_by(key)}; {source}"
-        )
+        origins[f"motor.{key}"] = _drag_origin(row, key)
     if row.cogging_order is None:
         found["cogging_order"] = PERIODS_PER_POLE_PAIR * pole_pairs
         origins["motor.cogging_order"] = (
@@ -227,23 +218,32 @@ def _drag(row: Motor, pole_pairs: int, origins: dict[str, str]) -> dict[str, Any
         )
     else:
         found["cogging_order"] = row.cogging_order
-        origins["motor.cogging_order"] = f"catalogue: {row.told_by('cogging_order')}"
+        origins["motor.cogging_order"] = row.origin("cogging_order")
     return found
+
+
+def _drag_origin(row: Motor, key: str) -> str:
+    if getattr(row, key) is None:
+        whose = "the catalogue gives none" if row.based_on or not row.stated else "nothing gives it"
+        return f"assumed: 0, {whose}"
+    told = row.origin(key)
+    source = row.drag_source if key in DRAG else row.cogging_source
+    return f"{told}; {source}" if told.startswith("catalogue") else told
 
 
 def _rotor_inertia(row: Motor, inertia: GearboxInertia, origins: dict[str, str]) -> float:
     drawn = inertia.rotor_drawn
     if row.rotor_inertia is not None:
-        told = row.told_by("rotor_inertia")
-        origins["motor.rotor_inertia"] = f"catalogue: {told}, {ROTOR_SCOPE}"
+        origins["motor.rotor_inertia"] = f"{row.origin('rotor_inertia')}, {ROTOR_SCOPE}"
         return row.rotor_inertia
     if drawn > 0.0:
         origins["motor.rotor_inertia"] = f"computed: solids of the rotor, {ROTOR_SCOPE}"
         return drawn
     if row.mass is None or row.outer_diameter is None:
         raise DesignError(
-            f"the catalogue has neither rotor inertia nor mass and diameter of {row.name}; name a "
-            "motor that has them, such as 'CubeMars RO100 KV55'."
+            f"neither rotor inertia nor mass and diameter of {row.name} are known; give "
+            "rotor_inertia in [motor] or with --motor-file, or name a motor that has it, such as "
+            "'CubeMars RO100 KV55'."
         )
     origins["motor.rotor_inertia"] = (
         f"assumed: ring of {100.0 * ROTOR_SHARE:g} % of the motor's mass near its outside diameter"
@@ -407,32 +407,38 @@ def _stribeck_speed(losses: LossModel, torque: float, input_speed: float) -> flo
 
 def _thermal(machine: Machine, origins: dict[str, str]) -> ThermalParameters:
     """Winding and housing of the machine's thermal network; by shares where it has none."""
-    design, row = machine.design, machine.motor
+    most = machine.motor.winding_most
     origins["thermal.ambient"] = "design: environment.ambient"
-    for key in ("derating_begins", "most"):
-        origins[f"thermal.{key}"] = "assumed"
+    origins["thermal.derating_begins"] = "assumed"
+    stated = "winding_limit" in machine.motor.stated
+    origins["thermal.most"] = machine.motor.origin("winding_limit") if stated else "assumed"
+    limits = {
+        "ambient": machine.design.environment.ambient,
+        "derating_begins": most - DERATING_SPAN,
+        "most": most,
+    }
     try:
-        found = two_nodes(cooled_network(machine))
+        found = two_nodes(cooled_network(machine), most)
     except (DesignError, GeometryError) as error:
-        return _thermal_by_shares(design, row, machine.inertia.mass, error.message, origins)
-    stated = design.drive.thermal_resistance > 0.0
-    way = "drive.thermal_resistance (design)" if stated else "still air round the drawn parts"
+        return _thermal_by_shares(machine, limits, error.message, origins)
+    cooling = machine.cooling
+    way = f"{cooling.key} (stated)" if cooling.value else "still air round the drawn parts"
     for key in ("winding_to_housing", "housing_to_ambient"):
         origins[f"thermal.{key}"] = f"computed: thermal network of the parts, {way}"
     for key in ("winding_capacity", "housing_capacity"):
         origins[f"thermal.{key}"] = "computed: thermal network of the parts"
-    return ThermalParameters(**found._asdict(), ambient=design.environment.ambient)
+    return ThermalParameters(**found._asdict(), **limits)
 
 
 def _thermal_by_shares(
-    design: Design, row: Motor, mass: float, why: str, origins: dict[str, str]
+    machine: Machine, limits: dict[str, float], why: str, origins: dict[str, str]
 ) -> ThermalParameters:
-    stated = design.drive.thermal_resistance
-    whole = stated or THERMAL_RESISTANCE
+    row, mass, cooling = machine.motor, machine.inertia.mass, machine.cooling
+    whole = cooling.value or THERMAL_RESISTANCE
     motor_mass = row.mass if row.mass is not None else 0.4 * mass
     winding = WINDING_SHARE * motor_mass
     share = WINDING_RESISTANCE_SHARE
-    said = "drive.thermal_resistance (design)" if stated else f"{whole:g} K/W"
+    said = f"{cooling.key} (stated)" if cooling.value else f"{whole:g} K/W"
     for key in ("winding_to_housing", "housing_to_ambient"):
         origins[f"thermal.{key}"] = f"assumed: {said} split 1 to 2; {why.rstrip('.')}"
     origins["thermal.winding_capacity"] = (
@@ -446,5 +452,5 @@ def _thermal_by_shares(
         housing_to_ambient=(1.0 - share) * whole,
         winding_capacity=winding * COPPER_HEAT,
         housing_capacity=max(mass - winding, 0.5 * mass) * METAL_HEAT,
-        ambient=design.environment.ambient,
+        **limits,
     )

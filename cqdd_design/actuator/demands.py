@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from cqdd_design.actuator.duty_points import duty_points
 from cqdd_design.actuator.operating import Judgement, judge
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.thermal import runaway_current, steady_state
 from cqdd_design.design import Requirements
-from cqdd_design.design.requirements import DutyPoint
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,10 @@ class Demand:
 
 
 def demands(parameters: ActuatorParameters, requirements: Requirements) -> tuple[Demand, ...]:
-    """Peak torque at standstill, continuous torque at its speed, every step of the duty."""
+    """Peak torque at standstill, continuous torque at its speed, every step of the duty.
+
+    Of a duty over time the rows that :func:`.duty_points` names.
+    """
     turning = requirements.held_speed / abs(parameters.gear.ratio)
     peak, steady = requirements.peak_torque, requirements.continuous_torque
     found = [
@@ -56,23 +59,19 @@ def demands(parameters: ActuatorParameters, requirements: Requirements) -> tuple
             found=judge(parameters, steady, turning, lasting=True, hot=True),
         ),
     ]
-    for k, step in enumerate(requirements.duty, 1):
-        size, speed = abs(step.torque), abs(step.speed)
-        judged = _judged(parameters, step)
-        found.append(
-            Demand(f"duty {k}", size, speed, _generates(step), lasting=False, found=judged)
-        )
-    return tuple(found)
+    log = requirements.duty_log
+    steps = [(f"duty {k}", one.torque, one.speed) for k, one in enumerate(requirements.duty, 1)]
+    if log is not None:
+        rows = duty_points(parameters, log).named
+        steps = [(f"duty, line {row.line}", row.torque, row.speed) for row in rows]
+    return (*found, *(_step(parameters, *step) for step in steps))
 
 
-def _generates(step: DutyPoint) -> bool:
-    """Whether the output drives the motor."""
-    return step.torque * step.speed < 0.0
-
-
-def _judged(parameters: ActuatorParameters, step: DutyPoint) -> Judgement:
-    torque = abs(step.torque) * (-1.0 if _generates(step) else 1.0)
-    return judge(parameters, torque, abs(step.speed), lasting=False, hot=True)
+def _step(parameters: ActuatorParameters, name: str, torque: float, speed: float) -> Demand:
+    """A step of the duty, with its signs."""
+    size, turning, generates = abs(torque), abs(speed), torque * speed < 0.0
+    judged = judge(parameters, -size if generates else size, turning, lasting=False, hot=True)
+    return Demand(name, size, turning, generates, lasting=False, found=judged)
 
 
 @dataclass(frozen=True)
@@ -93,14 +92,19 @@ class DutyHeat:
 
 def duty_heat(parameters: ActuatorParameters, requirements: Requirements) -> DutyHeat | None:
     """Where the winding settles over the duty cycle; None without one."""
-    if not requirements.duty:
+    log = requirements.duty_log
+    if log is not None:
+        points = duty_points(parameters, log)
+        current, heat = points.current_rms, points.heat
+    elif requirements.duty:
+        squares = heat = 0.0
+        for step in requirements.duty:
+            need = _step(parameters, "", step.torque, step.speed).found.need
+            squares += step.share * need.current**2
+            heat += step.share * need.heat
+        current = math.sqrt(squares)
+    else:
         return None
-    squares = heat = 0.0
-    for step in requirements.duty:
-        need = _judged(parameters, step).need
-        squares += step.share * need.current**2
-        heat += step.share * need.heat
-    current = math.sqrt(squares)
     motor, thermal = parameters.motor, parameters.thermal
     if current >= runaway_current(motor, thermal):
         return DutyHeat(current, math.inf)

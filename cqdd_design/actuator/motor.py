@@ -18,7 +18,6 @@ from numpy.typing import ArrayLike
 
 from cqdd_design.actuator.parameters import DriveParameters, FloatArray, MotorParameters
 from cqdd_design.catalog.motors import CONVENTIONS, COPPER_COEFFICIENT
-from cqdd_design.errors import DesignError
 
 MAGNET_COEFFICIENT = 0.0011
 """Fall of the flux of NdFeB per kelvin (remanence of common grades: 0.09 to 0.12 % a kelvin)."""
@@ -34,29 +33,6 @@ def motor_constants(torque_constant: float) -> dict[str, float]:
     (0.1504, 0.2126)
     """
     return {name: share * torque_constant for name, share in CONVENTIONS.items()}
-
-
-def torque_constant_from(value: float, convention: str) -> float:
-    """K of the DC machine from a constant (N m/A or V s/rad) in another one of `CONVENTIONS`.
-
-    Raises
-    ------
-    DesignError
-        For an unknown convention or a value that is not positive.
-
-    Examples
-    --------
-    >>> round(torque_constant_from(0.2126, "torque_per_rms"), 4)
-    0.1736
-    """
-    if convention not in CONVENTIONS:
-        known = ", ".join(CONVENTIONS)
-        raise DesignError(
-            f"there is no convention {convention!r} of a motor constant; use {known}."
-        )
-    if not (math.isfinite(value) and value > 0.0):
-        raise DesignError(f"a motor constant of {value:g} is not above zero; 1/KV in SI is one.")
-    return value / CONVENTIONS[convention]
 
 
 def resistance_at(motor: MotorParameters, temperature: ArrayLike) -> FloatArray:

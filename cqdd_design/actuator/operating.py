@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -132,16 +133,36 @@ def output_torque(
     return np.asarray(n * carried * share - rubbed)
 
 
-def needed(parameters: ActuatorParameters, torque: float, speed: float, temperature: float) -> Need:
-    """What a steady point asks, winding and magnets at a temperature (deg C)."""
+class Needs(NamedTuple):
+    """As `Need`, of many points."""
+
+    motor_torque: FloatArray
+    current: FloatArray
+    voltage: FloatArray
+    heat: FloatArray
+
+
+def needs(
+    parameters: ActuatorParameters, torque: ArrayLike, speed: ArrayLike, temperature: float
+) -> Needs:
+    """What steady points ask, winding and magnets at a temperature (deg C).
+
+    Torques at the output are positive where the motor drives, N m; speeds zero or more, rad/s.
+    """
     motor, n = parameters.motor, abs(parameters.gear.ratio)
     constant = float(torque_constant_at(motor, temperature))
-    turning = n * speed
-    drag = float(_own_drag(parameters, np.asarray(turning)))
-    shaft = float(motor_torque(parameters, torque, speed))
+    turning = n * np.asarray(speed, dtype=float)
+    drag = _own_drag(parameters, turning)
+    shaft = motor_torque(parameters, torque, speed)
     current = (shaft + drag) / constant
     voltage = float(resistance_at(motor, temperature)) * current + constant * turning
-    return Need(shaft, current, voltage, (shaft + drag) * turning - torque * speed)
+    given = np.asarray(torque, dtype=float) * np.asarray(speed, dtype=float)
+    return Needs(shaft, current, voltage, (shaft + drag) * turning - given)
+
+
+def needed(parameters: ActuatorParameters, torque: float, speed: float, temperature: float) -> Need:
+    """What one steady point asks; see `needs`."""
+    return Need(*(float(one) for one in needs(parameters, torque, speed, temperature)))
 
 
 def torque_from_current(

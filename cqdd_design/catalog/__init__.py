@@ -8,7 +8,7 @@ from cqdd_design.catalog.finishes import Finish, find_finish, finishes
 from cqdd_design.catalog.fits import FitLimits, fit_limits, fit_zones
 from cqdd_design.catalog.lubricants import Lubricant, find_lubricant, lubricants
 from cqdd_design.catalog.materials import Material, find_material, materials
-from cqdd_design.catalog.motors import Motor, find_motor, motors
+from cqdd_design.catalog.motors import Motor, find_bare_motor, find_motor, motors
 from cqdd_design.catalog.screws import ShoulderScrew, find_shoulder_screw, shoulder_screws
 
 __all__ = [
@@ -20,6 +20,7 @@ __all__ = [
     "Motor",
     "ShoulderScrew",
     "bearings",
+    "find_bare_motor",
     "find_bearing",
     "find_finish",
     "find_lubricant",

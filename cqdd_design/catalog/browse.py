@@ -68,20 +68,20 @@ _UNITS = {
 }
 _LENGTH_ENDINGS = ("diameter", "diameter_max", "diameter_min", "length", "width", "height", "depth")
 _LENGTHS = {"socket_size"}
+_OF_DESIGNS = {"stated", "stated_in", "based_on"}
+"""Fields of a motor that a design describes; no row of a catalogue has them."""
 
 #: The columns of a listing, after the name; showing a row gives all of its columns.
 COLUMNS = {
     "materials": ("yield_strength_MPa", "ultimate_strength_MPa", "hardness", "source"),
     "motors": (
         "torque_at",
-        "rated_torque_Nm",
         "peak_torque_Nm",
-        "speed_constant_rpm_V",
+        "rated_torque_Nm",
+        "speed",
         "bore_diameter_mm",
-        "mass_kg",
         "rotor_inertia_kgm2",
-        "coulomb_Nm",
-        "cogging_amplitude_Nm",
+        "mass_kg",
         "missing",
     ),
     "bearings": (
@@ -117,7 +117,13 @@ def catalogues() -> dict[str, dict[str, Row]]:
     return {
         "materials": _rows(materials()),
         "motors": {
-            name: {**_row(motor), "missing": ", ".join(motor.missing)}
+            name: {
+                **_row(motor),
+                "speed": motor.speed_told,
+                "missing": ", ".join(motor.missing)
+                if motor.torque_at == "motor"
+                else "geared: no motor of a reducer",
+            }
             for name, motor in motors().items()
         },
         "bearings": _rows(bearings()),
@@ -191,6 +197,8 @@ def _rows(table: Mapping[str, Any]) -> dict[str, Row]:
 def _row(record: Any) -> Row:
     row: dict[str, Any] = {}
     for field in dataclasses.fields(record):
+        if field.name in _OF_DESIGNS:
+            continue
         value = getattr(record, field.name)
         unit, factor = _unit(field.name)
         if unit and value is not None:

@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass
 
 from cqdd_design.catalog.reader import column, find, read_records
+from cqdd_design.errors import DesignError
 
 _RPM = 2.0 * math.pi / 60.0
 
@@ -99,6 +100,13 @@ class Motor:
         What the row rests on: datasheet, listing, measured, or quoted at second hand.
     source, note : str
         Where the row comes from; remarks.
+    stated : tuple of str
+        Names of the fields that a design or a motor file says of this motor; none of a catalogue's
+        own row.
+    stated_in : str
+        Where it says so, in words.
+    based_on : str
+        The catalogue's row that gives all other fields; empty where they are not known.
     """
 
     name: str = column("name")
@@ -146,6 +154,9 @@ class Motor:
     quality: str = column("quality")
     source: str = column("source")
     note: str = column("note")
+    stated: tuple[str, ...] = ()
+    stated_in: str = ""
+    based_on: str = ""
 
     @property
     def torque_constant(self) -> float | None:
@@ -178,11 +189,77 @@ class Motor:
             lacking.append("stator bore")
         return tuple(lacking)
 
+    @property
+    def speed_told(self) -> str:
+        """How fast it turns, in words: over its voltage, else without load; empty if unknown."""
+        if self.torque_constant:
+            return f"{1.0 / (self.torque_constant * _RPM):.4g} rpm/V"
+        if self.no_load_speed is None:
+            return ""
+        at = "" if self.rated_voltage is None else f" at {self.rated_voltage:g} V"
+        return f"{self.no_load_speed / _RPM:.4g} rpm{at}"
+
+    @property
+    def winding_most(self) -> float:
+        """Greatest temperature of the winding that is designed to, deg C.
+
+        What a design or a motor file states holds; the class of wire of a catalogue's row does not,
+        because magnets and bond bear less.
+        """
+        if "winding_limit" in self.stated and self.winding_limit is not None:
+            return self.winding_limit
+        return WINDING_MOST
+
     def told_by(self, field: str) -> str:
         """The row that gives a field, in words: this one, or the one that it is taken over from."""
+        row = self.based_on or self.name
         if field in self.taken_over.split():
-            return f"{self.name}, taken over from {self.taken_from}"
-        return self.name
+            return f"{row}, taken over from {self.taken_from}"
+        return row
+
+    def origin(self, field: str) -> str:
+        """Where a field comes from, in words: what states it, or the catalogue's row."""
+        if field in self.stated:
+            return self.stated_in
+        if field in DRAG and not set(DRAG).isdisjoint(self.stated):
+            # Drag that is stated is all of it: what is left out is 0.
+            return f"{self.stated_in}, which gives the drag without it"
+        return f"catalogue: {self.told_by(field)}"
+
+    @property
+    def remark(self) -> str:
+        """A sentence on a motor that is not as a catalogue's row has it; empty of one that is."""
+        if not self.stated:
+            return ""
+        rest = (
+            f"what is left out is that of {self.based_on}"
+            if self.based_on
+            else "nothing else is known of it"
+        )
+        return f"the motor is {self.name} of {self.stated_in.partition(': ')[2]}; {rest}."
+
+
+def torque_constant_from(value: float, convention: str) -> float:
+    """K of the DC machine from a constant (N m/A or V s/rad) in another one of `CONVENTIONS`.
+
+    Raises
+    ------
+    DesignError
+        For an unknown convention or a value that is not positive.
+
+    Examples
+    --------
+    >>> round(torque_constant_from(0.2126, "torque_per_rms"), 4)
+    0.1736
+    """
+    if convention not in CONVENTIONS:
+        known = ", ".join(CONVENTIONS)
+        raise DesignError(
+            f"there is no convention {convention!r} of a motor constant; use {known}."
+        )
+    if not (math.isfinite(value) and value > 0.0):
+        raise DesignError(f"a motor constant of {value:g} is not above zero; 1/KV in SI is one.")
+    return value / CONVENTIONS[convention]
 
 
 @functools.lru_cache(maxsize=1)
@@ -205,3 +282,41 @@ def find_motor(name: str) -> Motor:
     12.0
     """
     return find(name, motors(), "motor")
+
+
+def find_bare_motor(name: str) -> Motor:
+    """The motor called `name`, for the crank of a reducer.
+
+    Raises
+    ------
+    CatalogError
+        With the nearest names, when there is none.
+    DesignError
+        With bare motors of about its size, when it is a geared actuator.
+    """
+    row = find_motor(name)
+    if row.torque_at == "motor":
+        return row
+    gear = f" a gear of {row.gear_ratio:g}" if row.gear_ratio else " its gear"
+    near = ", ".join(f"'{one.name}'" for one in _bare_motors_of_size(row))
+    raise DesignError(
+        f"'{row.name}' is a geared actuator: its torque, speed and inertia count behind{gear}, and "
+        f"a reducer needs a bare motor on its crank; choose one of about its size, such as {near} "
+        "(`cqdd-design catalog motors` shows all), or give the data of the motor inside it with "
+        "--motor-file or in [motor], under a name of your own."
+    )
+
+
+def _bare_motors_of_size(geared: Motor, most: int = 2) -> list[Motor]:
+    """Bare motors that can be judged, those nearest in diameter first."""
+    judged = ("torque_constant", "line_resistance", "rated_torque", "peak_torque", "rotor_inertia")
+    known = [
+        one
+        for one in motors().values()
+        if one.torque_at == "motor"
+        and one.outer_diameter
+        and one.bore_diameter
+        and all(getattr(one, field) for field in judged)
+    ]
+    size = geared.outer_diameter or 0.1
+    return sorted(known, key=lambda one: abs((one.outer_diameter or 0.0) - size))[:most]

@@ -31,9 +31,11 @@ def column(name: str, factor: float = 1.0) -> Any:
 def read_records(file_name: str, record: type[Row]) -> list[Row]:
     """All rows of a data file as records, whose fields are made by :func:`column`.
 
-    What the row leaves empty is None where the field's type has None, and "" in a text.
+    What the row leaves empty is None where the field's type has None, and "" in a text; fields
+    without a column keep their defaults.
     """
-    fields = dataclasses.fields(record)  # type: ignore[arg-type]
+    every = dataclasses.fields(record)  # type: ignore[arg-type]
+    fields = [field for field in every if "column" in field.metadata]
     return [
         record(**{field.name: _value(row[field.metadata["column"]], field) for field in fields})
         for row in read_rows(file_name)

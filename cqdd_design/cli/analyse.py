@@ -9,12 +9,17 @@ import typer
 
 from cqdd_design.cli.options import (
     DesignFile,
+    Duty,
+    DutyColumnNames,
+    NamedMotor,
+    OwnMotor,
     option,
     parse_option,
     parse_positive,
     quantity_option,
+    under_duty,
 )
-from cqdd_design.cli.session import Output
+from cqdd_design.cli.session import Output, read_design
 from cqdd_design.cli.tables import number, table
 
 if TYPE_CHECKING:
@@ -61,9 +66,12 @@ def analyse(
         str | None,
         quantity_option('Of all parts of the gearbox, as in "60 degC"; default 20 degC, as drawn.'),
     ] = None,
+    motor: NamedMotor = None,
+    motor_file: OwnMotor = None,
+    duty: Duty = None,
+    duty_columns: DutyColumnNames = None,
 ) -> None:
     """Loads, contact equilibrium, precision, losses, life, stress of discs and ring, and shock."""
-    from cqdd_design.design import load_design
     from cqdd_design.roads.analyse import analyse as analysed
     from cqdd_design.units import SPEED, TEMPERATURE, TORQUE
     from cqdd_design.verdict.judge import sentence
@@ -71,7 +79,7 @@ def analyse(
     asked_torque = parse_positive("--torque", torque, TORQUE)
     parts_at = parse_option("--temperature", temperature, TEMPERATURE)
     asked_speed = parse_positive("--speed", speed, SPEED)
-    loaded = load_design(design)
+    loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)
     out.note_compilation(simulation=True)
     found = analysed(
         loaded,

@@ -11,13 +11,14 @@ from cqdd_design.cli.options import (
     Calibrated,
     DesignFile,
     Force,
+    NamedMotor,
     OwnMotor,
     RigStiffness,
     option,
     parse_names,
     parse_positive,
 )
-from cqdd_design.cli.session import Output, read_specimen
+from cqdd_design.cli.session import Output, read_design, read_specimen
 from cqdd_design.cli.tables import headline_table, number, table, told
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ def bench(
     rig_stiffness: RigStiffness = None,
     seed: BenchSeed = None,
     calibration: Calibrated = None,
+    motor: NamedMotor = None,
     motor_file: OwnMotor = None,
     beside: Annotated[
         str | None,
@@ -48,7 +50,6 @@ def bench(
     """The actuator's data sheet, measured on a virtual bench."""
     from cqdd_design.actuator.bench import METRICS
     from cqdd_design.actuator.comparison import catalogue_actuator
-    from cqdd_design.design import load_design
     from cqdd_design.roads.bench import bench as measured
     from cqdd_design.roads.bench import compared_actuators, write_traces
     from cqdd_design.units import STIFFNESS_GAIN, VOLTAGE
@@ -59,8 +60,8 @@ def bench(
     others = tuple(name.strip() for name in (beside or "").split(";") if name.strip())
     for name in others:
         catalogue_actuator(name)
-    loaded = load_design(design)
-    specimen = read_specimen(out, loaded, motor_file=motor_file, calibration=calibration, seed=seed)
+    loaded = read_design(out, design, motor, motor_file)
+    specimen = read_specimen(out, loaded, calibration=calibration, seed=seed)
     out.note_compilation(simulation=True)
     result = measured(
         loaded,

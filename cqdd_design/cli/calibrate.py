@@ -10,13 +10,14 @@ from cqdd_design.cli.options import (
     BenchSupply,
     DesignFile,
     Force,
+    NamedMotor,
     OwnMotor,
     RigStiffness,
     option,
     parse_names,
     parse_positive,
 )
-from cqdd_design.cli.session import Output, read_specimen
+from cqdd_design.cli.session import Output, read_design, read_specimen
 from cqdd_design.cli.tables import number, table
 
 if TYPE_CHECKING:
@@ -48,6 +49,7 @@ def calibrate(
     voltage: BenchSupply = None,
     rig_stiffness: RigStiffness = None,
     seed: BenchSeed = None,
+    motor: NamedMotor = None,
     motor_file: OwnMotor = None,
     path: Annotated[
         Path | None,
@@ -58,21 +60,20 @@ def calibrate(
     """Fit friction and cooling to measured rows; predict the rest."""
     from cqdd_design.actuator.bench.calibration_file import write_calibration
     from cqdd_design.actuator.bench.measured import read_measured
-    from cqdd_design.design import load_design
     from cqdd_design.files import refuse_overwrite
     from cqdd_design.roads.calibrate import calibrate as fitted
     from cqdd_design.units import STIFFNESS_GAIN, VOLTAGE
 
     supply = parse_positive("--voltage", voltage, VOLTAGE)
     rows = None if measured is None else read_measured(measured)
-    loaded = load_design(design)
+    loaded = read_design(out, design, motor, motor_file)
     if path is not None:
         refuse_overwrite(path, force=force)
     out.note_compilation(simulation=True)
     found = fitted(
         loaded,
         rows,
-        read_specimen(out, loaded, motor_file=motor_file, seed=seed),
+        read_specimen(out, loaded, seed=seed),
         to=parse_names(to),
         unknowns=parse_names(unknowns),
         voltage=supply,

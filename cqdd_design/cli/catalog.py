@@ -40,6 +40,12 @@ def catalog(
     if len(found) == 1:
         ((name, row),) = found.items()
         out.say(name, table([[f"  {key}", _shown(value)] for key, value in row.items()]))
+        if kind == "motors" and row["missing"] and row["torque_at"] == "motor":
+            out.say(
+                "",
+                f"What hangs on {row['missing']} stays unknown, unless [motor] of the design or",
+                "--motor-file gives it; `cqdd-design new motor` writes all keys.",
+            )
     else:
         columns = browse.COLUMNS[kind]
         rows = [[name, *(_shown(row[c]) for c in columns)] for name, row in found.items()]
@@ -48,6 +54,6 @@ def catalog(
 
 
 def _shown(value: Any) -> str:
-    if value is None:
+    if value is None or value == "":
         return "-"
     return f"{value:g}" if isinstance(value, float) else str(value)

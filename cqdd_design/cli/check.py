@@ -7,8 +7,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cqdd_design.cli.options import DesignFile, OwnMotor, option
-from cqdd_design.cli.session import Output, read_specimen
+from cqdd_design.cli.options import (
+    DesignFile,
+    Duty,
+    DutyColumnNames,
+    NamedMotor,
+    OwnMotor,
+    option,
+    under_duty,
+)
+from cqdd_design.cli.session import Output, read_design, read_specimen
 
 if TYPE_CHECKING:
     from cqdd_design.solids.clearances import AssemblyMotion
@@ -22,20 +30,25 @@ def check(
         typer.Option("--assembly", help="Also turn the solids through a revolution of the output."),
     ] = False,
     angles: Annotated[int, option("N", "Crank angles of --assembly.", min=1, max=100_000)] = 72,
+    motor: NamedMotor = None,
     motor_file: OwnMotor = None,
+    duty: Duty = None,
+    duty_columns: DutyColumnNames = None,
 ) -> int:
     """The verdict: every requirement and check of a design (exit code 4 unless it is yes)."""
     from cqdd_design.cli.tables import binding, checks_table, headline_table
-    from cqdd_design.design import load_design
     from cqdd_design.roads.check import CHECK_STAGES
     from cqdd_design.roads.check import check as judged
     from cqdd_design.verdict.judge import meets, sentence
 
-    loaded = load_design(design)
+    loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)
     out.note_compilation(simulation=True)
     found = judged(
         loaded,
-        read_specimen(out, loaded, motor_file=motor_file),
+        read_specimen(
+            out,
+            loaded,
+        ),
         assembly_angles=angles if assembly else None,
         told=out.stages(CHECK_STAGES),
         progress=out.counting("crank angles"),

@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Annotated
 
 from cqdd_design.cli.options import (
     DesignFile,
+    NamedMotor,
+    OwnMotor,
     option,
     parse_positive,
     parse_whole_list,
     quantity_option,
 )
-from cqdd_design.cli.session import Output
+from cqdd_design.cli.session import Output, read_design
 from cqdd_design.cli.tables import number, table
 
 if TYPE_CHECKING:
@@ -60,9 +62,10 @@ def compare(
         str | None,
         option("S,P1,P2,R", "Profile shifts, the ring's in the sign of ISO 21771; default least."),
     ] = None,
+    motor: NamedMotor = None,
+    motor_file: OwnMotor = None,
 ) -> None:
     """The same loads on a compound planetary, rated by ISO 6336."""
-    from cqdd_design.design import load_design
     from cqdd_design.planetary.kinematics import PlanetaryTeeth
     from cqdd_design.planetary.settings import read_settings
     from cqdd_design.roads.compare import compare as compared
@@ -84,7 +87,7 @@ def compare(
             "shifts": shifts,
         },
     )
-    loaded = load_design(design)
+    loaded = read_design(out, design, motor, motor_file)
     found = compared(
         loaded,
         teeth=PlanetaryTeeth(*counts),

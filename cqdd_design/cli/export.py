@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from cqdd_design.cli.options import Calibrated, Force, OwnMotor, option, parse_positive
-from cqdd_design.cli.session import Output, read_specimen
+from cqdd_design.cli.options import Calibrated, Force, NamedMotor, OwnMotor, option, parse_positive
+from cqdd_design.cli.session import Output, read_design, read_specimen
 from cqdd_design.exporting.kinds import kinds_for, read_kinds, stages
 
 
@@ -43,11 +43,11 @@ def export(
         ),
     ] = None,
     calibration: Calibrated = None,
+    motor: NamedMotor = None,
     motor_file: OwnMotor = None,
     force: Force = False,
 ) -> int:
     """Files for makers (DXF, EDM, STEP, ...) and simulators."""
-    from cqdd_design.design import load_design
     from cqdd_design.exporting import ExportOptions
     from cqdd_design.roads.export import export as write
     from cqdd_design.units import LENGTH
@@ -64,16 +64,15 @@ def export(
         more = options.arguments()
         more += [] if seed is None else ["--seed", str(seed)]
         more += [] if calibration is None else ["--calibration", str(calibration)]
+        more += [] if motor is None else ["--motor", motor]
         more += [] if motor_file is None else ["--motor-file", str(motor_file)]
         return _several(out, design, kinds, folder, more, workers=workers, force=force)
-    loaded = load_design(design[0])
+    loaded = read_design(out, design[0], motor, motor_file)
     files = write(
         loaded,
         kinds,
         folder,
-        specimen=read_specimen(
-            out, loaded, motor_file=motor_file, calibration=calibration, seed=seed
-        ),
+        specimen=read_specimen(out, loaded, calibration=calibration, seed=seed),
         force=force,
         options=options,
         progress=out.stages(stages(kinds)),

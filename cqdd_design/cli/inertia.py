@@ -4,8 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
-from cqdd_design.cli.options import DesignFile, OwnMotor, parse_positive, quantity_option
-from cqdd_design.cli.session import Output, read_specimen
+from cqdd_design.cli.options import (
+    DesignFile,
+    NamedMotor,
+    OwnMotor,
+    parse_positive,
+    quantity_option,
+)
+from cqdd_design.cli.session import Output, read_design, read_specimen
 from cqdd_design.cli.tables import number, table, told
 
 if TYPE_CHECKING:
@@ -16,17 +22,20 @@ def inertia(
     out: Output,
     design: DesignFile,
     speed: Annotated[str | None, quantity_option('Input speed, as in "1286 rpm".')] = None,
+    motor: NamedMotor = None,
     motor_file: OwnMotor = None,
 ) -> None:
     """Masses of the parts, balance, inertia at the motor."""
-    from cqdd_design.design import load_design
     from cqdd_design.roads.inertia import INERTIA_STAGES
     from cqdd_design.roads.inertia import inertia as weighed
     from cqdd_design.units import SPEED
 
     asked = parse_positive("--speed", speed, SPEED)
-    loaded = load_design(design)
-    specimen = read_specimen(out, loaded, motor_file=motor_file)
+    loaded = read_design(out, design, motor, motor_file)
+    specimen = read_specimen(
+        out,
+        loaded,
+    )
     found = weighed(loaded, specimen, speed=asked, progress=out.stages(INERTIA_STAGES))
     out.say(*_lines(found))
     out.warn(*found.warnings)
@@ -63,21 +72,21 @@ def _lines(found: InertiaAndBalance) -> list[str]:
     total = found.bodies.inertia
     inertias = total.group_inertias
     groups = [
-        [name, number(1e3 * mass), number(1e6 * inertias[name])]
+        [name, number(1e3 * mass), _known(inertias[name], 1e6)]
         for name, mass in total.group_masses.items()
     ]
     group_head = ["group", "g", "at input kg*mm2"]
-    rotor = "-" if total.rotor_inertia is None else number(1e6 * total.rotor_inertia)
+    rotor = _known(total.rotor_inertia, 1e6)
     return [
         table(parts, head=head, right=(1, 2, 3, 4, 5)),
         "",
         table(groups, head=group_head, right=(1, 2)),
         "",
-        f"total mass                 {number(total.mass)} kg",
-        f"torque density             {number(found.torque_density)} N*m/kg",
+        f"total mass                 {_known(total.whole_mass)} kg",
+        f"torque density             {_known(found.torque_density)} N*m/kg",
         f"rotor of {total.motor.name}, {ROTOR_SCOPE}: {rotor} kg*mm2",
-        f"reflected to the input     {number(1e6 * total.reflected_input)} kg*mm2",
-        f"reflected to the output    {number(total.reflected_output)} kg*m2",
+        f"reflected to the input     {_known(total.reflected_input, 1e6)} kg*mm2",
+        f"reflected to the output    {_known(total.reflected_output)} kg*m2",
         "",
         told(
             [
@@ -90,3 +99,7 @@ def _lines(found: InertiaAndBalance) -> list[str]:
         table(balance, head=balance_head, right=(1, 2, 3, 4)),
         f"the paper's rule asks for {found.paper_disc_count} discs",
     ]
+
+
+def _known(value: float | None, factor: float = 1.0) -> str:
+    return "unknown" if value is None else number(factor * value)

@@ -24,6 +24,7 @@ from cqdd_design.cli import (
     export,
     inertia,
     interruption,
+    new,
     report,
     schema,
     simulate,
@@ -51,6 +52,7 @@ app = typer.Typer(
 
 #: In the order of the work, which is the order of the help.
 COMMANDS = (
+    new.new,
     size.size,
     check.check,
     analyse.analyse,

@@ -11,7 +11,8 @@ import typer
 from cqdd_design.errors import DesignError, UsageError
 
 if TYPE_CHECKING:
-    from cqdd_design.actuator.motor_file import MotorFile
+    from cqdd_design.design import Design
+    from cqdd_design.design.duty_log import DutyColumns
     from cqdd_design.units import Dimension
 
 
@@ -36,10 +37,30 @@ Calibrated = Annotated[
     Path | None,
     typer.Option("--calibration", metavar="FILE", help="Factors that `calibrate` wrote."),
 ]
+NamedMotor = Annotated[
+    str | None,
+    option(
+        "NAME",
+        "Motor of the catalogue, instead of all that the design's [motor] says of one.",
+        "--motor",
+    ),
+]
 OwnMotor = Annotated[
     Path | None,
+    option("FILE", "Motor in TOML, over the design's [motor] and the catalogue.", "--motor-file"),
+]
+Duty = Annotated[
+    Path | None,
     typer.Option(
-        "--motor-file", metavar="FILE", help="Motor in TOML, for what the catalogue says otherwise."
+        "--duty", metavar="FILE", help="Duty over time (CSV) instead of the design's; see docs."
+    ),
+]
+DutyColumnNames = Annotated[
+    str | None,
+    typer.Option(
+        "--duty-columns",
+        metavar="MAP",
+        help='Of --duty, where headings do not say, as in "time=t [ms],torque=tau [N*m]".',
     ),
 ]
 Supply = Annotated[str | None, quantity_option("Supply; default that of the design.")]
@@ -135,10 +156,22 @@ def parse_names(text: str | None) -> tuple[str, ...]:
     return tuple(name.strip() for name in (text or "").split(",") if name.strip())
 
 
-def read_own_motor(path: Path | None) -> MotorFile | None:
-    """The motor of ``--motor-file``."""
-    if path is None:
+def read_duty_columns(duty: Path | None, columns: str | None) -> DutyColumns | None:
+    """The columns of ``--duty-columns``, which belong to a ``--duty``."""
+    if columns is None:
         return None
-    from cqdd_design.actuator.motor_file import read_motor
+    if duty is None:
+        raise UsageError("--duty-columns names columns of --duty FILE, which is missing.")
+    from cqdd_design.design.duty_file import read_columns
 
-    return read_motor(path)
+    return read_columns(columns)
+
+
+def under_duty(design: Design, duty: Path | None, columns: str | None) -> Design:
+    """The design under the duty of ``--duty``, where there is one, instead of its own."""
+    named = read_duty_columns(duty, columns)
+    if duty is None:
+        return design
+    from cqdd_design.design.duty_file import read_duty
+
+    return design.under_duty(read_duty(duty, named), str(duty), named)

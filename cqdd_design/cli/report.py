@@ -5,8 +5,19 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from cqdd_design.cli.options import BenchSeed, Calibrated, DesignFile, Force, OwnMotor, option
-from cqdd_design.cli.session import Output, read_specimen
+from cqdd_design.cli.options import (
+    BenchSeed,
+    Calibrated,
+    DesignFile,
+    Duty,
+    DutyColumnNames,
+    Force,
+    NamedMotor,
+    OwnMotor,
+    option,
+    under_duty,
+)
+from cqdd_design.cli.session import Output, read_design, read_specimen
 
 
 def report(
@@ -17,22 +28,22 @@ def report(
     ] = None,
     seed: BenchSeed = None,
     calibration: Calibrated = None,
+    motor: NamedMotor = None,
     motor_file: OwnMotor = None,
+    duty: Duty = None,
+    duty_columns: DutyColumnNames = None,
     force: Force = False,
 ) -> None:
     """One self-contained HTML file for the design review."""
     from cqdd_design.cli.tables import headline_table
-    from cqdd_design.design import load_design
     from cqdd_design.roads.report import REPORT_STAGES, write_report
 
-    loaded = load_design(design)
+    loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)
     out.note_compilation(simulation=True)
     written = write_report(
         loaded,
         target,
-        specimen=read_specimen(
-            out, loaded, motor_file=motor_file, calibration=calibration, seed=seed
-        ),
+        specimen=read_specimen(out, loaded, calibration=calibration, seed=seed),
         source=design,
         force=force,
         progress=out.stages(REPORT_STAGES),

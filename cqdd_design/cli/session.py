@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Annotated, Any, TextIO
 
 import typer
 
-from cqdd_design.cli.options import read_own_motor
 from cqdd_design.environment import source_date
 from cqdd_design.errors import UsageError, printable
 
@@ -232,19 +231,43 @@ class Output:
         print_result(text)
 
 
+def read_design(
+    out: Output, path: Path, motor: str | None = None, motor_file: Path | None = None
+) -> Design:
+    """The design of a file with the motor of ``--motor`` and ``--motor-file``.
+
+    Whatever a command does, it does with this motor, and shows the design with it.
+    """
+    from cqdd_design.catalog import find_motor
+    from cqdd_design.design import load_design
+    from cqdd_design.design.motor import read_motor
+
+    loaded = load_design(path)
+    name = None if motor is None else find_motor(motor).name
+    own = None if motor_file is None else read_motor(motor_file)
+    chosen = loaded.with_motor(name, own)
+    kept = chosen.motor.data
+    lost = [key for key, value in loaded.motor.data.items() if kept.get(key) != value]
+    if lost:
+        before = f"--motor {motor}" if motor_file is None else str(motor_file)
+        verb = "does" if len(lost) == 1 else "do"
+        keys = ", ".join(lost)
+        out.warn(f"{before} goes before [motor] of {path}, whose {keys} {verb} not apply.")
+    return chosen
+
+
 def read_specimen(
     out: Output,
     design: Design,
     *,
-    motor_file: Path | None = None,
     calibration: Path | None = None,
     seed: int | None = None,
 ) -> Specimen:
-    """The actuator of ``--motor-file``, ``--calibration`` and ``--seed``."""
+    """The actuator of ``--calibration`` and ``--seed``."""
     from cqdd_design.actuator.specimen import Specimen
 
     factors = read_factors(out, calibration, design) or {}
-    return Specimen(motor=read_own_motor(motor_file), seed=seed, factors=factors)
+    return Specimen(seed=seed, factors=factors)
 
 
 def read_factors(out: Output, path: Path | None, design: Design) -> Mapping[str, float] | None:

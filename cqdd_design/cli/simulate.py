@@ -12,12 +12,13 @@ from cqdd_design.cli.options import (
     Calibrated,
     DesignFile,
     Force,
+    NamedMotor,
     OwnMotor,
     Supply,
     option,
     quantity_option,
 )
-from cqdd_design.cli.session import Output, read_specimen
+from cqdd_design.cli.session import Output, read_design, read_specimen
 from cqdd_design.cli.simulate_options import COMMANDS, FRICTION, LOADS, SIGNALS, Choices, known
 from cqdd_design.cli.tables import number, table
 
@@ -124,6 +125,7 @@ def simulate(
     ] = None,
     friction: Annotated[str, _choice(FRICTION, "Model of dry friction.")] = "clip",
     calibration: Calibrated = None,
+    motor: NamedMotor = None,
     motor_file: OwnMotor = None,
     target: Annotated[
         Path | None,
@@ -133,7 +135,6 @@ def simulate(
 ) -> None:
     """Run the actuator in time; every trace as npz or Parquet."""
     from cqdd_design.actuator.scenario import Scenario, Start
-    from cqdd_design.design import load_design
     from cqdd_design.roads.simulate import simulate as simulated
     from cqdd_design.roads.simulate import simulation_kind, write_simulation
 
@@ -164,11 +165,11 @@ def simulate(
     known("--friction", friction, FRICTION)
     carried, start = chosen.load(load)
     simulation_kind(target, force=force)
-    loaded = load_design(design)
+    loaded = read_design(out, design, motor, motor_file)
     supply = chosen.quantity("--voltage", "VOLTAGE", None, example="24 V")
     told, seconds = chosen.command(command, signal, loaded, supply)
     out.warn(*chosen.warnings)
-    specimen = read_specimen(out, loaded, motor_file=motor_file, calibration=calibration, seed=seed)
+    specimen = read_specimen(out, loaded, calibration=calibration, seed=seed)
     out.note_compilation(simulation=True)
     result = simulated(
         loaded,

@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cqdd_design.cli.options import (
+    Duty,
+    DutyColumnNames,
     Force,
     OwnMotor,
     option,
     parse_option,
     parse_ratio,
     quantity_option,
-    read_own_motor,
+    read_duty_columns,
 )
 from cqdd_design.cli.requirement_options import read_requirements, stated, with_requirements
 from cqdd_design.cli.session import Output
@@ -46,10 +48,16 @@ def size(
     ambient: Annotated[
         str | None, quantity_option('Of the air round the actuator; default "25 degC".')
     ] = None,
+    duty: Duty = None,
+    duty_columns: DutyColumnNames = None,
     force: Force = False,
     **asked: Any,
 ) -> None:
     """Requirements to a checked design file."""
+    from cqdd_design.catalog import find_bare_motor
+    from cqdd_design.design import load_required_motor
+    from cqdd_design.design.model import duty_keys
+    from cqdd_design.design.motor import read_motor
     from cqdd_design.exporting import read_kinds
     from cqdd_design.roads.size import road_stages, size_and_write
     from cqdd_design.units import TEMPERATURE
@@ -57,7 +65,16 @@ def size(
     asked = stated(asked)
     asked |= {} if ratio is None else {"ratio": parse_ratio(ratio)}
     asked |= {} if motor is None else {"motor": motor}
+    if (columns := read_duty_columns(duty, duty_columns)) is not None or duty is not None:
+        asked |= duty_keys(str(duty), columns)
     asked |= {} if discs is None else {"disc_count": discs}
+    if motor is not None:
+        find_bare_motor(motor)
+    own = None
+    if motor_file is not None:
+        own = read_motor(motor_file)
+    elif motor is None and requirements is not None:
+        own = load_required_motor(requirements)
     kinds = () if export is None else read_kinds(export)
     wanted = read_requirements(asked, requirements)
     if report:
@@ -65,7 +82,7 @@ def size(
     road = size_and_write(
         wanted,
         target,
-        motor=read_own_motor(motor_file),
+        motor=own,
         ambient=parse_option("--ambient", ambient, TEMPERATURE),
         kinds=kinds,
         report=report,

@@ -5,40 +5,36 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from cqdd_design.cli.options import read_own_motor
 from cqdd_design.cli.session import Output, read_factors
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.parameters import ActuatorParameters
+    from cqdd_design.design import Design
     from cqdd_design.torque.data.episodes import DataSet
 
 
 def data_actuator(
     out: Output,
     data: DataSet,
-    path: Path,
+    design: Design,
     gearbox: int | None,
     calibration: Path | None,
-    motor_file: Path | None,
 ) -> ActuatorParameters:
     """The actuator of a design, drawn and calibrated as the data's own where they say so."""
     from cqdd_design.actuator.build import actuator_parameters
     from cqdd_design.actuator.specimen import Specimen
-    from cqdd_design.design import load_design
 
-    loaded = load_design(path)
     facts = data.facts
     seed = facts.get("training_gearbox") if gearbox is None else gearbox
     own = facts.get("calibration") if calibration is None else None
-    factors = read_factors(out, calibration, loaded) or (own if isinstance(own, dict) else {})
+    factors = read_factors(out, calibration, design) or (own if isinstance(own, dict) else {})
     out.note_compilation()
-    if facts.get("design_sha256") not in (None, loaded.sha256):
-        out.warn(f"the data are of another design or version of it than {path}.")
+    if facts.get("design_sha256") not in (None, design.sha256):
+        out.warn(f"the data are of another design or version of it than {design.name}.")
     specimen = Specimen(
-        motor=read_own_motor(motor_file),
         seed=None if seed is None else int(seed),
         factors={name: value for name, value in factors.items() if name != "tolerance_scale"},
     )
     return actuator_parameters(
-        specimen.machine(loaded), specimen, supply_voltage=facts.get("supply_voltage_V")
+        specimen.machine(design), specimen, supply_voltage=facts.get("supply_voltage_V")
     )

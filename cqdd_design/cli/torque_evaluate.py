@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from cqdd_design.cli.options import Calibrated, Force, OwnMotor, option, parse_names
-from cqdd_design.cli.session import Output
+from cqdd_design.cli.options import Calibrated, Force, NamedMotor, OwnMotor, option, parse_names
+from cqdd_design.cli.session import Output, read_design
 from cqdd_design.cli.tables import number, table
 from cqdd_design.cli.torque_actuator import data_actuator
 from cqdd_design.errors import UsageError
@@ -38,6 +38,7 @@ def evaluate(
         ),
     ] = None,
     calibration: Calibrated = None,
+    motor: NamedMotor = None,
     motor_file: OwnMotor = None,
     split_seed: Annotated[
         int | None, option("N", "Of the split; default that of the networks.", min=0)
@@ -60,14 +61,19 @@ def evaluate(
     for target in (report, markdown):
         if target is not None:
             refuse_overwrite(target, force=force)
-    for name, given in (("--calibration", calibration), ("--motor-file", motor_file)):
+    for name, given in (
+        ("--calibration", calibration),
+        ("--motor", motor),
+        ("--motor-file", motor_file),
+    ):
         if design is None and given is not None:
             raise UsageError(f"{name} belongs to a design; give it with --design.")
     known = read_data(data)
     networks = read_networks(model or [], known)
     actuator = None
     if design is not None:
-        actuator = data_actuator(out, known, design, None, calibration, motor_file)
+        loaded = read_design(out, design, motor, motor_file)
+        actuator = data_actuator(out, known, loaded, None, calibration)
     names = parse_names(sets)
     lineup = line_up(known, networks, names, split_seed=split_seed, actuator=actuator)
     out.warn(*lineup.warnings)

@@ -9,6 +9,7 @@ from cqdd_design.cli.options import (
     Calibrated,
     DesignFile,
     Force,
+    NamedMotor,
     OwnMotor,
     Supply,
     count_option,
@@ -17,7 +18,7 @@ from cqdd_design.cli.options import (
     parse_positive,
     quantity_option,
 )
-from cqdd_design.cli.session import Output, read_specimen
+from cqdd_design.cli.session import Output, read_design, read_specimen
 from cqdd_design.cli.tables import number, table
 
 if TYPE_CHECKING:
@@ -53,11 +54,11 @@ def generate(
         str | None, quantity_option("Of the joint's controller; default that of the design.")
     ] = None,
     calibration: Calibrated = None,
+    motor: NamedMotor = None,
     motor_file: OwnMotor = None,
     force: Force = False,
 ) -> None:
     """Generate pendulum data on the simulated actuator, as Parquet with a JSON manifest."""
-    from cqdd_design.design import load_design
     from cqdd_design.roads.torque_data import generate as generated
     from cqdd_design.torque.data.generate import Request
     from cqdd_design.units import DAMPING_GAIN, MASS, STIFFNESS_GAIN, VOLTAGE
@@ -74,8 +75,8 @@ def generate(
         position_gain=parse_option("--position-gain", position_gain, STIFFNESS_GAIN),
         velocity_gain=parse_option("--velocity-gain", velocity_gain, DAMPING_GAIN),
     )
-    loaded = load_design(design)
-    specimen = read_specimen(out, loaded, motor_file=motor_file, calibration=calibration)
+    loaded = read_design(out, design, motor, motor_file)
+    specimen = read_specimen(out, loaded, calibration=calibration)
     out.note_compilation(simulation=True)
     found = generated(
         loaded,

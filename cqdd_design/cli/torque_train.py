@@ -10,8 +10,15 @@ from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
-from cqdd_design.cli.options import Force, OwnMotor, count_option, option, parse_positive
-from cqdd_design.cli.session import Output
+from cqdd_design.cli.options import (
+    Force,
+    NamedMotor,
+    OwnMotor,
+    count_option,
+    option,
+    parse_positive,
+)
+from cqdd_design.cli.session import Output, read_design
 from cqdd_design.cli.tables import number, table
 from cqdd_design.cli.torque_actuator import data_actuator
 from cqdd_design.errors import UsageError
@@ -84,6 +91,7 @@ def train(
     calibration: Annotated[
         Path | None, option("FILE", "Factors that `calibrate` wrote; default those in the data.")
     ] = None,
+    motor: NamedMotor = None,
     motor_file: OwnMotor = None,
     like: Annotated[
         Path | None,
@@ -147,7 +155,8 @@ def train(
     audit(data, parts, chosen.history)
     actuator = None
     if design is not None:
-        actuator = data_actuator(out, data, design, gearbox, calibration, motor_file)
+        loaded = read_design(out, design, motor, motor_file)
+        actuator = data_actuator(out, data, loaded, gearbox, calibration)
     if chosen.searched and choice is None and not resume:
         out.note("searching activation, learning rate and weight decay on validation episodes")
     order = Order(chosen.name, seed, recipe, actuator, choice, device)

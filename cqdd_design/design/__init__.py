@@ -5,6 +5,7 @@ from cqdd_design.design.requirements import Requirements
 from cqdd_design.design.toml import (
     LARGEST_FILE,
     load_design,
+    load_required_motor,
     load_requirements,
     requirements_from_mapping,
     save_design,
@@ -15,6 +16,7 @@ __all__ = [
     "Design",
     "Requirements",
     "load_design",
+    "load_required_motor",
     "load_requirements",
     "requirements_from_mapping",
     "save_design",

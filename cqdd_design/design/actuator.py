@@ -1,4 +1,4 @@
-"""The tables of a design file around the reducer: motor, drive, housing, surroundings and more."""
+"""The tables of a design file around reducer and motor: drive, housing, surroundings and more."""
 
 from __future__ import annotations
 
@@ -6,32 +6,18 @@ from typing import Annotated, Literal
 
 from pydantic import model_validator
 
-from cqdd_design.design.fields import FrozenModel, MaterialName, MotorName, Whole, default
+from cqdd_design.design.fields import FrozenModel, MaterialName, Whole, default
 from cqdd_design.units import (
     BANDWIDTH,
-    CURRENT,
     DAMPING_GAIN,
     LENGTH,
     SMALL_LENGTH,
     STIFFNESS_GAIN,
     TEMPERATURE,
     THERMAL_RESISTANCE,
-    VOLTAGE,
     QuantityIn,
     format_quantity,
 )
-
-
-class MotorTable(FrozenModel):
-    """The motor and what its driver allows it."""
-
-    name: MotorName = "CubeMars RO100 KV55"
-    voltage: Annotated[float, QuantityIn(VOLTAGE, "1 V", "1000 V", "supply of the driver")] = (
-        default("48 V")
-    )
-    current_limit: Annotated[
-        float, QuantityIn(CURRENT, "0.01 A", "2000 A", "limit of the driver")
-    ] = default("50.5 A")
 
 
 class Drive(FrozenModel):

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
-from cqdd_design.catalog import find_bearing, find_finish, find_material, find_motor
-from cqdd_design.errors import CatalogError, is_unprintable, shown
+from cqdd_design.catalog import find_bare_motor, find_bearing, find_finish, find_material
+from cqdd_design.errors import CatalogError, DesignError, is_unprintable, shown
 
 if TYPE_CHECKING:
     from pydantic import GetCoreSchemaHandler
@@ -123,7 +123,7 @@ def _known(find: Callable[[str], Any], *also: str) -> Callable[[str], str]:
             return name
         try:
             row = find(name)
-        except CatalogError as error:
+        except (CatalogError, DesignError) as error:
             raise ValueError(str(error)) from None
         return str(getattr(row, "name", None) or row.designation)
 
@@ -141,6 +141,6 @@ def _plain(text: str) -> str:
 #: Text that goes to terminals, reports and programs.
 FreeText = Annotated[str, AfterValidator(_plain)]
 MaterialName = Annotated[str, AfterValidator(_known(find_material))]
-MotorName = Annotated[str, AfterValidator(_known(find_motor))]
+MotorName = Annotated[str, AfterValidator(_known(find_bare_motor))]
 BearingName = Annotated[str, AfterValidator(_known(find_bearing, "auto"))]
 FinishName = Annotated[str, AfterValidator(_known(find_finish))]

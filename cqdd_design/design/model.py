@@ -11,8 +11,11 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 from pydantic import BaseModel, PrivateAttr, ValidationError, model_validator
 from pydantic.fields import FieldInfo
 
-from cqdd_design.design.actuator import Drive, Edm, Environment, Housing, MotorTable, Tolerances
+from cqdd_design.catalog.motors import Motor
+from cqdd_design.design.actuator import Drive, Edm, Environment, Housing, Tolerances
 from cqdd_design.design.fields import FrozenModel
+from cqdd_design.design.motor import MotorFile, MotorTable
+from cqdd_design.design.motor_row import IN_DESIGN, motor_row, own_table
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.design.requirements import Requirements
@@ -57,6 +60,7 @@ class Design(FrozenModel):
     edm: Edm = Edm()
 
     _assumed: tuple[str, ...] = PrivateAttr(default=())
+    _motor_place: str = PrivateAttr(default=IN_DESIGN)
 
     @model_validator(mode="before")
     @classmethod
@@ -78,6 +82,11 @@ class Design(FrozenModel):
 
     @model_validator(mode="after")
     def _consistent(self) -> Design:
+        if self.motor.thermal_resistance is not None and self.drive.thermal_resistance > 0.0:
+            raise ValueError(
+                "motor.thermal_resistance and drive.thermal_resistance both say how the winding is "
+                "cooled; keep one of them"
+            )
         if self.requirements.ratio != self.reducer.ratio:
             raise ValueError(
                 f"requirements.ratio {self.requirements.ratio} is not reducer.ratio "
@@ -145,6 +154,9 @@ class Design(FrozenModel):
         except ValidationError as error:
             raise describe_problems(error, cls, source) from None
         given = set(_leaves(data))
+        if design.motor.data or design.motor.based_on:
+            # Whoever gives a motor's data asks for that motor.
+            given.add("motor.name")
         design._assumed = tuple(
             key for key in design.dotted_keys() if key not in given and not _below(key, given)
         )
@@ -155,12 +167,65 @@ class Design(FrozenModel):
         """Dotted keys left to their defaults, in file order."""
         return self._assumed
 
+    @property
+    def motor_row(self) -> Motor:
+        """The motor that ``[motor]`` means, as a row of the catalogue; see `design.motor_row`."""
+        return motor_row(self.motor, self._motor_place)
+
+    def with_motor(self, name: str | None = None, motor: MotorFile | None = None) -> Design:
+        """The design with another motor in its ``[motor]`` table, behind the same driver.
+
+        A motor file goes over what the design says of its motor, and that over the catalogue's row;
+        see `motor_row.own_table`.
+
+        Parameters
+        ----------
+        name : str, optional
+            Of a motor of the catalogue, instead of the design's and of all that it says of it.
+        motor : MotorFile, optional
+            What a file says of the motor.
+
+        Raises
+        ------
+        DesignError
+            Where the catalogue has no such bare motor, or the data make no motor.
+        """
+        if name is not None:
+            found = self._with_motor_table({"name": name})
+            found._motor_place = IN_DESIGN
+            return found if motor is None else found._with_motor_file(motor, named=True)
+        return self if motor is None else self._with_motor_file(motor)
+
+    def _with_motor_file(self, motor: MotorFile, *, named: bool = False) -> Design:
+        found = self._with_motor_table(
+            own_table(self.motor, motor, named=named),
+            *(("drive.thermal_resistance",) if motor.thermal_resistance is not None else ()),
+        )
+        found._motor_place = f"file: {motor.place}"
+        return found
+
+    def _with_motor_table(self, keys: Mapping[str, Any], *without: str) -> Design:
+        """The design with these keys of its motor, SI, and some others left to their defaults."""
+        mapping = self.to_mapping()
+        for key in (*self.assumed, *without):
+            _delete(mapping, key)
+        table = mapping.pop("motor", {})
+        driver = {key: table[key] for key in ("voltage", "current_limit") if key in table}
+        return self._rebuilt(mapping | {"motor": {**keys, **driver}})
+
+    def leaving(self, *keys: str) -> Design:
+        """A design in which dotted keys are left to their defaults."""
+        mapping = self.to_mapping()
+        for key in (*self.assumed, *keys):
+            _delete(mapping, key)
+        return self._rebuilt(mapping)
+
     def dotted_keys(self) -> tuple[str, ...]:
         """All dotted keys of the resolved design, in file order."""
         return tuple(_leaves(self.to_mapping()))
 
     def to_mapping(self) -> dict[str, Any]:
-        """The design as nested tables with unit strings, every key present."""
+        """The design as nested tables with unit strings, every key present that has a value."""
         return dump(self)
 
     def replacing(self, changes: Mapping[str, Any]) -> Design:
@@ -173,7 +238,12 @@ class Design(FrozenModel):
             _delete(mapping, key)
         for key, value in changes.items():
             _insert(mapping, key, value)
+        return self._rebuilt(mapping)
+
+    def _rebuilt(self, mapping: Mapping[str, Any]) -> Design:
+        """The design of other values, with what this one read from files that it still names."""
         changed = Design.from_mapping(mapping, source=self.name, si=True)
+        changed._motor_place = self._motor_place
         asked, new = self.requirements, changed.requirements
         if (new.duty_file, new.duty_columns) != (asked.duty_file, asked.duty_columns):
             return changed
@@ -182,18 +252,18 @@ class Design(FrozenModel):
     def with_duty_log(self, log: DutyLog | None) -> Design:
         """The same design with what its duty's file says."""
         changed = self.model_copy(update={"requirements": self.requirements.with_duty_log(log)})
-        changed._assumed = self.assumed
+        changed._assumed, changed._motor_place = self._assumed, self._motor_place
         return changed
 
-    def under_duty(self, log: DutyLog, columns: DutyColumns | None = None) -> Design:
+    def under_duty(self, log: DutyLog, file: str, columns: DutyColumns | None = None) -> Design:
         """The design under another duty, which comes from a file, in place of its own."""
         mapping = self.to_mapping()
         for key in self.assumed:
             _delete(mapping, key)
         for key in ("duty", "duty_file", "duty_columns"):
             mapping["requirements"].pop(key, None)
-        mapping["requirements"] |= duty_keys(log.source, columns)
-        return Design.from_mapping(mapping, source=self.name, si=True).with_duty_log(log)
+        mapping["requirements"] |= duty_keys(file, columns)
+        return self._rebuilt(mapping).with_duty_log(log)
 
     def turning_at(self, speed: float) -> Design:
         """The design whose input turns at a speed (rad/s), under whatever torque."""

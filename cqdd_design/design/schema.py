@@ -44,9 +44,14 @@ def design_schema() -> dict[str, Any]:
 
 def _without_null(field: dict[str, Any]) -> None:
     """Take from a key that may be left out the null that stands for that: TOML has none."""
+    default = field.get("default", "")
+    if default is None:
+        del field["default"]
+    elif isinstance(default, dict):
+        field["default"] = {key: value for key, value in default.items() if value is not None}
     kinds = field.get("anyOf", [])
     if {"type": "null"} in kinds:
-        del field["anyOf"], field["default"]
+        del field["anyOf"]
         field.update(next(kind for kind in kinds if kind != {"type": "null"}))
 
 
@@ -56,6 +61,8 @@ def _catalogue_names(table: str, key: str) -> list[str]:
 
     if key == "material" or key.endswith("_material"):
         return list(materials())
-    if (key == "motor" and table == "Requirements") or (key == "name" and table == "MotorTable"):
-        return list(motors())
+    if (key == "motor" and table == "Requirements") or (
+        key in ("name", "based_on") and table == "MotorTable"
+    ):
+        return [name for name, one in motors().items() if one.torque_at == "motor"]
     return ["auto", *bearings()] if key == "designation" else []

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from cqdd_design.design.model import SCHEMA_VERSION, Design
+from cqdd_design.design.motor import MotorFile, motor_of_requirements
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.requirements import Requirements
 from cqdd_design.errors import DesignError, UsageError, nearest_names
@@ -78,7 +79,21 @@ def load_requirements(path: Path, changes: Mapping[str, Any] | None = None) -> R
         table = {key: value for key, value in table.items() if not key.startswith("duty")}
     elif isinstance(table.get("duty_file"), str):
         given["duty_file"] = str(path.parent / table["duty_file"])
-    return requirements_from_mapping({**table, **given}, source=str(path))
+    # A design's motor is asked for too, unless its requirements name another.
+    base, _ = motor_of_requirements(data.get("motor"), path)
+    asked = {"motor": base} if base else {}
+    return requirements_from_mapping({**asked, **table, **given}, source=str(path))
+
+
+def load_required_motor(path: Path) -> MotorFile | None:
+    """What a requirements or design file says of its motor, other than its name; None for nothing.
+
+    Raises
+    ------
+    DesignError
+        When it is no motor.
+    """
+    return motor_of_requirements(_migrated(_read(path), path).get("motor"), path)[1]
 
 
 def requirements_from_mapping(

@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike
 from cqdd_design.catalog.motors import (
     COPPER_COEFFICIENT,
     COPPER_REFERENCE,
-    WINDING_MOST,
     Motor,
 )
 from cqdd_design.design.duty_log import DutyLog
@@ -140,7 +139,7 @@ def _heat(machine: Machine, gearbox: FloatArray, drag: FloatArray, squared: Floa
     return Heat(
         gearbox @ spread + np.multiply.outer(copper, winding) + np.multiply.outer(drag, stator),
         np.multiply.outer(slope, winding),
-        np.where(winding > 0.0, WINDING_MOST, np.inf),
+        np.where(winding > 0.0, machine.motor.winding_most, np.inf),
     )
 
 
@@ -185,11 +184,11 @@ def _over_time(
 
 def _winding(machine: Machine) -> tuple[float, float]:
     row = machine.motor
-    if row.torque_at != "motor" or not row.torque_constant or not row.line_resistance:
+    if not row.torque_constant or not row.line_resistance:
         raise DesignError(
-            f"no temperatures: the catalogue has no torque constant or no resistance of "
-            f"'{row.name}', without which the heat of its winding is not known; name a motor that "
-            "has them, such as 'CubeMars RO100 KV55'."
+            f"no temperatures: the torque constant or the resistance of '{row.name}' is not known, "
+            "and so the heat of its winding is not; give torque_constant and resistance in [motor] "
+            "or with --motor-file, or name a motor that has them, such as 'CubeMars RO100 KV55'."
         )
     return row.torque_constant, row.line_resistance
 

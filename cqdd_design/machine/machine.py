@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from cqdd_design.catalog.bearings import AUTO, Bearing, find_bearing
 from cqdd_design.catalog.lubricants import RUNNING_TEMPERATURE, find_lubricant
-from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.solids.counterweights import drawn_weights
@@ -35,6 +35,19 @@ if TYPE_CHECKING:
     from cqdd_design.solids.inertia import GearboxInertia
 
 
+class Cooling(NamedTuple):
+    """Stated thermal resistance from winding to ambient, K/W; 0 where it is computed.
+
+    Attributes
+    ----------
+    key : str
+        Of the design, that states it.
+    """
+
+    value: float
+    key: str
+
+
 @dataclass(frozen=True, eq=False)
 class Machine:
     """A design made concrete, from `resolve`.
@@ -50,7 +63,7 @@ class Machine:
     cam : Bearing
         The cam bearing.
     motor : Motor
-        The catalogue's row, or what a file says instead.
+        The catalogue's row, or what the design says instead.
     temperatures : PartTemperatures or None
         Of the parts, where they are not as drawn, at 20 deg C. Contacts, and what follows from
         them, are those of the warm parts; closed forms, solids and masses those of the drawing.
@@ -102,6 +115,14 @@ class Machine:
     def changed(self, changes: Mapping[str, Any]) -> Machine:
         """The machine with other values of some dotted keys, and the same bearing and motor."""
         return replace(self, design=self.design.replacing(changes))
+
+    @property
+    def cooling(self) -> Cooling:
+        """From winding to ambient, as the design's drive or its motor's data state it."""
+        stated = self.design.drive.thermal_resistance
+        if stated == 0.0 and "thermal_resistance" in self.motor.stated:
+            return Cooling(self.motor.thermal_resistance or 0.0, "motor.thermal_resistance")
+        return Cooling(stated, "drive.thermal_resistance")
 
     @cached_property
     def seats(self) -> tuple[ChosenBearing, ChosenBearing]:
@@ -205,12 +226,9 @@ class Machine:
 
         Of discs with more lobes than there is memory for, likewise.
         """
-        from cqdd_design.gearbox.bodies.made import elastic_bodies
+        from cqdd_design.gearbox.bodies.made import bodies_or_none
 
-        try:
-            return elastic_bodies(self.design)
-        except GeometryError:
-            return None
+        return bodies_or_none(self.design)
 
     @cached_property
     def friction(self) -> FrictionMachine:
@@ -246,7 +264,7 @@ def resolve(design: Design, motor: Motor | None = None) -> Machine:
     Parameters
     ----------
     motor : Motor, optional
-        Default the catalogue's row of the design's motor.
+        Default what the design says of its motor, over the catalogue's row.
 
     Raises
     ------
@@ -265,5 +283,5 @@ def resolve(design: Design, motor: Motor | None = None) -> Machine:
         given=design,
         design=named,
         cam=find_bearing(named.reducer.cam_bearing.designation),
-        motor=motor or find_motor(design.motor.name),
+        motor=motor or design.motor_row,
     )

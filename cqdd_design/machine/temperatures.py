@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +24,7 @@ from cqdd_design.machine.duty_heat import DutyHeat, duty_cases, duty_heat, logge
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.thermal_parts import (
     NODES,
+    Node,
     by_node,
     machine_network,
     node_values,
@@ -56,26 +57,28 @@ class TwoNodes(NamedTuple):
     housing_capacity: float
 
 
+@lru_cache(maxsize=2)
 def cooled_network(machine: Machine) -> ThermalNetwork:
-    """The machine's network; a resistance that its design states, winding to ambient, holds in it.
+    """The machine's network; a stated resistance, winding to ambient, holds in it.
 
-    A stated resistance holds with the winding at its limit by its own heat alone.
+    A stated resistance holds with the winding at its limit by its own heat alone. All actuators
+    that are drawn of a machine ask for it, so the last are kept.
 
     Raises
     ------
     GeometryError, DesignError
         As :func:`.thermal_parts.machine_network`.
     """
-    network, design = machine_network(machine), machine.design
-    if design.drive.thermal_resistance == 0.0:
+    network = machine_network(machine)
+    stated, most = machine.cooling.value, machine.motor.winding_most
+    if stated == 0.0:
         return network
-    rise = WINDING_MOST - network.ambient
-    watts = rise / design.drive.thermal_resistance
+    watts = (most - network.ambient) / stated
     heat = Heat.constant(node_values({"winding": watts}))
     w = NODES.index("winding")
 
     def warm(one: ThermalNetwork) -> bool:
-        return bool(one.steady(heat)[w] > WINDING_MOST)
+        return bool(one.steady(heat)[w] > most)
 
     best = scaled(network, _MOST_FACTOR)
     if not warm(best):
@@ -98,8 +101,9 @@ def _halved(too_small: Callable[[float], bool], least: float, most: float) -> fl
     return math.sqrt(least * most)
 
 
-def two_nodes(network: ThermalNetwork) -> TwoNodes:
-    """Winding and housing alone, surfaces as they are with the winding at its limit.
+@lru_cache(maxsize=2)
+def two_nodes(network: ThermalNetwork, most: float = WINDING_MOST) -> TwoNodes:
+    """Winding and housing alone, surfaces as they are with the winding at its limit (deg C).
 
     The heat of the winding takes both to the same steady temperatures as in the whole network, and
     leaves as much heat in either form: the housing's capacity stands for all other parts, each by
@@ -111,7 +115,7 @@ def two_nodes(network: ThermalNetwork) -> TwoNodes:
     def at(watts: float) -> FloatArray:
         return network.steady(one._replace(fixed=watts * one.fixed))
 
-    watts = _halved(lambda watts: bool(at(watts)[w] <= WINDING_MOST), *_WATTS)
+    watts = _halved(lambda watts: bool(at(watts)[w] <= most), *_WATTS)
     found = network.resistances(w, at(watts))
     rest = network.capacity * found
     return TwoNodes(
@@ -217,11 +221,13 @@ class MachineTemperatures:
     steady: FloatArray
     cycle: WarmCycle | None = None
 
-    @property
-    def winding(self) -> float:
-        """Greatest temperature of the winding, over a duty's cycle where there is one, deg C."""
-        settled = float(self.steady[NODES.index("winding")])
-        return settled if self.cycle is None else max(settled, self.cycle.winding[0])
+    def hottest(self, node: Node) -> float:
+        """Greatest temperature of a node, over a duty's cycle where there is one, deg C."""
+        k = NODES.index(node)
+        settled = float(self.steady[k])
+        if self.cycle is None:
+            return settled
+        return max(settled, float(self.cycle.temperature[:, k].max()))
 
     @cached_property
     def times(self) -> FloatArray:
@@ -344,7 +350,7 @@ def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
     housing = find_material(found.machine.design.housing.material).service_limit
     greased = max(("ring", "disc", "shaft", "carrier"), key=at.__getitem__)
     parts = (
-        WarmPart("winding", found.winding, WINDING_MOST),
+        WarmPart("winding", found.hottest("winding"), found.machine.motor.winding_most),
         WarmPart(f"grease at the {greased}", at[greased], GREASE_MOST),
         WarmPart("housing", at["housing"], HOUSING_MOST if housing is None else housing),
     )

@@ -38,14 +38,20 @@ class InertiaAndBalance:
     drive_peak: float | None = None
 
     @property
-    def torque_density(self) -> float:
-        """Peak torque over mass, N m/kg: the test bench's, on the same torque and mass."""
-        return self._counted[0] / self.bodies.inertia.mass
+    def torque_density(self) -> float | None:
+        """Peak torque over mass, N m/kg: the test bench's, on the same torque and mass.
+
+        None where the motor's mass is not known.
+        """
+        mass = self.bodies.inertia.whole_mass
+        return None if mass is None else self._counted[0] / mass
 
     @property
     def torque_density_scope(self) -> str:
         """Which torque it is, over which mass."""
         inertia = self.bodies.inertia
+        if inertia.whole_mass is None:
+            return f"the mass of {inertia.motor.name} is not known"
         return f"{self._counted[1]} over {inertia.mass:.4g} kg: {inertia.mass_scope}"
 
     @property

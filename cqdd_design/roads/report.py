@@ -84,6 +84,7 @@ def write_report(
     refuse_overwrite(target, force=force or path is None)
     progress("analysing loads and the planetary")
     machine = specimen.machine(design)
+    own_motor = (machine.motor.remark,) if machine.motor.remark else ()
     analysis = machine.analysis
     bodies, notes = weigh_if_possible(machine)
     with closing(start_drawing(machine)) if bodies else nullcontext() as drawing:
@@ -115,7 +116,7 @@ def write_report(
         provenance=provenance(design),
         comments={} if source is None else read_comments(source),
         bodies=bodies,
-        notes=(*specimen.remarks, *notes, *unsolved, *judged.warnings),
+        notes=(*own_motor, *specimen.remarks, *notes, *unsolved, *judged.warnings),
         verdict=judged,
         sizing=sizing,
         files=files,

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from cqdd_design.actuator.motor_file import MotorFile
 from cqdd_design.actuator.specimen import Specimen
-from cqdd_design.catalog.motors import find_motor
 from cqdd_design.design import Design, Requirements, save_design
+from cqdd_design.design.motor import MotorFile
+from cqdd_design.design.motor_row import row_over
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting import export, stages
 from cqdd_design.files import WrittenFile, atomic_path, describe_file, refuse_overwrite
@@ -63,7 +64,7 @@ def size_and_write(
         unless it has been edited since. Its stem names the design, and so the default places of
         exports and report.
     motor : MotorFile, optional
-        What a file says of the required motor instead of the catalogue.
+        What a file says of the required motor instead of the catalogue; the design says it too.
     ambient : float, optional
         Of the air round the actuator, deg C, written to the design.
     kinds : tuple of str
@@ -85,15 +86,19 @@ def size_and_write(
         refuse_overwrite(target, force=force)
     elif not force:
         _refuse_edited(target)
-    row = None
+    named, row = "motor" in requirements.model_fields_set, None
     if motor is not None:
         # Whoever gives a motor's data asks for that motor.
         requirements = requirements.model_copy(update={"motor": requirements.motor})
-        row = motor.row(find_motor(requirements.motor))
+        row = row_over(requirements.motor, motor, named=named)
     sizing = size(requirements, progress, motor=row, ambient=ambient)
     # Both are written to the file even where they equal their defaults.
-    design = sizing.design.replacing({"schema_version": 1, "name": target.stem})
-    specimen = Specimen(motor=motor)
+    own = {"schema_version": 1, "name": target.stem}
+    design = _duty_from(sizing.design.replacing(own), target.parent)
+    if motor is not None:
+        design = design.with_motor(requirements.motor if named else None, motor)
+        design = design if named else design.leaving("requirements.motor")
+    specimen = Specimen()
     files: tuple[WrittenFile, ...] = (_write_fresh(target, design),)
     machine = specimen.machine(design)
     judged = judge(machine, specimen, sensitivity=report, progress=progress)
@@ -114,6 +119,19 @@ def size_and_write(
         )
         files = (*files, written.file)
     return Road(sizing, design, files, judged)
+
+
+def _duty_from(design: Design, folder: Path) -> Design:
+    """The design with the file of its duty, found from the working folder, named from another."""
+    named = design.requirements.duty_file
+    if named is None:
+        return design
+    try:
+        place = Path(os.path.relpath(named, folder))
+    except ValueError:  # on another drive
+        place = Path(named).absolute()
+    log = design.requirements.duty_log
+    return design.replacing({"requirements.duty_file": place.as_posix()}).with_duty_log(log)
 
 
 def road_stages(kinds: tuple[str, ...], *, report: bool) -> int:
@@ -162,7 +180,6 @@ _TAKEN_OVER = {
     "reducer.ring_material": "ring_material",
     "reducer.output_pins.material": "pin_material",
     "reducer.ring.outer_diameter": "outer_diameter",
-    "motor.name": "motor",
 }
 
 
@@ -170,7 +187,7 @@ def _origins(design: Design) -> dict[str, str]:
     """A remark for every key of a sized design that is written: where its value comes from."""
     remarks = {}
     for key in design.dotted_keys():
-        if key.startswith("requirements.") or key == "environment.ambient":
+        if key.startswith(("requirements.", "motor.")) or key == "environment.ambient":
             remarks[key] = "given"
         elif key in _TAKEN_OVER:
             wanted = f"requirements.{_TAKEN_OVER[key]}"

@@ -46,8 +46,8 @@ def finish(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> 
     if not rotor_known:
         motor = evaluator.frame.motor.name
         warnings += (
-            f"motor '{motor}' has no rotor inertia in the catalogue, so the inertia at the input "
-            "is that of the gearbox alone.",
+            f"the rotor inertia of '{motor}' is not known, and so the reflected inertia is not "
+            "either.",
         )
     objective = Objective(
         score=float(points.objective[row]),
@@ -115,7 +115,8 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
         mapping["environment"] = {"ambient": frame.ambient}
     if "motor" in requirements.model_fields_set:
         mapping["motor"] = {"name": requirements.motor}
-    return Design.from_mapping(mapping, source="sizing", si=True)
+    design = Design.from_mapping(mapping, source="sizing", si=True)
+    return design.with_duty_log(requirements.duty_log)
 
 
 def _clean(length: float | np.floating[Any]) -> float:

@@ -245,21 +245,12 @@ def search_frame(
         disc_density=disc.density,
         ring_density=ring.density,
         pin_density=pin.density,
-        motor=_bare_motor(motor or find_motor(requirements.motor)),
+        motor=motor or find_motor(requirements.motor),
         pin_sizes=sizes,
         bearings=cam_bearings(requirements, most, spacing, sizes[0].mean_diameter),
         ambient=ambient,
         goal=goal,
     )
-
-
-def _bare_motor(motor: Motor) -> Motor:
-    if motor.torque_at != "motor":
-        raise InfeasibleError(
-            f"requirements.motor '{motor.name}' is a geared actuator, whose torque and inertia "
-            "count at its output; name a bare motor, such as 'CubeMars RO100 KV55'."
-        )
-    return motor
 
 
 def _template(requirements: Requirements) -> Design:

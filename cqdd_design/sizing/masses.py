@@ -2,8 +2,8 @@
 
 Counted: discs, ring (as long as the pack), shoulders of the output pins over their free span, cam
 bearings, and solid eccentrics in their bores. Housing, carrier plates and shaft ends are much the
-same for every candidate and left out. The inertia counts the motor's rotor where its catalogue row
-has one, because only what a candidate adds to it matters.
+same for every candidate and left out. The inertia counts the motor's rotor, because only what a
+candidate adds to it matters.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Weights:
     gearbox_inertia : array
         At the crank, without the rotor, kg m^2.
     reflected_inertia : array
-        At the crank, with the rotor where its inertia is known, kg m^2.
+        At the crank, with the rotor, kg m^2; nan where the rotor's is not known.
     """
 
     mass: FloatArray
@@ -93,6 +93,5 @@ def weigh(
     orbiting = (disc + half_bearing) * e * e
     spinning = (disc_spin + half_bearing * seat * seat) / n2
     inertia = discs * (turning + orbiting + spinning) + pins * circle * circle / n2
-    # An unknown rotor is left out here and the result says so (`SizingResult.warnings`).
-    turned = inertia if frame.rotor_inertia is None else inertia + frame.rotor_inertia
+    turned = inertia + (np.nan if frame.rotor_inertia is None else frame.rotor_inertia)
     return Weights(np.asarray(mass), np.asarray(inertia), np.asarray(turned))

@@ -25,7 +25,7 @@ class Objective:
     gearbox_inertia : float
         Of the same parts at the crank, kg m^2.
     reflected_inertia : float or None
-        With the motor's rotor; None where the catalogue has no inertia of it.
+        With the motor's rotor; None where its inertia is not known.
     torque_reserve : float
         Factor by which both required torques could grow until a check is on its limit.
     binding : str
@@ -46,7 +46,8 @@ class Objective:
     @property
     def scope(self) -> str:
         """What masses and inertias count."""
-        rotor = "" if self.reflected_inertia is None else "; inertia with the motor's rotor"
+        known = self.reflected_inertia is not None
+        rotor = "; inertia with the motor's rotor" if known else "; inertia unknown, as the rotor's"
         return f"{SCOPE}{rotor}"
 
     def to_dict(self) -> dict[str, object]:

@@ -153,19 +153,24 @@ class GearboxInertia:
 
     @property
     def rotor_inertia(self) -> float | None:
-        """Of the bare motor, kg m^2; None where it is not known, as of a geared actuator."""
-        return self.motor.rotor_inertia if self.motor.torque_at == "motor" else None
+        """Of the motor as its data have it, kg m^2; None where they do not say."""
+        return self.motor.rotor_inertia
 
     @property
     def motor_by_catalogue(self) -> float | None:
-        """Mass of a bare motor that is not drawn, kg; None where it is drawn or not known."""
-        absent = self.motor_missing and self.motor.torque_at == "motor"
-        return self.motor.mass if absent else None
+        """Mass of a motor that is not drawn, kg; None where it is drawn or not known."""
+        return self.motor.mass if self.motor_missing else None
 
     @property
     def mass(self) -> float:
         """Mass of the actuator as far as it is known, kg: `mass_scope` says how far."""
         return self.total.mass + (self.motor_by_catalogue or 0.0)
+
+    @property
+    def whole_mass(self) -> float | None:
+        """Mass of the actuator with its motor, kg; None where the motor's is not known."""
+        unknown = self.motor_missing and self.motor_by_catalogue is None
+        return None if unknown else self.mass
 
     @property
     def mass_scope(self) -> str:
@@ -196,7 +201,7 @@ class GearboxInertia:
             return f"rotor by its catalogue, {ROTOR_SCOPE}, and gearbox as drawn"
         if self.rotor_drawn > 0.0:
             return f"rotor, {ROTOR_SCOPE}, and gearbox as drawn"
-        return f"{self.crank_scope}, whose inertia is not known"
+        return f"not known: neither is the inertia of the rotor of {self.motor.name}"
 
     @property
     def rotor_drawn(self) -> float:
@@ -209,9 +214,10 @@ class GearboxInertia:
         return sum(part.reflected for part in self.parts if part.name not in ROTOR_PARTS)
 
     @property
-    def reflected_input(self) -> float:
-        """Inertia at the input, rotor included where it is known, kg m^2."""
-        return self.gearbox_reflected + (self.rotor_drawn or self.rotor_inertia or 0.0)
+    def reflected_input(self) -> float | None:
+        """Inertia at the input, rotor included, kg m^2; None where the rotor's is not known."""
+        rotor = self.rotor_drawn or self.rotor_inertia
+        return self.gearbox_reflected + rotor if rotor else None
 
     @property
     def group_masses(self) -> dict[str, float]:
@@ -222,19 +228,19 @@ class GearboxInertia:
         return {name: mass for name, mass in masses.items() if mass > 0.0}
 
     @property
-    def group_inertias(self) -> dict[str, float]:
-        """Share of every group in the inertia at the input, kg m^2."""
+    def group_inertias(self) -> dict[str, float | None]:
+        """Share of every group in the inertia at the input, kg m^2; None of a rotor not known."""
         shares = dict.fromkeys(self.group_masses, 0.0)
-        if self.motor_missing and self.rotor_inertia is not None:
-            shares["motor"] = self.rotor_inertia
         for part in self.parts:
             shares[group_of(part.name)] += part.reflected
-        return shares
+        if not self.motor_missing:
+            return {**shares}
+        return {**shares, **({"motor": self.rotor_inertia} if "motor" in shares else {})}
 
     @property
-    def reflected_output(self) -> float:
+    def reflected_output(self) -> float | None:
         """Inertia at the output, n^2 times that at the input, kg m^2."""
-        return self.ratio**2 * self.reflected_input
+        return None if self.reflected_input is None else self.ratio**2 * self.reflected_input
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -244,8 +250,13 @@ class GearboxInertia:
             found.append(f"the motor is not drawn: {self.motor_missing}. Mass: {self.mass_scope}.")
         if self.rotor_inertia is None:
             found.append(
-                f"the catalogue has no rotor inertia for {self.motor.name}; the reflected inertia "
-                "is that of the gearbox alone."
+                f"the rotor inertia of {self.motor.name} is not known; "
+                + (
+                    "that of the rotor as drawn is used."
+                    if self.rotor_drawn > 0.0
+                    else "the reflected inertia is not either: give rotor_inertia in [motor] or "
+                    "with --motor-file, or name a motor that has it."
+                )
             )
         return tuple(found)
 
@@ -253,7 +264,7 @@ class GearboxInertia:
         """The JSON form (``results`` of ``inertia``, without ``balance``)."""
         return {
             "parts": [part.to_dict() for part in self.parts],
-            "total_mass_kg": self.mass,
+            "total_mass_kg": self.whole_mass,
             "total_mass_scope": self.mass_scope,
             "drawn_mass_kg": self.total.mass,
             "motor_mass_from_catalogue_kg": self.motor_by_catalogue,

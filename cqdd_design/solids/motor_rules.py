@@ -52,8 +52,8 @@ def drawn_motor(motor: Motor) -> tuple[Motor | None, str]:
         motor.slot_depth,
         motor.mass,
     )
-    if motor.torque_at != "motor" or any(size is None for size in sizes):
-        return None, f"the catalogue has no sizes of rotor and stator for {motor.name}"
+    if any(size is None for size in sizes):
+        return None, f"the sizes of rotor and stator of {motor.name} are not all known"
     return motor, ""
 
 

@@ -147,9 +147,9 @@ POWER = Dimension("power", "W", "power", (("W", 1.0), ("kW", 1e3)))
 TORQUE_CONSTANT = Dimension(
     "torque constant",
     "N*m/A",
-    "force*length/current",
-    (("N*m/A", 1.0), ("mN*m/A", 1e-3)),
-    "volts over speed are the same number as N*m/A in SI",
+    "force*length/current or voltage*time/angle or voltage/rotational_speed",
+    (("N*m/A", 1.0), ("mN*m/A", 1e-3), ("V*s/rad", 1.0), ("V/krpm", 1e-3 / (_TURN / 60.0))),
+    "it is a torque over a current, or a voltage over a speed",
 )
 SPEED_CONSTANT = Dimension(
     "speed constant",

@@ -60,7 +60,7 @@ def _kind(unit: str, registry: UnitRegistry[Any]) -> str:
     angles = {"radian", "degree", "arcminute", "arcsecond", "turn", "milliradian", "microradian"}
     if quantity.dimensionless:
         return "angle" if unit in angles or unit in {"revolution", "grade"} else "number"
-    if unit in {"revolutions_per_minute", "revolutions_per_second"}:
+    if unit.endswith(("revolutions_per_minute", "revolutions_per_second")):
         return "rotational_speed"
     kinds = {
         "[length]": "length",

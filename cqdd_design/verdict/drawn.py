@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
@@ -19,6 +21,7 @@ LEAST_SAMPLES = 128
 """Gearboxes drawn of a design with many teeth, whose turn takes many angles."""
 _ANGLES = 1000
 """About so many crank angles of the output turn for each gearbox."""
+_ARCMIN = math.degrees(1.0) * 60.0
 _PER_TOOTH = 8, 2
 """Crank angles for each tooth, at the continuous torque and at the peak: greatest loads alone."""
 _RING = ("CONTACT-RING-PEAK", "CONTACT-RING-CONTINUOUS")
@@ -105,6 +108,11 @@ def good_gearboxes(
         "cam load over the life": lasts["cam_bearing_load_max_N"]
         > load * perfect["cam_bearing_load_max_N"],
     }
+    asked = machine.design.requirements
+    if asked.backlash is not None:
+        fails["backlash"] = lasts["backlash_arcmin"] > asked.backlash * _ARCMIN
+    if asked.stiffness is not None:
+        fails["stiffness"] = lasts["stiffness_Nm_per_arcmin"] < asked.stiffness / _ARCMIN
     at_peak = {
         "ring pressure at the peak": bears["ring_pressure_max_MPa"] > yields,
         "cam load at the peak": bears["cam_bearing_load_max_N"] > static,
@@ -114,6 +122,23 @@ def good_gearboxes(
         drawn.peak.numbers[~np.any(list(at_peak.values()), axis=0)],
     )
     return good, {name: int(beyond.sum()) for name, beyond in (fails | at_peak).items()}
+
+
+def loads_at_peak(machine: Machine, drawn: Drawn, share: float) -> dict[str, float]:
+    """What a share of the gearboxes has at most at the peak torque, over the limits, by check.
+
+    Pressure at the ring, and load of the cam bearing.
+    """
+    cam, reducer = machine.analysis.cam_bearing, machine.design.reducer
+    steels = (find_material(reducer.disc_material), find_material(reducer.ring_material))
+    yields = allowables.weaker(*(allowables.contact_limit_static(one) for one in steels)).value
+    static = (cam.bearing.static_rating or 0.0) / allowables.STATIC_SAFETY
+    found = _columns(drawn.peak)
+    return {
+        "CONTACT-RING-PEAK": float(np.quantile(found["ring_pressure_max_MPa"], share))
+        / (yields / 1e6),
+        "BEARING-STATIC": float(np.quantile(found["cam_bearing_load_max_N"], share)) / static,
+    }
 
 
 def _columns(drawn: ToleranceResult) -> dict[str, NDArray[np.float64]]:
@@ -149,4 +174,6 @@ _CURES = {
     "ring": "closer [tolerances] of teeth and profile, or more reserve of pressure (thicker discs, "
     "harder material)",
     "cam": "closer [tolerances], more clearance, or a larger cam bearing",
+    "backlash": "smaller clearances with closer [tolerances]",
+    "stiffness": "smaller clearances, or thicker or more output_pins",
 }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cqdd_design.errors import ContactError, GeometryError
 from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS
@@ -59,11 +59,16 @@ def headline(evidence: Evidence, lines: Sequence[Check]) -> tuple[Figure, ...]:
         _peak(machine, by_id["MOTOR-PEAK"], lines),
         _of_line("continuous_torque", "continuous torque", by_id["MOTOR-CONTINUOUS"]),
         _life(machine, by_id),
-        _backlash(evidence),
-        _efficiency(machine),
+        _asked(backlash(evidence), by_id.get("BACKLASH")),
+        _asked(efficiency(machine), by_id.get("EFFICIENCY")),
         _of_line("temperature", "temperature", by_id["THERMAL-RISE"]),
-        _mass(machine),
+        _asked(mass(machine), by_id.get("MASS")),
     )
+
+
+def _asked(figure: Figure, line: Check | None) -> Figure:
+    """A figure with what its line asks, where one does."""
+    return figure if line is None else replace(figure, required=line.limit, status=line.status)
 
 
 def _of_line(name: str, title: str, line: Check) -> Figure:
@@ -108,7 +113,8 @@ def _life(machine: Machine, by_id: dict[str, Check]) -> Figure:
     return Figure("life", "life", shown, "h", life.required_hours, status, basis)
 
 
-def _backlash(evidence: Evidence) -> Figure:
+def backlash(evidence: Evidence) -> Figure:
+    """Of the drawn gearboxes."""
     drawn = evidence.drawn and evidence.drawn.continuous
     title, basis = "backlash of 95 % of the gearboxes", "gearboxes drawn from the tolerances"
     if drawn is None or not len(drawn.values):
@@ -117,7 +123,7 @@ def _backlash(evidence: Evidence) -> Figure:
     return Figure("backlash_p95", title, value, "arcmin", None, "pass", basis)
 
 
-def _efficiency(machine: Machine) -> Figure:
+def efficiency(machine: Machine) -> Figure:
     """Work out over work in while the motor drives, over the duty."""
     name, title, basis = "efficiency", "efficiency of the gearbox", "losses by the equilibrium"
     try:
@@ -137,18 +143,19 @@ def _efficiency(machine: Machine) -> Figure:
     return Figure(name, title, given / taken, "", None, "pass", f"{basis}, over the duty")
 
 
-def _mass(machine: Machine) -> Figure:
+def mass(machine: Machine) -> Figure:
+    """Of the actuator, as far as it is known."""
     try:
         inertia = machine.inertia
     except GeometryError as error:
         return Figure("mass", "mass", None, "kg", None, "unknown", error.message)
-    known = not inertia.motor_missing or inertia.motor_by_catalogue is not None
+    whole = inertia.whole_mass
     return Figure(
         "mass",
         "mass",
-        inertia.mass if known else None,
+        whole,
         "kg",
         None,
-        "pass" if known else "unknown",
+        "unknown" if whole is None else "pass",
         inertia.mass_scope,
     )

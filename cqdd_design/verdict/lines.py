@@ -17,6 +17,7 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
+from cqdd_design.verdict.asked import asked_lines
 from cqdd_design.verdict.drawn import yield_line
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.motor import motor_lines
@@ -45,7 +46,8 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         evidence.actuator_missing,
         cooling_known=evidence.temperatures is not None,
     )
-    return (*lines, yield_line(machine, evidence.drawn, evidence.drawn_missing, lines))
+    drawn = yield_line(machine, evidence.drawn, evidence.drawn_missing, lines)
+    return (*lines, drawn, *asked_lines(evidence))
 
 
 def _carried(machine: Machine) -> dict[str, Check]:

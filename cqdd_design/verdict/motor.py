@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 
 from cqdd_design.actuator.demands import Demand, demands
+from cqdd_design.actuator.duty_points import DutyPoints, duty_points
 from cqdd_design.actuator.motor import torque_constant_at
 from cqdd_design.actuator.operating import envelope_torque, held_torque
 from cqdd_design.actuator.parameters import ActuatorParameters
@@ -61,6 +62,8 @@ def motor_lines(
         _speed(actuator, asked),
         _bore(machine),
     ]
+    if asked.duty_log is not None:
+        return (*lines, _logged(duty_points(actuator, asked.duty_log)))
     return (*lines, _duty(duty)) if duty else tuple(lines)
 
 
@@ -118,7 +121,9 @@ def _continuous(demand: Demand, actuator: ActuatorParameters, asked: Requirement
 
 
 def _speed(actuator: ActuatorParameters, asked: Requirements) -> Check:
-    fastest = _fastest(actuator, asked.continuous_torque)
+    # Where the continuous torque has a speed of its own, it is judged there.
+    torque = asked.continuous_torque if asked.continuous_speed is None else 0.0
+    fastest = _fastest(actuator, torque)
     share = asked.input_speed / fastest if fastest > 0.0 else math.inf
     volts = actuator.drive.supply_voltage
     cures = [f"raise motor.voltage to about {volts * share:.3g} V"] if share < 10.0 else []
@@ -128,8 +133,7 @@ def _speed(actuator: ActuatorParameters, asked: Requirements) -> Check:
         "MOTOR-SPEED",
         fastest * _RPM,
         asked.input_speed * _RPM,
-        f"{volts:g} V drive {asked.continuous_torque:g} N*m up to {fastest * _RPM:.0f} rpm, "
-        "winding hot",
+        f"{volts:g} V drive {torque:g} N*m up to {fastest * _RPM:.0f} rpm, winding hot",
         ", or ".join(cures) or "take a stronger motor or more ratio",
         model=MODEL,
     )
@@ -168,6 +172,11 @@ def _bore(machine: Machine) -> Check:
     return replace(screened, severity="fail")
 
 
+def _logged(found: DutyPoints) -> Check:
+    """Rows of a duty over time."""
+    return _envelope(found.outside, found.told)
+
+
 def _duty(steps: list[Demand]) -> Check:
     outside = [step for step in steps if not step.found.inside]
     told = "; ".join(
@@ -176,11 +185,15 @@ def _duty(steps: list[Demand]) -> Check:
         for b in [step.found.binding]
     )
     more = f" and {len(outside) - 3} more" if len(outside) > 3 else ""
+    return _envelope(len(outside), f"{told}{more}" or f"all {len(steps)} steps are inside")
+
+
+def _envelope(outside: int, told: str) -> Check:
     return build_check(
         "DUTY-ENVELOPE",
-        float(len(outside)),
+        float(outside),
         0.0,
-        f"{told}{more}" or f"all {len(steps)} steps are inside",
+        told,
         "lower torque or speed of these steps, raise motor.voltage or motor.current_limit, or "
         "take a stronger motor",
         model=MODEL,

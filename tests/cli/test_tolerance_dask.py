@@ -22,7 +22,7 @@ from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble  
 from cqdd_design.sizing.distributed import dask_client, on_cluster  # noqa: E402
 
 DESIGN = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
-SAMPLES, ANGLES = 600, 220
+SAMPLES, ANGLES = 600, 110
 
 pytestmark = pytest.mark.deep
 

@@ -616,13 +616,13 @@ def test_without_a_bench_there_are_no_sections(paper_input: ReportInput) -> None
 
 def test_a_motor_that_cannot_be_simulated_leaves_a_sentence(design: Design) -> None:
     mapping = design.to_mapping()
-    mapping["motor"]["name"] = "CubeMars AK10-9 V2 KV60"
-    geared = Design.from_mapping(mapping)
-    found, missing = measured_actuator(resolve(geared))
+    mapping["motor"]["name"] = "VT8020"
+    unknown = Design.from_mapping(mapping)
+    found, missing = measured_actuator(resolve(unknown))
     assert found is None
-    assert "is a geared actuator" in missing
-    page = page_of(report_input(geared), missing=missing)
-    assert "is a geared actuator" in section(page, "actuator")
+    assert "the resistance of VT8020 is not known" in missing
+    page = page_of(report_input(unknown), missing=missing)
+    assert "the resistance of VT8020 is not known" in section(page, "actuator")
     assert 'href="#actuator"' in page
     assert 'href="#bench"' not in page
     assert 'id="bench"' not in page

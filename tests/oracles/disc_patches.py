@@ -37,6 +37,7 @@ class DiscPatches:
         turned: complex = 1.0,
     ) -> None:
         self.shape, self.ids, self.half_width = shape, list(ids), half_width
+        self._moved: dict[Hold, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
         outline, places, plate = shape.outline, shape.places(), shape.plate
         R = shape.bearing.outer
 
@@ -81,6 +82,11 @@ class DiscPatches:
 
     def moved(self, hold: Hold) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Balanced forces (nodes, N), what they move, and what the rigid disc on springs adds."""
+        if hold not in self._moved:
+            self._moved[hold] = self._solved(hold)
+        return self._moved[hold]
+
+    def _solved(self, hold: Hold) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         R, edge = self.shape.bearing.outer, len(self.mesh.edges) - 1
         length = 2.0 * np.pi * R
         even = [

@@ -88,9 +88,9 @@ def test_a_motor_of_unknown_mass_is_left_out_and_said() -> None:
     inertia = resolve(WIDE, row).inertia
     assert inertia.mass == inertia.total.mass
     assert "without the motor" in inertia.mass_scope
-    geared = resolve(PAPER.replacing({"motor.name": "CubeMars AK10-9 V2 KV60"})).inertia
-    assert geared.motor_by_catalogue is None
-    assert "without the motor" in geared.mass_scope
+    assert inertia.whole_mass is None
+    assert inertia.to_dict()["total_mass_kg"] is None
+    assert resolve(PAPER).inertia.whole_mass == resolve(PAPER).inertia.mass
 
 
 def test_torque_density_counts_no_more_than_is_asked_and_no_more_than_there_is() -> None:

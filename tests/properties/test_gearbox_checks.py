@@ -381,9 +381,6 @@ def test_a_motor_without_data_is_said_not_guessed() -> None:
     assert (lacking.value, lacking.limit, lacking.status) == (1.0, 4.0, "warn")
     assert "no peak torque, no rated torque, no stator bore" in lacking.substituted
     assert worst_status(analysis.checks) == "warn"
-    geared = resolve(SOUND.replacing({"motor.name": "CubeMars AK80-9 V3"})).analysis
-    assert any("geared actuator" in words for words in geared.warnings)
-    assert (by_id(geared)["MOTOR-DATA"].value, worst_status(geared.checks)) == (0.0, "warn")
 
 
 def test_disc_count_rule_and_balance() -> None:

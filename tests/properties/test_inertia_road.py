@@ -26,7 +26,8 @@ def test_weights_of_the_stated_moment_at_both_ends_balance_the_stack(discs: int)
     b, s, e, mass, speed = reducer.disc_thickness, reducer.disc_spacing, 1.6e-3, 0.1, 130.0
     found = stack_balance(mass, e, b, s, discs, speed)
     bodies = SimpleNamespace(
-        balance={discs: found}, inertia=SimpleNamespace(to_dict=dict, mass=1.0, mass_scope="")
+        balance={discs: found},
+        inertia=SimpleNamespace(to_dict=dict, mass=1.0, whole_mass=1.0, mass_scope=""),
     )
     document = InertiaAndBalance(resolve(PAPER), bodies, 2).to_dict()  # type: ignore[arg-type]
     moment = document["balance"]["by_disc_count"][str(discs)]["counterweight_each_end_kgm"]

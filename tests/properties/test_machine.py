@@ -7,9 +7,8 @@ from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from cqdd_design.actuator.motor_file import MotorFile
-from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.design import Design
+from cqdd_design.design.motor import MotorFile
 from cqdd_design.errors import DesignError, GeometryError
 from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.geometry.cycloid import CycloidDisc
@@ -119,16 +118,23 @@ def test_a_report_needs_one_disc(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(built) == len(set(built))
 
 
-OWN = MotorFile(
-    "rewound", {"rotor_inertia": 2e-4, "mass": 0.9, "peak_torque": 3.0, "rated_torque": 1.0}, "m"
+OWN = MotorFile.from_mapping(
+    {
+        "name": "rewound",
+        "rotor_inertia": 2e-4,
+        "mass": 0.9,
+        "peak_torque": 3.0,
+        "rated_torque": 1.0,
+    },
+    si=True,
 )
 
 
 def test_a_motor_of_a_file_is_the_machine_s() -> None:
     given_one = design(ring={"outer_diameter": "72 mm"})
-    usual, own = resolve(given_one), Specimen(motor=OWN).machine(given_one)
+    usual, own = resolve(given_one), resolve(given_one.with_motor(motor=OWN))
     assert own.motor.name == "rewound"
-    assert own.given.sha256 == given_one.sha256
+    assert own.given.motor.based_on == given_one.motor.name
     assert own.motor.outer_diameter == usual.motor.outer_diameter
     bodies = weigh(own)
     assert bodies.inertia.rotor_inertia == 2e-4
@@ -140,7 +146,7 @@ def test_a_motor_of_a_file_is_the_machine_s() -> None:
 
 
 def test_a_motor_of_a_file_is_judged_as_one_that_was_asked_for() -> None:
-    checks = {one.id: one for one in Specimen(motor=OWN).machine(design()).analysis.checks}
+    checks = {one.id: one for one in resolve(design().with_motor(motor=OWN)).analysis.checks}
     assert checks["MOTOR-PEAK"].value == pytest.approx(3.0 * 12 * 0.88)
     assert checks["MOTOR-PEAK"].status == "fail"
     usual = {one.id: one for one in resolve(design()).analysis.checks}

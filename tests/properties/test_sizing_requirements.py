@@ -12,8 +12,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.catalog import find_material
-from cqdd_design.design import Requirements
-from cqdd_design.errors import InfeasibleError
+from cqdd_design.design import Requirements, requirements_from_mapping
+from cqdd_design.errors import DesignError, InfeasibleError
 from cqdd_design.machine import resolve
 from cqdd_design.results import worst_status
 from cqdd_design.sizing import SizingInfeasibleError, size
@@ -221,10 +221,15 @@ def test_a_motor_asked_for_must_be_enough():
 def test_a_motor_without_data_is_named_and_its_inertia_is_not_zero():
     """What the catalogue does not know is said in words and is no number."""
     found = sized(ratio=10, motor="T-Motor U8 KV150")
-    assert any("no rotor inertia" in words for words in found.warnings)
+    assert any(
+        "rotor inertia of 'T-Motor U8 KV150' is not known" in words for words in found.warnings
+    )
     assert any("no peak torque" in words for words in found.warnings)
     assert found.objective.reflected_inertia is None
     assert found.objective.to_dict()["reflected_inertia_kgm2"] is None
+    # What no reflected inertia is known of is weighed by mass alone, never with a rotor of none.
+    assert found.objective.score == pytest.approx(found.objective.mass)
+    assert found.objective.to_dict()["weighting"] == {"mass": 1.0, "reflected_inertia": 0.0}
     assert worst_status(found.checks) == "warn"
     known = sized(ratio=10)
     assert known.warnings == ()
@@ -232,8 +237,8 @@ def test_a_motor_without_data_is_named_and_its_inertia_is_not_zero():
 
 
 def test_a_geared_actuator_is_no_motor():
-    with pytest.raises(InfeasibleError, match=r"requirements.motor .* is a geared actuator"):
-        sized(ratio=10, motor="CubeMars AK80-9 V3")
+    with pytest.raises(DesignError, match=r"motor = 'CubeMars AK80-9 V3': .* geared actuator"):
+        requirements_from_mapping({"ratio": 10, "motor": "CubeMars AK80-9 V3"})
 
 
 def test_what_was_not_stated_stays_assumed():

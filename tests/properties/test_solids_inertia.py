@@ -157,18 +157,14 @@ def test_a_motor_without_rotor_inertia_is_told() -> None:
     design = known_design("paper").replacing({"motor.name": "CubeMars R100 KV90"})
     found = resolve(design).inertia
     assert found.rotor_inertia is None
-    assert found.reflected_input == found.gearbox_reflected
-    assert "no sizes of rotor and stator for CubeMars R100 KV90" in found.warnings[0]
-    assert "no rotor inertia for CubeMars R100 KV90" in found.warnings[1]
+    assert found.reflected_input is found.reflected_output is None
+    assert found.to_dict()["reflected_inertia_input_kgm2"] is None
+    assert found.gearbox_reflected > 0.0
+    assert found.group_inertias["motor"] is None
+    assert "of rotor and stator of CubeMars R100 KV90 are not all known" in found.warnings[0]
+    assert "rotor inertia of CubeMars R100 KV90 is not known" in found.warnings[1]
+    assert "not known" in found.inertia_scope
     assert resolve(known_design("paper")).inertia.warnings == ()
-
-
-def test_the_rotor_of_a_geared_actuator_is_none_of_a_bare_motor() -> None:
-    geared = "CubeMars AK10-9 V2 KV60"
-    assert find_motor(geared).rotor_inertia is not None
-    found = resolve(known_design("paper").replacing({"motor.name": geared})).inertia
-    assert found.rotor_inertia is None
-    assert found.reflected_input == found.gearbox_reflected
 
 
 def test_the_eccentrics_take_part_in_the_balance() -> None:

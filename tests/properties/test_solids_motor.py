@@ -113,7 +113,10 @@ def test_the_magnet_is_flush_and_the_sensor_near_it() -> None:
 @pytest.mark.parametrize(
     ("changes", "why"),
     [
-        ({"motor.name": "CubeMars R100 KV90"}, "no sizes of rotor and stator"),
+        (
+            {"motor.name": "CubeMars R100 KV90"},
+            "sizes of rotor and stator of CubeMars R100",
+        ),
         ({"reducer.ring.outer_diameter": 76e-3}, "it may be 71.89 mm"),
     ],
 )

@@ -205,40 +205,68 @@ def test_strengths_that_the_catalogue_lacks_are_unknown() -> None:
     assert "no contact fatigue" in lines["CONTACT-RING-CONTINUOUS"].substituted
 
 
-def test_a_gearbox_counts_where_it_does_not_bind_and_stays_within_reserves(
+def test_a_gearbox_counts_where_it_does_not_bind_and_stays_within_limits(
     machine: Machine, judged: Verdict
 ) -> None:
     drawn, lines = judged.evidence.drawn, judged.lines
     assert drawn is not None
-    assert len(drawn.values) + drawn.lost == SAMPLES
-    # Lines with ample reserve leave binding alone, and none at all leaves nothing.
-    named = ("CONTACT-RING-PEAK", "CONTACT-RING-CONTINUOUS", "BEARING-STATIC", "BEARING-LIFE")
+    for one, torque in zip(drawn, (14.0, 50.0), strict=True):
+        assert one.ensemble.torque == torque
+        assert len(one.values) + one.lost == SAMPLES
+    lasts, bears = (dict(zip(OUTPUTS, one.values.T, strict=True)) for one in drawn)
 
-    def with_margin(margin: float) -> tuple[Check, ...]:
-        return tuple(
-            replace(line, value=1.0 if line.sense == "max" else margin)
-            if line.id in named and line.sense == "min"
-            else line
-            for line in (
-                replace(one, limit=margin, value=1.0)
-                if one.id in named and one.sense == "max"
-                else replace(one, limit=1.0)
-                if one.id in named
-                else one
-                for one in lines
-            )
-        )
+    def with_margin(names: dict[str, float]) -> tuple[Check, ...]:
+        """Lines with some margins: the limit moves, the value stays."""
+        changed = []
+        for line in lines:
+            margin = names.get(line.id)
+            if margin is not None:
+                value, _ = line.compared
+                limit = value * margin if line.sense == "max" else value / margin
+                line = replace(line, limit=limit)
+            changed.append(line)
+        return tuple(changed)
 
-    ample = good_gearboxes(machine, drawn, with_margin(1e3))
-    assert ample is not None
-    torque = drawn.values[:, OUTPUTS.index("unloaded_torque_Nm")]
-    assert np.array_equal(ample[0], torque <= 0.05 * 14.0)
-    none = good_gearboxes(machine, drawn, with_margin(0.5))
-    assert none is not None
-    assert not none[0].any()
-    line = yield_line(machine, replace(drawn, lost=SAMPLES), "", with_margin(1e3))
-    assert line.value == pytest.approx(100.0 * ample[0].sum() / (len(ample[0]) + SAMPLES))
-    unsure = tuple(replace(one, value=None) if one.id == named[0] else one for one in lines)
+    def good(**margins: float) -> set[int]:
+        named = {
+            "CONTACT-RING-PEAK": margins.get("peak", 1e3),
+            "CONTACT-RING-CONTINUOUS": margins.get("lasting", 1e3),
+            "BEARING-LIFE": margins.get("cam", 1e9),
+        }
+        found = good_gearboxes(machine, drawn, with_margin(named))
+        assert found is not None
+        return set(found[0].tolist())
+
+    rating = machine.cam.static_rating
+    assert rating is not None
+    static = bears["cam_bearing_load_max_N"] <= rating
+    loose = lasts["unloaded_torque_Nm"] <= 0.05 * 14.0
+    free = set(drawn.continuous.numbers[loose]) & set(drawn.peak.numbers[static])
+    assert good() == free
+    assert 0 < len(free) < SAMPLES
+    perfect = machine.loaded_contacts.greatest(14.0)
+    middle = float(np.median(lasts["ring_pressure_max_MPa"]))
+    within = lasts["ring_pressure_max_MPa"] <= middle
+    half = good(lasting=middle / perfect["ring_pressure_max_MPa"] * (1.0 + 1e-9))
+    assert half == free & set(drawn.continuous.numbers[within])
+    cam = float(np.median(lasts["cam_bearing_load_max_N"]))
+    soft = lasts["cam_bearing_load_max_N"] <= cam
+    exponent = machine.analysis.cam_bearing.exponent
+    share = (cam / perfect["cam_bearing_load_max_N"]) ** exponent
+    assert good(cam=share * (1.0 + 1e-9)) == free & set(drawn.continuous.numbers[soft])
+    at_peak = float(np.median(bears["ring_pressure_max_MPa"]))
+    own = by_id(lines)["CONTACT-RING-PEAK"].value
+    assert own is not None
+    mild = bears["ring_pressure_max_MPa"] <= at_peak
+    assert good(peak=at_peak / own * (1.0 + 1e-9)) == free & set(drawn.peak.numbers[mild])
+    jammed = drawn._replace(continuous=replace(drawn.continuous, lost=SAMPLES))
+    whole, less = (yield_line(machine, one, "", lines).value for one in (drawn, jammed))
+    count = len(drawn.continuous.values) + drawn.continuous.lost
+    assert whole is not None
+    assert less == pytest.approx(whole * count / (len(drawn.continuous.values) + SAMPLES))
+    unsure = tuple(
+        replace(one, value=None) if one.id == "CONTACT-RING-PEAK" else one for one in lines
+    )
     assert yield_line(machine, drawn, "", unsure).status == "unknown"
 
 

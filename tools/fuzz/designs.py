@@ -8,6 +8,7 @@ from typing import Any, get_args
 from cqdd_design.catalog import bearings, materials, motors
 from cqdd_design.design import Design
 from cqdd_design.design.fields import Share, Whole
+from cqdd_design.design.motor import MotorData
 from cqdd_design.units import QuantityIn
 
 #: What nobody should type, and somebody will.
@@ -33,7 +34,10 @@ def _rules() -> dict[str, Any]:
                 rule = next(
                     (m for m in info.metadata if isinstance(m, QuantityIn | Whole | Share)), None
                 )
-                found[f"{prefix}{name}"] = rule or (info.annotation, name)
+                kinds = [one for one in get_args(info.annotation) if one is not type(None)]
+                optional = len(kinds) == 1 and len(get_args(info.annotation)) == 2
+                kind = kinds[0] if optional else info.annotation
+                found[f"{prefix}{name}"] = rule or (kind, name)
 
     walk(Design, "")
     return found
@@ -65,8 +69,9 @@ def allowed(draw: random.Random, key: str) -> str:
         return _quoted(draw.choice(list(materials())))
     if name == "designation":
         return _quoted(draw.choice(["auto", *bearings()]))
-    if name == "motor" or (name == "name" and key.startswith("motor")):
-        return _quoted(draw.choice(list(motors())))
+    if name in ("motor", "based_on") or (name == "name" and key.startswith("motor")):
+        bare = [name for name, one in motors().items() if one.torque_at == "motor"]
+        return _quoted(draw.choice(bare))
     return f'"{draw.choice(_RARE_TEXT)}"' if draw.random() < 0.3 else '"something"'
 
 
@@ -104,6 +109,8 @@ def sensible(draw: random.Random) -> dict[str, str]:
     return values
 
 
+_OF_MOTOR = {f"motor.{name}" for name in MotorData.model_fields if name != "name"}
+
 #: Keys that may be anything in their range and leave most designs possible.
 CALM = [
     key
@@ -115,6 +122,7 @@ CALM = [
     )
     # These go together.
     and not key.startswith("reducer.carrier.")
+    and key not in _OF_MOTOR
 ]
 
 

@@ -120,17 +120,22 @@ def _crafted(draw: random.Random, body: bytes) -> bytes:
 
 def motor_file(draw: random.Random) -> bytes:
     """A motor file."""
-    from cqdd_design.actuator.motor_file import QUANTITIES, WHOLE, WORDS
+    from cqdd_design.catalog.motors import CONVENTIONS
+    from cqdd_design.design.model import field_dimension
+    from cqdd_design.design.motor import MotorData
 
-    lines = []
-    for key, (dimension, _) in QUANTITIES.items():
-        if draw.random() < 0.4:
+    lines, others = [], []
+    for key, field in MotorData.model_fields.items():
+        dimension = field_dimension(field)
+        if dimension is None:
+            others.append(key)
+        elif draw.random() < 0.15:
             value = f'"{10 ** draw.uniform(-4, 3):.3g} {dimension.unit}"'
-            if key == "torque_constant" and draw.random() < 0.8:
+            if key in ("torque_constant", "mass") and draw.random() < 0.8:
                 continue
             lines.append(f"{key} = {value if draw.random() < 0.93 else draw.choice(STRANGE)}")
-    words = [repr(word) for some in WORDS.values() for word in some]
-    for key in (*WHOLE, *WORDS, "name", "x"):
+    words = [repr(word) for word in (*CONVENTIONS, "line", "phase", "CubeMars RO100 KV55")]
+    for key in (*others, "x"):
         if draw.random() < 0.1:
             lines.append(f"{key} = {draw.choice(['4', '1', *words, draw.choice(STRANGE)])}")
     text = "\n".join(lines).encode()

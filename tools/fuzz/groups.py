@@ -82,7 +82,7 @@ def _units(draw: random.Random) -> Case:
 
 
 def _motor(draw: random.Random) -> Case:
-    from cqdd_design.actuator.motor_file import read_motor
+    from cqdd_design.design.motor import read_motor
 
     return Case({"m.toml": files.motor_file(draw)}, call=lambda: read_motor(Path("m.toml")))
 
@@ -205,7 +205,7 @@ def _parquet() -> bytes:
 #: Commands with options that cost little, and what may be said to each.
 _OPTIONS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
-        "check a.toml": ("--angles",),
+        "check a.toml": ("--angles", "--motor", "--motor-file"),
         "analyse a.toml": ("--torque", "--angles", "--speed", "--contact-law"),
         "compare a.toml": ("--teeth", "--module", "--face-width", "--material", "--planets"),
         "inertia a.toml": ("--speed",),
@@ -221,6 +221,8 @@ _OPTIONS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "torque evaluate --data none": ("--model", "--set", "--draws", "--report"),
         "explain": ("DXF", "CONTACT-PRESSURE", ""),
         "catalog": ("motors", "bearings", "materials", "x"),
+        "new motor": ("--out", "--example"),
+        "new": ("design", "requirements", "x"),
         "schema": (),
         "report nothing.toml": ("--out",),
     }

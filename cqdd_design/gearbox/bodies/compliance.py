@@ -33,6 +33,8 @@ from cqdd_design.geometry.contours import FloatArray
 
 _LEAST_CAM_FORCE = 1.0
 """Below it the bearing's springs are taken at this load, N."""
+_KEPT = 1_000_000
+"""Numbers of a compliance without friction that is kept, at most: 8 MB."""
 _LEAST_EIGENVALUE = 1e-9
 """Least eigenvalue of a compliance over its largest entry."""
 
@@ -55,7 +57,19 @@ class ElasticBodies:
 
         Arguments and result as :func:`compliance`; the cam forces are those of the rigid law.
         """
+        if tangential is None and states.gaps.size * states.gaps.shape[-1] <= _KEPT:
+            return _smooth(self, model, states, torque)
         return compliance(self, model, states, rigid_cam_force(model, states, torque), tangential)
+
+
+@lru_cache(maxsize=6)
+def _smooth(
+    bodies: ElasticBodies, model: ContactModel, states: NominalStates, torque: float
+) -> FloatArray:
+    """Without friction; gearboxes that are drawn of one machine share it, part errors or not."""
+    found = compliance(bodies, model, states, rigid_cam_force(model, states, torque))
+    found.flags.writeable = False
+    return found
 
 
 def compliance(

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from cqdd_design.design import Design
+from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox.bodies.cache import cached
 from cqdd_design.gearbox.bodies.compliance import ElasticBodies
 from cqdd_design.gearbox.bodies.disc import DiscShape
@@ -34,3 +37,12 @@ def elastic_bodies(design: Design) -> ElasticBodies:
         discs.append((shape, of_standard(made[standard], to_standard(shape))))
     ring = RingShape.from_design(design)
     return ElasticBodies(tuple(discs), (ring, cached(ring, ring_body).widened()))
+
+
+@lru_cache(maxsize=2)
+def bodies_or_none(design: Design) -> ElasticBodies | None:
+    """The same, read once a process; None where :func:`elastic_bodies` raises."""
+    try:
+        return elastic_bodies(design)
+    except GeometryError:
+        return None

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from cqdd_design.errors import UsageError, did_you_mean
 from cqdd_design.gearbox.checks import (
+    guide_asked,
     guide_bodies,
     guide_drawn,
     guide_drive,
@@ -28,6 +29,7 @@ CHECK_GUIDE: dict[str, CheckGuide] = {
         *guide_heat.ROWS,
         *guide_drive.ROWS,
         *guide_drawn.ROWS,
+        *guide_asked.ROWS,
     )
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -15,6 +16,9 @@ from cqdd_design.geometry.contours import FloatArray
 
 _COMPLIANCES = 16_000_000
 """Numbers of compliances that are kept at once: 128 MB, and twice that while they are made."""
+
+_KEPT = 100_000
+"""Contacts at all angles of states that are kept, at most: 15 MB."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +52,9 @@ class NominalStates:
     length: float
 
     def some(self, which: slice) -> NominalStates:
-        """Those of some of the crank angles."""
+        """Those of some of the crank angles; itself where they are all."""
+        if which.indices(len(self.crank_angle)) == (0, len(self.crank_angle), 1):
+            return self
         ring = RingTable(**{name: value[which] for name, value in vars(self.ring).items()})
         parts = {
             name: value if name == "length" else value[which]
@@ -72,11 +78,26 @@ class NominalStates:
 def nominal_states(model: ContactModel, crank_angle: FloatArray) -> NominalStates:
     """Contacts of the perfect gearbox.
 
+    Many models of a machine ask at the same angles, so that the last few are kept: what follows
+    from them, such as what bodies yield, is then found once too.
+
     Parameters
     ----------
     crank_angle : array (A,)
         rad.
     """
+    contacts = model.disc_count * (model.tooth_count + model.pin_count)
+    if contacts * crank_angle.size > _KEPT:
+        return _nominal_states(model, crank_angle)
+    return _kept_states(model, np.asarray(crank_angle, dtype=float).tobytes())
+
+
+@lru_cache(maxsize=4)
+def _kept_states(model: ContactModel, crank_angle: bytes) -> NominalStates:
+    return _nominal_states(model, np.frombuffer(crank_angle).copy())
+
+
+def _nominal_states(model: ContactModel, crank_angle: FloatArray) -> NominalStates:
     ring = ring_table(model, crank_angle)
     pin_rows, pin_rates, pin_angle = pin_table(model, crank_angle)
     length = model.pin_circle_radius

@@ -104,13 +104,14 @@ def backlash(
     ends, overlaps, extremes = [], [], []
     for sense in (-1.0, 1.0):
         gaps = changed.gaps
-        for _ in range(_CORRECTIONS + 1):
-            end, overlap, poses = _push(model, states, changed, gaps, errors, sense)
+        end, overlap, poses = _push(model, states, changed, gaps, errors, sense)
+        for _ in range(_CORRECTIONS):
             # The model of each gap is right where it was linearised but for its third order;
             # what it misses of the exact gap at this pose is put into it.
             exact, modelled = _exact_and_modelled(model, states, changed.gaps, errors, poses)
             gaps = changed.gaps.copy()
             gaps[:, :, : model.tooth_count] += exact - modelled
+            end, overlap, poses = _push(model, states, changed, gaps, errors, sense)
         ends.append(end)
         overlaps.append(overlap)
         extremes.append(poses[:, 2])

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.design import Design
-from cqdd_design.errors import GeometryError, UsageError
-from cqdd_design.gearbox.bodies.made import elastic_bodies
+from cqdd_design.errors import UsageError
+from cqdd_design.gearbox.bodies.made import bodies_or_none
 from cqdd_design.gearbox.checks.allowables import BINDING_SHARE
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.sweep import output_turn_count
@@ -122,7 +122,9 @@ def _warm(ensemble: Ensemble) -> ContactModel:
 def _yielding(design: Design, torque: float, angles: int) -> BodyCompliance:
     """Other clearances of the same design share it."""
     model = ContactModel.from_design(design)
-    return body_compliance(elastic_bodies(design), model, torque, angles)
+    bodies = bodies_or_none(design)
+    assert bodies is not None, "`make_ensemble` leaves out bodies that cannot be meshed"
+    return body_compliance(bodies, model, torque, angles)
 
 
 def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
@@ -331,12 +333,7 @@ def make_ensemble(
     load = design.requirements.continuous_torque if torque is None else torque
     yielding: Design | None = bodies or design
     pairs = wanted * contacts**2 / reducer.disc_count
-    try:
-        if pairs > _MOST_PAIRS:
-            yielding = None
-        else:
-            elastic_bodies(bodies or design)
-    except GeometryError:
+    if pairs > _MOST_PAIRS or bodies_or_none(bodies or design) is None:
         yielding = None
     growth_of(design, temperatures)
     return Ensemble(design, yielding, load, wanted, seed, temperatures)

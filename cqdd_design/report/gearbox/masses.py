@@ -35,7 +35,9 @@ def bodies_view(design: Design, bodies: Bodies) -> Values:
             _part_row(row, by_name.get(row.part), inertia)
             for row in bill_of_materials(bodies.inertia.motor, bodies.parts)
         ),
-        "total_mass": with_unit(inertia.mass, "kg", 4),
+        "total_mass": "not known"
+        if inertia.whole_mass is None
+        else with_unit(inertia.whole_mass, "kg", 4),
         "total_of": printed(inertia.mass_scope),
         "groups": _groups(inertia),
         "paper": _beside_the_paper(design, inertia) if beside else (),
@@ -71,12 +73,14 @@ def _part_row(row: BomRow, part: PartInertia | None, inertia: GearboxInertia) ->
         row.make_or_buy,
         "not known" if each is None else decimals(1e3 * each, 1) + ("*" if catalogue else ""),
         "" if whole is None else decimals(1e3 * whole, 1),
-        "not known" if reflected is None else _scaled(reflected),
+        _told(reflected),
     )
 
 
 def _groups(inertia: GearboxInertia) -> tuple[Row, ...]:
-    def share(value: float, whole: float) -> str:
+    def share(value: float | None, whole: float | None) -> str:
+        if value is None or whole is None:
+            return "not known"
         return f"{decimals(100.0 * value / whole, 1)}\u202f%"
 
     shares = inertia.group_inertias
@@ -85,7 +89,7 @@ def _groups(inertia: GearboxInertia) -> tuple[Row, ...]:
             name,
             with_unit(1e3 * mass, "g", 4),
             share(mass, inertia.mass),
-            _scaled(shares[name]),
+            _told(shares[name]),
             share(shares[name], inertia.reflected_input),
         )
         for name, mass in inertia.group_masses.items()
@@ -95,8 +99,8 @@ def _groups(inertia: GearboxInertia) -> tuple[Row, ...]:
 def _beside_the_paper(design: Design, inertia: GearboxInertia) -> tuple[Row, ...]:
     """Mass and inertia beside what the paper prints, with what makes the difference."""
     paper = {name: figure.value for name, figure in METRICS.items()}
-    groups, shares = inertia.group_masses, inertia.group_inertias
-    mass, whole = inertia.mass, inertia.reflected_input
+    groups = inertia.group_masses
+    mass, whole = inertia.mass, inertia.reflected_input or 0.0
     rotor = inertia.rotor_inertia or 0.0
     peak, dense = design.requirements.peak_torque, "\u202fN\u00b7m/kg"
 
@@ -122,7 +126,7 @@ def _beside_the_paper(design: Design, inertia: GearboxInertia) -> tuple[Row, ...
             f"{inertial(paper['actuator_inertia'])} {fourth}",
             f"{1e4 * (whole - paper['actuator_inertia']):+.3g}. The catalogue's rotor has "
             f"{inertial(rotor)}, {ROTOR_SCOPE}; the gearbox adds "
-            f"{inertial(whole - shares['motor'], 2)}.",
+            f"{inertial(inertia.gearbox_reflected, 2)}.",
         ),
         (
             f"torque density, at the paper's {paper['peak_torque']:g}\u202fN\u00b7m",
@@ -137,6 +141,10 @@ def _beside_the_paper(design: Design, inertia: GearboxInertia) -> tuple[Row, ...
 def _scaled(inertia: float) -> str:
     """An inertia in 1e-6 kg m^2, the unit of the table's column."""
     return significant(1e6 * inertia, 3)
+
+
+def _told(inertia: float | None) -> str:
+    return "not known" if inertia is None else _scaled(inertia)
 
 
 def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:

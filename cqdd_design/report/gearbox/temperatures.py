@@ -32,7 +32,7 @@ def temperatures_view(found: MachineTemperatures) -> Values:
         if asked.load_cases
         else f"{with_unit(asked.continuous_torque, 'N*m')} for ever at the input speed"
     )
-    ambient, stated = found.network.ambient, found.machine.design.drive.thermal_resistance
+    ambient, stated = found.network.ambient, found.machine.cooling.value
     air = f"still air of {significant(ambient)} °C"
     if stated:
         air = f"air of {significant(ambient)} °C, {stated:g} K/W from the winding as stated"

@@ -215,8 +215,8 @@ def generate(
             one.name: round(float(np.mean(one.flag("saturated"))), 6) for one in episodes
         },
     }
-    if specimen.motor is not None:
-        facts["motor"] = specimen.motor.name
+    if machine.motor.stated:
+        facts["motor"] = machine.motor.name
     data = DataSet(
         episodes=episodes,
         position_gain=drive.position_gain,

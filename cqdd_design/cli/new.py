@@ -1,0 +1,51 @@
+"""``cqdd-design new``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from cqdd_design.cli.options import Force, option
+from cqdd_design.cli.session import Output
+from cqdd_design.errors import UsageError
+
+
+def new(
+    out: Output,
+    kind: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="[KIND]", help="What to write: design, motor or requirements, with every key."
+        ),
+    ] = None,
+    example: Annotated[
+        str | None, option("NAME", "An example design instead, such as cqdd-10.")
+    ] = None,
+    target: Annotated[
+        Path | None, option("FILE", "Default KIND.toml or NAME.toml, here.", "--out")
+    ] = None,
+    force: Force = False,
+) -> None:
+    """Write a file to start from: a template with every key, or an example design."""
+    from cqdd_design.design import templates
+    from cqdd_design.files import refuse_overwrite, write_atomically
+
+    if (kind is None) == (example is None):
+        raise UsageError(
+            f"new writes one of {', '.join(templates.TEMPLATES)}, as in `cqdd-design new motor`, "
+            "or an example design, as in `cqdd-design new --example cqdd-10`; there are "
+            f"{', '.join(templates.examples())}."
+        )
+    if kind is not None:
+        found = templates.find_template(kind)
+        name, text, says = found.file, found.text(), found.says
+    else:
+        assert example is not None
+        name, text, says = f"{example}.toml", templates.example_text(example), "an example design"
+    path = Path(name) if target is None else target
+    refuse_overwrite(path, force=force)
+    written = write_atomically(path, text, "template" if example is None else "design")
+    out.wrote([written])
+    out.document({"kind": kind, "example": example, "says": says}, files=[written])

@@ -1,0 +1,228 @@
+"""Lines of what requirements ask for beyond torque, speed and life; none of what they leave out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+
+from cqdd_design.actuator.operating import judge
+from cqdd_design.actuator.shock import simulated_torque
+from cqdd_design.errors import ContactError, GeometryError
+from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.gearbox.precision.precision import precision
+from cqdd_design.geometry.limits import rounded_down
+from cqdd_design.machine.carrying import carried_torque
+from cqdd_design.machine.thermal_parts import Node
+from cqdd_design.results import Check
+from cqdd_design.verdict.evidence import Evidence
+from cqdd_design.verdict.headline import Figure, backlash, efficiency, mass
+
+_ARCMIN = math.degrees(1.0) * 60.0
+_ANGLES = 96
+_OUTSIDE: tuple[Node, ...] = ("housing", "cover")
+
+
+def asked_lines(evidence: Evidence) -> tuple[Check, ...]:
+    """One line for each requirement of this chapter that is stated, in the order of the keys."""
+    return tuple(line for chapter in _CHAPTERS for line in chapter(evidence))
+
+
+def _speed_at_peak(evidence: Evidence) -> Iterator[Check]:
+    asked, actuator = evidence.machine.design.requirements, evidence.actuator
+    if asked.speed_at_peak is None:
+        return
+    name, torque = "PEAK-AT-SPEED", asked.peak_torque
+    if actuator is None:
+        yield build_check(name, None, torque, evidence.actuator_missing, "see why there is none")
+        return
+    found = judge(actuator, torque, asked.speed_at_peak, lasting=False, hot=False)
+    binding = ", ".join(found.binding) or "nothing"
+    motor = evidence.machine.motor
+    told = f"{found.most:.4g} N*m at {asked.speed_at_peak:.4g} rad/s of the output; "
+    if motor.peak_torque is None and found.most >= torque:
+        why = f"{told}the motor's own peak torque is not known"
+        yield build_check(name, None, torque, why, "give it in the motor's data")
+        return
+    yield build_check(
+        name,
+        found.most,
+        torque,
+        f"{told}binding: {binding}",
+        "lower requirements.speed_at_peak, raise motor.voltage where voltage binds, or take a "
+        "stronger motor",
+    )
+
+
+def _shock(evidence: Evidence) -> Iterator[Check]:
+    machine, actuator = evidence.machine, evidence.actuator
+    speed = machine.design.requirements.shock_speed
+    if speed <= 0.0:
+        return
+    carried = carried_torque(machine)
+    limit = carried.limits[0].torque if carried.limits and not carried.unknown else None
+    if actuator is None or limit is None:
+        why = evidence.actuator_missing or f"not known: limits of {', '.join(carried.unknown)}"
+        yield build_check("SHOCK-STOP", None, limit, why, "see what is not known")
+        return
+    torque = simulated_torque(actuator, speed)
+    # Of a spring the torque goes with the speed.
+    slower = rounded_down(speed * min(limit / torque, 1.0)) if torque > 0.0 else speed
+    yield build_check(
+        "SHOCK-STOP",
+        torque,
+        limit,
+        f"{torque:.4g} N*m from {speed:.4g} rad/s; {carried.limits[0].words} give way first",
+        f"stay below about {slower:g} rad/s where the output may be stopped, or take a gearbox "
+        "that carries more",
+    )
+
+
+def _bore(evidence: Evidence) -> Iterator[Check]:
+    machine = evidence.machine
+    wanted = machine.design.requirements.bore
+    if wanted is None:
+        return
+    cure = "no other encoder is drawn here: place one beside the shaft, and widen its bore"
+    try:
+        layout = machine.layout
+    except GeometryError as error:
+        yield build_check("BORE", None, 1e3 * wanted, error.message, "see why nothing is drawn")
+        return
+    hole = 2e3 * layout.shaft.bore_radius
+    closed = layout.motor is not None
+    yield build_check(
+        "BORE",
+        0.0 if closed else hole,
+        1e3 * wanted,
+        f"{hole:.3g} mm through the shaft"
+        + (", closed by the encoder's magnet on its axis" if closed else ""),
+        cure if closed else "take a cam bearing and support bearings with a larger bore",
+    )
+
+
+def _mass(evidence: Evidence) -> Iterator[Check]:
+    wanted = evidence.machine.design.requirements.mass
+    if wanted is not None:
+        cure = "ask for less torque, or take a lighter motor or housing.material"
+        yield _of_figure("MASS", mass(evidence.machine), wanted, cure)
+
+
+def _inertia(evidence: Evidence) -> Iterator[Check]:
+    machine = evidence.machine
+    wanted, name = machine.design.requirements.reflected_inertia, "REFLECTED-INERTIA"
+    if wanted is None:
+        return
+    try:
+        found = machine.inertia
+    except GeometryError as error:
+        yield build_check(name, None, wanted, error.message, "see why nothing is drawn")
+        return
+    known = found.rotor_drawn or found.rotor_inertia
+    rotor = f"of '{machine.motor.name}' no rotor inertia is known"
+    yield build_check(
+        name,
+        found.reflected_output if known else None,
+        wanted,
+        f"{found.ratio}^2 x {found.reflected_input:.4g} kg*m^2 at the crank" if known else rotor,
+        "lower the ratio, or take a motor with a lighter rotor"
+        if known
+        else "give it in the motor's data",
+    )
+
+
+def _backlash(evidence: Evidence) -> Iterator[Check]:
+    wanted = evidence.machine.design.requirements.backlash
+    if wanted is not None:
+        found = backlash(evidence)
+        cure = "make modification.equidistant and hole_clearance smaller, with closer [tolerances]"
+        yield _of_figure("BACKLASH", found, wanted * _ARCMIN, cure, evidence.drawn_missing)
+
+
+def _lost_motion(evidence: Evidence) -> Iterator[Check]:
+    machine = evidence.machine
+    asked = machine.design.requirements
+    if asked.lost_motion is None:
+        return
+    limit, name = asked.lost_motion * _ARCMIN, "LOST-MOTION"
+    try:
+        found = precision(machine.contact, asked.continuous_torque, angles=_ANGLES)
+    except ContactError as error:
+        yield build_check(name, None, limit, error.message, "see CONTACT-REACH")
+        return
+    value = found.lost_motion * _ARCMIN
+    free = found.free.mean * _ARCMIN
+    yield build_check(
+        name,
+        value,
+        limit,
+        f"{value:.3g} arcmin, of which {free:.3g} are backlash",
+        "make clearances smaller, or teeth and pins stiffer (more and thicker pins)",
+    )
+
+
+def _stiffness(evidence: Evidence) -> Iterator[Check]:
+    wanted = evidence.machine.design.requirements.stiffness
+    drawn = evidence.drawn and evidence.drawn.continuous
+    if wanted is None:
+        return
+    limit = wanted / _ARCMIN
+    if drawn is None or not len(drawn.values):
+        why = evidence.drawn_missing or "no gearbox could be solved"
+        yield build_check("STIFFNESS", None, limit, why, "see why none could be drawn")
+        return
+    found = drawn.statistics()["stiffness_Nm_per_arcmin"]
+    yield build_check(
+        "STIFFNESS",
+        float(found["p5"]),
+        limit,
+        f"mean {found['mean']:.4g} N*m/arcmin at {drawn.ensemble.torque:g} N*m",
+        "take thicker or more output_pins, thicker discs, or a wider pin circle",
+    )
+
+
+def _efficiency(evidence: Evidence) -> Iterator[Check]:
+    wanted = evidence.machine.design.requirements.efficiency
+    if wanted is not None:
+        cure = "put the pins in needle sleeves, lower friction, or ask for less speed"
+        yield _of_figure("EFFICIENCY", efficiency(evidence.machine), wanted, cure)
+
+
+def _surface(evidence: Evidence) -> Iterator[Check]:
+    limit, warm = evidence.machine.design.requirements.surface_temperature, evidence.temperatures
+    if limit is None:
+        return
+    name = "SURFACE-TEMPERATURE"
+    if warm is None:
+        yield build_check(name, None, limit, evidence.heat_missing, "see why there is none")
+        return
+    found = {part: warm.hottest(part) for part in _OUTSIDE}
+    part = max(found, key=lambda one: found[one])
+    yield build_check(
+        name,
+        found[part],
+        limit,
+        f"{part} {found[part]:.4g} degC in air of {warm.network.ambient:g} degC",
+        "ask for less torque or speed, lower friction, or carry the heat away",
+    )
+
+
+def _of_figure(check_id: str, figure: Figure, limit: float, cure: str, why: str = "") -> Check:
+    """The line of a figure of the first screen, so that both say the same."""
+    told = why or figure.basis
+    if figure.value is not None:
+        told = f"{figure.value:.4g} {figure.unit}".strip()
+    return build_check(check_id, figure.value, limit, told, cure, model=figure.basis)
+
+
+_CHAPTERS: tuple[Callable[[Evidence], Iterator[Check]], ...] = (
+    _speed_at_peak,
+    _shock,
+    _bore,
+    _mass,
+    _inertia,
+    _backlash,
+    _lost_motion,
+    _stiffness,
+    _efficiency,
+    _surface,
+)
