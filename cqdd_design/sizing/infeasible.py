@@ -272,4 +272,4 @@ def _fits(search: Search, key: str, millimetres: int) -> bool:
     if at is None or strongest(at.space, at.found, 1).merit.max(initial=0.0) < _HOPELESS:
         return False
     most = at.most_reserve()
-    return most is not None and at.lightest(most) is not None
+    return most is not None and most.reserve[0] >= 1.0 and at.lightest(most) is not None

@@ -19,7 +19,7 @@ from cqdd_design.sizing.screen import Screened, screen
 from cqdd_design.sizing.space import SearchSpace, search_space
 from cqdd_design.sizing.stage_tables import StageTables, stage_tables
 
-_STRONG_STARTS, _LIGHT_STARTS, _WIDE_STARTS = 6, 3, 16
+_STRONG_STARTS, _LIGHT_STARTS, _WIDE_STARTS = 12, 3, 16
 _EXCHANGES, _EXCHANGED = 4, 3
 """Times that other pins are tried, and at how many points with different bearings."""
 FEWER_PINS_WORTH = 0.005
@@ -67,7 +67,7 @@ class Search:
         if picks.count == 0:
             return None
         reached = climb(self.evaluator, Starts.of(self.evaluator, picks, np.inf))
-        return self._with_other_pins(reached, np.inf).rows(np.array([0]))
+        return reached.rows(np.array([reached.reserve.argmax()]))
 
     def lightest(
         self, starts: Points, wanted: float = 1.0, suffix: str = "", *, wide: bool = False
@@ -160,7 +160,7 @@ class Search:
         wanted = (max(top, 1.0), max(0.5 * (own + top), 1.0), 1.0)
         points = first[1].joined(most)
         for aim in (*wanted, own):
-            other = self.lightest(points, aim, wide=True)
+            other = self.lightest(points, aim, wide=aim == 1.0)
             points = points if other is None else other[1].joined(points)
         d, c, b = (_least(points, aim) for aim in wanted)
         main = _least(points, min(own, OFFERED_RESERVE))
