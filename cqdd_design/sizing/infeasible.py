@@ -132,6 +132,8 @@ def no_design(search: Search) -> SizingInfeasibleError:
         if need is not None:
             text += f"; {asked} needs {_a(need)} {what}"
             fixes.append(f"raise {key} to {need * 1e3:g} mm")
+    if ring is None and largest < _LARGEST_RING_MM:
+        text += f"; {search.frame.motor.name} has a bore of {largest} mm for it"
     remedy = ", or ".join(fixes) or "change the ratio, the materials or disc_count"
     return SizingInfeasibleError(
         f"{text}. {remedy[0].upper()}{remedy[1:]}.",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import reduce
 
@@ -156,20 +156,39 @@ class Search:
         first = self.offered(most)
         if first is None:
             return ()
-        own, top = float(first[1].reserve[0]), min(_within_reach(most), USEFUL_RESERVE)
-        wanted = (max(top, 1.0), max(0.5 * (own + top), 1.0), 1.0)
-        points = first[1].joined(most)
-        for aim in (*wanted, own):
+        aims, points = self._others(first[1], most)
+        main = _least(points, min(float(first[1].reserve[0]), OFFERED_RESERVE))
+        kinds = [_least(points, aim) for aim in aims]
+        return self._different((main, *reversed(kinds)), ("", "-b", "-c", "-d"), [])
+
+    def alternatives(
+        self, design: SizedDesign, main: Points, most: Points
+    ) -> tuple[SizedDesign, ...]:
+        """The other designs of `offers`, for a design that was chosen, at its point."""
+        aims, points = self._others(main, most)
+        kinds = [_least(points, aim) for aim in aims]
+        return self._different(tuple(reversed(kinds)), ("-b", "-c", "-d"), [design])
+
+    def _others(self, first: Points, most: Points) -> tuple[tuple[float, ...], Points]:
+        """Reserves to offer, largest first, and the points that searches for them find."""
+        own, top = float(first.reserve[0]), min(_within_reach(most), USEFUL_RESERVE)
+        aims = (max(top, 1.0), max(0.5 * (own + top), 1.0), 1.0)
+        points = first.joined(most)
+        for aim in (*aims, own):
             other = self.lightest(points, aim, wide=aim == 1.0)
             points = points if other is None else other[1].joined(points)
-        d, c, b = (_least(points, aim) for aim in wanted)
-        main = _least(points, min(own, OFFERED_RESERVE))
+        return aims, points
+
+    def _different(
+        self, points: Sequence[Points | None], suffixes: Sequence[str], known: list[SizedDesign]
+    ) -> tuple[SizedDesign, ...]:
+        """Designs of points; where several aims end in one design, the first."""
         found: list[SizedDesign] = []
-        for point, suffix in ((main, ""), (b, "-b"), (c, "-c"), (d, "-d")):
+        for point, suffix in zip(points, suffixes, strict=True):
             sized = None if point is None else finish(self.evaluator, point, 0, suffix)
-            # Where a wide bearing decides the thickness, several aims end in one design.
-            known = [one.design.reducer for one in found]
-            if sized is not None and sized.design.reducer not in known:
+            if sized is not None and all(
+                sized.design.reducer != one.design.reducer for one in (*known, *found)
+            ):
                 found.append(sized)
         return tuple(found)
 
