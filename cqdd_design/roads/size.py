@@ -183,7 +183,6 @@ _TAKEN_OVER = {
     "reducer.disc_material": "disc_material",
     "reducer.ring_material": "ring_material",
     "reducer.output_pins.material": "pin_material",
-    "reducer.ring.outer_diameter": "outer_diameter",
 }
 
 

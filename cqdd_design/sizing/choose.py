@@ -11,6 +11,7 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing import masses
 from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.frame import Frame
+from cqdd_design.sizing.goals import Sizes, goal_value
 from cqdd_design.sizing.screen import Screened
 from cqdd_design.sizing.space import SearchSpace
 
@@ -51,7 +52,8 @@ class Picks:
 def strongest(space: SearchSpace, found: Screened, most: int) -> Picks:
     """Candidates with the most torque reserve among those whose shape is right, ready or not.
 
-    Up to `most` with different pins.
+    Up to `most` with different pins, and the strongest of every thickness: a wide bearing needs
+    thick discs, which leave it other sizes than a narrow one.
     """
     load = np.where(found.cam_load > 0.0, found.cam_load, np.inf)[:, None]
     carried = np.where(found.fits, found.bearings.allowed_load / load, 0.0)
@@ -65,8 +67,15 @@ def strongest(space: SearchSpace, found: Screened, most: int) -> Picks:
     merit = reserve.max(axis=1, initial=0.0)
     kept = np.flatnonzero(merit > 0.0)
     groups = found.rows.count[kept] * space.pin_sizes.size + found.rows.size[kept]
-    best = _best_of_groups(groups, -merit[kept], most)
-    return _picks(space, found, kept[best], thickness[kept[best]], merit[kept[best]])
+    best = kept[_best_of_groups(groups, -merit[kept], most)]
+    if best.size == 0:
+        return _picks(space, found, best, best, merit[best])
+    places = np.arange(space.thickness.size)
+    row = np.concatenate([best, reserve.argmax(axis=0)])
+    place = np.concatenate([thickness[best], places])
+    sound = np.flatnonzero(reserve[row, place] > 0.0)
+    row, place = row[sound], place[sound]
+    return _picks(space, found, row, place, reserve[row, place])
 
 
 def lightest(
@@ -79,7 +88,7 @@ def lightest(
     frame, space, found
         Of the screen.
     most : int
-        Up to so many with different pins, and up to so many with different bearings.
+        Up to so many with different pins, with different bearings, and of different thickness.
     wanted : float
         Torque reserve they must have, at least 1.
     """
@@ -98,13 +107,17 @@ def lightest(
     thickness = thinnest[row, bearing]
     area, polar = shapes.profile_integrals(frame, found.rings)
     opening = shapes.ring_opening_area(frame, found.rings)
+    outer = shapes.outer_radius(frame, found.rings)
     ring = rows.ring[row]
-    diameters = np.array([frame.pin_sizes[size].diameter for size in space.pin_sizes])
+    sizes = [frame.pin_sizes[size] for size in space.pin_sizes]
+    diameters = np.array([size.diameter for size in sizes])
+    plays = np.array([size.hole_clearance for size in sizes])
     weights = masses.weigh(
         frame,
         profile_area=area[ring],
         profile_polar=polar[ring],
         ring_opening=opening[ring],
+        ring_outer=outer[ring],
         eccentricity=found.rings.eccentricity[ring],
         thickness=space.thickness[thickness],
         pin_count=np.array(space.pin_counts)[rows.count[row]],
@@ -115,9 +128,22 @@ def lightest(
         bearing_bore=found.bearings.bore[bearing],
         bearing_mass=found.bearings.mass[bearing],
     )
-    objective = weights.objective
+    objective = goal_value(
+        frame,
+        weights,
+        Sizes(
+            eccentricity=found.rings.eccentricity[ring],
+            thickness=space.thickness[thickness],
+            pin_circle=rows.circle[row],
+            hole_clearance=plays[rows.size[row]],
+            outer_radius=outer[ring],
+            friction=found.rings.friction_number[ring],
+        ),
+    )
     pins = rows.count[row] * space.pin_sizes.size + rows.size[row]
-    best = np.concatenate([_best_of_groups(groups, objective, most) for groups in (pins, bearing)])
+    best = np.concatenate(
+        [_best_of_groups(groups, objective, most) for groups in (pins, bearing, thickness)]
+    )
     best = np.unique(best)
     best = best[np.argsort(objective[best], kind="stable")]
     return _picks(space, found, row[best], thickness[best], objective[best])

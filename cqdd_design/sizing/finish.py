@@ -47,10 +47,11 @@ def finish(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> 
         motor = evaluator.frame.motor.name
         warnings += (
             f"the rotor inertia of '{motor}' is not known, and so the reflected inertia is not "
-            "either: candidates were weighed by their mass alone.",
+            "either.",
         )
     objective = Objective(
         score=float(points.objective[row]),
+        goal=evaluator.frame.goal,
         mass=float(points.mass[row]),
         gearbox_inertia=float(points.gearbox_inertia[row]),
         reflected_inertia=float(points.reflected_inertia[row]) if rotor_known else None,
@@ -105,7 +106,7 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
             # Stated, since forces hang on it: no room is searched for columns.
             "carrier": {"joint": "clamped"},
             "cam_bearing": {"designation": frame.bearings[points.bearing[row]].designation},
-            "ring": {"outer_diameter": requirements.outer_diameter},
+            "ring": {"outer_diameter": _clean(2.0 * points.outer_radius[row])},
         },
     }
     if frame.equidistant != frame.default_fit.equidistant:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.catalog.materials import Material, find_material
@@ -33,6 +33,11 @@ from cqdd_design.sizing.bought_parts import (
 
 THICKNESS_STEP = 1e-4
 """Discs are ground to tenths of a millimetre, m."""
+
+
+Goal = Literal["mass", "inertia", "backlash", "efficiency", "size"]
+GOALS: tuple[Goal, ...] = get_args(Goal)
+"""What a search can make small, see :mod:`cqdd_design.sizing.goals`."""
 
 
 class Fit(NamedTuple):
@@ -102,6 +107,8 @@ class Frame:
         Rated cam bearings that no other one beats in every respect, smallest first.
     ambient : float or None
         Of the air round the actuator, deg C; None for a design's default.
+    goal : Goal
+        What the search makes small.
     needs : mapping of str to float
         Torque reserve by load check that closed forms have to show, see `needed`.
     """
@@ -129,6 +136,7 @@ class Frame:
     pin_sizes: tuple[PinSize, ...]
     bearings: tuple[Bearing, ...]
     ambient: float | None = None
+    goal: Goal = "mass"
     needs: Mapping[str, float] = field(default_factory=dict)
 
     def needed(self, check: str) -> float:
@@ -165,8 +173,9 @@ class Frame:
 
     @property
     def outer_radius(self) -> float:
-        """Of the ring, m."""
-        return 0.5 * self.requirements.outer_diameter
+        """Of the largest ring, m: what is asked for, or what goes into the motor's bore."""
+        asked, bore = self.requirements.outer_diameter, self.motor.bore_diameter
+        return 0.5 * (asked if bore is None else min(asked, bore))
 
     def bearing_table(self) -> BearingTable:
         """The cam bearings as arrays."""
@@ -184,6 +193,7 @@ def search_frame(
     motor: Motor | None = None,
     ambient: float | None = None,
     fit: Fit = USUAL_FIT,
+    goal: Goal = "mass",
 ) -> Frame:
     """Read the requirements, the design defaults and the catalogues.
 
@@ -195,6 +205,8 @@ def search_frame(
         Of the air, deg C; default that of a design.
     fit : Fit
         Clearances of teeth and of pins in holes; default those of a design.
+    goal : Goal
+        What the search makes small.
 
     Raises
     ------
@@ -237,6 +249,7 @@ def search_frame(
         pin_sizes=sizes,
         bearings=cam_bearings(requirements, most, spacing, sizes[0].mean_diameter),
         ambient=ambient,
+        goal=goal,
     )
 
 

@@ -7,6 +7,7 @@ search and confirmed by the same analysis; so is the ring.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.errors import InfeasibleError
@@ -14,7 +15,7 @@ from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.sizing.choose import strongest
 from cqdd_design.sizing.finish import LOAD_CHECKS, torque_reserve
-from cqdd_design.sizing.frame import search_frame
+from cqdd_design.sizing.frame import Fit, search_frame
 from cqdd_design.sizing.result import SizedDesign
 from cqdd_design.sizing.search import Search
 
@@ -24,7 +25,10 @@ _LARGEST_RING_MM = 1000
 """Outside diameter at which the search for a larger ring stops (the model's own bound)."""
 _LONGEST_PACK_MM = 500
 """Length at which the search for a longer pack stops (the model's own bound)."""
-_CONFIRM_TRIES = 4
+_STRIDE = 1.2
+"""Of rings and packs that are tried, each over the one before."""
+_SHARES = (0.9995, 0.997, 0.99, 0.98, 0.95, 0.9)
+_ROUNDING = 1e-6
 _HOPELESS = 0.8
 """Best reserve of a screen that no refinement brings to one."""
 _NO_TORQUE = 1e-4
@@ -58,11 +62,10 @@ class SizingInfeasibleError(InfeasibleError):
         Peak torque that a design in the same space does carry, with the continuous torque lowered
         in proportion, N m; None where no gearbox of any torque fits.
     outer_diameter_needed : float or None
-        Smallest ring, in whole millimetres, that carries the torque asked for, m; None where none
-        does, or where the ring is not what is in the way.
+        Smallest ring, in whole millimetres, that carries the torque asked for in the same length,
+        m; None where none does that goes into the motor's bore.
     length_needed : float or None
-        Shortest pack, in whole millimetres, that carries it in the same ring, m; looked for where
-        no ring does.
+        Shortest pack, in whole millimetres, that carries it in the same ring, m.
     """
 
     def __init__(
@@ -98,10 +101,10 @@ def no_design(search: Search) -> SizingInfeasibleError:
     """Explain a search that found nothing, with the nearest requirements that would fit."""
     wanted = search.frame.requirements
     best = _most_torque(search)
-    ring = _smallest(search, best, "outer_diameter", _LARGEST_RING_MM)
-    length = None
-    if ring is None:
-        length = _smallest(search, best, "length", _LONGEST_PACK_MM)
+    bore = search.frame.motor.bore_diameter
+    largest = _LARGEST_RING_MM if bore is None else math.floor(bore * 1e3 + _ROUNDING)
+    ring = _smallest(search, "outer_diameter", largest)
+    length = _smallest(search, "length", _LONGEST_PACK_MM)
     space = f"{_a(wanted.outer_diameter)} ring"
     asked = f"{wanted.peak_torque:g} N*m at ratio {wanted.ratio}"
     fixes = []
@@ -129,6 +132,8 @@ def no_design(search: Search) -> SizingInfeasibleError:
         if need is not None:
             text += f"; {asked} needs {_a(need)} {what}"
             fixes.append(f"raise {key} to {need * 1e3:g} mm")
+    if ring is None and largest < _LARGEST_RING_MM:
+        text += f"; {search.frame.motor.name} has a bore of {largest} mm for it"
     remedy = ", or ".join(fixes) or "change the ratio, the materials or disc_count"
     return SizingInfeasibleError(
         f"{text}. {remedy[0].upper()}{remedy[1:]}.",
@@ -200,21 +205,24 @@ def _most_torque(search: Search) -> SizedDesign | None:
     """A confirmed design with the most torque in the same space, rounded down."""
     asked = torque = search.frame.requirements.peak_torque
     tables = search.evaluator.tables
+    carried = 0.0
     while torque > _NO_TORQUE * asked:
         at = search if torque == asked else Search.of(search.frame.at_torque(torque), tables)
         most = at.most_reserve()
         reserve = 0.0 if most is None else float(most.reserve[0])
-        if reserve >= 1.0:
-            carried = torque * reserve
+        # A reserve is the same design's at every torque, but the screen drops ring stages that fail
+        # at the torque asked for; nearer to what is carried more of them come back.
+        grown = torque * reserve > 1.001 * carried
+        carried = max(carried, torque * reserve)
+        if reserve >= 1.0 and not grown:
             return _confirmed(search, carried)
-        # Ring stages that fail at this torque were dropped; lower it and they come back.
-        torque *= 0.98 * reserve if reserve > 0.02 else 0.25
+        torque = 0.98 * carried if carried > 0.02 * torque else 0.25 * torque
     return None
 
 
 def _confirmed(search: Search, torque: float) -> SizedDesign | None:
-    for share in (0.999, 0.97, 0.94, 0.9):
-        rounded = rounded_down(share * torque, 2 if torque < 100.0 else 3)
+    for share in _SHARES:
+        rounded = rounded_down(share * torque, 3)
         at = Search.of(search.frame.at_torque(rounded), search.evaluator.tables)
         most = at.most_reserve()
         found = None if most is None else at.lightest(most)
@@ -223,58 +231,47 @@ def _confirmed(search: Search, torque: float) -> SizedDesign | None:
     return None
 
 
-def _smallest(search: Search, best: SizedDesign | None, key: str, limit: int) -> float | None:
+def _smallest(search: Search, key: str, limit: int) -> float | None:
     """Smallest whole-millimetre value of a requirement that carries the torque asked for, m.
+
+    What is allowed more is never worse, so steps upward, then halves, find it.
 
     Parameters
     ----------
-    best : SizedDesign or None
-        What the present space carries, for the first guess.
     key : {"outer_diameter", "length"}
     limit : int
         Where to give up, mm.
     """
-    requirements = search.frame.requirements
-    present = math.floor(getattr(requirements, key) * 1e3)
-    # The torque grows with a power of the ring between two and three.
-    ratio = 4.0 if best is None else requirements.peak_torque / best.design.requirements.peak_torque
-    low, high = present, min(max(present + 1, round(present * ratio**0.4)), limit)
-    if present >= limit or not _fits(search, key, limit):
-        return None
-    while high < limit and not _fits(search, key, high):
-        low, high = high, min(round(1.25 * high) + 1, limit)
+    present = math.floor(getattr(search.frame.requirements, key) * 1e3 + _ROUNDING)
+    low = high = present
+    while not _fits(search, key, high):
+        if high >= limit:
+            return None
+        low, high = high, min(math.ceil(_STRIDE * high) + 1, limit)
     while high - low > 1:
         middle = (low + high) // 2
         if _fits(search, key, middle):
             high = middle
         else:
             low = middle
-    for millimetres in range(high, min(high + _CONFIRM_TRIES, limit + 1)):
-        at = _at(search, key, millimetres)
-        most = None if at is None else at.most_reserve()
-        if at is not None and most is not None and at.lightest(most) is not None:
-            return millimetres * 1e-3
-    return None
+    return high * 1e-3
 
 
 def _at(search: Search, key: str, millimetres: int) -> Search | None:
     """The same search with another ring or length; None where no part of the catalogue fits."""
-    changed = search.frame.requirements.model_copy(update={key: millimetres * 1e-3})
+    frame = search.frame
+    changed = frame.requirements.model_copy(update={key: millimetres * 1e-3})
+    fit = Fit(frame.equidistant, min(one.hole_clearance for one in frame.pin_sizes))
     try:
-        frame = search_frame(changed, search.frame.motor)
+        other = search_frame(changed, frame.motor, frame.ambient, fit, frame.goal)
     except InfeasibleError:
         return None
-    return Search.of(frame, search.evaluator.tables)
+    return Search.of(replace(other, needs=frame.needs), search.evaluator.tables)
 
 
 def _fits(search: Search, key: str, millimetres: int) -> bool:
     at = _at(search, key, millimetres)
-    if at is None:
+    if at is None or strongest(at.space, at.found, 1).merit.max(initial=0.0) < _HOPELESS:
         return False
-    quick = strongest(at.space, at.found, 1)
-    if quick.count == 0 or quick.merit[0] < _HOPELESS:
-        return False
-    if quick.merit[0] >= 1.0:
-        return True
     most = at.most_reserve()
-    return most is not None and float(most.reserve[0]) >= 1.0
+    return most is not None and most.reserve[0] >= 1.0 and at.lightest(most) is not None

@@ -3,7 +3,7 @@
 Counted: discs, ring (as long as the pack), shoulders of the output pins over their free span, cam
 bearings, and solid eccentrics in their bores. Housing, carrier plates and shaft ends are much the
 same for every candidate and left out. The inertia counts the motor's rotor, because only what a
-candidate adds to it matters; where the rotor's is not known, candidates are weighed by mass alone.
+candidate adds to it matters.
 """
 
 from __future__ import annotations
@@ -22,8 +22,6 @@ SCOPE = "discs, ring, output pins over their free span, cam bearings and eccentr
 """What is counted, in words."""
 SHAFT_DENSITY = 7850.0
 """Steel eccentrics, kg/m^3."""
-MASS_WEIGHT, INERTIA_WEIGHT = 0.7, 0.3
-"""Exponents of mass and reflected inertia in the objective."""
 
 
 @dataclass(frozen=True)
@@ -44,16 +42,6 @@ class Weights:
     gearbox_inertia: FloatArray
     reflected_inertia: FloatArray
 
-    @property
-    def objective(self) -> FloatArray:
-        """mass^0.7 inertia^0.3, in kg and kg m^2: what the search makes small.
-
-        A product needs no reference values: one per cent of mass counts as much as 2.3 per cent
-        of inertia, whatever the size of the gearbox. Mass alone where the inertia is not known.
-        """
-        both = self.mass**MASS_WEIGHT * self.reflected_inertia**INERTIA_WEIGHT
-        return np.asarray(np.where(np.isnan(self.reflected_inertia), self.mass, both))
-
 
 def weigh(
     frame: Frame,
@@ -61,6 +49,7 @@ def weigh(
     profile_area: ArrayLike,
     profile_polar: ArrayLike,
     ring_opening: ArrayLike,
+    ring_outer: ArrayLike,
     eccentricity: ArrayLike,
     thickness: ArrayLike,
     pin_count: ArrayLike,
@@ -96,8 +85,8 @@ def weigh(
     shaft = SHAFT_DENSITY * math.pi * bore * bore * b
     pins = count * frame.pin_density * math.pi / 4.0 * d * d * pin_span(discs, b, frame.spacing)
     pack = discs * b + (discs - 1) * frame.spacing
-    outer = math.pi * frame.outer_radius**2
-    ring = frame.ring_density * pack * (outer - np.asarray(ring_opening, dtype=float))
+    outside = math.pi * np.asarray(ring_outer, dtype=float) ** 2
+    ring = frame.ring_density * pack * (outside - np.asarray(ring_opening, dtype=float))
 
     mass = discs * (disc + 2.0 * half_bearing + shaft) + pins + ring
     turning = shaft * (0.5 * bore * bore + e * e) + half_bearing * (bore * bore + e * e)

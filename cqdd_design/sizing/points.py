@@ -26,14 +26,18 @@ from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.bought_parts import BearingTable
 from cqdd_design.sizing.columns import Columns
 from cqdd_design.sizing.frame import THICKNESS_STEP, Frame
+from cqdd_design.sizing.goals import Sizes, goal_value
+from cqdd_design.sizing.shape_limits import RADIUS_STEP
 from cqdd_design.sizing.stage_tables import StageTables
 
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.intp]
 
-RADIUS_STEP = 5e-5
-"""Step of ring pitch radius and pin circle, m."""
+_USUAL_RADIUS = 36e-3
+"""Of a ring for which steps are chosen where a larger one is allowed, m."""
 _SLACK = 1e-9
+_PACKED = np.array([1 << 42, 1 << 21, 1], dtype=np.int64)
+"""Makes one whole number of the three steps of a ring."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +58,9 @@ def manufacturing_grid(frame: Frame) -> Grid:
 
     The eccentricity in a 72 mm ring is 1.6 mm at ratio 10 and 0.15 mm at ratio 100.
     """
-    throw = 0.5 * frame.outer_radius / (frame.lobe_count + 1)
-    tooth = 0.5 * frame.outer_radius * math.sin(math.pi / (frame.lobe_count + 1))
+    radius = 0.5 * min(frame.outer_radius, _USUAL_RADIUS)
+    throw = radius / (frame.lobe_count + 1)
+    tooth = radius * math.sin(math.pi / (frame.lobe_count + 1))
     return Grid(
         throw=next((step for step in (1e-5, 5e-6, 2e-6) if step <= 0.015 * throw), 1e-6),
         tooth=next((step for step in (5e-5, 2.5e-5, 1e-5) if step <= 0.03 * tooth), 5e-6),
@@ -72,8 +77,8 @@ class Points(Columns):
         Eccentricity, tooth radius, wall spare, thickness in steps of the grid.
     pin_count, pin_size, bearing : array of int
         N_w, row of ``frame.pin_sizes``, row of ``frame.bearings``.
-    pitch_radius, pin_circle : array
-        R and R_w.
+    pitch_radius, pin_circle, outer_radius : array
+        R, R_w, and the ring's outside.
     reserve : array
         Least torque reserve; zero where the shape is wrong or no bearing fits.
     mass, gearbox_inertia, reflected_inertia, objective : array
@@ -86,11 +91,17 @@ class Points(Columns):
     bearing: IntArray
     pitch_radius: FloatArray
     pin_circle: FloatArray
+    outer_radius: FloatArray
     reserve: FloatArray
     mass: FloatArray
     gearbox_inertia: FloatArray
     reflected_inertia: FloatArray
     objective: FloatArray
+
+    @property
+    def count(self) -> int:
+        """M."""
+        return int(self.reserve.size)
 
     def replaced(self, which: IntArray, others: Points) -> Points:
         """These points with others in some places."""
@@ -189,7 +200,7 @@ class Evaluator:
         carried = self._carried(shape, b, self._cam_load(shape, pins))
         each = np.minimum(carried, self._stress_reserve(shape, b, pins)[..., None])
         weights = self._weights(shape, b, pins)
-        objective = weights.objective
+        objective = self._objective(weights, shape, b, pins)
         # Of the bearings that reach what is wanted the best, else the strongest.
         ranked = np.where(each >= wanted[:, None, None], objective, np.inf)
         bearing = ranked.argmin(axis=-1)
@@ -209,6 +220,7 @@ class Evaluator:
             bearing=bearing.ravel(),
             pitch_radius=np.repeat(shape.pitch_radius, times),
             pin_circle=np.repeat(shape.pin_circle, times),
+            outer_radius=np.repeat(shapes.outer_radius(self.frame, shape), times),
             reserve=reserve,
             mass=of_chosen(weights.mass),
             gearbox_inertia=of_chosen(weights.gearbox_inertia),
@@ -230,7 +242,13 @@ class Evaluator:
         ring = shapes.RingSizes(R, e, r)
         for met in shapes.profile_checks(frame, ring).values():
             possible &= met
-        possible[possible] = shapes.relief_passes_wire(frame, ring.rows(possible))
+        # Many pins stand in one ring: what only the ring decides is worked out once.
+        sound_rings = np.flatnonzero(possible)
+        _, first, place = np.unique(
+            steps[sound_rings] @ _PACKED, return_index=True, return_inverse=True
+        )
+        passes = shapes.relief_passes_wire(frame, ring.rows(sound_rings[first]))
+        possible[sound_rings] = passes[place]
         hole = pins.play_radius + e
         circle = shapes.largest_pin_circle(frame, ring, hole, pins.offset)
         circle = np.floor(circle / RADIUS_STEP) * RADIUS_STEP
@@ -289,6 +307,22 @@ class Evaluator:
         carried = np.where(fits, table.allowed_load / load[:, None], 0.0)
         return np.where(table.width <= b[..., None] + _SLACK, carried[:, None, :], 0.0)
 
+    def _objective(
+        self, weights: masses.Weights, shape: _Shapes, b: FloatArray, pins: Pins
+    ) -> FloatArray:
+        """What the search makes small, (M, T, B)."""
+        own = (slice(None), None, None)
+        share = shape.tooth_radius / (shape.pitch_radius * self.tables.tooth_spacing)
+        sizes = Sizes(
+            eccentricity=shape.eccentricity[own],
+            thickness=b[..., None],
+            pin_circle=shape.pin_circle[own],
+            hole_clearance=2.0 * (pins.play_radius - pins.mean_radius)[own],
+            outer_radius=shapes.outer_radius(self.frame, shape)[own],
+            friction=self.tables.friction_at(self._shortening(shape), share)[own],
+        )
+        return np.broadcast_to(goal_value(self.frame, weights, sizes), weights.mass.shape)
+
     def _weights(self, shape: _Shapes, b: FloatArray, pins: Pins) -> masses.Weights:
         """Mass and inertia (M, T, B) with every cam bearing."""
         table = self.bearings
@@ -299,6 +333,7 @@ class Evaluator:
             profile_area=area[own],
             profile_polar=polar[own],
             ring_opening=shapes.ring_opening_area(self.frame, shape)[own],
+            ring_outer=shapes.outer_radius(self.frame, shape)[own],
             eccentricity=shape.eccentricity[own],
             thickness=b[..., None],
             pin_count=pins.count[own],

@@ -79,6 +79,13 @@ class Starts(Columns):
             np.full(points.reserve.size, wanted),
         )
 
+    @classmethod
+    def other_pins(cls, point: Points, pins: list[tuple[int, int]], wanted: float) -> Starts:
+        """One point (1,) with each of some pin counts and rows of ``frame.pin_sizes``."""
+        times = len(pins)
+        counts, sizes = np.array(pins, dtype=np.intp).T
+        return cls(np.repeat(point.steps, times, axis=0), counts, sizes, np.full(times, wanted))
+
     def wanting(self, wanted: float) -> Starts:
         """The same starts with another aim."""
         return replace(self, wanted=np.full(self.wanted.size, wanted))
@@ -131,13 +138,13 @@ def _best_neighbours(
         pins.rows(np.repeat(np.arange(count), len(_MOVES))),
         aims,
     )
-    rank = _rank(tried, np.repeat(aims, _THICKER.size)).reshape(count, -1)
-    chosen = rank.argmin(axis=1)
+    ranks = rank(tried, np.repeat(aims, _THICKER.size)).reshape(count, -1)
+    chosen = ranks.argmin(axis=1)
     # The first neighbour is the point itself.
-    return tried.rows(np.arange(count) * rank.shape[1] + chosen), chosen == 0
+    return tried.rows(np.arange(count) * ranks.shape[1] + chosen), chosen == 0
 
 
-def _rank(points: Points, wanted: FloatArray) -> FloatArray:
+def rank(points: Points, wanted: FloatArray) -> FloatArray:
     """What `climb` makes small."""
     short = np.where(points.reserve > 0.0, _SHORT - points.reserve, np.inf)
     return np.where(points.reserve >= wanted, points.objective, short)

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 
 from cqdd_design.design import Design
 from cqdd_design.results import Check
-from cqdd_design.sizing.masses import INERTIA_WEIGHT, MASS_WEIGHT, SCOPE
+from cqdd_design.sizing.frame import Goal
+from cqdd_design.sizing.masses import SCOPE
 
 
 @dataclass(frozen=True)
@@ -16,8 +17,9 @@ class Objective:
     Attributes
     ----------
     score : float
-        mass^0.7 x inertia^0.3 (kg, kg m^2), which the search makes small; the mass alone where the
-        rotor's inertia is not known.
+        What the search makes small, by its `goal`.
+    goal : Goal
+        See :mod:`cqdd_design.sizing.goals`.
     mass : float
         Of discs, ring, output pins, cam bearings and eccentrics, kg.
     gearbox_inertia : float
@@ -33,6 +35,7 @@ class Objective:
     """
 
     score: float
+    goal: Goal
     mass: float
     gearbox_inertia: float
     reflected_inertia: float | None
@@ -58,9 +61,7 @@ class Objective:
             "torque_reserve": self.torque_reserve,
             "least_margin": self.least_margin,
             "binding": self.binding,
-            "weighting": {"mass": 1.0, "reflected_inertia": 0.0}
-            if self.reflected_inertia is None
-            else {"mass": MASS_WEIGHT, "reflected_inertia": INERTIA_WEIGHT},
+            "goal": self.goal,
         }
 
 

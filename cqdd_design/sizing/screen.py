@@ -62,6 +62,7 @@ class Rings(shapes.RingSizes):
 
     shortening_row: IntArray
     pressure_number: FloatArray
+    friction_number: FloatArray
 
 
 @dataclass(frozen=True)
@@ -203,6 +204,7 @@ def _sound_rings(
         tooth_radius=tooth * radius,
         shortening_row=np.searchsorted(space.shortening, shortening),
         pressure_number=tables.pressure_at(shortening, share),
+        friction_number=tables.friction_at(shortening, share),
     )
     keep = np.ones(radius.size, dtype=bool)
     for check, met in shapes.profile_checks(frame, rings).items():

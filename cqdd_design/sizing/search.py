@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.sizing.choose import lightest, strongest
+from cqdd_design.sizing.choose import Picks, lightest, strongest
 from cqdd_design.sizing.finish import finish
 from cqdd_design.sizing.frame import Frame
 from cqdd_design.sizing.points import Evaluator, Points
-from cqdd_design.sizing.refine import Starts, climb
+from cqdd_design.sizing.refine import Starts, climb, rank
 from cqdd_design.sizing.result import SizedDesign
 from cqdd_design.sizing.screen import Screened, screen
 from cqdd_design.sizing.space import SearchSpace, search_space
 from cqdd_design.sizing.stage_tables import StageTables, stage_tables
 
-_STRONG_STARTS, _LIGHT_STARTS = 3, 3
-FEWER_PINS_WORTH = 0.01
+_STRONG_STARTS, _LIGHT_STARTS, _WIDE_STARTS = 12, 3, 16
+_EXCHANGES, _EXCHANGED = 4, 3
+"""Times that other pins are tried, and at how many points with different bearings."""
+FEWER_PINS_WORTH = 0.005
 """Share of the objective that is given up for fewer output pins."""
 _AIMS = (1.0005, 1.003, 1.015)
 """Factors on a wanted reserve, tried until the full analysis confirms the design: the tables are
@@ -66,26 +70,31 @@ class Search:
         return reached.rows(np.array([reached.reserve.argmax()]))
 
     def lightest(
-        self, starts: Points, wanted: float = 1.0, suffix: str = ""
+        self, starts: Points, wanted: float = 1.0, suffix: str = "", *, wide: bool = False
     ) -> tuple[SizedDesign, Points] | None:
         """The design with the least objective that meets every check, and its point.
 
         Parameters
         ----------
         starts : Points
-            Where to begin besides the lightest survivors of the screen; never empty, since a tight
+            Where to begin besides the best survivors of the screen; never empty, since a tight
             space may leave no survivor although its best point refines to one.
         wanted : float
             Torque reserve to have.
         suffix : str
             Of the design's name.
+        wide : bool
+            Whether to begin at many places and to try other pins at what they lead to, which takes
+            ten times as long.
         """
         begin = Starts.at(starts, wanted)
-        picks = lightest(self.frame, self.space, self.found, _LIGHT_STARTS, wanted)
-        if picks.count:
-            begin = Starts.of(self.evaluator, picks, wanted).joined(begin)
+        for picks in self._picks(wanted, wide=wide):
+            if picks.count:
+                begin = Starts.of(self.evaluator, picks, wanted).joined(begin)
         for aim in _AIMS:
             reached = climb(self.evaluator, begin.wanting(aim * wanted))
+            if wide:
+                reached = reached.joined(self._with_other_pins(reached, aim * wanted))
             ready = np.flatnonzero(reached.reserve >= aim * wanted)
             if ready.size == 0:
                 break
@@ -96,34 +105,108 @@ class Search:
             begin = Starts.at(reached, wanted)
         return None
 
+    def _picks(self, wanted: float, *, wide: bool) -> Iterator[Picks]:
+        """Where to begin."""
+        if wide:
+            yield strongest(self.space, self.found, _STRONG_STARTS)
+        most = _WIDE_STARTS if wide else _LIGHT_STARTS
+        yield lightest(self.frame, self.space, self.found, most, wanted)
+
+    def _with_other_pins(self, reached: Points, wanted: float) -> Points:
+        """The best of some points with different bearings, each with the pins that suit it best."""
+        best = _best(reached, wanted, _EXCHANGED)
+        for _ in range(_EXCHANGES):
+            starts = [self._other_pins(best.rows(np.array([k])), wanted) for k in range(best.count)]
+            tried = climb(self.evaluator, reduce(Starts.joined, starts))
+            better = _best(best.joined(tried), wanted, _EXCHANGED)
+            if np.array_equal(better.objective, best.objective) and np.array_equal(
+                better.reserve, best.reserve
+            ):
+                break
+            best = better
+        return best
+
+    def _other_pins(self, point: Points, wanted: float) -> Starts:
+        pins = self._pins_beside(int(point.pin_count[0]), int(point.pin_size[0]))
+        return Starts.other_pins(point, pins, wanted)
+
+    def _pins_beside(self, count: int, size: int) -> list[tuple[int, int]]:
+        """Counts up to two steps away with sizes up to one step away, of those that are tried."""
+        counts, sizes = self.space.pin_counts, range(len(self.frame.pin_sizes))
+        place = counts.index(count)
+        return [
+            (other, step)
+            for other in counts[max(place - 2, 0) : place + 3]
+            for step in sizes[max(size - 1, 0) : size + 2]
+        ]
+
     def offered(self, most: Points) -> tuple[SizedDesign, Points] | None:
         """The lightest design with some reserve where the space allows it, else on the limit."""
-        with_reserve = self.lightest(most, min(OFFERED_RESERVE, _within_reach(most)))
-        return with_reserve or self.lightest(most)
+        with_reserve = self.lightest(most, min(OFFERED_RESERVE, _within_reach(most)), wide=True)
+        return with_reserve or self.lightest(most, wide=True)
+
+    def offers(self, most: Points) -> tuple[SizedDesign, ...]:
+        """The design that is offered, and up to three different ones; none where nothing fits.
+
+        The others are the best of all, and two with more reserve: the most there is (or twice the
+        torque) and half way to it from the first, each as light as that allows. Whatever any of
+        these searches finds counts for all of them, so that none is worse in both respects than
+        another.
+        """
+        first = self.offered(most)
+        if first is None:
+            return ()
+        aims, points = self._others(first[1], most)
+        main = _least(points, min(float(first[1].reserve[0]), OFFERED_RESERVE))
+        kinds = [_least(points, aim) for aim in aims]
+        return self._different((main, *reversed(kinds)), ("", "-b", "-c", "-d"), [])
 
     def alternatives(
         self, design: SizedDesign, main: Points, most: Points
     ) -> tuple[SizedDesign, ...]:
-        """Up to three different designs: the lightest of all, and two with more reserve.
+        """The other designs of `offers`, for a design that was chosen, at its point."""
+        aims, points = self._others(main, most)
+        kinds = [_least(points, aim) for aim in aims]
+        return self._different(tuple(reversed(kinds)), ("-b", "-c", "-d"), [design])
 
-        The reserves of these two are the most there is (or twice the torque) and half way to it
-        from the main design's; each is as light as that allows. The search goes from the strongest
-        down, so that a weaker one is never the heavier.
-        """
-        own = float(main.reserve[0])
-        top = max(min(_within_reach(most), USEFUL_RESERVE), 1.0)
+    def _others(self, first: Points, most: Points) -> tuple[tuple[float, ...], Points]:
+        """Reserves to offer, largest first, and the points that searches for them find."""
+        own, top = float(first.reserve[0]), min(_within_reach(most), USEFUL_RESERVE)
+        aims = (max(top, 1.0), max(0.5 * (own + top), 1.0), 1.0)
+        points = first.joined(most)
+        for aim in (*aims, own):
+            other = self.lightest(points, aim, wide=aim == 1.0)
+            points = points if other is None else other[1].joined(points)
+        return aims, points
+
+    def _different(
+        self, points: Sequence[Points | None], suffixes: Sequence[str], known: list[SizedDesign]
+    ) -> tuple[SizedDesign, ...]:
+        """Designs of points; where several aims end in one design, the first."""
         found: list[SizedDesign] = []
-        starts = main.joined(most)
-        for wanted, suffix in ((top, "-d"), (max(0.5 * (own + top), 1.0), "-c"), (1.0, "-b")):
-            other = self.lightest(starts, wanted, suffix)
-            if other is None:
-                continue
-            starts = main.joined(other[1])
-            # Where a wide bearing decides the thickness, several aims end in one design.
-            known = [design.design.reducer, *(one.design.reducer for one in found)]
-            if other[0].design.reducer not in known:
-                found.append(other[0])
-        return tuple(reversed(found))
+        for point, suffix in zip(points, suffixes, strict=True):
+            sized = None if point is None else finish(self.evaluator, point, 0, suffix)
+            if sized is not None and all(
+                sized.design.reducer != one.design.reducer for one in (*known, *found)
+            ):
+                found.append(sized)
+        return tuple(found)
+
+
+def _best(points: Points, wanted: float, most: int) -> Points:
+    """Up to `most` points with different bearings, those with the least rank, best first."""
+    ranks = rank(points, np.full(points.count, wanted))
+    order = np.argsort(ranks, kind="stable")
+    _, first = np.unique(points.bearing[order], return_index=True)
+    return points.rows(order[np.sort(first)[:most]])
+
+
+def _least(points: Points, wanted: float) -> Points | None:
+    """The point with the least objective of those with a reserve; None where none has it."""
+    ready = np.flatnonzero(points.reserve >= wanted)
+    if ready.size == 0:
+        return None
+    return points.rows(ready[[points.objective[ready].argmin()]])
 
 
 def _within_reach(most: Points) -> float:

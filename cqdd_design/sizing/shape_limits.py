@@ -32,6 +32,8 @@ _PROFILE_POINTS = 24
 _ENVELOPE_POINTS = 41
 _AREA_POINTS = 24
 _FILLET_TRIALS = 6
+RADIUS_STEP = 5e-5
+"""Step of ring pitch radius, pin circle and outside radius, m."""
 SAMPLING_GUARD = 3e-6
 """Added to ligaments measured to sampled profiles, m: more than the sampling can miss."""
 
@@ -160,6 +162,15 @@ def largest_pitch_for_wall(
     """Ring pitch radius that leaves exactly the least wall outside a solid ring's relief, m."""
     room = frame.outer_radius - allowables.RING_WALL - frame.relief_clearance
     return np.asarray(room - 2.0 * eccentricity + tooth_radius)
+
+
+def outer_radius(frame: Frame, ring: RingSizes) -> FloatArray:
+    """Of the smallest ring with the least wall outside a solid ring's relief, m.
+
+    On the grid of `RADIUS_STEP`, and within what the requirements allow.
+    """
+    least = ring.root_radius(frame) + allowables.RING_WALL
+    return np.minimum(np.ceil(least / RADIUS_STEP - 1e-6) * RADIUS_STEP, frame.outer_radius)
 
 
 def valley_distance(frame: Frame, ring: RingSizes) -> FloatArray:

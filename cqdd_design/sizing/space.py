@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,9 @@ PIN_COUNTS = (4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 24)
 """Pin counts tried at every ratio, beside those that divide it."""
 _MOST_PINS = 20
 _MOST_BEARINGS = 14
+_NEAR = (0.85, 0.93, 0.975, 1.0)
+_SCALE_STEP = 0.88
+"""Sizes of rings over the largest: close to it, and each over the next where they are smaller."""
 _THICKNESSES = 5
 """Thicknesses between the narrowest bearing and the most there is, beside the bearings' widths."""
 _COARSE_SHORTENING, _COARSE_SHARE = 4, 3
@@ -80,13 +84,23 @@ def search_space(frame: Frame, tables: StageTables) -> SearchSpace:
     return SearchSpace(
         shortening=tables.shortening[::_COARSE_SHORTENING],
         tooth_share=tables.tooth_share[::_COARSE_SHARE],
-        pitch_scale=np.array([0.85, 0.93, 0.975, 1.0]),
+        pitch_scale=_scales(frame),
         pin_counts=_pin_counts(frame.lobe_count),
         pin_sizes=np.arange(len(frame.pin_sizes)),
         inset=np.array([0.0, 0.04]),
         bearings=bearings,
         thickness=_tenths(np.concatenate([widths, between]), frame.most_thickness),
     )
+
+
+def _scales(frame: Frame) -> FloatArray:
+    """From the largest ring down to where the smallest bearing and the thinnest pins just fit."""
+    bearing = min(one.outer_diameter for one in frame.bearings)
+    around = allowables.RING_WALL + 2.0 * allowables.LIGAMENT + frame.pin_sizes[0].mean_diameter
+    least = min((0.5 * bearing + around) / frame.outer_radius, 1.0)
+    steps = math.ceil(math.log(_NEAR[0] / least) / -math.log(_SCALE_STEP))
+    smaller = _NEAR[0] * _SCALE_STEP ** np.arange(max(steps, 0), 0, -1)
+    return np.concatenate([smaller, _NEAR])
 
 
 def _pin_counts(lobe_count: int) -> tuple[int, ...]:

@@ -49,6 +49,9 @@ class StageTables:
         Nodes of the tooth radius over R sin(pi/(n+1)), evenly spaced.
     pressure : array (nK, nS)
         p^: largest Hertz pressure over the period; infinite where the tooth undercuts.
+    friction : array (nK, nS)
+        Mean of sum F_i s_i/T over the period, s_i from tooth contact to pitch point: losses of the
+        teeth over the work at the output, for a coefficient of friction of 1.
     radial : array (2, nK, A)
         f for both senses of torque over one ring period.
     """
@@ -57,6 +60,7 @@ class StageTables:
     shortening: FloatArray
     tooth_share: FloatArray
     pressure: FloatArray
+    friction: FloatArray
     radial: FloatArray
 
     @property
@@ -83,6 +87,15 @@ class StageTables:
         inside = (share >= self.tooth_share[0] - 1e-9) & (share <= self.tooth_share[-1] + 1e-9)
         sound = inside & (value > 0.0)
         return np.where(sound, np.where(sound, value, 1.0) ** -0.5, np.inf)
+
+    def friction_at(self, shortening: FloatArray, share: FloatArray) -> FloatArray:
+        """The friction number between the nodes."""
+        row, down = _cell(self.shortening, shortening)
+        column, across = _cell(self.tooth_share, share)
+        table = self.friction
+        left = table[row, column] * (1.0 - down) + table[row + 1, column] * down
+        right = table[row, column + 1] * (1.0 - down) + table[row + 1, column + 1] * down
+        return np.asarray(left * (1.0 - across) + right * across)
 
     def radial_at(self, shortening: FloatArray) -> FloatArray:
         """Radial parts f between the nodes, (2, ..., A) for K1 of shape (...)."""
@@ -167,13 +180,19 @@ def stage_tables(lobe_count: int) -> StageTables:
     curvature = rigid.ring_contact_curvature(n, 1.0, throw, angle)
     tooth = share * math.sin(math.pi / (n + 1))
     pressure = np.empty((shortening.size, share.size))
+    friction = np.empty_like(pressure)
+    # From the teeth's centres to the pitch point; the contact is a tooth radius nearer.
+    theta = angle[:, None] - rigid.ring_tooth_angles(n)
+    k1 = shortening[:, None, None]
+    away = np.sqrt(1.0 + k1 * k1 - 2.0 * k1 * np.cos(theta))
     for column, radius in enumerate(tooth):
         equivalent = hertz.ring_equivalent_radius(radius, curvature)
         # Past undercut the material between tooth and flank has no thickness left.
         room = np.where(equivalent > 0.0, equivalent, np.inf)
         found = hertz.line_contact_pressure(force, 1.0, room, 1.0).max(axis=(1, 2))
+        friction[:, column] = (force * np.abs(away - radius)).sum(axis=2).mean(axis=1)
         pressure[:, column] = np.where((equivalent > 0.0).all(axis=(1, 2)), found, np.inf)
     radial = np.stack(
         [rigid.ring_radial_force(n, 1.0, throw, sense, angle) for sense in (1.0, -1.0)]
     )
-    return StageTables(n, shortening, share, pressure, radial)
+    return StageTables(n, shortening, share, pressure, friction, radial)

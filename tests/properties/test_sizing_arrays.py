@@ -222,15 +222,6 @@ def test_the_inertia_is_that_of_the_parts():
     assert points.gearbox_inertia[0] == pytest.approx(expected, rel=1e-3)
 
 
-def test_half_a_per_cent_of_mass_and_inertia_count_as_stated():
-    """mass^0.7 inertia^0.3: the product knows no reference."""
-    light = Weights(np.array([1.0]), np.array([1e-5]), np.array([1e-4]))
-    heavy = Weights(np.array([2.0]), np.array([1e-5]), np.array([1e-4]))
-    slow = Weights(np.array([1.0]), np.array([1e-5]), np.array([2e-4]))
-    assert heavy.objective / light.objective == pytest.approx(2.0**0.7)
-    assert slow.objective / light.objective == pytest.approx(2.0**0.3)
-
-
 def test_every_part_weighs_by_its_own_material():
     """A part of another density changes the mass by its own volume times the difference."""
     steps, count, size = (160, 80, 3, 90), 12, 0

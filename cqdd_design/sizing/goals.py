@@ -1,0 +1,77 @@
+"""What a search makes small: mass, inertia, backlash, losses or size, in closed form."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.sizing.frame import Frame, Goal
+from cqdd_design.sizing.masses import Weights
+
+GOAL_UNITS: dict[Goal, str] = {
+    "mass": "kg",
+    "inertia": "kg*m^2",
+    "backlash": "rad",
+    "efficiency": "losses over work by friction",
+    "size": "m^3",
+}
+_TIE = 0.02
+"""Power of the mass beside another goal: of two equal ones the lighter is the better."""
+
+
+class Sizes(NamedTuple):
+    """What goals need beside weights; all broadcast with them, SI.
+
+    `hole_clearance` is on the diameter; `friction` is the number of
+    :class:`~cqdd_design.sizing.stage_tables.StageTables`.
+    """
+
+    eccentricity: FloatArray
+    thickness: FloatArray
+    pin_circle: FloatArray
+    hole_clearance: FloatArray
+    outer_radius: FloatArray
+    friction: FloatArray
+
+
+def goal_value(frame: Frame, weights: Weights, sizes: Sizes) -> FloatArray:
+    """What `frame.goal` makes small, lighter candidates first among equals; broadcasts."""
+    if frame.goal == "mass":
+        return weights.mass
+    values = {
+        "inertia": lambda: weights.gearbox_inertia,
+        "backlash": lambda: backlash_angle(frame, sizes),
+        "efficiency": lambda: friction_share(frame, sizes),
+        "size": lambda: swept_volume(frame, sizes),
+    }
+    return np.asarray(values[frame.goal]() * weights.mass**_TIE)
+
+
+def backlash_angle(frame: Frame, sizes: Sizes) -> FloatArray:
+    """Play of the output by teeth and pins, rad.
+
+    Teeth have their gap at both flanks and their longest arm n e, pins their clearance at R_w:
+    2 q/(n e) + c/R_w. The equilibrium's mean backlash of rigid parts is within a tenth of it.
+    """
+    arm = frame.lobe_count * sizes.eccentricity
+    return np.asarray(2.0 * frame.equidistant / arm + sizes.hole_clearance / sizes.pin_circle)
+
+
+def friction_share(frame: Frame, sizes: Sizes) -> FloatArray:
+    """Losses of teeth and pins over the work at the output, for a coefficient of friction of 1.
+
+    Pins push (4/pi) T/R_w in all (many of them) and slide with e (1 + 1/n) of the crank's speed.
+    """
+    n = frame.lobe_count
+    pins = 4.0 / math.pi * (n + 1) * sizes.eccentricity / sizes.pin_circle
+    return np.asarray(sizes.friction + pins)
+
+
+def swept_volume(frame: Frame, sizes: Sizes) -> FloatArray:
+    """Of the cylinder round the ring, as long as the pack, m^3."""
+    count = frame.disc_count
+    pack = count * sizes.thickness + (count - 1) * frame.spacing
+    return np.asarray(math.pi * sizes.outer_radius**2 * pack)
