@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -71,10 +72,11 @@ class Transmission:
     backlash: float
 
 
+@lru_cache(maxsize=2)
 def transmission(
     model: ContactModel, design: Design, torque: float, *, seed: int | None = None
 ) -> Transmission:
-    """Solve a gearbox for what the actuator feels of it.
+    """Solve a gearbox for what the actuator feels of it; verdict, shock and bench share it.
 
     Parameters
     ----------

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
     from cqdd_design.actuator.shock import Shock
     from cqdd_design.gearbox import GearboxAnalysis
+    from cqdd_design.roads.analyse import Analysis
 
 
 class ContactLaw(StrEnum):
@@ -49,7 +50,8 @@ def analyse(
     out: Output,
     design: DesignFile,
     torque: Annotated[
-        str | None, quantity_option('Output torque of the loads, as in "40 N*m".')
+        str | None,
+        quantity_option('Output torque of all but the verdict, for ever, as in "40 N*m".'),
     ] = None,
     angles: Annotated[int, option("N", "Crank angles of the curves.", min=8, max=100_000)] = 360,
     speed: Annotated[str | None, quantity_option('Input speed, as in "1286 rpm".')] = None,
@@ -91,7 +93,7 @@ def analyse(
         temperature=parts_at,
     )
     results, checks = found.to_dict(), found.checks
-    lines = [*_lines(found.gearbox, results), *_shock_lines(found.shocks)]
+    lines = [*_at_lines(found), *_lines(found.gearbox, results), *_shock_lines(found.shocks)]
     out.say(*lines, "", f"{sentence(loaded.name, checks)} (`check` draws toleranced ones too)")
     out.warn(*found.warnings)
     out.document(results, design=found.machine.given, checks=checks)
@@ -105,6 +107,7 @@ def _lines(analysis: GearboxAnalysis, results: dict[str, object]) -> list[str]:
         "output_pins": "output pins",
         "bearings": "cam bearing",
         "balance": "balance",
+        "duty": "duty over time, at the output and at the motor",
         "contact": "contact equilibrium",
         "precision": "precision",
         "losses": "losses",
@@ -125,6 +128,27 @@ def _lines(analysis: GearboxAnalysis, results: dict[str, object]) -> list[str]:
         rows = [[f"  {name}", _shown(value)] for name, value in _single(flat).items()]
         lines += [title, table(rows), ""]
     return lines[:-1]
+
+
+def _at_lines(found: Analysis) -> list[str]:
+    """Which sections stand for which torque."""
+    from cqdd_design.cli.tables import told
+    from cqdd_design.roads.analyse import ASKED
+
+    groups: dict[str, list[str]] = {}
+    for section, load in found.at.items():
+        groups.setdefault(load, []).append(section)
+    asked = "" if found.asked_torque is None else f" (--torque {number(found.asked_torque)} N*m)"
+    return [
+        "which torque",
+        told(
+            [
+                (f"{load}{asked if load == ASKED else ''}", ", ".join(names))
+                for load, names in groups.items()
+            ]
+        ),
+        "",
+    ]
 
 
 def _shock_lines(shocks: Mapping[str, Shock]) -> list[str]:

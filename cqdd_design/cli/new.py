@@ -17,14 +17,15 @@ def new(
     kind: Annotated[
         str | None,
         typer.Argument(
-            metavar="[KIND]", help="What to write: design, motor or requirements, with every key."
+            metavar="[KIND]",
+            help="What to write: design, duty, motor or requirements, with every key.",
         ),
     ] = None,
     example: Annotated[
         str | None, option("NAME", "An example design instead, such as cqdd-10.")
     ] = None,
     target: Annotated[
-        Path | None, option("FILE", "Default KIND.toml or NAME.toml, here.", "--out")
+        Path | None, option("FILE", "Default KIND.toml, duty.csv or NAME.toml, here.", "--out")
     ] = None,
     force: Force = False,
 ) -> None:

@@ -20,10 +20,10 @@ from cqdd_design.cli.options import (
 )
 from cqdd_design.cli.requirement_options import read_requirements, stated, with_requirements
 from cqdd_design.cli.session import Output
-from cqdd_design.cli.tables import binding, headline_table, number, table
+from cqdd_design.cli.tables import binding, checks_table, headline_table, number, table
 
 if TYPE_CHECKING:
-    from cqdd_design.design import Design
+    from cqdd_design.roads.size import Road
     from cqdd_design.sizing import SizingResult
     from cqdd_design.verdict import Verdict
 
@@ -50,16 +50,19 @@ def size(
     ] = None,
     duty: Duty = None,
     duty_columns: DutyColumnNames = None,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="The screen by closed forms alone: no verdict.")
+    ] = False,
     force: Force = False,
     **asked: Any,
 ) -> None:
-    """Requirements to a checked design file."""
+    """Requirements to a design file whose verdict is yes."""
     from cqdd_design.catalog import find_bare_motor
     from cqdd_design.design import load_required_motor
     from cqdd_design.design.model import duty_keys
     from cqdd_design.design.motor import read_motor
     from cqdd_design.exporting import read_kinds
-    from cqdd_design.roads.size import road_stages, size_and_write
+    from cqdd_design.roads.size import size_and_write
     from cqdd_design.units import TEMPERATURE
 
     asked = stated(asked)
@@ -77,8 +80,8 @@ def size(
         own = load_required_motor(requirements)
     kinds = () if export is None else read_kinds(export)
     wanted = read_requirements(asked, requirements)
-    if report:
-        out.note_compilation()
+    if not quick or report:
+        out.note_compilation(simulation=True)
     road = size_and_write(
         wanted,
         target,
@@ -86,26 +89,42 @@ def size(
         ambient=parse_option("--ambient", ambient, TEMPERATURE),
         kinds=kinds,
         report=report,
+        quick=quick,
         force=force,
-        progress=out.stages(road_stages(kinds, report=report)),
+        progress=out.note,
     )
     judged = road.verdict
-    out.say(*_lines(road.design, road.sizing), *_judged(judged))
-    out.warn(*judged.warnings)
+    out.say(*_lines(road))
+    results = road.sizing.to_dict()
+    if judged is None:
+        out.say(*_screened(road))
+        out.warn(*road.sizing.warnings)
+    else:
+        out.say(*_judged(judged))
+        out.warn(*judged.warnings)
+        results |= {"verdict": judged.to_dict()}
     out.wrote(road.files)
-    results = road.sizing.to_dict() | {"verdict": judged.to_dict()}
-    out.document(results, design=road.design, checks=judged.lines, files=road.files)
+    lines = road.sizing.checks if judged is None else judged.lines
+    out.document(results, design=road.design, checks=lines, files=road.files)
 
 
-def _lines(design: Design, sizing: SizingResult) -> list[str]:
-    assumed = [key for key in design.assumed if key.startswith("requirements.")]
+def _lines(road: Road) -> list[str]:
+    from cqdd_design.roads.size import CHOSEN
+
+    design, sizing = road.design, road.sizing
+    others = sum(not key.startswith("requirements.") for key in design.assumed)
+    chosen = CHOSEN if road.verdict is not None else frozenset[str]()
+    assumed = [key.split(".")[1] for key in design.assumed if key.startswith("requirements.")]
+    assumed = [key for key in assumed if key not in chosen]
     asked = design.to_mapping()["requirements"]
-    defaults = [[f"  {key.split('.')[1]}", str(asked[key.split(".")[1]])] for key in assumed]
+    motor = "what the motor can do through this gearbox"
+    defaults = [[f"  {key}", str(asked[key]), motor] for key in asked if key in road.derived]
+    defaults += [[f"  {key}", str(asked[key]), ""] for key in assumed]
     rejected = [[f"  {reason}", f"{count:,}"] for reason, count in sizing.rejected.items() if count]
     return [
         "assumed because you did not say (name them to change them):",
         table(defaults),
-        f"  and {len(design.assumed) - len(assumed)} defaults of the design file",
+        f"  and {others} defaults of the design file",
         "",
         f"{sizing.candidates_screened:,} candidates, {sizing.survivors:,} pass the first screen; "
         "rejected first by:",
@@ -115,6 +134,17 @@ def _lines(design: Design, sizing: SizingResult) -> list[str]:
         f"counted: {sizing.objective.scope};",
         "`inertia` weighs the whole machine.",
         "",
+    ]
+
+
+def _screened(road: Road) -> list[str]:
+    """What the screen alone says, and that it is no verdict."""
+    goal = road.sizing.objective
+    return [
+        checks_table(road.sizing.checks),
+        "",
+        f"{road.design.name}: no verdict, but the screen by closed forms; {goal.binding} binds, "
+        f"{number(goal.torque_reserve)} times the torque is its limit. See `check`.",
     ]
 
 

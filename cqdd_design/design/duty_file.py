@@ -40,6 +40,13 @@ _NAMES: dict[str, tuple[Dimension, tuple[str, ...]]] = {
 """Quantities, and what their columns are usually called."""
 
 
+_TEMPLATE_HEAD = (
+    "# A duty at the output, one cycle that comes again and again; for duty_file, or --duty.",
+    "# Other columns may stand beside these, in any order, and other units in the brackets.",
+    "# Torque and speed of opposite signs: the load drives the actuator.",
+)
+
+
 class _Column(NamedTuple):
     """Where a quantity stands, its heading, and the SI value of its unit."""
 
@@ -53,7 +60,7 @@ def duty_template() -> str:
     """A short duty to fill in, as text of a CSV file: a step of a knee."""
     rows = ((0.0, 5, 0.5), (0.1, 30, 1.0), (0.3, 22, -2.0), (0.5, -4, -3.5), (0.7, -6, 4.0))
     lines = [f"{t:g},{torque:g},{speed:g}" for t, torque, speed in (*rows, (1.0, 5, 0.5))]
-    return "\n".join(["time [s],torque [N*m],speed [rad/s]", *lines, ""])
+    return "\n".join([*_TEMPLATE_HEAD, "time [s],torque [N*m],speed [rad/s]", *lines, ""])
 
 
 def read_columns(text: str) -> DutyColumns:

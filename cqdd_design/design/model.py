@@ -275,6 +275,17 @@ class Design(FrozenModel):
             changes["requirements.speed_at_peak"] = min(asked.speed_at_peak, speed / asked.ratio)
         return self.replacing(changes)
 
+    def under_torque(self, torque: float) -> Design:
+        """The design with one torque (N m) for peak, continuous torque and duty."""
+        mapping = self.to_mapping()
+        for key in self.assumed:
+            _delete(mapping, key)
+        asked = mapping.setdefault("requirements", {})
+        for key in ("duty", "duty_file", "duty_columns"):
+            asked.pop(key, None)
+        asked |= {"peak_torque": torque, "continuous_torque": torque}
+        return Design.from_mapping(mapping, source=self.name, si=True)
+
     @property
     def sha256(self) -> str:
         """Hash of the resolved design: equal designs, equal hash, whatever the file looks like."""

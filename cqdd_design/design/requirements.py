@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Self
 
-from pydantic import Field, PrivateAttr, model_validator
+from pydantic import Field, ModelWrapValidatorHandler, PrivateAttr, model_validator
 
 from cqdd_design.design.fields import (
     FreeText,
@@ -78,9 +78,9 @@ class DutyColumnNames(FrozenModel):
     Each as in the file; a unit in brackets after it where the heading has none.
     """
 
-    time: FreeText = ""
-    torque: FreeText = ""
-    speed: FreeText = ""
+    time: FreeText | None = None
+    torque: FreeText | None = None
+    speed: FreeText | None = None
 
 
 _Angle = Annotated[
@@ -187,13 +187,14 @@ class Requirements(FrozenModel):
     pin_material: MaterialName = "Alloy steel 12.9 (ISO 7379)"
 
     _duty_log: DutyLog | None = PrivateAttr(default=None)
+    _derived: frozenset[str] = PrivateAttr(default=frozenset())
 
-    @model_validator(mode="before")
+    @model_validator(mode="wrap")
     @classmethod
-    def _derive_torques(cls, data: Any) -> Any:
+    def _derive_torques(cls, data: Any, made: ModelWrapValidatorHandler[Self]) -> Self:
         """Fill in the torques that follow from the ratio when they are not given."""
         if not isinstance(data, dict):
-            return data
+            return made(data)
         filled = dict(data)
         ratio = filled.get("ratio")
         if (
@@ -205,7 +206,14 @@ class Requirements(FrozenModel):
             filled["peak_torque"] = format_quantity(peak, TORQUE)
         if "peak_torque" in filled and "continuous_torque" not in filled:
             filled["continuous_torque"] = _share_of(filled["peak_torque"], DEFAULT_CONTINUOUS_SHARE)
-        return filled
+        whole = made(filled)
+        whole._derived = frozenset(filled) - frozenset(data)
+        return whole
+
+    @property
+    def derived(self) -> frozenset[str]:
+        """Torques that were not stated and follow from the ratio."""
+        return self._derived
 
     @property
     def held_speed(self) -> float:

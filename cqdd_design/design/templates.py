@@ -138,6 +138,14 @@ def requirements_template() -> str:
     return "\n".join(lines) + "\n"
 
 
+def duty_template() -> str:
+    """A duty over time to fill in."""
+    # Its room reads duties with numpy, which the other templates do without.
+    from cqdd_design.design import duty_file
+
+    return duty_file.duty_template()
+
+
 def design_template() -> str:
     """A design file with every key; those that have a default are comments."""
     reducer = {
@@ -235,6 +243,7 @@ def _nested(annotation: Any) -> tuple[Any, ...]:
 TEMPLATES: Mapping[str, Template] = MappingProxyType(
     {
         "design": Template("design.toml", "a design, every key with its default", design_template),
+        "duty": Template("duty.csv", "a duty over time, in rows", duty_template),
         "motor": Template("motor.toml", "a motor that the catalogue lacks", motor_template),
         "requirements": Template(
             "requirements.toml", "what `size` is asked for", requirements_template

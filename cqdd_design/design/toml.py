@@ -54,7 +54,9 @@ def _duty(asked: Requirements, folder: Path) -> DutyLog | None:
     from cqdd_design.design.duty_log import DutyColumns
 
     named = asked.duty_columns
-    columns = None if named is None else DutyColumns(named.time, named.torque, named.speed)
+    columns = DutyColumns()
+    if named is not None:
+        columns = DutyColumns(named.time or "", named.torque or "", named.speed or "")
     return read_duty(folder / asked.duty_file, columns)
 
 

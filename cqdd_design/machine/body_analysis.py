@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.errors import ContactError, GeometryError
@@ -47,7 +48,18 @@ def analyse_bodies(
         When the gearbox has no equilibrium at the torque.
     GeometryError
         When material is too thin to mesh.
+
+    Notes
+    -----
+    A verdict and a command ask for the same, so that the last results are kept.
     """
+    return _analysed(machine, torque, line_model, friction)
+
+
+@lru_cache(maxsize=2)
+def _analysed(
+    machine: Machine, torque: float | None, line_model: LineModel, friction: FrictionChoice
+) -> BodyStrength:
     design, usual = machine.design, line_model == "palmgren"
     model = machine.contact if usual else machine.contact_by(line_model)
     asked = design.requirements

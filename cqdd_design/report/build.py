@@ -33,6 +33,7 @@ from cqdd_design.report.judgement.closing import (
     paper_symbols,
     sources_used,
 )
+from cqdd_design.report.judgement.duty import duty_rows
 from cqdd_design.report.judgement.facts import derived_values, head_facts
 from cqdd_design.report.judgement.origins import Value, defaults, values_by_group
 from cqdd_design.report.judgement.planetary import planetary_view
@@ -100,7 +101,11 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
 
     return [
         chapter("verdict", "Verdict", {"pins": pin_figure(gearbox), "uneven_sharing": uneven}),
-        chapter("requirements", "Requirements", {"requirements": groups[0]}),
+        chapter(
+            "requirements",
+            "Requirements",
+            {"requirements": groups[0], "duty_rows": duty_rows(design)},
+        ),
         _Chapter(
             "drawings.html",
             (("drawings", "Drawings"), ("mesh-section", "Mesh")),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from cqdd_design.actuator.duty_points import duty_points
 from cqdd_design.actuator.shock import Shock, shocks
 from cqdd_design.design import Design
 from cqdd_design.errors import ContactError, GeometryError
@@ -16,8 +17,31 @@ from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.body_analysis import analyse_bodies, no_stress
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
+from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.verdict import Verdict, judge
+
+ASKED, UNLOADED = "torque asked for", "no torque"
+_AT = {
+    "rigid": "peak torque",
+    "rigid_continuous": "continuous torque",
+    "rigid_series": "peak torque",
+    "output_pins": "peak and continuous torque",
+    "bearings": "peak and continuous torque",
+    "contact": "peak torque",
+    "precision": "continuous torque",
+    "losses": "continuous torque",
+    "film": "continuous torque",
+    "wear": "duty",
+    "life": "duty",
+    "bending": "peak torque",
+    "bodies": "peak and continuous torque",
+    "temperatures_degC": "duty",
+    "heat": "duty",
+}
+"""What sections stand for where no torque is asked for."""
+_UNLOADED = ("geometry", "balance", "shock")
+"""Sections of dimensions and speeds alone."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +64,12 @@ class Analysis:
         Stops of the output from the rated speed, and from a given one.
     shock_missing : str
         Why there are none.
+    asked_torque : float or None
+        What all loads are at, N m; None: those of the requirements.
+    temperatures : MachineTemperatures or None
+        At the duty, at the continuous torque, or at the one asked for.
+    heat_missing : str
+        Why there are none.
     """
 
     machine: Machine
@@ -51,6 +81,22 @@ class Analysis:
     bodies_missing: str = ""
     shocks: Mapping[str, Shock] = field(default_factory=dict)
     shock_missing: str = ""
+    asked_torque: float | None = None
+    temperatures: MachineTemperatures | None = None
+    heat_missing: str = ""
+
+    @property
+    def at(self) -> dict[str, str]:
+        """What every section stands for: a torque, the duty, a speed, or dimensions alone."""
+        asked = self.verdict.evidence.machine.design.requirements
+        if self.asked_torque is not None:
+            told = dict.fromkeys(_AT, ASKED) | dict.fromkeys(_UNLOADED, UNLOADED)
+        else:
+            duty = "duty" if asked.load_cases else "continuous torque"
+            told = {name: duty if load == "duty" else load for name, load in _AT.items()}
+            told |= dict.fromkeys(_UNLOADED, UNLOADED)
+        over_time = {} if asked.duty_log is None else {"duty": "requirements"}
+        return told | over_time | {"checks": "requirements"}
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -60,8 +106,7 @@ class Analysis:
     @property
     def warnings(self) -> tuple[str, ...]:
         """What was not checked or cannot be relied on."""
-        found = self.verdict.evidence
-        warm = found.temperatures.warnings if found.temperatures else (found.heat_missing,)
+        warm = self.temperatures.warnings if self.temperatures else (self.heat_missing,)
         closed = (*self.gearbox.warnings, *self.machine.too_warm, *warm)
         if self.contact is None:
             return (*closed, f"no contact analysis: {self.missing}")
@@ -76,15 +121,30 @@ class Analysis:
                 *("contact", "precision", "losses", "film", "wear"),
                 *("life", "bending", "bodies", "shock", "temperatures_degC", "heat"),
             )
-            absent = dict.fromkeys(names)
-            return self.gearbox.to_dict() | absent
+            return self._head() | dict.fromkeys(names)
         bodies = None if self.bodies is None else self.bodies.to_dict()
         shock = {name: one.to_dict() for name, one in self.shocks.items()} or None
         warm: dict[str, object] = dict.fromkeys(("temperatures_degC", "heat"))
-        if self.verdict.evidence.temperatures is not None:
-            warm = self.verdict.evidence.temperatures.to_dict()
+        if self.temperatures is not None:
+            warm = self.temperatures.to_dict()
         found = {"bodies": bodies, "shock": shock} | warm
-        return self.gearbox.to_dict() | self.contact.to_dict() | found
+        return self._head() | self.contact.to_dict() | found
+
+    def _head(self) -> dict[str, object]:
+        """What there is without an equilibrium, and what all sections stand for."""
+        at = {"torque_Nm": self.asked_torque, "sections": self.at}
+        return {"at": at, "duty": self._duty()} | self.gearbox.to_dict()
+
+    def _duty(self) -> dict[str, object] | None:
+        """What the requirements' duty over time comes to, where there is one."""
+        evidence = self.verdict.evidence
+        log = evidence.machine.design.requirements.duty_log
+        if log is None:
+            return None
+        followed = {}
+        if evidence.actuator is not None:
+            followed = duty_points(evidence.actuator, log).to_dict()
+        return {"file": log.source} | log.figures.to_dict() | followed
 
 
 def analyse(
@@ -102,7 +162,8 @@ def analyse(
     Parameters
     ----------
     torque : float, optional
-        At the output, N m; see `analyse_contact`.
+        At the output, N m, instead of peak and continuous torque and of the duty, for ever; only
+        the verdict stays that of the requirements.
     speed : float, optional
         Input speed, rad/s; default that of the requirements.
     angles : int
@@ -126,22 +187,35 @@ def analyse(
     """
     asked = design if speed is None else design.turning_at(speed)
     drawn = resolve(asked)
-    machine = drawn
+    # What is judged is a matter of the design, whatever is asked for here.
+    verdict = judge(drawn, samples=0)
+    warm, cold = verdict.evidence.temperatures, verdict.evidence.heat_missing
+    loaded = drawn
+    if torque is not None:
+        loaded = replace(drawn, design=drawn.design.under_torque(torque))
+        warm, _, told = judged_temperatures(loaded)
+        cold = "" if warm else " ".join(told)
+    machine = loaded
     if temperature is not None:
-        machine = drawn.at(PartTemperatures.even(temperature))
-    gearbox = machine.analyse(torque=torque, angles=angles)
-    # What is judged, and what settles, are a matter of the design, whatever is asked for here.
-    found = Analysis(machine, gearbox, judge(drawn, samples=0), contact=None, missing="")
+        machine = loaded.at(PartTemperatures.even(temperature))
+    found = Analysis(
+        machine,
+        machine.analyse(angles=angles),
+        verdict,
+        contact=None,
+        missing="",
+        asked_torque=torque,
+        temperatures=warm,
+        heat_missing=cold,
+    )
     try:
-        contact = analyse_contact(
-            machine, torque=torque, angles=angles, line_model=line_model, friction=friction
-        )
+        contact = analyse_contact(machine, angles=angles, line_model=line_model, friction=friction)
     except ContactError as error:
         return replace(found, missing=error.message)
     stops, unknown = shocks(machine)
     found = replace(found, contact=contact, shocks=stops, shock_missing=unknown)
     try:
-        bodies = analyse_bodies(machine, torque=torque, line_model=line_model, friction=friction)
+        bodies = analyse_bodies(machine, line_model=line_model, friction=friction)
     except (ContactError, GeometryError) as error:
         return replace(found, bodies_missing=error.message)
     return replace(found, bodies=bodies)

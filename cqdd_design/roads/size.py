@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from cqdd_design.actuator.specimen import Specimen
@@ -12,14 +12,12 @@ from cqdd_design.design import Design, Requirements, save_design
 from cqdd_design.design.motor import MotorFile
 from cqdd_design.design.motor_row import row_over
 from cqdd_design.errors import UsageError
-from cqdd_design.exporting import export, stages
+from cqdd_design.exporting import export
 from cqdd_design.files import WrittenFile, atomic_path, describe_file, refuse_overwrite
 from cqdd_design.roads.telling import Progress, silent
 from cqdd_design.sizing import SizingResult, size
-from cqdd_design.verdict import Verdict, judge
-
-#: How often sizing tells its progress.
-SIZING_STAGES = 4
+from cqdd_design.sizing.verified import size_to_verdict
+from cqdd_design.verdict import Verdict
 
 _STAMP = "# `size` replaces this file only while the lines above have this sha256: "
 
@@ -34,14 +32,17 @@ class Road:
         The sized design under the name of its file.
     files : tuple of WrittenFile
         The design file first, then exports, then the report.
-    verdict : Verdict
-        On the design as it was written.
+    verdict : Verdict or None
+        On the design as it was written: yes; None after the screen alone.
+    derived : frozenset of str
+        Requirements that were not stated and are what the motor can do.
     """
 
     sizing: SizingResult
     design: Design
     files: tuple[WrittenFile, ...]
-    verdict: Verdict
+    verdict: Verdict | None
+    derived: frozenset[str]
 
 
 def size_and_write(
@@ -52,10 +53,11 @@ def size_and_write(
     ambient: float | None = None,
     kinds: tuple[str, ...] = (),
     report: bool = False,
+    quick: bool = False,
     force: bool = False,
     progress: Progress = silent,
 ) -> Road:
-    """Go the whole road: size, check, write the design, export, report.
+    """Go the whole road: size, judge, write the design, export, report.
 
     Parameters
     ----------
@@ -71,10 +73,12 @@ def size_and_write(
         Kinds of file to export.
     report : bool
         Whether to write the report.
+    quick : bool
+        The screen by closed forms alone, which is no verdict.
     force : bool
         Replace an existing design file that was named, or edited.
     progress : callable
-        Told in a few words what begins, `road_stages` times.
+        Told in a few words what begins.
 
     Raises
     ------
@@ -91,7 +95,12 @@ def size_and_write(
         # Whoever gives a motor's data asks for that motor.
         requirements = requirements.model_copy(update={"motor": requirements.motor})
         row = row_over(requirements.motor, motor, named=named)
-    sizing = size(requirements, progress, motor=row, ambient=ambient)
+    verdict, derived = None, frozenset[str]()
+    if quick:
+        sizing = size(requirements, progress, motor=row, ambient=ambient)
+    else:
+        found = size_to_verdict(requirements, progress, motor=row, ambient=ambient)
+        sizing, verdict, derived = found.sizing, found.verdict, found.derived
     # Both are written to the file even where they equal their defaults.
     own = {"schema_version": 1, "name": target.stem}
     design = _duty_from(sizing.design.replacing(own), target.parent)
@@ -99,9 +108,10 @@ def size_and_write(
         design = design.with_motor(requirements.motor if named else None, motor)
         design = design if named else design.leaving("requirements.motor")
     specimen = Specimen()
-    files: tuple[WrittenFile, ...] = (_write_fresh(target, design),)
+    files: tuple[WrittenFile, ...] = (_write_fresh(target, design, derived),)
     machine = specimen.machine(design)
-    judged = judge(machine, specimen, sensitivity=report, progress=progress)
+    if verdict is not None:
+        verdict = replace(verdict, name=target.stem)
     if kinds:
         files += export(machine, kinds, specimen=specimen, progress=progress)
     if report:
@@ -114,11 +124,10 @@ def size_and_write(
             source=target,
             sizing=sizing,
             files=files,
-            verdict=judged,
             progress=progress,
         )
         files = (*files, written.file)
-    return Road(sizing, design, files, judged)
+    return Road(sizing, design, files, verdict, derived)
 
 
 def _duty_from(design: Design, folder: Path) -> Design:
@@ -132,15 +141,6 @@ def _duty_from(design: Design, folder: Path) -> Design:
         place = Path(named).absolute()
     log = design.requirements.duty_log
     return design.replacing({"requirements.duty_file": place.as_posix()}).with_duty_log(log)
-
-
-def road_stages(kinds: tuple[str, ...], *, report: bool) -> int:
-    """How often `size_and_write` tells its progress."""
-    if not report:
-        return SIZING_STAGES + stages(kinds)
-    from cqdd_design.roads.report import REPORT_STAGES
-
-    return SIZING_STAGES + stages(kinds) + REPORT_STAGES - 2
 
 
 def _refuse_edited(path: Path) -> None:
@@ -162,11 +162,11 @@ def _digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-def _write_fresh(path: Path, design: Design) -> WrittenFile:
+def _write_fresh(path: Path, design: Design, derived: frozenset[str]) -> WrittenFile:
     """Write a design file anew, with its stamp: a former one leaves no comments behind."""
     with atomic_path(path) as temporary:
         temporary.unlink()
-        save_design(temporary, design, comments=_origins(design))
+        save_design(temporary, design, comments=_origins(design, derived))
         content = temporary.read_bytes()
         temporary.write_bytes(content + f"{_STAMP}{_digest(content)}\n".encode())
     return describe_file(path, "design")
@@ -183,15 +183,21 @@ _TAKEN_OVER = {
 }
 
 
-def _origins(design: Design) -> dict[str, str]:
+#: Of them, what sizing to the verdict chooses where nothing is asked for.
+CHOSEN = frozenset({"disc_count", "disc_material", "ring_material"})
+
+
+def _origins(design: Design, derived: frozenset[str]) -> dict[str, str]:
     """A remark for every key of a sized design that is written: where its value comes from."""
     remarks = {}
     for key in design.dotted_keys():
         if key.startswith(("requirements.", "motor.")) or key == "environment.ambient":
-            remarks[key] = "given"
+            remarks[key] = "assumed" if key.partition(".")[2] in derived else "given"
         elif key in _TAKEN_OVER:
-            wanted = f"requirements.{_TAKEN_OVER[key]}"
-            remarks[key] = "assumed" if wanted in design.assumed else "given"
+            wanted = _TAKEN_OVER[key]
+            stated = f"requirements.{wanted}" not in design.assumed
+            usual = "sized" if wanted in CHOSEN else "assumed"
+            remarks[key] = "given" if stated else usual
         elif key.startswith("reducer."):
             remarks[key] = "sized"
     return remarks

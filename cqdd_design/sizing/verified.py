@@ -9,6 +9,7 @@ temperatures choose the clearances; and the whole verdict decides.
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
@@ -20,11 +21,12 @@ from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.temperatures import judged_temperatures
 from cqdd_design.results import Check
+from cqdd_design.sizing.able import CONTINUOUS, PEAK, first_guess, weaker, what_it_can
 from cqdd_design.sizing.exact import exact_checks, shortfalls
 from cqdd_design.sizing.frame import USUAL_FIT, Fit, Frame, search_frame
 from cqdd_design.sizing.infeasible import SizingInfeasibleError, no_design
 from cqdd_design.sizing.points import Evaluator, Points
-from cqdd_design.sizing.result import SizedDesign
+from cqdd_design.sizing.result import SizedDesign, SizingResult
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.stage_tables import StageTables, stage_tables
 from cqdd_design.verdict import Verdict, judge
@@ -51,7 +53,9 @@ _SETTLED = 2e-3
 _LEAST_STEP = 1e-6
 """Clearance that has to grow at all, m: to the next fit."""
 _TRIAL_SAMPLES = 32
-_TRIALS = 8
+_TRIALS = 10
+_LESS, _WEAKER = 0.8, 10
+"""Share of a torque that is tried next where no gearbox carries it, and how often."""
 _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
 _RING, _CAM = "CONTACT-RING-PEAK", "BEARING-STATIC"
@@ -91,15 +95,19 @@ class VerifiedDesign:
 
     Attributes
     ----------
-    found : Found
+    sizing : SizingResult
+        The design, and alternatives that closed forms alone have judged.
     verdict : Verdict
-        On the design, which it meets.
+        On the design: yes.
+    derived : frozenset of str
+        Requirements that were not stated and are what the motor can do.
     judged : int
         Designs that were judged by the whole verdict.
     """
 
-    found: Found
+    sizing: SizingResult
     verdict: Verdict
+    derived: frozenset[str]
     judged: int
 
 
@@ -149,21 +157,40 @@ def size_to_verdict(
     SizingInfeasibleError
         When no design was found whose verdict is yes; it names the lines that bind.
     """
-    hunt = _Hunt(requirements, motor, ambient, progress, stage_tables(requirements.ratio))
+    began = time.perf_counter()
+    guess = first_guess(requirements, motor)
+    hunt = _Hunt(guess, motor, ambient, progress, stage_tables(requirements.ratio))
     progress("searching by closed forms, held against the contact equilibrium")
     found = _lightest(hunt)
+    for _ in range(_WEAKER):
+        less = None if found is not None else weaker(hunt.requirements, _LESS)
+        if less is None:
+            break
+        hunt.requirements = less
+        found = _lightest(hunt)
     last: Verdict | None = None
     for _ in range(_TRIALS):
         if found is None:
             break
         machine = resolve(found.sized.design, motor)
+        can = what_it_can(machine, hunt.requirements) if hunt.requirements.derived else None
+        if can is not None:
+            space = found.space
+            torques = {one: getattr(can, one) for one in (PEAK, CONTINUOUS)}
+            asked = space.requirements.model_copy(update=torques)
+            hunt.requirements = can
+            found = _agreed(hunt, space._replace(requirements=asked), None, found.needs)
+            continue
         step = _closer_look(hunt, found, machine)
         if step is None:
             progress(f"judging {found.sized.design.name} by the whole verdict")
             hunt.judged += 1
             last = judge(machine)
             if last.meets == "yes":
-                return VerifiedDesign(found, last, hunt.judged)
+                sizing = _result(found, time.perf_counter() - began)
+                added = hunt.requirements.model_fields_set - requirements.model_fields_set
+                derived = requirements.derived | added
+                return VerifiedDesign(sizing, last, derived, hunt.judged)
             step = _next_step(hunt, last)
         if step is None:
             break
@@ -176,7 +203,49 @@ def size_to_verdict(
         found = _agreed(hunt, space, None, found.needs)
     if last is not None:
         raise _refused(last)
-    raise no_design(Search.of(hunt.frame(next(_spaces(requirements, FITS[0])), {}), hunt.tables))
+    raise _nothing(hunt)
+
+
+def _result(found: Found, seconds: float) -> SizingResult:
+    """With alternatives of the last search, whose closed forms are held against the equilibrium."""
+    search, screen = found.search, found.search.found
+    most = search.most_reserve()
+    others = () if most is None else search.alternatives(found.sized, found.point, most)
+    return SizingResult(
+        **vars(found.sized),
+        alternatives=others,
+        candidates_screened=screen.screened,
+        survivors=screen.survivors,
+        rejected=screen.rejected,
+        seconds=seconds,
+    )
+
+
+def _nothing(hunt: _Hunt) -> SizingInfeasibleError:
+    """Why no design bears the loads: by closed forms, or because the equilibrium takes more."""
+    space = next(_spaces(hunt.requirements, FITS[0]))
+    search = Search.of(hunt.frame(space, {}), hunt.tables)
+    most = search.most_reserve()
+    if most is None or float(most.reserve[0]) < 1.0:
+        return no_design(search)
+    for _ in range(_WEAKER):
+        asked = hunt.requirements
+        hunt.requirements = asked.model_copy(
+            update={
+                PEAK: _LESS * asked.peak_torque,
+                CONTINUOUS: min(asked.continuous_torque, _LESS * asked.peak_torque),
+            }
+        )
+        if _lightest(hunt) is not None:
+            break
+    carried = rounded_down(hunt.requirements.peak_torque)
+    return SizingInfeasibleError(
+        f"{space.requirements.peak_torque:g} N*m at ratio {space.requirements.ratio} fit by closed "
+        f"forms alone: by the contact equilibrium about {carried:g} N*m are carried in this space. "
+        f"Lower peak_torque to {carried:g} N*m, or raise outer_diameter or length.",
+        binding=(_RING,),
+        most_torque=carried,
+    )
 
 
 def _wider(least: float) -> Fit | None:
@@ -196,7 +265,10 @@ def _spaces(requirements: Requirements, fit: Fit) -> Iterator[Space]:
                     key: material for key in ("disc_material", "ring_material") if key not in stated
                 },
             }
-            yield Space(requirements.model_copy(update=update), fit)
+            tried = requirements.model_copy(update=update)
+            # What is tried is not asked for.
+            tried.model_fields_set.intersection_update(stated)
+            yield Space(tried, fit)
             if {"disc_material", "ring_material"} <= stated:
                 break
 

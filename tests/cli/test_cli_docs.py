@@ -44,12 +44,12 @@ def shown_before():
 def test_every_command_shown_runs(page, cqdd, tmp_path, shown_before):
     """In the order of the page, from a folder with the repository's designs and the page's files.
 
-    A block of TOML that begins with a file's name is that file. A command of the paper's design
-    that another page has shown before, and of which no file is read later, is not run again.
+    A block of TOML or CSV that begins with a file's name is that file. A command of the paper's
+    design that another page has shown before, and of which no file is read later, is not run again.
     """
     shutil.copytree(REPOSITORY / "designs", tmp_path / "designs")
-    for block in blocks(page, "toml"):
-        if name := re.match(r"# ([\w-]+\.toml)\b", block):
+    for block in (*blocks(page, "toml"), *blocks(page, "csv")):
+        if name := re.match(r"# ([\w-]+\.(?:toml|csv))\b", block):
             (tmp_path / name[1]).write_text(block)
     for command in console_commands(page):
         program, *arguments = shlex.split(command, comments=True)

@@ -111,8 +111,8 @@ def test_every_committed_design_is_an_example():
     ("words", "says"),
     [
         (["new"], "cqdd-design new --example cqdd-10"),
-        (["new", "design", "--example", "cqdd-10"], "one of design, motor, requirements"),
-        (["new", "gearbox"], "there is no template 'gearbox'; there are design, motor"),
+        (["new", "design", "--example", "cqdd-10"], "one of design, duty, motor, requirements"),
+        (["new", "gearbox"], "there is no template 'gearbox'; there are design, duty, motor"),
         (["new", "--example", "cqdd10"], "the nearest is cqdd-10"),
         (["new", "motor", "--out", "."], "folder"),
     ],

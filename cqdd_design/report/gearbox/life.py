@@ -8,8 +8,9 @@ from cqdd_design.report.ink.numbers import NONE, RPM, per_cent, significant, wit
 from cqdd_design.report.ink.page import Values
 
 if TYPE_CHECKING:
-    from cqdd_design.gearbox.life import LifeResult, PartLife
+    from cqdd_design.gearbox.life import DutyCase, LifeResult, PartLife
 
+_MOST_CASES = 12
 Judged = tuple[str, bool]
 """A value as shown, and whether it is long enough."""
 
@@ -36,20 +37,32 @@ def life_view(result: LifeResult) -> Values:
             )
         )
     return {
-        "duty": tuple(
-            (
-                with_unit(case.torque, "N*m"),
-                f"{significant(case.speed * RPM)} rpm",
-                per_cent(case.share),
-            )
-            for case in result.duty
-        ),
+        "duty": _cases(result.duty),
         "assumed": result.assumed,
         "required": with_unit(required, "h"),
         "rows": tuple(_row(part, required) for part in result.parts),
         "seat": ", ".join(["Cam bearing", *(one.name for one in result.runners)]),
         "bearings": tuple(bearings),
     }
+
+
+def _cases(duty: tuple[DutyCase, ...]) -> tuple[tuple[str, str, str], ...]:
+    """Load cases, of many those of the largest torques."""
+    shown = duty
+    if len(duty) > _MOST_CASES:
+        shown = tuple(sorted(duty, key=lambda case: -abs(case.torque))[: _MOST_CASES - 1])
+    rows = [
+        (
+            with_unit(case.torque, "N*m"),
+            f"{significant(case.speed * RPM)} rpm",
+            per_cent(case.share),
+        )
+        for case in shown
+    ]
+    if left := len(duty) - len(shown):
+        rest = sum(case.share for case in duty) - sum(case.share for case in shown)
+        rows.append((f"{left} of less torque", NONE, per_cent(rest)))
+    return tuple(rows)
 
 
 def _bearing(hours: float | None, required: float) -> Judged:

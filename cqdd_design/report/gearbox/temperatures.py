@@ -56,10 +56,25 @@ def temperatures_view(found: MachineTemperatures) -> Values:
             ),
             ("least gap", with_unit(hot.least_gap * 1e6, "um", 3), "in the nominal pose"),
             ("preload", with_unit(hot.overlap * 1e6, "um", 3), "overlap that no motion removes"),
+            *_over_cycle(found),
             ("time constant", with_unit(found.settling_time / 60.0, "min", 3), "of the slowest"),
         ),
         "figures": (_warming(found),),
     }
+
+
+def _over_cycle(found: MachineTemperatures) -> tuple[tuple[str, str, str], ...]:
+    """The winding over a duty's cycle, where it has one."""
+    if found.cycle is None:
+        return ()
+    most, when = found.cycle.winding
+    return (
+        (
+            "hottest winding",
+            f"{significant(most, 3)} °C",
+            f"in every cycle after {significant(when, 3)} s",
+        ),
+    )
 
 
 def _warming(found: MachineTemperatures) -> object:

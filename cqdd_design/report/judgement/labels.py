@@ -24,6 +24,7 @@ class Label:
 #: Headings of the tables of a design file.
 GROUPS = {
     "requirements": "Requirements",
+    "requirements.duty_columns": "Columns of the duty's file",
     "reducer": "Reducer",
     "reducer.modification": "Profile modification",
     "reducer.output_pins": "Output pins",
@@ -69,6 +70,7 @@ _LABELS = {
     "requirements.ring_material": Label("ring material asked for"),
     "requirements.pin_material": Label("pin material asked for"),
     "requirements.duty": Label("duty at the output"),
+    "requirements.duty_file": Label("duty over time, file"),
     "reducer.ratio": Label("lobes on the disc", "n"),
     "reducer.ring_pitch_radius": Label("ring pitch radius", "R"),
     "reducer.eccentricity": Label("eccentricity", "e"),

@@ -1,0 +1,106 @@
+"""What is asked where nothing is said: what the motor can do through a gearbox of that ratio."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.demands import demands
+from cqdd_design.actuator.operating import held_torque
+from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.design import Requirements
+from cqdd_design.design.motor import MotorTable
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.geometry.limits import rounded_down
+from cqdd_design.machine import Machine
+
+HELD_SPEED = 300.0 * math.pi / 30.0
+"""Input speed of the continuous torque where neither it nor the input speed is stated, rad/s: half
+a turn a second of an output at ratio 10. At its usual input speed a motor of this size is warmed to
+its limit by its own drag in still air."""
+PEAK, CONTINUOUS = "peak_torque", "continuous_torque"
+_EFFICIENCY = 0.65
+"""Of motor, drag and gearbox at a first guess of the peak."""
+_LASTING = 0.12
+"""Continuous over peak torque at a first guess."""
+_SPARE = 0.95
+"""Of what the winding stands for ever: other parts may be at their limit before."""
+_DIGITS = 2
+_SAME = 0.05
+"""A torque is left as it is where what the motor can do is so near to it."""
+
+
+def first_guess(requirements: Requirements, motor: Motor | None) -> Requirements:
+    """The requirements with guesses in place of torques that were not stated.
+
+    Torques stay as they are where the motor's constant is not known.
+    """
+    free, row = requirements.derived, motor or find_motor(requirements.motor)
+    if not free or row.torque_constant is None:
+        return requirements
+    usual = MotorTable()
+    shaft = row.torque_constant * (requirements.current or usual.current_limit)
+    shaft = min(shaft, row.peak_torque or math.inf)
+    changed: dict[str, Any] = {}
+    peak = requirements.peak_torque
+    if PEAK in free:
+        peak = rounded_down(_EFFICIENCY * requirements.ratio * shaft, _DIGITS)
+        changed[PEAK] = peak
+    if CONTINUOUS in free:
+        changed[CONTINUOUS] = rounded_down(_LASTING * peak, _DIGITS)
+        stated = requirements.model_fields_set
+        if not {"continuous_speed", "input_speed", "duty", "duty_file"} & stated:
+            changed["continuous_speed"] = min(HELD_SPEED, requirements.input_speed)
+    return _with(requirements, changed)
+
+
+def what_it_can(machine: Machine, requirements: Requirements) -> Requirements | None:
+    """Torques that were not stated, as the motor reaches them in a gearbox; None where they stand.
+
+    Raises
+    ------
+    InfeasibleError
+        When the motor holds no torque for ever at the speed that is asked for.
+    DesignError
+        When the actuator cannot be simulated.
+    """
+    free = requirements.derived
+    actuator = actuator_parameters(machine)
+    changed: dict[str, Any] = {}
+    if PEAK in free:
+        most = demands(actuator, requirements)[0].found.most
+        if most < requirements.peak_torque:
+            changed[PEAK] = rounded_down(most, _DIGITS)
+    if CONTINUOUS in free:
+        speed = requirements.held_speed / requirements.ratio
+        most = _SPARE * float(held_torque(actuator, speed)[0])
+        if most <= 0.0:
+            raise InfeasibleError(
+                f"motor '{machine.motor.name}' holds no torque for ever at "
+                f"{requirements.held_speed * 30.0 / math.pi:.0f} rpm in still air of "
+                f"{actuator.thermal.ambient:g} degC: its own drag and the gearbox's heat it to its "
+                "limit; state continuous_speed, a duty, or another motor."
+            )
+        if not 1.0 - _SAME <= requirements.continuous_torque / most <= 1.0:
+            changed[CONTINUOUS] = min(
+                rounded_down(most, _DIGITS), changed.get(PEAK, requirements.peak_torque)
+            )
+    return _with(requirements, changed) if changed else None
+
+
+def weaker(requirements: Requirements, share: float) -> Requirements | None:
+    """The requirements with a share of the peak torque that was not stated; None where it was."""
+    if PEAK not in requirements.derived:
+        return None
+    peak = rounded_down(share * requirements.peak_torque, _DIGITS)
+    changed: dict[str, Any] = {PEAK: peak}
+    if CONTINUOUS in requirements.derived:
+        changed[CONTINUOUS] = min(requirements.continuous_torque, peak)
+    return _with(requirements, changed)
+
+
+def _with(requirements: Requirements, changed: Mapping[str, Any]) -> Requirements:
+    changes = dict(changed)
+    return requirements.model_copy(update=changes) if changes else requirements
