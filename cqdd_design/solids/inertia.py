@@ -175,7 +175,7 @@ class GearboxInertia:
     @property
     def mass_scope(self) -> str:
         """What `mass` counts, in words."""
-        motor = f"{self.motor.name} by its catalogue, stator and rotor, {ROTOR_SCOPE}"
+        motor = f"{self.motor.name} {self._by('mass')}, stator and rotor, {ROTOR_SCOPE}"
         if not self.motor_missing:
             return (
                 f"gearbox, housing, cover and encoder as drawn, and {motor}, "
@@ -189,6 +189,9 @@ class GearboxInertia:
             "which are not drawn"
         )
 
+    def _by(self, field: str) -> str:
+        return "as stated" if field in self.motor.stated else "by its catalogue"
+
     @property
     def crank_scope(self) -> str:
         """What `gearbox_reflected` counts, in words."""
@@ -198,7 +201,7 @@ class GearboxInertia:
     def inertia_scope(self) -> str:
         """What `reflected_input` counts, in words."""
         if self.rotor_inertia is not None:
-            return f"rotor by its catalogue, {ROTOR_SCOPE}, and gearbox as drawn"
+            return f"rotor {self._by('rotor_inertia')}, {ROTOR_SCOPE}, and gearbox as drawn"
         if self.rotor_drawn > 0.0:
             return f"rotor, {ROTOR_SCOPE}, and gearbox as drawn"
         return f"not known: neither is the inertia of the rotor of {self.motor.name}"

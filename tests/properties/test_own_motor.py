@@ -248,6 +248,9 @@ def test_every_room_sees_the_motor_of_the_table() -> None:
     keys = {"name": "mine", "based_on": LITE.name, "rotor_inertia": "4e-4 kg*m^2"}
     machine = resolve(with_table(**keys, mass="0.6 kg", peak_torque="5 N*m", resistance="0.2 ohm"))
     assert machine.inertia.rotor_inertia == 4e-4
+    assert "mine as stated" in machine.inertia.mass_scope
+    assert "rotor as stated" in machine.inertia.inertia_scope
+    assert f"{LITE.name} by its catalogue" in resolve(DESIGN).inertia.mass_scope
     assert machine.inertia.group_masses["motor"] == pytest.approx(0.6)
     assert machine.inertia.rotor_drawn == pytest.approx(4e-4, rel=1e-6)
     (peak,) = [one for one in machine.analysis.checks if one.id == "MOTOR-PEAK"]
