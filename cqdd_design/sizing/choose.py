@@ -110,8 +110,8 @@ def lightest(
     outer = shapes.outer_radius(frame, found.rings)
     ring = rows.ring[row]
     sizes = [frame.pin_sizes[size] for size in space.pin_sizes]
-    diameters = np.array([size.diameter for size in sizes])
-    plays = np.array([size.hole_clearance for size in sizes])
+    diameters = np.array([one.diameter for one in sizes])
+    plays = np.array([one.hole_clearance for one in sizes])
     weights = masses.weigh(
         frame,
         profile_area=area[ring],

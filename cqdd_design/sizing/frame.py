@@ -109,6 +109,8 @@ class Frame:
         Of the air round the actuator, deg C; None for a design's default.
     goal : Goal
         What the search makes small.
+    smaller_rings : bool
+        Whether rings are as small as their teeth allow; else all have the largest diameter.
     needs : mapping of str to float
         Torque reserve by load check that closed forms have to show, see `needed`.
     """
@@ -137,6 +139,7 @@ class Frame:
     bearings: tuple[Bearing, ...]
     ambient: float | None = None
     goal: Goal = "mass"
+    smaller_rings: bool = True
     needs: Mapping[str, float] = field(default_factory=dict)
 
     def needed(self, check: str) -> float:

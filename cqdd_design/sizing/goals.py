@@ -8,16 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray
-from cqdd_design.sizing.frame import Frame, Goal
+from cqdd_design.sizing.frame import Frame
 from cqdd_design.sizing.masses import Weights
 
-GOAL_UNITS: dict[Goal, str] = {
-    "mass": "kg",
-    "inertia": "kg*m^2",
-    "backlash": "rad",
-    "efficiency": "losses over work by friction",
-    "size": "m^3",
-}
 _TIE = 0.02
 """Power of the mass beside another goal: of two equal ones the lighter is the better."""
 
@@ -41,13 +34,15 @@ def goal_value(frame: Frame, weights: Weights, sizes: Sizes) -> FloatArray:
     """What `frame.goal` makes small, lighter candidates first among equals; broadcasts."""
     if frame.goal == "mass":
         return weights.mass
-    values = {
-        "inertia": lambda: weights.gearbox_inertia,
-        "backlash": lambda: backlash_angle(frame, sizes),
-        "efficiency": lambda: friction_share(frame, sizes),
-        "size": lambda: swept_volume(frame, sizes),
-    }
-    return np.asarray(values[frame.goal]() * weights.mass**_TIE)
+    if frame.goal == "inertia":
+        value = weights.gearbox_inertia
+    elif frame.goal == "backlash":
+        value = backlash_angle(frame, sizes)
+    elif frame.goal == "efficiency":
+        value = friction_share(frame, sizes)
+    else:
+        value = swept_volume(frame, sizes)
+    return np.asarray(value * weights.mass**_TIE)
 
 
 def backlash_angle(frame: Frame, sizes: Sizes) -> FloatArray:

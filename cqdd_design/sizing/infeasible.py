@@ -242,7 +242,7 @@ def _smallest(search: Search, key: str, limit: int) -> float | None:
     limit : int
         Where to give up, mm.
     """
-    present = math.floor(getattr(search.frame.requirements, key) * 1e3 + _ROUNDING)
+    present: int = math.floor(getattr(search.frame.requirements, key) * 1e3 + _ROUNDING)
     low = high = present
     while not _fits(search, key, high):
         if high >= limit:

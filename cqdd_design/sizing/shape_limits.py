@@ -169,6 +169,8 @@ def outer_radius(frame: Frame, ring: RingSizes) -> FloatArray:
 
     On the grid of `RADIUS_STEP`, and within what the requirements allow.
     """
+    if not frame.smaller_rings:
+        return np.full(ring.pitch_radius.shape, frame.outer_radius)
     least = ring.root_radius(frame) + allowables.RING_WALL
     return np.minimum(np.ceil(least / RADIUS_STEP - 1e-6) * RADIUS_STEP, frame.outer_radius)
 

@@ -95,6 +95,8 @@ def search_space(frame: Frame, tables: StageTables) -> SearchSpace:
 
 def _scales(frame: Frame) -> FloatArray:
     """From the largest ring down to where the smallest bearing and the thinnest pins just fit."""
+    if not frame.smaller_rings:
+        return np.array(_NEAR)
     bearing = min(one.outer_diameter for one in frame.bearings)
     around = allowables.RING_WALL + 2.0 * allowables.LIGAMENT + frame.pin_sizes[0].mean_diameter
     least = min((0.5 * bearing + around) / frame.outer_radius, 1.0)

@@ -147,7 +147,8 @@ class _Hunt:
         frame = search_frame(asked, self.motor, self.ambient, space.fit)
         every = {*needs, *self.extra}
         both = {one: needs.get(one, 1.0) * self.extra.get(one, 1.0) for one in every}
-        return replace(frame, needs=both)
+        # The loop settles with rings of one diameter; smaller ones make it swing.
+        return replace(frame, needs=both, smaller_rings=False)
 
 
 def size_to_verdict(

@@ -17,7 +17,7 @@ def test_ratio_10_with_the_defaults():
     assert result.objective.torque_reserve == pytest.approx(1.0526, abs=1e-3)
     assert result.objective.mass == pytest.approx(0.3723, abs=2e-4)
     masses = [one.objective.mass for one in result.alternatives]
-    assert masses == pytest.approx([0.3625, 0.3895, 0.4416], abs=2e-4)
+    assert masses == pytest.approx([0.3625, 0.3895, 0.4373], abs=2e-4)
     reserves = [one.objective.torque_reserve for one in result.alternatives]
     assert reserves == pytest.approx([1.007, 1.092, 1.122], abs=2e-3)
 
@@ -42,7 +42,7 @@ def test_ratio_10_carries_what_is_known_to_be_possible():
         (
             {"peak_torque": "120 N*m", "continuous_torque": "40 N*m"},
             106.0,
-            75,
+            None,
             ("BEARING-STATIC", "CONTACT-RING-PEAK"),
         ),
     ],
@@ -52,7 +52,8 @@ def test_what_does_not_fit_and_what_would(given, most, ring, binding):
         size(Requirements(ratio=10, **given))
     error = caught.value
     assert error.most_torque == most
-    assert round(error.outer_diameter_needed * 1e3) == ring
+    needed = error.to_dict()["outer_diameter_needed_mm"]
+    assert needed == ring
     assert error.binding == binding
     assert error.to_dict() == {
         "binding": list(binding),

@@ -27,7 +27,7 @@ from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.bought_parts import bearing_table
 from cqdd_design.sizing.finish import design_of, is_load, torque_reserve
 from cqdd_design.sizing.frame import search_frame
-from cqdd_design.sizing.masses import SHAFT_DENSITY, Weights
+from cqdd_design.sizing.masses import SHAFT_DENSITY
 from cqdd_design.sizing.points import Evaluator, Pins
 from cqdd_design.sizing.stage_tables import stage_tables
 
