@@ -57,7 +57,7 @@ _LEAST_STEP = 1e-6
 """Clearance that has to grow at all, m: to the next fit."""
 _TRIAL_SAMPLES = 32
 _TRIALS = 10
-_LESS, _WEAKER = 0.8, 10
+_LESS, _WEAKER = 0.9, 16
 """Share of a torque that is tried next where no gearbox carries it, and how often."""
 _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
