@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from cqdd_design.design.duty_log import DutyLog
 
 LEAST_RATIO, MOST_RATIO = 4, 119
+LEAST_TORQUE, MOST_TORQUE = 1e-3, 1e5
+"""Peak torques that are worked with, N m."""
 
 Ratio = Annotated[
     int, Whole(LEAST_RATIO, MOST_RATIO, "the ratio is the number of lobes of one disc")
@@ -97,7 +99,10 @@ class Requirements(FrozenModel):
 
     ratio: Ratio
     peak_torque: Annotated[
-        float, QuantityIn(TORQUE, "0.001 N*m", "100000 N*m", "a robot joint, not a mill")
+        float,
+        QuantityIn(
+            TORQUE, f"{LEAST_TORQUE:g} N*m", f"{MOST_TORQUE:.0f} N*m", "a robot joint, not a mill"
+        ),
     ]
     continuous_torque: Annotated[
         float, QuantityIn(TORQUE, "0.0001 N*m", "100000 N*m", "a robot joint, not a mill")

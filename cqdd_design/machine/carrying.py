@@ -168,12 +168,12 @@ class Compared(NamedTuple):
         return LIMITS[self.check]
 
 
-@lru_cache(maxsize=2)
-def torque_limits(machine: Machine) -> tuple[TorqueLimit, ...]:
+@lru_cache(maxsize=4)
+def torque_limits(machine: Machine, load: LoadName | None = None) -> tuple[TorqueLimit, ...]:
     """Torques at which a machine's gearbox reaches its limits, in the order of the checks.
 
-    A report asks twice for one machine, so the last are kept. Limits whose strength the catalogue
-    does not give are left out.
+    Of one load, or of both. A report asks twice for one machine, so the last are kept. Limits
+    whose strength the catalogue does not give are left out.
 
     Raises
     ------
@@ -181,12 +181,16 @@ def torque_limits(machine: Machine) -> tuple[TorqueLimit, ...]:
         When disc, ring or holes cannot exist.
     """
     contacts = machine.loaded_contacts
-    return tuple(_limit(machine, contacts, one) for one in compared_limits(machine))
+    return tuple(
+        _limit(machine, contacts, one)
+        for one in compared_limits(machine)
+        if load in {None, one.row.load}
+    )
 
 
 def carried_torque(machine: Machine) -> CarriedTorque:
     """What a machine's gearbox carries at its peak torque; errors as `torque_limits`."""
-    peak = [one for one in torque_limits(machine) if one.row.load == "peak"]
+    peak = torque_limits(machine, "peak")
     known = {one.check for one in peak}
     ends = sorted((one for one in peak if not one.reached), key=lambda one: one.torque)
     limits = [one for one in peak if one.reached] + ends[:1]

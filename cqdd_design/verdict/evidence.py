@@ -79,6 +79,8 @@ def gather(
     GeometryError
         When disc, ring or holes cannot exist.
     """
+    # What cannot exist is refused before anything is told.
+    _ = machine.analysis
     progress("judging loads, stress, life, heat and motor")
     stress, stress_checks, unstressed = judged_or_told(machine)
     warm, heat_checks, cold = judged_temperatures(machine)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
@@ -29,16 +30,18 @@ class Verdict:
         Of the design.
     lines : tuple of Check
         Every requirement and check.
-    headline : tuple of Figure
-        The seven figures a designer looks at first.
     evidence : Evidence
         What they were made of.
     """
 
     name: str
     lines: tuple[Check, ...]
-    headline: tuple[Figure, ...]
     evidence: Evidence
+
+    @cached_property
+    def headline(self) -> tuple[Figure, ...]:
+        """The seven figures a designer looks at first."""
+        return headline(self.evidence, self.lines)
 
     @property
     def meets(self) -> Meets:
@@ -144,4 +147,4 @@ def judge(
         machine, specimen, samples=samples, sensitivity=sensitivity, progress=progress
     )
     lines = verdict_lines(evidence)
-    return Verdict(machine.given.name, lines, headline(evidence, lines), evidence)
+    return Verdict(machine.given.name, lines, evidence)

@@ -245,6 +245,7 @@ def test_requirements_shown_are_requirements(tmp_path):
 
     shown = [b for p in PAGES for b in blocks(p, "toml") if b.startswith("[requirements]")]
     assert shown
+    (tmp_path / "knee.csv").write_text("t [ms],tau_knee [N*m],dq [deg/s]\n0,1,2\n5,3,4\n")
     for number, block in enumerate(shown):
         path = tmp_path / f"{number}.toml"
         path.write_text(block)

@@ -215,7 +215,7 @@ def test_interference_is_told_as_preload(cqdd, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("torque", "kept"),
-    [pytest.param("1e-6 N*m", True, marks=pytest.mark.deep), ("1e9 N*m", False)],
+    [pytest.param("0.01 N*m", True, marks=pytest.mark.deep), ("9e4 N*m", False)],
 )
 def test_any_torque_gives_an_answer_or_says_why(cqdd, torque: str, kept: bool) -> None:
     done = cqdd("analyse", str(DESIGN), "--torque", torque, "--json")
@@ -224,6 +224,9 @@ def test_any_torque_gives_an_answer_or_says_why(cqdd, torque: str, kept: bool) -
     assert (document["results"]["contact"] is not None) is kept
     if not kept:
         assert any("no contact analysis" in sentence for sentence in document["warnings"])
+    beyond = cqdd("analyse", str(DESIGN), "--torque", "1e9 N*m")
+    assert beyond.code == 2
+    assert "--torque: 1000000000 N*m is outside" in beyond.err
 
 
 def test_teeth_that_do_not_reach_are_told(cqdd, tmp_path: Path) -> None:
