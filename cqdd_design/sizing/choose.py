@@ -70,12 +70,11 @@ def strongest(space: SearchSpace, found: Screened, most: int) -> Picks:
     best = kept[_best_of_groups(groups, -merit[kept], most)]
     if best.size == 0:
         return _picks(space, found, best, best, merit[best])
-    places = np.arange(space.thickness.size)
-    row = np.concatenate([best, reserve.argmax(axis=0)])
-    place = np.concatenate([thickness[best], places])
-    sound = np.flatnonzero(reserve[row, place] > 0.0)
-    row, place = row[sound], place[sound]
-    return _picks(space, found, row, place, reserve[row, place])
+    rows = np.concatenate([best, reserve.argmax(axis=0)])
+    columns = np.concatenate([thickness[best], np.arange(space.thickness.size)])
+    sound = np.flatnonzero(reserve[rows, columns] > 0.0)
+    rows, columns = rows[sound], columns[sound]
+    return _picks(space, found, rows, columns, reserve[rows, columns])
 
 
 def lightest(
