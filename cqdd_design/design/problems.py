@@ -42,7 +42,7 @@ def describe_problems(error: ValidationError, model: type[BaseModel], source: st
         sentences.append(f"and {len(found) - _MOST_SHOWN} more problems")
     if len(sentences) == 1:
         return DesignError(f"{source}: {sentences[0]}.")
-    return DesignError(f"{source}:\n" + "\n".join(f"  - {text}" for text in sentences))
+    return DesignError(f"{source}:\n" + "\n".join(f"  - {text}." for text in sentences))
 
 
 def _without_consequences(found: list[Any]) -> list[Any]:

@@ -26,6 +26,8 @@ FIGURES = {
     "pin-force-chart",
     "cam-load-chart",
     "pressure-chart",
+    "disc-stress",
+    "warming",
 }
 SLID = 100.0
 
