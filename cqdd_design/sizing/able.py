@@ -73,7 +73,7 @@ def what_it_can(machine: Machine, requirements: Requirements) -> Requirements | 
         most = demands(actuator, requirements)[0].found.most
         if most < requirements.peak_torque:
             changed[PEAK] = rounded_down(most, _DIGITS)
-    if CONTINUOUS in free:
+    if CONTINUOUS in free and not requirements.load_cases:
         speed = requirements.held_speed / requirements.ratio
         most = _SPARE * float(held_torque(actuator, speed)[0])
         if most <= 0.0:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from cqdd_design.actuator.operating import held_torque
 from cqdd_design.errors import ContactError, GeometryError
 from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS
 from cqdd_design.machine import Machine
 from cqdd_design.machine.carrying import carried_torque
 from cqdd_design.results import Check, Status
 from cqdd_design.verdict.evidence import Evidence
+from cqdd_design.verdict.motor import MODEL as OPERATING
 
 _LIFE_LINES = (
     "CONTACT-RING-CONTINUOUS",
@@ -57,7 +59,7 @@ def headline(evidence: Evidence, lines: Sequence[Check]) -> tuple[Figure, ...]:
     machine = evidence.machine
     return (
         _peak(machine, by_id["MOTOR-PEAK"], lines),
-        _of_line("continuous_torque", "continuous torque", by_id["MOTOR-CONTINUOUS"]),
+        _continuous(evidence, by_id),
         _life(machine, by_id),
         _asked(backlash(evidence), by_id.get("BACKLASH")),
         _asked(efficiency(machine), by_id.get("EFFICIENCY")),
@@ -73,6 +75,20 @@ def _asked(figure: Figure, line: Check | None) -> Figure:
 
 def _of_line(name: str, title: str, line: Check) -> Figure:
     return Figure(name, title, line.value, line.unit, line.limit, line.status, line.basis)
+
+
+def _continuous(evidence: Evidence, by_id: dict[str, Check]) -> Figure:
+    """What is held for ever; under a duty nothing is asked of it, and the duty's heat decides."""
+    name, title, line = "continuous_torque", "continuous torque", by_id.get("MOTOR-CONTINUOUS")
+    if line is not None:
+        return _of_line(name, title, line)
+    heat, actuator = by_id["THERMAL-RISE"], evidence.actuator
+    asked = evidence.machine.design.requirements
+    value = None
+    if actuator is not None:
+        value = float(held_torque(actuator, asked.held_speed / asked.ratio)[0])
+    basis = f"{OPERATING}; the duty's heat decides, see the temperature"
+    return Figure(name, title, value, "N*m", None, heat.status, basis)
 
 
 def _peak(machine: Machine, motor: Check, lines: Sequence[Check]) -> Figure:

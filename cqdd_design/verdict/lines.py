@@ -44,7 +44,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         machine,
         evidence.actuator,
         evidence.actuator_missing,
-        cooling_known=evidence.temperatures is not None,
+        uncooled="" if machine.design.drive.thermal_resistance else evidence.heat_missing,
     )
     drawn = yield_line(machine, evidence.drawn, evidence.drawn_missing, lines)
     return (*lines, drawn, *asked_lines(evidence))

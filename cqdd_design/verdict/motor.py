@@ -36,7 +36,7 @@ def missing_figures(motor: Motor) -> tuple[str, ...]:
 
 
 def motor_lines(
-    machine: Machine, actuator: ActuatorParameters | None, why: str, *, cooling_known: bool
+    machine: Machine, actuator: ActuatorParameters | None, why: str, *, uncooled: str = ""
 ) -> tuple[Check, ...]:
     """All lines of this chapter.
 
@@ -46,8 +46,8 @@ def motor_lines(
         None where it cannot be simulated.
     why : str
         Why not.
-    cooling_known : bool
-        Whether the way of the heat is drawn or stated, and not assumed.
+    uncooled : str
+        Why the way of the heat is not known, where it is neither drawn nor stated.
     """
     asked, motor = machine.design.requirements, machine.motor
     lines = list(_data(motor))
@@ -56,9 +56,8 @@ def motor_lines(
     peak, steady, *duty = demands(actuator, asked)
     lines += [
         _peak(peak, motor, asked),
-        _continuous(steady, actuator, asked)
-        if cooling_known
-        else _unknown("MOTOR-CONTINUOUS", asked, "how the heat leaves the machine is not known"),
+        # Under a duty its own heat decides, see THERMAL-RISE.
+        *(() if duty else (_continuous(steady, actuator, asked, uncooled),)),
         _speed(actuator, asked),
         _bore(machine),
     ]
@@ -76,7 +75,7 @@ def _unknown(check_id: str, asked: Requirements, why: str) -> Check:
         "MOTOR-CONTINUOUS": asked.continuous_torque,
         "MOTOR-SPEED": asked.input_speed * _RPM,
     }[check_id]
-    return build_check(check_id, None, limit, why, GIVE, model=MODEL)
+    return build_check(check_id, None, limit, why, "see why it cannot be simulated", model=MODEL)
 
 
 def _data(motor: Motor) -> tuple[Check, ...]:
@@ -105,7 +104,13 @@ def _peak(demand: Demand, motor: Motor, asked: Requirements) -> Check:
     )
 
 
-def _continuous(demand: Demand, actuator: ActuatorParameters, asked: Requirements) -> Check:
+def _continuous(
+    demand: Demand, actuator: ActuatorParameters, asked: Requirements, uncooled: str
+) -> Check:
+    if uncooled:
+        cure = "state what cooling reaches as drive.thermal_resistance"
+        limit = asked.continuous_torque
+        return build_check("MOTOR-CONTINUOUS", None, limit, uncooled, cure, model=MODEL)
     most, still = demand.found.most, float(held_torque(actuator, 0.0)[0])
     return build_check(
         "MOTOR-CONTINUOUS",

@@ -12,7 +12,7 @@ import pytest
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.operating import held_torque, needed
 from cqdd_design.actuator.specimen import AS_DRAWN
-from cqdd_design.design import load_design
+from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.checks.equilibrium import ENDLESS
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
@@ -120,13 +120,27 @@ def test_continuous_means_for_ever_at_the_input_speed(machine: Machine, judged: 
     slow = machine.design.replacing({"requirements.input_speed": 20.0})
     actuator = actuator_parameters(resolve(slow))
     held = float(held_torque(actuator, 20.0 / slow.reducer.ratio)[0])
-    lines = motor_lines(resolve(slow), actuator, "", cooling_known=True)
+    lines = motor_lines(resolve(slow), actuator, "")
     line = by_id(lines)["MOTOR-CONTINUOUS"]
     assert line.value == pytest.approx(held)
     assert held > (by_id(judged.lines)["MOTOR-CONTINUOUS"].value or 0.0)
     assert f"{float(held_torque(actuator, 0.0)[0]):.4g} N*m standing still" in line.substituted
-    unsure = motor_lines(resolve(slow), actuator, "", cooling_known=False)
+    unsure = motor_lines(resolve(slow), actuator, "", uncooled="nothing is drawn")
     assert by_id(unsure)["MOTOR-CONTINUOUS"].status == "unknown"
+    assert by_id(unsure)["MOTOR-CONTINUOUS"].substituted == "nothing is drawn"
+
+
+def test_under_a_duty_its_heat_decides_and_not_the_continuous_torque(machine: Machine) -> None:
+    duty = [{"torque": "3 N*m", "speed": "1 rad/s", "share": 0.5}]
+    mapping = machine.design.to_mapping()
+    mapping["requirements"]["duty"] = duty
+    judged = judge(resolve(Design.from_mapping(mapping)), samples=0)
+    lines = by_id(judged.lines)
+    assert "MOTOR-CONTINUOUS" not in lines
+    assert lines["DUTY-ENVELOPE"].status == "pass"
+    figure = judged.headline[1]
+    assert (figure.id, figure.required) == ("continuous_torque", None)
+    assert figure.status == lines["THERMAL-RISE"].status == "pass"
 
 
 def test_the_first_figure_is_the_weaker_of_motor_and_gearbox(judged: Verdict) -> None:
@@ -143,7 +157,7 @@ def test_the_first_figure_is_the_weaker_of_motor_and_gearbox(judged: Verdict) ->
 def test_a_motor_without_a_figure_never_passes(machine: Machine, key: str) -> None:
     blank = replace(machine, motor=replace(machine.motor, **{key: None}))
     (words,) = missing_figures(blank.motor)
-    lines = by_id(motor_lines(blank, actuator_parameters(blank, AS_DRAWN), "", cooling_known=True))
+    lines = by_id(motor_lines(blank, actuator_parameters(blank, AS_DRAWN), ""))
     assert lines["MOTOR-DATA"].status == "unknown"
     assert words in lines["MOTOR-DATA"].substituted
     assert "--motor-file" in lines["MOTOR-DATA"].remedy
@@ -155,12 +169,12 @@ def test_a_motor_without_a_figure_never_passes(machine: Machine, key: str) -> No
         # Enough of what is known to say no is a no.
         more = machine.design.replacing({"requirements.peak_torque": 500.0})
         asked = resolve(more, blank.motor)
-        found = motor_lines(asked, actuator_parameters(asked), "", cooling_known=True)
+        found = motor_lines(asked, actuator_parameters(asked), "")
         assert by_id(found)["MOTOR-PEAK"].status == "fail"
 
 
 def test_without_an_actuator_every_limit_of_the_motor_is_unknown(machine: Machine) -> None:
-    lines = by_id(motor_lines(machine, None, "no resistance", cooling_known=True))
+    lines = by_id(motor_lines(machine, None, "no resistance"))
     for name in ("MOTOR-PEAK", "MOTOR-CONTINUOUS", "MOTOR-SPEED"):
         assert lines[name].status == "unknown"
         assert lines[name].substituted == "no resistance"

@@ -81,7 +81,8 @@ ROWS = (
         "min",
         "torque whose heat the winding stands for ever at the input speed >= continuous torque",
         "Copper, iron, drag and the gearbox's friction warm the winding to what the air carries "
-        f"off; driver and voltage count too. {_SCREENED}",
+        "off; driver and voltage count too. Under a duty its own heat decides instead. "
+        f"{_SCREENED}",
         _EFFICIENCY,
         basis=_SCREEN,
     ),
