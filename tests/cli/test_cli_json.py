@@ -86,8 +86,8 @@ def test_a_report_replaces_its_own_page_and_shows_the_motor_of_the_file(
     text = page.read_text()
     assert len(text) > 1e5
     assert "rewound, ring of magnets" in text
-    assert "rewound: motor file motor.toml" in text
-    assert "rewound from motor.toml" in text
+    assert "file: motor.toml, over the catalogue" in text
+    assert "rewound of motor.toml" in text
 
 
 def test_the_time_is_that_of_the_environment(cqdd, paper_design_file):
