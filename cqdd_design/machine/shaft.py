@@ -102,7 +102,7 @@ class ShaftBending:
             return ()
         return (
             f"a support bearing of the shaft carries {most:.0f} N, more than its static rating of "
-            f"{rating:.0f} N, and takes dents. No check judges it yet: lower the torque, or leave "
+            f"{rating:.0f} N, and takes dents (SUPPORT-STATIC): lower the torque, or leave "
             "room for larger support bearings (a cam bearing with a larger bore).",
         )
 

@@ -26,7 +26,7 @@ def test_the_first_command_of_a_newcomer(cqdd, tmp_path):
     assert "what the motor can do through this gearbox" in done.out
     assert "candidates" in done.out
     assert "rejected first by" in done.out
-    assert "sized-10 meets its requirements: of 45 lines 45 pass" in done.out
+    assert "sized-10 meets its requirements: of 46 lines 46 pass" in done.out
     page = (tmp_path / "reports" / "sized-10.html").read_text()
     assert 'class="badge pass">Meets its requirements<' in page
     check = cqdd("check", "designs/sized-10.toml", "--json")

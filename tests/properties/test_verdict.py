@@ -19,6 +19,7 @@ from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.life.fatigue import contact_cycles
 from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.contact_analysis import analyse_contact
 from cqdd_design.results import Check
 from cqdd_design.verdict import Verdict, judge
 from cqdd_design.verdict.drawn import good_gearboxes, yield_line
@@ -297,6 +298,20 @@ def test_yes_needs_every_line_known_and_none_that_fails(judged: Verdict) -> None
     )
     assert unknown.to_dict()["value"] is None
     assert unknown.to_dict()["margin"] is None
+
+
+def test_the_shafts_own_bearings_are_judged(machine: Machine, judged: Verdict) -> None:
+    """Against the same load as `analyse` tells; the paper's actuator is far beyond it."""
+    line = by_id(judged.lines)["SUPPORT-STATIC"]
+    bending = analyse_contact(machine).bending
+    assert bending is not None
+    assert bending.support_rating is not None
+    wanted = bending.support_rating / max(bending.support_load)
+    assert line.value == pytest.approx(wanted, rel=0.02)
+    paper = resolve(load_design(DESIGNS / "cqdd-10.toml"))
+    own = by_id(judge(paper, samples=0).lines)["SUPPORT-STATIC"]
+    assert own.status == "fail"
+    assert own.value == pytest.approx(1270 / 5115, rel=0.02)
 
 
 def test_what_binds_comes_first(judged: Verdict) -> None:
