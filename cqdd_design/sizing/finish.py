@@ -115,9 +115,9 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
         mapping["environment"] = {"ambient": frame.ambient}
     if "motor" in requirements.model_fields_set:
         mapping["motor"] = {"name": requirements.motor}
+    design = Design.from_mapping(mapping, source="sizing", si=True)
     # As its file will say it: units round some last digits.
-    design = Design.from_mapping(mapping, source="sizing", si=True).replacing({})
-    return design.with_duty_log(requirements.duty_log)
+    return design.with_duty_log(requirements.duty_log).replacing({})
 
 
 def _clean(length: float | np.floating[Any]) -> float:

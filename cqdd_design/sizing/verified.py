@@ -249,29 +249,39 @@ def _result(found: Found, seconds: float) -> SizingResult:
 
 
 def _nothing(hunt: _Hunt) -> SizingInfeasibleError:
-    """Why no design bears the loads: by closed forms, or because the equilibrium takes more."""
-    first, space = hunt.requirements, next(_spaces(hunt.requirements, FITS[0]))
+    """Why no design bears the loads, and about what is borne by the equilibrium in this space."""
+    asked, space = hunt.requirements, next(_spaces(hunt.requirements, FITS[0]))
     search = Search.of(hunt.frame(space, {}), hunt.tables)
     most = search.most_reserve()
-    if most is None or float(most.reserve[0]) < 1.0:
-        return no_design(search)
+    closed = no_design(search) if most is None or float(most.reserve[0]) < 1.0 else None
+    if closed is not None and closed.most_torque is None:
+        return closed
+    torque = asked.peak_torque if closed is None else closed.most_torque or 0.0
+    share = asked.continuous_torque / asked.peak_torque
     for _ in range(_WEAKER):
-        asked = hunt.requirements
+        torque *= _LESS
         hunt.requirements = asked.model_copy(
-            update={
-                PEAK: _LESS * asked.peak_torque,
-                CONTINUOUS: min(asked.continuous_torque, _LESS * asked.peak_torque),
-            }
+            update={PEAK: torque, CONTINUOUS: min(asked.continuous_torque, share * torque)}
         )
         if _lightest(hunt) is not None:
             break
-    carried = rounded_down(hunt.requirements.peak_torque)
+    carried = rounded_down(torque, 2)
+    text = (
+        f"{asked.peak_torque:g} N*m at ratio {asked.ratio} do not fit: by the contact equilibrium "
+        f"about {carried:g} N*m are carried in this space. Lower peak_torque to {carried:g} N*m"
+    )
+    ring = None if closed is None else closed.outer_diameter_needed
+    length = None if closed is None else closed.length_needed
+    if ring is not None:
+        text += f", or raise outer_diameter, to more than the {1e3 * ring:g} mm of closed forms"
+    if length is not None:
+        text += f", or raise length, to more than the {1e3 * length:g} mm of closed forms"
     return SizingInfeasibleError(
-        f"{first.peak_torque:g} N*m at ratio {first.ratio} fit by closed "
-        f"forms alone: by the contact equilibrium about {carried:g} N*m are carried in this space. "
-        f"Lower peak_torque to {carried:g} N*m, or raise outer_diameter or length.",
-        binding=(_RING,),
+        f"{text}.",
+        binding=(_RING,) if closed is None else closed.binding,
         most_torque=carried,
+        outer_diameter_needed=ring,
+        length_needed=length,
     )
 
 

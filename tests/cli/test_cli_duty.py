@@ -119,6 +119,7 @@ def test_a_sized_design_finds_its_duty_from_its_own_folder(cqdd, tmp_path):
     (tmp_path / "knee.csv").write_text(GENTLE.replace("time [s]", "t_of_log [s]"))
     options = ("--duty", "knee.csv", "--duty-columns", "time=t_of_log")
     wanted = ("--life", "500 h", "--yield", "0.9", "--ambient", "30 degC", "--voltage", "36 V")
+    wanted += ("--peak-torque", "40 N*m", "--continuous-torque", "5 N*m")
     done = cqdd("size", "--quick", "--ratio", "10", *options, *wanted)
     assert done.code == 0, done.err
     written = tomllib.loads((tmp_path / "designs" / "sized-10.toml").read_text())
