@@ -87,7 +87,7 @@ def our_commands() -> list[Command]:
 
     return [
         ours("help", "--help", 0.25),
-        ours("size", "size --ratio 10", 2.0, "--json"),
+        ours("size", "size --quick --ratio 10", 2.0, "--json"),
         ours("dxf", f"export {DESIGN} --to dxf", 1.0),
         ours("full", f"export {DESIGN} --to {kinds}", 10.0),
         ours("report", f"report {DESIGN}", 30.0),

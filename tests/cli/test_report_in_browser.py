@@ -26,9 +26,9 @@ FIGURES = {
     "pin-force-chart",
     "cam-load-chart",
     "pressure-chart",
-    "disc-stress",
-    "warming",
 }
+#: Where the evidence is there: a disc that can be meshed, losses that have an equilibrium.
+OF_EVIDENCE = {"disc-stress", "warming"}
 SLID = 100.0
 
 #: Designs unlike the paper's: three discs and sleeves; one disc on cantilevers; thin and many.
@@ -105,7 +105,7 @@ def test_the_probe_would_see_an_error(paper_page: str, tmp_path: Path) -> None:
 
 def test_every_figure_is_drawn(seen: dict[str, Any]) -> None:
     figures = {figure["id"]: figure for figure in seen["figures"]}
-    assert set(figures) == FIGURES | {"inertia-chart"}
+    assert set(figures) == FIGURES | OF_EVIDENCE | {"inertia-chart"}
     for name, figure in figures.items():
         assert figure["drawn"] >= 6, f"{name} is empty"
         assert figure["width"] > 300, name
