@@ -45,10 +45,7 @@ def check(
     out.note_compilation(simulation=True)
     found = judged(
         loaded,
-        read_specimen(
-            out,
-            loaded,
-        ),
+        read_specimen(out, loaded),
         assembly_angles=angles if assembly else None,
         told=out.stages(CHECK_STAGES),
         progress=out.counting("crank angles"),

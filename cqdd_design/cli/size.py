@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -28,13 +29,23 @@ if TYPE_CHECKING:
     from cqdd_design.verdict import Verdict
 
 
+class Objective(StrEnum):
+    """What a search makes small."""
+
+    mass = "mass"
+    inertia = "inertia"
+    backlash = "backlash"
+    efficiency = "efficiency"
+    size = "size"
+
+
 @with_requirements
 def size(
     out: Output,
     ratio: Annotated[str | None, option("N", "Reduction, a whole number from 4 to 119.")] = None,
     motor: Annotated[str | None, option("NAME", "Default CubeMars RO100 KV55.")] = None,
     motor_file: OwnMotor = None,
-    discs: Annotated[int | None, option("N", "Discs on the crank, 1 to 3; default 2.")] = None,
+    discs: Annotated[int | None, option("N", "Discs on the crank, 1 to 3; default 2 or 3.")] = None,
     requirements: Annotated[
         Path | None, option("FILE", "TOML with [requirements]; options replace its values.")
     ] = None,
@@ -50,6 +61,9 @@ def size(
     ] = None,
     duty: Duty = None,
     duty_columns: DutyColumnNames = None,
+    objective: Annotated[
+        Objective, typer.Option("--objective", help="What is made small; losses for efficiency.")
+    ] = Objective.mass,
     quick: Annotated[
         bool, typer.Option("--quick", help="The screen by closed forms alone: no verdict.")
     ] = False,
@@ -90,6 +104,7 @@ def size(
         kinds=kinds,
         report=report,
         quick=quick,
+        goal=objective.value,
         force=force,
         progress=out.note,
     )

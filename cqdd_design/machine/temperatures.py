@@ -368,6 +368,7 @@ def _in_words(parts: PartTemperatures) -> str:
     return f"{told} degC"
 
 
+@lru_cache(maxsize=2)
 def judged_temperatures(
     machine: Machine,
 ) -> tuple[MachineTemperatures | None, tuple[Check, ...], tuple[str, ...]]:

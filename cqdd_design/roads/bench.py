@@ -14,7 +14,7 @@ from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.catalog.paper import is_papers_actuator
 from cqdd_design.design import Design
-from cqdd_design.errors import CqddError
+from cqdd_design.errors import ContactError, CqddError, DesignError
 from cqdd_design.files import WrittenFile, ensure_folder, refuse_overwrite, write_with
 from cqdd_design.machine import Machine
 from cqdd_design.machine.carrying import carried_torque
@@ -70,26 +70,45 @@ def measure(
     """Parameters of a machine's actuator, and what the bench measures on it; see `bench`."""
     parameters = actuator_parameters(machine, specimen)
     rippling = specimen.seed is None and (not only or not _DRAWN_ROWS.isdisjoint(only))
-    return parameters, run_bench(
+    drawn, told = drawn_actuators(machine, specimen) if rippling else ([], ())
+    result = run_bench(
         parameters,
         rated_current=machine.motor.rated_current,
         voltage=VOLTAGE if voltage is None else voltage,
         only=only,
         beside_paper=is_papers_actuator(machine.given),
-        drawn=drawn_actuators(machine, specimen) if rippling else (),
+        drawn=drawn,
         gearbox=carried_torque(machine),
         rig_stiffness=rig_stiffness,
         progress=progress,
     )
+    return parameters, replace(result, warnings=(*result.warnings, *told))
 
 
-def drawn_actuators(machine: Machine, specimen: Specimen) -> list[ActuatorParameters]:
-    """Actuators with gearboxes drawn from the tolerances, for backlash and ripple of usual ones."""
+def drawn_actuators(
+    machine: Machine, specimen: Specimen
+) -> tuple[list[ActuatorParameters], tuple[str, ...]]:
+    """Actuators with gearboxes drawn from the tolerances, for backlash and ripple of usual ones.
+
+    With a sentence where some of them cannot be simulated: they jam, or their stiffness falls to
+    nothing at some angle.
+    """
     lobes = machine.design.reducer.ratio
     if lobes * (lobes + 1) > MOST_DRAWN_MESHES:
-        return []
-    seeds = range(RIPPLE_DRAWS)
-    return [actuator_parameters(machine, replace(specimen, seed=seed)) for seed in seeds]
+        return [], ()
+    drawn, refused = [], []
+    for seed in range(RIPPLE_DRAWS):
+        try:
+            drawn.append(actuator_parameters(machine, replace(specimen, seed=seed)))
+        except (ContactError, DesignError) as error:
+            refused.append(error.message)
+    if not refused:
+        return drawn, ()
+    others = "of the others" if drawn else "of perfect parts"
+    return drawn, (
+        f"{len(refused)} of {RIPPLE_DRAWS} gearboxes drawn from the tolerances cannot be "
+        f"simulated, and backlash and torque_ripple are those {others}: {refused[0]}",
+    )
 
 
 def measured_actuator(

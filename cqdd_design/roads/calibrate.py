@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from cqdd_design.actuator.bench.calibrate import Calibration, chosen
 from cqdd_design.actuator.bench.calibrate import calibrate as fit
@@ -66,15 +67,18 @@ def calibrate(
     # A wrong name is refused before anything is built.
     chosen(measured, to, unknowns)
     machine = specimen.machine(design)
-    return fit(
+    drawn, told = ([], ()) if specimen.seed is not None else drawn_actuators(machine, specimen)
+    found = fit(
         actuator_parameters(machine, specimen),
         measured,
         to=to,
         unknowns=unknowns,
         voltage=VOLTAGE if voltage is None else voltage,
         rated_current=machine.motor.rated_current,
-        drawn=() if specimen.seed is not None else drawn_actuators(machine, specimen),
+        drawn=drawn,
         gearbox=carried_torque(machine),
         rig_stiffness=rig_stiffness,
         progress=progress,
     )
+    after = replace(found.after, warnings=(*found.after.warnings, *told))
+    return replace(found, after=after)

@@ -16,6 +16,7 @@ from cqdd_design.exporting import export
 from cqdd_design.files import WrittenFile, atomic_path, describe_file, refuse_overwrite
 from cqdd_design.roads.telling import Progress, silent
 from cqdd_design.sizing import SizingResult, size
+from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.verified import size_to_verdict
 from cqdd_design.verdict import Verdict
 
@@ -54,6 +55,7 @@ def size_and_write(
     kinds: tuple[str, ...] = (),
     report: bool = False,
     quick: bool = False,
+    goal: Goal = "mass",
     force: bool = False,
     progress: Progress = silent,
 ) -> Road:
@@ -75,6 +77,8 @@ def size_and_write(
         Whether to write the report.
     quick : bool
         The screen by closed forms alone, which is no verdict.
+    goal : Goal
+        What the search makes small.
     force : bool
         Replace an existing design file that was named, or edited.
     progress : callable
@@ -97,9 +101,9 @@ def size_and_write(
         row = row_over(requirements.motor, motor, named=named)
     verdict, derived = None, frozenset[str]()
     if quick:
-        sizing = size(requirements, progress, motor=row, ambient=ambient)
+        sizing = size(requirements, progress, motor=row, ambient=ambient, goal=goal)
     else:
-        found = size_to_verdict(requirements, progress, motor=row, ambient=ambient)
+        found = size_to_verdict(requirements, progress, motor=row, ambient=ambient, goal=goal)
         sizing, verdict, derived = found.sizing, found.verdict, found.derived
     # Both are written to the file even where they equal their defaults.
     own = {"schema_version": 1, "name": target.stem}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from cqdd_design.gearbox.checks.equilibrium import PeakLoads, lasting_checks, peak_checks
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.life import life
@@ -28,15 +30,15 @@ def exact_checks(machine: Machine) -> tuple[Check, ...]:
     return (*peak_checks(state, loads), *lasting_checks(state, life(machine.design, rigid)))
 
 
-def shortfalls(machine: Machine) -> dict[str, float]:
+def shortfalls(machine: Machine, checks: Iterable[Check]) -> dict[str, float]:
     """Torque reserve by closed forms over that by the equilibrium, by load check.
 
-    Raises
-    ------
-    ContactError
-        As `exact_checks`.
+    Parameters
+    ----------
+    checks : iterable of Check
+        Of the equilibrium, from `exact_checks`.
     """
-    exact = {one.id: one for one in exact_checks(machine) if one.known}
+    exact = {one.id: one for one in checks if one.known}
     return {
         one.id: torque_reserve(one, machine.design) / torque_reserve(exact[one.id], machine.design)
         for one in machine.analysis.checks

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Literal, NamedTuple, get_args
+from typing import Literal, NamedTuple
 
 from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.catalog.materials import Material, find_material
@@ -36,7 +36,6 @@ THICKNESS_STEP = 1e-4
 
 
 Goal = Literal["mass", "inertia", "backlash", "efficiency", "size"]
-GOALS: tuple[Goal, ...] = get_args(Goal)
 """What a search can make small, see :mod:`cqdd_design.sizing.goals`."""
 
 

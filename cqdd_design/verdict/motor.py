@@ -170,7 +170,7 @@ def _fastest(actuator: ActuatorParameters, torque: float) -> float:
 def _bore(machine: Machine) -> Check:
     """The ring inside the stator."""
     outer, motor = machine.design.reducer.ring.outer_diameter, machine.motor
-    if motor.bore_diameter is None or motor.torque_at != "motor":
+    if motor.bore_diameter is None:
         told = f"ring {outer * 1e3:.4g} mm; the stator bore of '{motor.name}' is not known"
         return build_check("MOTOR-BORE", outer * 1e3, None, told, GIVE)
     screened = next(check for check in machine.analysis.checks if check.id == "MOTOR-BORE")

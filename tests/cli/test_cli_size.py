@@ -39,6 +39,7 @@ def test_the_first_command_of_a_newcomer(cqdd, tmp_path):
     assert 'continuous_speed = "300 rpm" # assumed' in text
 
 
+QUICK = ("size", "--quick", "--ratio", "10")
 MILD = (
     *("--ratio", "10", "--discs", "2", "--peak-torque", "40 N*m"),
     *("--continuous-torque", "5 N*m", "--continuous-speed", "300 rpm"),
@@ -54,6 +55,42 @@ def test_size_prints_the_verdict_that_check_gives(cqdd):
     assert done.code == 0
     asked = sized["design"]["requirements"]
     assert (asked["peak_torque"], asked["continuous_torque"]) == ("40 N*m", "5 N*m")
+
+
+@pytest.mark.parametrize("goal", ["inertia", pytest.param("backlash", marks=pytest.mark.deep)])
+def test_another_objective_makes_that_small(cqdd, goal):
+    """Less of it than the lightest design has, which weighs less."""
+    asked = ("--peak-torque", "40 N*m", "--continuous-torque", "15 N*m")
+    light, other = (
+        cqdd(*QUICK, *asked, "--objective", name, "--out", f"{name}.toml", "--json").document
+        for name in ("mass", goal)
+    )
+    by_mass, by_goal = (one["results"]["objective"] for one in (light, other))
+    assert by_goal["goal"] == goal
+    assert by_goal["mass_kg"] >= by_mass["mass_kg"]
+    if goal == "inertia":
+        assert by_goal["gearbox_inertia_kgm2"] < by_mass["gearbox_inertia_kgm2"]
+    else:
+        play = [
+            2 * 6e-3 / (10 * one["eccentricity"]) + 16e-3 / one["circle"]
+            for one in (
+                {
+                    "eccentricity": float(reducer["eccentricity"].split()[0]),
+                    "circle": float(reducer["output_pins"]["circle_radius"].split()[0]),
+                }
+                for reducer in (doc["design"]["reducer"] for doc in (light, other))
+            )
+        ]
+        assert play[1] < play[0]
+
+
+def test_the_objectives_are_the_goals_of_the_search():
+    from typing import get_args
+
+    from cqdd_design.cli.size import Objective
+    from cqdd_design.sizing.frame import Goal
+
+    assert tuple(one.value for one in Objective) == get_args(Goal)
 
 
 def test_the_screen_alone_says_that_it_is_no_verdict(cqdd):

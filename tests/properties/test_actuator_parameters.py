@@ -18,7 +18,8 @@ from cqdd_design.actuator import motor as motors
 from cqdd_design.actuator import operating
 from cqdd_design.actuator import thermal as thermals
 from cqdd_design.actuator import transmission as transmissions
-from cqdd_design.actuator.build import actuator_parameters, friction_parameters
+from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.friction import friction_parameters
 from cqdd_design.actuator.joint_side import backdrive_dynamic, backdrive_static
 from cqdd_design.actuator.packing import gear_table, kinematic_error, stiffness_share
 from cqdd_design.actuator.parameters import (

@@ -9,18 +9,21 @@ import pytest
 
 from cqdd_design.actuator.bench import run_bench
 from cqdd_design.actuator.build import actuator_parameters
+from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.catalog import find_bearing
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design, load_design
-from cqdd_design.errors import ContactError
+from cqdd_design.errors import ContactError, DesignError
 from cqdd_design.gearbox.checks.allowables import contact_limit_static
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
-from cqdd_design.machine import resolve
+from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.carrying import EQUILIBRIUM, RIGID, carried_torque
 from cqdd_design.machine.weighing import weigh
 from cqdd_design.report.actuator.bench_table import comparison
 from cqdd_design.report.gearbox.masses import bodies_view
+from cqdd_design.roads.bench import RIPPLE_DRAWS, drawn_actuators
 from cqdd_design.roads.inertia import InertiaAndBalance
 from cqdd_design.roads.inertia import inertia as weighed
 from cqdd_design.solids.inertia import gearbox_inertia
@@ -212,3 +215,29 @@ def test_the_actuators_inertias_are_those_of_the_meshes() -> None:
     assert meshed.mass == pytest.approx(parameters.mass, rel=6e-5)
     for ours, mesh in zip(machine.inertia.parts, meshed.parts, strict=True):
         assert mesh.reflected == pytest.approx(ours.reflected, rel=1e-4, abs=1e-15), ours.name
+
+
+def test_a_drawn_gearbox_that_cannot_be_simulated_is_left_out_and_told(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The others are measured; where there are none, perfect parts are."""
+    machine = resolve(PAPER)
+    usual = actuator_parameters(machine)
+
+    def built(machine: Machine, specimen: Specimen) -> ActuatorParameters:
+        assert specimen.seed is not None
+        if specimen.seed in failing:
+            raise DesignError("its stiffness falls to zero.")
+        return usual
+
+    monkeypatch.setattr("cqdd_design.roads.bench.actuator_parameters", built)
+    failing = {1, 4}
+    drawn, told = drawn_actuators(machine, AS_DRAWN)
+    assert len(drawn) == RIPPLE_DRAWS - 2
+    assert "2 of 6 gearboxes" in told[0]
+    assert "those of the others: its stiffness falls to zero." in told[0]
+    failing = set(range(RIPPLE_DRAWS))
+    assert drawn_actuators(machine, AS_DRAWN)[0] == []
+    assert "those of perfect parts" in drawn_actuators(machine, AS_DRAWN)[1][0]
+    failing = set()
+    assert drawn_actuators(machine, AS_DRAWN)[1] == ()

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cqdd_design.actuator.build import STRIBECK_SPEED, friction_parameters
+from cqdd_design.actuator.friction import STRIBECK_SPEED, friction_parameters
 from cqdd_design.catalog.lubricants import find_lubricant, lubricants, walther_viscosity
 from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design, load_design

@@ -20,11 +20,11 @@ from cqdd_design.design import Requirements, load_design, requirements_from_mapp
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.sizing.able import HELD_SPEED, first_guess, weaker, what_it_can
+from cqdd_design.sizing.agreement import FITS, MATERIALS, Space
 from cqdd_design.sizing.exact import exact_checks, shortfalls
 from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.frame import Fit, search_frame
 from cqdd_design.sizing.reserves import ring_reserves
-from cqdd_design.sizing.verified import FITS, MATERIALS, Space
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 
@@ -59,9 +59,10 @@ def test_a_fit_is_that_of_the_holes_and_teeth_searched() -> None:
 
 
 def test_closed_forms_are_short_of_the_equilibrium_by_what_both_say(machine: Machine) -> None:
-    exact = {one.id: one for one in exact_checks(machine)}
+    checks = exact_checks(machine)
+    exact = {one.id: one for one in checks}
     closed = {one.id: one for one in machine.analysis.checks}
-    short = shortfalls(machine)
+    short = shortfalls(machine, checks)
     for name in ("CONTACT-RING-PEAK", "CONTACT-PIN-PEAK", "BEARING-STATIC", "BEARING-LIFE"):
         share = torque_reserve(closed[name], machine.design) / torque_reserve(
             exact[name], machine.design

@@ -76,8 +76,7 @@ def backlash(
 
 def told_draws(count: int) -> str:
     """What a protocol says of an ensemble."""
-    seeds = f"seeds 0 to {count - 1}" if count > 1 else "seed 0"
-    return f"; mean and spread of {count} gearboxes drawn from the tolerances with {seeds}"
+    return f"; mean and spread of {count} gearboxes drawn from the tolerances"
 
 
 def _readings(parameters: ActuatorParameters, positions: int) -> tuple[FloatArray, Simulation]:

@@ -104,13 +104,6 @@ def _motor(state: GearboxState) -> tuple[tuple[Check, ...], tuple[str, ...]]:
         (_speed, motor.speed_constant, "speed constant"),
         (_bore, motor.bore_diameter, "stator bore"),
     )
-    if motor.torque_at != "motor":
-        sentence = (
-            f"motor '{name}' is a geared actuator of the comparison table, so no motor check was "
-            "made; choose a bare motor."
-        )
-        why = f"'{name}' is a geared actuator, whose data count at its output"
-        return (_known_data(0, len(known), why),), (sentence,)
     checks = [make(state, motor, value) for make, value, _ in known if value is not None]
     lacking = [what for _, value, what in known if value is None]
     if lacking:

@@ -113,7 +113,7 @@ ROWS = (
         "min",
         "known figures of: peak torque, stator bore, rotor inertia, resistance, torque constant",
         "What is not known cannot be judged: without these figures nothing says that the motor "
-        "is enough. Shown only where one is missing, or a geared actuator stands for a motor.",
+        "is enough. Shown only where one is missing.",
         "motor catalogue",
     ),
     CheckGuide(

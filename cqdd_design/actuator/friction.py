@@ -1,0 +1,103 @@
+"""Friction of the gearbox as the simulation takes it, from the losses of its equilibria."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from cqdd_design.actuator.parameters import FrictionParameters
+from cqdd_design.gearbox.losses import LossModel
+from cqdd_design.gearbox.losses.model import SENSES
+
+STRIBECK_SPEED = 2.0
+"""Motor speed by which breakaway has fallen off where friction is stated as coefficients, rad/s."""
+_SPEEDS = 64
+"""Between rest and the input speed, over which a Stribeck curve follows that of the films."""
+
+
+def friction_parameters(
+    losses: LossModel,
+    torque: float,
+    input_speed: float,
+    *,
+    drag: float = 0.0,
+    cogging: float = 0.0,
+) -> FrictionParameters:
+    """Friction of the gearbox with the efficiencies and the backdrive torques of a loss model.
+
+    Parameters
+    ----------
+    torque : float
+        At which efficiency is kept in both directions, N m.
+    input_speed : float
+        Up to which the viscous part stands for the drag, rad/s.
+    drag, cogging : float
+        Of the motor that the output turns with the gearbox, N m at its shaft; no part of what is
+        returned.
+
+    Notes
+    -----
+    The loss torque at the output is ``c + mu T``: mu from the Coulomb work at the torque, of its
+    own while the motor drives and while the output does. Of c the part o at the output is its
+    drag, the rest m and the motor's drag D are behind the friction under load, so that the slow
+    dynamic backdrive torque is ``o + (m + D)/(1 - mu)``; m is such that it is that of the loss
+    model, which knows that the first loads are carried by fewer teeth, and not below zero, where
+    mu alone says too much. The static one has all friction times r, 1 and Stribeck's share, and
+    the cogging C beside D, which gives r. Where friction holds any torque, m is the drag itself.
+
+    Where friction follows from films, mu and the dynamic torque are those of the films at the input
+    speed, the static one is that of none, and the Stribeck speed is fitted to what lies between.
+    """
+    machine, n = losses.machine, losses.machine.lobe_count
+    loads = []
+    for sense in SENSES:
+        loaded, none = losses.coulomb_work([torque, 0.0], sense, input_speed).sum(axis=-1)
+        loads.append(n * float(loaded - none) / torque)
+    forward, load = loads
+    slow, fast = machine.drag(0.0), machine.drag(input_speed)
+    preload = float(none)
+    output = float(slow["output_bearing"]) * n
+    motor = sum(float(v) for k, v in slow.items() if k != "output_bearing") + preload
+    motor_rise = sum(float(fast[k] - slow[k]) for k in slow if k != "output_bearing")
+    output_rise = float(fast["output_bearing"] - slow["output_bearing"]) * n
+    turned, climbed = n * drag, n * (drag + cogging)
+    found = losses.backdrive(
+        film_speed=input_speed, shaft_running=drag, shaft_resting=drag + cogging
+    )
+    extra = found.static_ratio - 1.0
+    if found.dynamic_torque and load < 1.0:
+        motor = max((found.dynamic_torque - output) * (1.0 - load) - turned, 0.0) / n
+        if found.static_torque:
+            linear = output + n * motor + found.static_torque * load
+            left = found.static_torque - climbed
+            root = math.sqrt(max(linear**2 - 4.0 * output * load * left, 0.0))
+            extra = max(2.0 * left / (linear + root) - 1.0, 0.0)
+    return FrictionParameters(
+        motor_coulomb=motor,
+        output_coulomb=output,
+        motor_viscous=motor_rise / input_speed,
+        output_viscous=output_rise / (input_speed / n),
+        stribeck_extra=extra,
+        stribeck_speed=_stribeck_speed(losses, torque, input_speed),
+        load_forward=forward,
+        load_backward=load,
+    )
+
+
+def _stribeck_speed(losses: LossModel, torque: float, input_speed: float) -> float:
+    """Speed of the motor whose exp(-(w/w_s)^2) is nearest to how the films' friction falls, rad/s.
+
+    By least squares over the speeds from rest to the input speed, at a torque (N m).
+    """
+    if losses.film is None:
+        return STRIBECK_SPEED
+    speed = np.linspace(0.0, input_speed, _SPEEDS)
+    work = np.array([losses.coulomb_work(torque, "drive", float(w)).sum() for w in speed])
+    fall = work[0] - work[-1]
+    if fall <= 0.0:
+        return STRIBECK_SPEED
+    left = (work - work[-1]) / fall
+    tried = input_speed * np.geomspace(1e-3, 1.0, 601)
+    off = np.exp(-((speed / tried[:, None]) ** 2)) - left
+    return float(tried[np.argmin(np.sum(off**2, axis=1))])

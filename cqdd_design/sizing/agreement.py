@@ -1,0 +1,213 @@
+"""Closed forms held against the contact equilibrium, until both say the same of a design.
+
+A search by closed forms takes under a second. It is repeated, each time asking closed forms for as
+much reserve as the equilibrium, solved at the design just found, says that they lack near by.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
+
+from cqdd_design.catalog.motors import Motor
+from cqdd_design.design import Design, Requirements
+from cqdd_design.errors import ContactError, DesignError, InfeasibleError
+from cqdd_design.machine import resolve
+from cqdd_design.results import Check
+from cqdd_design.sizing.exact import exact_checks, shortfalls
+from cqdd_design.sizing.finish import torque_reserve
+from cqdd_design.sizing.frame import USUAL_FIT, Fit, Frame, Goal, search_frame
+from cqdd_design.sizing.points import Evaluator, Points
+from cqdd_design.sizing.result import SizedDesign
+from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.stage_tables import StageTables
+
+Progress = Callable[[str], None]
+
+FITS = (
+    USUAL_FIT,
+    Fit(9e-6, 28e-6),
+    Fit(12e-6, 40e-6),
+    Fit(16e-6, 56e-6),
+    Fit(22e-6, 80e-6),
+    Fit(30e-6, 110e-6),
+)
+"""Clearances that are tried, the closest first."""
+MATERIALS = ("AISI 4140 Q&T 540C", "AISI 52100 / 100Cr6 hardened")
+"""Of discs and ring where none is asked for: the paper's, and a through-hardened bearing steel."""
+DISC_COUNTS = (2, 3)
+"""Likewise of discs: those that balance."""
+_ROUNDS, _UNDAMPED = 8, 3
+_SETTLED = 2e-3
+"""Change of every need, as a share, at which closed forms and equilibrium agree."""
+RING, _PINS, _CAM = "CONTACT-RING-PEAK", "CONTACT-PIN-PEAK", "BEARING-STATIC"
+
+
+class Space(NamedTuple):
+    """What a search by closed forms does not vary."""
+
+    disc_count: int
+    disc_material: str
+    ring_material: str
+    fit: Fit
+
+    def of(self, requirements: Requirements) -> Requirements:
+        """The requirements with these discs and materials, which are tried and not asked for."""
+        tried = requirements.model_copy(
+            update={
+                "disc_count": self.disc_count,
+                "disc_material": self.disc_material,
+                "ring_material": self.ring_material,
+            }
+        )
+        tried.model_fields_set.intersection_update(requirements.model_fields_set)
+        return tried
+
+
+@dataclass(frozen=True)
+class Found:
+    """A design of a space that the contact equilibrium bears out.
+
+    Attributes
+    ----------
+    search : Search
+    needs : mapping of str to float
+        What closed forms had to show for it.
+    sized : SizedDesign
+    point : Points
+        On the grid.
+    """
+
+    space: Space
+    search: Search
+    needs: Mapping[str, float]
+    sized: SizedDesign
+    point: Points
+
+
+@dataclass
+class Hunt:
+    """One search to the verdict: what is learnt on the way.
+
+    Attributes
+    ----------
+    requirements : Requirements
+        With the torques that are tried where none were stated.
+    extra : dict of str to float
+        Reserve for part errors, by check.
+    """
+
+    requirements: Requirements
+    motor: Motor | None
+    ambient: float | None
+    say: Progress
+    tables: StageTables
+    goal: Goal
+    extra: dict[str, float] = field(default_factory=dict)
+
+    def frame(self, space: Space, needs: Mapping[str, float]) -> Frame:
+        """The frame of a space; needs of part errors count on top."""
+        asked = space.of(self.requirements)
+        frame = search_frame(asked, self.motor, self.ambient, space.fit, self.goal)
+        every = {*needs, *self.extra}
+        both = {one: needs.get(one, 1.0) * self.extra.get(one, 1.0) for one in every}
+        # The loop settles with rings of one diameter; smaller ones make it swing.
+        return replace(frame, needs=both, smaller_rings=False)
+
+
+def spaces(requirements: Requirements, fit: Fit) -> Iterator[Space]:
+    """Materials and disc counts that are tried: those that are stated, or all."""
+    stated = requirements.model_fields_set
+    counts = (requirements.disc_count,) if "disc_count" in stated else DISC_COUNTS
+    for count in counts:
+        tried = [
+            Space(
+                count,
+                requirements.disc_material if "disc_material" in stated else material,
+                requirements.ring_material if "ring_material" in stated else material,
+                fit,
+            )
+            for material in MATERIALS
+        ]
+        yield from dict.fromkeys(tried)
+
+
+def lightest(hunt: Hunt) -> Found | None:
+    """The best of all spaces at the closest fit that the equilibrium bears out."""
+    best: Found | None = None
+    for space in spaces(hunt.requirements, FITS[0]):
+        try:
+            found = agreed(hunt, space, best)
+        except InfeasibleError:
+            continue
+        if found is not None and (best is None or _score(found) < _score(best)):
+            best = found
+    return best
+
+
+def _score(found: Found) -> float:
+    return found.sized.objective.score
+
+
+def agreed(
+    hunt: Hunt, space: Space, rival: Found | None, known: Mapping[str, float] | None = None
+) -> Found | None:
+    """Search again and again until closed forms ask for what the equilibrium takes.
+
+    Parameters
+    ----------
+    rival : Found or None
+        A design of another space, which this one has to beat.
+    known : mapping, optional
+        Needs from a space near by.
+    """
+    search = Search.of(hunt.frame(space, {}), hunt.tables)
+    most = search.most_reserve()
+    if most is None:
+        return None
+    needs: dict[str, float] = dict(known or {})
+    starts, best = most, None
+    for turn in range(_ROUNDS):
+        frame = hunt.frame(space, needs)
+        evaluator = Evaluator.of(frame, hunt.tables, search.space.pin_counts)
+        now = replace(search, evaluator=evaluator)
+        sized = now.lightest(starts)
+        if sized is None:
+            # What was needed at the last design may be too much: half way back.
+            if not needs or turn >= _ROUNDS - 1:
+                break
+            needs = {one: math.sqrt(value) for one, value in needs.items()}
+            continue
+        design, point = sized
+        if rival is not None and turn == 0 and design.objective.score > _score(rival):
+            # Closed forms alone make it heavier than one that is borne out.
+            return None
+        machine = resolve(design.design, hunt.motor)
+        try:
+            exact = exact_checks(machine)
+        except (ContactError, DesignError):
+            needs = {one: 1.5 * needs.get(one, 1.0) for one in (RING, _PINS, _CAM)}
+            continue
+        short, holds = shortfalls(machine, exact), _holds(exact, machine.design, hunt.extra)
+        if holds and (best is None or design.objective.score < best.sized.objective.score):
+            best = Found(space, now, needs, design, point)
+        damping = 1.0 if turn < _UNDAMPED else 0.5
+        after = {
+            one: needs.get(one, 1.0) * (value / needs.get(one, 1.0)) ** damping
+            for one, value in short.items()
+        }
+        settled = all(abs(after[one] / needs.get(one, 1.0) - 1.0) < _SETTLED for one in after)
+        needs, starts = after, point.joined(most)
+        if settled and best is not None:
+            break
+    return best
+
+
+def _holds(checks: tuple[Check, ...], design: Design, extra: Mapping[str, float]) -> bool:
+    """Whether every line has the reserve that is needed, a rounding's worth aside."""
+    return all(
+        one.known and torque_reserve(one, design) >= extra.get(one.id, 1.0) * (1.0 - 2e-4)
+        for one in checks
+    )
