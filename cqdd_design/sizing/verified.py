@@ -215,20 +215,20 @@ def _wider(fit: Fit, step: float) -> Fit | None:
 
 
 def _closer_look(hunt: Hunt, found: Found, machine: Machine) -> float | None:
-    """What heat and a few gearboxes ask for: see `_spread`."""
+    """What heat and a few gearboxes ask for: see `read_spread`."""
     hunt.say(f"looking at clearances and toleranced gearboxes of {found.sized.design.name}")
     _, warm, _ = judged_temperatures(machine)
-    step = _overlap(warm)
+    step = clearance_needed(warm)
     if step > 0.0:
         return step
     try:
         drawn = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False)
     except ContactError:
         return _LEAST_STEP
-    return _spread(hunt, machine, drawn, exact_checks(machine))
+    return read_spread(hunt, machine, drawn, exact_checks(machine))
 
 
-def _overlap(checks: Iterable[Check]) -> float:
+def clearance_needed(checks: Iterable[Check]) -> float:
     """Clearance that holes need more, or the least step, where warm parts overlap, m; else 0."""
     for one in checks:
         if one.id == "THERMAL-CLEARANCE" and not one.satisfied:
@@ -236,7 +236,9 @@ def _overlap(checks: Iterable[Check]) -> float:
     return 0.0
 
 
-def _spread(hunt: Hunt, machine: Machine, drawn: Drawn, lines: tuple[Check, ...]) -> float | None:
+def read_spread(
+    hunt: Hunt, machine: Machine, drawn: Drawn, lines: tuple[Check, ...]
+) -> float | None:
     """More clearance of the holes that part errors ask for, m; None where they ask for nothing.
 
     0 where they ask for reserve instead, which is noted.
@@ -269,15 +271,15 @@ def _spread(hunt: Hunt, machine: Machine, drawn: Drawn, lines: tuple[Check, ...]
 
 
 def _next_step(hunt: Hunt, judged: Verdict) -> float | None:
-    """What could bring a design that was judged nearer to a yes: see `_spread`; None is nothing."""
+    """What could bring a design that was judged nearer to a yes; see `read_spread`."""
     failing = {line.id for line in judged.lines if line.status in {"fail", "unknown"}}
     if not failing <= {"YIELD", "THERMAL-CLEARANCE"}:
         return None
-    step = _overlap(judged.lines)
+    step = clearance_needed(judged.lines)
     if step > 0.0:
         return step
     machine, drawn = judged.evidence.machine, judged.evidence.drawn
-    return None if drawn is None else _spread(hunt, machine, drawn, judged.lines)
+    return None if drawn is None else read_spread(hunt, machine, drawn, judged.lines)
 
 
 def _refused(judged: Verdict) -> SizingInfeasibleError:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,7 +23,7 @@ from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.contact_analysis import analyse_contact
 from cqdd_design.results import Check
 from cqdd_design.verdict import Verdict, judge
-from cqdd_design.verdict.drawn import good_gearboxes, yield_line
+from cqdd_design.verdict.drawn import Allowed, good_gearboxes, used, yield_line
 from cqdd_design.verdict.judge import meets, sentence
 from cqdd_design.verdict.lines import verdict_lines
 from cqdd_design.verdict.motor import missing_figures, motor_lines
@@ -255,6 +256,11 @@ def test_a_gearbox_counts_where_it_does_not_bind_and_stays_within_limits(
     rating = machine.cam.static_rating
     assert rating is not None
     static = bears["cam_bearing_load_max_N"] <= rating
+    allowed = Allowed.of(machine, lines)
+    assert allowed is not None
+    assert allowed.peak_load == rating
+    shares = used(allowed, drawn)["BEARING-STATIC"]
+    assert shares == pytest.approx(bears["cam_bearing_load_max_N"] / rating)
     loose = lasts["unloaded_torque_Nm"] <= 0.05 * 14.0
     free = set(drawn.continuous.numbers[loose]) & set(drawn.peak.numbers[static])
     assert good() == free
@@ -312,6 +318,19 @@ def test_the_shafts_own_bearings_are_judged(machine: Machine, judged: Verdict) -
     own = by_id(judge(paper, samples=0).lines)["SUPPORT-STATIC"]
     assert own.status == "fail"
     assert own.value == pytest.approx(1270 / 5115, rel=0.02)
+
+
+def test_a_cam_bearing_that_wears_out_is_told_the_rating_it_needs(judged: Verdict) -> None:
+    paper = resolve(load_design(DESIGNS / "cqdd-10.toml"))
+    line = by_id(judge(paper, samples=0).lines)["BEARING-LIFE"]
+    assert line.status == "fail"
+    hours, required = line.compared
+    rating = paper.cam.dynamic_rating
+    assert rating is not None
+    told = re.search(r"needs C of ([\d.]+) kN", line.remedy)
+    assert told is not None
+    wanted = rating * (required / hours) ** (1.0 / 3.0)
+    assert float(told[1]) == pytest.approx(wanted / 1e3, rel=1e-2)
 
 
 def test_what_binds_comes_first(judged: Verdict) -> None:
