@@ -16,6 +16,7 @@ from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.sizing.choose import strongest
 from cqdd_design.sizing.finish import LOAD_CHECKS, torque_reserve
 from cqdd_design.sizing.frame import Fit, search_frame
+from cqdd_design.sizing.points import Points
 from cqdd_design.sizing.result import SizedDesign
 from cqdd_design.sizing.search import Search
 
@@ -31,6 +32,8 @@ _SHARES = (0.9995, 0.997, 0.99, 0.98, 0.95, 0.9)
 _ROUNDING = 1e-6
 _HOPELESS = 0.8
 """Best reserve of a screen that no refinement brings to one."""
+_FAR = 0.02
+"""Share of a torque below which what is carried there says little of what can be."""
 _NO_TORQUE = 1e-4
 """Share of the torque asked for below which a space counts as too small for any gearbox."""
 
@@ -205,27 +208,27 @@ def _most_torque(search: Search) -> SizedDesign | None:
     """A confirmed design with the most torque in the same space, rounded down."""
     asked = torque = search.frame.requirements.peak_torque
     tables = search.evaluator.tables
-    carried = 0.0
+    carried, best = 0.0, None
     while torque > _NO_TORQUE * asked:
         at = search if torque == asked else Search.of(search.frame.at_torque(torque), tables)
         most = at.most_reserve()
-        reserve = 0.0 if most is None else float(most.reserve[0])
+        reached = 0.0 if most is None else torque * float(most.reserve[0])
         # A reserve is the same design's at every torque, but the screen drops ring stages that fail
         # at the torque asked for; nearer to what is carried more of them come back.
-        grown = torque * reserve > 1.001 * carried
-        carried = max(carried, torque * reserve)
-        if reserve >= 1.0 and not grown:
-            return _confirmed(search, carried)
-        torque = 0.98 * carried if carried > 0.02 * torque else 0.25 * torque
+        if reached > 1.001 * carried:
+            carried, best = reached, most
+        elif best is not None and carried > _FAR * torque:
+            return _confirmed(search, carried, best)
+        torque = 0.98 * carried if carried > _FAR * torque else 0.25 * torque
     return None
 
 
-def _confirmed(search: Search, torque: float) -> SizedDesign | None:
+def _confirmed(search: Search, torque: float, best: Points) -> SizedDesign | None:
+    """The design nearest below a torque that passes the analysis, from a point that carries it."""
     for share in _SHARES:
         rounded = rounded_down(share * torque, 3)
         at = Search.of(search.frame.at_torque(rounded), search.evaluator.tables)
-        most = at.most_reserve()
-        found = None if most is None else at.lightest(most)
+        found = at.lightest(best)
         if found is not None:
             return found[0]
     return None

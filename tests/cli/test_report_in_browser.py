@@ -198,7 +198,7 @@ def test_it_prints(paper_page: str, tmp_path: Path) -> None:
     content = pdf.read_bytes()
     sheets = re.findall(rb"/Type /Page\b(?!s)", content)
     boxes = re.findall(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", content)
-    assert 8 <= len(sheets) <= 22
+    assert 8 <= len(sheets) <= 26
     width, height = (float(side) for side in boxes[0])
     assert width == pytest.approx(595, abs=2), "not A4"
     assert height == pytest.approx(842, abs=2), "not A4"

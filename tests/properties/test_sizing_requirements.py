@@ -160,15 +160,39 @@ def test_a_bigger_ring_never_carries_less():
     assert most[-1] > 5.0 * most[0]
 
 
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"ratio": 10, "outer_diameter": "36 mm"},
+        pytest.param({"ratio": 10, "outer_diameter": "42 mm"}, marks=pytest.mark.deep),
+        pytest.param({"ratio": 23, "outer_diameter": "52 mm"}, marks=pytest.mark.deep),
+        pytest.param({"ratio": 6, "disc_count": 3}, marks=pytest.mark.deep),
+    ],
+)
+def test_the_most_torque_fits_and_little_more_does_not(given):
+    """However far away it is; a search for it once went on for ever."""
+    with pytest.raises(SizingInfeasibleError) as caught:
+        sized(**given, peak_torque="500 N*m", continuous_torque="150 N*m")
+    most = caught.value.most_torque
+    assert sized(**given, **_torques(most)).objective.torque_reserve >= 1.0
+    with pytest.raises(SizingInfeasibleError):
+        sized(**given, **_torques(1.02 * most))
+
+
+def _torques(peak):
+    return {"peak_torque": f"{peak:g} N*m", "continuous_torque": f"{0.3 * peak:g} N*m"}
+
+
 @pytest.mark.deep
 def test_the_nearest_requirements_named_do_fit():
     """Both ways out of an infeasible request are real designs."""
-    asked = {"ratio": 10, "peak_torque": "130 N*m", "continuous_torque": "50 N*m"}
+    asked = {"ratio": 10, "peak_torque": "80 N*m", "continuous_torque": "30 N*m"}
+    small = {"outer_diameter": "60 mm"}
     with pytest.raises(SizingInfeasibleError) as caught:
-        sized(**asked)
+        sized(**asked, **small)
     error = caught.value
-    less = {**asked, "peak_torque": f"{error.most_torque} N*m"}
-    less["continuous_torque"] = f"{error.most_torque * 50 / 130} N*m"
+    less = {**small, "ratio": 10, "peak_torque": f"{error.most_torque} N*m"}
+    less["continuous_torque"] = f"{error.most_torque * 30 / 80} N*m"
     assert sized(**less).objective.torque_reserve < 1.05
     ring = round(error.outer_diameter_needed * 1e3)
     assert sized(**asked, outer_diameter=f"{ring} mm").objective.torque_reserve >= 1.0
