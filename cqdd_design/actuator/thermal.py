@@ -126,7 +126,8 @@ def transition(matrix: FloatArray, times: FloatArray) -> tuple[FloatArray, Float
     # Projectors on the two modes.
     upper = (matrix - values[0] * one) / (values[1] - values[0])
     modes = np.stack([one - upper, upper])
-    exponent = np.multiply.outer(np.asarray(times, dtype=float), values)
+    # A winding that runs away is far beyond every limit before numbers end.
+    exponent = np.minimum(np.multiply.outer(np.asarray(times, dtype=float), values), 600.0)
     safe = np.where(values == 0.0, 1.0, values)
     growth = np.where(values == 0.0, np.asarray(times)[..., None], np.expm1(exponent) / safe)
     stepping = np.einsum("...m,mij->...ij", np.exp(exponent), modes)

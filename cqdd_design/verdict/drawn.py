@@ -14,6 +14,7 @@ from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
 from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS
+from cqdd_design.gearbox.tolerance.remembered import work_remembered
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
 
@@ -58,13 +59,15 @@ def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Dra
     fitting = samples * _ANGLES // max(angles, _ANGLES)
     count = max(fitting, min(samples, LEAST_SAMPLES))
     peak = machine.design.requirements.peak_torque
+    at_peak = make_ensemble(machine.design, angles=least * ratio * (ratio + 1), torque=peak)
     found = Drawn(
-        run_ensemble(make_ensemble(machine.design, angles=angles), count, sensitivity=sensitivity),
         run_ensemble(
-            make_ensemble(machine.design, angles=least * ratio * (ratio + 1), torque=peak),
+            make_ensemble(machine.design, angles=angles),
             count,
-            sensitivity=False,
+            mapper=work_remembered,
+            sensitivity=sensitivity,
         ),
+        run_ensemble(at_peak, count, mapper=work_remembered, sensitivity=False),
     )
     if any(one.interrupted for one in found):
         raise KeyboardInterrupt

@@ -1,0 +1,70 @@
+"""Blocks of drawn gearboxes on disk: every command that judges a design needs the same ones."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+import cqdd_design
+from cqdd_design.design import Design
+from cqdd_design.environment import cache_folder
+from cqdd_design.files.kept import entry_path, read_entry, write_entry
+from cqdd_design.gearbox.tolerance.ensemble import Block, Ensemble, work_block
+from cqdd_design.geometry.contours import FloatArray
+
+_MOST_KEPT = 100_000_000
+"""Bytes of all entries together: ten thousand blocks."""
+
+
+def work_remembered(ensemble: Ensemble, blocks: list[Block]) -> Iterator[tuple[int, FloatArray]]:
+    """Blocks as the disk has them, or worked in this process and put there; see :data:`.Mapper`."""
+    for place, block in enumerate(blocks):
+        yield place, _block(ensemble, block)
+
+
+def _block(ensemble: Ensemble, block: Block) -> FloatArray:
+    text = json.dumps(
+        {
+            "code": _code(),
+            "design": _physical(ensemble.design),
+            "bodies": None if ensemble.bodies is None else _physical(ensemble.bodies),
+            "torque": ensemble.torque,
+            "angles": ensemble.angles,
+            "seed": ensemble.seed,
+            "temperatures": vars(ensemble.temperatures),
+            "gearboxes": [block.first, block.count, *block.exchanged],
+        },
+        sort_keys=True,
+    )
+    path = entry_path(cache_folder() / "gearboxes", text, "block")
+    kept = read_entry(path, text)
+    if kept is not None:
+        return np.asarray(kept[0][0], dtype=np.float64)
+    values = work_block(ensemble, block)
+    write_entry(path, text, [np.ascontiguousarray(values, "<f8")], None, _MOST_KEPT)
+    return values
+
+
+def _physical(design: Design) -> dict[str, object]:
+    """All of a design but its name: equal ones have equal gearboxes."""
+    return {key: value for key, value in design.to_mapping().items() if key != "name"}
+
+
+@cache
+def _code() -> str:
+    """Of this package as it stands: what another state of it has worked does not count."""
+    top = Path(cqdd_design.__file__).parent
+    told = []
+    for folder, _, names in os.walk(top):
+        for name in names:
+            if not name.endswith((".pyc", ".nbc", ".nbi")):
+                status = os.stat(os.path.join(folder, name))
+                place = os.path.relpath(os.path.join(folder, name), top)
+                told.append(f"{place} {status.st_size} {status.st_mtime_ns}")
+    return hashlib.sha256("\n".join(sorted(told)).encode()).hexdigest()

@@ -1,0 +1,81 @@
+"""Drawn gearboxes kept on disk are those that would be worked."""
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cqdd_design.design import load_design
+from cqdd_design.gearbox.heat.expansion import PartTemperatures
+from cqdd_design.gearbox.tolerance import remembered
+from cqdd_design.gearbox.tolerance.ensemble import Block, make_ensemble, work_block, work_here
+
+DESIGN = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
+BLOCKS = [Block(0, 3), Block(3, 2), Block(0, 2, ("pin_diameter",))]
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("CQDD_DESIGN_CACHE", str(tmp_path))
+    return tmp_path / "gearboxes"
+
+
+def ensemble(**changed):
+    design = load_design(DESIGN).replacing(changed)
+    return make_ensemble(design, angles=110)
+
+
+def test_what_is_kept_is_what_would_be_worked(monkeypatch: pytest.MonkeyPatch) -> None:
+    one = ensemble()
+    worked = dict(work_here(one, BLOCKS))
+    first = dict(remembered.work_remembered(one, BLOCKS))
+    monkeypatch.setattr(remembered, "work_block", lambda *_: pytest.fail("was worked again"))
+    again = dict(remembered.work_remembered(one, BLOCKS))
+    named = dict(remembered.work_remembered(ensemble(name="another"), BLOCKS))
+    for place, values in worked.items():
+        for other in (first, again, named):
+            assert np.array_equal(values, other[place], equal_nan=True)
+
+
+def test_everything_that_moves_them_has_an_entry_of_its_own(own_cache: Path, monkeypatch) -> None:
+    one, block = ensemble(), [Block(0, 2)]
+    others = [
+        dataclasses.replace(one, torque=one.torque * (1.0 + 1e-15)),
+        dataclasses.replace(one, angles=111),
+        dataclasses.replace(one, seed=1),
+        dataclasses.replace(one, bodies=None),
+        dataclasses.replace(one, temperatures=PartTemperatures.even(40.0)),
+        ensemble(**{"tolerances.pin_diameter": 1e-6}),
+        ensemble(**{"reducer.eccentricity": 1.5000001e-3}),
+    ]
+    monkeypatch.setattr(remembered, "work_block", lambda *_: np.zeros((2, 9)))
+    for count, each in enumerate((one, *others), 1):
+        list(remembered.work_remembered(each, block))
+        assert len(list(own_cache.iterdir())) == count
+    list(remembered.work_remembered(one, [Block(2, 2)]))
+    monkeypatch.setattr(remembered, "_code", lambda: "of another state of the package")
+    list(remembered.work_remembered(one, block))
+    assert len(list(own_cache.iterdir())) == len(others) + 3
+
+
+def test_a_spoilt_entry_is_worked_anew(own_cache: Path) -> None:
+    one, block = ensemble(), [Block(0, 2)]
+    list(remembered.work_remembered(one, block))
+    (entry,) = own_cache.iterdir()
+    entry.write_bytes(entry.read_bytes()[:-8] + b"01234567")
+    ((_, values),) = remembered.work_remembered(one, block)
+    assert np.array_equal(values, work_block(one, block[0]))
+
+
+def test_the_code_of_another_state_is_another(tmp_path: Path, monkeypatch) -> None:
+    package = tmp_path / "package"
+    package.mkdir()
+    source = package / "__init__.py"
+    source.write_text("a = 1\n")
+    monkeypatch.setattr(remembered.cqdd_design, "__file__", str(source))
+    before = remembered._code.__wrapped__()
+    (package / "kernel.nbi").write_text("compiled")
+    assert remembered._code.__wrapped__() == before
+    (package / "data.csv").write_text("1")
+    assert remembered._code.__wrapped__() != before
