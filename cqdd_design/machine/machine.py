@@ -67,6 +67,8 @@ class Machine:
     temperatures : PartTemperatures or None
         Of the parts, where they are not as drawn, at 20 deg C. Contacts, and what follows from
         them, are those of the warm parts; closed forms, solids and masses those of the drawing.
+    stiff : bool
+        Whether discs and ring count as rigid, which spares their finite elements.
     """
 
     given: Design
@@ -74,6 +76,7 @@ class Machine:
     cam: Bearing
     motor: Motor
     temperatures: PartTemperatures | None = None
+    stiff: bool = False
 
     def at(self, temperatures: PartTemperatures) -> Machine:
         """The machine with its parts at these temperatures."""
@@ -226,6 +229,8 @@ class Machine:
 
         Of discs with more lobes than there is memory for, likewise.
         """
+        if self.stiff:
+            return None
         from cqdd_design.gearbox.bodies.made import bodies_or_none
 
         return bodies_or_none(self.design)
