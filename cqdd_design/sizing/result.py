@@ -131,6 +131,8 @@ class SizingResult(SizedDesign):
     def picking(self, letter: str) -> SizingResult:
         """The same result with an alternative in the design's place, and the design among the rest.
 
+        It has the letter a there.
+
         Parameters
         ----------
         letter : str
@@ -149,7 +151,10 @@ class SizingResult(SizedDesign):
                 f"--pick {letter}: no alternative of that letter was found; {there} (several aims "
                 "may lead to one design). Leave --pick out for the first design."
             )
-        first = SizedDesign(**{one.name: getattr(self, one.name) for one in fields(SizedDesign)})
+        own = {one.name: getattr(self, one.name) for one in fields(SizedDesign)}
+        # Its name alone would be that of the file which the picked one takes.
+        own["design"] = self.design.replacing({"name": f"{self.design.name}-a"})
+        first = SizedDesign(**own)
         others = tuple(one for one in self.alternatives if one is not picked)
         return replace(self, **vars(picked), alternatives=(first, *others))
 

@@ -271,7 +271,7 @@ def result(sized: SizedDesign, *suffixes: str) -> SizingResult:
 def test_an_alternative_takes_the_designs_place(sized):
     picked = result(sized, "b", "d").picking("d")
     names = [picked.design.name, *(one.design.name for one in picked.alternatives)]
-    assert names == ["sized-10-d", "sized-10", "sized-10-b"]
+    assert names == ["sized-10-d", "sized-10-a", "sized-10-b"]
     assert picked.candidates_screened == 2
 
 
