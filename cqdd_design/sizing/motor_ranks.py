@@ -78,6 +78,7 @@ class Ranked:
             "value": self.value,
             "unit": self.unit,
             "mass_kg": self.mass,
+            "taken_over": self.motor.taken_over.split(),
             "why": self.why or None,
         }
 

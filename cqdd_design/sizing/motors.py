@@ -118,6 +118,19 @@ class MotorChoice:
             *found,
             f"'{self.chosen}' is the first by the screen's order {says}: {len(self.tried)} tried "
             f"by {by}, {len(self.untried)} only screened.",
+            *self._lent,
+        )
+
+    @property
+    def _lent(self) -> tuple[str, ...]:
+        """That figures of the motor that was taken are another's, where they are."""
+        motor = next(one.motor for one in self.ranked if one.motor.name == self.chosen)
+        lent = motor.taken_over.split()
+        if not lent:
+            return ()
+        return (
+            f"{len(lent)} of its figures are those of '{motor.taken_from}', which the catalogue "
+            f"takes over until its own are known (`cqdd-design catalog motors {motor.name}`).",
         )
 
     def to_dict(self) -> dict[str, object]:

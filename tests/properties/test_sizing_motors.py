@@ -98,7 +98,12 @@ def test_the_first_of_the_screens_order_that_fits_is_taken_and_the_rest_is_told(
     assert told["geared"] == sum(one.torque_at != "motor" for one in rows)
     assert len(choice.left_out) + len(choice.ranked) + choice.geared == len(rows)
     assert all(one["missing"] for one in told["left_out"])
-    assert "1 tried by the search by closed forms, 1 only screened" in choice.sentences[-1]
+    assert "1 tried by the search by closed forms, 1 only screened" in choice.sentences[1]
+    # What the catalogue does not know of the lighter variant is the other's, which is said.
+    lent = told["screened"][0]["taken_over"]
+    assert "bore_diameter" in lent
+    assert f"{len(lent)} of its figures are those of '{STANDARD.name}'" in choice.sentences[-1]
+    assert told["screened"][1]["taken_over"] == []
     gearbox = choice.ranked[0].value - LITE.mass
     assert gearbox == pytest.approx(choice.ranked[1].value - STANDARD.mass)
     assert 0.05 < gearbox < 0.4
