@@ -58,7 +58,7 @@ _ROWS = (
 )
 
 
-def with_requirements(function: Callable[..., None]) -> Callable[..., None]:
+def with_requirements(function: Callable[..., int]) -> Callable[..., int]:
     """Give a command an option for every requirement, after its first own, in its ``**asked``."""
     signature = inspect.signature(function, eval_str=True)
     kind = inspect.Parameter.KEYWORD_ONLY

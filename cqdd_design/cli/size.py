@@ -22,10 +22,12 @@ from cqdd_design.cli.options import (
 from cqdd_design.cli.requirement_options import read_requirements, stated, with_requirements
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import binding, checks_table, headline_table, number, table
+from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
     from cqdd_design.roads.size import Road
     from cqdd_design.sizing import SizingResult
+    from cqdd_design.sizing.motors import MotorChoice
     from cqdd_design.verdict import Verdict
 
 
@@ -39,11 +41,26 @@ class Objective(StrEnum):
     size = "size"
 
 
+class Pick(StrEnum):
+    """Letters of the alternatives."""
+
+    b = "b"
+    c = "c"
+    d = "d"
+
+
+ANY = "any"
+"""Of --motor: the first of the catalogue that fits."""
+
+
 @with_requirements
 def size(
     out: Output,
     ratio: Annotated[str | None, option("N", "Reduction, a whole number from 4 to 119.")] = None,
-    motor: Annotated[str | None, option("NAME", "Default CubeMars RO100 KV55.")] = None,
+    motor: Annotated[
+        str | None,
+        option("NAME", "Default CubeMars RO100 KV55; any: the first that fits of all."),
+    ] = None,
     motor_file: OwnMotor = None,
     discs: Annotated[int | None, option("N", "Discs on the crank, 1 to 3; default 2 or 3.")] = None,
     requirements: Annotated[
@@ -67,9 +84,15 @@ def size(
     quick: Annotated[
         bool, typer.Option("--quick", help="The screen by closed forms alone: no verdict.")
     ] = False,
+    pick: Annotated[
+        Pick | None,
+        typer.Option(
+            "--pick", help="Write this alternative; judged, and exit code 4 unless it is yes."
+        ),
+    ] = None,
     force: Force = False,
     **asked: Any,
-) -> None:
+) -> int:
     """Requirements to a design file whose verdict is yes."""
     from cqdd_design.catalog import find_bare_motor
     from cqdd_design.design import load_required_motor
@@ -81,11 +104,17 @@ def size(
 
     asked = stated(asked)
     asked |= {} if ratio is None else {"ratio": parse_ratio(ratio)}
-    asked |= {} if motor is None else {"motor": motor}
+    any_motor = motor is not None and motor.strip().lower() == ANY
+    asked |= {} if motor is None or any_motor else {"motor": motor}
     if (columns := read_duty_columns(duty, duty_columns)) is not None or duty is not None:
         asked |= duty_keys(str(duty), columns)
     asked |= {} if discs is None else {"disc_count": discs}
-    if motor is not None:
+    if any_motor and motor_file is not None:
+        raise UsageError(
+            f"--motor any takes one of the catalogue, and --motor-file {motor_file} describes one; "
+            "keep one of them."
+        )
+    if motor is not None and not any_motor:
         find_bare_motor(motor)
     own = None
     if motor_file is not None:
@@ -100,6 +129,8 @@ def size(
         wanted,
         target,
         motor=own,
+        any_motor=any_motor,
+        pick="" if pick is None else pick.value,
         ambient=parse_option("--ambient", ambient, TEMPERATURE),
         kinds=kinds,
         report=report,
@@ -111,6 +142,9 @@ def size(
     judged = road.verdict
     out.say(*_lines(road))
     results = road.sizing.to_dict()
+    if road.choice is not None:
+        out.say(*_motors(road.choice))
+        results |= {"motors": road.choice.to_dict()}
     if judged is None:
         out.say(*_screened(road))
         out.warn(*road.sizing.warnings)
@@ -121,6 +155,10 @@ def size(
     out.wrote(road.files)
     lines = road.sizing.checks if judged is None else judged.lines
     out.document(results, design=road.design, checks=lines, files=road.files)
+    if judged is None or judged.meets == "yes":
+        return 0
+    out.note(f"{road.files[0].path} was written all the same: --pick {pick} asked for it.")
+    return 4
 
 
 def _lines(road: Road) -> list[str]:
@@ -150,6 +188,18 @@ def _lines(road: Road) -> list[str]:
         "`inertia` weighs the whole machine.",
         "",
     ]
+
+
+def _motors(choice: MotorChoice) -> list[str]:
+    """How the motor was found: those that were screened, and what was tried."""
+    rows = []
+    tried = {one.name: one.why or "taken" for one in choice.tried}
+    for one in choice.ranked:
+        name, value = one.motor.name, "-"
+        if one.value is not None:
+            value = f"{number(one.value)} {one.unit}"
+        rows.append([f"  {name}", value, tried.get(name) or one.why or "only screened"])
+    return [*choice.sentences, table(rows), ""]
 
 
 def _screened(road: Road) -> list[str]:

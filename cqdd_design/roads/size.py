@@ -8,17 +8,20 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from cqdd_design.actuator.specimen import Specimen
+from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design, Requirements, save_design
 from cqdd_design.design.motor import MotorFile
 from cqdd_design.design.motor_row import row_over
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting import export
 from cqdd_design.files import WrittenFile, atomic_path, describe_file, refuse_overwrite
+from cqdd_design.machine import resolve
 from cqdd_design.roads.telling import Progress, silent
 from cqdd_design.sizing import SizingResult, size
 from cqdd_design.sizing.frame import Goal
+from cqdd_design.sizing.motors import MotorChoice, size_with_any
 from cqdd_design.sizing.verified import size_to_verdict
-from cqdd_design.verdict import Verdict
+from cqdd_design.verdict import Verdict, judge
 
 _STAMP = "# `size` replaces this file only while the lines above have this sha256: "
 
@@ -34,9 +37,12 @@ class Road:
     files : tuple of WrittenFile
         The design file first, then exports, then the report.
     verdict : Verdict or None
-        On the design as it was written: yes; None after the screen alone.
+        On the design as it was written: yes, unless an alternative was picked; None after the
+        screen alone.
     derived : frozenset of str
         Requirements that were not stated and are what the motor can do.
+    choice : MotorChoice or None
+        How the motor was found where any would do.
     """
 
     sizing: SizingResult
@@ -44,6 +50,17 @@ class Road:
     files: tuple[WrittenFile, ...]
     verdict: Verdict | None
     derived: frozenset[str]
+    choice: MotorChoice | None = None
+
+
+@dataclass(frozen=True)
+class _Sized:
+    """A design with what is known of it."""
+
+    sizing: SizingResult
+    verdict: Verdict | None
+    derived: frozenset[str]
+    choice: MotorChoice | None = None
 
 
 def size_and_write(
@@ -51,6 +68,8 @@ def size_and_write(
     path: Path | None = None,
     *,
     motor: MotorFile | None = None,
+    any_motor: bool = False,
+    pick: str = "",
     ambient: float | None = None,
     kinds: tuple[str, ...] = (),
     report: bool = False,
@@ -69,6 +88,11 @@ def size_and_write(
         exports and report.
     motor : MotorFile, optional
         What a file says of the required motor instead of the catalogue; the design says it too.
+    any_motor : bool
+        Take the first motor of the catalogue that fits, see :mod:`cqdd_design.sizing.motors`.
+    pick : str
+        Letter of the alternative to write instead of the first design: b, c or d. It is judged and
+        written whatever the verdict is.
     ambient : float, optional
         Of the air round the actuator, deg C, written to the design.
     kinds : tuple of str
@@ -88,7 +112,15 @@ def size_and_write(
     ------
     InfeasibleError
         When no design meets the requirements; the message names the limits that bind.
+    UsageError
+        When a file would be replaced that is not to be, any motor is asked for without a peak
+        torque or beside a motor's data, or no alternative has the letter that is picked.
     """
+    if any_motor and motor is not None:
+        raise UsageError(
+            f"any motor of the catalogue is asked for, and {motor.place} describes one; keep one "
+            "of them."
+        )
     target = path or Path("designs") / f"sized-{requirements.ratio}.toml"
     if path is not None:
         refuse_overwrite(target, force=force)
@@ -99,12 +131,17 @@ def size_and_write(
         # Whoever gives a motor's data asks for that motor.
         requirements = requirements.model_copy(update={"motor": requirements.motor})
         row = row_over(requirements.motor, motor, named=named)
-    verdict, derived = None, frozenset[str]()
-    if quick:
-        sizing = size(requirements, progress, motor=row, ambient=ambient, goal=goal)
-    else:
-        found = size_to_verdict(requirements, progress, motor=row, ambient=ambient, goal=goal)
-        sizing, verdict, derived = found.sizing, found.verdict, found.derived
+    found = _sized(
+        requirements,
+        row,
+        any_motor=any_motor,
+        pick=pick,
+        quick=quick,
+        ambient=ambient,
+        goal=goal,
+        progress=progress,
+    )
+    sizing, verdict, derived = found.sizing, found.verdict, found.derived
     # Both are written to the file even where they equal their defaults.
     own = {"schema_version": 1, "name": target.stem}
     design = _duty_from(sizing.design.replacing(own), target.parent)
@@ -112,9 +149,9 @@ def size_and_write(
         design = design.with_motor(requirements.motor if named else None, motor)
         design = design if named else design.leaving("requirements.motor")
     specimen = Specimen()
-    files: tuple[WrittenFile, ...] = (
-        _write_fresh(target, design, derived, frozenset() if quick else CHOSEN),
-    )
+    chosen = frozenset[str]() if quick else CHOSEN
+    chosen |= {"motor"} if any_motor else frozenset()
+    files: tuple[WrittenFile, ...] = (_write_fresh(target, design, derived, chosen),)
     machine = specimen.machine(design)
     if verdict is not None:
         verdict = replace(verdict, name=target.stem)
@@ -133,7 +170,48 @@ def size_and_write(
             progress=progress,
         )
         files = (*files, written.file)
-    return Road(sizing, design, files, verdict, derived)
+    return Road(sizing, design, files, verdict, derived, found.choice)
+
+
+def _sized(
+    requirements: Requirements,
+    row: Motor | None,
+    *,
+    any_motor: bool,
+    pick: str,
+    quick: bool,
+    ambient: float | None,
+    goal: Goal,
+    progress: Progress,
+) -> _Sized:
+    """The design that is asked for, and the verdict on it unless the screen alone is."""
+
+    def with_motor(asked: Requirements, row: Motor | None) -> _Sized:
+        if quick:
+            alone = size(asked, progress, motor=row, ambient=ambient, goal=goal)
+            return _Sized(alone, None, frozenset())
+        done = size_to_verdict(asked, progress, motor=row, ambient=ambient, goal=goal)
+        return _Sized(done.sizing, done.verdict, done.derived)
+
+    if any_motor:
+        first = size_with_any(
+            requirements,
+            with_motor,
+            to_verdict=not quick,
+            ambient=ambient,
+            goal=goal,
+            progress=progress,
+        )
+        found = replace(first.result, choice=first.choice)
+    else:
+        found = with_motor(requirements, row)
+    if not pick:
+        return found
+    sizing = found.sizing.picking(pick)
+    if found.verdict is None:
+        return replace(found, sizing=sizing)
+    progress(f"judging {sizing.design.name} by the whole verdict")
+    return replace(found, sizing=sizing, verdict=judge(resolve(sizing.design, row)))
 
 
 def _duty_from(design: Design, folder: Path) -> Design:
@@ -198,7 +276,9 @@ def _origins(design: Design, derived: frozenset[str], chosen: frozenset[str]) ->
     """A remark for every key of a sized design that is written: where its value comes from."""
     remarks = {}
     for key in design.dotted_keys():
-        if key.startswith(("requirements.", "motor.")) or key == "environment.ambient":
+        if key in {"requirements.motor", "motor.name"} and "motor" in chosen:
+            remarks[key] = "sized"
+        elif key.startswith(("requirements.", "motor.")) or key == "environment.ambient":
             remarks[key] = "assumed" if key.partition(".")[2] in derived else "given"
         elif key in _TAKEN_OVER:
             wanted = _TAKEN_OVER[key]

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray
-from cqdd_design.sizing.frame import Frame
+from cqdd_design.sizing.frame import Frame, Goal
 from cqdd_design.sizing.masses import Weights
 
 _TIE = 0.02
@@ -43,6 +43,16 @@ def goal_value(frame: Frame, weights: Weights, sizes: Sizes) -> FloatArray:
     else:
         value = swept_volume(frame, sizes)
     return np.asarray(value * weights.mass**_TIE)
+
+
+def untied(goal: Goal, score: float, mass: float) -> float:
+    """What a goal alone makes small, of a design with a score and a mass (kg): see `goal_value`."""
+    return score if goal == "mass" else score / float(mass**_TIE)
+
+
+def tied(value: float, mass: float) -> float:
+    """A value with its mass (kg) beside it: of two equal ones the lighter is the smaller."""
+    return value * float(mass**_TIE)
 
 
 def backlash_angle(frame: Frame, sizes: Sizes) -> FloatArray:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 
 from cqdd_design.design import Design
+from cqdd_design.errors import UsageError
 from cqdd_design.results import Check
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.masses import SCOPE
@@ -126,6 +127,36 @@ class SizingResult(SizedDesign):
     survivors: int
     rejected: dict[str, int]
     seconds: float = field(compare=False)
+
+    def picking(self, letter: str) -> SizingResult:
+        """The same result with an alternative in the design's place, and the design among the rest.
+
+        It has the letter a there.
+
+        Parameters
+        ----------
+        letter : str
+            At the end of the alternative's name: b, c or d.
+
+        Raises
+        ------
+        UsageError
+            Where no alternative has that letter; it names those there are.
+        """
+        letters = {one.design.name.rpartition("-")[2]: one for one in self.alternatives}
+        picked = letters.get(letter)
+        if picked is None:
+            there = f"the letters there are: {', '.join(letters)}" if letters else "there is none"
+            raise UsageError(
+                f"--pick {letter}: no alternative of that letter was found; {there} (several aims "
+                "may lead to one design). Leave --pick out for the first design."
+            )
+        own = {one.name: getattr(self, one.name) for one in fields(SizedDesign)}
+        # Its name alone would be that of the file which the picked one takes.
+        own["design"] = self.design.replacing({"name": f"{self.design.name}-a"})
+        first = SizedDesign(**own)
+        others = tuple(one for one in self.alternatives if one is not picked)
+        return replace(self, **vars(picked), alternatives=(first, *others))
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form (``results`` of ``size``), without the time it took."""

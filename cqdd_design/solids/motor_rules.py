@@ -39,20 +39,26 @@ _DOWELS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 """Diameters of ground dowels, mm (ISO 8734)."""
 _MOST_TUBE_WALL = 12.0
 """Thickest tube, in units, that is filled up to the bore of a stator."""
+_SIZES = (
+    ("bore_diameter", "stator bore"),
+    ("outer_diameter", "outside diameter"),
+    ("gap_diameter", "diameter of the air gap"),
+    ("stack_length", "length of the stack"),
+    ("rotor_length", "length of the magnets"),
+    ("slot_depth", "depth of the slots"),
+    ("mass", "mass"),
+)
+"""What is drawn of a motor, and its words."""
+
+
+def undrawn_sizes(motor: Motor) -> tuple[str, ...]:
+    """What is not known of a motor and is needed to draw it, in words."""
+    return tuple(words for field, words in _SIZES if getattr(motor, field) is None)
 
 
 def drawn_motor(motor: Motor) -> tuple[Motor | None, str]:
     """Return a motor if its parts can be drawn, or None and why not."""
-    sizes = (
-        motor.bore_diameter,
-        motor.outer_diameter,
-        motor.gap_diameter,
-        motor.stack_length,
-        motor.rotor_length,
-        motor.slot_depth,
-        motor.mass,
-    )
-    if any(size is None for size in sizes):
+    if undrawn_sizes(motor):
         return None, f"the sizes of rotor and stator of {motor.name} are not all known"
     return motor, ""
 

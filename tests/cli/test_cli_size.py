@@ -157,6 +157,97 @@ def test_a_motor_nobody_named_stays_assumed(cqdd, tmp_path):
     assert written["motor"]["name"] == "CubeMars RO100 KV55"
 
 
+LOADS = ("--peak-torque", "30 N*m", "--continuous-torque", "6 N*m")
+
+
+def test_any_motor_by_the_screen_and_an_alternative_of_it(cqdd, tmp_path):
+    done = cqdd(*QUICK, *LOADS, "--motor", "Any", "--pick", "d", "--json")
+    assert done.code == 0, done.err
+    results = done.document["results"]
+    found = results["motors"]
+    assert found["chosen"] == "CubeMars RO100 Lite KV55"
+    assert found["tried_by"] == "closed forms"
+    assert found["only_screened"] == ["CubeMars RO100 KV55"]
+    missing = {one["motor"]: one["missing"] for one in found["left_out"]}
+    assert "depth of the slots" in missing["CubeMars RO80 KV105"]
+    assert "verdict" not in results
+    text = (tmp_path / "designs" / "sized-10.toml").read_text()
+    assert 'motor = "CubeMars RO100 Lite KV55" # sized' in text
+    assert done.document["design"]["requirements"]["motor"] == "CubeMars RO100 Lite KV55"
+    # The alternative of the most reserve is written under the file's name, and the first beside it.
+    assert done.document["design"]["name"] == "sized-10"
+    others = {one["name"]: one for one in results["alternatives"]}
+    assert "sized-10-d" not in others
+    assert results["objective"]["torque_reserve"] > others["sized-10-a"]["torque_reserve"]
+    assert results["objective"]["mass_kg"] > others["sized-10-a"]["mass_kg"]
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--motor", "any"), "--peak-torque"),
+        ((*LOADS, "--motor", "any", "--motor-file", "mine.toml"), "--motor-file mine.toml"),
+        (("--pick", "x"), "b"),
+    ],
+)
+def test_any_motor_and_pick_that_make_no_sense(cqdd, tmp_path, options, said):
+    done = cqdd(*QUICK, *options)
+    assert done.code == 2
+    assert said in done.err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_any_motor_where_none_is_strong_enough(cqdd, tmp_path):
+    heavy = ("--peak-torque", "300 N*m", "--continuous-torque", "6 N*m")
+    done = cqdd(*QUICK, *heavy, "--motor", "any", "--json")
+    assert done.code == 3
+    assert "no motor fits" in done.err
+    assert "77.16 of 300 N*m" in done.err
+    details = done.document["error"]["details"]
+    assert details["binding"] == ["MOTOR-PEAK"]
+    assert details["motors"]["tried"] == []
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.deep
+def test_any_motor_ends_in_a_verdict_that_is_yes(cqdd):
+    slow = ("--continuous-speed", "300 rpm")
+    done = cqdd("size", "--ratio", "10", *LOADS, *slow, "--motor", "any")
+    assert done.code == 0, done.err
+    told = "is the first by the screen's order whose verdict is yes: 1 tried by the whole verdict"
+    assert f"'CubeMars RO100 Lite KV55' {told}, 1 only screened." in done.out
+    assert cqdd("check", "designs/sized-10.toml").code == 0
+
+
+@pytest.mark.deep
+def test_any_motor_where_none_holds_the_torque_for_ever(cqdd, tmp_path):
+    """Its own drag heats the one and the other at the usual input speed."""
+    done = cqdd("size", "--ratio", "10", *LOADS, "--motor", "any", "--json")
+    assert done.code == 3
+    assert not list(tmp_path.iterdir())
+    details = done.document["error"]["details"]
+    assert "MOTOR-CONTINUOUS" in details["binding"]
+    tried = [one["motor"] for one in details["motors"]["tried"]]
+    assert tried == ["CubeMars RO100 Lite KV55", "CubeMars RO100 KV55"]
+
+
+@pytest.mark.deep
+def test_a_picked_alternative_is_judged_and_written_whatever_the_verdict(cqdd, tmp_path):
+    loads = ("--peak-torque", "55 N*m", "--continuous-torque", "7 N*m", "--discs", "2")
+    asked = ("--ratio", "10", "--continuous-speed", "300 rpm", *loads)
+    done = cqdd("size", *asked, "--pick", "c", "--json")
+    assert done.code == 4
+    assert "was written all the same" in done.err
+    check = cqdd("check", "designs/sized-10.toml", "--json")
+    assert check.code == 4
+    assert check.document["results"]["verdict"] == done.document["results"]["verdict"]
+    assert done.document["results"]["verdict"]["meets"] == "no"
+    lost = cqdd("size", *asked, "--pick", "b", "--out", "other.toml")
+    assert lost.code == 2
+    assert "the letters there are: c, d" in lost.err
+    assert not (tmp_path / "other.toml").exists()
+
+
 def test_motor_that_does_not_exist(cqdd):
     done = cqdd("size", "--quick", "--ratio", "10", "--motor", "CubeMars RO10 KV55")
     assert done.code == 2
