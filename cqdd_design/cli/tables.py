@@ -108,7 +108,12 @@ def binding(judged: Verdict) -> str:
             ]
         )
     closest = ", ".join(f"{line.id} {line.margin:.3g}" for line in judged.limits)
-    return f"closest to their limits, by margin: {closest}"
+    sizes = ", ".join(line.id for line in judged.filled)
+    sentences = [f"closest to their limits, by margin: {closest}"]
+    sentences += [f"sizes at their limit: {sizes}"] if sizes else []
+    return "\n".join(
+        textwrap.fill(one, 96, subsequent_indent="  ", break_on_hyphens=False) for one in sentences
+    )
 
 
 def remedies(checks: Sequence[Check]) -> str:

@@ -9,6 +9,7 @@ from typing import Literal
 
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.gearbox.checks.allowables import YIELD_SAMPLES
+from cqdd_design.gearbox.checks.guide_row import GEOMETRY
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check, worst_status
 from cqdd_design.verdict.evidence import Evidence, Progress, gather
@@ -16,6 +17,8 @@ from cqdd_design.verdict.headline import Figure, headline
 from cqdd_design.verdict.lines import verdict_lines
 
 Meets = Literal["yes", "no", "unknown"]
+_AT_LIMIT = 1.005
+"""Margin up to which a size stands at its limit."""
 _LIMITS = 6
 """Lines told as what binds, where none fails."""
 
@@ -50,15 +53,29 @@ class Verdict:
 
     @property
     def limits(self) -> tuple[Check, ...]:
-        """What binds: failures by least margin, what is not known, warnings, then the closest."""
+        """What binds: failures by least margin, what is not known, warnings, then the closest.
+
+        Of those that pass, sizes come after all that gives way: a search fills the space it has.
+        """
         order = {"fail": 0, "unknown": 1, "warn": 2, "pass": 3}
 
-        def place(line: Check) -> tuple[int, float]:
-            return order[line.status], line.margin if line.known else 0.0
+        def place(line: Check) -> tuple[int, bool, float]:
+            passes = line.status == "pass"
+            size = passes and line.basis == GEOMETRY
+            return order[line.status], size, line.margin if line.known else 0.0
 
         ranked = sorted(self.lines, key=place)
         broken = sum(line.status != "pass" for line in ranked)
         return tuple(ranked[: max(broken, _LIMITS)])
+
+    @property
+    def filled(self) -> tuple[Check, ...]:
+        """Sizes that pass and stand at their limit."""
+        return tuple(
+            line
+            for line in self.lines
+            if line.status == "pass" and line.basis == GEOMETRY and line.margin < _AT_LIMIT
+        )
 
     @property
     def sentence(self) -> str:

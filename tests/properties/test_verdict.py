@@ -15,6 +15,7 @@ from cqdd_design.actuator.operating import held_torque, needed
 from cqdd_design.actuator.specimen import AS_DRAWN
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.checks.equilibrium import ENDLESS
+from cqdd_design.gearbox.checks.guide_row import GEOMETRY
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.life.fatigue import contact_cycles
@@ -340,3 +341,15 @@ def test_what_binds_comes_first(judged: Verdict) -> None:
     failing = [line.margin for line in judged.limits if line.status == "fail"]
     assert failing == sorted(failing)
     assert len(judged.limits) >= 6
+
+
+def test_what_gives_way_comes_before_sizes_that_a_search_has_filled(judged: Verdict) -> None:
+    """A ring as wide as is allowed says nothing of what the gearbox bears."""
+    passing = tuple(line for line in judged.lines if line.status == "pass")
+    alone = replace(judged, lines=passing)
+    sizes = [line.basis == GEOMETRY for line in alone.limits]
+    assert not any(sizes)
+    margins = [line.margin for line in alone.limits]
+    assert margins == sorted(margins)
+    assert all(line.basis == GEOMETRY and line.margin < 1.01 for line in alone.filled)
+    assert "SPACE-DIAMETER" in {line.id for line in alone.filled}
