@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import random
+
 import pytest
+
+from cqdd_design.design import Requirements, save_design
+from cqdd_design.sizing import size
 
 
 def lines_of(document):
@@ -45,16 +50,54 @@ def test_check_report_and_analyse_say_the_same(cqdd, paper_design_file, tmp_path
 
 @pytest.mark.deep
 def test_tolerance_and_bench_agree_with_the_verdict(cqdd, paper_design_file):
-    bench = cqdd("bench", paper_design_file, "--json").document
-    check = cqdd("check", paper_design_file, "--json").document
+    assert_bench_agrees(
+        cqdd, paper_design_file, cqdd("check", paper_design_file, "--json").document
+    )
+
+
+def assert_bench_agrees(cqdd, design, check):
+    bench = cqdd("bench", design, "--json").document
     assert bench["results"]["verdict"] == check["results"]["verdict"]
     assert bench["checks"] == check["checks"]
     figures = {one["id"]: one for one in check["results"]["verdict"]["headline"]}
-    drawn = cqdd("tolerance", paper_design_file, "--samples", "256", "--json").document
+    drawn = cqdd("tolerance", design, "--samples", "256", "--json").document
     backlash = drawn["results"]["backlash_arcmin"]["p95"]
     assert figures["backlash_p95"]["value"] == pytest.approx(backlash, rel=1e-9)
     mass = bench["results"]["metrics"]["mass"]["value"]
     assert figures["mass"]["value"] == pytest.approx(mass)
+
+
+def drawn_requirements(seed):
+    """What somebody may ask for; closed forms give a design, whatever the verdict on it."""
+    draw = random.Random(seed)
+    peak = 10.0 ** draw.uniform(0.9, 1.6)
+    return Requirements(
+        ratio=draw.choice([6, 8, 9, 11, 13]),
+        peak_torque=f"{peak:.3g} N*m",
+        continuous_torque=f"{peak * draw.uniform(0.05, 0.4):.3g} N*m",
+        input_speed=f"{draw.choice([300, 800, 1500])} rpm",
+        life=f"{draw.choice([300, 2000])} h",
+        disc_count=draw.choice([1, 2, 3]),
+        disc_material=draw.choice(["AISI 4140 Q&T 540C", "AISI 52100 / 100Cr6 hardened"]),
+    )
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("seed", range(4))
+def test_every_command_says_the_same_of_designs_nobody_chose(cqdd, tmp_path, seed):
+    design = tmp_path / "drawn.toml"
+    save_design(design, size(drawn_requirements(seed)).design)
+    check = cqdd("check", design, "--json").document
+    own = lines_of(check)
+    assert {k: v for k, v in own.items() if k != "YIELD"} == lines_of(
+        cqdd("analyse", design, "--json").document
+    )
+    assert_bench_agrees(cqdd, design, check)
+    if seed == 0:
+        page = tmp_path / "r.html"
+        report = cqdd("report", design, "--out", page, "--json").document
+        assert report["results"]["verdict"] == check["results"]["verdict"]
+        assert report["checks"] == check["checks"]
 
 
 def test_a_no_ends_in_exit_code_four_with_what_would_change_it(cqdd, paper_design_file):
