@@ -28,7 +28,7 @@ from cqdd_design.gearbox.bodies.model import Body
 
 _log = logging.getLogger("cqdd_design")
 
-VERSION = 2
+VERSION = 3
 """Of the method: raised whenever the same shape would give other numbers."""
 Shape = TypeVar("Shape")
 
