@@ -17,15 +17,17 @@ TESTS = Path(__file__).resolve().parent
 
 
 def gearbox() -> None:
-    """A contact analysis, and an ensemble of two gearboxes."""
+    """A contact analysis, and ensembles of two gearboxes, of all outputs and of loads alone."""
     from cqdd_design.design import load_design
     from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
+    from cqdd_design.gearbox.tolerance.evaluate import LOADS, OUTPUTS
     from cqdd_design.machine import resolve
     from cqdd_design.machine.contact_analysis import analyse_contact
 
     design = load_design(TESTS.parent / "designs" / "cqdd-10.toml")
     analyse_contact(resolve(design))
-    run_ensemble(make_ensemble(design, angles=44), 2)
+    for outputs in (OUTPUTS, LOADS):
+        run_ensemble(make_ensemble(design, angles=44, outputs=outputs), 2)
 
 
 def actuator() -> None:

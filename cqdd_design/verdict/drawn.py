@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
-from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS
+from cqdd_design.gearbox.tolerance.evaluate import LOADS
 from cqdd_design.gearbox.tolerance.remembered import work_remembered
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
@@ -34,6 +34,7 @@ class Drawn(NamedTuple):
 
     continuous: ToleranceResult
     peak: ToleranceResult
+    """The greatest loads alone."""
 
 
 def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Drawn:
@@ -59,7 +60,9 @@ def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Dra
     fitting = samples * _ANGLES // max(angles, _ANGLES)
     count = max(fitting, min(samples, LEAST_SAMPLES))
     peak = machine.design.requirements.peak_torque
-    at_peak = make_ensemble(machine.design, angles=least * ratio * (ratio + 1), torque=peak)
+    at_peak = make_ensemble(
+        machine.design, angles=least * ratio * (ratio + 1), torque=peak, outputs=LOADS
+    )
     found = Drawn(
         run_ensemble(
             make_ensemble(machine.design, angles=angles),
@@ -107,7 +110,7 @@ class Allowed:
 
 def used(allowed: Allowed, drawn: Drawn) -> dict[str, NDArray[np.float64]]:
     """Pressure and cam load of every gearbox over what is allowed, by the line it stands for."""
-    lasts, bears = _columns(drawn.continuous), _columns(drawn.peak)
+    lasts, bears = drawn.continuous.columns, drawn.peak.columns
     return {
         "CONTACT-RING-CONTINUOUS": lasts["ring_pressure_max_MPa"] / allowed.lasting_pressure,
         "BEARING-LIFE": lasts["cam_bearing_load_max_N"] / allowed.lasting_load,
@@ -142,7 +145,7 @@ def good_gearboxes(
     allowed = Allowed.of(machine, lines)
     if allowed is None:
         return None
-    asked, lasts = machine.design.requirements, _columns(drawn.continuous)
+    asked, lasts = machine.design.requirements, drawn.continuous.columns
     most = allowables.BINDING_SHARE * asked.continuous_torque
     fails = {"bind": (drawn.continuous, lasts["unloaded_torque_Nm"] > most)}
     if asked.backlash is not None:
@@ -158,10 +161,6 @@ def good_gearboxes(
     for ensemble, beyond in fails.values():
         good = np.setdiff1d(good, ensemble.numbers[beyond])
     return good, {name: int(beyond.sum()) for name, (_, beyond) in fails.items()}
-
-
-def _columns(drawn: ToleranceResult) -> dict[str, NDArray[np.float64]]:
-    return dict(zip(OUTPUTS, drawn.values.T, strict=True))
 
 
 def yield_line(machine: Machine, drawn: Drawn | None, why: str, lines: Sequence[Check]) -> Check:

@@ -10,6 +10,7 @@ from cqdd_design.design import load_design
 from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.gearbox.tolerance import remembered
 from cqdd_design.gearbox.tolerance.ensemble import Block, make_ensemble, work_block, work_here
+from cqdd_design.gearbox.tolerance.evaluate import LOADS
 
 DESIGN = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 BLOCKS = [Block(0, 3), Block(3, 2), Block(0, 2, ("pin_diameter",))]
@@ -44,6 +45,7 @@ def test_everything_that_moves_them_has_an_entry_of_its_own(own_cache: Path, mon
         dataclasses.replace(one, torque=one.torque * (1.0 + 1e-15)),
         dataclasses.replace(one, angles=111),
         dataclasses.replace(one, seed=1),
+        dataclasses.replace(one, outputs=LOADS),
         dataclasses.replace(one, bodies=None),
         dataclasses.replace(one, temperatures=PartTemperatures.even(40.0)),
         ensemble(**{"tolerances.pin_diameter": 1e-6}),

@@ -28,6 +28,7 @@ from cqdd_design.gearbox.tolerance.ensemble import (
     work_here,
 )
 from cqdd_design.gearbox.tolerance.evaluate import (
+    LOADS,
     OUTPUTS,
     body_compliance,
     ensemble_tables,
@@ -124,6 +125,8 @@ def test_numbers_do_not_depend_on_threads_or_blocks() -> None:
     errors = draw_errors(tables.model, ensemble.design.tolerances, 0, 0, 12)
     one = evaluate_gearboxes(tables, errors, threads=1)
     assert np.array_equal(one, evaluate_gearboxes(tables, errors, threads=3))
+    loads = evaluate_gearboxes(tables, errors, outputs=LOADS)
+    assert np.array_equal(loads, one[:, [OUTPUTS.index(name) for name in LOADS]])
     pieces = [work_block(ensemble, Block(first, 4)) for first in (8, 0, 4)]
     assert np.array_equal(one, np.concatenate([pieces[1], pieces[2], pieces[0]]))
 

@@ -9,7 +9,7 @@ along load i, the form that is stationary in both fields is
 
 whose error is that of the energy. Its last term is symmetric because K is, and the first two are
 one sum; s_i(j) - R_i(s_j) is by Betti's theorem, as far as the quadrature along the edges is exact.
-By the rules below that is to 1e-6 of the largest entry: sides end wherever a traction or its slope
+By the rules below that is to 2e-10 of the largest entry: sides end wherever a traction or its slope
 jumps, and beside a place the logarithm in s_j is integrated as what it is.
 """
 
@@ -34,7 +34,7 @@ from cqdd_design.geometry.contours import ComplexArray, FloatArray, gauss_rule
 
 _GRADED = 3
 """Power by which points of quadrature crowd towards a point load on a side or beside it."""
-_GRADED_POINTS = 8
+_GRADED_POINTS = 24
 _NEAR = 1.0
 """Distance of a point load from a side, over its length, up to which they do."""
 

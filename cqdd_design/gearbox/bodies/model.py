@@ -34,7 +34,7 @@ class Body:
         ring. Meaningless where the load itself stands.
     reciprocity : float
         Largest difference between the two halves of the matrix as they were computed, over its
-        largest entry; their mean is kept. On one mesh it is 1e-6, of quadrature. Where a symmetry
+        largest entry; their mean is kept. On one mesh it is 2e-10, of quadrature. Where a symmetry
         of the shape gives columns from others, the mesh, which has none, makes it up to 4e-4: what
         the same number comes to on another mesh.
     """

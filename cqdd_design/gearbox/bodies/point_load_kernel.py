@@ -14,6 +14,10 @@ from cqdd_design.gearbox.bodies.mesh import IntArray
 from cqdd_design.gearbox.bodies.point_load_values import Spread
 from cqdd_design.geometry.contours import FloatArray
 
+_OWN = 1e-26
+"""Square of the distance from a load, over that from the origin, below which it is its own place:
+graded points of quadrature come within 1e-9."""
+
 
 @numba.njit(cache=True, error_model="numpy")
 def tractions(z: FloatArray, normal: FloatArray, places: Spread, found: FloatArray) -> None:
@@ -65,7 +69,7 @@ def separations(
             dx, dy = x - point_x[k], y - point_y[k]
             square = dx * dx + dy * dy
             over = point_x[k] * point_x[k] + point_y[k] * point_y[k]
-            if square < 1e-18 * over:
+            if square < _OWN * over:
                 # On the edge itself the angle is the mean of both sides: the inward normal's.
                 dx, dy = depth * inward_x[k], depth * inward_y[k]
                 square = depth * depth
@@ -103,7 +107,7 @@ def displacements(
             ax, ay = -unit * inward_x[k], -unit * inward_y[k]
             dx, dy = x - point_x[k], y - point_y[k]
             square = dx * dx + dy * dy
-            if square < 1e-18 * (point_x[k] * point_x[k] + point_y[k] * point_y[k]):
+            if square < _OWN * (point_x[k] * point_x[k] + point_y[k] * point_y[k]):
                 dx, dy = depth * inward_x[k], depth * inward_y[k]
                 square = depth * depth
             twist_x, twist_y = (dx * dx - dy * dy) / square, 2.0 * dx * dy / square

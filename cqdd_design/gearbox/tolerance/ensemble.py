@@ -68,6 +68,8 @@ class Ensemble:
         Crank angles over the output turn.
     seed : int
     temperatures : PartTemperatures
+    outputs : tuple of str
+        What is found of every gearbox: `OUTPUTS`, or `LOADS` alone.
     """
 
     design: Design
@@ -76,6 +78,7 @@ class Ensemble:
     angles: int
     seed: int
     temperatures: PartTemperatures = AS_DRAWN
+    outputs: tuple[str, ...] = OUTPUTS
 
 
 @dataclass(frozen=True)
@@ -128,7 +131,7 @@ def _yielding(design: Design, torque: float, angles: int) -> BodyCompliance:
 
 
 def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
-    """Values (count, 9) of a block of gearboxes, in the order and units of `OUTPUTS`."""
+    """Values (count, 9) of a block of gearboxes, in the order and units of its outputs."""
     tables = _tables(ensemble)
     errors = draw_errors(
         tables.model,
@@ -141,7 +144,8 @@ def work_block(ensemble: Ensemble, block: Block) -> FloatArray:
     warm = _warm(ensemble)
     angle = warm.hole_clocking + 2.0 * np.pi * np.arange(warm.pin_count) / warm.pin_count
     outward = warm.pin_reach * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return evaluate_gearboxes(tables, errors._replace(pin_position=errors.pin_position + outward))
+    errors = errors._replace(pin_position=errors.pin_position + outward)
+    return evaluate_gearboxes(tables, errors, outputs=ensemble.outputs)
 
 
 def work_here(ensemble: Ensemble, blocks: list[Block]) -> Iterator[tuple[int, FloatArray]]:
@@ -159,7 +163,7 @@ class ToleranceResult:
     asked : int
         Gearboxes asked for.
     values : array (S, 9)
-        Of every gearbox that was solved, in the order and units of `OUTPUTS`.
+        Of every gearbox that was solved, in the order and units of the ensemble's outputs.
     numbers : array (S,)
         Which of the drawn gearboxes these are.
     sensitivity : tuple of SobolIndices or None
@@ -188,8 +192,12 @@ class ToleranceResult:
 
     def statistics(self) -> dict[str, dict[str, float]]:
         """Mean, standard deviation and percentiles of every output."""
-        columns = zip(OUTPUTS, self.values.T, strict=True)
-        return {name: _distribution(column) for name, column in columns}
+        return {name: _distribution(column) for name, column in self.columns.items()}
+
+    @property
+    def columns(self) -> dict[str, FloatArray]:
+        """The values (S,) of every gearbox that was solved, by output."""
+        return dict(zip(self.ensemble.outputs, self.values.T, strict=True))
 
     @property
     def limits(self) -> dict[str, float]:
@@ -198,9 +206,11 @@ class ToleranceResult:
 
     def beyond(self) -> dict[str, float]:
         """Share of the gearboxes that are beyond a limit, by output."""
+        found = self.columns
         return {
-            name: float(np.mean(self.values[:, OUTPUTS.index(name)] > limit))
+            name: float(np.mean(found[name] > limit))
             for name, limit in self.limits.items()
+            if name in found
         }
 
     def pressure_reserve(self) -> dict[str, float] | None:
@@ -211,14 +221,14 @@ class ToleranceResult:
         name = "ring_pressure_max_MPa"
         if name not in self.limits or not len(self.values):
             return None
-        reserve = self.limits[name] / self.values[:, OUTPUTS.index(name)]
+        reserve = self.limits[name] / self.columns[name]
         return _distribution(reserve)
 
     def ranking(self, output: str) -> list[tuple[str, float, float]]:
         """Tolerances with their first-order and total shares of one output, largest total first."""
         if self.sensitivity is None:
             return []
-        indices = self.sensitivity[OUTPUTS.index(output)]
+        indices = self.sensitivity[self.ensemble.outputs.index(output)]
         rows = zip(GROUPS, indices.first.tolist(), indices.total.tolist(), strict=True)
         return sorted(rows, key=lambda row: -row[2])
 
@@ -283,7 +293,7 @@ class ToleranceResult:
             return None
         return {
             output: dict(zip(GROUPS, getattr(indices, key).tolist(), strict=True))
-            for output, indices in zip(OUTPUTS, self.sensitivity, strict=True)
+            for output, indices in zip(self.ensemble.outputs, self.sensitivity, strict=True)
         }
 
 
@@ -302,6 +312,7 @@ def make_ensemble(
     seed: int = 0,
     bodies: Design | None = None,
     temperatures: PartTemperatures = AS_DRAWN,
+    outputs: tuple[str, ...] = OUTPUTS,
 ) -> Ensemble:
     """Complete an ensemble: continuous torque, and 8 n (n+1) angles over the output turn.
 
@@ -314,6 +325,8 @@ def make_ensemble(
         Whose discs and ring yield, where another one's are near enough; default the design's own.
     temperatures : PartTemperatures
         Of the parts of all gearboxes.
+    outputs : tuple of str
+        `OUTPUTS`, or `LOADS` where nothing else is asked, which takes a quarter of the time.
 
     Raises
     ------
@@ -336,7 +349,7 @@ def make_ensemble(
     if pairs > _MOST_PAIRS or bodies_or_none(bodies or design) is None:
         yielding = None
     growth_of(design, temperatures)
-    return Ensemble(design, yielding, load, wanted, seed, temperatures)
+    return Ensemble(design, yielding, load, wanted, seed, temperatures, outputs)
 
 
 def run_ensemble(
@@ -396,12 +409,14 @@ def run_ensemble(
         interrupted = True
     main = len(_blocks(samples, ()))
     values = np.concatenate(
-        [v for v in found[:main] if v is not None] or [np.empty((0, len(OUTPUTS)))]
+        [v for v in found[:main] if v is not None] or [np.empty((0, len(ensemble.outputs)))]
     )
     indices = None
     if base and not interrupted:
         indices = _sensitivity(values[:base], found[main:], base)
-    coarse = int(marked_angles(ensemble.design.reducer.ratio, ensemble.angles).sum())
+    coarse = 0
+    if ensemble.outputs == OUTPUTS:
+        coarse = int(marked_angles(ensemble.design.reducer.ratio, ensemble.angles).sum())
     jams = np.isnan(values).any(axis=1)
     return ToleranceResult(
         ensemble=ensemble,
@@ -426,9 +441,10 @@ def _sensitivity(
 ) -> tuple[SobolIndices, ...]:
     """Indices of every output from the blocks of B and of every AB_i."""
     rest = np.concatenate([values for values in found if values is not None])
-    several = rest.reshape(1 + len(GROUPS), base, len(OUTPUTS))
+    outputs = a.shape[1]
+    several = rest.reshape(1 + len(GROUPS), base, outputs)
     known = ~(np.isnan(a).any(axis=1) | np.isnan(several).any(axis=(0, 2)))
     a, several = a[known], several[:, known]
     return tuple(
-        sobol_indices(a[:, k], several[0, :, k], several[1:, :, k]) for k in range(len(OUTPUTS))
+        sobol_indices(a[:, k], several[0, :, k], several[1:, :, k]) for k in range(outputs)
     )

@@ -225,6 +225,48 @@ def _rigid_parts(nominal: Nominal, found: Toleranced, errors: GearboxErrors) -> 
 
 
 @numba.njit(cache=True, error_model="numpy")
+def _greatest(
+    nominal: Nominal,
+    found: Toleranced,
+    springs: Springs,
+    load: Load,
+    start: Start,
+    shared: Shared,
+    whole: YieldingResult,
+    values: Any,
+) -> int:
+    """Equilibria under the torque into `whole`, their greatest loads; -1, or a failing angle."""
+    count, discs, _ = nominal.gaps.shape
+    teeth, every = springs.teeth, np.arange(count)
+    stopped = _follow(
+        nominal,
+        found,
+        springs,
+        load,
+        shared.rubbing,
+        shared.compliance,
+        (every, _turns(nominal, every)),
+        start.perfect,
+        whole,
+    )
+    if stopped >= 0:
+        return int(stopped)
+    most, pressed, borne = 0.0, 0.0, 0.0
+    for a in range(count):
+        for d in range(discs):
+            for k in range(teeth):
+                force = whole.force[a, d, k]
+                most = max(most, force)
+                pressed = max(pressed, force * shared.worn.pressing[a, d, k])
+            x, y = whole.cam_force[a, d, 0], whole.cam_force[a, d, 1]
+            borne = max(borne, x * x + y * y)
+    values[RING_FORCE] = most
+    values[PRESSURE] = math.sqrt(pressed)
+    values[CAM_LOAD] = math.sqrt(borne)
+    return -1
+
+
+@numba.njit(cache=True, error_model="numpy")
 def _loaded(
     nominal: Nominal,
     found: Toleranced,
@@ -240,33 +282,11 @@ def _loaded(
     every, some = np.arange(count), np.flatnonzero(start.marked)
     whole = _room(count, discs, contacts)
     compliance, rubbing = shared.compliance, shared.rubbing
-    stopped = _follow(
-        nominal,
-        found,
-        springs,
-        load,
-        rubbing,
-        compliance,
-        (every, _turns(nominal, every)),
-        start.perfect,
-        whole,
-    )
+    stopped = _greatest(nominal, found, springs, load, start, shared, whole, values)
     if stopped >= 0:
         return int(stopped)
     turned = whole.states[:, 2]
     values[TRANSMISSION_ERROR] = (turned.max() - turned.min()) / length
-    most, pressed, borne = 0.0, 0.0, 0.0
-    for a in range(count):
-        for d in range(discs):
-            for k in range(teeth):
-                force = whole.force[a, d, k]
-                most = max(most, force)
-                pressed = max(pressed, force * shared.worn.pressing[a, d, k])
-            x, y = whole.cam_force[a, d, 0], whole.cam_force[a, d, 1]
-            borne = max(borne, x * x + y * y)
-    values[RING_FORCE] = most
-    values[PRESSURE] = math.sqrt(pressed)
-    values[CAM_LOAD] = math.sqrt(borne)
     torques = _crank_torques(
         nominal, found, shared, rubbing, shared.worn.crank_sense, teeth, every, whole
     )
@@ -331,6 +351,41 @@ def _unloaded(
     return -1
 
 
+@numba.njit(cache=True, error_model="numpy")
+def _with_errors(nominal: Nominal, errors: GearboxErrors) -> Toleranced:
+    """What the errors of one gearbox make of the perfect one."""
+    count, discs, contacts = nominal.gaps.shape
+    found = Toleranced(
+        np.empty((count, discs, contacts)),
+        np.empty((count, discs, contacts)),
+        np.empty((count, discs, 2)),
+        np.empty((count, discs, 2)),
+        np.empty(discs),
+    )
+    fill_errors(nominal, errors, found)
+    return found
+
+
+@numba.njit(cache=True, error_model="numpy", nogil=True)
+def solve_greatest(
+    nominal: Nominal,
+    springs: Springs,
+    load: Load,
+    start: Start,
+    shared: Shared,
+    errors: GearboxErrors,
+    values: Any,
+) -> int:
+    """The greatest loads of one gearbox alone, to the bit those of :func:`solve_gearbox`.
+
+    Arguments and result are those of :func:`solve_gearbox`; of `values` only `RING_FORCE`,
+    `PRESSURE` and `CAM_LOAD` are written.
+    """
+    found = _with_errors(nominal, errors)
+    whole = _room(*nominal.gaps.shape)
+    return _greatest(nominal, found, springs, load, start, shared, whole, values)
+
+
 @numba.njit(cache=True, error_model="numpy", nogil=True)
 def solve_gearbox(
     nominal: Nominal,
@@ -356,17 +411,9 @@ def solve_gearbox(
     int
         -1, or the angle that has no equilibrium.
     """
-    count, discs, contacts = nominal.gaps.shape
-    size = 3 + 3 * discs
+    size = 3 + 3 * nominal.gaps.shape[1]
     some = np.flatnonzero(start.marked)
-    found = Toleranced(
-        np.empty((count, discs, contacts)),
-        np.empty((count, discs, contacts)),
-        np.empty((count, discs, 2)),
-        np.empty((count, discs, 2)),
-        np.empty(discs),
-    )
-    fill_errors(nominal, errors, found)
+    found = _with_errors(nominal, errors)
     stopped = _loaded(nominal, found, springs, load, start, shared, values)
     if stopped >= 0:
         return stopped

@@ -38,6 +38,7 @@ def _block(ensemble: Ensemble, block: Block) -> FloatArray:
             "angles": ensemble.angles,
             "seed": ensemble.seed,
             "temperatures": vars(ensemble.temperatures),
+            "outputs": ensemble.outputs,
             "gearboxes": [block.first, block.count, *block.exchanged],
         },
         sort_keys=True,
