@@ -13,6 +13,14 @@ from cqdd_design.gearbox.tolerance.ensemble import Block, make_ensemble, work_bl
 from cqdd_design.gearbox.tolerance.evaluate import LOADS
 
 DESIGN = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
+ELSEWHERE = {
+    "name": "another",
+    "motor.voltage": 24.0,
+    "requirements.motor": "CubeMars RO100 KV55",
+    "drive.encoder_bits": 12,
+    "edm.wire_diameter": 0.2e-3,
+}
+"""Of a design, that no gearbox knows."""
 BLOCKS = [Block(0, 3), Block(3, 2), Block(0, 2, ("pin_diameter",))]
 
 
@@ -30,12 +38,13 @@ def ensemble(**changed):
 def test_what_is_kept_is_what_would_be_worked(monkeypatch: pytest.MonkeyPatch) -> None:
     one = ensemble()
     worked = dict(work_here(one, BLOCKS))
+    elsewhere = dict(work_here(ensemble(**ELSEWHERE), BLOCKS))
     first = dict(remembered.work_remembered(one, BLOCKS))
     monkeypatch.setattr(remembered, "work_block", lambda *_: pytest.fail("was worked again"))
     again = dict(remembered.work_remembered(one, BLOCKS))
-    named = dict(remembered.work_remembered(ensemble(name="another"), BLOCKS))
+    named = dict(remembered.work_remembered(ensemble(**ELSEWHERE), BLOCKS))
     for place, values in worked.items():
-        for other in (first, again, named):
+        for other in (first, again, named, elsewhere):
             assert np.array_equal(values, other[place], equal_nan=True)
 
 

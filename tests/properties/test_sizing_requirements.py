@@ -230,6 +230,7 @@ def test_requirements_without_room_for_any_part_name_their_key(given, key, words
     assert caught.value.exit_code == 3
 
 
+@pytest.mark.deep
 def test_a_motor_asked_for_must_be_enough():
     """The default motor only warns; the same motor asked for is a requirement."""
     peak = {"ratio": 6, "peak_torque": "66 N*m", "continuous_torque": "10 N*m"}
@@ -244,6 +245,7 @@ def test_a_motor_asked_for_must_be_enough():
     assert sized(**within, motor="CubeMars RO100 KV55").design.motor.name == "CubeMars RO100 KV55"
 
 
+@pytest.mark.deep
 def test_a_motor_without_data_is_named_and_its_inertia_is_not_zero():
     """What the catalogue does not know is said in words and is no number."""
     found = sized(ratio=10, motor="T-Motor U8 KV150")
@@ -326,6 +328,7 @@ def test_progress_is_told_in_sentences():
     assert any("candidates meet every limit" in line for line in told)
 
 
+@pytest.mark.deep
 def test_needles_are_used_where_the_discs_are_hard_enough_to_be_raceways():
     """What balls cannot carry in a 72 mm ring, caged needles do, in discs of bearing steel."""
     asked = {"ratio": 10, "peak_torque": "120 N*m", "length": "21 mm"}
@@ -380,6 +383,7 @@ def test_a_larger_ring_is_found_however_small_the_present_one():
     assert caught.value.outer_diameter_needed == pytest.approx(44e-3)
 
 
+@pytest.mark.deep
 def test_mass_does_not_fall_when_torque_grows():
     masses = [
         sized(ratio=10, peak_torque=f"{torque} N*m").objective.mass

@@ -20,6 +20,8 @@ from cqdd_design.geometry.contours import FloatArray
 
 _MOST_KEPT = 100_000_000
 """Bytes of all entries together: ten thousand blocks."""
+_ELSEWHERE = frozenset({"name", "motor", "drive", "edm"})
+"""Tables of a design that no gearbox knows."""
 
 
 def work_remembered(ensemble: Ensemble, blocks: list[Block]) -> Iterator[tuple[int, FloatArray]]:
@@ -53,8 +55,10 @@ def _block(ensemble: Ensemble, block: Block) -> FloatArray:
 
 
 def _physical(design: Design) -> dict[str, object]:
-    """All of a design but its name: equal ones have equal gearboxes."""
-    return {key: value for key, value in design.to_mapping().items() if key != "name"}
+    """What gearboxes can depend on, and more: not the name, the motor, or how files are cut."""
+    mapping = design.to_mapping()
+    mapping["requirements"].pop("motor", None)
+    return {key: value for key, value in mapping.items() if key not in _ELSEWHERE}
 
 
 @cache
