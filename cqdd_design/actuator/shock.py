@@ -20,6 +20,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.optimize import brentq
 
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.density import torques_of_drive
@@ -29,7 +30,6 @@ from cqdd_design.actuator.scenario import Command, Constant, Load, Scenario, Sta
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.errors import ContactError, CqddError
-from cqdd_design.gearbox.bracketed_root import bracketed_root
 from cqdd_design.machine import Machine
 from cqdd_design.machine.capacity import LoadedContacts
 from cqdd_design.machine.carrying import OUT_OF_REACH, compared_limits
@@ -176,7 +176,7 @@ def stop_torque(gear: GearParameters, energy: float, motor: float = 0.0) -> floa
         least *= 0.5
     while missing(most) < 0.0:
         most *= 2.0
-    return torque(bracketed_root(missing, least, most, absolute=1e-15, relative=1e-12))
+    return torque(brentq(missing, least, most, xtol=1e-15, rtol=1e-12))
 
 
 def simulated_torque(parameters: ActuatorParameters, speed: float, current: float = 0.0) -> float:

@@ -22,7 +22,6 @@ from cqdd_design.cli.options import (
 from cqdd_design.cli.requirement_options import read_requirements, stated, with_requirements
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import binding, checks_table, headline_table, number, table
-from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
     from cqdd_design.roads.size import Road
@@ -109,11 +108,6 @@ def size(
     if (columns := read_duty_columns(duty, duty_columns)) is not None or duty is not None:
         asked |= duty_keys(str(duty), columns)
     asked |= {} if discs is None else {"disc_count": discs}
-    if any_motor and motor_file is not None:
-        raise UsageError(
-            f"--motor any takes one of the catalogue, and --motor-file {motor_file} describes one; "
-            "keep one of them."
-        )
     if motor is not None and not any_motor:
         find_bare_motor(motor)
     own = None

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
+from scipy.optimize import brentq
+
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.bracketed_root import bracketed_root
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
@@ -98,7 +99,7 @@ class LoadedContacts:
                     low, high = high, high + step
             except ContactError:
                 return math.exp(self._last_with_equilibrium(low, high))
-        return float(math.exp(bracketed_root(over, low, high, absolute=_TOLERANCE)))
+        return float(math.exp(brentq(over, low, high, xtol=_TOLERANCE)))
 
     def reach(self, torque: float) -> float:
         """The most torque up to `torque` (N m) that has an equilibrium; 0 where none has."""

@@ -56,8 +56,16 @@ def first_guess(requirements: Requirements, motor: Motor | None) -> Requirements
     return _with(requirements, changed)
 
 
-def what_it_can(machine: Machine, requirements: Requirements) -> Requirements | None:
+def what_it_can(
+    machine: Machine, requirements: Requirements, *, may_rise: bool
+) -> Requirements | None:
     """Torques that were not stated, as the motor reaches them in a gearbox; None where they stand.
+
+    Parameters
+    ----------
+    may_rise : bool
+        Whether a continuous torque that is well below what the motor holds is raised to it. A
+        gearbox for more torque has more losses, so that what is raised may be too much again.
 
     Raises
     ------
@@ -85,19 +93,27 @@ def what_it_can(machine: Machine, requirements: Requirements) -> Requirements | 
             )
         able = min(rounded_down(most, _DIGITS), changed.get(PEAK, requirements.peak_torque))
         asked = requirements.continuous_torque
-        if asked > most or asked < able * (1.0 - _SAME):
+        if asked > most or (may_rise and asked < able * (1.0 - _SAME)):
             changed[CONTINUOUS] = able
     return _with(requirements, changed) if changed else None
 
 
-def weaker(requirements: Requirements, share: float) -> Requirements | None:
-    """The requirements with a share of the peak torque that was not stated; None where it was."""
+def weaker(requirements: Requirements, share: float, *, both: bool) -> Requirements | None:
+    """The requirements with a share of the peak torque that was not stated; None where it was.
+
+    Parameters
+    ----------
+    both : bool
+        Whether the continuous torque, where it was not stated, is lowered as well: it may be what
+        nothing bears.
+    """
     if PEAK not in requirements.derived:
         return None
     peak = rounded_down(share * requirements.peak_torque, _DIGITS)
     changed: dict[str, Any] = {PEAK: peak}
     if CONTINUOUS in requirements.derived:
-        changed[CONTINUOUS] = min(requirements.continuous_torque, peak)
+        lasting = requirements.continuous_torque
+        changed[CONTINUOUS] = min(rounded_down(share * lasting, _DIGITS) if both else lasting, peak)
     return _with(requirements, changed)
 
 

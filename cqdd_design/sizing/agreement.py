@@ -97,6 +97,10 @@ class Hunt:
         With the torques that are tried where none were stated.
     extra : dict of str to float
         Reserve for part errors, by check.
+    lowered : bool
+        Whether the motor did not hold a continuous torque that was tried.
+    least_bore : float
+        Of the cam bearings that are tried, m: smaller ones leave the shaft's ends no bearing.
     """
 
     requirements: Requirements
@@ -106,6 +110,8 @@ class Hunt:
     tables: StageTables
     goal: Goal
     extra: dict[str, float] = field(default_factory=dict)
+    lowered: bool = False
+    least_bore: float = 0.0
 
     def frame(self, space: Space, needs: Mapping[str, float]) -> Frame:
         """The frame of a space; needs of part errors count on top."""
@@ -113,8 +119,9 @@ class Hunt:
         frame = search_frame(asked, self.motor, self.ambient, space.fit, self.goal)
         every = {*needs, *self.extra}
         both = {one: needs.get(one, 1.0) * self.extra.get(one, 1.0) for one in every}
+        bearings = tuple(one for one in frame.bearings if one.bore_diameter >= self.least_bore)
         # The loop settles with rings of one diameter; smaller ones make it swing.
-        return replace(frame, needs=both, smaller_rings=False)
+        return replace(frame, needs=both, bearings=bearings, smaller_rings=False)
 
 
 def spaces(requirements: Requirements, fit: Fit) -> Iterator[Space]:

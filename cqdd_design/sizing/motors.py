@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
 
 from cqdd_design.catalog.motors import Motor, motors
@@ -253,16 +253,12 @@ def size_with_any(
             refused[motor.name] = error
             continue
         tried = (*_refusals(refused), TriedMotor(motor.name, ""))
-        return WithMotor(result, _with_tried(choice, tried))
-    raise _none_fits(_with_tried(choice, _refusals(refused)), refused)
+        return WithMotor(result, replace(choice, tried=tried))
+    raise _none_fits(replace(choice, tried=_refusals(refused)), refused)
 
 
 def _refusals(refused: Mapping[str, DesignError]) -> tuple[TriedMotor, ...]:
     return tuple(TriedMotor(name, error.message) for name, error in refused.items())
-
-
-def _with_tried(choice: MotorChoice, tried: tuple[TriedMotor, ...]) -> MotorChoice:
-    return MotorChoice(**(vars(choice) | {"tried": tried}))
 
 
 def _none_fits(choice: MotorChoice, refused: Mapping[str, DesignError]) -> NoMotorError:

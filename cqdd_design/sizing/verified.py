@@ -44,8 +44,9 @@ _LEAST_STEP = 1e-6
 """Clearance that has to grow at all, m: to the next fit."""
 _TRIAL_SAMPLES = 32
 _TRIALS = 10
-_LESS, _WEAKER = 0.9, 16
-"""Share of a torque that is tried next where no gearbox carries it, and how often."""
+_LESS, _WEAKER, _PEAK_ALONE = 0.9, 16, 3
+"""Share of a torque that is tried next where no gearbox carries it, how often, and how often of
+the peak torque alone before."""
 _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
 
@@ -110,6 +111,7 @@ def size_to_verdict(
         fit: Fit | None = found.space.fit
         can, step = _first_look(hunt, machine)
         if can is not None:
+            hunt.lowered |= can.continuous_torque < hunt.requirements.continuous_torque
             hunt.requirements = can
         else:
             if step is None:
@@ -126,7 +128,9 @@ def size_to_verdict(
         if fit is None:
             break
         found = _again(hunt, found, fit)
-    raise _refused(last) if last is not None else _nothing(hunt)
+    if last is not None:
+        raise _refused(last)
+    raise _nothing(hunt) if found is None else _unsettled(found)
 
 
 def _again(hunt: Hunt, found: Found, fit: Fit) -> Found | None:
@@ -137,11 +141,14 @@ def _again(hunt: Hunt, found: Found, fit: Fit) -> Found | None:
 
 def _or_weaker(hunt: Hunt, search: Callable[[], Found | None]) -> Found | None:
     """A search, repeated for less torque where none was stated and none is carried."""
-    for _ in range(_WEAKER):
+    for turn in range(_WEAKER):
         found = search()
-        less = None if found is not None else weaker(hunt.requirements, _LESS)
+        both = turn >= _PEAK_ALONE
+        less = None if found is not None else weaker(hunt.requirements, _LESS, both=both)
         if less is None:
             return found
+        # What was lowered for part errors is not raised to what the motor holds.
+        hunt.lowered |= both and bool(hunt.extra)
         hunt.requirements = less
     return None
 
@@ -206,6 +213,29 @@ def _nothing(hunt: Hunt) -> SizingInfeasibleError:
     )
 
 
+def _unsettled(found: Found) -> SizingInfeasibleError:
+    """Loads are borne, but the trials ended before a design was worth the whole verdict."""
+    widest = 1e6 * FITS[-1].hole_clearance
+    if found.space.fit == FITS[-1]:
+        why = (
+            f"heat or part errors ask for more clearance than the {widest:g} um at the output pins "
+            "that are tried; lower input_speed or continuous_torque, or state closer [tolerances] "
+            "in a design"
+        )
+    else:
+        asked = found.sized.design.requirements
+        why = (
+            f"in {_TRIALS} trials what is asked, heat and part errors went on moving the design, "
+            f"last for {asked.peak_torque:g} N*m and {asked.continuous_torque:g} N*m for ever; "
+            "state peak_torque and continuous_torque, somewhat less"
+        )
+    return SizingInfeasibleError(
+        f"no design was found that meets everything: {why}.",
+        binding=("THERMAL-CLEARANCE", "YIELD"),
+        most_torque=None,
+    )
+
+
 def _wider(fit: Fit, step: float) -> Fit | None:
     """The closest fit with so much more clearance of the holes, m; None beyond the widest.
 
@@ -223,7 +253,9 @@ def _first_look(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, floa
     """
     stiff = replace(machine, stiff=True)
     for one in (stiff, machine):
-        can = what_it_can(one, hunt.requirements) if hunt.requirements.derived else None
+        can = None
+        if hunt.requirements.derived:
+            can = what_it_can(one, hunt.requirements, may_rise=not hunt.lowered)
         if can is not None:
             return can, None
         step = clearance_needed(judged_temperatures(one)[1])
@@ -287,8 +319,11 @@ def read_spread(
 def _next_step(hunt: Hunt, judged: Verdict) -> float | None:
     """What could bring a design that was judged nearer to a yes; see `read_spread`."""
     failing = {line.id for line in judged.lines if line.status in {"fail", "unknown"}}
-    if not failing <= {"YIELD", "THERMAL-CLEARANCE"}:
+    if not failing <= {"YIELD", "THERMAL-CLEARANCE", "SUPPORT-STATIC"}:
         return None
+    if "SUPPORT-STATIC" in failing:
+        hunt.least_bore = 1.001 * judged.evidence.machine.cam.bore_diameter
+        return 0.0
     step = clearance_needed(judged.lines)
     if step > 0.0:
         return step

@@ -186,7 +186,6 @@ def test_any_motor_by_the_screen_and_an_alternative_of_it(cqdd, tmp_path):
     ("options", "said"),
     [
         (("--motor", "any"), "--peak-torque"),
-        ((*LOADS, "--motor", "any", "--motor-file", "mine.toml"), "--motor-file mine.toml"),
         (("--pick", "x"), "b"),
     ],
 )
@@ -195,6 +194,14 @@ def test_any_motor_and_pick_that_make_no_sense(cqdd, tmp_path, options, said):
     assert done.code == 2
     assert said in done.err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_any_motor_and_one_that_a_file_describes_contradict_each_other(cqdd, tmp_path):
+    (tmp_path / "mine.toml").write_text('mass = "0.9 kg"\n')
+    done = cqdd(*QUICK, *LOADS, "--motor", "any", "--motor-file", "mine.toml")
+    assert done.code == 2
+    assert "mine.toml describes one; keep one of them" in " ".join(done.err.split())
+    assert [one.name for one in tmp_path.iterdir()] == ["mine.toml"]
 
 
 def test_any_motor_where_none_is_strong_enough(cqdd, tmp_path):

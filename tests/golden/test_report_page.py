@@ -311,6 +311,25 @@ def test_what_is_closest_is_shown_where_nothing_fails(paper_input: ReportInput) 
     assert "Closest to their limits" not in told(paper_input, paper_input.verdict.lines)
 
 
+def test_the_page_ranks_what_binds_as_the_verdict_does(paper_input: ReportInput) -> None:
+    """Not sizes that a search has filled; the terminal and the JSON tell the same list."""
+    lines = tuple(
+        line if line.status == "pass" else replace(line, value=line.limit)
+        for line in paper_input.verdict.lines
+    )
+    judged = replace(paper_input.verdict, lines=lines)
+    page = build_report(replace(paper_input, verdict=judged))
+    table = page.partition('<table class="closest">')[2].partition("</table>")[0]
+    shown = re.findall(r'href="#([A-Z0-9-]+)"', table)
+    assert shown == [line.id for line in judged.limits]
+    first = judged.limits[0].title
+    assert f"in “{first[0].lower()}{first[1:]}”" in text_of(page)
+    assert judged.filled
+    for line in judged.filled:
+        assert line.id not in shown
+        assert f"{line.title[0].lower()}{line.title[1:]}" in text_of(page)
+
+
 def test_temperatures_are_those_of_the_network(paper_input: ReportInput, page: str) -> None:
     """Every part's, how it is cooled, and that clearances are told on the way there."""
     found = paper_input.evidence.temperatures

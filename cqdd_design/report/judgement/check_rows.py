@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from cqdd_design.report.ink.charts import margin_bar
 from cqdd_design.report.ink.mathml import mathml
@@ -142,15 +142,3 @@ def check_groups(checks: Iterable[Check]) -> tuple[tuple[str, Status, tuple[Valu
 def _severity(check: Check) -> tuple[int, float]:
     order = {"fail": 0, "unknown": 1, "warn": 2, "pass": 3}[check.status]
     return order, check.margin if check.known else 0.0
-
-
-def failing(checks: Sequence[Check]) -> tuple[Values, ...]:
-    """Failures, what is not known, then warnings, each by least margin."""
-    found = sorted((c for c in checks if not c.satisfied), key=_severity)
-    return tuple(check_row(check) for check in found)
-
-
-def closest(checks: Sequence[Check], number: int) -> tuple[Values, ...]:
-    """The checks that are met with the least margins, least first."""
-    met = sorted((c for c in checks if c.satisfied), key=lambda check: check.margin)
-    return tuple(check_row(check) for check in met[:number])

@@ -7,14 +7,11 @@ from cqdd_design.design import Design
 from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.report.ink.numbers import TIMES, decimals, significant, with_unit
 from cqdd_design.report.ink.page import Values
-from cqdd_design.report.judgement.check_rows import WORDS, closest, failing, printed, sentence
+from cqdd_design.report.judgement.check_rows import WORDS, check_row, printed, sentence
 from cqdd_design.results import Status
 from cqdd_design.verdict import Verdict
 from cqdd_design.verdict.headline import Figure
 from cqdd_design.verdict.judge import Meets
-
-_CLOSEST = 6
-"""Lines shown of a design that fails none."""
 
 _BADGES: dict[Meets, tuple[Status, str]] = {
     "yes": ("pass", "Meets its requirements"),
@@ -26,11 +23,13 @@ _BADGES: dict[Meets, tuple[Status, str]] = {
 def verdict(judged: Verdict) -> Values:
     """What a reader must know first: the answer, seven figures, and what is in the way of a yes.
 
-    Where nothing is, the lines with the least margins.
+    Where nothing is, what comes closest to its limit.
     """
-    asked, lines = judged.evidence.machine.design.requirements, judged.lines
+    asked, limits = judged.evidence.machine.design.requirements, judged.limits
     status, badge = _BADGES[judged.meets]
-    least = min((line for line in lines if line.known), key=lambda line: line.margin)
+    least = next(line for line in (*limits, *judged.lines) if line.known)
+    closest = () if judged.meets == "no" else limits
+    sizes = ", ".join(line.title[0].lower() + line.title[1:] for line in judged.filled)
     margin = significant(least.margin, 3)
     return {
         "status": status,
@@ -40,8 +39,9 @@ def verdict(judged: Verdict) -> Values:
         f"{with_unit(asked.continuous_torque, 'N*m')} continuous torque. The least margin is "
         f"{margin}, in “{least.title[0].lower()}{least.title[1:]}”.",
         "figures": tuple(_figure(one) for one in judged.headline),
-        "rows": failing(lines),
-        "closest": () if judged.meets == "no" else closest(lines, _CLOSEST),
+        "rows": tuple(check_row(line) for line in limits if line.status != "pass"),
+        "closest": tuple(check_row(line) for line in closest if line.status == "pass"),
+        "filled": sizes,
         "least": margin,
     }
 
