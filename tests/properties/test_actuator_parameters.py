@@ -13,6 +13,7 @@ import pytest
 from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.linalg import expm
 
 from cqdd_design.actuator import motor as motors
 from cqdd_design.actuator import operating
@@ -145,6 +146,21 @@ def test_continuous_current_ends_at_the_limit() -> None:
         assert late == pytest.approx(thermals.steady_state(MOTOR, THERMAL, current, heat))
     with pytest.raises(DesignError, match="without end"):
         thermals.steady_state(MOTOR, THERMAL, thermals.runaway_current(MOTOR, THERMAL))
+
+
+def test_a_winding_that_runs_away_follows_the_network_until_numbers_would_end() -> None:
+    current = 2.0 * thermals.runaway_current(MOTOR, THERMAL)
+    matrix, forcing = thermals.system(MOTOR, THERMAL, current, 0.0)
+    growing = float(np.linalg.eigvals(matrix).real.max())
+    assert growing > 0.0
+    time = 20.0 / growing
+    first = np.array((THERMAL.ambient, THERMAL.ambient))
+    rest = np.linalg.solve(matrix, forcing)
+    wanted = expm(matrix * time) @ (first + rest) - rest
+    assert thermals.response(MOTOR, THERMAL, current, [time])[0] == pytest.approx(wanted, rel=1e-6)
+    late = thermals.response(MOTOR, THERMAL, current, [1e4 / growing, 1e9 / growing])
+    assert np.isfinite(late).all()
+    assert (late > 1e6).all()
 
 
 VARIES = r"gear\.stiffness_cosine [\d.]+ is not below 1 in sum; lower the variation"

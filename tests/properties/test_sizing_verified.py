@@ -14,6 +14,7 @@ import pytest
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.demands import demands
 from cqdd_design.actuator.operating import held_torque
+from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.motors import find_motor
 from cqdd_design.design import Requirements, load_design, requirements_from_mapping
 from cqdd_design.errors import InfeasibleError
@@ -26,7 +27,14 @@ from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.frame import Fit, search_frame
 from cqdd_design.sizing.reserves import ring_reserves
 from cqdd_design.sizing.stage_tables import stage_tables
-from cqdd_design.sizing.verified import _unsettled, clearance_needed, read_spread, size_to_verdict
+from cqdd_design.sizing.verified import (
+    _next_step,
+    _unsettled,
+    clearance_needed,
+    read_spread,
+    size_to_verdict,
+)
+from cqdd_design.verdict import judge
 from cqdd_design.verdict.drawn import Allowed, drawn_gearboxes, used
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
@@ -155,6 +163,21 @@ def test_a_smaller_bore_than_leaves_a_bearing_is_not_tried() -> None:
     left = [one.bore_diameter for one in hunt.frame(space, {}).bearings]
     assert left == [one for one in every if one >= hunt.least_bore]
     assert 0 < len(left) < len(every)
+
+
+def test_a_shaft_whose_ends_have_no_bearing_gets_a_wider_cam_bearing(machine: Machine) -> None:
+    judged = judge(machine, samples=0)
+    lines = tuple(
+        replace(line, value=None if line.id == "SUPPORT-STATIC" else line.limit)
+        for line in judged.lines
+    )
+    hunt = Hunt(asked(), None, None, lambda _: None, stage_tables(10), "mass")
+    space = Space(2, MATERIALS[1], MATERIALS[1], FITS[0])
+    assert _next_step(hunt, replace(judged, lines=lines)) == 0.0
+    left = {one.designation for one in hunt.frame(space, {}).bearings}
+    assert left
+    assert machine.cam.designation not in left
+    assert all(find_bearing(one).bore_diameter > machine.cam.bore_diameter for one in left)
 
 
 @pytest.mark.deep
