@@ -44,9 +44,9 @@ _LEAST_STEP = 1e-6
 """Clearance that has to grow at all, m: to the next fit."""
 _TRIAL_SAMPLES = 32
 _TRIALS = 10
-_LESS, _WEAKER, _PEAK_ALONE = 0.9, 16, 3
-"""Share of a torque that is tried next where no gearbox carries it, how often, and how often of
-the peak torque alone before."""
+_LESS, _LESS_OF_BOTH, _WEAKER, _PEAK_ALONE = 0.9, 0.8, 16, 3
+"""Share of the peak torque that is tried next where no gearbox carries it, and of both torques,
+how often in all, and how often of the peak torque alone before."""
 _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
 
@@ -144,7 +144,8 @@ def _or_weaker(hunt: Hunt, search: Callable[[], Found | None]) -> Found | None:
     for turn in range(_WEAKER):
         found = search()
         both = turn >= _PEAK_ALONE
-        less = None if found is not None else weaker(hunt.requirements, _LESS, both=both)
+        share = _LESS_OF_BOTH if both else _LESS
+        less = None if found is not None else weaker(hunt.requirements, share, both=both)
         if less is None:
             return found
         # What was lowered for part errors is not raised to what the motor holds.
