@@ -28,7 +28,9 @@ def tolerance(
     angles: Annotated[
         int | None,
         option(
-            "N", "Crank angles over the output turn; default 8 n (n+1), which miss no order.", min=8
+            "N",
+            "Crank angles over the output turn; default about 1000, two to eight a tooth.",
+            min=8,
         ),
     ] = None,
     seed: Annotated[int, option("N", "Of the random draws.", min=0, max=2**64 - 1)] = 0,

@@ -34,7 +34,7 @@ def tolerance(
     torque : float, optional
         At the output, N m; default the continuous one.
     angles : int, optional
-        Crank angles over the output turn; default 8 n (n+1), which miss no order.
+        Crank angles over the output turn; default about 1000, two to eight a tooth.
     seed : int
         Of the draws.
     temperature : float, optional

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
-from cqdd_design.gearbox.tolerance.evaluate import LOADS
+from cqdd_design.gearbox.tolerance.evaluate import LOADS, PER_TOOTH, turn_angles
 from cqdd_design.gearbox.tolerance.remembered import work_remembered
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
@@ -21,10 +21,8 @@ from cqdd_design.results import Check
 LEAST_SAMPLES = 128
 """Gearboxes drawn of a design with many teeth, whose turn takes many angles."""
 _ANGLES = 1000
-"""About so many crank angles of the output turn for each gearbox."""
+"""Crank angles of the output turn that cost no gearbox."""
 _ARCMIN = math.degrees(1.0) * 60.0
-_PER_TOOTH = 8, 2
-"""Crank angles for each tooth, at the continuous torque and at the peak: greatest loads alone."""
 _RING = ("CONTACT-RING-PEAK", "CONTACT-RING-CONTINUOUS")
 _CAM = ("BEARING-STATIC", "BEARING-LIFE")
 
@@ -53,19 +51,15 @@ def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Dra
         As :func:`.ensemble.run_ensemble`.
     """
     ratio = machine.design.reducer.ratio
-    # Eight angles a tooth as in `tolerance`, down to two where there are many teeth.
-    most, least = _PER_TOOTH
-    per_tooth = min(max(_ANGLES // (ratio * (ratio + 1)), least), most)
-    angles = per_tooth * ratio * (ratio + 1)
-    fitting = samples * _ANGLES // max(angles, _ANGLES)
+    fitting = samples * _ANGLES // max(turn_angles(ratio), _ANGLES)
     count = max(fitting, min(samples, LEAST_SAMPLES))
     peak = machine.design.requirements.peak_torque
-    at_peak = make_ensemble(
-        machine.design, angles=least * ratio * (ratio + 1), torque=peak, outputs=LOADS
-    )
+    # Greatest loads alone need the fewest angles.
+    fewest = PER_TOOTH[1] * ratio * (ratio + 1)
+    at_peak = make_ensemble(machine.design, angles=fewest, torque=peak, outputs=LOADS)
     found = Drawn(
         run_ensemble(
-            make_ensemble(machine.design, angles=angles),
+            make_ensemble(machine.design),
             count,
             mapper=work_remembered,
             sensitivity=sensitivity,

@@ -67,7 +67,7 @@ def clearance_study(
     samples : int
         Gearboxes at every point, the same draws everywhere.
     angles : int, optional
-        Crank angles over the output turn; default 8 n (n+1).
+        Crank angles over the output turn; default :func:`.evaluate.turn_angles`.
     """
     offset = design.reducer.modification.equidistant
     hole = design.reducer.output_pins.hole_clearance

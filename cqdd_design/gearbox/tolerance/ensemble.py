@@ -15,7 +15,6 @@ from cqdd_design.errors import UsageError
 from cqdd_design.gearbox.bodies.made import bodies_or_none
 from cqdd_design.gearbox.checks.allowables import BINDING_SHARE
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.sweep import output_turn_count
 from cqdd_design.gearbox.heat.expansion import AS_DRAWN, PartTemperatures, growth_of, heated
 from cqdd_design.gearbox.tolerance.draws import GROUPS, draw_errors
 from cqdd_design.gearbox.tolerance.evaluate import (
@@ -26,6 +25,7 @@ from cqdd_design.gearbox.tolerance.evaluate import (
     ensemble_tables,
     evaluate_gearboxes,
     marked_angles,
+    turn_angles,
 )
 from cqdd_design.gearbox.tolerance.limits import limits
 from cqdd_design.gearbox.tolerance.sobol import SobolIndices, sobol_indices
@@ -314,7 +314,7 @@ def make_ensemble(
     temperatures: PartTemperatures = AS_DRAWN,
     outputs: tuple[str, ...] = OUTPUTS,
 ) -> Ensemble:
-    """Complete an ensemble: continuous torque, and 8 n (n+1) angles over the output turn.
+    """Complete an ensemble: continuous torque, and about 1000 angles over the turn.
 
     Discs and ring yield where they can be meshed, and are rigid where they cannot, which the result
     says.
@@ -336,7 +336,7 @@ def make_ensemble(
         When the angles do not fit into memory.
     """
     reducer = design.reducer
-    wanted = output_turn_count(reducer.ratio) if angles is None else angles
+    wanted = turn_angles(reducer.ratio) if angles is None else angles
     contacts = reducer.disc_count * (reducer.ratio + 1 + reducer.output_pins.count)
     if wanted * contacts > _MOST_CONTACTS:
         raise UsageError(
