@@ -11,9 +11,11 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design, Requirements
 from cqdd_design.errors import ContactError, DesignError, InfeasibleError
+from cqdd_design.gearbox.checks import allowables
 from cqdd_design.machine import resolve
 from cqdd_design.results import Check
 from cqdd_design.sizing.exact import exact_checks, shortfalls
@@ -37,6 +39,8 @@ FITS = (
 """Clearances that are tried, the closest first."""
 MATERIALS = ("AISI 4140 Q&T 540C", "AISI 52100 / 100Cr6 hardened")
 """Of discs and ring where none is asked for: the paper's, and a through-hardened bearing steel."""
+NEEDLE_PINS = "AISI 52100 / 100Cr6 hardened"
+"""Of output pins that needles run on, where none is asked for."""
 DISC_COUNTS = (2, 3)
 """Likewise of discs: those that balance."""
 _ROUNDS, _UNDAMPED = 8, 3
@@ -52,6 +56,7 @@ class Space(NamedTuple):
     disc_material: str
     ring_material: str
     fit: Fit
+    needles: bool = False
 
     def of(self, requirements: Requirements) -> Requirements:
         """The requirements with these discs and materials, which are tried and not asked for."""
@@ -60,10 +65,17 @@ class Space(NamedTuple):
                 "disc_count": self.disc_count,
                 "disc_material": self.disc_material,
                 "ring_material": self.ring_material,
+                "pin_material": self.pin_material(requirements),
             }
         )
         tried.model_fields_set.intersection_update(requirements.model_fields_set)
         return tried
+
+    def pin_material(self, requirements: Requirements) -> str:
+        """Of the output pins: under needles a hardened one, where none is stated."""
+        if self.needles and "pin_material" not in requirements.model_fields_set:
+            return NEEDLE_PINS
+        return requirements.pin_material
 
 
 @dataclass(frozen=True)
@@ -101,6 +113,8 @@ class Hunt:
         Whether the motor did not hold a continuous torque that was tried.
     least_bore : float
         Of the cam bearings that are tried, m: smaller ones leave the shaft's ends no bearing.
+    pins : tuple of bool
+        Whether output pins that are tried are on needles.
     """
 
     requirements: Requirements
@@ -112,11 +126,22 @@ class Hunt:
     extra: dict[str, float] = field(default_factory=dict)
     lowered: bool = False
     least_bore: float = 0.0
+    pins: tuple[bool, ...] = (False,)
+
+    @property
+    def may_roll(self) -> bool:
+        """Whether needles can run on the output pins that are asked for."""
+        asked = self.requirements
+        return "pin_material" not in asked.model_fields_set or allowables.is_hardened(
+            find_material(asked.pin_material)
+        )
 
     def frame(self, space: Space, needs: Mapping[str, float]) -> Frame:
         """The frame of a space; needs of part errors count on top."""
         asked = space.of(self.requirements)
-        frame = search_frame(asked, self.motor, self.ambient, space.fit, self.goal)
+        frame = search_frame(
+            asked, self.motor, self.ambient, space.fit, self.goal, needles=space.needles
+        )
         every = {*needs, *self.extra}
         both = {one: needs.get(one, 1.0) * self.extra.get(one, 1.0) for one in every}
         bearings = tuple(one for one in frame.bearings if one.bore_diameter >= self.least_bore)
@@ -124,8 +149,13 @@ class Hunt:
         return replace(frame, needs=both, bearings=bearings, smaller_rings=False)
 
 
-def spaces(requirements: Requirements, fit: Fit) -> Iterator[Space]:
-    """Materials and disc counts that are tried: those that are stated, or all."""
+def spaces(
+    requirements: Requirements, fit: Fit, pins: tuple[bool, ...] = (False,)
+) -> Iterator[Space]:
+    """Materials and disc counts that are tried: those that are stated, or all.
+
+    And output pins bare and on needles, as `pins` says.
+    """
     stated = requirements.model_fields_set
     counts = (requirements.disc_count,) if "disc_count" in stated else DISC_COUNTS
     for count in counts:
@@ -135,7 +165,9 @@ def spaces(requirements: Requirements, fit: Fit) -> Iterator[Space]:
                 requirements.disc_material if "disc_material" in stated else material,
                 requirements.ring_material if "ring_material" in stated else material,
                 fit,
+                needles,
             )
+            for needles in pins
             for material in MATERIALS
         ]
         yield from dict.fromkeys(tried)
@@ -144,7 +176,7 @@ def spaces(requirements: Requirements, fit: Fit) -> Iterator[Space]:
 def lightest(hunt: Hunt) -> Found | None:
     """The best of all spaces at the closest fit that the equilibrium bears out."""
     best: Found | None = None
-    for space in spaces(hunt.requirements, FITS[0]):
+    for space in spaces(hunt.requirements, FITS[0], hunt.pins):
         try:
             found = agreed(hunt, space, best)
         except InfeasibleError:

@@ -1,4 +1,4 @@
-"""Catalogue parts a search may use: shoulder screws as output pins, and cam bearings."""
+"""Catalogue parts a search may use: output pins, bare or on needles, and cam bearings."""
 
 from __future__ import annotations
 
@@ -27,20 +27,42 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class PinSize:
-    """A shoulder screw as an output pin.
+    """An output pin: a shoulder screw, or a hardened pin under a sleeve on needles.
 
     Attributes
     ----------
-    diameter, mean_diameter : float
-        Nominal and mean real diameter, m.
+    diameter : float
+        Nominal, of the pin, m.
+    running_diameter : float
+        Of what runs in the hole, m: mean real diameter of the screw, or of the sleeve.
     hole_clearance : float
-        On the diameter to the mean pin, m: the design default, or as much more as the largest pin
-        of the tolerance band needs.
+        On the diameter to that, m: the design default, or as much more as the largest screw of the
+        tolerance band needs.
+    cages : tuple of Bearing
+        Needle cages inside the sleeve, the strongest last; none of bare pins.
     """
 
     diameter: float
-    mean_diameter: float
+    running_diameter: float
     hole_clearance: float
+    cages: tuple[Bearing, ...] = ()
+
+    @property
+    def sleeve_diameter(self) -> float:
+        """0 of bare pins, m."""
+        return self.running_diameter if self.cages else 0.0
+
+    def cage_ratings(self, thickness: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """C0 and C (N) of the cage in discs of some thickness: 0 where none is narrow enough.
+
+        Without bound for bare pins.
+        """
+        static = np.full(thickness.shape, 0.0 if self.cages else np.inf)
+        dynamic = static.copy()
+        for one in self.cages:
+            fits = one.width <= thickness + _ROUNDING
+            static[fits], dynamic[fits] = one.static_rating or 0.0, one.dynamic_rating or 0.0
+        return static, dynamic
 
 
 @dataclass(frozen=True)
@@ -66,6 +88,37 @@ class BearingTable(Columns):
     def allowed_load(self) -> FloatArray:
         """The lower of both loads, N."""
         return np.minimum(self.static_load, self.life_load)
+
+
+def needle_pins(requirements: Requirements, clearance: float) -> tuple[PinSize, ...]:
+    """Pins under sleeves on needle cages that could stand in a disc of this ring, ascending.
+
+    The sleeve has the least wall over its cage.
+
+    Raises
+    ------
+    InfeasibleError
+        When the ring is too small for any.
+    """
+    most = _PIN_SHARE * requirements.outer_diameter
+    cages = sorted(
+        (one for one in bearings().values() if one.kind == "needle cage" and one.dynamic_rating),
+        key=lambda one: one.dynamic_rating or 0.0,
+    )
+    found = []
+    for bore, outside in sorted({(one.bore_diameter, one.outer_diameter) for one in cages}):
+        sleeve = outside + 2.0 * allowables.SLEEVE_WALL
+        same = (one for one in cages if (one.bore_diameter, one.outer_diameter) == (bore, outside))
+        if sleeve <= most + _ROUNDING:
+            found.append(PinSize(bore, sleeve, clearance, tuple(same)))
+    if not found:
+        least = min(one.outer_diameter for one in cages) + 2.0 * allowables.SLEEVE_WALL
+        raise InfeasibleError(
+            f"requirements.outer_diameter {requirements.outer_diameter * 1e3:g} mm leaves no room "
+            f"for output pins on needles: the thinnest sleeve has {least * 1e3:g} mm; raise it to "
+            f"at least {math.ceil(least / _PIN_SHARE * 1e3 - _ROUNDING):g} mm."
+        )
+    return tuple(found)
 
 
 def pin_sizes(requirements: Requirements, default_clearance: float) -> tuple[PinSize, ...]:

@@ -110,6 +110,7 @@ def lightest(
     ring = rows.ring[row]
     sizes = [frame.pin_sizes[size] for size in space.pin_sizes]
     diameters = np.array([one.diameter for one in sizes])
+    sleeves = np.array([one.sleeve_diameter for one in sizes])
     plays = np.array([one.hole_clearance for one in sizes])
     weights = masses.weigh(
         frame,
@@ -121,6 +122,7 @@ def lightest(
         thickness=space.thickness[thickness],
         pin_count=np.array(space.pin_counts)[rows.count[row]],
         pin_diameter=diameters[rows.size[row]],
+        sleeve_diameter=sleeves[rows.size[row]],
         hole_radius=rows.hole_radius[row],
         pin_circle=rows.circle[row],
         bearing_outer=found.bearings.outer[bearing],

@@ -15,10 +15,10 @@ from cqdd_design.gearbox.cam_bearing import rolling_element
 from cqdd_design.machine import resolve
 from cqdd_design.results import Check
 from cqdd_design.sizing.points import Evaluator, Points
-from cqdd_design.sizing.reserves import CAM_CHECKS, PIN_CHECKS, RING_CHECKS
+from cqdd_design.sizing.reserves import CAM_CHECKS, NEEDLE_CHECKS, PIN_CHECKS, RING_CHECKS
 from cqdd_design.sizing.result import Objective, SizedDesign
 
-LOAD_CHECKS = (*RING_CHECKS, *PIN_CHECKS, *CAM_CHECKS)
+LOAD_CHECKS = (*RING_CHECKS, *PIN_CHECKS, *NEEDLE_CHECKS, *CAM_CHECKS)
 _DIGITS = 9
 
 
@@ -74,6 +74,8 @@ def torque_reserve(check: Check, design: Design) -> float:
     if check.id == "BEARING-LIFE":
         bearing = find_bearing(design.reducer.cam_bearing.designation)
         return float(check.margin ** (1.0 / life_exponent(rolling_element(bearing))))
+    if check.id == "SLEEVE-LIFE":
+        return float(check.margin ** (1.0 / life_exponent("roller")))
     return check.margin
 
 
@@ -88,6 +90,8 @@ def design_of(evaluator: Evaluator, points: Points, row: int, suffix: str = "") 
         "circle_radius": _clean(points.pin_circle[row]),
         "material": requirements.pin_material,
     }
+    if size.cages:
+        pins |= {"sleeve_diameter": _clean(size.sleeve_diameter), "sleeve": "needle"}
     if size.hole_clearance != frame.default_fit.hole_clearance:
         pins["hole_clearance"] = _clean(size.hole_clearance)
     mapping: dict[str, Any] = {

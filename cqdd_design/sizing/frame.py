@@ -28,6 +28,7 @@ from cqdd_design.sizing.bought_parts import (
     PinSize,
     bearing_table,
     cam_bearings,
+    needle_pins,
     pin_sizes,
 )
 
@@ -108,6 +109,8 @@ class Frame:
         Of the air round the actuator, deg C; None for a design's default.
     goal : Goal
         What the search makes small.
+    needles : bool
+        Whether the output pins have sleeves on needles.
     smaller_rings : bool
         Whether rings are as small as their teeth allow; else all have the largest diameter.
     needs : mapping of str to float
@@ -138,6 +141,7 @@ class Frame:
     bearings: tuple[Bearing, ...]
     ambient: float | None = None
     goal: Goal = "mass"
+    needles: bool = False
     smaller_rings: bool = True
     needs: Mapping[str, float] = field(default_factory=dict)
 
@@ -196,6 +200,8 @@ def search_frame(
     ambient: float | None = None,
     fit: Fit = USUAL_FIT,
     goal: Goal = "mass",
+    *,
+    needles: bool = False,
 ) -> Frame:
     """Read the requirements, the design defaults and the catalogues.
 
@@ -209,6 +215,8 @@ def search_frame(
         Clearances of teeth and of pins in holes; default those of a design.
     goal : Goal
         What the search makes small.
+    needles : bool
+        Whether the output pins, of a hardened steel then, have sleeves on needles.
 
     Raises
     ------
@@ -224,7 +232,8 @@ def search_frame(
     count, spacing = requirements.disc_count, reducer.disc_spacing
     thickness = (requirements.length - (count - 1) * spacing) / count
     most = math.floor(thickness / THICKNESS_STEP + 1e-6) * THICKNESS_STEP
-    sizes = pin_sizes(requirements, fit.hole_clearance)
+    offered = needle_pins if needles else pin_sizes
+    sizes = offered(requirements, fit.hole_clearance)
     return Frame(
         requirements=requirements,
         lobe_count=requirements.ratio,
@@ -249,9 +258,10 @@ def search_frame(
         pin_density=pin.density,
         motor=motor or find_motor(requirements.motor),
         pin_sizes=sizes,
-        bearings=cam_bearings(requirements, most, spacing, sizes[0].mean_diameter),
+        bearings=cam_bearings(requirements, most, spacing, sizes[0].running_diameter),
         ambient=ambient,
         goal=goal,
+        needles=needles,
     )
 
 

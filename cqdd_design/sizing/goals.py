@@ -7,10 +7,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cqdd_design.catalog.bearings import FRICTION_COEFFICIENT
+from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing.frame import Frame, Goal
 from cqdd_design.sizing.masses import Weights
 
+_NEEDLES = FRICTION_COEFFICIENT["needle cage"] / BOUNDARY_FRICTION
+"""Friction of a pin on needles over that of a bare one."""
 _TIE = 0.02
 """Power of the mass beside another goal: of two equal ones the lighter is the better."""
 
@@ -72,7 +76,8 @@ def friction_share(frame: Frame, sizes: Sizes) -> FloatArray:
     """
     n = frame.lobe_count
     pins = 4.0 / math.pi * (n + 1) * sizes.eccentricity / sizes.pin_circle
-    return np.asarray(sizes.friction + pins)
+    # Needles' friction is small against that of anything that slides.
+    return np.asarray(sizes.friction + (_NEEDLES if frame.needles else 1.0) * pins)
 
 
 def swept_volume(frame: Frame, sizes: Sizes) -> FloatArray:

@@ -54,6 +54,7 @@ def weigh(
     thickness: ArrayLike,
     pin_count: ArrayLike,
     pin_diameter: ArrayLike,
+    sleeve_diameter: ArrayLike,
     hole_radius: ArrayLike,
     pin_circle: ArrayLike,
     bearing_outer: ArrayLike,
@@ -62,6 +63,7 @@ def weigh(
 ) -> Weights:
     """Mass and reflected inertia; every argument broadcasts, SI.
 
+    Sleeves count with what is between them and their pins, in every disc; 0 m of bare pins.
     The crank turns its eccentrics and the inner half of each cam bearing, carries each disc with
     the outer half round at e, and turns discs and pins at 1/n.
     """
@@ -83,7 +85,10 @@ def weigh(
     disc = frame.disc_density * b * area
     disc_spin = frame.disc_density * b * polar
     shaft = SHAFT_DENSITY * math.pi * bore * bore * b
-    pins = count * frame.pin_density * math.pi / 4.0 * d * d * pin_span(discs, b, frame.spacing)
+    sleeve = np.asarray(sleeve_diameter, dtype=float)
+    over = np.where(sleeve > 0.0, sleeve * sleeve - d * d, 0.0) * discs * b
+    shoulders = d * d * pin_span(discs, b, frame.spacing)
+    pins = count * frame.pin_density * math.pi / 4.0 * (shoulders + over)
     pack = discs * b + (discs - 1) * frame.spacing
     outside = math.pi * np.asarray(ring_outer, dtype=float) ** 2
     ring = frame.ring_density * pack * (outside - np.asarray(ring_opening, dtype=float))

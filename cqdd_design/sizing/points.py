@@ -118,7 +118,8 @@ class Pins(Columns):
     count: IntArray
     size: IntArray
     diameter: FloatArray
-    mean_radius: FloatArray
+    sleeve: FloatArray
+    running_radius: FloatArray
     play_radius: FloatArray
     offset: FloatArray
     peak_factor: FloatArray
@@ -129,13 +130,14 @@ class Pins(Columns):
         factor = {int(c): rigid.peak_pin_force_factor(int(c)) for c in np.unique(count)}
         offset = {int(c): shapes.valley_offset(frame, int(c)) for c in np.unique(count)}
         sizes = [frame.pin_sizes[row] for row in size]
-        mean = np.array([s.mean_diameter for s in sizes])
+        running = np.array([s.running_diameter for s in sizes])
         return cls(
             count=count,
             size=size,
             diameter=np.array([s.diameter for s in sizes]),
-            mean_radius=0.5 * mean,
-            play_radius=0.5 * (mean + np.array([s.hole_clearance for s in sizes])),
+            sleeve=np.array([s.sleeve_diameter for s in sizes]),
+            running_radius=0.5 * running,
+            play_radius=0.5 * (running + np.array([s.hole_clearance for s in sizes])),
             offset=np.array([offset[int(c)] for c in count]),
             peak_factor=np.array([factor[int(c)] for c in count]),
         )
@@ -270,16 +272,31 @@ class Evaluator:
             pins.peak_factor[:, None],
             pins.count[:, None],
             pins.diameter[:, None],
-            pins.mean_radius[:, None],
+            pins.running_radius[:, None],
             shape.hole_radius[:, None],
             b,
         )
         least = np.full(b.shape, np.inf)
         for value in found.values():
             least = np.minimum(least, value)
-        for value in per_radius.values():
+        needles = reserves.needle_reserves_per_radius(
+            self.frame,
+            pins.peak_factor[:, None],
+            pins.count[:, None],
+            self._cage_ratings(pins, b),
+            pins.sleeve[:, None],
+        )
+        for value in (*per_radius.values(), *needles.values()):
             least = np.minimum(least, value * shape.pin_circle[:, None])
         return least
+
+    def _cage_ratings(self, pins: Pins, b: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """C0 and C (M, T) of the needle cages inside the sleeves."""
+        static, dynamic = np.empty(b.shape), np.empty(b.shape)
+        for row in np.unique(pins.size):
+            same = pins.size == row
+            static[same], dynamic[same] = self.frame.pin_sizes[row].cage_ratings(b[same])
+        return static, dynamic
 
     def _shortening(self, shape: _Shapes) -> FloatArray:
         return shortening_coefficient(self.frame.lobe_count, shape.pitch_radius, shape.eccentricity)
@@ -317,7 +334,7 @@ class Evaluator:
             eccentricity=shape.eccentricity[own],
             thickness=b[..., None],
             pin_circle=shape.pin_circle[own],
-            hole_clearance=2.0 * (pins.play_radius - pins.mean_radius)[own],
+            hole_clearance=2.0 * (pins.play_radius - pins.running_radius)[own],
             outer_radius=shapes.outer_radius(self.frame, shape)[own],
             friction=self.tables.friction_at(self._shortening(shape), share)[own],
         )
@@ -338,6 +355,7 @@ class Evaluator:
             thickness=b[..., None],
             pin_count=pins.count[own],
             pin_diameter=pins.diameter[own],
+            sleeve_diameter=pins.sleeve[own],
             hole_radius=shape.hole_radius[own],
             pin_circle=shape.pin_circle[own],
             bearing_outer=table.outer,

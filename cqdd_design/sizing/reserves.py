@@ -13,13 +13,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.gearbox import hertz, output_pins
+from cqdd_design.gearbox.bearing_life import life_exponent, load_for_life
 from cqdd_design.gearbox.carrier import slender_bending_arm
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import UNEVEN_SHARING
+from cqdd_design.gearbox.rolling_contacts import sleeve_turn
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing.frame import Frame
 
 RING_CHECKS = ("CONTACT-RING-PEAK", "CONTACT-RING-CONTINUOUS")
+NEEDLE_CHECKS = ("SLEEVE-STATIC", "SLEEVE-LIFE")
 PIN_CHECKS = (
     "CONTACT-PIN-PEAK",
     "CONTACT-PIN-CONTINUOUS",
@@ -71,7 +74,7 @@ def pin_reserves_per_radius(
     peak_factor: ArrayLike,
     pin_count: ArrayLike,
     diameter: ArrayLike,
-    pin_radius: ArrayLike,
+    running_radius: ArrayLike,
     hole_radius: ArrayLike,
     thickness: ArrayLike,
 ) -> dict[str, FloatArray]:
@@ -83,8 +86,9 @@ def pin_reserves_per_radius(
         k of F = k T/(D N_w R_w), from :func:`~cqdd_design.gearbox.rigid.peak_pin_force_factor`.
     pin_count : array_like
         N_w.
-    diameter, pin_radius, hole_radius, thickness : array_like
-        Nominal diameter, mean radius, hole radius and disc thickness, m.
+    diameter, running_radius, hole_radius, thickness : array_like
+        Nominal diameter of the pin, mean radius of what runs in the hole, hole radius and disc
+        thickness, m.
 
     Returns
     -------
@@ -94,10 +98,12 @@ def pin_reserves_per_radius(
     k, count = np.asarray(peak_factor, dtype=float), np.asarray(pin_count, dtype=float)
     d, b = np.asarray(diameter, dtype=float), np.asarray(thickness, dtype=float)
     limits, share = frame.limits, frame.continuous_share
+    # A bare pin counts there with its nominal diameter.
+    runner = d if not frame.needles else 2.0 * np.asarray(running_radius, dtype=float)
     # Force of one pin at R_w = 1 m.
     force = k * frame.disc_torque / count
     uneven = UNEVEN_SHARING * force
-    relative = hertz.conformal_equivalent_radius(pin_radius, hole_radius)
+    relative = hertz.conformal_equivalent_radius(running_radius, hole_radius)
     pressure = hertz.line_contact_pressure(uneven, b, relative, frame.pin_modulus)
     arm = slender_bending_arm(frame.disc_count, b, frame.spacing, frame.pin_ends, k)
     bending = output_pins.bending_stress(uneven, arm, d)
@@ -111,7 +117,43 @@ def pin_reserves_per_radius(
         "PIN-SHEAR-PEAK": limits.shear.value / output_pins.shear_stress(uneven, d),
         "PIN-BENDING-PEAK": limits.bending_peak.value / bending,
         "PIN-BENDING-CONTINUOUS": limits.bending_continuous.value / (bending * share),
-        "PIN-BEARING-PEAK": limits.bearing.value / output_pins.bearing_pressure(uneven, d, b),
+        "PIN-BEARING-PEAK": limits.bearing.value / output_pins.bearing_pressure(uneven, runner, b),
+    }
+    return _held_against(frame, found)
+
+
+def needle_reserves_per_radius(
+    frame: Frame,
+    peak_factor: ArrayLike,
+    pin_count: ArrayLike,
+    ratings: tuple[FloatArray, FloatArray],
+    sleeve_diameter: ArrayLike,
+) -> dict[str, FloatArray]:
+    """Reserves of needles inside sleeves over R_w, none where the pins of the frame are bare.
+
+    They turn as at the largest eccentricity there can be: a little more than they do.
+
+    Parameters
+    ----------
+    peak_factor, pin_count
+        As :func:`pin_reserves_per_radius`.
+    ratings : tuple of array
+        C0 and C of the cage, N, from :meth:`~.bought_parts.PinSize.cage_ratings`.
+    sleeve_diameter : array_like
+        m.
+    """
+    if not frame.needles:
+        return {}
+    k, count = np.asarray(peak_factor, dtype=float), np.asarray(pin_count, dtype=float)
+    uneven = UNEVEN_SHARING * k * frame.disc_torque / count
+    throw = allowables.SHORTENING_MOST * frame.outer_radius / (frame.lobe_count + 1)
+    asked = frame.requirements
+    speed = sleeve_turn(frame.lobe_count, throw, sleeve_diameter) * asked.held_speed
+    static, dynamic = ratings
+    lasting = load_for_life(dynamic, asked.life_hours, speed, life_exponent("roller"))
+    found = {
+        "SLEEVE-STATIC": static / (allowables.STATIC_SAFETY * uneven),
+        "SLEEVE-LIFE": np.asarray(lasting / (uneven * frame.continuous_share)),
     }
     return _held_against(frame, found)
 

@@ -263,7 +263,7 @@ def _pin_rows(
 ) -> Rows:
     """Rows whose holes leave their ligaments; `both` (G,) is the number of (B, b) left to each."""
     sizes = [frame.pin_sizes[row] for row in space.pin_sizes]
-    width = np.array([size.mean_diameter + size.hole_clearance for size in sizes])
+    width = np.array([size.running_diameter + size.hole_clearance for size in sizes])
     hole = 0.5 * width + rings.eccentricity[:, None]
     offset = np.array([shapes.valley_offset(frame, count) for count in space.pin_counts])
     # Axes: ring, pin count, pin size, inset.
@@ -298,21 +298,28 @@ def _pin_stresses(
 ) -> FloatArray:
     """Least torque reserve (Q, T) of the output pins; narrows `allowed` (Q, T) in place."""
     sizes = [frame.pin_sizes[row] for row in space.pin_sizes]
-    hole = 0.5 * np.array([s.mean_diameter + s.hole_clearance for s in sizes])
+    running = np.array([s.running_diameter for s in sizes])
+    hole = 0.5 * (running + np.array([s.hole_clearance for s in sizes]))
+    factor = np.array([rigid.peak_pin_force_factor(one) for one in space.pin_counts])
+    count = np.array(space.pin_counts)
     # Axes: ring, pin count, pin size, thickness. Only the contact sees the ring, by its holes.
     per_radius = reserves.pin_reserves_per_radius(
         frame,
-        np.array([rigid.peak_pin_force_factor(count) for count in space.pin_counts])[:, None, None],
-        np.array(space.pin_counts)[:, None, None],
+        factor[:, None, None],
+        count[:, None, None],
         np.array([s.diameter for s in sizes])[:, None],
-        0.5 * np.array([s.mean_diameter for s in sizes])[:, None],
+        0.5 * running[:, None],
         (hole + rings.eccentricity[:, None])[:, None, :, None],
         space.thickness,
     )
+    each = [s.cage_ratings(space.thickness) for s in sizes]
+    ratings = np.array([one[0] for one in each]), np.array([one[1] for one in each])
+    needles = reserves.needle_reserves_per_radius(
+        frame, factor[:, None, None], count[:, None, None], ratings, running[:, None]
+    )
     counts = _pair_counts(fits, pairs)
     least = np.full(allowed.shape, np.inf)
-    for check in reserves.PIN_CHECKS:
-        table = per_radius[check]
+    for check, table in (*per_radius.items(), *needles.items()):
         place = (rows.ring,) if table.ndim == 4 else ()
         whole = np.broadcast_to(
             table, (*table.shape[:-3], len(space.pin_counts), len(sizes), space.thickness.size)

@@ -98,7 +98,7 @@ def _scales(frame: Frame) -> FloatArray:
     if not frame.smaller_rings:
         return np.array(_NEAR)
     bearing = min(one.outer_diameter for one in frame.bearings)
-    around = allowables.RING_WALL + 2.0 * allowables.LIGAMENT + frame.pin_sizes[0].mean_diameter
+    around = allowables.RING_WALL + 2.0 * allowables.LIGAMENT + frame.pin_sizes[0].running_diameter
     least = min((0.5 * bearing + around) / frame.outer_radius, 1.0)
     steps = math.ceil(math.log(_NEAR[0] / least) / -math.log(_SCALE_STEP))
     smaller = _NEAR[0] * _SCALE_STEP ** np.arange(max(steps, 0), 0, -1)

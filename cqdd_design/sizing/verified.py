@@ -47,6 +47,9 @@ _TRIALS = 10
 _LESS, _LESS_OF_BOTH, _WEAKER, _PEAK_ALONE = 0.9, 0.8, 16, 3
 """Share of the peak torque that is tried next where no gearbox carries it, and of both torques,
 how often in all, and how often of the peak torque alone before."""
+_BY_FRICTION = {"EFFICIENCY", "MOTOR-PEAK", "MOTOR-CONTINUOUS", "THERMAL-RISE"}
+_NEEDLES_BRING = 0.8
+"""Least margin of these lines from which needles under the output pins are tried."""
 _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
 
@@ -101,6 +104,8 @@ def size_to_verdict(
     began = time.perf_counter()
     guess = first_guess(requirements, motor)
     hunt = Hunt(guess, motor, ambient, progress, stage_tables(requirements.ratio), goal)
+    if goal == "efficiency" and hunt.may_roll:
+        hunt.pins = False, True
     progress("searching by closed forms, held against the contact equilibrium")
     found = _or_weaker(hunt, lambda: lightest(hunt))
     last: Verdict | None = None
@@ -121,6 +126,11 @@ def size_to_verdict(
                 last = judge(machine)
                 if last.meets == "yes":
                     return _verified(hunt, found, last, requirements, began)
+                if _needles_help(hunt, last):
+                    hunt.pins = (True,)
+                    progress("searching with the output pins on needles")
+                    found = _or_weaker(hunt, lambda: lightest(hunt))
+                    continue
                 step = _next_step(hunt, last)
             if step is None:
                 break
@@ -134,9 +144,17 @@ def size_to_verdict(
 
 
 def _again(hunt: Hunt, found: Found, fit: Fit) -> Found | None:
-    """The search repeated near a design, with what has been learnt since."""
+    """The search repeated near a design, with what has been learnt since.
+
+    Where needles then leave nothing, from the start with bare pins if these may be taken.
+    """
     space = found.space._replace(fit=fit)
-    return _or_weaker(hunt, lambda: agreed(hunt, space, None, found.needs))
+    near = _or_weaker(hunt, lambda: agreed(hunt, space, None, found.needs))
+    if near is not None or not space.needles or False not in hunt.pins:
+        return near
+    hunt.pins = (False,)
+    hunt.extra.clear()
+    return _or_weaker(hunt, lambda: lightest(hunt))
 
 
 def _or_weaker(hunt: Hunt, search: Callable[[], Found | None]) -> Found | None:
@@ -330,6 +348,19 @@ def _next_step(hunt: Hunt, judged: Verdict) -> float | None:
         return step
     machine, drawn = judged.evidence.machine, judged.evidence.drawn
     return None if drawn is None else read_spread(hunt, machine, drawn, judged.lines)
+
+
+def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
+    """Whether a design with bare pins falls short of what friction takes, and not by far."""
+    short = [line for line in judged.lines if line.status in {"fail", "unknown"}]
+    return (
+        True not in hunt.pins
+        and hunt.may_roll
+        and all(
+            line.known and line.id in _BY_FRICTION and line.margin >= _NEEDLES_BRING
+            for line in short
+        )
+    )
 
 
 def _refused(judged: Verdict) -> SizingInfeasibleError:

@@ -52,7 +52,7 @@ def design_of(frame, tables, one):
     throw = one.shortening * radius / (n + 1)
     size = frame.pin_sizes[one.pin_sizes[0]]
     (count,) = one.pin_counts
-    hole = 0.5 * (size.mean_diameter + size.hole_clearance) + throw
+    hole = 0.5 * (size.running_diameter + size.hole_clearance) + throw
     offset = np.array([valley_offset(frame, count)])
     circle = largest_pin_circle(frame, RingSizes(radius, throw, tooth * radius), hole, offset)
     circle = circle - one.inset * radius

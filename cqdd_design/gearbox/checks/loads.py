@@ -6,7 +6,7 @@ import math
 from functools import partial
 
 from cqdd_design.catalog.bearings import Bearing
-from cqdd_design.catalog.materials import Material, find_material
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.gearbox import cam_bearing
 from cqdd_design.gearbox.bearing_life import load_for_life
 from cqdd_design.gearbox.checks import allowables
@@ -42,8 +42,9 @@ def _contact(state: GearboxState) -> tuple[Check, ...]:
     ring, pin = find_material(reducer.ring_material), find_material(reducer.output_pins.material)
     static, fatigue = allowables.contact_limit_static, allowables.contact_limit_fatigue
 
-    def one(check_id: str, load: RigidMaxima, rule: MaterialRule, other: Material) -> Check:
-        at_ring = other is ring
+    def one(check_id: str, load: RigidMaxima, rule: MaterialRule) -> Check:
+        at_ring = check_id.startswith("CONTACT-RING")
+        other = ring if at_ring else pin
         raw = load.ring_pressure if at_ring else load.output_pressure
         force = load.ring_force if at_ring else load.output_pin_force
         pressure = math.sqrt(UNEVEN_SHARING) * raw
@@ -62,10 +63,10 @@ def _contact(state: GearboxState) -> tuple[Check, ...]:
         )
 
     return (
-        one("CONTACT-RING-PEAK", state.rigid_peak, static, ring),
-        one("CONTACT-RING-CONTINUOUS", state.rigid_continuous, fatigue, ring),
-        one("CONTACT-PIN-PEAK", state.rigid_peak, static, pin),
-        one("CONTACT-PIN-CONTINUOUS", state.rigid_continuous, fatigue, pin),
+        one("CONTACT-RING-PEAK", state.rigid_peak, static),
+        one("CONTACT-RING-CONTINUOUS", state.rigid_continuous, fatigue),
+        one("CONTACT-PIN-PEAK", state.rigid_peak, static),
+        one("CONTACT-PIN-CONTINUOUS", state.rigid_continuous, fatigue),
     )
 
 

@@ -1,0 +1,201 @@
+"""Output pins on needles in sizing: what their sleeves take of the space, bear, weigh and save."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.design import requirements_from_mapping
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.geometry.runners import pin_runner
+from cqdd_design.machine import resolve
+from cqdd_design.sizing.agreement import FITS, NEEDLE_PINS, Hunt, lightest, spaces
+from cqdd_design.sizing.bought_parts import needle_pins
+from cqdd_design.sizing.exact import exact_checks
+from cqdd_design.sizing.finish import design_of, torque_reserve
+from cqdd_design.sizing.frame import search_frame
+from cqdd_design.sizing.points import Evaluator, Pins
+from cqdd_design.sizing.reserves import needle_reserves_per_radius, pin_reserves_per_radius
+from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.stage_tables import stage_tables
+from cqdd_design.sizing.verified import _again, _needles_help
+from cqdd_design.verdict.headline import efficiency
+
+ASKED = {
+    "ratio": 10,
+    "peak_torque": "25 N*m",
+    "continuous_torque": "6 N*m",
+    "continuous_speed": "300 rpm",
+    "disc_count": 2,
+    "disc_material": NEEDLE_PINS,
+    "ring_material": NEEDLE_PINS,
+}
+
+
+def asked(**more):
+    return requirements_from_mapping(ASKED | more)
+
+
+def hunt(requirements, **more):
+    return Hunt(requirements, None, None, lambda _: None, stage_tables(10), "mass", **more)
+
+
+@pytest.fixture(scope="module")
+def found():
+    return lightest(hunt(asked(), pins=(True,)))
+
+
+def frame_with_needles():
+    return search_frame(asked(pin_material=NEEDLE_PINS), needles=True)
+
+
+def test_sleeves_go_over_cages_of_the_catalogue():
+    frame = frame_with_needles()
+    assert frame.pin_sizes == needle_pins(asked(), frame.default_fit.hole_clearance)
+    for size in frame.pin_sizes:
+        for cage in size.cages:
+            assert cage.kind == "needle cage"
+            assert cage.bore_diameter == size.diameter
+            # Half a millimetre of sleeve all round.
+            assert size.sleeve_diameter == pytest.approx(cage.outer_diameter + 1e-3)
+    thickness = np.array([5e-3, 7e-3, 8e-3, 9e-3])
+    three = frame.pin_sizes[0]
+    static, dynamic = three.cage_ratings(thickness)
+    narrow, wide = find_bearing("needle cage K3x5x7"), find_bearing("needle cage K3x5x9")
+    assert static.tolist() == [0.0, narrow.static_rating, narrow.static_rating, wide.static_rating]
+    assert dynamic.tolist()[2:] == [narrow.dynamic_rating, wide.dynamic_rating]
+
+
+def test_a_small_ring_has_no_room_for_them():
+    with pytest.raises(InfeasibleError, match=r"output pins on needles.*at least 30 mm"):
+        search_frame(asked(outer_diameter="29 mm", pin_material=NEEDLE_PINS), needles=True)
+
+
+def test_what_was_found_is_borne_out(found):
+    design = found.sized.design
+    pins = design.reducer.output_pins
+    assert (pins.sleeve, pins.material) == ("needle", NEEDLE_PINS)
+    assert "pin_material" not in design.requirements.model_fields_set
+    runner = pin_runner(design)
+    assert runner is not None
+    assert runner.cage is not None
+    assert runner.diameter == pytest.approx(runner.cage.outer_diameter + 1e-3)
+    lines = {one.id: one for one in exact_checks(resolve(design))}
+    for name in ("SLEEVE-STATIC", "SLEEVE-LIFE", "CONTACT-PIN-PEAK"):
+        assert lines[name].satisfied, name
+
+
+def test_reserves_are_those_of_the_analysis(found):
+    frame = frame_with_needles()
+    machine = resolve(found.sized.design)
+    reducer, pins = machine.design.reducer, machine.design.reducer.output_pins
+    size = next(one for one in frame.pin_sizes if one.diameter == pins.diameter)
+    thickness = np.array(reducer.disc_thickness)
+    evaluator = Evaluator.of(frame, stage_tables(10), [pins.count])
+    factor = Pins.of(frame, np.array([pins.count]), np.array([frame.pin_sizes.index(size)]))
+    needles = needle_reserves_per_radius(
+        frame, factor.peak_factor, pins.count, size.cage_ratings(thickness), size.sleeve_diameter
+    )
+    others = pin_reserves_per_radius(
+        evaluator.frame,
+        factor.peak_factor,
+        pins.count,
+        pins.diameter,
+        0.5 * pins.sleeve_diameter,
+        0.5 * (pins.sleeve_diameter + pins.hole_clearance) + reducer.eccentricity,
+        thickness,
+    )
+    by_id = {one.id: one for one in machine.analysis.checks}
+    for name, value in {**others, **needles}.items():
+        if name == "PIN-PAPER":
+            continue
+        closed = float(value[0]) * pins.circle_radius
+        whole = torque_reserve(by_id[name], machine.design)
+        if name == "SLEEVE-LIFE":
+            # As fast as with the largest throw: on the safe side, by little.
+            assert 0.85 * whole < closed <= whole
+        else:
+            assert closed == pytest.approx(whole, rel=2e-3), name
+
+
+def test_sleeves_weigh(found):
+    """The same point with a density of pins one higher weighs by the volume of pins and sleeves."""
+    frame, point = found.search.frame, found.point
+    reducer = found.sized.design.reducer
+    pins = Pins.of(frame, point.pin_count, point.pin_size)
+
+    def mass(density):
+        changed = replace(frame, pin_density=density)
+        evaluator = Evaluator.of(changed, stage_tables(10), point.pin_count)
+        at = evaluator.evaluate(point.steps[:, :3], point.steps[:, 3:], pins, np.array([1.0]))
+        assert design_of(evaluator, at, 0).reducer.output_pins == reducer.output_pins
+        return float(at.mass[0])
+
+    one, stack = reducer.output_pins, 2 * reducer.disc_thickness
+    shoulder = one.diameter**2 * (stack + 3 * reducer.disc_spacing)
+    sleeves = (one.sleeve_diameter**2 - one.diameter**2) * stack
+    volume = one.count * math.pi / 4.0 * (shoulder + sleeves)
+    assert mass(8000.0) - mass(7000.0) == pytest.approx(1000.0 * volume, rel=1e-6)
+
+
+def test_they_save_what_pins_rub_away(found):
+    design = found.sized.design
+    bare = {"reducer.output_pins.sleeve": "plain", "reducer.output_pins.sleeve_diameter": 0.0}
+    with_needles, without = (
+        efficiency(resolve(one)).value for one in (design, design.replacing(bare))
+    )
+    assert with_needles > without + 0.02
+
+
+def test_the_screen_counts_them_by_their_checks():
+    searched = Search.of(frame_with_needles(), stage_tables(10)).found
+    assert {"SLEEVE-STATIC", "SLEEVE-LIFE"} < set(searched.rejected)
+    assert searched.rejected["SLEEVE-STATIC"] > 0
+    usual = Search.of(search_frame(asked()), stage_tables(10)).found
+    assert {"SLEEVE-STATIC", "SLEEVE-LIFE"}.isdisjoint(usual.rejected)
+
+
+class Line:
+    """Of a verdict, as far as sizing reads it."""
+
+    known = True
+
+    def __init__(self, name, margin, status="fail"):
+        self.id, self.margin, self.status = name, margin, status
+
+
+class Judged:
+    def __init__(self, *lines):
+        self.lines = lines
+
+
+def test_they_are_tried_where_friction_is_what_stands_in_the_way():
+    near, far = Line("EFFICIENCY", 0.96), Line("MOTOR-CONTINUOUS", 0.4)
+    fine, other = Line("YIELD", 0.1, "pass"), Line("YIELD", 0.9)
+    bare = hunt(asked())
+    assert _needles_help(bare, Judged(near, fine))
+    assert not _needles_help(bare, Judged(near, far))
+    assert not _needles_help(bare, Judged(near, other))
+    assert not _needles_help(hunt(asked(), pins=(True,)), Judged(near))
+    # Nor on screws that are asked for, which are too soft.
+    soft = hunt(asked(pin_material="Alloy steel 12.9 (ISO 7379)"))
+    assert not _needles_help(soft, Judged(near))
+    assert _needles_help(hunt(asked(pin_material=NEEDLE_PINS)), Judged(near))
+
+
+def test_bare_pins_come_back_where_needles_leave_nothing(found):
+    # Discs of 6.2 mm are thinner than any cage is wide.
+    both = hunt(asked(length="13 mm"), pins=(False, True))
+    again = _again(both, found, FITS[1])
+    assert again is not None
+    assert not again.space.needles
+    assert both.pins == (False,)
+
+
+def test_both_kinds_are_tried_where_asked():
+    kinds = [one.needles for one in spaces(asked(), FITS[0], (False, True))]
+    assert kinds == [False, True]
