@@ -111,6 +111,8 @@ class Hunt:
         Reserve for part errors, by check.
     lowered : bool
         Whether the motor did not hold a continuous torque that was tried.
+    fit : Fit
+        The closest that heat and part errors leave.
     least_bore : float
         Of the cam bearings that are tried, m: smaller ones leave the shaft's ends no bearing.
     pins : tuple of bool
@@ -125,6 +127,7 @@ class Hunt:
     goal: Goal
     extra: dict[str, float] = field(default_factory=dict)
     lowered: bool = False
+    fit: Fit = FITS[0]
     least_bore: float = 0.0
     pins: tuple[bool, ...] = (False,)
 
@@ -174,9 +177,9 @@ def spaces(
 
 
 def lightest(hunt: Hunt) -> Found | None:
-    """The best of all spaces at the closest fit that the equilibrium bears out."""
+    """The best of all spaces at the hunt's fit that the equilibrium bears out."""
     best: Found | None = None
-    for space in spaces(hunt.requirements, FITS[0], hunt.pins):
+    for space in spaces(hunt.requirements, hunt.fit, hunt.pins):
         try:
             found = agreed(hunt, space, best)
         except InfeasibleError:

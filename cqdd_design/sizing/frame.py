@@ -23,6 +23,7 @@ from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import Allowable
 from cqdd_design.gearbox.pin_beam import PinEnd
 from cqdd_design.geometry import kinematics
+from cqdd_design.geometry.scale import largest_ring
 from cqdd_design.sizing.bought_parts import (
     BearingTable,
     PinSize,
@@ -32,6 +33,8 @@ from cqdd_design.sizing.bought_parts import (
     pin_sizes,
 )
 
+_RING_STEP = 5e-6
+"""Rings are turned to hundredths of their diameter, m."""
 THICKNESS_STEP = 1e-4
 """Discs are ground to tenths of a millimetre, m."""
 
@@ -181,7 +184,8 @@ class Frame:
     def outer_radius(self) -> float:
         """Of the largest ring, m: what is asked for, or what goes into the motor's bore."""
         asked, bore = self.requirements.outer_diameter, self.motor.bore_diameter
-        return 0.5 * (asked if bore is None else min(asked, bore))
+        most = asked if bore is None else min(asked, largest_ring(bore))
+        return round(math.floor(0.5 * most / _RING_STEP + 1e-6) * _RING_STEP, 9)
 
     def bearing_table(self) -> BearingTable:
         """The cam bearings as arrays."""

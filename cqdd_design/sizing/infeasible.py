@@ -13,6 +13,7 @@ from cqdd_design.catalog.motors import Motor
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down
+from cqdd_design.geometry.scale import largest_ring
 from cqdd_design.sizing.choose import strongest
 from cqdd_design.sizing.finish import LOAD_CHECKS, torque_reserve
 from cqdd_design.sizing.frame import Fit, search_frame
@@ -105,7 +106,7 @@ def no_design(search: Search) -> SizingInfeasibleError:
     wanted = search.frame.requirements
     best = _most_torque(search)
     bore = search.frame.motor.bore_diameter
-    largest = _LARGEST_RING_MM if bore is None else math.floor(bore * 1e3 + _ROUNDING)
+    largest = _LARGEST_RING_MM if bore is None else math.floor(largest_ring(bore) * 1e3 + _ROUNDING)
     ring = _smallest(search, "outer_diameter", largest)
     length = _smallest(search, "length", _LONGEST_PACK_MM)
     space = f"{_a(wanted.outer_diameter)} ring"
@@ -135,8 +136,11 @@ def no_design(search: Search) -> SizingInfeasibleError:
         if need is not None:
             text += f"; {asked} needs {_a(need)} {what}"
             fixes.append(f"raise {key} to {need * 1e3:g} mm")
-    if ring is None and largest < _LARGEST_RING_MM:
-        text += f"; {search.frame.motor.name} has a bore of {largest} mm for it"
+    if ring is None and bore is not None and largest < _LARGEST_RING_MM:
+        text += (
+            f"; {search.frame.motor.name} has a bore of {bore * 1e3:g} mm, for rings up to "
+            f"{largest} mm"
+        )
     remedy = ", or ".join(fixes) or "change the ratio, the materials or disc_count"
     return SizingInfeasibleError(
         f"{text}. {remedy[0].upper()}{remedy[1:]}.",

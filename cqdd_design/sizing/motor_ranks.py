@@ -14,6 +14,7 @@ from cqdd_design.design.motor import MotorTable
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.gearbox.checks.allowables import REDUCER_EFFICIENCY
 from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION
+from cqdd_design.geometry.scale import largest_ring
 from cqdd_design.sizing.agreement import FITS, Space, spaces
 from cqdd_design.sizing.frame import Goal, search_frame
 from cqdd_design.sizing.goals import tied, untied
@@ -228,7 +229,8 @@ def _refused(
 
 def _ring(requirements: Requirements, motor: Motor) -> float:
     """Largest ring, m: what is asked for, or what goes into the bore."""
-    return min(requirements.outer_diameter, motor.bore_diameter or math.inf)
+    bore = motor.bore_diameter
+    return min(requirements.outer_diameter, math.inf if bore is None else largest_ring(bore))
 
 
 def _own_space(requirements: Requirements) -> Space:
@@ -272,7 +274,7 @@ def _ranked(
         peak = requirements.peak_torque
         most = min(gearbox.reach, 1.0)
         carried = f"carries {peak:g} N*m" if most > 0.0 else "fits at any torque"
-        why = f"by closed forms no gearbox of a ring up to {1e3 * ring:g} mm {carried}"
+        why = f"by closed forms no gearbox of a ring up to {1e3 * ring:.4g} mm {carried}"
         why += f"; the most is about {most * peak:.3g} N*m" if 0.0 < most < 1.0 else ""
         return _refused(motor, most, "MOTOR-BORE", why, explained=True)
     return Ranked(

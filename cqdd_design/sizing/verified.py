@@ -137,24 +137,25 @@ def size_to_verdict(
             fit = _wider(found.space.fit, step)
         if fit is None:
             break
-        found = _again(hunt, found, fit)
+        hunt.fit = fit
+        found = _again(hunt, found)
     if last is not None:
         raise _refused(last)
     raise _nothing(hunt) if found is None else _unsettled(found)
 
 
-def _again(hunt: Hunt, found: Found, fit: Fit) -> Found | None:
-    """The search repeated near a design, with what has been learnt since.
+def _again(hunt: Hunt, found: Found) -> Found | None:
+    """The search repeated with what has been learnt since.
 
-    Where needles then leave nothing, from the start with bare pins if these may be taken.
+    Near the design first; where that leaves nothing, with other materials, discs and pins; then for
+    less torque, where none was stated.
     """
-    space = found.space._replace(fit=fit)
-    near = _or_weaker(hunt, lambda: agreed(hunt, space, None, found.needs))
-    if near is not None or not space.needles or False not in hunt.pins:
-        return near
-    hunt.pins = (False,)
-    hunt.extra.clear()
-    return _or_weaker(hunt, lambda: lightest(hunt))
+    space = found.space._replace(fit=hunt.fit)
+
+    def near() -> Found | None:
+        return agreed(hunt, space, None, found.needs)
+
+    return near() or lightest(hunt) or _or_weaker(hunt, near)
 
 
 def _or_weaker(hunt: Hunt, search: Callable[[], Found | None]) -> Found | None:
@@ -196,14 +197,52 @@ def _result(found: Found, seconds: float) -> SizingResult:
 
 
 def _nothing(hunt: Hunt) -> SizingInfeasibleError:
-    """Why no design bears the loads, and about what is borne by the equilibrium in this space."""
-    asked, space = hunt.requirements, next(spaces(hunt.requirements, FITS[0]))
+    """Why no design bears the loads, and about what is borne by the equilibrium in this space.
+
+    With the clearance and the reserve that heat and part errors were found to ask for.
+    """
+    asked, space = hunt.requirements, next(spaces(hunt.requirements, hunt.fit))
     search = Search.of(hunt.frame(space, {}), hunt.tables)
     most = search.most_reserve()
     closed = no_design(search) if most is None or float(most.reserve[0]) < 1.0 else None
     if closed is not None and closed.most_torque is None:
         return closed
     torque = asked.peak_torque if closed is None else closed.most_torque or 0.0
+    carried = _carried(hunt, torque)
+    errors = "and with what part errors take, " if hunt.extra else ""
+    text = (
+        f"{asked.peak_torque:g} N*m at ratio {asked.ratio}, {asked.continuous_torque:g} N*m of it "
+        f"for ever, do not fit: by the contact equilibrium, {errors}"
+    )
+    ways = ["state closer [tolerances] in a design"] if hunt.extra else []
+    if carried is None:
+        text += "far less is carried in this space"
+        ways.insert(0, "lower both torques")
+    else:
+        lasting = rounded_down(carried * asked.continuous_torque / asked.peak_torque, 2)
+        text += f"about {carried:g} and {lasting:g} N*m are carried in this space"
+        ways.insert(0, f"lower peak_torque to {carried:g} and continuous_torque to {lasting:g} N*m")
+    ring = None if closed is None else closed.outer_diameter_needed
+    length = None if closed is None else closed.length_needed
+    for key, need in (("outer_diameter", ring), ("length", length)):
+        if need is not None:
+            ways.append(f"raise {key}, to more than the {1e3 * need:g} mm of closed forms")
+    remedy = ", or ".join(ways)
+    return SizingInfeasibleError(
+        f"{text}. {remedy[0].upper()}{remedy[1:]}.",
+        binding=(*(("YIELD",) if hunt.extra else ()), *((RING,) if not closed else closed.binding)),
+        most_torque=carried,
+        outer_diameter_needed=ring,
+        length_needed=length,
+    )
+
+
+def _carried(hunt: Hunt, torque: float) -> float | None:
+    """The peak torque, N m, from some torque down, at which a design is borne out; None far below.
+
+    The continuous torque falls with it.
+    """
+    asked = hunt.requirements
     share = asked.continuous_torque / asked.peak_torque
     for _ in range(_WEAKER):
         torque *= _LESS
@@ -211,25 +250,8 @@ def _nothing(hunt: Hunt) -> SizingInfeasibleError:
             update={PEAK: torque, CONTINUOUS: min(asked.continuous_torque, share * torque)}
         )
         if lightest(hunt) is not None:
-            break
-    carried = rounded_down(torque, 2)
-    text = (
-        f"{asked.peak_torque:g} N*m at ratio {asked.ratio} do not fit: by the contact equilibrium "
-        f"about {carried:g} N*m are carried in this space. Lower peak_torque to {carried:g} N*m"
-    )
-    ring = None if closed is None else closed.outer_diameter_needed
-    length = None if closed is None else closed.length_needed
-    if ring is not None:
-        text += f", or raise outer_diameter, to more than the {1e3 * ring:g} mm of closed forms"
-    if length is not None:
-        text += f", or raise length, to more than the {1e3 * length:g} mm of closed forms"
-    return SizingInfeasibleError(
-        f"{text}.",
-        binding=(RING,) if closed is None else closed.binding,
-        most_torque=carried,
-        outer_diameter_needed=ring,
-        length_needed=length,
-    )
+            return rounded_down(torque, 2)
+    return None
 
 
 def _unsettled(found: Found) -> SizingInfeasibleError:
@@ -322,7 +344,8 @@ def read_spread(
     allowed = Allowed.of(machine, lines)
     assert allowed is not None
     by_id = {line.id: line for line in lines}
-    quantile = 1.0 - (1.0 - share) / len(fails)
+    # What may fail is shared among the lines that do.
+    quantile = 1.0 - (1.0 - share) / max(sum(1 for number in fails.values() if number), 1)
     over = {
         check: float(np.quantile(ratio, quantile)) for check, ratio in used(allowed, drawn).items()
     }

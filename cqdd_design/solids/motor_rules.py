@@ -18,6 +18,7 @@ import math
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.motors import Motor
+from cqdd_design.geometry.scale import largest_ring
 from cqdd_design.solids.layout import DowelLayout, MotorLayout
 from cqdd_design.solids.selection import cap_screw, thread_size
 
@@ -74,8 +75,8 @@ def register_radius(motor: Motor, pack: PackLayout, unit: float) -> tuple[float,
     ring, stator = f"{2e3 * pack.ring_radius:.4g} mm", f"{bore * 1e3:.4g} mm stator bore"
     if wall < unit * (1.0 - 1e-9):
         missing = (
-            f"a ring of {ring} does not go into the {stator} of {motor.name}; it may be "
-            f"{1e3 * (bore - 2.0 * unit):.4g} mm with a wall of {unit * 1e3:.3g} mm"
+            f"a ring of {ring} does not go into the {stator} of {motor.name}; with a wall of the "
+            f"housing round it, it may be {1e3 * largest_ring(bore):.4g} mm"
         )
     elif wall > _MOST_TUBE_WALL * unit:
         missing = f"the {stator} of {motor.name} is far larger than a ring of {ring}"

@@ -11,6 +11,7 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.ring import ring_root_radius
 from cqdd_design.geometry.runners import pin_runner, ring_runner
+from cqdd_design.geometry.scale import millimetre_unit
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.solids.carrier_rules import (
     column_head_radius,
@@ -40,16 +41,8 @@ from cqdd_design.solids.selection import (
     thread_size,
 )
 
-_REFERENCE_RING = 72e-3
-_SCALE_RANGE = (0.4, 4.0)
 _LEAST_CORE_SHARE = 0.2
 """Least core of the eccentric shaft as a share of the cam bearing's bore radius."""
-
-
-def millimetre_unit(ring_outer_diameter: float) -> float:
-    """A millimetre at the scale of this ring, m: walls and gaps grow with the machine."""
-    least, most = _SCALE_RANGE
-    return 1e-3 * min(max(ring_outer_diameter / _REFERENCE_RING, least), most)
 
 
 def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:

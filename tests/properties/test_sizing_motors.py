@@ -206,7 +206,7 @@ def test_a_bore_without_room_is_refused_and_explained_by_trying():
     with pytest.raises(NoMotorError, match="small: the bore is too small") as caught:
         choose(asked(), attempt, (whole,))
     assert tried == ["small"]
-    assert "ring up to 32 mm" in caught.value.choice.ranked[0].why
+    assert "ring up to 31.14 mm" in caught.value.choice.ranked[0].why
 
 
 def test_a_strong_motor_with_a_small_bore_comes_after_those_that_pass():

@@ -117,7 +117,7 @@ def test_the_magnet_is_flush_and_the_sensor_near_it() -> None:
             {"motor.name": "CubeMars R100 KV90"},
             "sizes of rotor and stator of CubeMars R100",
         ),
-        ({"reducer.ring.outer_diameter": 76e-3}, "it may be 71.89 mm"),
+        ({"reducer.ring.outer_diameter": 76e-3}, "it may be 72 mm"),
     ],
 )
 def test_a_motor_that_cannot_be_drawn_is_left_out_and_told(

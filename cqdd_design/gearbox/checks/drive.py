@@ -10,6 +10,7 @@ from cqdd_design.gearbox.balance import BALANCING_PLANES, paper_disc_count
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.geometry.limits import rounded_down, rounded_up
+from cqdd_design.geometry.scale import largest_ring
 from cqdd_design.results import Check
 
 _RPM = 30.0 / math.pi
@@ -175,13 +176,13 @@ def _speed(state: GearboxState, motor: Motor, constant: float) -> Check:
 
 
 def _bore(state: GearboxState, motor: Motor, bore: float) -> Check:
-    outer = state.design.reducer.ring.outer_diameter
+    outer, most = state.design.reducer.ring.outer_diameter, largest_ring(bore)
     note = f" ({motor.bore_note})" if motor.bore_note else ""
     return _make(
         state,
         "MOTOR-BORE",
         outer * 1e3,
-        bore * 1e3,
+        most * 1e3,
         f"ring {outer * 1e3:.4g} mm, stator bore {bore * 1e3:.4g} mm{note}",
-        f"lower ring.outer_diameter to {bore * 1e3:g} mm, or take a motor with a larger bore",
+        f"lower ring.outer_diameter to {most * 1e3:.4g} mm, or take a motor with a larger bore",
     )

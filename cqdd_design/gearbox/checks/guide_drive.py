@@ -102,8 +102,9 @@ ROWS = (
         "Ring inside the motor's stator",
         "mm",
         "max",
-        "D_ring <= stator bore",
-        "The reducer sits inside the stator.",
+        "D_ring <= stator bore - 2 walls",
+        "The reducer sits inside the stator, and the housing's wall round the ring, a millimetre "
+        "at 72 mm and in proportion to the ring, between the two.",
         f"motor catalogue; {PAPER}, section III-A",
     ),
     CheckGuide(
