@@ -180,8 +180,18 @@ def _lines(road: Road) -> list[str]:
         table(_choices(sizing), head=_CHOICE_HEAD, right=tuple(range(1, len(_CHOICE_HEAD)))),
         f"counted: {sizing.objective.scope};",
         "`inertia` weighs the whole machine.",
+        *_costs(sizing),
         "",
     ]
+
+
+def _costs(sizing: SizingResult) -> list[str]:
+    """What more would cost, near the design."""
+    told = [
+        f"{one.words} " + ("not in this space" if one.mass is None else f"{1e3 * one.mass:+.0f} g")
+        for one in sizing.costs
+    ]
+    return ["what more would cost, near this design: " + "; ".join(told)] if told else []
 
 
 def _motors(choice: MotorChoice) -> list[str]:

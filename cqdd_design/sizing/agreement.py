@@ -16,6 +16,7 @@ from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design, Requirements
 from cqdd_design.errors import ContactError, DesignError, InfeasibleError
 from cqdd_design.gearbox.checks import allowables
+from cqdd_design.geometry.scale import smallest_ring
 from cqdd_design.machine import resolve
 from cqdd_design.results import Check
 from cqdd_design.sizing.exact import exact_checks, shortfalls
@@ -44,6 +45,8 @@ NEEDLE_PINS = "AISI 52100 / 100Cr6 hardened"
 DISC_COUNTS = (2, 3)
 """Likewise of discs: those that balance."""
 _ROUNDS, _UNDAMPED = 8, 3
+_RING_STEP = 0.94
+"""Ring that is tried next over the one before."""
 _SETTLED = 2e-3
 """Change of every need, as a share, at which closed forms and equilibrium agree."""
 RING, _PINS, _CAM = "CONTACT-RING-PEAK", "CONTACT-PIN-PEAK", "BEARING-STATIC"
@@ -57,6 +60,7 @@ class Space(NamedTuple):
     ring_material: str
     fit: Fit
     needles: bool = False
+    ring_limit: float = math.inf
 
     def of(self, requirements: Requirements) -> Requirements:
         """The requirements with these discs and materials, which are tried and not asked for."""
@@ -149,7 +153,9 @@ class Hunt:
         both = {one: needs.get(one, 1.0) * self.extra.get(one, 1.0) for one in every}
         bearings = tuple(one for one in frame.bearings if one.bore_diameter >= self.least_bore)
         # The loop settles with rings of one diameter; smaller ones make it swing.
-        return replace(frame, needs=both, bearings=bearings, smaller_rings=False)
+        return replace(
+            frame, needs=both, bearings=bearings, smaller_rings=False, ring_limit=space.ring_limit
+        )
 
 
 def spaces(
@@ -187,6 +193,23 @@ def lightest(hunt: Hunt) -> Found | None:
         if found is not None and (best is None or _score(found) < _score(best)):
             best = found
     return best
+
+
+def in_a_smaller_ring(hunt: Hunt, best: Found) -> Found:
+    """The best of some designs in smaller and smaller rings, while these are better."""
+    bore = best.search.frame.motor.bore_diameter
+    least = 0.0 if bore is None else smallest_ring(bore)
+    while True:
+        ring = _RING_STEP * best.sized.design.reducer.ring.outer_diameter
+        if ring < least:
+            return best
+        try:
+            found = agreed(hunt, best.space._replace(ring_limit=ring), None, best.needs)
+        except InfeasibleError:
+            return best
+        if found is None or _score(found) >= _score(best):
+            return best
+        best = found
 
 
 def _score(found: Found) -> float:

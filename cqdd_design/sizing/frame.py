@@ -116,6 +116,8 @@ class Frame:
         Whether the output pins have sleeves on needles.
     smaller_rings : bool
         Whether rings are as small as their teeth allow; else all have the largest diameter.
+    ring_limit : float
+        Outside diameter of the largest ring that is tried, m, where less than is asked for.
     needs : mapping of str to float
         Torque reserve by load check that closed forms have to show, see `needed`.
     """
@@ -146,6 +148,7 @@ class Frame:
     goal: Goal = "mass"
     needles: bool = False
     smaller_rings: bool = True
+    ring_limit: float = math.inf
     needs: Mapping[str, float] = field(default_factory=dict)
 
     def needed(self, check: str) -> float:
@@ -184,7 +187,8 @@ class Frame:
     def outer_radius(self) -> float:
         """Of the largest ring, m: what is asked for, or what goes into the motor's bore."""
         asked, bore = self.requirements.outer_diameter, self.motor.bore_diameter
-        most = asked if bore is None else min(asked, largest_ring(bore))
+        most = min(asked, self.ring_limit)
+        most = most if bore is None else min(most, largest_ring(bore))
         return round(math.floor(0.5 * most / _RING_STEP + 1e-6) * _RING_STEP, 9)
 
     def bearing_table(self) -> BearingTable:

@@ -102,6 +102,34 @@ class SizedDesign:
 
 
 @dataclass(frozen=True)
+class Cost:
+    """One requirement that asks for more than is asked for, and what that would cost.
+
+    Attributes
+    ----------
+    key : str
+        Of ``[requirements]``.
+    words : str
+        How much more.
+    asked : float
+        What would be asked for, SI.
+    mass : float or None
+        Of the parts that the search counts, kg more than those of the design; None where nothing
+        near it bears that.
+    """
+
+    key: str
+    words: str
+    asked: float
+    mass: float | None
+
+    def to_dict(self) -> dict[str, object]:
+        """Return the JSON form."""
+        more = None if self.mass is None else 1e3 * self.mass
+        return {"key": self.key, "change": self.words, "mass_g": more}
+
+
+@dataclass(frozen=True)
 class SizingResult(SizedDesign):
     """A gearbox sized for its requirements, and how it was found.
 
@@ -120,6 +148,9 @@ class SizingResult(SizedDesign):
         the checks are applied.
     seconds : float
         Wall time; not compared.
+    costs : tuple of Cost
+        What more would cost, near the design; none where closed forms alone have judged it, nor of
+        an alternative.
     """
 
     alternatives: tuple[SizedDesign, ...]
@@ -127,6 +158,7 @@ class SizingResult(SizedDesign):
     survivors: int
     rejected: dict[str, int]
     seconds: float = field(compare=False)
+    costs: tuple[Cost, ...] = ()
 
     def picking(self, letter: str) -> SizingResult:
         """The same result with an alternative in the design's place, and the design among the rest.
@@ -156,7 +188,7 @@ class SizingResult(SizedDesign):
         own["design"] = self.design.replacing({"name": f"{self.design.name}-a"})
         first = SizedDesign(**own)
         others = tuple(one for one in self.alternatives if one is not picked)
-        return replace(self, **vars(picked), alternatives=(first, *others))
+        return replace(self, **vars(picked), alternatives=(first, *others), costs=())
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form (``results`` of ``size``), without the time it took."""
@@ -166,4 +198,5 @@ class SizingResult(SizedDesign):
             "rejected": dict(self.rejected),
             "objective": self.objective.to_dict(),
             "alternatives": [one.to_dict() for one in self.alternatives],
+            "costs": [one.to_dict() for one in self.costs],
         }

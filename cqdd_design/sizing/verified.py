@@ -27,9 +27,11 @@ from cqdd_design.sizing.agreement import (
     Hunt,
     Progress,
     agreed,
+    in_a_smaller_ring,
     lightest,
     spaces,
 )
+from cqdd_design.sizing.costs import costs
 from cqdd_design.sizing.exact import exact_checks
 from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.frame import Fit, Goal
@@ -122,6 +124,7 @@ def size_to_verdict(
             if step is None:
                 step = _closer_look(hunt, found, machine)
             if step is None:
+                found, machine = _smaller(hunt, found, machine)
                 progress(f"judging {found.sized.design.name} by the whole verdict")
                 last = judge(machine)
                 if last.meets == "yes":
@@ -145,17 +148,19 @@ def size_to_verdict(
 
 
 def _again(hunt: Hunt, found: Found) -> Found | None:
-    """The search repeated with what has been learnt since.
+    """The search repeated near a design, with what has been learnt since.
 
-    Near the design first; where that leaves nothing, with other materials, discs and pins; then for
-    less torque, where none was stated.
+    Where that leaves nothing: for less torque if none was stated, else with other materials, discs
+    and pins.
     """
     space = found.space._replace(fit=hunt.fit)
 
     def near() -> Found | None:
         return agreed(hunt, space, None, found.needs)
 
-    return near() or lightest(hunt) or _or_weaker(hunt, near)
+    if hunt.requirements.derived:
+        return _or_weaker(hunt, near)
+    return near() or lightest(hunt)
 
 
 def _or_weaker(hunt: Hunt, search: Callable[[], Found | None]) -> Found | None:
@@ -177,11 +182,11 @@ def _verified(
     hunt: Hunt, found: Found, verdict: Verdict, asked: Requirements, began: float
 ) -> VerifiedDesign:
     added = hunt.requirements.model_fields_set - asked.model_fields_set
-    sizing = _result(found, time.perf_counter() - began)
+    sizing = _result(hunt, found, began)
     return VerifiedDesign(sizing, verdict, asked.derived | added)
 
 
-def _result(found: Found, seconds: float) -> SizingResult:
+def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:
     """With alternatives of the last search, whose closed forms are held against the equilibrium."""
     search, screen = found.search, found.search.found
     most = search.most_reserve()
@@ -192,7 +197,8 @@ def _result(found: Found, seconds: float) -> SizingResult:
         candidates_screened=screen.screened,
         survivors=screen.survivors,
         rejected=screen.rejected,
-        seconds=seconds,
+        costs=costs(hunt, found),
+        seconds=time.perf_counter() - began,
     )
 
 
@@ -313,6 +319,20 @@ def _closer_look(hunt: Hunt, found: Found, machine: Machine) -> float | None:
     except ContactError:
         return _LEAST_STEP
     return read_spread(hunt, machine, drawn, exact_checks(machine))
+
+
+def _smaller(hunt: Hunt, found: Found, machine: Machine) -> tuple[Found, Machine]:
+    """The design, or a better one in a smaller ring of which the first looks say as much."""
+    other = in_a_smaller_ring(hunt, found)
+    if other is found:
+        return found, machine
+    small = resolve(other.sized.design, hunt.motor)
+    extra = dict(hunt.extra)
+    good = _first_look(hunt, small) == (None, None) and _closer_look(hunt, other, small) is None
+    if good:
+        return other, small
+    hunt.extra = extra
+    return found, machine
 
 
 def clearance_needed(checks: Iterable[Check]) -> float:

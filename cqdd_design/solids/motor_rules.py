@@ -18,7 +18,7 @@ import math
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.motors import Motor
-from cqdd_design.geometry.scale import largest_ring
+from cqdd_design.geometry.scale import MOST_TUBE_WALL, largest_ring
 from cqdd_design.solids.layout import DowelLayout, MotorLayout
 from cqdd_design.solids.selection import cap_screw, thread_size
 
@@ -38,8 +38,6 @@ _MAGNETS = (3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0)
 """Diameters of diametric encoder magnets, mm; they are half as high, 2.5 mm at the most."""
 _DOWELS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 """Diameters of ground dowels, mm (ISO 8734)."""
-_MOST_TUBE_WALL = 12.0
-"""Thickest tube, in units, that is filled up to the bore of a stator."""
 _SIZES = (
     ("bore_diameter", "stator bore"),
     ("outer_diameter", "outside diameter"),
@@ -78,7 +76,7 @@ def register_radius(motor: Motor, pack: PackLayout, unit: float) -> tuple[float,
             f"a ring of {ring} does not go into the {stator} of {motor.name}; with a wall of the "
             f"housing round it, it may be {1e3 * largest_ring(bore):.4g} mm"
         )
-    elif wall > _MOST_TUBE_WALL * unit:
+    elif wall > MOST_TUBE_WALL * unit:
         missing = f"the {stator} of {motor.name} is far larger than a ring of {ring}"
     else:
         return 0.5 * bore, drawn, missing

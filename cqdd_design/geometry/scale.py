@@ -1,0 +1,36 @@
+"""How walls and gaps grow with the machine, and the rings that go into a stator's bore."""
+
+from __future__ import annotations
+
+_REFERENCE_RING = 72e-3
+_SCALE_RANGE = (0.4, 4.0)
+_DIGITS = 9
+MOST_TUBE_WALL = 12.0
+"""Thickest tube, in units, that is filled up to the bore of a stator."""
+
+
+def millimetre_unit(ring_outer_diameter: float) -> float:
+    """A millimetre at the scale of this ring, m: walls and gaps grow with the machine."""
+    least, most = _SCALE_RANGE
+    return 1e-3 * min(max(ring_outer_diameter / _REFERENCE_RING, least), most)
+
+
+def largest_ring(bore: float) -> float:
+    """Outside diameter of the largest ring that leaves its housing a wall of a unit in a bore, m.
+
+    Examples
+    --------
+    >>> largest_ring(74e-3)
+    0.072
+    """
+    return _ring_with_wall(bore, 1.0)
+
+
+def smallest_ring(bore: float) -> float:
+    """Outside diameter of the smallest ring round which a tube fills the bore, m."""
+    return _ring_with_wall(bore, MOST_TUBE_WALL)
+
+
+def _ring_with_wall(bore: float, units: float) -> float:
+    within = bore / (1.0 + 2e-3 * units / _REFERENCE_RING)
+    return round(bore - 2.0 * units * millimetre_unit(within), _DIGITS)
