@@ -1,0 +1,82 @@
+"""Sizing in less room: smaller rings where they are better, the stator's bore, what more costs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from cqdd_design.catalog.motors import find_motor
+from cqdd_design.design import requirements_from_mapping
+from cqdd_design.geometry.scale import largest_ring, millimetre_unit, smallest_ring
+from cqdd_design.sizing.agreement import MATERIALS, Hunt, Space, agreed, in_a_smaller_ring
+from cqdd_design.sizing.costs import costs
+from cqdd_design.sizing.frame import USUAL_FIT, search_frame
+from cqdd_design.sizing.stage_tables import stage_tables
+
+ASKED = {
+    "ratio": 10,
+    "peak_torque": "40 N*m",
+    "continuous_torque": "6 N*m",
+    "continuous_speed": "300 rpm",
+}
+HARD = Space(2, MATERIALS[1], MATERIALS[1], USUAL_FIT)
+
+
+def hunt(**more):
+    asked = requirements_from_mapping(ASKED | more)
+    return Hunt(asked, None, None, lambda _: None, stage_tables(10), "mass")
+
+
+@pytest.fixture(scope="module")
+def found():
+    return agreed(hunt(), HARD, None)
+
+
+@pytest.mark.parametrize("bore", [20e-3, 40e-3, 74e-3, 150e-3, 400e-3])
+def test_rings_leave_their_tube_its_wall(bore):
+    """A wall of a unit at the largest, of twelve at the smallest; the unit is that of the ring."""
+    for ring, units in ((largest_ring(bore), 1.0), (smallest_ring(bore), 12.0)):
+        assert 0.5 * (bore - ring) == pytest.approx(units * millimetre_unit(ring), rel=1e-6)
+
+
+def test_a_search_takes_no_larger_ring_than_the_bore_does():
+    frame = search_frame(requirements_from_mapping(ASKED | {"outer_diameter": "73 mm"}))
+    assert 2.0 * frame.outer_radius == pytest.approx(72e-3)
+    small = replace(find_motor("CubeMars RO100 KV55"), bore_diameter=50e-3)
+    frame = search_frame(requirements_from_mapping(ASKED), small)
+    assert 2.0 * frame.outer_radius == pytest.approx(largest_ring(50e-3), abs=1e-5)
+    assert 2.0 * frame.outer_radius <= largest_ring(50e-3)
+
+
+def test_a_smaller_ring_is_taken_where_it_is_lighter(found):
+    own = hunt()
+    better = in_a_smaller_ring(own, found)
+    assert better.sized.objective.mass < 0.98 * found.sized.objective.mass
+    ring = better.sized.design.reducer.ring.outer_diameter
+    assert ring < found.sized.design.reducer.ring.outer_diameter
+    assert ring >= smallest_ring(74e-3)
+    # What was asked for stays what was asked for.
+    asked = better.sized.design.requirements
+    assert asked.outer_diameter == found.sized.design.requirements.outer_diameter
+    # And from the best there is nothing better.
+    assert in_a_smaller_ring(own, better) is better
+
+
+def test_more_costs_what_a_search_for_more_finds():
+    own = hunt(peak_torque="66 N*m")
+    found = agreed(own, HARD, None)
+    told = {one.key: one for one in costs(own, found)}
+    assert told["peak_torque"].asked == pytest.approx(72.6)
+    assert told["life"].asked == pytest.approx(2000.0 * 3600.0)
+    whole = agreed(hunt(peak_torque="72.6 N*m"), HARD, None, found.needs)
+    more = told["peak_torque"].mass
+    assert more is not None
+    assert more > 0.02
+    closed = found.sized.objective.mass + more
+    assert closed == pytest.approx(whole.sized.objective.mass, rel=0.05)
+    assert told["peak_torque"].to_dict()["mass_g"] == pytest.approx(1e3 * more)
+    # Its pins are the strongest that go into so small a ring.
+    assert told["outer_diameter"].mass is None
+    assert math.isfinite(told["life"].mass)
