@@ -121,6 +121,8 @@ class Hunt:
         Of the cam bearings that are tried, m: smaller ones leave the shaft's ends no bearing.
     pins : tuple of bool
         Whether output pins that are tried are on needles.
+    tried : set of Goal
+        Goals that were taken to meet something that is asked for.
     """
 
     requirements: Requirements
@@ -134,6 +136,7 @@ class Hunt:
     fit: Fit = FITS[0]
     least_bore: float = 0.0
     pins: tuple[bool, ...] = (False,)
+    tried: set[Goal] = field(default_factory=set)
 
     @property
     def may_roll(self) -> bool:

@@ -7,9 +7,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
-from cqdd_design.sizing.agreement import Found, Hunt
+from cqdd_design.sizing.agreement import Found, Hunt, Space
 from cqdd_design.sizing.points import Evaluator
 from cqdd_design.sizing.result import Cost
 
@@ -18,23 +17,26 @@ _MORE, _TWICE, _LESS_ROOM = 1.1, 2.0, 0.95
 
 def costs(hunt: Hunt, found: Found) -> tuple[Cost, ...]:
     """What 10 % more of either torque, twice the life and a ring 5 % smaller cost."""
-    asked, ring = hunt.requirements, found.sized.design.reducer.ring.outer_diameter
+    asked, space = hunt.requirements, found.space
     peak, lasting = asked.peak_torque, asked.continuous_torque
+    ring = _LESS_ROOM * found.sized.design.reducer.ring.outer_diameter
     changes = (
         ("peak_torque", "10 % more peak torque", _MORE * peak),
         ("continuous_torque", "10 % more continuous torque", min(_MORE * lasting, peak)),
         ("life", "twice the life", _TWICE * asked.life),
-        ("outer_diameter", "a ring 5 % smaller", _LESS_ROOM * ring),
     )
-    return tuple(
-        Cost(key, words, value, _more_mass(hunt, found, asked.model_copy(update={key: value})))
+    more = [
+        Cost(key, words, value, _more_mass(hunt, found, space, {key: value}))
         for key, words, value in changes
-    )
+    ]
+    smaller = _more_mass(hunt, found, space._replace(ring_limit=ring), {})
+    return (*more, Cost("outer_diameter", "a ring 5 % smaller", ring, smaller))
 
 
-def _more_mass(hunt: Hunt, found: Found, asked: Requirements) -> float | None:
+def _more_mass(hunt: Hunt, found: Found, space: Space, changed: dict[str, float]) -> float | None:
+    asked = hunt.requirements.model_copy(update=changed)
     try:
-        frame = replace(hunt, requirements=asked).frame(found.space, found.needs)
+        frame = replace(hunt, requirements=asked).frame(space, found.needs)
     except InfeasibleError:
         return None
     evaluator = Evaluator.of(frame, hunt.tables, found.search.space.pin_counts)

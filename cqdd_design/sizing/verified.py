@@ -7,7 +7,7 @@ with few gearboxes first, and choose clearances and reserves; then the whole ver
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -52,6 +52,14 @@ how often in all, and how often of the peak torque alone before."""
 _BY_FRICTION = {"EFFICIENCY", "MOTOR-PEAK", "MOTOR-CONTINUOUS", "THERMAL-RISE"}
 _NEEDLES_BRING = 0.8
 """Least margin of these lines from which needles under the output pins are tried."""
+_GOALS: Mapping[str, Goal] = {
+    "BACKLASH": "backlash",
+    "LOST-MOTION": "backlash",
+    "REFLECTED-INERTIA": "inertia",
+    "EFFICIENCY": "efficiency",
+}
+"""Lines that are asked for, and the goal of a search that meets them if any does."""
+_SUPPORT = "SUPPORT-STATIC"
 _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
 
@@ -129,9 +137,7 @@ def size_to_verdict(
                 last = judge(machine)
                 if last.meets == "yes":
                     return _verified(hunt, found, last, requirements, began)
-                if _needles_help(hunt, last):
-                    hunt.pins = (True,)
-                    progress("searching with the output pins on needles")
+                if _turned(hunt, last):
                     found = _or_weaker(hunt, lambda: lightest(hunt))
                     continue
                 step = _next_step(hunt, last)
@@ -358,8 +364,12 @@ def read_spread(
     share = machine.design.requirements.yield_share
     if len(numbers) >= share * count:
         return None
+    # No clearance makes a gearbox tighter or stiffer.
+    loose = any(fails.get(name, 0) > (1.0 - share) * count for name in ("backlash", "stiffness"))
     jams = max(one.lost for one in drawn)
-    if fails["bind"] + jams > 0.5 * (1.0 - share) * count:
+    # Half of what may fail, all of it where a backlash is asked for: clearance would cost that.
+    may = (0.5 if machine.design.requirements.backlash is None else 1.0) * (1.0 - share) * count
+    if not loose and fails["bind"] + jams > may:
         return _LEAST_STEP
     allowed = Allowed.of(machine, lines)
     assert allowed is not None
@@ -375,22 +385,29 @@ def read_spread(
         more = _SPARE * ratio
         reserve = torque_reserve(by_id[check], machine.design)
         hunt.extra[check] = reserve * (more**2 if check.startswith("CONTACT-") else more)
+    if loose:
+        return 0.0 if short else None
     return 0.0 if short else _LEAST_STEP
 
 
 def _next_step(hunt: Hunt, judged: Verdict) -> float | None:
     """What could bring a design that was judged nearer to a yes; see `read_spread`."""
     failing = {line.id for line in judged.lines if line.status in {"fail", "unknown"}}
-    if not failing <= {"YIELD", "THERMAL-CLEARANCE", "SUPPORT-STATIC"}:
+    if not failing <= {"YIELD", "THERMAL-CLEARANCE", _SUPPORT}:
         return None
-    if "SUPPORT-STATIC" in failing:
-        hunt.least_bore = 1.001 * judged.evidence.machine.cam.bore_diameter
+    if _SUPPORT in failing:
+        hunt.least_bore = _wider_bore(judged)
         return 0.0
     step = clearance_needed(judged.lines)
     if step > 0.0:
         return step
     machine, drawn = judged.evidence.machine, judged.evidence.drawn
     return None if drawn is None else read_spread(hunt, machine, drawn, judged.lines)
+
+
+def _wider_bore(judged: Verdict) -> float:
+    """Least bore of the next cam bearing, m, where the shaft's ends have no bearing that lasts."""
+    return 1.001 * judged.evidence.machine.cam.bore_diameter
 
 
 def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
@@ -404,6 +421,24 @@ def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
             for line in short
         )
     )
+
+
+def _turned(hunt: Hunt, judged: Verdict) -> bool:
+    """Whether the hunt now goes for other pins, or for what a design falls short of."""
+    if _needles_help(hunt, judged):
+        hunt.pins = (True,)
+        hunt.say("searching with the output pins on needles")
+        return True
+    failing = {line.id for line in judged.lines if line.status in {"fail", "unknown"}}
+    goals = [goal for name, goal in _GOALS.items() if name in failing and goal not in hunt.tried]
+    if not goals or not failing <= {*_GOALS, "YIELD", _SUPPORT} or goals[0] == hunt.goal:
+        return False
+    if _SUPPORT in failing:
+        hunt.least_bore = _wider_bore(judged)
+    hunt.goal, hunt.fit = goals[0], FITS[0]
+    hunt.tried.add(goals[0])
+    hunt.say(f"searching with {goals[0]} as the objective, which is asked for")
+    return True
 
 
 def _refused(judged: Verdict) -> SizingInfeasibleError:

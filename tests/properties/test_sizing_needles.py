@@ -22,7 +22,7 @@ from cqdd_design.sizing.points import Evaluator, Pins
 from cqdd_design.sizing.reserves import needle_reserves_per_radius, pin_reserves_per_radius
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.stage_tables import stage_tables
-from cqdd_design.sizing.verified import _again, _needles_help
+from cqdd_design.sizing.verified import _again, _needles_help, _turned, size_to_verdict
 from cqdd_design.verdict.headline import efficiency
 
 ASKED = {
@@ -198,3 +198,31 @@ def test_bare_pins_come_back_where_needles_leave_nothing(found):
 def test_both_kinds_are_tried_where_asked():
     kinds = [one.needles for one in spaces(asked(), FITS[0], (False, True))]
     assert kinds == [False, True]
+
+
+def test_a_search_turns_to_what_is_asked_for_and_not_met():
+    asks = hunt(asked(pin_material="Alloy steel 12.9 (ISO 7379)"), fit=FITS[3])
+    loose, heavy = Line("BACKLASH", 0.7), Line("MASS", 0.7)
+    assert not _turned(asks, Judged(loose, heavy))
+    assert (asks.goal, asks.fit) == ("mass", FITS[3])
+    assert _turned(asks, Judged(loose, Line("YIELD", 0.5)))
+    assert (asks.goal, asks.fit) == ("backlash", FITS[0])
+    # Once: what the best of that search does not meet is refused.
+    assert not _turned(asks, Judged(loose))
+    assert _turned(asks, Judged(loose, Line("EFFICIENCY", 0.5)))
+    assert asks.goal == "efficiency"
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(
+    ("more", "line"),
+    [
+        ({"efficiency": 0.80}, "EFFICIENCY"),
+        ({"peak_torque": "40 N*m", "backlash": "8 arcmin"}, "BACKLASH"),
+    ],
+)
+def test_what_is_asked_for_beyond_loads_is_searched_for(more, line):
+    """Both ended in refusals: of the pins' friction, and of ever wider clearances."""
+    done = size_to_verdict(asked(**more))
+    assert done.verdict.meets == "yes"
+    assert next(one for one in done.verdict.lines if one.id == line).status == "pass"
