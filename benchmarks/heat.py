@@ -19,7 +19,7 @@ from pathlib import Path
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.heat.network import Heat
 from cqdd_design.machine import Machine, resolve
-from cqdd_design.machine.temperatures import machine_temperatures
+from cqdd_design.machine.duty_heat import duty_cases, duty_heat
 from cqdd_design.machine.thermal_parts import NODES, machine_network
 
 REPOSITORY = Path(__file__).resolve().parents[1]
@@ -111,7 +111,7 @@ def ours(machine: Machine) -> dict[str, float]:
     losses, row = machine.losses, machine.motor
 
     def gearbox_rise(duty: bool) -> tuple[float, float]:
-        found = machine_temperatures(machine, duty=duty).duty
+        found = duty_heat(machine, duty_cases(machine, duty=duty))
         watts = found.heat.fixed.copy()
         watts[[winding, NODES.index("stator")]] = 0.0
         steady = network.steady(Heat.constant(watts))

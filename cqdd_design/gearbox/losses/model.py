@@ -366,7 +366,12 @@ def _finite(what: str, values: ArrayLike) -> FloatArray:
     return array
 
 
-def loss_model(model: ContactModel, machine: FrictionMachine, peak_torque: float) -> LossModel:
+def loss_model(
+    model: ContactModel,
+    machine: FrictionMachine,
+    peak_torque: float,
+    shares: Sequence[float] = TORQUE_SHARES,
+) -> LossModel:
     """Sweep a gearbox at a few torques up to its peak torque and read the friction of each.
 
     Parameters
@@ -375,6 +380,8 @@ def loss_model(model: ContactModel, machine: FrictionMachine, peak_torque: float
         Of the same design.
     peak_torque : float
         N m.
+    shares : sequence of float
+        Of the peak torque, rising: where it is swept.
 
     Raises
     ------
@@ -409,12 +416,13 @@ def loss_model(model: ContactModel, machine: FrictionMachine, peak_torque: float
         driving, driven = zip(*solved.values(), strict=True)
         return LossModel.from_sweeps(machine, driving, driven)
 
-    running = swept(TORQUE_SHARES, model.film_speed)
+    running = swept(shares, model.film_speed)
     found = lossy(running)
     if not any(model.by_film):
         return found
     given = list(running)
-    resting = swept([given[0], *given[1::_EVERY]], 0.0)
+    every = _EVERY if len(given) > _EVERY else 1
+    resting = swept([given[0], *given[1::every]], 0.0)
     rest = lossy(resting)
     # Where nothing is solved without load the least load stands for it.
     few = ([] if 0.0 in resting else [min(resting)]) + list(resting)
