@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,6 +16,7 @@ from cqdd_design.catalog.lubricants import find_lubricant, lubricants, walther_v
 from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import CqddError, DesignError, UsageError
+from cqdd_design.gearbox.checks.rubbing import rubbing_check
 from cqdd_design.gearbox.contact.films import SETTLED, hole_film, ring_film, travel
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, slip
@@ -26,6 +26,11 @@ from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.film import running as film_running
 from cqdd_design.gearbox.film.law import FilmLaw
 from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION, mixed_friction
+from cqdd_design.gearbox.film.plastics import (
+    RubbingPlastic,
+    rubbing_plastics,
+    sliding_plastics,
+)
 from cqdd_design.gearbox.film.wear import wear_depth
 from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.gearbox.losses import LossModel
@@ -33,6 +38,7 @@ from cqdd_design.gearbox.losses.machine import SOURCES, total
 from cqdd_design.gearbox.losses.rolling import seal_torque
 from cqdd_design.gearbox.tolerance import evaluate
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.verdict import judge
 
 S = load_design(Path(__file__).parents[2] / "designs" / "reference-s.toml")
 FILMS = {"reducer.friction.tooth": "film", "reducer.friction.pin": "film"}
@@ -329,27 +335,63 @@ def test_half_the_time_wears_half() -> None:
     assert half.disc_flank[0] == pytest.approx(0.5 * whole.disc_flank[0])
 
 
-def of_plastics(material: str) -> tuple[str, ...]:
-    design = resolve(S.replacing({"reducer.output_pins.material": material})).design
-    return film_running.plastics(design, ContactModel.from_design(design), swept(), FAST)
-
-
-def test_plastics_are_told_their_limit() -> None:
-    assert any("MPa m/s that it bears dry" in one for one in of_plastics("POM (acetal)"))
-    assert any("the catalogue has no limit of it" in one for one in of_plastics("PEEK"))
-    assert of_plastics("AISI 52100 / 100Cr6 hardened") == ()
+def of_plastics(**materials: str) -> tuple[RubbingPlastic, ...]:
+    keys = {"disc": "reducer.disc_material", "pin": "reducer.output_pins.material"}
+    changes = {keys[part]: name for part, name in materials.items()}
+    design = resolve(S.replacing(changes)).design
+    return rubbing_plastics(design, ContactModel.from_design(design), swept(), FAST)
 
 
 def test_plastics_are_pressed_by_the_mean_force_on_the_projected_area() -> None:
-    (said,) = [one for one in of_plastics("PEEK") if "output pins press" in one]
-    pressure, speed = (
-        float(one) for one in re.findall(r"with ([\d.]+) MPa at ([\d.]+) m/s", said)[0]
-    )
+    (found,) = of_plastics(pin="PEEK")
     pins = S.reducer.output_pins
     force = swept().pin_force.mean(axis=0).max()
     area = mean_pin_diameter(pins.diameter) * S.reducer.disc_thickness
-    assert pressure == pytest.approx(force / area / 1e6, rel=5e-3)
-    assert speed == pytest.approx(S.reducer.eccentricity * 1.1 * FAST, rel=5e-3)
+    assert found.pressure == pytest.approx(force / area, rel=1e-12)
+    assert found.speed == pytest.approx(S.reducer.eccentricity * 1.1 * FAST, rel=1e-12)
+    assert found.value == pytest.approx(found.pressure * found.speed)
+
+
+def test_what_rubs_is_judged_by_the_limit_of_its_plastic() -> None:
+    """0.167 MPa m/s of POM; PEEK has no row, and steel no line at all."""
+    assert of_plastics(pin="AISI 52100 / 100Cr6 hardened") == ()
+    (pom,) = of_plastics(pin="POM (acetal)")
+    check = rubbing_check((pom,), TORQUE)
+    assert (check.id, check.status) == ("PIN-RUBBING", "fail")
+    assert check.limit == pytest.approx(0.167)
+    assert check.value == pytest.approx(1e-6 * pom.pressure * pom.speed)
+    assert "Delrin" in check.source
+    assert rubbing_check((replace(pom, speed=0.999 * pom.limit / pom.pressure),), 1.0).satisfied
+    unknown = rubbing_check(of_plastics(pin="PEEK"), TORQUE)
+    assert (unknown.status, unknown.limit) == ("unknown", None)
+    assert "no limit of it" in unknown.substituted
+    # Of two the one beyond its limit is told, then the one whose limit is not known.
+    both = of_plastics(disc="POM (acetal)", pin="PEEK")
+    assert rubbing_check(both, TORQUE).status == "fail"
+    slow = tuple(replace(one, speed=1e-9) for one in both)
+    assert rubbing_check(slow, TORQUE).status == "unknown"
+
+
+def test_under_plain_sleeves_the_pin_rubs_and_on_needles_nothing_does() -> None:
+    plastics = {"reducer.disc_material": "POM (acetal)", "reducer.output_pins.material": "PA66"}
+    sleeved = S.replacing(plastics | {"reducer.output_pins.sleeve_diameter": 6e-3})
+    design = resolve(sleeved).design
+    (found,) = rubbing_plastics(design, ContactModel.from_design(design), swept(), FAST)
+    assert found.material == "PA66"
+    (bare,) = of_plastics(pin="PA66")
+    diameter = mean_pin_diameter(S.reducer.output_pins.diameter)
+    assert found.speed == pytest.approx(bare.speed * diameter / 6e-3, rel=1e-9)
+    printed = resolve(load_design(Path(__file__).parents[2] / "designs" / "printed-13.toml"))
+    assert sliding_plastics(printed.design, printed.contact) == ()
+
+
+def test_a_verdict_has_the_line_of_what_slides() -> None:
+    mild = {"requirements.peak_torque": 4.0, "requirements.continuous_torque": 2.0}
+    pins = resolve(S.replacing({**mild, "reducer.output_pins.material": "PEEK"}))
+    lines = {one.id: one for one in judge(replace(pins, stiff=True), samples=0).lines}
+    assert lines["PIN-RUBBING"].status == "unknown"
+    steel = judge(replace(resolve(S.replacing(mild)), stiff=True), samples=0)
+    assert "PIN-RUBBING" not in {one.id for one in steel.lines}
 
 
 def test_no_band_of_wear_is_told_of_plastics() -> None:
