@@ -337,6 +337,28 @@ def refuse_variation(orders: IntArray, cosine: FloatArray, sine: FloatArray) -> 
         _refuse("gear", "stiffness_cosine", swing, "below 1 in sum", "lower the variation")
 
 
+SENSOR_TWIST = 4e-3
+"""Of a torque sensor at its rated torque, rad: a shaft of two diameters' length whose surface
+shears by 1e-3, as strain gauges for 2 mV/V want."""
+
+
+@dataclass(frozen=True)
+class RigParameters:
+    """What holds the output on a test bench, and is no part of the actuator.
+
+    Attributes
+    ----------
+    stiffness : float
+        N m/rad; 0 for that of a torque sensor rated for what the driver's limit gives.
+    """
+
+    stiffness: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Refuse a stiffness below zero."""
+        _not_negative(self, "rig", "stiffness")
+
+
 @dataclass(frozen=True, eq=False)
 class ActuatorParameters:
     """Everything that a simulation, the bench and the exporters read.
@@ -350,6 +372,8 @@ class ActuatorParameters:
         "calibrated", with a remark.
     fitted : tuple of str
         Measurements of the bench that values were fitted to, so that they predict nothing.
+    rig : RigParameters
+        Of the bench that it is held on.
     """
 
     name: str
@@ -361,6 +385,7 @@ class ActuatorParameters:
     mass: float
     origins: dict[str, str] = field(default_factory=dict)
     fitted: tuple[str, ...] = ()
+    rig: RigParameters = RigParameters()
 
     def __post_init__(self) -> None:
         """Refuse a motor side without inertia, or without mass."""
@@ -374,6 +399,11 @@ class ActuatorParameters:
     def torque_limit(self) -> float:
         """What the driver's current gives at the joint if nothing rubs, N m."""
         return self.motor.torque_constant * self.drive.current_limit * abs(self.gear.ratio)
+
+    @property
+    def sensor_stiffness(self) -> float:
+        """Of a torque sensor rated for `torque_limit`, N m/rad."""
+        return self.torque_limit / SENSOR_TWIST
 
     @property
     def motor_side_inertia(self) -> float:
