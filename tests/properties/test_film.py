@@ -19,10 +19,15 @@ from cqdd_design.errors import CqddError, DesignError, UsageError
 from cqdd_design.gearbox.checks.rubbing import rubbing_check
 from cqdd_design.gearbox.contact.films import SETTLED, hole_film, ring_film, travel
 from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, slip
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import NominalStates, nominal_states
-from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.gearbox.contact.sweep import (
+    contact_sweep,
+    output_turn_angles,
+    perfect_angles,
+)
 from cqdd_design.gearbox.film import running as film_running
 from cqdd_design.gearbox.film.law import FilmLaw
 from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION, mixed_friction
@@ -37,6 +42,7 @@ from cqdd_design.gearbox.losses import LossModel
 from cqdd_design.gearbox.losses.machine import SOURCES, total
 from cqdd_design.gearbox.losses.rolling import seal_torque
 from cqdd_design.gearbox.tolerance import evaluate
+from cqdd_design.gearbox.tolerance.draws import draw_errors
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.verdict import judge
 
@@ -288,6 +294,52 @@ def test_seal_friction_is_the_published_formula() -> None:
     """d_s 29 mm: 0.028 x 29^2.25 + 2 N mm."""
     assert 1e3 * seal_torque(20e-3, 47e-3) == pytest.approx(0.028 * 29.0**2.25 + 2.0)
     assert 1e3 * seal_torque(60e-3, 90e-3) == pytest.approx(0.018 * 70.0**2.25 + 15.0)
+
+
+@pytest.mark.parametrize("torque", [34.2, 90.0])
+def test_gearboxes_of_an_ensemble_hardly_know_that_their_films_are_a_mean(torque: float) -> None:
+    """Toleranced gearboxes by films of their own, and by the perfect one's mean coefficients.
+
+    The bounds are those that docs/assumptions.md states.
+    """
+    made = replace(machine(), stiff=True)
+    model = made.contact
+    held = replace(model, pin=None)
+    angles = output_turn_angles(model, 220)
+    perfect = contact_sweep(
+        held, torque, perfect_angles(held, 48), friction=ContactFriction.of(held, "drive")
+    )
+    mean = ContactFriction("drive", *perfect.mean_friction)
+    drawn = draw_errors(model, made.design.tolerances, 3, 0, 8)
+
+    def figures(errors: GearboxErrors, friction: ContactFriction | None) -> np.ndarray:
+        found = contact_sweep(model, torque, angles, errors=errors, friction=friction)
+        sense = 1.0 if friction is None else friction.crank_sense(torque)
+        return np.array(
+            [
+                found.ring_force.max(),
+                found.maxima["ring_pressure_max_MPa"],
+                found.maxima["cam_bearing_load_max_N"],
+                found.pin_force.max(),
+                found.friction_work.mean(),
+                np.ptp(found.carrier_angle_error),
+                np.ptp(found.contact_slope + sense * found.friction_work),
+            ]
+        )
+
+    films = ContactFriction.of(model, "drive")
+    off = np.array(
+        [figures(drawn.one(k), mean) / figures(drawn.one(k), films) - 1.0 for k in range(8)]
+    )
+    forces, work, error, ripple = off[:, :4], off[:, 4], off[:, 5], off[:, 6]
+    assert np.abs(forces).max() < 0.005
+    assert np.abs(work).max() < 0.005
+    assert np.abs(error).max() < 0.02
+    assert -0.02 < ripple.min() < ripple.max() < 0.12
+    # And not because there is nothing to see: films differ from contact to contact.
+    assert perfect.friction is not None
+    assert perfect.friction.felt is not None
+    assert np.ptp(perfect.friction.felt.coefficient) > 0.01
 
 
 # --- wear and plastics ----------------------------------------------------------------------------
