@@ -14,7 +14,13 @@ from cqdd_design.errors import ContactError, DesignError, GeometryError
 from cqdd_design.gearbox.checks.allowables import GREASE_MOST, HOUSING_MOST
 from cqdd_design.gearbox.checks.heat import Tightness, WarmPart, clearance_check, rise_check
 from cqdd_design.gearbox.heat.cycle import settled_cycle
-from cqdd_design.gearbox.heat.expansion import AS_DRAWN, COLDEST, HOTTEST, PartTemperatures
+from cqdd_design.gearbox.heat.expansion import (
+    AS_DRAWN,
+    COLDEST,
+    HOTTEST,
+    PartTemperatures,
+    part_materials,
+)
 from cqdd_design.gearbox.heat.network import ThermalNetwork
 from cqdd_design.gearbox.precision.backlash import Backlash, backlash
 from cqdd_design.geometry.contours import FloatArray
@@ -297,12 +303,23 @@ def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
         When the thermal expansion of a part is not known.
     """
     at = by_node(found.steady)
+    at["pin"] = at["carrier"]
     housing = find_material(found.machine.design.housing.material).service_limit
     greased = max(("ring", "disc", "shaft", "carrier"), key=at.__getitem__)
+    bears = {
+        part: find_material(name).service_limit
+        for part, name in part_materials(found.machine.design).items()
+    }
     parts = (
         WarmPart("winding", found.hottest("winding"), found.machine.motor.winding_most),
         WarmPart(f"grease at the {greased}", at[greased], GREASE_MOST),
         WarmPart("housing", at["housing"], HOUSING_MOST if housing is None else housing),
+        # Of the greased parts those that give way before their grease does.
+        *(
+            WarmPart(part, at[part], most)
+            for part, most in bears.items()
+            if most is not None and most < GREASE_MOST
+        ),
     )
     heat, as_drawn = (
         float(one.heat.at(found.steady).sum()) for one in (found.duty, found.as_drawn)

@@ -302,6 +302,18 @@ def test_where_warm_parts_have_no_losses_nothing_passes(
     assert [one.status for one in heat_checks(hot)] == ["fail", "fail"]
 
 
+def test_a_printed_part_gives_way_before_its_grease(machine: Machine) -> None:
+    """Ring and discs of PC with carbon fibre bear 110 deg C, where the grease bears 120."""
+    printed = load_design(DESIGN_S.with_name("printed-13.toml"))
+    found = machine_temperatures(resolve(printed))
+    ring = found.steady[NODES.index("ring")]
+    assert 110.0 < ring < 120.0
+    rise = heat_checks(found)[0]
+    assert (rise.status, rise.limit) == ("fail", 110.0)
+    assert rise.value == pytest.approx(ring)
+    assert f"ring {ring:.0f} of 110" in rise.substituted
+
+
 def test_a_little_torque_of_a_steel_machine_passes_both(machine: Machine) -> None:
     light = resolve(
         machine.given.replacing(
