@@ -26,6 +26,7 @@ from cqdd_design.actuator.bench.locked import (
 from cqdd_design.actuator.bench.metric import is_near
 from cqdd_design.actuator.bench.readings import FrictionLine, LoopReading, read_friction, read_loop
 from cqdd_design.actuator.bench.run import run_bench
+from cqdd_design.actuator.bench.unknowns import UNKNOWNS
 from cqdd_design.actuator.build import actuator_parameters, motor_and_drive
 from cqdd_design.actuator.parameters import MotorParameters
 from cqdd_design.actuator.specimen import AS_DRAWN
@@ -298,11 +299,13 @@ FILMS = {"reducer.friction.tooth": "film", "reducer.friction.pin": "film"}
 
 
 def paper_table() -> str:
-    """The paper's bench without any fit, by films, and with at most three fitted rows."""
+    """The paper's bench without any fit, by films, and with three fitted rows."""
     from cqdd_design.roads.bench import bench
+    from cqdd_design.roads.calibrate import PAPER_ROWS, calibrate
 
-    found = papers_fit()
-    films = bench(load_design(DESIGN.parent / "cqdd-10.toml").replacing(FILMS))
+    paper = load_design(DESIGN.parent / "cqdd-10.toml")
+    found = calibrate(paper, to=(*PAPER_ROWS, "torque_bandwidth"))
+    films = bench(paper.replacing(FILMS))
     rows: list[str] = []
     near: tuple[list[str], list[str]] = ([], [])
     for row in found.rows:
@@ -320,9 +323,12 @@ def paper_table() -> str:
             if value is not None and is_near(row.unit, value, row.measured):
                 names.append(f"`{row.name}`")
     alone, by_films = (", ".join(names) or "none" for names in near)
+    fitted = (f"`{name}` {UNKNOWNS[name].told(value)}" for name, value in found.factors.items())
     told = (
         f"Without any fit within 20 % (efficiency: 5 points), given rows apart: {alone}. "
-        f"By films: {by_films}."
+        f"By films: {by_films}. With the fit, of rows that it predicts: "
+        f"{', '.join(f'`{row.name}`' for row in found.within)}. Fitted: "
+        f"{', '.join(fitted)}."
     )
     head = "| row | unit | paper | no fit | off | films | off | fitted | off | agreement is |"
     return f"{_table(head, rows)}\n\n{told}"
