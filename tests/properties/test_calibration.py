@@ -70,6 +70,8 @@ def test_unknowns_lie_in_ranges_of_this_motor(actuator: ActuatorParameters) -> N
     assert ranges["current_loop"] == (0.01, 100.0)
     least, most = ranges["rig_stiffness"]
     assert least < UNKNOWNS["rig_stiffness"].start(actuator) < actuator.sensor_stiffness < most
+    # A sensor that twists 4 mrad at what it is rated for.
+    assert actuator.sensor_stiffness * 4e-3 == pytest.approx(actuator.torque_limit)
     # A motor of which nothing is known begins within the range too.
     bare = dataclasses.replace(motor, coulomb=0.0, rated_torque=math.nan)
     unknown = dataclasses.replace(actuator, motor=bare)
