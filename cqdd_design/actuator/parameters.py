@@ -19,6 +19,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.actuator.rig import SENSOR_TWIST, RigParameters
 from cqdd_design.catalog.motors import WINDING_MOST
 from cqdd_design.errors import DesignError
 
@@ -337,28 +338,6 @@ def refuse_variation(orders: IntArray, cosine: FloatArray, sine: FloatArray) -> 
         _refuse("gear", "stiffness_cosine", swing, "below 1 in sum", "lower the variation")
 
 
-SENSOR_TWIST = 4e-3
-"""Of a torque sensor at its rated torque, rad: a shaft of two diameters' length whose surface
-shears by 1e-3, as strain gauges for 2 mV/V want."""
-
-
-@dataclass(frozen=True)
-class RigParameters:
-    """What holds the output on a test bench, and is no part of the actuator.
-
-    Attributes
-    ----------
-    stiffness : float
-        N m/rad; 0 for that of a torque sensor rated for what the driver's limit gives.
-    """
-
-    stiffness: float = 0.0
-
-    def __post_init__(self) -> None:
-        """Refuse a stiffness below zero."""
-        _not_negative(self, "rig", "stiffness")
-
-
 @dataclass(frozen=True, eq=False)
 class ActuatorParameters:
     """Everything that a simulation, the bench and the exporters read.
@@ -385,7 +364,7 @@ class ActuatorParameters:
     mass: float
     origins: dict[str, str] = field(default_factory=dict)
     fitted: tuple[str, ...] = ()
-    rig: RigParameters = RigParameters()
+    rig: RigParameters = field(default_factory=RigParameters)
 
     def __post_init__(self) -> None:
         """Refuse a motor side without inertia, or without mass."""
