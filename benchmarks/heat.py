@@ -1,10 +1,11 @@
 """Losses, temperature rise, the motor's ceiling and a four-point duty beside cycloidgen 8.0.0.
 
-    python benchmarks/heat.py --cycloidgen PYTHON
+    python benchmarks/heat.py --cycloidgen PYTHON [--write]
 
 Both judge the same three designs in one run, with plain friction of 0.08 and no lubricant film, so
 that what differs are the forces and the way heat takes. Differences above 20 % are explained by the
-table itself, row by row. `--cycloidgen` names the Python of an environment that has it installed.
+table itself, row by row. `--cycloidgen` names the Python of an environment that has it installed;
+`--write` puts the table into docs/benchmarks.md.
 """
 
 from __future__ import annotations
@@ -16,15 +17,23 @@ import subprocess
 import sys
 from pathlib import Path
 
+from processes import write_section
+
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.heat.network import Heat
 from cqdd_design.machine import Machine, resolve
-from cqdd_design.machine.temperatures import machine_temperatures
+from cqdd_design.machine.duty_heat import duty_cases, duty_heat
 from cqdd_design.machine.thermal_parts import NODES, machine_network
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 PEER = REPOSITORY / "benchmarks" / "cycloidgen_heat.py"
 RPM = math.pi / 30.0
+HEADING = "## Losses, heat and the motor's ceiling beside cycloidgen 8.0.0"
+WORDS = """\
+The same plain friction of 0.08 on both sides, losses of parts as drawn; rises are of the gearbox's
+heat alone. The duty has four points: all of the continuous torque at all of the speed for a fifth
+of the time, half at all, a quarter at half, and three quarters at a quarter. S/4 is S at 10 N·m and
+42 rad/s. What differs by more than a fifth is explained in its row."""
 SHARES = ((1.0, 1.0, 0.2), (0.5, 1.0, 0.3), (0.25, 0.5, 0.3), (0.75, 0.25, 0.2))
 """Of continuous torque and output speed, and of the time."""
 
@@ -111,7 +120,7 @@ def ours(machine: Machine) -> dict[str, float]:
     losses, row = machine.losses, machine.motor
 
     def gearbox_rise(duty: bool) -> tuple[float, float]:
-        found = machine_temperatures(machine, duty=duty).duty
+        found = duty_heat(machine, duty_cases(machine, duty=duty))
         watts = found.heat.fixed.copy()
         watts[[winding, NODES.index("stator")]] = 0.0
         steady = network.steady(Heat.constant(watts))
@@ -141,26 +150,44 @@ def ours(machine: Machine) -> dict[str, float]:
     }
 
 
-def main() -> int:
-    """Print the table."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
-    parser.add_argument("--cycloidgen", metavar="PYTHON", required=True)
-    python = parser.parse_args().cycloidgen
+def table(python: str) -> list[str] | str:
+    """Lines of the table, or what cycloidgen's side said where it failed."""
     machines = [(name, resolve(design)) for name, design in designs()]
     asked = json.dumps([given(machine.design, machine) for _, machine in machines])
     done = subprocess.run(
         [python, str(PEER)], input=asked, capture_output=True, text=True, check=False
     )
     if done.returncode:
-        print(done.stderr, file=sys.stderr)
-        return 1
-    print("| design | figure | here | cycloidgen | difference | why |")
-    print("|---|---|---|---|---|---|")
+        return done.stderr
+    lines = [
+        "| design | figure | here | cycloidgen | difference | why |",
+        "|---|---|---|---|---|---|",
+    ]
     for (name, machine), theirs in zip(machines, json.loads(done.stdout), strict=True):
         for key, value in ours(machine).items():
             off = value / theirs[key] - 1.0
             why = WHY[key] if abs(off) > 0.2 else ""
-            print(f"| {name} | {key} | {value:.3g} | {theirs[key]:.3g} | {off:+.0%} | {why} |")
+            lines.append(
+                f"| {name} | `{key}` | {value:.3g} | {theirs[key]:.3g} | {off:+.0%} | {why} |"
+            )
+    return lines
+
+
+def main() -> int:
+    """Print or write the table."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("--cycloidgen", metavar="PYTHON", required=True)
+    parser.add_argument("--write", action="store_true")
+    asked = parser.parse_args()
+    found = table(asked.cycloidgen)
+    if isinstance(found, str):
+        print(found, file=sys.stderr)
+        return 1
+    text = "\n".join([*WORDS.splitlines(), "", *found])
+    if asked.write:
+        write_section("heat", "heat.py", HEADING, text + "\n")
+    else:
+        print(text)
     return 0
 
 

@@ -336,6 +336,7 @@ def measured_page() -> str:
 
     tables = {
         "paper": measured.paper_table,
+        "paper parts": measured.paper_parts_table,
         "records": measured.read_table,
         "loops": measured.loop_table,
         "friction": measured.friction_table,

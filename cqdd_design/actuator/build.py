@@ -26,7 +26,7 @@ from cqdd_design.catalog.motors import DRAG, Motor
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError, GeometryError
 from cqdd_design.machine import Machine
-from cqdd_design.machine.temperatures import cooled_network, two_nodes
+from cqdd_design.machine.cooling import cooled_network, two_nodes
 from cqdd_design.machine.thermal_parts import COPPER_HEAT, WINDING_SHARE
 from cqdd_design.solids.inertia import GROUPS, ROTOR_SCOPE, GearboxInertia
 

@@ -17,10 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.actuator.parameters import DriveParameters, FloatArray, MotorParameters
-from cqdd_design.catalog.motors import CONVENTIONS, COPPER_COEFFICIENT
-
-MAGNET_COEFFICIENT = 0.0011
-"""Fall of the flux of NdFeB per kelvin (remanence of common grades: 0.09 to 0.12 % a kelvin)."""
+from cqdd_design.catalog.motors import CONVENTIONS, COPPER_COEFFICIENT, MAGNET_COEFFICIENT
 
 
 def motor_constants(torque_constant: float) -> dict[str, float]:

@@ -19,6 +19,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.actuator.rig import SENSOR_TWIST, RigParameters
 from cqdd_design.catalog.motors import WINDING_MOST
 from cqdd_design.errors import DesignError
 
@@ -350,6 +351,8 @@ class ActuatorParameters:
         "calibrated", with a remark.
     fitted : tuple of str
         Measurements of the bench that values were fitted to, so that they predict nothing.
+    rig : RigParameters
+        Of the bench that it is held on.
     """
 
     name: str
@@ -361,6 +364,7 @@ class ActuatorParameters:
     mass: float
     origins: dict[str, str] = field(default_factory=dict)
     fitted: tuple[str, ...] = ()
+    rig: RigParameters = field(default_factory=RigParameters)
 
     def __post_init__(self) -> None:
         """Refuse a motor side without inertia, or without mass."""
@@ -374,6 +378,11 @@ class ActuatorParameters:
     def torque_limit(self) -> float:
         """What the driver's current gives at the joint if nothing rubs, N m."""
         return self.motor.torque_constant * self.drive.current_limit * abs(self.gear.ratio)
+
+    @property
+    def sensor_stiffness(self) -> float:
+        """Of a torque sensor rated for `torque_limit`, N m/rad."""
+        return self.torque_limit / SENSOR_TWIST
 
     @property
     def motor_side_inertia(self) -> float:

@@ -29,6 +29,8 @@ COPPER_COEFFICIENT = 0.0039
 """Rise of copper's resistance per kelvin, at 25 deg C."""
 COPPER_REFERENCE = 25.0
 """Temperature at which a catalogue's resistance holds, deg C."""
+MAGNET_COEFFICIENT = 0.0011
+"""Fall of the flux of NdFeB per kelvin (remanence of common grades: 0.09 to 0.12 % a kelvin)."""
 WINDING_MOST = 120.0
 """Winding, deg C: class E of IEC 60085, which enamelled wire and bonded magnets of robot motors
 keep."""

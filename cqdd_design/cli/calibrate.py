@@ -43,7 +43,8 @@ def calibrate(
         option(
             "NAMES",
             "What to fit: thermal_resistance, motor_cogging, motor_coulomb, motor_viscous, "
-            "friction_load, current_loop, tolerance_scale; default what the rows decide.",
+            "friction_load, current_loop, rig_stiffness, tolerance_scale; default what the rows "
+            "decide.",
         ),
     ] = None,
     voltage: BenchSupply = None,

@@ -1,7 +1,8 @@
-"""numba, with a cache of compiled kernels that may be spoilt: such a kernel is compiled anew.
+"""numba, with a cache of compiled kernels that may be spoilt or old: these are compiled anew.
 
 numba keeps what it compiled in files, which a full disk or a killed process leaves damaged, and
-believes whatever it finds there. Kernels import numba from here.
+believes whatever it finds there, though what was compiled into a kernel has changed in another
+file. Kernels import numba from here.
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from typing import Any
 import numba
 from numba.core.caching import FunctionCache
 
+from cqdd_design.files.kernel_stamp import kernel_stamp
+
 __all__ = ["numba"]
 
 _log = logging.getLogger("cqdd_design")
@@ -21,15 +24,17 @@ _log = logging.getLogger("cqdd_design")
 def _guard() -> None:
     """Let this package's kernels survive what cannot be loaded; other packages' are left alone."""
     load: Any = FunctionCache.load_overload
+    save: Any = FunctionCache.save_overload
 
     @functools.wraps(load)
     def guarded(cache: Any, signature: Any, context: Any) -> Any:
+        kernel = cache._py_func
+        if not kernel.__module__.startswith("cqdd_design."):
+            return load(cache, signature, context)
+        _stamp(cache)
         try:
             return load(cache, signature, context)
         except Exception as error:
-            kernel = cache._py_func
-            if not kernel.__module__.startswith("cqdd_design."):
-                raise
             _log.warning(
                 "the compiled kernel %s in %s is spoilt (%s); compiling it anew",
                 kernel.__name__,
@@ -39,7 +44,20 @@ def _guard() -> None:
             cache.flush()
             return None
 
+    @functools.wraps(save)
+    def stamped(cache: Any, signature: Any, data: Any) -> Any:
+        if cache._py_func.__module__.startswith("cqdd_design."):
+            _stamp(cache)
+        return save(cache, signature, data)
+
     FunctionCache.load_overload = guarded  # type: ignore[method-assign]
+    FunctionCache.save_overload = stamped  # type: ignore[method-assign]
+
+
+def _stamp(cache: Any) -> None:
+    """Keep a kernel as long as all that is in it stays; asked when all of its module is there."""
+    if not isinstance(cache._cache_file._source_stamp, str):
+        cache._cache_file._source_stamp = kernel_stamp(cache._py_func)
 
 
 _guard()

@@ -1,7 +1,7 @@
 """What a duty loses, and where: gearbox, copper and the motor's own drag.
 
-Losses are those of the gearbox as drawn, at 20 deg C: what warmth changes about them, preload above
-all, is not fed back. Half of what rubs between two parts warms either of them.
+Losses are those of the machine that is given, at the temperatures of its parts. Half of what rubs
+between two parts warms either of them.
 """
 
 from __future__ import annotations
@@ -16,12 +16,14 @@ from numpy.typing import ArrayLike
 from cqdd_design.catalog.motors import (
     COPPER_COEFFICIENT,
     COPPER_REFERENCE,
+    MAGNET_COEFFICIENT,
     Motor,
 )
 from cqdd_design.design.duty_log import DutyLog
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.heat.network import Heat
 from cqdd_design.gearbox.losses.machine import SOURCES
+from cqdd_design.gearbox.losses.model import LossModel
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.thermal_parts import Node, node_values
@@ -83,13 +85,15 @@ def duty_cases(machine: Machine, *, duty: bool = True) -> tuple[DutyCase, ...]:
     return (DutyCase(asked.continuous_torque, asked.held_speed, 1.0),)
 
 
-def duty_heat(machine: Machine, cases: Iterable[DutyCase]) -> DutyHeat:
+def duty_heat(
+    machine: Machine, cases: Iterable[DutyCase], magnets: float = COPPER_REFERENCE
+) -> DutyHeat:
     """Mean heat of a duty in every node.
 
-    The motor is a DC machine, K as the catalogue's: copper heats its winding, and its own drag, of
-    iron above all, the stator. Where the output drives, the gearbox loses what being driven takes,
-    spread over its parts as while driving, and the motor brakes what losses leave, or pushes where
-    they take more than the output gives.
+    The motor is a DC machine, K that of its magnets at a temperature (deg C): copper heats its
+    winding, and its own drag, of iron above all, the stator. Where the output drives, the gearbox
+    loses what being driven takes, spread over its parts as while driving, and the motor brakes what
+    losses leave, or pushes where they take more than the output gives.
 
     Raises
     ------
@@ -99,12 +103,14 @@ def duty_heat(machine: Machine, cases: Iterable[DutyCase]) -> DutyHeat:
         When the gearbox has no equilibrium.
     """
     torque, speed, share = (np.array(column) for column in zip(*cases, strict=True))
-    points = _points(machine, torque, speed)
+    points = _points(machine, machine.losses_at(torque.tolist()), torque, speed, magnets)
     return _mean(machine, *(np.asarray(share @ column) for column in points))
 
 
-def logged_heat(machine: Machine, log: DutyLog) -> tuple[FloatArray, Heat, DutyHeat]:
-    """Heat of a duty over time, row by row.
+def logged_heat(
+    machine: Machine, log: DutyLog, magnets: float = COPPER_REFERENCE
+) -> tuple[FloatArray, Heat, DutyHeat]:
+    """Heat of a duty over time, row by row; magnets at a temperature, deg C.
 
     Returns
     -------
@@ -119,7 +125,7 @@ def logged_heat(machine: Machine, log: DutyLog) -> tuple[FloatArray, Heat, DutyH
     DesignError, ContactError
         As `duty_heat`.
     """
-    steps, *columns = _over_time(machine, log)
+    steps, *columns = _over_time(machine, log, magnets)
     whole = (np.asarray(steps @ column) / log.cycle_time for column in columns)
     return steps, _heat(machine, *columns), _mean(machine, *whole)
 
@@ -143,10 +149,12 @@ def _heat(machine: Machine, gearbox: FloatArray, drag: FloatArray, squared: Floa
     )
 
 
-def _points(machine: Machine, torque: FloatArray, speed: FloatArray) -> _Points:
+def _points(
+    machine: Machine, losses: LossModel, torque: FloatArray, speed: FloatArray, magnets: float
+) -> _Points:
     """What operating points lose: torques at the output, speeds of the input, with their signs."""
-    constant, _ = _winding(machine)
-    losses, n = machine.losses, machine.design.reducer.ratio
+    constant, n = _winding(machine)[0], machine.design.reducer.ratio
+    constant *= 1.0 - MAGNET_COEFFICIENT * (magnets - COPPER_REFERENCE)
     driving = losses.crank_torque(speed, torque, "drive")
     taken = driving.sum(axis=-1)
     backward = losses.crank_torque(speed, torque, "backdrive").sum(axis=-1)
@@ -160,7 +168,7 @@ def _points(machine: Machine, torque: FloatArray, speed: FloatArray) -> _Points:
 
 
 def _over_time(
-    machine: Machine, log: DutyLog
+    machine: Machine, log: DutyLog, magnets: float
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Steps of the cycle, s, and the means of `_points` in each; rows are taken piece by piece."""
     n = machine.design.reducer.ratio
@@ -171,7 +179,7 @@ def _over_time(
     sums = np.zeros((_WINDOWS, len(SOURCES) + 2))
     for begin in range(0, len(between), _PIECE):
         rows = slice(begin, begin + _PIECE + 1)
-        points = _points(machine, log.torque[rows], n * log.speed[rows])
+        points = _points(machine, machine.losses, log.torque[rows], n * log.speed[rows], magnets)
         table = np.column_stack(points)
         here = slice(begin, begin + len(table) - 1)
         lost = 0.5 * (table[1:] + table[:-1]) * between[here, None]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -33,6 +33,10 @@ if TYPE_CHECKING:
     from cqdd_design.machine.capacity import LoadedContacts
     from cqdd_design.results import MassProperties
     from cqdd_design.solids.inertia import GearboxInertia
+
+
+_FEW_TORQUES = 6
+"""Up to which the losses of a duty are swept at its own torques."""
 
 
 class Cooling(NamedTuple):
@@ -261,6 +265,16 @@ class Machine:
         from cqdd_design.gearbox.losses import loss_model
 
         return loss_model(self.contact, self.friction, self.design.requirements.peak_torque)
+
+    def losses_at(self, torques: Iterable[float]) -> LossModel:
+        """As `losses`, but of warm parts swept at these torques alone, N m, where they are few."""
+        from cqdd_design.gearbox.losses import loss_model
+
+        peak = self.design.requirements.peak_torque
+        shares = sorted({abs(torque) / peak for torque in torques})
+        if self.temperatures is None or len(shares) > _FEW_TORQUES:
+            return self.losses
+        return loss_model(self.contact, self.friction, peak, shares)
 
 
 def resolve(design: Design, motor: Motor | None = None) -> Machine:

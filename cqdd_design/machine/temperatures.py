@@ -3,127 +3,52 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import NamedTuple
 
 import numpy as np
 
 from cqdd_design.catalog.materials import find_material
-from cqdd_design.catalog.motors import WINDING_MOST
+from cqdd_design.catalog.motors import COPPER_REFERENCE
 from cqdd_design.errors import ContactError, DesignError, GeometryError
 from cqdd_design.gearbox.checks.allowables import GREASE_MOST, HOUSING_MOST
 from cqdd_design.gearbox.checks.heat import Tightness, WarmPart, clearance_check, rise_check
 from cqdd_design.gearbox.heat.cycle import settled_cycle
-from cqdd_design.gearbox.heat.expansion import AS_DRAWN, COLDEST, HOTTEST, PartTemperatures
-from cqdd_design.gearbox.heat.network import Heat, ThermalNetwork
+from cqdd_design.gearbox.heat.expansion import (
+    AS_DRAWN,
+    COLDEST,
+    HOTTEST,
+    PartTemperatures,
+    part_materials,
+)
+from cqdd_design.gearbox.heat.network import ThermalNetwork
 from cqdd_design.gearbox.precision.backlash import Backlash, backlash
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.machine.cooling import cooled_network, two_nodes
 from cqdd_design.machine.duty_heat import DutyHeat, duty_cases, duty_heat, logged_heat
 from cqdd_design.machine.machine import Machine
+from cqdd_design.machine.settling import (
+    gearbox_parts,
+    hottest_part,
+    magnets_at,
+    settle,
+    within_reach,
+)
 from cqdd_design.machine.thermal_parts import (
     NODES,
     Node,
     by_node,
-    machine_network,
-    node_values,
-    scaled,
 )
 from cqdd_design.results import Check
 
-_MOST_FACTOR = 1e3
-_HALVINGS = 60
-_WATTS = 1e-3, 1e5
-"""Between which the heat lies that takes a winding to its limit."""
 _GAP_ANGLES = 90
 _TIMES = 48
-_EDGE = 1e-6
-"""Kept off the end of the range of temperatures, K, for rounding."""
 _LEAST_TIME, _SETTLED = 5.0, 6.0
 """First time of a history, s, and its last over the slowest time constant."""
 _SHOWN = 200
 """Times of a duty's cycle in JSON."""
 _LOOKS = 6
 """States on the way from the coldest start at which clearances are looked at."""
-
-
-class TwoNodes(NamedTuple):
-    """The network reduced to winding and housing, K/W and J/K."""
-
-    winding_to_housing: float
-    housing_to_ambient: float
-    winding_capacity: float
-    housing_capacity: float
-
-
-@lru_cache(maxsize=2)
-def cooled_network(machine: Machine) -> ThermalNetwork:
-    """The machine's network; a stated resistance, winding to ambient, holds in it.
-
-    A stated resistance holds with the winding at its limit by its own heat alone. All actuators
-    that are drawn of a machine ask for it, so the last are kept.
-
-    Raises
-    ------
-    GeometryError, DesignError
-        As :func:`.thermal_parts.machine_network`.
-    """
-    network = machine_network(machine)
-    stated, most = machine.cooling.value, machine.motor.winding_most
-    if stated == 0.0:
-        return network
-    watts = (most - network.ambient) / stated
-    heat = Heat.constant(node_values({"winding": watts}))
-    w = NODES.index("winding")
-
-    def warm(one: ThermalNetwork) -> bool:
-        return bool(one.steady(heat)[w] > most)
-
-    best = scaled(network, _MOST_FACTOR)
-    if not warm(best):
-        enough = _halved(lambda x: warm(scaled(network, x)), 1.0 / _MOST_FACTOR, _MOST_FACTOR)
-        return scaled(network, enough)
-
-    # Colder than its own copper and iron allow: everything conducts better.
-    def all_better(factor: float) -> ThermalNetwork:
-        conducts = factor * best.conductance
-        return replace(best, conductance=conducts, cooling=factor * best.cooling)
-
-    return all_better(_halved(lambda x: warm(all_better(x)), 1.0, _MOST_FACTOR))
-
-
-def _halved(too_small: Callable[[float], bool], least: float, most: float) -> float:
-    """Where a number is enough, by halving its logarithm."""
-    for _ in range(_HALVINGS):
-        middle = math.sqrt(least * most)
-        least, most = (middle, most) if too_small(middle) else (least, middle)
-    return math.sqrt(least * most)
-
-
-@lru_cache(maxsize=2)
-def two_nodes(network: ThermalNetwork, most: float = WINDING_MOST) -> TwoNodes:
-    """Winding and housing alone, surfaces as they are with the winding at its limit (deg C).
-
-    The heat of the winding takes both to the same steady temperatures as in the whole network, and
-    leaves as much heat in either form: the housing's capacity stands for all other parts, each by
-    how warm it gets over the housing.
-    """
-    w, h = NODES.index("winding"), NODES.index("housing")
-    one = Heat.constant(node_values({"winding": 1.0}))
-
-    def at(watts: float) -> FloatArray:
-        return network.steady(one._replace(fixed=watts * one.fixed))
-
-    watts = _halved(lambda watts: bool(at(watts)[w] <= most), *_WATTS)
-    found = network.resistances(w, at(watts))
-    rest = network.capacity * found
-    return TwoNodes(
-        winding_to_housing=float(found[w] - found[h]),
-        housing_to_ambient=float(found[h]),
-        winding_capacity=float(network.capacity[w]),
-        housing_capacity=float((rest.sum() - rest[w]) / found[h]),
-    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,16 +135,23 @@ class MachineTemperatures:
     network : ThermalNetwork
     duty : DutyHeat
     steady : array (N,)
-        Of :data:`.thermal_parts.NODES`, deg C, under the mean heat of the duty.
+        Of :data:`.thermal_parts.NODES`, deg C, under the mean heat of the duty, which is that of
+        parts at these temperatures.
+    as_drawn : DutyHeat
+        What the duty loses with parts at 20 deg C and the lubricant at 40.
     cycle : WarmCycle or None
-        Of a duty over time, once its cycles repeat.
+        Of a duty over time, once its cycles repeat; losses are those of parts at its mean.
+    cold : str
+        Why `duty` is `as_drawn`: warm parts have no losses; empty where they have.
     """
 
     machine: Machine
     network: ThermalNetwork
     duty: DutyHeat
     steady: FloatArray
+    as_drawn: DutyHeat
     cycle: WarmCycle | None = None
+    cold: str = ""
 
     def hottest(self, node: Node) -> float:
         """Greatest temperature of a node, over a duty's cycle where there is one, deg C."""
@@ -239,29 +171,15 @@ class MachineTemperatures:
         """Temperatures (T, N) at `times` after a start at the air's temperature, deg C."""
         return self.network.history(self.duty.heat, self.times)
 
-    def parts(self, values: FloatArray) -> PartTemperatures:
-        """The gearbox's parts at temperatures of the nodes; pins are as warm as the carrier."""
-        told = by_node(values)
-        told["pin"] = told["carrier"]
-        return PartTemperatures(**{one.name: told[one.name] for one in fields(PartTemperatures)})
-
     @cached_property
     def reached(self) -> FloatArray:
         """`steady`, or where parts would get warmer than is worked with, the way there up to it."""
-        ambient, most = self.network.ambient, float(self._of_gearbox(self.steady).max())
-        if most <= HOTTEST:
-            return self.steady
-        share = (HOTTEST - _EDGE - ambient) / (most - ambient)
-        return np.asarray(ambient + share * (self.steady - ambient))
-
-    @staticmethod
-    def _of_gearbox(values: FloatArray) -> FloatArray:
-        return np.asarray(values[[NODES.index(n) for n in ("ring", "disc", "shaft", "carrier")]])
+        return within_reach(self.steady, self.network.ambient)
 
     @cached_property
     def hot(self) -> WarmClearance:
         """Clearances at `reached`."""
-        return warm_clearance(self.machine, self.parts(self.reached))
+        return warm_clearance(self.machine, gearbox_parts(self.reached))
 
     @cached_property
     def on_the_way(self) -> tuple[WarmClearance, ...]:
@@ -272,9 +190,23 @@ class MachineTemperatures:
         inside = np.clip(warming, COLDEST, HOTTEST)
         return (
             warm_clearance(self.machine, PartTemperatures.even(coldest)),
-            *(warm_clearance(self.machine, self.parts(one)) for one in inside),
+            *(warm_clearance(self.machine, gearbox_parts(one)) for one in inside),
             self.hot,
         )
+
+    @cached_property
+    def undisturbed(self) -> MachineTemperatures:
+        """Where parts would settle if they went on losing what they do as drawn."""
+        steady = self.network.steady(self.as_drawn.heat)
+        return replace(self, duty=self.as_drawn, steady=steady)
+
+    @cached_property
+    def lacking_clearance(self) -> float:
+        """Overlap that warmth adds to parts that lose no more for pressing on each other, m.
+
+        Those that press lose more and get warmer still, which says nothing of what they lacked.
+        """
+        return max(one.overlap for one in _added_overlaps(self.undisturbed))
 
     @property
     def settling_time(self) -> float:
@@ -283,13 +215,21 @@ class MachineTemperatures:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Parts beyond what is worked with."""
+        """Parts beyond what is worked with, and losses that warmth is not fed back to."""
+        told = (self.cold,) if self.cold else ()
         if np.array_equal(self.reached, self.steady):
-            return ()
-        hottest = float(self._of_gearbox(self.steady).max())
+            return told
+        drawn, away = hottest_part(self.undisturbed.steady), ""
+        if drawn <= HOTTEST:
+            away = (
+                f"heat runs away: by the {self.as_drawn.gearbox:.3g} W that it loses as drawn the "
+                f"gearbox would settle at {drawn:.4g} degC, but warm parts lose more; "
+            )
         return (
-            f"parts of the gearbox would settle at {hottest:.4g} degC; clearances are told on the "
-            f"way there, where the warmest has {HOTTEST:g} degC.",
+            *told,
+            f"{away}parts of the gearbox would settle at {hottest_part(self.steady):.4g} degC; "
+            f"losses and clearances are told on the way there, where the warmest has {HOTTEST:g} "
+            "degC.",
         )
 
     def to_dict(self) -> dict[str, object]:
@@ -303,6 +243,7 @@ class MachineTemperatures:
         hot = self.hot
         return {
             "gearbox_losses_W": self.duty.gearbox,
+            "gearbox_losses_as_drawn_W": self.as_drawn.gearbox,
             "winding_losses_W": float(self.duty.heat.at(self.steady)[NODES.index("winding")]),
             "winding_to_ambient_K_per_W": sum(two_nodes(self.network)[:2]),
             "settling_time_min": self.settling_time / 60.0,
@@ -330,12 +271,27 @@ def machine_temperatures(machine: Machine, *, duty: bool = True) -> MachineTempe
     """
     network = cooled_network(machine)
     log = machine.design.requirements.duty_log if duty else None
+    cases = duty_cases(machine, duty=duty)
+
+    def lost(warm: Machine, magnets: float = COPPER_REFERENCE) -> DutyHeat:
+        if log is None:
+            return duty_heat(warm, cases, magnets)
+        return logged_heat(warm, log, magnets)[2]
+
+    as_drawn = lost(machine)
+    found = MachineTemperatures(machine, network, as_drawn, network.steady(as_drawn.heat), as_drawn)
+    warm, magnets = machine, COPPER_REFERENCE
+    try:
+        heat, steady = settle(machine, network, lost)
+        found = replace(found, duty=heat, steady=steady)
+        warm, magnets = machine.at(gearbox_parts(found.reached)), magnets_at(machine, steady)
+    except (ContactError, DesignError, GeometryError) as error:
+        why = f"losses are those at 20 degC, as warm parts have none: {error.message}"
+        found = replace(found, cold=why)
     if log is None:
-        found = duty_heat(machine, duty_cases(machine, duty=duty))
-        return MachineTemperatures(machine, network, found, network.steady(found.heat))
-    steps, heats, found = logged_heat(machine, log)
-    cycle = WarmCycle(np.cumsum(steps), settled_cycle(network, steps, heats))
-    return MachineTemperatures(machine, network, found, network.steady(found.heat), cycle)
+        return found
+    steps, heats, _ = logged_heat(warm, log, magnets)
+    return replace(found, cycle=WarmCycle(np.cumsum(steps), settled_cycle(network, steps, heats)))
 
 
 def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
@@ -347,20 +303,46 @@ def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
         When the thermal expansion of a part is not known.
     """
     at = by_node(found.steady)
+    at["pin"] = at["carrier"]
     housing = find_material(found.machine.design.housing.material).service_limit
     greased = max(("ring", "disc", "shaft", "carrier"), key=at.__getitem__)
+    bears = {
+        part: find_material(name).service_limit
+        for part, name in part_materials(found.machine.design).items()
+    }
     parts = (
         WarmPart("winding", found.hottest("winding"), found.machine.motor.winding_most),
         WarmPart(f"grease at the {greased}", at[greased], GREASE_MOST),
         WarmPart("housing", at["housing"], HOUSING_MOST if housing is None else housing),
+        # Of the greased parts those that give way before their grease does.
+        *(
+            WarmPart(part, at[part], most)
+            for part, most in bears.items()
+            if most is not None and most < GREASE_MOST
+        ),
     )
+    heat, as_drawn = (
+        float(one.heat.at(found.steady).sum()) for one in (found.duty, found.as_drawn)
+    )
+    checks = (
+        rise_check(parts, found.network.ambient, heat, as_drawn),
+        clearance_check(_added_overlaps(found), found.lacking_clearance),
+    )
+    if not found.cold:
+        return checks
+    # Parts get warmer than losses as drawn make them, or not: only what fails is known.
+    return tuple(
+        replace(one, value=None, substituted=found.cold) if one.satisfied else one for one in checks
+    )
+
+
+def _added_overlaps(found: MachineTemperatures) -> tuple[Tightness, ...]:
+    """Overlap that warmth adds in every state on the way."""
     drawn = warm_clearance(found.machine, AS_DRAWN).overlap
-    heat = float(found.duty.heat.at(found.steady).sum())
-    states = tuple(
+    return tuple(
         Tightness(max(one.overlap - drawn, 0.0), _in_words(one.temperatures))
         for one in found.on_the_way
     )
-    return rise_check(parts, found.network.ambient, heat), clearance_check(states)
 
 
 def _in_words(parts: PartTemperatures) -> str:

@@ -65,7 +65,7 @@ def calibrate(
         measured = {name: figure.value for name, figure in METRICS.items()}
         to = to or PAPER_ROWS
     # A wrong name is refused before anything is built.
-    chosen(measured, to, unknowns)
+    chosen(measured, to, unknowns, rig_known=rig_stiffness is not None)
     machine = specimen.machine(design)
     drawn, told = ([], ()) if specimen.seed is not None else drawn_actuators(machine, specimen)
     found = fit(

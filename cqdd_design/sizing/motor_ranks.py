@@ -7,8 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
-from cqdd_design.actuator.motor import MAGNET_COEFFICIENT
-from cqdd_design.catalog.motors import COPPER_REFERENCE, Motor
+from cqdd_design.catalog.motors import COPPER_REFERENCE, MAGNET_COEFFICIENT, Motor
 from cqdd_design.design import Requirements
 from cqdd_design.design.motor import MotorTable
 from cqdd_design.errors import InfeasibleError

@@ -17,7 +17,7 @@ from cqdd_design.design import Requirements
 from cqdd_design.errors import ContactError
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine, resolve
-from cqdd_design.machine.temperatures import judged_temperatures
+from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import CONTINUOUS, PEAK, first_guess, weaker, what_it_can
 from cqdd_design.sizing.agreement import (
@@ -311,7 +311,8 @@ def _first_look(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, floa
             can = what_it_can(one, hunt.requirements, may_rise=not hunt.lowered)
         if can is not None:
             return can, None
-        step = clearance_needed(judged_temperatures(one)[1])
+        found, checks, _ = judged_temperatures(one)
+        step = clearance_needed(found, checks)
         if step > 0.0:
             return None, step
     return None, None
@@ -341,11 +342,11 @@ def _smaller(hunt: Hunt, found: Found, machine: Machine) -> tuple[Found, Machine
     return found, machine
 
 
-def clearance_needed(checks: Iterable[Check]) -> float:
+def clearance_needed(found: MachineTemperatures | None, checks: Iterable[Check]) -> float:
     """Clearance that holes need more, or the least step, where warm parts overlap, m; else 0."""
     for one in checks:
         if one.id == "THERMAL-CLEARANCE" and not one.satisfied:
-            return max(2e-6 * (one.value or 0.0), _LEAST_STEP)
+            return max(2.0 * (found.lacking_clearance if found else 0.0), _LEAST_STEP)
     return 0.0
 
 
@@ -398,7 +399,7 @@ def _next_step(hunt: Hunt, judged: Verdict) -> float | None:
     if _SUPPORT in failing:
         hunt.least_bore = _wider_bore(judged)
         return 0.0
-    step = clearance_needed(judged.lines)
+    step = clearance_needed(judged.evidence.temperatures, judged.lines)
     if step > 0.0:
         return step
     machine, drawn = judged.evidence.machine, judged.evidence.drawn

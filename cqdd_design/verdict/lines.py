@@ -15,9 +15,11 @@ from cqdd_design.gearbox.checks.equilibrium import (
 )
 from cqdd_design.gearbox.checks.guide_row import RIGID
 from cqdd_design.gearbox.checks.remedies import lower_torque
+from cqdd_design.gearbox.checks.rubbing import rubbing_check
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.gearbox.film.plastics import rubbing_plastics, sliding_plastics
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.machine.shaft import shaft_bending
@@ -30,8 +32,8 @@ from cqdd_design.verdict.motor import motor_lines
 _BODIES = tuple(
     f"{part}-{kind}" for part in ("LIGAMENT", "ROOT", "RING") for kind in ("STRESS", "FATIGUE")
 )
-_SHAFT_ANGLES = 120
-"""Crank angles over the period at which the shaft is looked at."""
+_ANGLES = 120
+"""Crank angles over the period at which shaft and plastics are looked at."""
 _HEAT = ("THERMAL-RISE", "THERMAL-CLEARANCE")
 
 
@@ -44,7 +46,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         if check.id.startswith("MOTOR-"):
             continue
         lines.append(carried.pop(check.id, check))
-    lines += (*carried.values(), _support(machine))
+    lines += (*carried.values(), _support(machine), *_rubbing(machine))
     lines += evidence.stress_checks or _missing(_BODIES, evidence.stress_missing)
     lines += evidence.heat_checks or _missing(_HEAT, evidence.heat_missing)
     lines += motor_lines(
@@ -97,7 +99,7 @@ def _support(machine: Machine) -> Check:
     name, limit = "SUPPORT-STATIC", STATIC_SAFETY
     asked, model = machine.design.requirements, machine.contact
     rubbed = ContactFriction.of(model, "drive")
-    angles = perfect_angles(model, _SHAFT_ANGLES)
+    angles = perfect_angles(model, _ANGLES)
     try:
         bending = shaft_bending(
             machine,
@@ -124,6 +126,25 @@ def _support(machine: Machine) -> Check:
         "leave room for larger support bearings (a cam bearing with a larger bore); or "
         + lower_torque(asked.peak_torque, safety / limit),
     )
+
+
+def _rubbing(machine: Machine) -> tuple[Check, ...]:
+    """The line of plastics that slide at output pins; none where nothing does."""
+    design, model = machine.design, machine.contact
+    if not sliding_plastics(design, model):
+        return ()
+    torque = design.requirements.continuous_torque
+    try:
+        sweep = contact_sweep(
+            model,
+            torque,
+            perfect_angles(model, _ANGLES),
+            friction=ContactFriction.of(model, "drive"),
+        )
+    except ContactError as error:
+        return (build_check("PIN-RUBBING", None, None, error.message, "see CONTACT-REACH"),)
+    speed = design.requirements.held_speed
+    return (rubbing_check(rubbing_plastics(design, model, sweep, speed), torque),)
 
 
 def _missing(ids: tuple[str, ...], why: str) -> tuple[Check, ...]:

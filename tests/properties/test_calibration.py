@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from cqdd_design.actuator.bench import METRICS, run_bench
-from cqdd_design.actuator.bench.calibrate import calibrate
+from cqdd_design.actuator.bench.calibrate import calibrate, chosen
 from cqdd_design.actuator.bench.calibration_file import read_calibration, write_calibration
 from cqdd_design.actuator.bench.measured import read_measured
 from cqdd_design.actuator.bench.unknowns import TELLS, UNKNOWNS, Fit, apply_factors
@@ -38,8 +38,14 @@ def rows_of(actuator: ActuatorParameters, names: list[str]) -> dict[str, float]:
 
 def test_every_unknown_is_told_by_one_measurement() -> None:
     assert set(TELLS) <= set(METRICS)
-    # The motor's viscous drag is none that one row tells.
-    assert set(TELLS.values()) == set(UNKNOWNS) - {"motor_viscous"}
+    # The motor's viscous drag is none that one row tells; a bandwidth tells the rig, or on one
+    # that is known the current loop.
+    assert set(TELLS.values()) == set(UNKNOWNS) - {"motor_viscous", "current_loop"}
+    bandwidth = {"torque_bandwidth": 34.3}
+    assert chosen(bandwidth)[1] == ("rig_stiffness",)
+    assert chosen(bandwidth, rig_known=True)[1] == ("current_loop",)
+    with pytest.raises(UsageError, match="rig_stiffness is given"):
+        chosen(bandwidth, unknowns=["rig_stiffness"], rig_known=True)
 
 
 def test_unknowns_lie_in_ranges_of_this_motor(actuator: ActuatorParameters) -> None:
@@ -62,6 +68,10 @@ def test_unknowns_lie_in_ranges_of_this_motor(actuator: ActuatorParameters) -> N
     holding = friction.load_backward * (1.0 + friction.stribeck_extra)
     assert most * holding == pytest.approx(0.9)
     assert ranges["current_loop"] == (0.01, 100.0)
+    least, most = ranges["rig_stiffness"]
+    assert least < UNKNOWNS["rig_stiffness"].start(actuator) < actuator.sensor_stiffness < most
+    # A sensor that twists 4 mrad at what it is rated for.
+    assert actuator.sensor_stiffness * 4e-3 == pytest.approx(actuator.torque_limit)
     # A motor of which nothing is known begins within the range too.
     bare = dataclasses.replace(motor, coulomb=0.0, rated_torque=math.nan)
     unknown = dataclasses.replace(actuator, motor=bare)
@@ -90,6 +100,24 @@ def test_calibration_finds_what_was_changed(actuator: ActuatorParameters) -> Non
     assert [relations[name] for name in told] == ["calibrated"] * 3
     assert relations["peak_torque"] == "given"
     json.dumps(found.to_dict(), allow_nan=False)
+
+
+@pytest.mark.deep
+def test_a_bandwidth_tells_the_rig_it_was_measured_on(actuator: ActuatorParameters) -> None:
+    """Of a rig of known stiffness; on a torque sensor's, coherence ends before it can be read."""
+    wanted = run_bench(actuator, only=["torque_bandwidth"], rig_stiffness=1500.0)
+    measured = {"torque_bandwidth": wanted.value("torque_bandwidth")}
+    found = calibrate(actuator, measured, to=["torque_bandwidth"])
+    assert found.factors["rig_stiffness"] == pytest.approx(1500.0, rel=0.02)
+    assert found.parameters.origins["rig.stiffness"].startswith("calibrated: rig_stiffness")
+    (row,) = [row for row in found.rows if row.name == "torque_bandwidth"]
+    assert (row.relation, row.before) == ("calibrated", None)
+    (metric,) = [one for one in found.after.metrics if one.name == "torque_bandwidth"]
+    assert "(fitted)" in metric.protocol
+    # It is no part of the actuator: nothing else on the bench moves.
+    plain = run_bench(actuator, only=["backdrive_dynamic", "stall_torque"])
+    again = run_bench(found.parameters, only=["backdrive_dynamic", "stall_torque"])
+    assert [one.value for one in plain.metrics] == [one.value for one in again.metrics]
 
 
 @pytest.mark.deep

@@ -202,11 +202,14 @@ def test_trials_that_end_say_why_and_not_that_loads_are_not_borne(machine: Machi
 
 def test_holes_grow_by_twice_the_overlap(machine: Machine) -> None:
     """It is on the radius, the clearance on the diameter."""
-    _, checks, _ = judged_temperatures(machine)
+    found, checks, _ = judged_temperatures(machine)
+    assert found is not None
     (line,) = [one for one in checks if one.id == "THERMAL-CLEARANCE"]
-    assert clearance_needed([replace(line, value=12.0)]) == pytest.approx(24e-6)
-    assert clearance_needed([replace(line, value=0.2)]) == pytest.approx(1e-6)
-    assert clearance_needed([replace(line, value=0.0)]) == 0.0
+    for lacking, step in ((12e-6, 24e-6), (0.2e-6, 1e-6)):
+        known = replace(found)
+        vars(known)["lacking_clearance"] = lacking
+        assert clearance_needed(known, [replace(line, value=30.0)]) == pytest.approx(step)
+        assert clearance_needed(known, [replace(line, value=0.0)]) == 0.0
 
 
 def test_part_errors_ask_for_the_reserve_that_they_use_up() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from contact_designs import paper_design
@@ -12,17 +14,21 @@ from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.catalog.motors import WINDING_MOST
 from cqdd_design.design import load_design
+from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
+from cqdd_design.gearbox.contact.rubbing import ContactFriction
+from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.gearbox.heat.network import Heat
 from cqdd_design.machine import Machine, resolve
-from cqdd_design.machine.duty_heat import DutyCase, duty_cases, duty_heat
+from cqdd_design.machine.cooling import cooled_network, two_nodes
+from cqdd_design.machine.duty_heat import DutyCase, DutyHeat, duty_cases, duty_heat
+from cqdd_design.machine.settling import settle
 from cqdd_design.machine.temperatures import (
     MachineTemperatures,
-    cooled_network,
     heat_checks,
     judged_temperatures,
     machine_temperatures,
-    two_nodes,
 )
 from cqdd_design.machine.thermal_parts import NODES, node_values
 
@@ -42,13 +48,112 @@ def found(machine: Machine) -> MachineTemperatures:
 def test_all_heat_leaves_to_the_air(found: MachineTemperatures) -> None:
     given = found.duty.heat.at(found.steady).sum()
     assert found.network.given_off(found.steady) == pytest.approx(given, rel=1e-9)
-    assert found.duty.gearbox == pytest.approx(
+    assert found.as_drawn.gearbox == pytest.approx(
         found.machine.losses.at(
             found.machine.design.requirements.input_speed,
             found.machine.design.requirements.continuous_torque,
         ).total,
         rel=1e-12,
     )
+
+
+SHARES = {
+    "ring_teeth": ("ring", "disc"),
+    "output_pins": ("disc", "carrier"),
+    "cam_bearings": ("disc", "shaft"),
+    "support_bearings": ("shaft", "shaft", "housing", "carrier"),
+    "output_bearing": ("housing", "carrier"),
+    "grease": ("disc", "carrier"),
+}
+"""Parts that a loss warms alike."""
+
+
+def lost_at(machine: Machine, at: np.ndarray) -> np.ndarray:
+    """What every node loses with all parts at temperatures, W: one sweep, and the motor by hand."""
+    told = dict(zip(NODES, at, strict=True))
+    parts = {name: told[name] for name in ("ring", "disc", "carrier", "shaft")}
+    warm = machine.at(PartTemperatures(**parts, pin=told["carrier"]))
+    asked, row = machine.design.requirements, machine.motor
+    torque, speed = asked.continuous_torque, asked.input_speed
+    sweep = contact_sweep(
+        warm.contact,
+        torque,
+        perfect_angles(warm.contact, 120),
+        friction=ContactFriction.of(warm.contact, "drive", speed),
+    )
+    work, drag = warm.friction.coulomb_work(sweep), warm.friction.drag(speed)
+    lost, rubbed = dict.fromkeys(NODES, 0.0), 0.0
+    for source, nodes in SHARES.items():
+        taken = work[source] + float(drag[source])
+        rubbed += taken
+        for node in nodes:
+            lost[node] += taken * speed / len(nodes)
+    own = row.coulomb + row.viscous * speed
+    flux = 1.0 - 0.0011 * (min(told["rotor"], WINDING_MOST) - 25.0)
+    current = (torque / machine.design.reducer.ratio + rubbed + own) / (row.torque_constant * flux)
+    winding = min(told["winding"], WINDING_MOST)
+    lost["winding"] = row.line_resistance * (1.0 + 0.0039 * (winding - 25.0)) * current**2
+    lost["stator"] = own * speed
+    return np.array([lost[name] for name in NODES])
+
+
+@pytest.mark.parametrize(
+    ("ambient", "torque", "speed"), [("-20 degC", 4.0, 20.0), ("-20 degC", 6.0, 20.0)]
+)
+def test_losses_and_temperatures_are_each_others(
+    machine: Machine, ambient: str, torque: float, speed: float
+) -> None:
+    """The steady state against a fixed-point iteration of its own, from warmer parts on."""
+    mild = resolve(
+        machine.given.replacing(
+            {
+                "environment.ambient": ambient,
+                "environment.coldest": "-20 degC",
+                "requirements.continuous_torque": torque,
+                "requirements.input_speed": speed,
+                "requirements.peak_torque": 30.0,
+            }
+        )
+    )
+    found = machine_temperatures(mild)
+    network, now = found.network, np.full(len(NODES), 30.0)
+    for _ in range(60):
+        then = network.steady(Heat.constant(lost_at(mild, now)))
+        moved, now = np.abs(then - now).max(), 0.3 * now + 0.7 * then
+        if moved < 1e-8:
+            break
+    assert moved < 1e-8
+    assert found.steady == pytest.approx(now, abs=1e-5)
+    lost = lost_at(mild, found.steady)
+    assert network.given_off(found.steady) == pytest.approx(lost.sum(), rel=1e-9)
+    # What the feedback is worth here: far more than either bound.
+    cold = network.steady(found.as_drawn.heat)
+    assert np.abs(found.steady - cold).max() > 1.0
+    assert abs(found.duty.gearbox / found.as_drawn.gearbox - 1.0) > 0.03
+
+
+def test_flux_of_warm_magnets_asks_for_more_current(machine: Machine) -> None:
+    cases = duty_cases(machine)
+    cold, warm = duty_heat(machine, cases), duty_heat(machine, cases, 125.0)
+    share = warm.current_squared / cold.current_squared
+    assert share == pytest.approx(1.0 / (1.0 - 0.11) ** 2, rel=1e-12)
+
+
+@pytest.mark.parametrize("gain", [-3.0, -0.9, 0.3, 0.9])
+def test_settling_finds_the_state_whatever_comes_back(machine: Machine, gain: float) -> None:
+    """Heat that grows or falls with the disc's temperature, in a network of constant slopes."""
+    drawn = cooled_network(machine)
+    network = replace(drawn, surfaces=(), to_ambient=np.full(len(NODES), 0.2))
+    disc = NODES.index("disc")
+    unit = network.resistances(disc, np.full(len(NODES), 50.0))
+
+    def lost(warm: Machine, _: float) -> DutyHeat:
+        watts = (35.0 + gain * (warm.temperatures.disc - 60.0)) / unit[disc]
+        return DutyHeat(Heat.constant(watts * (np.arange(len(NODES)) == disc)), watts, 0.0)
+
+    _, steady = settle(machine, network, lost)
+    assert network.ambient == 25.0
+    assert steady == pytest.approx(25.0 + 35.0 * unit / unit[disc], abs=1e-4)
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
@@ -145,8 +250,8 @@ def test_a_duty_heats_as_its_mean(machine: Machine) -> None:
     other = resolve(machine.given.replacing({"requirements.duty": half}))
     assert [case.share for case in duty_cases(other)] == [0.5, 0.5]
     rest, whole = machine_temperatures(other), machine_temperatures(machine)
-    assert rest.duty.gearbox == pytest.approx(0.5 * whole.duty.gearbox, rel=1e-9)
-    assert rest.duty.current_squared < 0.55 * whole.duty.current_squared
+    assert rest.as_drawn.gearbox == pytest.approx(0.5 * whole.as_drawn.gearbox, rel=1e-9)
+    assert rest.as_drawn.current_squared < 0.55 * whole.as_drawn.current_squared
     alone = machine_temperatures(other, duty=False)
     assert alone.steady == pytest.approx(whole.steady, rel=1e-12)
 
@@ -157,6 +262,56 @@ def test_reference_s_is_too_hot_and_binds(found: MachineTemperatures) -> None:
     assert (clearance.id, clearance.status) == ("THERMAL-CLEARANCE", "fail")
     assert clearance.value > 10.0
     assert found.warnings
+
+
+def test_parts_that_press_on_each_other_heat_themselves(machine: Machine) -> None:
+    """A load that S bears as drawn: its carrier grows, warm parts rub more, and heat runs away."""
+    warm = resolve(
+        machine.given.replacing(
+            {"requirements.continuous_torque": 8.0, "requirements.input_speed": 15.0}
+        )
+    )
+    found, checks, told = judged_temperatures(warm)
+    assert found is not None
+    assert found.undisturbed.steady.max() < 100.0
+    assert found.steady.max() > 200.0
+    assert "heat runs away" in told[0]
+    # What is lacking is what warmth takes before parts press, not what they do once they burn.
+    (clearance,) = (one for one in checks if one.id == "THERMAL-CLEARANCE")
+    assert 0.0 < found.lacking_clearance < 0.4e-6 * clearance.value
+    wider = {"reducer.output_pins.hole_clearance": 16e-6 + 8.0 * found.lacking_clearance}
+    free = machine_temperatures(resolve(warm.given.replacing(wider)))
+    assert free.steady.max() < 100.0
+    assert [one.status for one in heat_checks(free)] == ["pass", "pass"]
+
+
+def test_where_warm_parts_have_no_losses_nothing_passes(
+    machine: Machine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def none(*_: object) -> None:
+        raise ContactError("no equilibrium")
+
+    monkeypatch.setattr("cqdd_design.machine.temperatures.settle", none)
+    cool = {"requirements.continuous_torque": 2.0, "requirements.input_speed": 10.0}
+    steel = {"housing.material": "AISI 4140 Q&T 540C"}
+    light = machine_temperatures(resolve(machine.given.replacing(cool | steel)))
+    assert np.array_equal(light.steady, light.undisturbed.steady)
+    assert [one.status for one in heat_checks(light)] == ["unknown", "unknown"]
+    assert "losses are those at 20 degC" in light.warnings[0]
+    hot = machine_temperatures(machine)
+    assert [one.status for one in heat_checks(hot)] == ["fail", "fail"]
+
+
+def test_a_printed_part_gives_way_before_its_grease(machine: Machine) -> None:
+    """Ring and discs of PC with carbon fibre bear 110 deg C, where the grease bears 120."""
+    printed = load_design(DESIGN_S.with_name("printed-13.toml"))
+    found = machine_temperatures(resolve(printed))
+    ring = found.steady[NODES.index("ring")]
+    assert 110.0 < ring < 120.0
+    rise = heat_checks(found)[0]
+    assert (rise.status, rise.limit) == ("fail", 110.0)
+    assert rise.value == pytest.approx(ring)
+    assert f"ring {ring:.0f} of 110" in rise.substituted
 
 
 def test_a_little_torque_of_a_steel_machine_passes_both(machine: Machine) -> None:

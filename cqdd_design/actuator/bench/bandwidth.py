@@ -21,9 +21,6 @@ COHERENT = 0.8
 """Below it a transfer function is not to be trusted."""
 _LOW = 4.0
 """Hz; the mean gain up to there is that of low frequencies."""
-SENSOR_TWIST = 4e-3
-"""Of a torque sensor at its rated torque, rad: a shaft of two diameters' length whose surface
-shears by 1e-3, as strain gauges for 2 mV/V want."""
 _SENSOR_DAMPING = 0.01
 """Ratio of the motor swinging on the sensor: steel with screwed flanges."""
 
@@ -31,11 +28,12 @@ _SENSOR_DAMPING = 0.01
 def sensor(parameters: ActuatorParameters, stiffness: float | None = None) -> Load:
     """The output held through a rig of some stiffness, N m/rad.
 
-    By default that of a torque sensor rated for what the driver's limit gives, on a rigid rig.
+    By default the one that was fitted, or that of a torque sensor rated for what the driver's limit
+    gives, on a rigid rig.
     """
     gear = parameters.gear
     if stiffness is None:
-        stiffness = parameters.torque_limit / SENSOR_TWIST
+        stiffness = parameters.rig.stiffness or parameters.sensor_stiffness
     swinging = parameters.motor_side_inertia * gear.ratio**2 + gear.output_inertia
     return Load.locked(stiffness, 2.0 * _SENSOR_DAMPING * math.sqrt(stiffness * swinging))
 
@@ -112,6 +110,7 @@ def torque_bandwidth(
     low = float(gain[~above].mean())
     edge = crossing(frequency[above], gain[above] / low, DOWN)
     sure = crossing(frequency, coherence, COHERENT)
+    given = "fitted" if parameters.rig.stiffness else "a torque sensor"
     missing = ""
     if edge > sure:
         there = float(np.interp(sure, frequency, gain)) / low
@@ -127,7 +126,7 @@ def torque_bandwidth(
         math.nan if missing else edge,
         "predicted",
         f"Output held by a rig of {held.sensor_stiffness:.3g} N m/rad "
-        f"({'a torque sensor' if rig_stiffness is None else 'as given'}), torque chirp of "
+        f"({given if rig_stiffness is None else 'as given'}), torque chirp of "
         f"{amplitude:g} N m from {first:g} to {last:g} Hz in {chirping:g} s, rising and falling in "
         "both senses, H1 over these and twelfths of an octave, -3 dB below the mean under "
         f"{_LOW:g} Hz, read only where the coherence is {COHERENT:g} or more up to there.",

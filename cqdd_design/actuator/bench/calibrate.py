@@ -13,11 +13,13 @@ from cqdd_design.actuator.bench.fitting import fit
 from cqdd_design.actuator.bench.metric import BenchResult, is_near, refuse_unmeasured
 from cqdd_design.actuator.bench.run import VOLTAGE, run_bench
 from cqdd_design.actuator.bench.unknowns import (
+    RIG,
     TELLS,
     UNKNOWNS,
     Fit,
     apply_factors,
     refuse_unknown,
+    told_unknown,
 )
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.errors import UsageError, did_you_mean
@@ -207,7 +209,7 @@ def calibrate(
         For rows that decide nothing, values not above zero, fewer rows than unknowns, or what
         `fitting.fit` refuses.
     """
-    rows, names = chosen(measured, to, unknowns)
+    rows, names = chosen(measured, to, unknowns, rig_known=rig_stiffness is not None)
     if "tolerance_scale" in names and not np.any(parameters.gear.error_cosine):
         raise UsageError(
             "perfect parts have no kinematic error to scale; draw a gearbox with --seed, or leave "
@@ -257,7 +259,11 @@ def calibrate(
 
 
 def chosen(
-    measured: Mapping[str, float], to: Collection[str] = (), unknowns: Collection[str] = ()
+    measured: Mapping[str, float],
+    to: Collection[str] = (),
+    unknowns: Collection[str] = (),
+    *,
+    rig_known: bool = False,
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Rows to fit to and unknowns to fit; what `calibrate` refuses of them is refused here."""
     for name, value in measured.items():
@@ -279,7 +285,13 @@ def chosen(
     for name in unknowns:
         refuse_unknown(name)
     rows = tuple(dict.fromkeys(to)) or tuple(name for name in measured if name in TELLS)
-    names = tuple(dict.fromkeys(unknowns)) or tuple(TELLS[name] for name in rows)
+    names = tuple(dict.fromkeys(unknowns)) or tuple(
+        told_unknown(name, rig_known=rig_known) for name in rows
+    )
+    if rig_known and RIG in names:
+        raise UsageError(
+            f"{RIG} is given (--rig-stiffness) and cannot be fitted; leave out one of the two."
+        )
     if not rows:
         raise UsageError(f"nothing to calibrate with; give rows among {', '.join(TELLS)}.")
     if len(rows) < len(names):

@@ -30,6 +30,8 @@ class Unknown:
         Range of a factor. That of a value is these shares of its scale, see `bounds`.
     unit : str
         Of a value, SI; empty for a factor.
+    begin : float or None
+        Where a fit begins, as `least` and `most`; None for what was computed.
     """
 
     part: str
@@ -38,6 +40,7 @@ class Unknown:
     least: float
     most: float
     unit: str = ""
+    begin: float | None = None
 
     @property
     def values(self) -> tuple[str, ...]:
@@ -48,13 +51,12 @@ class Unknown:
         """Range in which this can lie for an actuator.
 
         Drag and cogging of a motor are shares of its rated torque, over speed at the speed that
-        its supply drives. Friction under load stays below what holds the gearbox by itself.
+        its supply drives; a rig's stiffness of that of a torque sensor. Friction under load stays
+        below what holds the gearbox by itself.
         """
         least, most = self.least, self.most
         if self.unit:
-            scale = _torque_scale(parameters)
-            if self.unit == _OVER_SPEED:
-                scale *= parameters.motor.torque_constant / parameters.drive.supply_voltage
+            scale = self._scale(parameters)
             return least * scale, most * scale
         if "load_backward" in self.names:
             friction = parameters.friction
@@ -62,8 +64,19 @@ class Unknown:
             most = max(min(most, _HELD / holding if holding > 0.0 else most), 2.0 * least)
         return least, most
 
+    def _scale(self, parameters: ActuatorParameters) -> float:
+        """Of the range of a value."""
+        if self.unit == _OVER_ANGLE:
+            return parameters.sensor_stiffness
+        scale = _torque_scale(parameters)
+        if self.unit == _OVER_SPEED:
+            scale *= parameters.motor.torque_constant / parameters.drive.supply_voltage
+        return scale
+
     def start(self, parameters: ActuatorParameters) -> float:
         """Where a fit begins: as computed, or within the range where that is outside."""
+        if self.begin is not None:
+            return self.begin * self._scale(parameters)
         least, most = self.bounds(parameters)
         own = float(getattr(getattr(parameters, self.part), self.names[0])) if self.unit else 1.0
         inside = least * _MARGIN <= own <= most / _MARGIN
@@ -90,7 +103,8 @@ def _torque_scale(parameters: ActuatorParameters) -> float:
     return (min(most, motor.peak_torque) if math.isfinite(motor.peak_torque) else most) / 3.0
 
 
-_OVER_SPEED = "N m s/rad"
+_OVER_SPEED, _OVER_ANGLE = "N m s/rad", "N m/rad"
+RIG = "rig_stiffness"
 _HELD = 0.9
 """Of the friction under load that would hold any torque."""
 _MARGIN = 1.05
@@ -107,18 +121,29 @@ UNKNOWNS: Mapping[str, Unknown] = MappingProxyType(
         "motor_viscous": Unknown("motor", ("viscous",), "", 1e-4, 0.2, _OVER_SPEED),
         "friction_load": Unknown("friction", _LOAD, "efficiency_peak", 0.1, 3.0),
         "current_loop": Unknown("drive", ("current_bandwidth",), "torque_bandwidth", 0.01, 100.0),
+        # After the current loop: where nothing is said of a rig, that is what a bandwidth tells.
+        # On a soft one it can be read; on a stiff one coherence ends first, and with it the search.
+        RIG: Unknown(
+            "rig", ("stiffness",), "torque_bandwidth", 0.005, 10.0, _OVER_ANGLE, begin=0.05
+        ),
         "tolerance_scale": Unknown("gear", _HARMONICS, "torque_ripple", 0.05, 20.0),
     }
 )
 """What can be fitted, and within which range. Motors of a kind drag with a hundredth to a tenth of
 their rated torque and cog with less; greased steel rubs at 0.02 to 0.2. The scale of the tolerances
 is that of one drawn gearbox's error and stiffness over angle, to which both are proportional to
-first order."""
+first order. Rigs yield as a torque sensor does, a tenth of it at most, or up to two hundred times
+as much, as brackets and couplings of printed and turned parts do."""
 
 TELLS: Mapping[str, str] = MappingProxyType(
     {unknown.told_by: name for name, unknown in UNKNOWNS.items() if unknown.told_by}
 )
 """Measurement to the unknown it decides."""
+
+
+def told_unknown(row: str, *, rig_known: bool) -> str:
+    """The unknown that a measurement decides: of a bandwidth on a known rig, the current loop."""
+    return "current_loop" if rig_known and TELLS[row] == RIG else TELLS[row]
 
 
 def refuse_unknown(name: str) -> None:

@@ -114,6 +114,18 @@ ROWS = (
         basis=RIGID,
     ),
     CheckGuide(
+        "PIN-RUBBING",
+        "Pressure times speed of plastics at the output pins",
+        "MPa m/s",
+        "max",
+        "p v <= what the plastic bears dry on steel, p = mean F/(d b), v = e (1 + 1/n) omega; of "
+        "plain sleeves that on their pin",
+        "Above it the surface softens and wears away within hours. Judged at the continuous torque "
+        "and its speed where a disc, pin or sleeve of plastic slides; needles roll.",
+        "maker's handbook, named with the limit (`cqdd-design catalog rubbing`)",
+        basis="contact equilibrium of perfect parts, driving with friction",
+    ),
+    CheckGuide(
         "BEARING-STATIC",
         "Cam bearing, static safety at peak torque",
         "",

@@ -25,15 +25,15 @@ class Tightness(NamedTuple):
     state: str
 
 
-def rise_check(parts: tuple[WarmPart, ...], ambient: float, heat: float) -> Check:
+def rise_check(parts: tuple[WarmPart, ...], ambient: float, heat: float, as_drawn: float) -> Check:
     """Check ``THERMAL-RISE``.
 
     Parameters
     ----------
     parts : tuple of WarmPart
         Those that have a limit.
-    ambient, heat : float
-        deg C, and all that parts lose, W.
+    ambient, heat, as_drawn : float
+        deg C; all that parts lose at these temperatures, and before they are warm, W.
     """
 
     def used(part: WarmPart) -> float:
@@ -41,23 +41,29 @@ def rise_check(parts: tuple[WarmPart, ...], ambient: float, heat: float) -> Chec
 
     worst = max(parts, key=used)
     told = ", ".join(f"{one.name} {one.temperature:.0f} of {one.most:g}" for one in parts)
-    needed = (worst.most - ambient) / max(heat, 1e-9)
+    needed = (worst.most - ambient) / max(as_drawn, 1e-9)
     return build_check(
         "THERMAL-RISE",
         worst.temperature,
         worst.most,
-        f"{told} degC in air of {ambient:g} degC; {heat:.0f} W in all",
-        f"cool it: {heat:.0f} W ask for less than {needed:.2g} K/W to the air (state what cooling "
-        "reaches as drive.thermal_resistance), or lower requirements.continuous_torque, "
+        f"{told} degC in air of {ambient:g} degC; {heat:.0f} W in all, {as_drawn:.0f} before parts "
+        "are warm",
+        f"cool it: {as_drawn:.0f} W ask for less than {needed:.2g} K/W to the air (state what "
+        "cooling reaches as drive.thermal_resistance), or lower requirements.continuous_torque, "
         "input_speed, or friction",
     )
 
 
-def clearance_check(states: tuple[Tightness, ...]) -> Check:
-    """Check ``THERMAL-CLEARANCE`` over states of the parts."""
+def clearance_check(states: tuple[Tightness, ...], lacking: float) -> Check:
+    """Check ``THERMAL-CLEARANCE`` over states of the parts.
+
+    Parameters
+    ----------
+    lacking : float
+        Overlap of parts that lose no more for pressing on each other, m: what clearance lacks.
+    """
     worst = max(states, key=lambda one: one.overlap)
-    overlap = 1e6 * worst.overlap
-    more = max(overlap, BINDING_OVERLAP)
+    overlap, more = 1e6 * worst.overlap, max(1e6 * lacking, BINDING_OVERLAP)
     return build_check(
         "THERMAL-CLEARANCE",
         overlap,

@@ -1,4 +1,4 @@
-"""Films and friction of a running gearbox, what it wears, and how hard its plastics rub."""
+"""Films and friction of a running gearbox, and what it wears."""
 
 from __future__ import annotations
 
@@ -7,9 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cqdd_design.catalog.finishes import rubbing_limits
 from cqdd_design.catalog.lubricants import find_lubricant
-from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
 from cqdd_design.gearbox.contact.films import hole_film, ring_film, travel
 from cqdd_design.gearbox.contact.model import ContactModel
@@ -19,15 +17,12 @@ from cqdd_design.gearbox.contact.states import NominalStates
 from cqdd_design.gearbox.film.law import Film, FilmLaw
 from cqdd_design.gearbox.film.mixed import asperity_share
 from cqdd_design.gearbox.film.of_design import ContactFilm
+from cqdd_design.gearbox.film.plastics import films_on_plastics, is_plastic
 from cqdd_design.gearbox.film.wear import WEAR_BAND, Wear, wear_depth
 from cqdd_design.gearbox.life.life import duty_cases
 from cqdd_design.gearbox.losses import LossModel
-from cqdd_design.gearbox.losses.sliding import pin_sliding
-from cqdd_design.gearbox.rolling_contacts import at_rest
 from cqdd_design.geometry.contours import FloatArray
 
-_PLASTIC_MODULUS = 20e9
-"""Materials softer than this are plastics, Pa."""
 _PLACES = 512
 """Places of a lobe over which its length is summed."""
 
@@ -108,7 +103,7 @@ class Running:
     wear : Wear
         Over the required life.
     warnings : tuple of str
-        On plastics.
+        On films of plastics.
     """
 
     torque: float
@@ -168,7 +163,7 @@ def running(
         teeth=_running(teeth, model.tooth_film, sweep.ring_force, sweep.mean_friction[0]),
         pins=_running(pins, model.hole_film, sweep.pin_force, sweep.mean_friction[1]),
         wear=_wear(design, model, losses, sweep, states),
-        warnings=plastics(design, model, sweep, speed),
+        warnings=films_on_plastics(design, model),
     )
 
 
@@ -203,9 +198,9 @@ def _wear(
     way = _way_on_tooth(model, sweep, states)
     reducer = design.reducer
     # The band is that of steel; on plastics nothing is known.
-    soft = _is_plastic(reducer.disc_material)
-    teeth_known = not (soft or _is_plastic(reducer.ring_material)) and way > 0.0
-    pins_known = not (soft or _is_plastic(reducer.output_pins.material))
+    soft = is_plastic(reducer.disc_material)
+    teeth_known = not (soft or is_plastic(reducer.ring_material)) and way > 0.0
+    pins_known = not (soft or is_plastic(reducer.output_pins.material))
     if teeth_known and model.tooth_film is not None and model.tooth_film.journal is None:
         disc_flank = band(teeth, _perimeter(model) * length)
         ring_tooth = band(teeth, model.tooth_count * way * length)
@@ -235,44 +230,3 @@ def _perimeter(model: ContactModel) -> float:
     place = 2.0 * pitch * (np.arange(_PLACES) + 0.5) / _PLACES
     speed, _ = model.disc.rates(place)
     return float(model.lobe_count * 2.0 * pitch * np.mean(np.abs(speed)))
-
-
-def plastics(
-    design: Design, model: ContactModel, sweep: ContactSweep, speed: float
-) -> tuple[str, ...]:
-    """Sentences on plastics that rub: pressure on the projected area times speed, and friction."""
-    reducer = design.reducer
-    told = []
-    pair = [reducer.disc_material, reducer.output_pins.material]
-    soft = [n for n in dict.fromkeys((*pair, reducer.ring_material)) if _is_plastic(n)]
-    if soft and any(model.by_film):
-        told.append(
-            f"{' and '.join(soft)}: friction by a film takes the boundary layer of steel, "
-            f"{at_rest('film'):g}; state reducer.friction.tooth and reducer.friction.pin instead."
-        )
-    if model.hole_film is None:
-        return tuple(told)
-    journal = model.hole_film.journal
-    radius = model.pin_contact_radius if journal is None else journal.pin
-    rubbing = pair if journal is None else pair[1:]
-    slow = 1.0 if journal is None else journal.pin / journal.rim
-    velocity = float(pin_sliding(model.lobe_count, model.eccentricity)) * speed * slow
-    pressed = float(sweep.pin_force.mean(axis=0).max()) / (2.0 * radius * model.contact_length)
-    value = pressed * velocity
-    for name in dict.fromkeys(rubbing):
-        if not _is_plastic(name):
-            continue
-        found = rubbing_limits().get(name)
-        at = f"output pins press {name} with {pressed / 1e6:.3g} MPa at {velocity:.3g} m/s"
-        if found is None:
-            told.append(f"{at}: {value / 1e6:.3g} MPa m/s, and the catalogue has no limit of it.")
-        elif value > found.limit:
-            told.append(
-                f"{at}: {value / 1e6:.3g} MPa m/s, more than the {found.limit / 1e6:.3g} MPa m/s "
-                f"that it bears dry ({found.source})."
-            )
-    return tuple(told)
-
-
-def _is_plastic(name: str) -> bool:
-    return find_material(name).youngs_modulus < _PLASTIC_MODULUS

@@ -7,8 +7,9 @@ are load torque and drag of the bearings, and the shear of the grease between th
 
 from cqdd_design.gearbox.losses.backdrive import Backdrive
 from cqdd_design.gearbox.losses.machine import FrictionMachine
-from cqdd_design.gearbox.losses.model import EfficiencyMap, LossModel, loss_model
+from cqdd_design.gearbox.losses.model import EfficiencyMap, LossModel
 from cqdd_design.gearbox.losses.result import Losses
+from cqdd_design.gearbox.losses.swept import loss_model
 
 __all__ = [
     "Backdrive",

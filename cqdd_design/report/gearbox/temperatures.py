@@ -43,7 +43,8 @@ def temperatures_view(found: MachineTemperatures) -> Values:
         )
     return {
         "told": f"Where the parts settle under {at}, in {air}: {significant(heat, 3)} W in all, of "
-        f"which {significant(found.duty.gearbox, 3)} W in the gearbox.",
+        f"which {significant(found.duty.gearbox, 3)} W in the gearbox "
+        f"({significant(found.as_drawn.gearbox, 3)} before parts are warm).",
         "parts": [
             (name, significant(float(value), 3))
             for name, value in zip(NODES, found.steady, strict=True)
@@ -92,7 +93,7 @@ def _warming(found: MachineTemperatures) -> object:
             "warming",
             "Warming up",
             "Temperatures of winding, discs and housing over time.",
-            "From the temperature of the air on, losses as at 20 °C.",
+            "From the temperature of the air on, losses as at its end.",
         ),
         minutes,
         curves,
