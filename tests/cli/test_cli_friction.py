@@ -10,7 +10,7 @@ def told(cqdd, design, *options):
     return done.document["results"]
 
 
-@pytest.mark.parametrize("sense", ["drive", "backdrive"])
+@pytest.mark.parametrize("sense", [pytest.param("drive", marks=pytest.mark.deep), "backdrive"])
 def test_friction_changes_forces_precision_and_life(cqdd, paper_design_file, sense):
     without = told(cqdd, paper_design_file, "--friction", "off")
     rubbed = told(cqdd, paper_design_file, "--friction", sense)

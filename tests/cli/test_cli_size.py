@@ -57,7 +57,8 @@ def test_size_prints_the_verdict_that_check_gives(cqdd):
     assert (asked["peak_torque"], asked["continuous_torque"]) == ("40 N*m", "5 N*m")
 
 
-@pytest.mark.parametrize("goal", ["inertia", pytest.param("backlash", marks=pytest.mark.deep)])
+@pytest.mark.deep
+@pytest.mark.parametrize("goal", ["inertia", "backlash"])
 def test_another_objective_makes_that_small(cqdd, goal):
     """Less of it than the lightest design has, which weighs less."""
     asked = ("--peak-torque", "40 N*m", "--continuous-torque", "15 N*m")

@@ -39,11 +39,12 @@ def test_ratio_10_carries_what_is_known_to_be_possible():
             ("CONTACT-RING-PEAK", "BEARING-STATIC"),
             marks=pytest.mark.deep,
         ),
-        (
+        pytest.param(
             {"peak_torque": "120 N*m", "continuous_torque": "40 N*m"},
             106.0,
             None,
             ("BEARING-STATIC", "CONTACT-RING-PEAK"),
+            marks=pytest.mark.deep,
         ),
     ],
 )

@@ -519,7 +519,7 @@ def test_guide_and_checks_speak_of_the_same_things() -> None:
     # that says so; solids are turned, stress and temperatures found, only when asked to.
     rare = {"BEARING-RACEWAY", "ASSEMBLY-CLEAR", "MOTOR-DATA", "BALANCE-WEIGHTS"}
     # Nor are gearboxes drawn; these lines are the verdict's.
-    rare |= {"SUPPORT-STATIC", "CONTACT-REACH", "DUTY-ENVELOPE", "YIELD"}
+    rare |= {"SUPPORT-STATIC", "CONTACT-REACH", "DUTY-ENVELOPE", "YIELD", "PIN-RUBBING"}
     rare |= {row.id for row in (*guide_asked.ROWS, *guide_bodies.ROWS, *guide_heat.ROWS)}
     assert seen == set(CHECK_GUIDE) - rare
     with pytest.raises(UsageError, match="BEARING-LIFE"):
