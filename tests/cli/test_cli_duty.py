@@ -60,14 +60,16 @@ def test_contradictions_are_a_sentence(cqdd, options, says):
     assert done.out == ""
 
 
-def test_a_speed_above_the_motors_is_told_with_what_would_do(cqdd):
+def test_a_speed_above_the_motors_is_told_with_what_would_do(cqdd, tmp_path, paper_design_file):
     done = cqdd(
         "size", "--quick", "--ratio", "10", "--input-speed", "9000 rpm", "--peak-torque", "5 N*m"
     )
     told = " ".join((done.out + done.err).split())
     assert "Traceback" not in told
     assert done.code == 0
-    check = cqdd("check", "designs/sized-10.toml")
+    text = paper_design_file.read_text()
+    (tmp_path / "fast.toml").write_text(text.replace('"1286 rpm"', '"9000 rpm"'))
+    check = cqdd("check", "fast.toml")
     assert check.code == 4
     assert "raise motor.voltage to about" in " ".join(check.out.split())
     assert "does NOT meet its requirements" in check.out

@@ -20,15 +20,15 @@ def motor_file(tmp_path):
     return path
 
 
-def test_check_judges_the_motor_of_the_file(cqdd, tmp_path, motor_file):
-    design = tmp_path / "sized-10.toml"
-    assert cqdd("size", "--quick", "--ratio", "10", "--out", design).code == 0
-    usual = {one["id"]: one for one in cqdd("check", design, "--json").document["checks"]}
+def test_check_judges_the_motor_of_the_file(cqdd, paper_design_file, motor_file):
+    usual = {
+        one["id"]: one for one in cqdd("check", paper_design_file, "--json").document["checks"]
+    }
     motor_file.write_text(SMALL.replace("13 N*m", "2 N*m"))
-    done = cqdd("check", design, "--motor-file", motor_file, "--json")
+    done = cqdd("check", paper_design_file, "--motor-file", motor_file, "--json")
     assert done.code == 4
     own = {one["id"]: one for one in done.document["checks"]}
-    assert usual["MOTOR-PEAK"]["limit"] == own["MOTOR-PEAK"]["limit"] == 90.0
+    assert usual["MOTOR-PEAK"]["limit"] == own["MOTOR-PEAK"]["limit"] == 120.0
     assert own["MOTOR-PEAK"]["value"] < 20.0 < usual["MOTOR-PEAK"]["value"]
 
 

@@ -85,6 +85,7 @@ if __name__ == "cqdd_design.kernel":
 """
 
 
+@pytest.mark.deep
 def test_a_kernel_of_other_code_is_compiled_anew(tmp_path, monkeypatch):
     """A constant, a function and the order of fields in other files, times of files as they were.
 
