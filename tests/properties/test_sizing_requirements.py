@@ -312,7 +312,7 @@ def test_every_requirement_has_an_effect():
         {"peak_torque": "80 N*m"},
         {"continuous_torque": "30 N*m"},
         {"input_speed": "6000 rpm"},
-        {"outer_diameter": "66 mm"},
+        {"outer_diameter": "57 mm"},
         {"length": "11 mm", "peak_torque": "40 N*m"},
         {"disc_count": 3},
         {"disc_material": "AISI 4140 Q&T 425C", "ring_material": "AISI 4140 Q&T 425C"},
