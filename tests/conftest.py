@@ -34,6 +34,8 @@ REPOSITORY = Path(__file__).resolve().parents[1]
 #: Files that take longest, which the workers begin with: then they end together.
 SLOW = (
     *("test_cli_docs", "test_cli_torque_docs", "test_machine_in_browser", "test_cli_json"),
+    *("test_cli_verdict", "test_cli_duty", "test_sizing_comparison", "test_cli_friction"),
+    *("test_cli_motor_file", "test_duty", "test_elastic_bodies", "test_sizing_verified"),
     *("test_sizing_requirements", "test_precision", "test_machine_view", "test_solids_clearances"),
     *("test_fuzz", "test_cli_simulate", "test_cli_tolerance", "test_solids_meshes"),
     *("test_torque_runtime", "test_cli_process", "test_exporting_dialects", "test_exporting_step"),

@@ -249,7 +249,7 @@ def test_a_picked_alternative_is_judged_and_written_whatever_the_verdict(cqdd, t
     check = cqdd("check", "designs/sized-10.toml", "--json")
     assert check.code == 4
     assert check.document["results"]["verdict"] == done.document["results"]["verdict"]
-    assert done.document["results"]["verdict"]["meets"] == "no"
+    assert done.document["results"]["verdict"]["meets"] in {"no", "unknown"}
     lost = cqdd("size", *asked, "--pick", "b", "--out", "other.toml")
     assert lost.code == 2
     assert "the letters there are: c, d" in lost.err
