@@ -27,6 +27,7 @@ _LASTING = 0.12
 """Continuous over peak torque at a first guess."""
 _SPARE = 0.95
 """Of what the winding stands for ever: other parts may be at their limit before."""
+_COOLER = 0.95
 _DIGITS = 2
 _SAME = 0.05
 """A torque is left as it is where what the motor can do is not more above it."""
@@ -115,6 +116,14 @@ def weaker(requirements: Requirements, share: float, *, both: bool) -> Requireme
         lasting = requirements.continuous_torque
         changed[CONTINUOUS] = min(rounded_down(share * lasting, _DIGITS) if both else lasting, peak)
     return _with(requirements, changed)
+
+
+def cooler(requirements: Requirements) -> Requirements | None:
+    """The requirements with a little less continuous torque; None where that was stated."""
+    if CONTINUOUS not in requirements.derived or requirements.load_cases:
+        return None
+    less = rounded_down(_COOLER * requirements.continuous_torque, _DIGITS)
+    return _with(requirements, {CONTINUOUS: less})
 
 
 def _with(requirements: Requirements, changed: Mapping[str, Any]) -> Requirements:

@@ -19,7 +19,7 @@ from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
-from cqdd_design.sizing.able import CONTINUOUS, PEAK, first_guess, weaker, what_it_can
+from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler, first_guess, weaker, what_it_can
 from cqdd_design.sizing.agreement import (
     FITS,
     RING,
@@ -45,7 +45,7 @@ from cqdd_design.verdict.drawn import Allowed, Drawn, drawn_gearboxes, good_gear
 _LEAST_STEP = 1e-6
 """Clearance that has to grow at all, m: to the next fit."""
 _TRIAL_SAMPLES = 32
-_TRIALS = 10
+_TRIALS = 14
 _LESS, _LESS_OF_BOTH, _WEAKER, _PEAK_ALONE = 0.9, 0.8, 16, 3
 """Share of the peak torque that is tried next where no gearbox carries it, and of both torques,
 how often in all, and how often of the peak torque alone before."""
@@ -59,7 +59,7 @@ _GOALS: Mapping[str, Goal] = {
     "EFFICIENCY": "efficiency",
 }
 """Lines that are asked for, and the goal of a search that meets them if any does."""
-_SUPPORT = "SUPPORT-STATIC"
+_SUPPORT, _HOT = "SUPPORT-STATIC", "THERMAL-RISE"
 _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
 
@@ -315,6 +315,11 @@ def _first_look(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, floa
         step = clearance_needed(found, checks)
         if step > 0.0:
             return None, step
+        # Parts that press on each other are hot for that; without that, less torque is cooler.
+        hot = any(line.id == _HOT and line.known and not line.satisfied for line in checks)
+        less = cooler(hunt.requirements) if hot else None
+        if less is not None:
+            return less, None
     return None, None
 
 
@@ -394,6 +399,12 @@ def read_spread(
 def _next_step(hunt: Hunt, judged: Verdict) -> float | None:
     """What could bring a design that was judged nearer to a yes; see `read_spread`."""
     failing = {line.id for line in judged.lines if line.status in {"fail", "unknown"}}
+    less = cooler(hunt.requirements) if failing & {_HOT, "MOTOR-CONTINUOUS"} else None
+    if less is not None:
+        hunt.requirements, hunt.lowered = less, True
+        failing -= {_HOT, "MOTOR-CONTINUOUS"}
+        if not failing:
+            return 0.0
     if not failing <= {"YIELD", "THERMAL-CLEARANCE", _SUPPORT}:
         return None
     if _SUPPORT in failing:
@@ -417,6 +428,8 @@ def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
     return (
         True not in hunt.pins
         and hunt.may_roll
+        # Where less torque may be asked for, that comes first.
+        and not hunt.requirements.derived
         and all(
             line.known and line.id in _BY_FRICTION and line.margin >= _NEEDLES_BRING
             for line in short

@@ -20,7 +20,7 @@ from cqdd_design.design import Requirements, load_design, requirements_from_mapp
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.temperatures import judged_temperatures
-from cqdd_design.sizing.able import HELD_SPEED, first_guess, weaker, what_it_can
+from cqdd_design.sizing.able import HELD_SPEED, cooler, first_guess, weaker, what_it_can
 from cqdd_design.sizing.agreement import FITS, MATERIALS, Hunt, Space, agreed
 from cqdd_design.sizing.exact import exact_checks, shortfalls
 from cqdd_design.sizing.finish import torque_reserve
@@ -112,6 +112,15 @@ def test_torques_that_were_not_stated_are_guessed_from_the_motor() -> None:
     half = first_guess(asked(peak_torque="40 N*m"), None)
     assert half.peak_torque == 40.0
     assert half.derived == {"continuous_torque"}
+
+
+def test_less_is_held_where_parts_are_too_hot_unless_it_was_stated() -> None:
+    guess = first_guess(asked(), None)
+    less = cooler(guess)
+    assert less is not None
+    assert 0.9 < less.continuous_torque / guess.continuous_torque <= 0.95
+    assert less.peak_torque == guess.peak_torque
+    assert cooler(asked(peak_torque="40 N*m", continuous_torque="5 N*m")) is None
 
 
 def test_they_become_what_the_motor_can_do(machine: Machine) -> None:
