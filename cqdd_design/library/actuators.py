@@ -1,0 +1,498 @@
+"""Calls about the whole actuator: `bench`, `calibrate` and `simulate`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeAlias
+
+from cqdd_design.errors import UsageError
+from cqdd_design.library.asked import AskedOfScenario
+from cqdd_design.library.calls import names, road, si_value, whole
+from cqdd_design.library.inputs import DesignLike, PathLike, design_of, path_of, specimen_of
+from cqdd_design.library.results import Result, Row, frame
+
+if TYPE_CHECKING:
+    import pandas
+    from typing_extensions import Unpack
+
+    from cqdd_design.actuator.bench.calibrate import Calibration
+    from cqdd_design.actuator.recording import Recording
+    from cqdd_design.actuator.specimen import Specimen
+    from cqdd_design.design import Design
+    from cqdd_design.report.notebook import Section
+    from cqdd_design.results import Check
+    from cqdd_design.roads.bench import DataSheet
+    from cqdd_design.units import Quantity
+    from cqdd_design.verdict import Verdict
+
+_MOST_SAMPLES = 10_000
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Measured(Result):
+    """What `bench` returns; `to_pandas` has a row a measurement.
+
+    Attributes
+    ----------
+    found : DataSheet
+        Measurements with their traces (`result.metrics`), other actuators beside, the verdict.
+    """
+
+    command: ClassVar[str] = "bench"
+
+    found: DataSheet
+
+    @property
+    def verdict(self) -> Verdict | None:
+        """On the design; None where single rows were asked for."""
+        return self.found.verdict
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Lines of the verdict."""
+        return self.found.lines
+
+    def _told(self) -> str:
+        rows = f"measured rows: {len(self.found.result.metrics)}"
+        return f"{rows}; {self._answer(self.checks)}" if self.checks else rows
+
+    def _figures(self) -> tuple[str, ...]:
+        if self.verdict is not None:
+            return super()._figures()
+        return tuple(
+            f"{one.name}: "
+            + (f"{one.value:.4g} {one.unit}" if one.known is not None else "not known")
+            for one in self.found.result.metrics
+        )
+
+    def _results(self) -> Mapping[str, Any]:
+        return self.found.to_dict()
+
+    def _rows(self) -> Sequence[Row]:
+        metrics = self.to_dict()["results"]["metrics"]
+        keys = ("value", "unit", "paper", "relation", "protocol")
+        return [
+            {"name": name} | {key: one.get(key) for key in keys} for name, one in metrics.items()
+        ]
+
+    def _sections(self) -> Sequence[Section]:
+        from cqdd_design.report.actuator.bench_table import bench_view
+        from cqdd_design.report.notebook import Section
+
+        pins = self.design.reducer.output_pins.count
+        view = bench_view(self.found.parameters, self.found.result, pin_count=pins)
+        return (Section("bench.html", {"bench": view}),)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Calibrated(Result):
+    """What `calibrate` returns; `to_pandas` has a row a measurement.
+
+    Attributes
+    ----------
+    found : Calibration
+        Factors of the unknowns, rows before and after, and the data sheet after.
+    """
+
+    command: ClassVar[str] = "calibrate"
+
+    found: Calibration
+
+    def _told(self) -> str:
+        good, told = len(self.found.within), len(self.found.predicted)
+        return f"{good} of {told} predicted rows are near what was measured"
+
+    def _figures(self) -> tuple[str, ...]:
+        from cqdd_design.actuator.bench.unknowns import UNKNOWNS
+
+        return tuple(
+            f"{name}: {UNKNOWNS[name].told(value)}" for name, value in self.found.factors.items()
+        )
+
+    def _results(self) -> Mapping[str, Any]:
+        return self.found.to_dict()
+
+    def _rows(self) -> Sequence[Row]:
+        return [{"name": row.name} | row.to_dict() for row in self.found.rows]
+
+    def _sections(self) -> Sequence[Section]:
+        from cqdd_design.report.ink.numbers import significant
+        from cqdd_design.report.notebook import table
+
+        def shown(value: float | None) -> str:
+            return "" if value is None else significant(value)
+
+        rows = [
+            (row.name, row.unit, *map(shown, (row.measured, row.before, row.after)), row.relation)
+            for row in self.found.rows
+        ]
+        head = ("Measurement", "Unit", "#Measured", "#Computed", "#Calibrated", "Agreement is")
+        return (table("Before and after calibration", head, rows),)
+
+
+CalibrationLike: TypeAlias = PathLike | Calibrated
+"""A file that `calibrate` wrote, or what it returned."""
+
+
+@road
+def bench(
+    design: DesignLike,
+    *,
+    only: str | Sequence[str] = (),
+    voltage: Quantity | None = None,
+    rig_stiffness: Quantity | None = None,
+    seed: int | None = None,
+    calibration: CalibrationLike | None = None,
+    beside: Sequence[str] = (),
+    out: PathLike | None = None,
+    force: bool = False,
+    progress: Callable[[str], None] | None = None,
+) -> Measured:
+    """The actuator's data sheet, measured on a virtual test bench, with the verdict.
+
+    Parameters
+    ----------
+    design : Design or path
+        A path is that of a design file; a bare name may be an example's.
+    only : sequence of str
+        Names of measurements, such as ``("mass", "backlash")``; default all, with the verdict.
+    voltage : quantity, optional
+        Supply of the dynamic rows; default 24 V.
+    rig_stiffness : quantity, optional
+        Of what holds the output for the torque bandwidth; default a torque sensor's.
+    seed : int, optional
+        Of one drawn gearbox; default perfect parts.
+    calibration : path or Calibrated, optional
+        Fitted factors to apply.
+    beside : sequence of str
+        Geared actuators of the catalogue to compare with.
+    out : path, optional
+        Folder for every trace, as npz.
+    force : bool
+        Replace traces there.
+    progress : callable, optional
+        Told in a few words what begins.
+
+    Returns
+    -------
+    Measured
+        `found.result.metrics`: each a value in its unit, its protocol, and a trace of arrays (T,).
+
+    Raises
+    ------
+    UsageError
+        No such measurement; a quantity that cannot be read; a file that exists.
+    CatalogError
+        No such actuator.
+    DesignError
+        No valid design, or one that makes no actuator.
+
+    Notes
+    -----
+    Protocols and equations are those of docs/actuator-model.md.
+
+    Examples
+    --------
+    >>> import cqdd_design as cq
+    >>> sheet = cq.bench("cqdd-10", only=("output_resolution",))
+    >>> round(sheet.found.result.value("output_resolution"), 4)  # deg
+    0.0022
+    """
+    from cqdd_design.roads.bench import data_sheet, write_traces
+    from cqdd_design.roads.telling import silent
+    from cqdd_design.units import STIFFNESS_GAIN, VOLTAGE
+
+    loaded = design_of(design)
+    specimen, told = specimen_given(loaded, seed, calibration)
+    found = data_sheet(
+        loaded,
+        specimen,
+        only=names(only),
+        voltage=si_value("voltage", voltage, VOLTAGE, positive=True),
+        rig_stiffness=si_value("rig_stiffness", rig_stiffness, STIFFNESS_GAIN, positive=True),
+        beside=tuple(beside),
+        progress=progress or silent,
+    )
+    files = () if out is None else write_traces(found.result, path_of("out", out), force=force)
+    return Measured(loaded, (*told, *found.result.warnings), found, files=files)
+
+
+@road
+def calibrate(
+    design: DesignLike,
+    measured: Mapping[str, float] | PathLike | None = None,
+    *,
+    to: str | Sequence[str] = (),
+    unknowns: str | Sequence[str] = (),
+    voltage: Quantity | None = None,
+    rig_stiffness: Quantity | None = None,
+    seed: int | None = None,
+    out: PathLike | None = None,
+    force: bool = False,
+    progress: Callable[[str], None] | None = None,
+) -> Calibrated:
+    """Fit what no drawing tells to measured rows, and predict the others.
+
+    Parameters
+    ----------
+    design : Design or path
+        A path is that of a design file; a bare name may be an example's.
+    measured : mapping or path, optional
+        Values by measurement in the bench's units, or a CSV with the columns ``name,value,unit``;
+        default the paper's table, for its own actuator.
+    to : sequence of str
+        Measured rows to fit to; the others are predicted. Default those that decide the unknowns.
+    unknowns : sequence of str
+        What to fit; default what the rows decide.
+    voltage, rig_stiffness, seed
+        As `bench` takes them.
+    out : path, optional
+        JSON file to write, for `calibration` of other calls.
+    force : bool
+        Replace that file.
+    progress : callable, optional
+        Told in a few words what begins.
+
+    Returns
+    -------
+    Calibrated
+        `found.factors` by unknown, and `found.rows` with what was measured, computed, calibrated.
+
+    Raises
+    ------
+    UsageError
+        No such row or unknown; rows that do not decide the unknowns; a file that exists.
+    DesignError
+        No valid design, or one that makes no actuator.
+
+    Notes
+    -----
+    docs/actuator-model.md says what is fitted to what; docs/measured.md how well it then predicts.
+
+    Examples
+    --------
+    >>> import cqdd_design as cq
+    >>> fitted = cq.calibrate("cqdd-10", to=("continuous_torque",))
+    >>> list(fitted.found.factors)
+    ['thermal_resistance']
+    """
+    from cqdd_design.actuator.bench.calibration_file import write_calibration
+    from cqdd_design.actuator.bench.measured import read_measured
+    from cqdd_design.files import refuse_overwrite
+    from cqdd_design.roads.calibrate import calibrate as fit
+    from cqdd_design.roads.telling import silent
+    from cqdd_design.units import STIFFNESS_GAIN, VOLTAGE
+
+    rows: Mapping[str, float] | None = None
+    if isinstance(measured, Mapping):
+        rows = measured
+    elif measured is not None:
+        rows = read_measured(path_of("measured", measured))
+    target = None if out is None else path_of("out", out)
+    if target is not None:
+        refuse_overwrite(target, force=force)
+    loaded = design_of(design)
+    specimen, _ = specimen_given(loaded, seed, None)
+    found = fit(
+        loaded,
+        rows,
+        specimen,
+        to=names(to),
+        unknowns=names(unknowns),
+        voltage=si_value("voltage", voltage, VOLTAGE, positive=True),
+        rig_stiffness=si_value("rig_stiffness", rig_stiffness, STIFFNESS_GAIN, positive=True),
+        progress=progress or silent,
+    )
+    files = () if target is None else (write_calibration(found, loaded.sha256, target),)
+    return Calibrated(loaded, found.after.warnings, found, files=files)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Simulated(Result):
+    """What `simulate` returns; `to_pandas` has a row an instant, columns with their unit.
+
+    Attributes
+    ----------
+    found : Recording
+        `columns` by name and unit, arrays (S T,); the scenario; the energy's balance.
+    """
+
+    command: ClassVar[str] = "simulate"
+
+    found: Recording
+
+    def _told(self) -> str:
+        found = self.found
+        drawn = f"{len(found.seeds)} drawn gearboxes" if found.seeds else "perfect parts"
+        asked = f"{found.options['--load']} load, {found.options['--command']} command"
+        return f"{asked}, {drawn}, {len(found.simulation.time)} records at {found.rate:.4g} Hz"
+
+    def _figures(self) -> tuple[str, ...]:
+        every = self.found.summary()
+        return tuple(
+            f"{key}: {min(one[key] for one in every):.4g} to {max(one[key] for one in every):.4g}"
+            if len(every) > 1
+            else f"{key}: {every[0][key]:.4g}"
+            for key in every[0]
+        )
+
+    def _results(self) -> Mapping[str, Any]:
+        return self.found.to_dict()
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The record: a row an instant, the unit in every column's name."""
+        return frame(self.found.columns())
+
+    def _sections(self) -> Sequence[Section]:
+        from cqdd_design.report.notebook import table
+
+        rows = [tuple(line.split(": ")) for line in self._figures()]
+        return (table("The record", ("Figure", "#Value"), rows),)
+
+
+@road
+def simulate(
+    design: DesignLike,
+    *,
+    load: Literal["free", "locked", "inertia", "driven", "pendulum", "wall"] = "free",
+    command: Literal["torque", "current", "voltage", "impedance", "position", "open"] = "torque",
+    signal: Literal["constant", "sine", "chirp", "ramp", "file"] | None = None,
+    duration: Quantity | None = None,
+    rate: Quantity | None = None,
+    step: Quantity | None = None,
+    voltage: Quantity | None = None,
+    friction: Literal["clip", "lugre"] = "clip",
+    seed: int | None = None,
+    samples: int | None = None,
+    calibration: CalibrationLike | None = None,
+    out: PathLike | None = None,
+    force: bool = False,
+    progress: Callable[[int, int], None] | None = None,
+    **asked: Unpack[AskedOfScenario],
+) -> Simulated:
+    """Run the actuator in time; nothing is written unless `out` says where.
+
+    Parameters
+    ----------
+    design : Design or path
+        A path is that of a design file; a bare name may be an example's.
+    load : str
+        What the output carries.
+    command : str
+        What the drive is told; ``"open"``: no current.
+    signal : str, optional
+        Of the command over time; default what the other arguments say, or constant.
+    duration : quantity, optional
+        Default 5 s; of a reference file, its last time.
+    rate : quantity, optional
+        Of the record; default 1 kHz.
+    step : quantity, optional
+        Default one that the stiffness surely stands.
+    voltage : quantity, optional
+        Supply; default that of the design.
+    friction : {"clip", "lugre"}
+        Model of dry friction.
+    seed : int, optional
+        Draw the gearbox from the tolerances; default perfect parts.
+    samples : int, optional
+        Gearboxes to draw, 1 to 10,000, with seeds from `seed` (default 0) on.
+    calibration : path or Calibrated, optional
+        Fitted factors to apply.
+    out : path, optional
+        ``.npz`` or ``.parquet`` to write.
+    force : bool
+        Replace that file.
+    progress : callable, optional
+        Told how many gearboxes are solved, and of how many.
+    **asked
+        What belongs to the load, command or signal, with the names of the command's options:
+        ``mass="2 kg"`` and ``arm="0.3 m"`` of a pendulum, ``amplitude="20 N*m"``,
+        ``frequency="1 Hz"`` of a sine, ``reference="knee.csv"`` of a file.
+
+    Returns
+    -------
+    Simulated
+        `found.columns()`: arrays (T,), or (S T,) of S gearboxes, SI with the unit in the name.
+
+    Raises
+    ------
+    UsageError
+        An argument that does not belong to load, command or signal; a quantity that cannot be
+        read; more than memory holds.
+    DesignError
+        No valid design, or one that makes no actuator.
+
+    Notes
+    -----
+    Equations and integrator: docs/actuator-model.md.
+
+    Examples
+    --------
+    >>> import cqdd_design as cq
+    >>> run = cq.simulate("cqdd-10", load="inertia", amplitude="2 N*m", duration="50 ms")
+    >>> sorted(run.found.columns())[:2]
+    ['commanded_torque [N m]', 'current [A]']
+    """
+    from cqdd_design.library.scenario_words import Choices
+    from cqdd_design.roads.simulate import simulate as run
+    from cqdd_design.roads.simulate import simulation_kind, write_simulation
+    from cqdd_design.units import unit_string
+
+    unknown = set(asked) - set(AskedOfScenario.__annotations__)
+    if unknown:
+        raise UsageError(
+            f"simulate has no argument {', '.join(sorted(unknown))}; besides its own it takes "
+            f"{', '.join(AskedOfScenario.__annotations__)}."
+        )
+    given: dict[str, Any] = {
+        **asked,
+        "duration": duration,
+        "rate": rate,
+        "step": step,
+        "voltage": voltage,
+    }
+    words = Choices(
+        {
+            f"--{name.replace('_', '-')}": None if value is None else unit_string(value)
+            for name, value in given.items()
+        }
+    )
+    target = None if out is None else path_of("out", out)
+    simulation_kind(target, force=force)
+    loaded = design_of(design)
+    wanted = words.run(loaded, load=load, command=command, signal=signal, friction=friction)
+    specimen, told = specimen_given(loaded, seed, calibration)
+    found = run(
+        loaded,
+        wanted.scenario,
+        specimen,
+        duration=wanted.duration,
+        rate=wanted.rate,
+        step=wanted.step,
+        voltage=wanted.voltage,
+        samples=None if samples is None else whole("samples", samples, 1, _MOST_SAMPLES),
+        options=wanted.options,
+        progress=progress,
+    )
+    files = () if target is None else (write_simulation(found, target, force=force),)
+    return Simulated(loaded, (*wanted.warnings, *told, *found.warnings), found, files=files)
+
+
+def specimen_given(
+    design: Design, seed: int | None, calibration: CalibrationLike | None
+) -> tuple[Specimen, tuple[str, ...]]:
+    """The actuator that is meant, and a warning where a calibration is of another design."""
+    if seed is not None:
+        whole("seed", seed, 0, 2**64 - 1)
+    if isinstance(calibration, Calibrated):
+        found, _ = specimen_of(design, seed=seed)
+        fitted = replace(found, factors=calibration.found.factors)
+        if calibration.design.sha256 == design.sha256:
+            return fitted, ()
+        return fitted, (
+            f"the calibration is of another design ({calibration.design.name}) or another state "
+            "of this one; its factors are applied all the same.",
+        )
+    path = None if calibration is None else path_of("calibration", calibration)
+    return specimen_of(design, seed=seed, calibration=path)

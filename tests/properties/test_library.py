@@ -1,0 +1,306 @@
+"""What ``import cqdd_design`` gives: names, arguments, errors, results."""
+
+import dataclasses
+import inspect
+import re
+import subprocess
+import sys
+import warnings
+from pathlib import Path
+
+import pint
+import pytest
+
+import cqdd_design as cq
+from cqdd_design.errors import CqddError, DependencyError, DesignError, UsageError
+from cqdd_design.library.asked import Asked, AskedOfScenario
+from cqdd_design.library.results import Result
+from cqdd_design.verdict.headline import Figure
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+PAPER = REPOSITORY / "designs" / "cqdd-10.toml"
+FUNCTIONS = [name for name in cq.__all__ if inspect.isfunction(getattr(cq, name))]
+HEAVY = ("numpy", "pydantic", "pint", "cadquery", "torch", "scipy", "numba", "pandas", "jinja2")
+UNITS = pint.UnitRegistry()
+
+
+def python(code: str) -> list[str]:
+    """Lines that a fresh interpreter prints."""
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, cwd=REPOSITORY, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+@pytest.fixture(scope="module")
+def analysed():
+    return cq.analyse(PAPER, torque="40 N*m", angles=12)
+
+
+def test_the_names_are_those_that_were_promised():
+    promised = "analyse bench calibrate check compare export inertia load report simulate size"
+    promised = {*promised.split(), "tolerance", "Design", "Machine", "Requirements", "Verdict"}
+    assert set(cq.__all__) == promised | {"__version__"}
+    assert dir(cq) == sorted(cq.__all__)
+    with pytest.raises(AttributeError, match="no attribute 'sise'"):
+        cq.sise  # noqa: B018
+
+
+def test_importing_loads_nothing_that_takes_time():
+    (loaded,) = python("import sys, cqdd_design; print(*sys.modules)")
+    assert {name.partition(".")[0] for name in loaded.split()}.isdisjoint(HEAVY)
+    ours = [name for name in loaded.split() if name.startswith("cqdd_design.")]
+    assert sorted(ours) == ["cqdd_design.report", "cqdd_design.version"]
+
+
+def test_help_reads_no_files_room():
+    """A fifth of its time once, for the table of kinds alone."""
+    code = (
+        "import sys; sys.argv = ['cqdd-design', '--help']\n"
+        "from cqdd_design.__main__ import main\nmain()\n"
+        "print('LOADED', *sys.modules, file=sys.stderr)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, cwd=REPOSITORY, check=True
+    )
+    loaded = done.stderr.partition("LOADED")[2].split()
+    assert "cqdd_design.library.calls" in loaded
+    assert "cqdd_design.files" not in loaded
+
+
+def test_the_room_report_never_takes_the_place_of_the_function():
+    told = python(
+        "import cqdd_design as cq\n"
+        "import cqdd_design.report.build\n"
+        "from cqdd_design.report import build_report, read_comments\n"
+        "print(callable(cq.report), build_report.__module__, read_comments.__module__)"
+    )
+    assert told == ["True cqdd_design.report.build cqdd_design.report.judgement.origins"]
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_function_says_what_it_takes_and_gives(name):
+    function = getattr(cq, name)
+    text = inspect.getdoc(function) or ""
+    for heading in ("Parameters", "Returns", "Raises", "Examples"):
+        assert f"\n{heading}\n{'-' * len(heading)}\n" in text, (name, heading)
+    assert f"cq.{name}(" in text
+    signature = inspect.signature(function)
+    assert signature.return_annotation is not inspect.Signature.empty
+    told = text.partition("\nParameters\n")[2].partition("\nReturns\n")[0]
+    for parameter in signature.parameters.values():
+        assert parameter.annotation is not inspect.Parameter.empty, (name, parameter.name)
+        named = rf"(?m)^(?:[\w, *]*, )?\**{parameter.name}\b"
+        assert re.search(named, told), (name, parameter.name)
+
+
+@pytest.mark.parametrize("name", [name for name in FUNCTIONS if name != "load"])
+def test_a_result_is_frozen_and_says_what_it_holds(name):
+    function = getattr(cq, name)
+    kind = getattr(sys.modules[function.__module__], function.__annotations__["return"])
+    assert issubclass(kind, Result)
+    assert kind.command == name
+    assert kind.__dataclass_params__.frozen
+    text = inspect.getdoc(kind)
+    for field in dataclasses.fields(kind):
+        whole = text + inspect.getdoc(Result)
+        assert re.search(rf"(?m)^{field.name} : ", whole), (name, field.name)
+
+
+def test_arguments_of_size_are_the_keys_of_requirements():
+    own = set(inspect.signature(cq.size).parameters) - {"asked"}
+    keys = set(Asked.__annotations__)
+    assert keys | (own & {"ratio", "motor"}) == set(cq.Requirements.model_fields)
+    assert not keys & own
+
+
+def test_arguments_of_simulate_are_the_options_of_the_command():
+    from cqdd_design.cli.simulate import simulate
+
+    options = set(inspect.signature(simulate).parameters)
+    options -= {"out", "design", "motor", "motor_file", "target", "calibration", "force"}
+    own = set(inspect.signature(cq.simulate).parameters) - {"design", "asked", "progress"}
+    own -= {"out", "calibration", "force"}
+    assert own | set(AskedOfScenario.__annotations__) == options
+
+
+def test_an_example_a_file_and_a_design_are_the_same():
+    example, file = cq.load("cqdd-10"), cq.load(PAPER)
+    assert example.sha256 == file.sha256 == cq.load(str(PAPER)).sha256
+    assert cq.load(file) == file
+
+
+def test_what_is_no_design_is_told_with_what_there_is():
+    with pytest.raises(UsageError, match=r"neither a file cqdd-11 nor such an example; .*cqdd-10"):
+        cq.load("cqdd-11")
+    with pytest.raises(UsageError, match="design must be a path, not a int"):
+        cq.load(11)
+
+
+def test_another_motor_tells_what_it_replaces(tmp_path):
+    text = PAPER.read_text(encoding="utf-8")
+    path = tmp_path / "own.toml"
+    path.write_text(text.replace("[motor]\n", '[motor]\nresistance = "0.2 ohm"\n'))
+    expected = r"^motor .* goes before \[motor\] of .*resistance"
+    with pytest.warns(UserWarning, match=expected) as told:
+        found = cq.load(path, motor="CubeMars RO100 KV55")
+    assert told[0].filename == __file__
+    assert "resistance" not in found.motor.data
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        cq.load(path)
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        (40.0, r'^torque: 40.0 has no unit; write it like "40.0 N\*m"\.$'),
+        (UNITS.Quantity(40.0, "joule"), "^torque: 'joule' is not a unit of torque"),
+        (UNITS.Quantity([1.0, 2.0], "N*m"), "^torque: a torque is one number"),
+        ("-3 N*m", r"^torque -3 N\*m is not above zero"),
+        ("1e-6 N*m", r"^torque: 1e-06 N\*m is outside 0.001 to 100000 N\*m\.$"),
+    ],
+)
+def test_a_torque_that_is_none_is_refused_by_its_name(given, told):
+    with pytest.raises(UsageError, match=told):
+        cq.analyse("cqdd-10", torque=given)
+
+
+@pytest.mark.parametrize(
+    ("call", "told"),
+    [
+        (lambda: cq.check("cqdd-10", angles=0), "^angles 0 must be from 1 to 100000; the nearest"),
+        (lambda: cq.tolerance("cqdd-10", samples=2.5), "^samples 2.5 is not a whole number"),
+        (
+            lambda: cq.tolerance("cqdd-10", angles=7),
+            "^angles 7 must be at least 8; .* 8",
+        ),
+        (lambda: cq.compare("cqdd-10", teeth=(12, 36)), r"^teeth \(12, 36\) must be four numbers"),
+        (lambda: cq.size(), "^size needs ratio N or requirements FILE"),
+        (lambda: cq.size(10, peak_troque="3 N*m"), "peak_troque .*did you mean 'peak_torque'"),
+        (lambda: cq.size(10, pick="e"), "^pick 'e' is none of b, c, d"),
+        (lambda: cq.simulate("cqdd-10", mas="1 kg"), "^simulate has no argument mas; .*mass"),
+        (lambda: cq.simulate("cqdd-10", wall_angle="1 rad"), "^wall_angle does not belong to load"),
+        (lambda: cq.simulate("cqdd-10", amplitude=3.0), "amplitude of command torque: .*no unit"),
+        (lambda: cq.bench("cqdd-10", beside=["x"]), "x"),
+        (lambda: cq.export("cqdd-10", "dfx"), "dfx"),
+        (lambda: cq.calibrate("printed-13"), "give them with measured FILE"),
+    ],
+)
+def test_errors_name_arguments_and_are_of_one_family(call, told):
+    with pytest.raises(CqddError, match=told) as caught:
+        call()
+    assert "--" not in str(caught.value).partition("`")[0]
+    assert caught.value.message == str(caught.value)
+
+
+def test_requirements_and_designs_refuse_in_our_own_words():
+    with pytest.raises(DesignError, match=r"ratio = 300: .*nearest allowed is 119"):
+        cq.Requirements(ratio=300)
+    with pytest.raises(DesignError, match=r"reducer.eccentricity is missing"):
+        cq.Design(reducer={"ratio": 10})
+    half = cq.Requirements(ratio=10, peak_torque=UNITS.Quantity(0.05, "kN*m"))
+    assert half.peak_torque == 50.0
+    assert half.continuous_torque == pytest.approx(19.0)
+
+
+def test_quantities_of_pint_are_those_of_strings():
+    paper = cq.load("cqdd-10")
+    texts = {"reducer.eccentricity": "1.5 mm", "environment.ambient": "40 degC"}
+    values = {
+        "reducer.eccentricity": UNITS.Quantity(0.0015, "m"),
+        "environment.ambient": UNITS.Quantity(313.15, "kelvin"),
+    }
+    assert paper.replacing(texts).sha256 == paper.replacing(values).sha256 != paper.sha256
+    speed = UNITS.Quantity(1.0, "rad/s") * 10.0
+    run = cq.simulate("cqdd-10", load="driven", output_speed=speed, duration="20 ms")
+    same = cq.simulate("cqdd-10", load="driven", output_speed="10 rad/s", duration="20 ms")
+    assert (run.to_pandas() == same.to_pandas()).all().all()
+
+
+def test_requirements_over_requirements_keep_what_was_stated():
+    from cqdd_design.library.inputs import read_wanted
+
+    base = cq.Requirements(ratio=10, peak_torque="50 N*m", **{"yield": 0.9})
+    found = read_wanted({"peak_torque": "60 N*m"}, base).requirements
+    assert (found.peak_torque, found.yield_share) == (60.0, 0.9)
+    # What followed from the torque that was replaced follows again.
+    assert found.continuous_torque == pytest.approx(0.38 * 60.0)
+    assert read_wanted({}, base).requirements is base
+
+
+def test_a_result_is_told_in_a_few_lines(analysed):
+    lines = repr(analysed).splitlines()
+    assert lines[0].startswith("Analysed cqdd-10: does NOT meet its requirements: of ")
+    figures = analysed.verdict.headline
+    assert [line.strip() for line in lines[1:]] == [one.told for one in figures]
+    assert len(figures) == 7
+    assert repr(analysed.verdict).splitlines()[1:] == lines[1:]
+
+
+def test_a_figure_is_told_with_what_is_asked_and_not_guessed():
+    known = Figure("mass", "mass", 0.8, "kg", 1.0, "pass", "")
+    assert known.told == "pass     mass: 0.8 kg, 1 asked"
+    assert dataclasses.replace(known, value=None, required=None).told.endswith("mass: not known")
+
+
+def test_a_design_and_a_machine_are_told_in_a_line(analysed):
+    paper = cq.load("cqdd-10")
+    told = "Design cqdd-10: ratio 10, ring 72 mm, 2 x 8 mm of disc, CubeMars RO100 Lite KV55"
+    assert repr(paper) == told
+    assert repr(analysed.machine) == f"Machine of {told}; cam bearing 6902"
+
+
+def test_a_notebook_shows_the_reports_own_figures(analysed):
+    import html
+
+    from cqdd_design.report.judgement.verdict import verdict
+
+    shown = analysed._repr_html_()
+    page = html.unescape(re.search(r'srcdoc="([^"]*)"', shown)[1])
+    assert page.count("<h1>cqdd-10</h1>") == 1
+    for figure in verdict(analysed.verdict)["figures"]:
+        assert f'<td>{figure["title"]}</td><td class="number">{figure["value"]}</td>' in page
+    assert 'id="front-view-svg"' in page
+    assert '<section id="contact"' in page
+    # Nothing of it reaches out of its frame, or to the network.
+    assert "<script" not in page
+    assert not re.search(r"(?:src|href)=\"(?:https?:)?//", page)
+
+
+def test_a_table_has_a_row_for_every_contact(analysed):
+    table = analysed.to_pandas()
+    reducer = analysed.design.reducer
+    teeth = table[table.contact == "tooth"]
+    assert len(teeth) == 12 * reducer.disc_count * reducer.ring_tooth_count
+    assert len(table) - len(teeth) == 12 * reducer.disc_count * reducer.output_pins.count
+    # A tooth's place in the table is its place in the arrays.
+    force = analysed.found.contact.sweep.ring_force
+    one = teeth[(teeth.disc == 2) & (teeth.number == 4)]
+    assert one.force_N.to_numpy() == pytest.approx(force[:, 1, 3])
+
+
+def test_no_pandas_is_told_as_a_missing_package(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    run = cq.simulate("cqdd-10", command="open", duration="5 ms")
+    with pytest.raises(DependencyError, match="to_pandas needs the Python package pandas"):
+        run.to_pandas()
+
+
+def test_a_simulation_of_an_open_circuit_stays_at_rest():
+    table = cq.simulate("cqdd-10", command="open", duration="20 ms").to_pandas()
+    assert len(table) == 20
+    assert (table["motor_angle [rad]"].diff().dropna().abs() < 1e-9).all()
+
+
+def test_a_calibration_of_another_design_is_told():
+    from cqdd_design.actuator.bench.unknowns import Fit
+    from cqdd_design.library.actuators import Calibrated, specimen_given
+
+    paper, other = cq.load("cqdd-10"), cq.load("printed-13")
+    fitted = Calibrated(paper, (), type("Found", (), {"factors": Fit({"motor_coulomb": 2.0}, ())}))
+    specimen, told = specimen_given(paper, 3, fitted)
+    assert (specimen.seed, dict(specimen.factors), told) == (3, {"motor_coulomb": 2.0}, ())
+    _, (sentence,) = specimen_given(other, None, fitted)
+    assert sentence.startswith("the calibration is of another design (cqdd-10)")
