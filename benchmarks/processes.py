@@ -85,8 +85,11 @@ def our_commands() -> list[Command]:
         start = (sys.executable, "-m", "cqdd_design")
         return Command(name, f"cqdd-design {shown}", (*start, *line.split(), *extra), limit)
 
+    imported = (sys.executable, "-c", "import cqdd_design")
     return [
-        ours("help", "--help", 0.25),
+        Command("nothing", 'python -c "pass"', (sys.executable, "-c", "pass")),
+        Command("import", 'python -c "import cqdd_design"', imported, 0.05),
+        ours("help", "--help", 0.2),
         ours("size", "size --quick --ratio 10", 2.0, "--json"),
         ours("dxf", f"export {DESIGN} --to dxf", 1.0),
         ours("full", f"export {DESIGN} --to {kinds}", 10.0),
@@ -110,7 +113,8 @@ def their_commands(python: str) -> list[Command]:
 def run_once(command: Command) -> tuple[float, str]:
     """Run a command in an empty folder; return its wall-clock time (s) and standard output."""
     path = os.pathsep.join(p for p in (str(REPOSITORY), os.environ.get("PYTHONPATH")) if p)
-    environment = {**os.environ, "PYTHONPATH": path if "cqdd_design" in command.arguments else ""}
+    theirs = command.name.startswith("their")
+    environment = {**os.environ, "PYTHONPATH": "" if theirs else path}
     with tempfile.TemporaryDirectory() as folder:
         begin = time.perf_counter()
         done = subprocess.run(

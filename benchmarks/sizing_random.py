@@ -1,13 +1,13 @@
 """Sizing's search by the contact equilibrium against a random search with many times its time.
 
-    python benchmarks/sizing_random.py [times]
+    python benchmarks/sizing_random.py [times [row ...]]
 
 For ten requirements, `sizing.agreement.lightest` searches first. Then random points of the same
 grid, over the whole space and about the best that was found at random so far, are screened by the
 closed forms, and those that might be lighter are held against the same equilibrium
-(`exact_checks`), for `times` (100) times as long. Both are borne out by the same lines; what is
-printed is the mass that the search finds over the lightest of the random one. Times are those of
-the processor.
+(`exact_checks`), for `times` (100) times as long. Both are borne out by the same lines and end at
+the smallest ring that a motor is drawn round; what is printed is the mass that the search finds
+over the lightest of the random one. Times are those of the processor.
 """
 
 from __future__ import annotations
@@ -21,10 +21,18 @@ import numpy as np
 from cqdd_design.design import Requirements, requirements_from_mapping
 from cqdd_design.errors import ContactError, DesignError
 from cqdd_design.machine import resolve
-from cqdd_design.sizing.agreement import Found, Hunt, in_a_smaller_ring, lightest, spaces
+from cqdd_design.sizing.agreement import (
+    Found,
+    Hunt,
+    in_a_smaller_ring,
+    least_ring,
+    lightest,
+    spaces,
+)
 from cqdd_design.sizing.exact import exact_checks
 from cqdd_design.sizing.finish import finish
-from cqdd_design.sizing.points import Evaluator, Pins, Points
+from cqdd_design.sizing.points import Evaluator, Points
+from cqdd_design.sizing.ring_stages import Pins
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.stage_tables import stage_tables
 
@@ -83,7 +91,8 @@ def by_chance(requirements: Requirements, seconds: float, seed: int) -> tuple[fl
         about = place is not None and draw.random() < _ABOUT
         search = place[0] if about and place else tried[draw.integers(len(tried))]
         points = _points(search, draw, place[1] if about and place else None)
-        light = np.flatnonzero((points.reserve >= 1.0) & (points.mass < best))
+        fits = points.outer_radius >= 0.5 * least_ring(search.frame.motor)
+        light = np.flatnonzero(fits & (points.reserve >= 1.0) & (points.mass < best))
         for row in light[np.argsort(points.mass[light])][:4]:
             seen += 1
             if points.mass[row] < best and _borne_out(search.evaluator, points, int(row)):
@@ -126,11 +135,13 @@ def _borne_out(evaluator: Evaluator, points: Points, row: int) -> bool:
         return False
 
 
-def main(times: float) -> None:
-    """Print a row for every requirement."""
+def main(times: float, rows: tuple[int, ...]) -> None:
+    """Print a row for every requirement, or for those of some numbers."""
     np.seterr(all="ignore")  # Of shapes that cannot be: they have no reserve.
     print("ratio  peak N*m  lasting N*m  life h  search s  search g  chance g  looked at  over")
     for seed, asked in enumerate(drawn_requirements(_REQUIREMENTS)):
+        if rows and seed + 1 not in rows:
+            continue
         by_search(asked)
         found, seconds = by_search(asked)
         best, seen = by_chance(asked, times * seconds, seed)
@@ -144,4 +155,4 @@ def main(times: float) -> None:
 
 
 if __name__ == "__main__":
-    main(float(sys.argv[1]) if len(sys.argv) > 1 else TIMES)
+    main(float(sys.argv[1]) if len(sys.argv) > 1 else TIMES, tuple(map(int, sys.argv[2:])))

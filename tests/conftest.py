@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -26,10 +27,13 @@ from hypothesis import settings
 # whatever the environment says: a thousand files would be compiled anew in each.
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+# Workers share the cores already: threads of linear algebra would mostly wait for each other.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import cqdd_design  # noqa: E402
 
 REPOSITORY = Path(__file__).resolve().parents[1]
+PACKAGE = REPOSITORY / "cqdd_design"
 
 #: Files that take longest, which the workers begin with: then they end together.
 SLOW = (
@@ -43,8 +47,9 @@ SLOW = (
     *("test_sizing_screen", "test_geometry_ring", "test_report_bench", "test_cli_torque_data"),
 )
 
-#: Commands that write nothing.
+#: Commands that write nothing, and those that write nothing outside the folder they run in.
 READING = ("analyse", "bench", "catalog", "check", "compare", "explain", "inertia", "tolerance")
+WRITING = ("export", "report", "simulate", "size")
 
 # The same examples every time; `python -m tools.fuzz --properties` draws others.
 settings.register_profile("steady", derandomize=True, deadline=None)
@@ -57,11 +62,35 @@ def pytest_configure(config: pytest.Config) -> None:
     os.environ["CQDD_TEST_DEPTH"] = "deep" if _is_deep(config) else "daily"
     config.option.loadscopereorder = False
     # One for all workers and processes of a run, and never the user's own.
+    if "CQDD_DESIGN_CACHE" not in os.environ and (kept := _kept_cache(config)):
+        os.environ["CQDD_DESIGN_CACHE"] = str(kept)
     for name in ("CQDD_DESIGN_CACHE", "CQDD_TEST_RUNS"):
         if name not in os.environ:
             folder = tempfile.mkdtemp(prefix="cqdd-cache-")
             os.environ[name] = folder
             config.add_cleanup(partial(shutil.rmtree, folder, ignore_errors=True))
+
+
+def _kept_cache(config: pytest.Config) -> Path | None:
+    """Meshes and gearboxes that this very package has worked in an earlier run.
+
+    A byte of the package or a version of what it rests on that changed, and all is worked anew.
+    """
+    if not hasattr(config, "cache"):
+        return None
+    state = hashlib.sha256(sys.version.encode())
+    for name in ("llvmlite", "numba", "numpy", "scikit-fem", "scipy"):
+        state.update(f"{name} {version(name)}".encode())
+    for path in sorted(PACKAGE.rglob("*")):
+        if path.is_file() and path.suffix not in {".pyc", ".nbc", ".nbi"}:
+            state.update(f"{path.relative_to(PACKAGE)}\0".encode() + path.read_bytes() + b"\0")
+    folder = config.cache.mkdir("cqdd-design")
+    now = folder / state.hexdigest()[:16]
+    for other in folder.iterdir():
+        if other != now:
+            shutil.rmtree(other, ignore_errors=True)
+    now.mkdir(exist_ok=True)
+    return now
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -84,13 +113,20 @@ def pytest_sessionstart(session: pytest.Session) -> None:
     workers = getattr(session.config.option, "numprocesses", None)
     if not workers or session.config.option.collectonly:
         return
+    kept = _kept_cache(session.config)
+    if kept and (kept / "kernels").exists() and any(PACKAGE.rglob("*.nbi")):
+        return
     script = Path(__file__).with_name("compile_kernels.py")
-    halves = [
-        subprocess.Popen([sys.executable, str(script), half], env=process_environment())
-        for half in ("gearbox", "actuator")
-    ]
-    for half in halves:
-        half.wait()  # what does not compile here is told by the tests that need it
+    done = []
+    for together in (("elastic", "moving"), ("gearboxes",)):
+        started = [
+            subprocess.Popen([sys.executable, str(script), part], env=process_environment())
+            for part in together
+        ]
+        # What does not compile here is told by the tests that need it.
+        done += [one.wait() == 0 for one in started]
+    if kept and all(done):
+        (kept / "kernels").touch()
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -192,7 +228,7 @@ def warm_processes() -> Iterator[WarmProcesses]:
 
 @pytest.fixture(scope="session")
 def shared_runs() -> Path:
-    """Folder of what commands told that only read; all workers of a run have the same."""
+    """Folder of what commands told and wrote; all workers of a run have the same."""
     return Path(os.environ["CQDD_TEST_RUNS"])
 
 
@@ -201,9 +237,9 @@ def cqdd(tmp_path: Path, shared_runs: Path, request: pytest.FixtureRequest) -> C
     """Run ``cqdd-design`` with the given arguments as a process, in an empty folder.
 
     The process is forked from one that has its imports done, unless it gets an environment that
-    imports depend on. What only reads, and nothing but files of the repository, is run once for all
-    tests (see `shared_runs`); asked for twice by one test, it is run again. Every run is held to a
-    promise: no traceback reaches the terminal without ``--debug``.
+    imports depend on. What reads nothing but files of the repository is run once for all tests,
+    which get its words and files (see `shared_runs`); asked for twice by one test, it is run again.
+    Every run is held to a promise: no traceback reaches the terminal without ``--debug``.
     """
     asked: set[tuple[str, ...]] = set()
 
@@ -215,11 +251,12 @@ def cqdd(tmp_path: Path, shared_runs: Path, request: pytest.FixtureRequest) -> C
     ) -> Finished:
         words, given = [str(one) for one in arguments], environment or {}
         told = None
-        if not given and tuple(words) not in asked and _only_reads(words, folder):
-            told = shared_runs / hashlib.sha256("\0".join(words).encode()).hexdigest()
+        if not given and tuple(words) not in asked and folder == tmp_path:
             asked.add(tuple(words))
-            if told.is_file():
-                return Finished(*json.loads(told.read_text(encoding="utf-8")))
+            if _repeats(words, folder):
+                told = shared_runs / hashlib.sha256("\0".join(words).encode()).hexdigest()
+                if told.is_dir():
+                    return _recalled(told, folder)
         surroundings = {**process_environment(), **given}
         if hasattr(os, "fork") and not any(name.startswith(("PYTHON", "NUMBA")) for name in given):
             warm: WarmProcesses = request.getfixturevalue("warm_processes")
@@ -238,23 +275,41 @@ def cqdd(tmp_path: Path, shared_runs: Path, request: pytest.FixtureRequest) -> C
         if "--debug" not in arguments:
             assert "Traceback" not in done.err, done.err
         if told is not None:
-            mine = told.with_suffix(f".{os.getpid()}")
-            mine.write_text(json.dumps([done.code, done.out, done.err]), encoding="utf-8")
-            mine.replace(told)
+            _remember(told, done, folder if words[0] in WRITING else None)
         return done
 
     return run
 
 
-def _only_reads(words: list[str], folder: Path) -> bool:
-    """Whether a command writes nothing and reads nothing but files of the repository."""
+def _repeats(words: list[str], folder: Path) -> bool:
+    """Whether a command would do the same in other folders; what writes asks for an empty one."""
+    if not words or words[0] not in READING + WRITING:
+        return False
     paths = [Path(word) for word in words if os.sep in word]
-    return (
-        words[:1] in ([name] for name in READING)
-        and "--out" not in words
-        and all(one.is_relative_to(REPOSITORY) for one in paths)
-        and not any(folder.iterdir())
+    here = {one.name for one in folder.iterdir()}
+    return all(one.is_relative_to(REPOSITORY) for one in paths) and (
+        not here if words[0] in WRITING else here.isdisjoint(words) and "--out" not in words
     )
+
+
+def _remember(told: Path, done: Finished, folder: Path | None) -> None:
+    """Keep what a run said and wrote; where two workers ran it at once, what came first stays."""
+    mine = told.with_suffix(f".{os.getpid()}")
+    mine.mkdir()
+    if folder is not None:
+        shutil.copytree(folder, mine / "written", symlinks=True)
+    said = json.dumps([done.code, done.out, done.err])
+    (mine / "said.json").write_text(said, encoding="utf-8")
+    try:
+        mine.rename(told)
+    except OSError:
+        shutil.rmtree(mine)
+
+
+def _recalled(told: Path, folder: Path) -> Finished:
+    if (told / "written").is_dir():
+        shutil.copytree(told / "written", folder, symlinks=True, dirs_exist_ok=True)
+    return Finished(*json.loads((told / "said.json").read_text(encoding="utf-8")))
 
 
 @pytest.fixture

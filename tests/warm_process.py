@@ -23,6 +23,7 @@ import gc
 import importlib
 import json
 import os
+import pkgutil
 import select
 import socket
 import sys
@@ -31,14 +32,13 @@ from typing import Any
 PRELOADED = (
     *("numpy", "scipy.optimize", "scipy.special", "numba", "pint", "tomlkit", "pydantic"),
     *("jinja2", "ezdxf", "trimesh", "cadquery"),
-    *("cqdd_design.cli.main", "cqdd_design.design", "cqdd_design.sizing", "cqdd_design.exporting"),
-    *("cqdd_design.machine.contact_analysis", "cqdd_design.actuator.simulate"),
+    *("cqdd_design.cli.main", "cqdd_design.exporting", "cqdd_design.machine.contact_analysis"),
 )
 
 
 def serve(path: str) -> None:
     """Answer until the client hangs up; only a forked process returns, to become the command."""
-    for name in PRELOADED:
+    for name in (*PRELOADED, *_own_modules()):
         with contextlib.suppress(ImportError):
             importlib.import_module(name)
     _load_what_numba_loads_late()
@@ -62,6 +62,14 @@ def serve(path: str) -> None:
             while not (ended := os.waitpid(child, os.WNOHANG))[0]:
                 select.select([connection], [], [], 0.005)
             connection.sendall(f"{os.waitstatus_to_exitcode(ended[1])}\n".encode())
+
+
+def _own_modules() -> list[str]:
+    """The roads that commands take, and through them nearly all rooms."""
+    import cqdd_design.roads
+
+    found = pkgutil.iter_modules(cqdd_design.roads.__path__, "cqdd_design.roads.")
+    return [one.name for one in found]
 
 
 def _load_what_numba_loads_late() -> None:

@@ -20,7 +20,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.optimize import brentq
 
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.density import torques_of_drive
@@ -176,7 +175,11 @@ def stop_torque(gear: GearParameters, energy: float, motor: float = 0.0) -> floa
         least *= 0.5
     while missing(most) < 0.0:
         most *= 2.0
-    return torque(brentq(missing, least, most, xtol=1e-15, rtol=1e-12))
+    # Halved to rounding: a general root finder takes longer to import than all the rest to compute.
+    while most - least > 1e-13 * most:
+        middle = 0.5 * (least + most)
+        least, most = (middle, most) if missing(middle) < 0.0 else (least, middle)
+    return torque(most)
 
 
 def simulated_torque(parameters: ActuatorParameters, speed: float, current: float = 0.0) -> float:

@@ -17,10 +17,10 @@ from cqdd_design.cli.options import (
     parse_option,
     parse_positive,
     quantity_option,
-    under_duty,
 )
 from cqdd_design.cli.session import Output, read_design
 from cqdd_design.cli.tables import number, table
+from cqdd_design.library.inputs import under_duty
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -74,17 +74,11 @@ def analyse(
     duty_columns: DutyColumnNames = None,
 ) -> None:
     """Loads, contact equilibrium, precision, losses, life, stress of discs and ring, and shock."""
-    from cqdd_design.design.requirements import LEAST_TORQUE, MOST_TORQUE
-    from cqdd_design.errors import UsageError
     from cqdd_design.roads.analyse import analyse as analysed
     from cqdd_design.units import SPEED, TEMPERATURE, TORQUE
     from cqdd_design.verdict.judge import sentence
 
     asked_torque = parse_positive("--torque", torque, TORQUE)
-    if asked_torque is not None and not LEAST_TORQUE <= asked_torque <= MOST_TORQUE:
-        raise UsageError(
-            f"--torque: {asked_torque:.10g} N*m is outside {LEAST_TORQUE:g} to {MOST_TORQUE:g} N*m."
-        )
     parts_at = parse_option("--temperature", temperature, TEMPERATURE)
     asked_speed = parse_positive("--speed", speed, SPEED)
     loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)

@@ -49,44 +49,34 @@ def bench(
 ) -> None:
     """The actuator's data sheet, measured on a virtual bench."""
     from cqdd_design.actuator.bench import METRICS
-    from cqdd_design.actuator.comparison import catalogue_actuator
-    from cqdd_design.roads.bench import bench as measured
-    from cqdd_design.roads.bench import compared_actuators, write_traces
+    from cqdd_design.roads.bench import data_sheet, write_traces
     from cqdd_design.units import STIFFNESS_GAIN, VOLTAGE
-    from cqdd_design.verdict import judge
 
     names = parse_names(only)
     asked = parse_positive("--voltage", voltage, VOLTAGE)
     others = tuple(name.strip() for name in (beside or "").split(";") if name.strip())
-    for name in others:
-        catalogue_actuator(name)
     loaded = read_design(out, design, motor, motor_file)
     specimen = read_specimen(out, loaded, calibration=calibration, seed=seed)
     out.note_compilation(simulation=True)
-    result = measured(
+    found = data_sheet(
         loaded,
         specimen,
         only=names,
         voltage=asked,
         rig_stiffness=parse_positive("--rig-stiffness", rig_stiffness, STIFFNESS_GAIN),
+        beside=others,
         progress=out.stages(len(names or METRICS)),
     )
-    # One row alone asks nothing of the design.
-    judged = None if names else judge(specimen.machine(loaded), specimen)
-    actuators = compared_actuators(loaded, result, others)
+    result, judged = found.result, found.verdict
     files = () if folder is None else write_traces(result, folder, force=force)
     out.say(*_lines(result))
     if others or not names:
-        out.say("", *_comparison(actuators))
+        out.say("", *_comparison(found.actuators))
     if judged is not None:
         out.say("", headline_table(judged), "", judged.sentence)
     out.wrote(files)
     out.warn(*result.warnings)
-    document = result.to_dict() | {"comparison": [one.to_dict() for one in actuators]}
-    if judged is not None:
-        document["verdict"] = judged.to_dict()
-    lines = () if judged is None else judged.lines
-    out.document(document, design=loaded, checks=lines, files=files)
+    out.document(found.to_dict(), design=loaded, checks=found.lines, files=files)
 
 
 def _lines(result: BenchResult) -> list[str]:

@@ -14,9 +14,9 @@ from cqdd_design.cli.options import (
     NamedMotor,
     OwnMotor,
     option,
-    under_duty,
 )
 from cqdd_design.cli.session import Output, read_design, read_specimen
+from cqdd_design.library.inputs import under_duty
 
 if TYPE_CHECKING:
     from cqdd_design.solids.clearances import AssemblyMotion
@@ -39,7 +39,7 @@ def check(
     from cqdd_design.cli.tables import binding, checks_table, headline_table
     from cqdd_design.roads.check import CHECK_STAGES
     from cqdd_design.roads.check import check as judged
-    from cqdd_design.verdict.judge import meets, sentence
+    from cqdd_design.verdict.judge import sentence
 
     loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)
     out.note_compilation(simulation=True)
@@ -57,10 +57,8 @@ def check(
     out.say(headline_table(verdict), "", binding(verdict), "")
     out.say(sentence(loaded.name, found.lines))
     out.warn(*verdict.warnings)
-    seen = {} if motion is None else {"assembly": motion.to_dict()}
-    told = verdict.to_dict() | {"meets": meets(found.lines)}
-    out.document({"verdict": told, **seen}, design=loaded, checks=found.lines)
-    return 0 if meets(found.lines) == "yes" else 4
+    out.document(found.to_dict(), design=loaded, checks=found.lines)
+    return 0 if found.meets == "yes" else 4
 
 
 def _clearances(motion: AssemblyMotion) -> list[str]:

@@ -11,7 +11,6 @@ from typing import Annotated
 import typer
 from typer.exceptions import Abort, TyperException
 
-from cqdd_design import __version__
 from cqdd_design.cli import (
     analyse,
     bench,
@@ -39,6 +38,7 @@ from cqdd_design.cli import (
 from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, command, print_result
 from cqdd_design.environment import missing_dependency
 from cqdd_design.errors import CqddError, UsageError, printable
+from cqdd_design.version import __version__
 
 app = typer.Typer(
     name="cqdd-design",
@@ -179,7 +179,7 @@ def _end(
     message = message.replace("?.", "?")
     print(f"cqdd-design: {printable(message)}", file=sys.stderr)
     if "--json" in arguments:
-        from cqdd_design.cli.envelope import error_document
+        from cqdd_design.library.envelope import error_document
 
         names = [function.__name__ for function in COMMANDS]
         name = next((a for a in arguments if a in names or a == "torque"), None)

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cqdd_design.errors import DesignError, UsageError
+from cqdd_design.errors import UsageError
+from cqdd_design.library.calls import names, si_value
 
 if TYPE_CHECKING:
-    from cqdd_design.design import Design
-    from cqdd_design.design.duty_log import DutyColumns
     from cqdd_design.units import Dimension
 
 
@@ -123,22 +122,12 @@ def parse_option(name: str, text: str | None, dimension: Dimension) -> float | N
     UsageError
         Naming the option and the right form.
     """
-    if text is None:
-        return None
-    from cqdd_design.units import parse_quantity
-
-    try:
-        return parse_quantity(text, dimension)
-    except DesignError as error:
-        raise UsageError(f"{name}: {error.message.rstrip('.')}.") from None
+    return si_value(name, text, dimension)
 
 
 def parse_positive(name: str, text: str | None, dimension: Dimension) -> float | None:
     """As `parse_option`, refusing zero and less."""
-    value = parse_option(name, text, dimension)
-    if value is not None and value <= 0.0:
-        raise UsageError(f"{name} {text} is not above zero.")
-    return value
+    return si_value(name, text, dimension, positive=True)
 
 
 def parse_whole_list(name: str, text: str, count: int, example: str) -> tuple[int, ...]:
@@ -153,25 +142,4 @@ def parse_whole_list(name: str, text: str, count: int, example: str) -> tuple[in
 
 def parse_names(text: str | None) -> tuple[str, ...]:
     """Names separated by commas; none for None."""
-    return tuple(name.strip() for name in (text or "").split(",") if name.strip())
-
-
-def read_duty_columns(duty: Path | None, columns: str | None) -> DutyColumns | None:
-    """The columns of ``--duty-columns``, which belong to a ``--duty``."""
-    if columns is None:
-        return None
-    if duty is None:
-        raise UsageError("--duty-columns names columns of --duty FILE, which is missing.")
-    from cqdd_design.design.duty_file import read_columns
-
-    return read_columns(columns)
-
-
-def under_duty(design: Design, duty: Path | None, columns: str | None) -> Design:
-    """The design under the duty of ``--duty``, where there is one, instead of its own."""
-    named = read_duty_columns(duty, columns)
-    if duty is None:
-        return design
-    from cqdd_design.design.duty_file import read_duty
-
-    return design.under_duty(read_duty(duty, named), str(duty), named)
+    return names(text or "")

@@ -15,9 +15,9 @@ from cqdd_design.cli.options import (
     NamedMotor,
     OwnMotor,
     option,
-    under_duty,
 )
 from cqdd_design.cli.session import Output, read_design, read_specimen
+from cqdd_design.library.inputs import under_duty
 
 
 def report(
@@ -52,5 +52,4 @@ def report(
     out.wrote([written.file])
     out.say(headline_table(judged), "", judged.sentence)
     out.warn(*judged.warnings)
-    told = {"verdict": judged.to_dict()}
-    out.document(told, design=loaded, checks=judged.lines, files=[written.file])
+    out.document(written.to_dict(), design=loaded, checks=judged.lines, files=[written.file])

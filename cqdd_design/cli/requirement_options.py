@@ -8,12 +8,9 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from cqdd_design.cli.options import option, parse_option
-from cqdd_design.errors import DesignError, UsageError
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
-    from cqdd_design.design import Requirements
+    pass
 
 
 class _Row(NamedTuple):
@@ -52,6 +49,9 @@ _ROWS = (
     _Row("stiffness", 'At the output, at least, as in "10 N*m/arcmin".'),
     _Row("efficiency", "At least, as in 0.8.", share=True),
     _Row("surface_temperature", "Of the housing outside, at most."),
+    _Row("external_moment", "Tilting the output from outside."),
+    _Row("external_axial", "Force along the output's axis from outside."),
+    _Row("external_radial", "Force across it."),
     _Row("voltage", "Of the supply there is."),
     _Row("current", "Of the motor, at most."),
     _Row("yield", "Share of gearboxes that meet all of it; default 0.95.", share=True),
@@ -97,17 +97,3 @@ def stated(asked: Mapping[str, Any]) -> dict[str, Any]:
         if dimension is not None:
             parse_option(row.flag, text, dimension)
     return {row.key: value for row, value in given.items()}
-
-
-def read_requirements(asked: dict[str, Any], file: Path | None) -> Requirements:
-    """Options over a requirements file; what only the options say is a matter of usage."""
-    from cqdd_design.design import load_requirements, requirements_from_mapping
-
-    if file is not None:
-        return load_requirements(file, asked)
-    if "ratio" not in asked:
-        raise UsageError("size needs --ratio N or --requirements FILE.")
-    try:
-        return requirements_from_mapping(asked, source="size")
-    except DesignError as error:
-        raise UsageError(error.message) from None

@@ -217,7 +217,7 @@ class Output:
         """Print the JSON document, when one is asked for."""
         if not self.as_json:
             return
-        from cqdd_design.cli.envelope import result_document
+        from cqdd_design.library.envelope import result_document
 
         self.end_progress()
         text = result_document(
@@ -238,21 +238,10 @@ def read_design(
 
     Whatever a command does, it does with this motor, and shows the design with it.
     """
-    from cqdd_design.catalog import find_motor
-    from cqdd_design.design import load_design
-    from cqdd_design.design.motor import read_motor
+    from cqdd_design.library.inputs import read_design as read
 
-    loaded = load_design(path)
-    name = None if motor is None else find_motor(motor).name
-    own = None if motor_file is None else read_motor(motor_file)
-    chosen = loaded.with_motor(name, own)
-    kept = chosen.motor.data
-    lost = [key for key, value in loaded.motor.data.items() if kept.get(key) != value]
-    if lost:
-        before = f"--motor {motor}" if motor_file is None else str(motor_file)
-        verb = "does" if len(lost) == 1 else "do"
-        keys = ", ".join(lost)
-        out.warn(f"{before} goes before [motor] of {path}, whose {keys} {verb} not apply.")
+    chosen, told = read(path, motor, motor_file)
+    out.warn(*told)
     return chosen
 
 
@@ -264,10 +253,11 @@ def read_specimen(
     seed: int | None = None,
 ) -> Specimen:
     """The actuator of ``--calibration`` and ``--seed``."""
-    from cqdd_design.actuator.specimen import Specimen
+    from cqdd_design.library.inputs import specimen_of
 
-    factors = read_factors(out, calibration, design) or {}
-    return Specimen(seed=seed, factors=factors)
+    specimen, told = specimen_of(design, seed=seed, calibration=calibration)
+    out.warn(*told)
+    return specimen
 
 
 def read_factors(out: Output, path: Path | None, design: Design) -> Mapping[str, float] | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -19,12 +19,11 @@ from cqdd_design.cli.options import (
     quantity_option,
 )
 from cqdd_design.cli.session import Output, read_design, read_specimen
-from cqdd_design.cli.simulate_options import COMMANDS, FRICTION, LOADS, SIGNALS, Choices, known
 from cqdd_design.cli.tables import number, table
+from cqdd_design.library.scenario_words import COMMANDS, FRICTION, LOADS, SIGNALS, Choices
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.recording import Recording
-    from cqdd_design.actuator.scenario import FrictionModel
 
 _MOST_SAMPLES = 10_000
 
@@ -134,7 +133,6 @@ def simulate(
     force: Force = False,
 ) -> None:
     """Run the actuator in time; every trace as npz or Parquet."""
-    from cqdd_design.actuator.scenario import Scenario, Start
     from cqdd_design.roads.simulate import simulate as simulated
     from cqdd_design.roads.simulate import simulation_kind, write_simulation
 
@@ -162,25 +160,22 @@ def simulate(
             "--voltage": voltage,
         }
     )
-    known("--friction", friction, FRICTION)
-    carried, start = chosen.load(load)
     simulation_kind(target, force=force)
     loaded = read_design(out, design, motor, motor_file)
-    supply = chosen.quantity("--voltage", "VOLTAGE", None, example="24 V")
-    told, seconds = chosen.command(command, signal, loaded, supply)
-    out.warn(*chosen.warnings)
+    asked = chosen.run(loaded, load=load, command=command, signal=signal, friction=friction)
+    out.warn(*asked.warnings)
     specimen = read_specimen(out, loaded, calibration=calibration, seed=seed)
     out.note_compilation(simulation=True)
     result = simulated(
         loaded,
-        Scenario(told, carried, Start(output_angle=start), cast("FrictionModel", friction)),
+        asked.scenario,
         specimen,
-        duration=seconds,
-        rate=chosen.quantity("--rate", "FREQUENCY", "1 kHz") or 0.0,
-        step=chosen.quantity("--step", "TIME", None, example="20 us"),
-        voltage=supply,
+        duration=asked.duration,
+        rate=asked.rate,
+        step=asked.step,
+        voltage=asked.voltage,
         samples=samples,
-        options={"--friction": friction, **chosen.resolved},
+        options=asked.options,
         progress=out.counting("gearboxes") if samples else None,
     )
     file = write_simulation(result, target, force=force)

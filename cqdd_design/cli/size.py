@@ -17,9 +17,8 @@ from cqdd_design.cli.options import (
     parse_option,
     parse_ratio,
     quantity_option,
-    read_duty_columns,
 )
-from cqdd_design.cli.requirement_options import read_requirements, stated, with_requirements
+from cqdd_design.cli.requirement_options import stated, with_requirements
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import binding, checks_table, headline_table, number, table
 
@@ -46,10 +45,6 @@ class Pick(StrEnum):
     b = "b"
     c = "c"
     d = "d"
-
-
-ANY = "any"
-"""Of --motor: the first of the catalogue that fits."""
 
 
 @with_requirements
@@ -93,37 +88,30 @@ def size(
     **asked: Any,
 ) -> int:
     """Requirements to a design file whose verdict is yes."""
-    from cqdd_design.catalog import find_bare_motor
-    from cqdd_design.design import load_required_motor
-    from cqdd_design.design.model import duty_keys
-    from cqdd_design.design.motor import read_motor
     from cqdd_design.exporting import read_kinds
+    from cqdd_design.library.inputs import read_wanted
     from cqdd_design.roads.size import size_and_write
     from cqdd_design.units import TEMPERATURE
 
     asked = stated(asked)
     asked |= {} if ratio is None else {"ratio": parse_ratio(ratio)}
-    any_motor = motor is not None and motor.strip().lower() == ANY
-    asked |= {} if motor is None or any_motor else {"motor": motor}
-    if (columns := read_duty_columns(duty, duty_columns)) is not None or duty is not None:
-        asked |= duty_keys(str(duty), columns)
     asked |= {} if discs is None else {"disc_count": discs}
-    if motor is not None and not any_motor:
-        find_bare_motor(motor)
-    own = None
-    if motor_file is not None:
-        own = read_motor(motor_file)
-    elif motor is None and requirements is not None:
-        own = load_required_motor(requirements)
     kinds = () if export is None else read_kinds(export)
-    wanted = read_requirements(asked, requirements)
+    wanted = read_wanted(
+        asked,
+        requirements,
+        motor=motor,
+        motor_file=motor_file,
+        duty=duty,
+        duty_columns=duty_columns,
+    )
     if not quick or report:
         out.note_compilation(simulation=True)
     road = size_and_write(
-        wanted,
+        wanted.requirements,
         target,
-        motor=own,
-        any_motor=any_motor,
+        motor=wanted.motor,
+        any_motor=wanted.any_motor,
         pick="" if pick is None else pick.value,
         ambient=parse_option("--ambient", ambient, TEMPERATURE),
         kinds=kinds,
@@ -135,20 +123,12 @@ def size(
     )
     judged = road.verdict
     out.say(*_lines(road))
-    results = road.sizing.to_dict()
     if road.choice is not None:
         out.say(*_motors(road.choice))
-        results |= {"motors": road.choice.to_dict()}
-    if judged is None:
-        out.say(*_screened(road))
-        out.warn(*road.sizing.warnings)
-    else:
-        out.say(*_judged(judged))
-        out.warn(*judged.warnings)
-        results |= {"verdict": judged.to_dict()}
+    out.say(*(_screened(road) if judged is None else _judged(judged)))
+    out.warn(*road.warnings)
     out.wrote(road.files)
-    lines = road.sizing.checks if judged is None else judged.lines
-    out.document(results, design=road.design, checks=lines, files=road.files)
+    out.document(road.to_dict(), design=road.design, checks=road.lines, files=road.files)
     if judged is None or judged.meets == "yes":
         return 0
     out.note(f"{road.files[0].path} was written all the same: --pick {pick} asked for it.")
@@ -156,13 +136,10 @@ def size(
 
 
 def _lines(road: Road) -> list[str]:
-    from cqdd_design.roads.size import CHOSEN
-
     design, sizing = road.design, road.sizing
     others = sum(not key.startswith("requirements.") for key in design.assumed)
-    chosen = CHOSEN if road.verdict is not None else frozenset[str]()
     assumed = [key.split(".")[1] for key in design.assumed if key.startswith("requirements.")]
-    assumed = [key for key in assumed if key not in chosen]
+    assumed = [key for key in assumed if key not in road.chosen]
     asked = design.to_mapping()["requirements"]
     motor = "what the motor can do through this gearbox"
     defaults = [[f"  {key}", str(asked[key]), motor] for key in asked if key in road.derived]

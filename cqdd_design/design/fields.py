@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
 from cqdd_design.catalog import find_bare_motor, find_bearing, find_finish, find_material
 from cqdd_design.errors import CatalogError, DesignError, is_unprintable, shown
@@ -26,6 +26,24 @@ class FrozenModel(BaseModel):
     """Base of every table of a design file: immutable, and closed to unknown keys."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
+
+    def __init__(self, **values: Any) -> None:
+        """A table from its keys, quantities with their unit.
+
+        Raises
+        ------
+        DesignError
+            One sentence a problem: key, value, range and nearest fix.
+        """
+        from cqdd_design.design.problems import describe_problems
+
+        try:
+            super().__init__(**values)
+        except ValidationError as error:
+            raise describe_problems(error, type(self), type(self).__name__) from None
+
+    # Tables within tables are still pydantic's to build, with the context of the whole.
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
 
 def default(text: str) -> Any:

@@ -23,6 +23,7 @@ from cqdd_design.errors import DesignError, is_unprintable
 from cqdd_design.files import refuse_extremes
 from cqdd_design.units import (
     CURRENT,
+    LENGTH,
     TEMPERATURE,
     VOLTAGE,
     Dimension,
@@ -59,8 +60,24 @@ class Design(FrozenModel):
     tolerances: Tolerances = Tolerances()
     edm: Edm = Edm()
 
+    if TYPE_CHECKING:  # what is an attribute's float is given with its unit
+
+        def __init__(self, **tables: Any) -> None: ...
+
     _assumed: tuple[str, ...] = PrivateAttr(default=())
     _motor_place: str = PrivateAttr(default=IN_DESIGN)
+
+    def __repr__(self) -> str:
+        """Its name and what one would say of it first; `to_mapping` has the rest."""
+        reducer = self.reducer
+        lengths = (reducer.ring.outer_diameter, reducer.disc_thickness)
+        ring, disc = (format_quantity(one, LENGTH) for one in lengths)
+        return (
+            f"Design {self.name}: ratio {reducer.ratio}, ring {ring}, "
+            f"{reducer.disc_count} x {disc} of disc, {self.motor.name}"
+        )
+
+    __str__ = __repr__
 
     @model_validator(mode="before")
     @classmethod

@@ -19,6 +19,7 @@ from cqdd_design.errors import DesignError
 from cqdd_design.units import (
     CURRENT,
     DURATION,
+    FORCE,
     INERTIA,
     LENGTH,
     LOAD_SPEED,
@@ -173,6 +174,17 @@ class Requirements(FrozenModel):
         ]
         | None
     ) = None
+    #: On the output from outside, any direction: what tilts it, along its axis and across it.
+    external_moment: (
+        Annotated[float, QuantityIn(TORQUE, "0 N*m", "100000 N*m", "what hangs on the output")]
+        | None
+    ) = None
+    external_axial: (
+        Annotated[float, QuantityIn(FORCE, "0 N", "1000000 N", "what hangs on the output")] | None
+    ) = None
+    external_radial: (
+        Annotated[float, QuantityIn(FORCE, "0 N", "1000000 N", "what hangs on the output")] | None
+    ) = None
     #: Of the supply there is.
     voltage: (
         Annotated[float, QuantityIn(VOLTAGE, "1 V", "1000 V", "supply of the driver")] | None
@@ -190,6 +202,10 @@ class Requirements(FrozenModel):
     disc_material: MaterialName = "AISI 4140 Q&T 540C"
     ring_material: MaterialName = "AISI 4140 Q&T 540C"
     pin_material: MaterialName = "Alloy steel 12.9 (ISO 7379)"
+
+    if TYPE_CHECKING:  # what is an attribute's float is given with its unit
+
+        def __init__(self, **keys: Any) -> None: ...
 
     _duty_log: DutyLog | None = PrivateAttr(default=None)
     _derived: frozenset[str] = PrivateAttr(default=frozenset())
@@ -308,12 +324,12 @@ class Requirements(FrozenModel):
 
 
 def _share_of(torque: Any, share: float) -> Any:
-    """A share of a torque that may still be a unit string; unreadable text is passed on as is."""
-    from cqdd_design.units import parse_quantity
+    """A share of a torque, a quantity or an SI float; what cannot be read is passed on as is."""
+    from cqdd_design.units import read_quantity
 
-    if isinstance(torque, str):
-        try:
-            return format_quantity(share * parse_quantity(torque, TORQUE), TORQUE)
-        except DesignError:
-            return torque
-    return share * torque if isinstance(torque, (int, float)) else torque
+    if isinstance(torque, (int, float)):
+        return share * torque
+    try:
+        return format_quantity(share * read_quantity(torque, TORQUE), TORQUE)
+    except DesignError:
+        return torque

@@ -45,6 +45,9 @@ _ASKED: Mapping[str, Any] = MappingProxyType(
         "stiffness": "8000 N*m/rad",
         "efficiency": 0.75,
         "surface_temperature": "70 degC",
+        "external_moment": "20 N*m",
+        "external_axial": "100 N",
+        "external_radial": "100 N",
         "voltage": "48 V",
         "current": "50 A",
     }

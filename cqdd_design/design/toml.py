@@ -38,7 +38,15 @@ def load_design(path: Path) -> Design:
     DesignError
         When its content is no valid design; one sentence a problem.
     """
-    data = _read(path)
+    return _design(_read(path), path)
+
+
+def design_of_text(text: str, path: Path) -> Design:
+    """The design of a file's text, as `load_design` reads it from `path`."""
+    return _design(parse_toml(text, path, wrong=DesignError), path)
+
+
+def _design(data: dict[str, Any], path: Path) -> Design:
     data.setdefault("name", path.stem)
     design = Design.from_mapping(_migrated(data, path), source=str(path))
     log = _duty(design.requirements, path.parent)

@@ -18,13 +18,12 @@ from typing import TYPE_CHECKING
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting.kinds import KINDS, read_kinds, stages
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
-from cqdd_design.exporting.staging import staging_folder
-from cqdd_design.files import WrittenFile, atomic_path, ensure_folder, refuse_overwrite
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.specimen import Specimen
     from cqdd_design.design import Design
     from cqdd_design.exporting.job import Progress
+    from cqdd_design.files import WrittenFile
     from cqdd_design.machine import Machine
 
 __all__ = [
@@ -91,6 +90,8 @@ def export(
     # The table of kinds is read for help, which must not pay for a job's imports.
     from cqdd_design.actuator.specimen import AS_DRAWN
     from cqdd_design.exporting.job import ExportJob
+    from cqdd_design.exporting.staging import staging_folder
+    from cqdd_design.files import ensure_folder, refuse_overwrite
 
     wanted, design = read_kinds(kinds), machine.given
     target = default_folder(design) if folder is None else folder
@@ -135,6 +136,8 @@ def _missing(folder: Path) -> list[Path]:
 
 
 def _move(source: Path, target: Path) -> None:
+    from cqdd_design.files import atomic_path
+
     try:
         if target.is_symlink():
             with atomic_path(target) as place:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-from scipy.optimize import brentq
-
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
@@ -99,6 +97,8 @@ class LoadedContacts:
                     low, high = high, high + step
             except ContactError:
                 return math.exp(self._last_with_equilibrium(low, high))
+        from scipy.optimize import brentq
+
         return float(math.exp(brentq(over, low, high, xtol=_TOLERANCE)))
 
     def reach(self, torque: float) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from cqdd_design.catalog.bearings import AUTO, Bearing, find_bearing
+from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.catalog.lubricants import RUNNING_TEMPERATURE, find_lubricant
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
@@ -52,7 +52,7 @@ class Cooling(NamedTuple):
     key: str
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Machine:
     """A design made concrete, from `resolve`.
 
@@ -63,7 +63,7 @@ class Machine:
     given : Design
         As it was written: what it left open is still "auto", and still counts as assumed.
     design : Design
-        The same with its cam bearing named.
+        The same with its cam bearing named, and that of the carrier where external loads choose it.
     cam : Bearing
         The cam bearing.
     motor : Motor
@@ -81,6 +81,11 @@ class Machine:
     motor: Motor
     temperatures: PartTemperatures | None = None
     stiff: bool = False
+
+    def __repr__(self) -> str:
+        """The design, and what it leaves open that is chosen here."""
+        warm = "" if self.temperatures is None else ", warm"
+        return f"Machine of {self.given!r}; cam bearing {self.cam.designation}{warm}"
 
     def at(self, temperatures: PartTemperatures) -> Machine:
         """The machine with its parts at these temperatures."""
@@ -275,32 +280,3 @@ class Machine:
         if self.temperatures is None or len(shares) > _FEW_TORQUES:
             return self.losses
         return loss_model(self.contact, self.friction, peak, shares)
-
-
-def resolve(design: Design, motor: Motor | None = None) -> Machine:
-    """Make a design concrete.
-
-    Parameters
-    ----------
-    motor : Motor, optional
-        Default what the design says of its motor, over the catalogue's row.
-
-    Raises
-    ------
-    GeometryError
-        When the disc or its holes cannot exist and the cam bearing is "auto".
-    InfeasibleError
-        When "auto" finds no bearing that fits.
-    """
-    named = design
-    if design.reducer.cam_bearing.designation == AUTO:
-        # Only a choice needs the loads, and the rooms that find them take long to import.
-        from cqdd_design.machine.cam import named_bearing
-
-        named = named_bearing(design)
-    return Machine(
-        given=design,
-        design=named,
-        cam=find_bearing(named.reducer.cam_bearing.designation),
-        motor=motor or design.motor_row,
-    )

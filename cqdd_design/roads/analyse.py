@@ -8,7 +8,8 @@ from dataclasses import dataclass, field, replace
 from cqdd_design.actuator.duty_points import duty_points
 from cqdd_design.actuator.shock import Shock, shocks
 from cqdd_design.design import Design
-from cqdd_design.errors import ContactError, GeometryError
+from cqdd_design.design.requirements import LEAST_TORQUE, MOST_TORQUE
+from cqdd_design.errors import ContactError, GeometryError, UsageError
 from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.gearbox.bodies.strength import BodyStrength
 from cqdd_design.gearbox.contact.laws import LineModel
@@ -183,21 +184,26 @@ def analyse(
     DesignError
         When the thermal expansion of a part is not known.
     UsageError
-        For a temperature outside the range that is worked with.
+        For a torque or temperature outside the range that is worked with.
     """
+    if torque is not None and not LEAST_TORQUE <= torque <= MOST_TORQUE:
+        raise UsageError(
+            f"--torque: {torque:.10g} N*m is outside {LEAST_TORQUE:g} to {MOST_TORQUE:g} N*m."
+        )
     asked = design if speed is None else design.turning_at(speed)
     drawn = resolve(asked)
-    # What is judged is a matter of the design, whatever is asked for here.
-    verdict = judge(drawn, samples=0)
-    warm, cold = verdict.evidence.temperatures, verdict.evidence.heat_missing
     loaded = drawn
     if torque is not None:
         loaded = replace(drawn, design=drawn.design.under_torque(torque))
-        warm, _, told = judged_temperatures(loaded)
-        cold = "" if warm else " ".join(told)
     machine = loaded
     if temperature is not None:
         machine = loaded.at(PartTemperatures.even(temperature))
+    # What is judged is a matter of the design, whatever is asked for here.
+    verdict = judge(drawn, samples=0)
+    warm, cold = verdict.evidence.temperatures, verdict.evidence.heat_missing
+    if torque is not None:
+        warm, _, told = judged_temperatures(loaded)
+        cold = "" if warm else " ".join(told)
     found = Analysis(
         machine,
         machine.analyse(angles=angles),

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from cqdd_design.actuator.bench import BenchResult, run_bench
 from cqdd_design.actuator.bench.run import VOLTAGE
 from cqdd_design.actuator.build import actuator_parameters
-from cqdd_design.actuator.comparison import ComparedActuator, compare_actuators, present_actuator
+from cqdd_design.actuator.comparison import (
+    ComparedActuator,
+    catalogue_actuator,
+    compare_actuators,
+    present_actuator,
+)
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.catalog.paper import is_papers_actuator
@@ -18,7 +23,9 @@ from cqdd_design.errors import ContactError, CqddError, DesignError
 from cqdd_design.files import WrittenFile, ensure_folder, refuse_overwrite, write_with
 from cqdd_design.machine import Machine
 from cqdd_design.machine.carrying import carried_torque
+from cqdd_design.results import Check
 from cqdd_design.roads.telling import Progress, silent
+from cqdd_design.verdict import Verdict, judge
 
 #: Toleranced gearboxes whose mean backlash and ripple are the bench's, of seeds 0 and up.
 RIPPLE_DRAWS = 6
@@ -29,6 +36,68 @@ MOST_DRAWN_MESHES = 200
 
 
 _DRAWN_ROWS = {"backlash", "torque_ripple"}
+
+
+@dataclass(frozen=True, eq=False)
+class DataSheet:
+    """What the bench says of an actuator, beside others, and whether its design will do.
+
+    Attributes
+    ----------
+    parameters : ActuatorParameters
+        That were measured.
+    result : BenchResult
+    actuators : tuple of ComparedActuator
+        The paper's table with this one as a column, and what else was asked for.
+    verdict : Verdict or None
+        None where single rows were asked for, which ask nothing of the design.
+    """
+
+    parameters: ActuatorParameters
+    result: BenchResult
+    actuators: tuple[ComparedActuator, ...]
+    verdict: Verdict | None
+
+    @property
+    def lines(self) -> tuple[Check, ...]:
+        """Of the verdict."""
+        return () if self.verdict is None else self.verdict.lines
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form (``results`` of ``bench``)."""
+        comparison = [one.to_dict() for one in self.actuators]
+        judged = {} if self.verdict is None else {"verdict": self.verdict.to_dict()}
+        return self.result.to_dict() | {"comparison": comparison} | judged
+
+
+def data_sheet(
+    design: Design,
+    specimen: Specimen = AS_DRAWN,
+    *,
+    only: tuple[str, ...] = (),
+    voltage: float | None = None,
+    rig_stiffness: float | None = None,
+    beside: Sequence[str] = (),
+    progress: Progress = silent,
+) -> DataSheet:
+    """Measure an actuator as `bench` does, judge its design, and put it beside others.
+
+    Parameters
+    ----------
+    beside : sequence of str
+        Names of geared actuators of the catalogue.
+
+    Raises
+    ------
+    CatalogError
+        For a name that is none of them, before anything is measured.
+    """
+    for name in beside:
+        catalogue_actuator(name)
+    machine = specimen.machine(design)
+    parameters, result = measure(machine, specimen, only, voltage, progress, rig_stiffness)
+    verdict = None if only else judge(machine, specimen)
+    return DataSheet(parameters, result, compared_actuators(design, result, beside), verdict)
 
 
 def bench(

@@ -13,6 +13,7 @@ from cqdd_design.gearbox.checks.guide import check_guide
 from cqdd_design.results import Check
 from cqdd_design.roads.telling import Progress, silent
 from cqdd_design.verdict import Verdict, judge
+from cqdd_design.verdict.judge import Meets, meets
 
 if TYPE_CHECKING:
     from cqdd_design.solids.clearances import AssemblyMotion
@@ -37,6 +38,17 @@ class Judgement:
     verdict: Verdict
     lines: tuple[Check, ...]
     motion: AssemblyMotion | None = None
+
+    @property
+    def meets(self) -> Meets:
+        """The answer with what the solids showed."""
+        return meets(self.lines)
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form (``results`` of ``check``)."""
+        told = self.verdict.to_dict() | {"meets": self.meets}
+        seen = {} if self.motion is None else {"assembly": self.motion.to_dict()}
+        return {"verdict": told, **seen}
 
 
 def check(

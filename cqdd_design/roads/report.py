@@ -38,6 +38,10 @@ class WrittenReport(NamedTuple):
     file: WrittenFile
     verdict: Verdict
 
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form (``results`` of ``report``)."""
+        return {"verdict": self.verdict.to_dict()}
+
 
 def write_report(
     design: Design,

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from cqdd_design import __version__
 from cqdd_design.actuator.bench.steady import with_voltage
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.recording import (
@@ -22,6 +21,7 @@ from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError, UsageError
 from cqdd_design.files import WrittenFile, refuse_overwrite, write_with
+from cqdd_design.version import __version__
 
 
 def simulate(

@@ -1,4 +1,4 @@
-"""The whole road in one call: requirements to a checked design file, its exports, its report."""
+"""Requirements to a judged design; in one call to its file, its exports and its report too."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from cqdd_design.errors import UsageError
 from cqdd_design.exporting import export
 from cqdd_design.files import WrittenFile, atomic_path, describe_file, refuse_overwrite
 from cqdd_design.machine import resolve
+from cqdd_design.results import Check
 from cqdd_design.roads.telling import Progress, silent
 from cqdd_design.sizing import SizingResult, size
 from cqdd_design.sizing.frame import Goal
@@ -35,9 +36,9 @@ class Road:
     design : Design
         The sized design under the name of its file.
     files : tuple of WrittenFile
-        The design file first, then exports, then the report.
+        The design file first, then exports, then the report; none where nothing was written.
     verdict : Verdict or None
-        On the design as it was written: yes, unless an alternative was picked; None after the
+        On the design: yes, unless an alternative was picked; None after the
         screen alone.
     derived : frozenset of str
         Requirements that were not stated and are what the motor can do.
@@ -51,6 +52,28 @@ class Road:
     verdict: Verdict | None
     derived: frozenset[str]
     choice: MotorChoice | None = None
+
+    @property
+    def lines(self) -> tuple[Check, ...]:
+        """Of the verdict; after the screen alone the closed forms'."""
+        return self.sizing.checks if self.verdict is None else self.verdict.lines
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What could not be judged."""
+        return self.sizing.warnings if self.verdict is None else self.verdict.warnings
+
+    @property
+    def chosen(self) -> frozenset[str]:
+        """Requirements that the search chose, as far as they were not stated."""
+        chosen = frozenset[str]() if self.verdict is None else CHOSEN
+        return chosen if self.choice is None else chosen | {"motor"}
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form (``results`` of ``size``)."""
+        motors = {} if self.choice is None else {"motors": self.choice.to_dict()}
+        judged = {} if self.verdict is None else {"verdict": self.verdict.to_dict()}
+        return self.sizing.to_dict() | motors | judged
 
 
 @dataclass(frozen=True)
@@ -86,25 +109,96 @@ def size_and_write(
         The design file; default ``designs/sized-N.toml``, this function's own, which is replaced
         unless it has been edited since. Its stem names the design, and so the default places of
         exports and report.
+    motor, any_motor, pick, ambient, quick, goal, progress
+        As `size_design` takes them.
+    kinds : tuple of str
+        Kinds of file to export.
+    report : bool
+        Whether to write the report.
+    force : bool
+        Replace an existing design file that was named, or edited.
+
+    Raises
+    ------
+    InfeasibleError
+        When no design meets the requirements; the message names the limits that bind.
+    UsageError
+        When a file would be replaced that is not to be, and as `size_design` says.
+    """
+    target = path or default_path(requirements)
+    if path is not None:
+        refuse_overwrite(target, force=force)
+    elif not force:
+        _refuse_edited(target)
+    road = size_design(
+        requirements,
+        target,
+        motor=motor,
+        any_motor=any_motor,
+        pick=pick,
+        ambient=ambient,
+        quick=quick,
+        goal=goal,
+        progress=progress,
+    )
+    design, specimen = road.design, Specimen()
+    files: tuple[WrittenFile, ...] = (_write_fresh(target, road),)
+    if kinds:
+        machine = specimen.machine(design)
+        files += export(machine, kinds, specimen=specimen, progress=progress)
+    if report:
+        # It computes everything there is, and imports as much.
+        from cqdd_design.roads.report import write_report
+
+        written = write_report(
+            design,
+            specimen=specimen,
+            source=target,
+            sizing=road.sizing,
+            files=files,
+            progress=progress,
+        )
+        files = (*files, written.file)
+    return replace(road, files=files)
+
+
+def default_path(requirements: Requirements) -> Path:
+    """Where `size` writes a design that nobody gave a place: ``designs/sized-N.toml``."""
+    return Path("designs") / f"sized-{requirements.ratio}.toml"
+
+
+def size_design(
+    requirements: Requirements,
+    place: Path,
+    *,
+    motor: MotorFile | None = None,
+    any_motor: bool = False,
+    pick: str = "",
+    ambient: float | None = None,
+    quick: bool = False,
+    goal: Goal = "mass",
+    progress: Progress = silent,
+) -> Road:
+    """Size and judge, and write nothing.
+
+    Parameters
+    ----------
+    place : Path
+        Where the design would be written: its stem names the design, and the file of a duty is
+        named from its folder.
     motor : MotorFile, optional
         What a file says of the required motor instead of the catalogue; the design says it too.
     any_motor : bool
         Take the first motor of the catalogue that fits, see :mod:`cqdd_design.sizing.motors`.
     pick : str
-        Letter of the alternative to write instead of the first design: b, c or d. It is judged and
-        written whatever the verdict is.
+        Letter of the alternative to take instead of the first design: b, c or d. It is judged and
+        taken whatever the verdict is.
     ambient : float, optional
-        Of the air round the actuator, deg C, written to the design.
-    kinds : tuple of str
-        Kinds of file to export.
-    report : bool
-        Whether to write the report.
+        Of the air round the actuator, deg C, a value of the design.
     quick : bool
         The screen by closed forms alone, which is no verdict.
     goal : Goal
         What the search makes small.
-    force : bool
-        Replace an existing design file that was named, or edited.
     progress : callable
         Told in a few words what begins.
 
@@ -113,19 +207,14 @@ def size_and_write(
     InfeasibleError
         When no design meets the requirements; the message names the limits that bind.
     UsageError
-        When a file would be replaced that is not to be, any motor is asked for without a peak
-        torque or beside a motor's data, or no alternative has the letter that is picked.
+        When any motor is asked for without a peak torque or beside a motor's data, or no
+        alternative has the letter that is picked.
     """
     if any_motor and motor is not None:
         raise UsageError(
             f"any motor of the catalogue is asked for, and {motor.place} describes one; keep one "
             "of them."
         )
-    target = path or Path("designs") / f"sized-{requirements.ratio}.toml"
-    if path is not None:
-        refuse_overwrite(target, force=force)
-    elif not force:
-        _refuse_edited(target)
     named, row = "motor" in requirements.model_fields_set, None
     if motor is not None:
         # Whoever gives a motor's data asks for that motor.
@@ -141,36 +230,14 @@ def size_and_write(
         goal=goal,
         progress=progress,
     )
-    sizing, verdict, derived = found.sizing, found.verdict, found.derived
     # Both are written to the file even where they equal their defaults.
-    own = {"schema_version": 1, "name": target.stem}
-    design = _duty_from(sizing.design.replacing(own), target.parent)
+    own = {"schema_version": 1, "name": place.stem}
+    design = _duty_from(found.sizing.design.replacing(own), place.parent)
     if motor is not None:
         design = design.with_motor(requirements.motor if named else None, motor)
         design = design if named else design.leaving("requirements.motor")
-    specimen = Specimen()
-    chosen = frozenset[str]() if quick else CHOSEN
-    chosen |= {"motor"} if any_motor else frozenset()
-    files: tuple[WrittenFile, ...] = (_write_fresh(target, design, derived, chosen),)
-    machine = specimen.machine(design)
-    if verdict is not None:
-        verdict = replace(verdict, name=target.stem)
-    if kinds:
-        files += export(machine, kinds, specimen=specimen, progress=progress)
-    if report:
-        # It computes everything there is, and imports as much.
-        from cqdd_design.roads.report import write_report
-
-        written = write_report(
-            design,
-            specimen=specimen,
-            source=target,
-            sizing=sizing,
-            files=files,
-            progress=progress,
-        )
-        files = (*files, written.file)
-    return Road(sizing, design, files, verdict, derived, found.choice)
+    verdict = found.verdict and replace(found.verdict, name=place.stem)
+    return Road(found.sizing, design, (), verdict, found.derived, found.choice)
 
 
 def _sized(
@@ -246,13 +313,11 @@ def _digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-def _write_fresh(
-    path: Path, design: Design, derived: frozenset[str], chosen: frozenset[str]
-) -> WrittenFile:
+def _write_fresh(path: Path, road: Road) -> WrittenFile:
     """Write a design file anew, with its stamp: a former one leaves no comments behind."""
     with atomic_path(path) as temporary:
         temporary.unlink()
-        save_design(temporary, design, comments=_origins(design, derived, chosen))
+        save_design(temporary, road.design, comments=_origins(road))
         content = temporary.read_bytes()
         temporary.write_bytes(content + f"{_STAMP}{_digest(content)}\n".encode())
     return describe_file(path, "design")
@@ -272,8 +337,9 @@ _TAKEN_OVER = {
 CHOSEN = frozenset({"disc_count", "disc_material", "ring_material"})
 
 
-def _origins(design: Design, derived: frozenset[str], chosen: frozenset[str]) -> dict[str, str]:
+def _origins(road: Road) -> dict[str, str]:
     """A remark for every key of a sized design that is written: where its value comes from."""
+    design, derived, chosen = road.design, road.derived, road.chosen
     remarks = {}
     for key in design.dotted_keys():
         if key in {"requirements.motor", "motor.name"} and "motor" in chosen:

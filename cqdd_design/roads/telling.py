@@ -6,8 +6,8 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
-from cqdd_design import __version__
 from cqdd_design.environment import source_date
+from cqdd_design.version import __version__
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design

@@ -10,6 +10,7 @@ from cqdd_design.gearbox.tolerance.ensemble import (
     make_ensemble,
     run_ensemble,
 )
+from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.machine import resolve
 
 
@@ -46,6 +47,8 @@ def tolerance(
 
     Raises
     ------
+    GeometryError
+        When holes of the discs break out, columns' too.
     DesignError
         When the thermal expansion of a part is not known.
     UsageError
@@ -53,8 +56,10 @@ def tolerance(
         memory, or no scheduler answers.
     """
     parts = AS_DRAWN if temperature is None else PartTemperatures.even(temperature)
+    machine = resolve(design)
+    validate_geometry(machine.design, bore_diameter=machine.cam.outer_diameter)
     ensemble = make_ensemble(
-        resolve(design).design, torque=torque, angles=angles, seed=seed, temperatures=parts
+        machine.design, torque=torque, angles=angles, seed=seed, temperatures=parts
     )
     if scheduler is None:
         return run_ensemble(ensemble, samples, progress=progress)

@@ -99,25 +99,6 @@ def what_it_can(
     return _with(requirements, changed) if changed else None
 
 
-def weaker(requirements: Requirements, share: float, *, both: bool) -> Requirements | None:
-    """The requirements with a share of the peak torque that was not stated; None where it was.
-
-    Parameters
-    ----------
-    both : bool
-        Whether the continuous torque, where it was not stated, is lowered as well: it may be what
-        nothing bears.
-    """
-    if PEAK not in requirements.derived:
-        return None
-    peak = rounded_down(share * requirements.peak_torque, _DIGITS)
-    changed: dict[str, Any] = {PEAK: peak}
-    if CONTINUOUS in requirements.derived:
-        lasting = requirements.continuous_torque
-        changed[CONTINUOUS] = min(rounded_down(share * lasting, _DIGITS) if both else lasting, peak)
-    return _with(requirements, changed)
-
-
 def cooler(requirements: Requirements) -> Requirements | None:
     """The requirements with a little less continuous torque; None where that was stated."""
     if CONTINUOUS not in requirements.derived or requirements.load_cases:

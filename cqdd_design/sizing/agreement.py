@@ -17,10 +17,10 @@ from cqdd_design.design import Design, Requirements
 from cqdd_design.errors import ContactError, DesignError, InfeasibleError
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.geometry.scale import smallest_ring
-from cqdd_design.machine import resolve
+from cqdd_design.machine import Machine, resolve
 from cqdd_design.results import Check
 from cqdd_design.sizing.exact import exact_checks, shortfalls
-from cqdd_design.sizing.finish import torque_reserve
+from cqdd_design.sizing.finish import design_of, finish, torque_reserve
 from cqdd_design.sizing.frame import USUAL_FIT, Fit, Frame, Goal, search_frame
 from cqdd_design.sizing.points import Evaluator, Points
 from cqdd_design.sizing.result import SizedDesign
@@ -44,9 +44,9 @@ NEEDLE_PINS = "AISI 52100 / 100Cr6 hardened"
 """Of output pins that needles run on, where none is asked for."""
 DISC_COUNTS = (2, 3)
 """Likewise of discs: those that balance."""
-_ROUNDS, _UNDAMPED = 8, 3
-_RING_STEP = 0.94
-"""Ring that is tried next over the one before."""
+_ROUNDS, _UNDAMPED, _STRONG_ROUNDS = 8, 3, 5
+_RING_STEPS = (0.06, 0.03, 0.015, 0.0075)
+"""By how much of its diameter the next ring is smaller, and the finer steps where that is none."""
 _SETTLED = 2e-3
 """Change of every need, as a share, at which closed forms and equilibrium agree."""
 RING, _PINS, _CAM = "CONTACT-RING-PEAK", "CONTACT-PIN-PEAK", "BEARING-STATIC"
@@ -94,6 +94,9 @@ class Found:
     sized : SizedDesign
     point : Points
         On the grid.
+    rated : bool
+        Whether the carrier's bearing has ratings: one that is made to order has none, and what it
+        carries would stay unknown.
     """
 
     space: Space
@@ -101,6 +104,12 @@ class Found:
     needs: Mapping[str, float]
     sized: SizedDesign
     point: Points
+    rated: bool = True
+
+    @property
+    def worth(self) -> tuple[bool, float]:
+        """What is better is less."""
+        return not self.rated, self.sized.objective.score
 
 
 @dataclass
@@ -193,34 +202,108 @@ def lightest(hunt: Hunt) -> Found | None:
             found = agreed(hunt, space, best)
         except InfeasibleError:
             continue
-        if found is not None and (best is None or _score(found) < _score(best)):
+        if found is not None and (best is None or found.worth < best.worth):
             best = found
     return best
 
 
+def least_ring(motor: Motor) -> float:
+    """Diameter, m, below which no ring is tried: round a smaller one no tube fills the bore."""
+    return 0.0 if motor.bore_diameter is None else smallest_ring(motor.bore_diameter)
+
+
 def in_a_smaller_ring(hunt: Hunt, best: Found) -> Found:
     """The best of some designs in smaller and smaller rings, while these are better."""
-    bore = best.search.frame.motor.bore_diameter
-    least = 0.0 if bore is None else smallest_ring(bore)
-    while True:
-        ring = _RING_STEP * best.sized.design.reducer.ring.outer_diameter
-        if ring < least:
-            return best
-        try:
-            found = agreed(hunt, best.space._replace(ring_limit=ring), None, best.needs)
-        except InfeasibleError:
-            return best
-        if found is None or _score(found) >= _score(best):
-            return best
-        best = found
+    least = least_ring(best.search.frame.motor)
+    for step in _RING_STEPS:
+        while (now := best.sized.design.reducer.ring.outer_diameter) > least:
+            found = _in_ring(hunt, best, max((1.0 - step) * now, least))
+            if found is None or found.worth >= best.worth:
+                break
+            best = found
+    return best
 
 
-def _score(found: Found) -> float:
-    return found.sized.objective.score
+def _in_ring(hunt: Hunt, beside: Found, ring: float) -> Found | None:
+    """The best design in a ring of at most a diameter, m, near another."""
+    try:
+        space = beside.space._replace(ring_limit=ring)
+        return agreed(hunt, space, beside, beside.needs, beside.point)
+    except InfeasibleError:
+        return None
+
+
+class Strongest(NamedTuple):
+    """The point with the most torque reserve by closed forms, and what the equilibrium says."""
+
+    search: Search
+    point: Points
+    machine: Machine
+    checks: tuple[Check, ...]
+
+    def reserve(self, hunt: Hunt) -> float:
+        """The least of its torque reserves, over what part errors take."""
+        return min(
+            torque_reserve(one, self.machine.design) / hunt.extra.get(one.id, 1.0)
+            if one.known
+            else 0.0
+            for one in self.checks
+        )
+
+    def found(self, hunt: Hunt, space: Space) -> Found | None:
+        """It as a design that is borne out; None where it is not."""
+        if not _holds(self.checks, self.machine.design, hunt.extra):
+            return None
+        sized = finish(self.search.evaluator, self.point, 0)
+        if sized is None:
+            return None
+        needs = shortfalls(self.machine, self.checks)
+        return Found(space, self.search, needs, sized, self.point, _rated(self.machine))
+
+
+def strongest(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> Strongest | None:
+    """The strongest design of a space; None where no shape or no equilibrium is.
+
+    What closed forms take for the strongest is weak in the lines that they think too well of: they
+    are asked again, with what they lacked there as needs, while that gives a stronger one.
+
+    Parameters
+    ----------
+    needs : mapping of str to float
+        To begin with.
+    """
+    best: Strongest | None = None
+    # Torques that nobody stated are lowered instead.
+    rounds = 1 if "peak_torque" in hunt.requirements.derived else _STRONG_ROUNDS
+    for _ in range(rounds):
+        now = _strongest(hunt, space, needs)
+        if now is None or (best is not None and now.reserve(hunt) <= best.reserve(hunt)):
+            break
+        best = now
+        if now.reserve(hunt) >= 1.0:
+            break
+        needs = shortfalls(now.machine, now.checks)
+    return best
+
+
+def _strongest(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> Strongest | None:
+    search = Search.of(hunt.frame(space, needs), hunt.tables)
+    point = search.most_reserve()
+    if point is None:
+        return None
+    try:
+        machine = resolve(design_of(search.evaluator, point, 0), hunt.motor)
+        return Strongest(search, point, machine, exact_checks(machine))
+    except (ContactError, DesignError):
+        return None
 
 
 def agreed(
-    hunt: Hunt, space: Space, rival: Found | None, known: Mapping[str, float] | None = None
+    hunt: Hunt,
+    space: Space,
+    rival: Found | None,
+    known: Mapping[str, float] | None = None,
+    near: Points | None = None,
 ) -> Found | None:
     """Search again and again until closed forms ask for what the equilibrium takes.
 
@@ -230,11 +313,35 @@ def agreed(
         A design of another space, which this one has to beat.
     known : mapping, optional
         Needs from a space near by.
+    near : Points, optional
+        A design of such a space, beside which to begin; the strongest is looked for only where
+        that leads to nothing.
     """
-    search = Search.of(hunt.frame(space, {}), hunt.tables)
-    most = search.most_reserve()
-    if most is None:
+    best, beaten = _settled(hunt, space, rival, known, near)
+    if best is not None or beaten:
+        return best
+    # The search makes designs light before it makes them strong.
+    strong = strongest(hunt, space, known or {})
+    first = None if strong is None else strong.found(hunt, space)
+    if first is None:
         return None
+    better, _ = _settled(hunt, space, None, first.needs, first.point)
+    return first if better is None else min(first, better, key=lambda one: one.worth)
+
+
+def _settled(
+    hunt: Hunt,
+    space: Space,
+    rival: Found | None,
+    known: Mapping[str, float] | None,
+    near: Points | None,
+) -> tuple[Found | None, bool]:
+    """The loop of `agreed`, and whether a rival was lighter before it began."""
+    search = Search.of(hunt.frame(space, {}), hunt.tables)
+    most = search.most_reserve() if near is None else near
+    strongest = near is None
+    if most is None:
+        return None, False
     needs: dict[str, float] = dict(known or {})
     starts, best = most, None
     for turn in range(_ROUNDS):
@@ -242,6 +349,14 @@ def agreed(
         evaluator = Evaluator.of(frame, hunt.tables, search.space.pin_counts)
         now = replace(search, evaluator=evaluator)
         sized = now.lightest(starts)
+        if sized is None and not strongest:
+            strongest = True
+            more = search.most_reserve()
+            if more is None:
+                return best, False
+            most = most.joined(more)
+            starts = starts.joined(more)
+            sized = now.lightest(starts)
         if sized is None:
             # What was needed at the last design may be too much: half way back.
             if not needs or turn >= _ROUNDS - 1:
@@ -249,9 +364,9 @@ def agreed(
             needs = {one: math.sqrt(value) for one, value in needs.items()}
             continue
         design, point = sized
-        if rival is not None and turn == 0 and design.objective.score > _score(rival):
+        if rival is not None and turn == 0 and (False, design.objective.score) > rival.worth:
             # Closed forms alone make it heavier than one that is borne out.
-            return None
+            return None, True
         machine = resolve(design.design, hunt.motor)
         try:
             exact = exact_checks(machine)
@@ -259,8 +374,9 @@ def agreed(
             needs = {one: 1.5 * needs.get(one, 1.0) for one in (RING, _PINS, _CAM)}
             continue
         short, holds = shortfalls(machine, exact), _holds(exact, machine.design, hunt.extra)
-        if holds and (best is None or design.objective.score < best.sized.objective.score):
-            best = Found(space, now, needs, design, point)
+        found = Found(space, now, needs, design, point, _rated(machine))
+        if holds and (best is None or found.worth < best.worth):
+            best = found
         damping = 1.0 if turn < _UNDAMPED else 0.5
         after = {
             one: needs.get(one, 1.0) * (value / needs.get(one, 1.0)) ** damping
@@ -270,7 +386,11 @@ def agreed(
         needs, starts = after, point.joined(most)
         if settled and best is not None:
             break
-    return best
+    return best, False
+
+
+def _rated(machine: Machine) -> bool:
+    return machine.seats[1].bearing.static_rating is not None
 
 
 def _holds(checks: tuple[Check, ...], design: Design, extra: Mapping[str, float]) -> bool:

@@ -16,7 +16,8 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.choose import Picks
 from cqdd_design.sizing.columns import Columns
-from cqdd_design.sizing.points import Evaluator, Pins, Points
+from cqdd_design.sizing.points import Evaluator, Points
+from cqdd_design.sizing.ring_stages import Pins
 
 IntArray = NDArray[np.intp]
 

@@ -7,7 +7,7 @@ with few gearboxes first, and choose clearances and reserves; then the whole ver
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,7 +19,7 @@ from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
-from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler, first_guess, weaker, what_it_can
+from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler, first_guess, what_it_can
 from cqdd_design.sizing.agreement import (
     FITS,
     RING,
@@ -31,6 +31,7 @@ from cqdd_design.sizing.agreement import (
     lightest,
     spaces,
 )
+from cqdd_design.sizing.bearable import or_weaker
 from cqdd_design.sizing.costs import costs
 from cqdd_design.sizing.exact import exact_checks
 from cqdd_design.sizing.finish import torque_reserve
@@ -46,9 +47,8 @@ _LEAST_STEP = 1e-6
 """Clearance that has to grow at all, m: to the next fit."""
 _TRIAL_SAMPLES = 32
 _TRIALS = 14
-_LESS, _LESS_OF_BOTH, _WEAKER, _PEAK_ALONE = 0.9, 0.8, 16, 3
-"""Share of the peak torque that is tried next where no gearbox carries it, and of both torques,
-how often in all, and how often of the peak torque alone before."""
+_LESS, _WEAKER = 0.9, 16
+"""Share of both torques that is tried next where none of a refusal's is carried, and how often."""
 _BY_FRICTION = {"EFFICIENCY", "MOTOR-PEAK", "MOTOR-CONTINUOUS", "THERMAL-RISE"}
 _NEEDLES_BRING = 0.8
 """Least margin of these lines from which needles under the output pins are tried."""
@@ -59,7 +59,9 @@ _GOALS: Mapping[str, Goal] = {
     "EFFICIENCY": "efficiency",
 }
 """Lines that are asked for, and the goal of a search that meets them if any does."""
-_SUPPORT, _HOT = "SUPPORT-STATIC", "THERMAL-RISE"
+_HOT = "THERMAL-RISE"
+_SHAFT = {"SHAFT-STRENGTH", "SHAFT-FATIGUE", "SUPPORT-STATIC", "SUPPORT-LIFE"}
+"""Lines that a cam bearing with a wider bore helps."""
 _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
 
@@ -117,7 +119,7 @@ def size_to_verdict(
     if goal == "efficiency" and hunt.may_roll:
         hunt.pins = False, True
     progress("searching by closed forms, held against the contact equilibrium")
-    found = _or_weaker(hunt, lambda: lightest(hunt))
+    found = or_weaker(hunt, lambda: lightest(hunt))
     last: Verdict | None = None
     for _ in range(_TRIALS):
         if found is None:
@@ -138,7 +140,7 @@ def size_to_verdict(
                 if last.meets == "yes":
                     return _verified(hunt, found, last, requirements, began)
                 if _turned(hunt, last):
-                    found = _or_weaker(hunt, lambda: lightest(hunt))
+                    found = or_weaker(hunt, lambda: lightest(hunt))
                     continue
                 step = _next_step(hunt, last)
             if step is None:
@@ -165,23 +167,8 @@ def _again(hunt: Hunt, found: Found) -> Found | None:
         return agreed(hunt, space, None, found.needs)
 
     if hunt.requirements.derived:
-        return _or_weaker(hunt, near)
+        return or_weaker(hunt, near, found)
     return near() or lightest(hunt)
-
-
-def _or_weaker(hunt: Hunt, search: Callable[[], Found | None]) -> Found | None:
-    """A search, repeated for less torque where none was stated and none is carried."""
-    for turn in range(_WEAKER):
-        found = search()
-        both = turn >= _PEAK_ALONE
-        share = _LESS_OF_BOTH if both else _LESS
-        less = None if found is not None else weaker(hunt.requirements, share, both=both)
-        if less is None:
-            return found
-        # What was lowered for part errors is not raised to what the motor holds.
-        hunt.lowered |= both and bool(hunt.extra)
-        hunt.requirements = less
-    return None
 
 
 def _verified(
@@ -405,9 +392,9 @@ def _next_step(hunt: Hunt, judged: Verdict) -> float | None:
         failing -= {_HOT, "MOTOR-CONTINUOUS"}
         if not failing:
             return 0.0
-    if not failing <= {"YIELD", "THERMAL-CLEARANCE", _SUPPORT}:
+    if not failing <= {"YIELD", "THERMAL-CLEARANCE", *_SHAFT}:
         return None
-    if _SUPPORT in failing:
+    if failing & _SHAFT:
         hunt.least_bore = _wider_bore(judged)
         return 0.0
     step = clearance_needed(judged.evidence.temperatures, judged.lines)
@@ -445,9 +432,9 @@ def _turned(hunt: Hunt, judged: Verdict) -> bool:
         return True
     failing = {line.id for line in judged.lines if line.status in {"fail", "unknown"}}
     goals = [goal for name, goal in _GOALS.items() if name in failing and goal not in hunt.tried]
-    if not goals or not failing <= {*_GOALS, "YIELD", _SUPPORT} or goals[0] == hunt.goal:
+    if not goals or not failing <= {*_GOALS, "YIELD", *_SHAFT} or goals[0] == hunt.goal:
         return False
-    if _SUPPORT in failing:
+    if failing & _SHAFT:
         hunt.least_bore = _wider_bore(judged)
     hunt.goal, hunt.fit = goals[0], FITS[0]
     hunt.tried.add(goals[0])

@@ -33,7 +33,9 @@ from cqdd_design.solids.motor_rules import lay_out_motor, register_radius, ring_
 from cqdd_design.solids.selection import (
     ChosenBearing,
     OutputPin,
+    Room,
     cap_screw,
+    fitting_output_bearings,
     named_output_bearing,
     output_bearing,
     output_pin,
@@ -102,6 +104,19 @@ def seat_bearings(design: Design, cam_bearing: Bearing) -> tuple[ChosenBearing, 
     return _seats(design, pack, output_pin(design.reducer.output_pins.diameter), core, unit)
 
 
+def carrier_bearings(design: Design, cam_bearing: Bearing) -> tuple[ChosenBearing, ...]:
+    """Catalogue bearings that go between carrier and housing, what a layout prefers first.
+
+    Raises
+    ------
+    GeometryError
+        When the disc cannot exist.
+    """
+    unit = millimetre_unit(design.reducer.ring.outer_diameter)
+    room = _carrier_room(design, _pack(design, cam_bearing, unit), unit)
+    return fitting_output_bearings(room)
+
+
 def _seats(
     design: Design, pack: PackLayout, pin: OutputPin, core: float, unit: float
 ) -> tuple[ChosenBearing, ChosenBearing]:
@@ -114,16 +129,21 @@ def _seats(
         min(pack.cam.bearing.outer_diameter, 2.0 * (circle - radius - unit)),
         2.0 * (circle - heads - pin_wall(pins.diameter, unit) - 2.3 * unit),
     )
-    most_shoulder, around = _most_shoulder_radius(pack, unit), circle + radius
-    room = (
+    room = _carrier_room(design, pack, unit)
+    named = design.reducer.carrier_bearing.designation
+    if named == AUTO:
+        return support, output_bearing(room, unit)
+    return support, named_output_bearing(find_bearing(named), room)
+
+
+def _carrier_room(design: Design, pack: PackLayout, unit: float) -> Room:
+    most_shoulder = _most_shoulder_radius(pack, unit)
+    around = design.reducer.output_pins.circle_radius + reach_beside_circle(design.reducer)
+    return Room(
         2.0 * (around + _within(0.2 * unit, most_shoulder - around - unit, 1.2 * unit)),
         most_shoulder,
         2.0 * pack.ring_radius + 8.0 * unit,
     )
-    named = design.reducer.carrier_bearing.designation
-    if named == AUTO:
-        return support, output_bearing(*room, unit)
-    return support, named_output_bearing(find_bearing(named), *room)
 
 
 def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:

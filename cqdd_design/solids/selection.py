@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, bearings
 from cqdd_design.catalog.screws import ShoulderScrew, find_shoulder_screw, mean_pin_diameter
@@ -128,57 +129,77 @@ def support_bearing(
     return _made(name, bore, outer, width, "bush")
 
 
-def output_bearing(
-    least_bore: float, most_shoulder_radius: float, most_outer_diameter: float, unit: float
-) -> ChosenBearing:
-    """The bearing between carrier and housing.
+class Room(NamedTuple):
+    """What bearings between carrier and housing have to go into, m.
+
+    Attributes
+    ----------
+    least_bore : float
+        What the pins in the carrier plate need.
+    most_shoulder_radius : float
+        Room for the shoulder on the carrier plate.
+    most_outer_diameter : float
+        Room in the housing.
+    """
+
+    least_bore: float
+    most_shoulder_radius: float
+    most_outer_diameter: float
+
+
+def fitting_output_bearings(room: Room) -> tuple[ChosenBearing, ...]:
+    """Those of the catalogue that go in, what a layout prefers first.
+
+    Crossed rollers, because one of them takes the tilting moment of the output, before balls, those
+    of least volume first; those whose ratings are known before all others.
+    """
+    fitting = [
+        chosen
+        for chosen in map(ChosenBearing, bearings().values())
+        if chosen.bearing.kind in ("ball", "crossed roller")
+        and chosen.bearing.bore_diameter >= room.least_bore - 1e-9
+        and chosen.bearing.outer_diameter <= room.most_outer_diameter + 1e-9
+        and chosen.shoulder_radius <= room.most_shoulder_radius + 1e-9
+    ]
+
+    def place(chosen: ChosenBearing) -> tuple[bool, bool, float, str]:
+        row = chosen.bearing
+        return row.static_rating is None, row.kind == "ball", *_bulk(row)
+
+    return tuple(sorted(fitting, key=place))
+
+
+def output_bearing(room: Room, unit: float) -> ChosenBearing:
+    """The bearing between carrier and housing, where no load chooses it.
 
     Parameters
     ----------
-    least_bore : float
-        What the pins in the carrier plate need, m.
-    most_shoulder_radius : float
-        Room for the shoulder on the carrier plate, m.
-    most_outer_diameter : float
-        Room in the housing, m.
     unit : float
         A millimetre at the scale of this machine, m.
 
     Returns
     -------
     ChosenBearing
-        A crossed roller bearing where the catalogue has one that fits, because one of them takes
-        the tilting moment of the output; else the ball bearing of least volume; else a
-        thin-section bearing to order.
+        The first of :func:`fitting_output_bearings`; a thin-section bearing to order where none
+        goes in.
     """
-    fitting = [
-        chosen
-        for chosen in map(ChosenBearing, bearings().values())
-        if chosen.bearing.kind in ("ball", "crossed roller")
-        and chosen.bearing.bore_diameter >= least_bore - 1e-9
-        and chosen.bearing.outer_diameter <= most_outer_diameter + 1e-9
-        and chosen.shoulder_radius <= most_shoulder_radius + 1e-9
-    ]
+    fitting = fitting_output_bearings(room)
     if fitting:
-        return min(fitting, key=lambda c: (c.bearing.kind == "ball", *_bulk(c.bearing)))
-    bore = _rounded_up(least_bore, 0.5e-3 if least_bore < 0.05 else 1e-3)
+        return fitting[0]
+    bore = _rounded_up(room.least_bore, 0.5e-3 if room.least_bore < 0.05 else 1e-3)
     section = max(2.5 * unit, 0.055 * bore)
     outer, width = bore + 2.0 * section, 1.1 * section
     name = f"thin section {bore * 1e3:.4g} x {outer * 1e3:.4g} x {width * 1e3:.3g} mm, to order"
     return _made(name, bore, outer, width, "to order")
 
 
-def named_output_bearing(
-    row: Bearing, least_bore: float, most_shoulder_radius: float, most_outer_diameter: float
-) -> ChosenBearing:
+def named_output_bearing(row: Bearing, room: Room) -> ChosenBearing:
     """The bearing between carrier and housing that a design names.
 
     Parameters
     ----------
     row : Bearing
         Of the catalogue.
-    least_bore, most_shoulder_radius, most_outer_diameter : float
-        As for :func:`output_bearing`, m.
 
     Raises
     ------
@@ -192,6 +213,7 @@ def named_output_bearing(
             f"{key} is a {row.kind} bearing, which does not guide a carrier; choose a ball or "
             f"crossed-roller bearing, {auto}."
         )
+    least_bore, most_shoulder_radius, most_outer_diameter = room
     bore, outside = row.bore_diameter, row.outer_diameter
     if bore < least_bore - 1e-9:
         raise GeometryError(

@@ -13,6 +13,7 @@ from cqdd_design.units.dimensions import (
     CURRENT,
     DAMPING_GAIN,
     DURATION,
+    FORCE,
     FREQUENCY,
     INDUCTANCE,
     INERTIA,
@@ -38,7 +39,13 @@ from cqdd_design.units.dimensions import (
     VOLTAGE,
     Dimension,
 )
-from cqdd_design.units.quantities import format_quantity, parse_quantity
+from cqdd_design.units.quantities import (
+    Quantity,
+    format_quantity,
+    parse_quantity,
+    read_quantity,
+    unit_string,
+)
 
 __all__ = [
     "ANGLE",
@@ -46,6 +53,7 @@ __all__ = [
     "CURRENT",
     "DAMPING_GAIN",
     "DURATION",
+    "FORCE",
     "FREQUENCY",
     "INDUCTANCE",
     "INERTIA",
@@ -70,7 +78,10 @@ __all__ = [
     "VISCOSITY",
     "VOLTAGE",
     "Dimension",
+    "Quantity",
     "QuantityIn",
     "format_quantity",
     "parse_quantity",
+    "read_quantity",
+    "unit_string",
 ]

@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from cqdd_design.errors import DesignError, shown
+from cqdd_design.errors import DesignError
 from cqdd_design.units.dimensions import Dimension
-from cqdd_design.units.quantities import format_quantity, parse_quantity
+from cqdd_design.units.quantities import format_quantity, parse_quantity, read_quantity
 
 if TYPE_CHECKING:
     from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -38,20 +38,13 @@ class QuantityIn:
     reason: str
 
     def _validate(self, value: object, info: Any) -> float:
-        if isinstance(value, str):
-            try:
-                return self._bounded(parse_quantity(value, self.dimension))
-            except DesignError as error:
-                raise ValueError(str(error)) from None
-        if isinstance(value, (int, float)) and not isinstance(value, bool):
-            if info.context is not None and info.context.get("si"):
-                return self._bounded(float(value))
-            text = shown(value)
-            raise ValueError(f'{text} has no unit; write it like "{text} {self.dimension.unit}"')
-        raise ValueError(
-            f"a {self.dimension.name} is written like {self.dimension.example()}, "
-            f"not as a {type(value).__name__}"
-        )
+        bare = isinstance(value, (int, float)) and not isinstance(value, bool)
+        if bare and info.context is not None and info.context.get("si"):
+            return self._bounded(float(value))  # type: ignore[arg-type]
+        try:
+            return self._bounded(read_quantity(value, self.dimension))
+        except DesignError as error:
+            raise ValueError(str(error)) from None
 
     def _bounded(self, value: float) -> float:
         least = parse_quantity(self.low, self.dimension)

@@ -66,6 +66,7 @@ TORQUE = Dimension(
     (("N*m", 1.0), ("mN*m", 1e-3), ("N*mm", 1e-3), ("N*cm", 1e-2), ("kN*m", 1e3)),
     "J is a unit of energy; write a torque as N*m",
 )
+FORCE = Dimension("force", "N", "force", (("N", 1.0), ("kN", 1e3)))
 ANGLE = Dimension(
     "angle",
     "deg",

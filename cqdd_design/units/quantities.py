@@ -5,14 +5,19 @@ from __future__ import annotations
 import functools
 import math
 import re
-from typing import TYPE_CHECKING, Any
+import sys
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from cqdd_design.errors import DesignError, did_you_mean
+from cqdd_design.errors import DesignError, did_you_mean, shown
 from cqdd_design.units.dimensions import Dimension
 from cqdd_design.units.expression import LONGEST, parse_expression
 
 if TYPE_CHECKING:
+    import pint
     from pint import UnitRegistry
+
+Quantity: TypeAlias = "str | pint.Quantity[Any]"
+"""A number with its unit, as calls take it: a unit string, or a quantity of any pint registry."""
 
 _NUMBER = re.compile(r"[+-]?(?:\d+(?:_\d+)*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 #: The longest number and unit that is read; a float has 17 digits that count.
@@ -177,6 +182,72 @@ def parse_quantity(text: str, dimension: Dimension) -> float:
     if not math.isfinite(value):
         raise DesignError(f"'{text}' is not a finite {dimension.name}")
     return value
+
+
+def read_quantity(value: object, dimension: Dimension) -> float:
+    """The SI value of a unit string, or of a quantity of pint.
+
+    A quantity of pint is read by its unit like a string: a joule is no torque.
+
+    Raises
+    ------
+    DesignError
+        As `parse_quantity`; for a bare number, with the right form; and for anything else.
+
+    Examples
+    --------
+    >>> import pint
+    >>> from cqdd_design.units import TEMPERATURE, TORQUE
+    >>> registry = pint.UnitRegistry()
+    >>> read_quantity(registry.Quantity(0.04, "kN*m"), TORQUE)
+    40.0
+    >>> read_quantity(registry.Quantity(300.0, "kelvin"), TEMPERATURE)
+    26.85
+    """
+    if isinstance(value, str):
+        return parse_quantity(value, dimension)
+    # Who has a quantity has imported pint; nobody else pays for it.
+    known = sys.modules.get("pint")
+    if known is not None and isinstance(value, known.Quantity):
+        return parse_quantity(_unit_string(value, dimension), dimension)
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        text = shown(value)
+        raise DesignError(f'{text} has no unit; write it like "{text} {dimension.unit}"')
+    raise DesignError(
+        f"a {dimension.name} is written like {dimension.example()}, not as a {type(value).__name__}"
+    )
+
+
+def _unit_string(quantity: pint.Quantity[Any], dimension: Dimension) -> str:
+    """A quantity of pint as text; of a scale with a zero of its own, in its usual unit."""
+    if dimension.zeros and quantity.is_compatible_with(dimension.unit):
+        quantity = quantity.to(dimension.unit)
+        return f"{float(quantity.magnitude):.15g} {dimension.unit}"
+    try:
+        number = float(quantity.magnitude)
+    except (TypeError, ValueError):
+        raise DesignError(
+            f"a {dimension.name} is one number, like {dimension.example()}, not "
+            f"{shown(quantity.magnitude)}"
+        ) from None
+    return f"{number!r} {quantity.units:C}"
+
+
+def unit_string(given: object) -> str:
+    """A quantity as a unit string: a string is one already, a bare number stays without a unit.
+
+    Examples
+    --------
+    >>> import pint
+    >>> unit_string(pint.UnitRegistry().Quantity(0.5, "kg*m^2")), unit_string("2 kg")
+    ('0.5 kilogram*meter**2', '2 kg')
+    """
+    if isinstance(given, str):
+        return given
+    known = sys.modules.get("pint")
+    if known is not None and isinstance(given, known.Quantity):
+        return f"{float(given.magnitude)!r} {given.units:C}"
+    return shown(given)
 
 
 def _scaled(number: float, factor: float) -> float:

@@ -13,15 +13,11 @@ from numpy.typing import NDArray
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
-from cqdd_design.gearbox.tolerance.evaluate import LOADS, PER_TOOTH, turn_angles
+from cqdd_design.gearbox.tolerance.evaluate import LOADS, PER_TOOTH
 from cqdd_design.gearbox.tolerance.remembered import work_remembered
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
 
-LEAST_SAMPLES = 128
-"""Gearboxes drawn of a design with many teeth, whose turn takes many angles."""
-_ANGLES = 1000
-"""Crank angles of the output turn that cost no gearbox."""
 _ARCMIN = math.degrees(1.0) * 60.0
 _RING = ("CONTACT-RING-PEAK", "CONTACT-RING-CONTINUOUS")
 _CAM = ("BEARING-STATIC", "BEARING-LIFE")
@@ -41,7 +37,7 @@ def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Dra
     Parameters
     ----------
     samples : int
-        Gearboxes; fewer of designs with many teeth, but not below `LEAST_SAMPLES`.
+        Gearboxes.
     sensitivity : bool
         Whether to rank the tolerances too, at the continuous torque, which takes twice as many.
 
@@ -51,8 +47,6 @@ def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Dra
         As :func:`.ensemble.run_ensemble`.
     """
     ratio = machine.design.reducer.ratio
-    fitting = samples * _ANGLES // max(turn_angles(ratio), _ANGLES)
-    count = max(fitting, min(samples, LEAST_SAMPLES))
     peak = machine.design.requirements.peak_torque
     # Greatest loads alone need the fewest angles.
     fewest = PER_TOOTH[1] * ratio * (ratio + 1)
@@ -60,11 +54,11 @@ def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Dra
     found = Drawn(
         run_ensemble(
             make_ensemble(machine.design),
-            count,
+            samples,
             mapper=work_remembered,
             sensitivity=sensitivity,
         ),
-        run_ensemble(at_peak, count, mapper=work_remembered, sensitivity=False),
+        run_ensemble(at_peak, samples, mapper=work_remembered, sensitivity=False),
     )
     if any(one.interrupted for one in found):
         raise KeyboardInterrupt

@@ -21,11 +21,14 @@ _LIFE_LINES = (
     "BEARING-LIFE",
     "SLEEVE-LIFE",
     "ROLLER-LIFE",
+    "SUPPORT-LIFE",
+    "OUTPUT-LIFE",
 )
-
-
-_WAYS = 2
-"""The motor and the gearbox."""
+_IN_PROPORTION = (
+    *("SHAFT-STRENGTH", "SUPPORT-STATIC", "OUTPUT-STATIC"),
+    *("LIGAMENT-STRESS", "ROOT-STRESS", "RING-STRESS"),
+)
+"""Lines at the peak torque whose value goes with the torque as good as linearly."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,13 @@ class Figure:
     required: float | None
     status: Status
     basis: str
+
+    @property
+    def told(self) -> str:
+        """In a line: ``pass  mass: 0.82 kg, 1 asked``."""
+        value = "not known" if self.value is None else f"{self.value:.4g} {self.unit}".rstrip()
+        asked = "" if self.required is None else f", {self.required:.4g} asked"
+        return f"{self.status:7}  {self.title}: {value}{asked}"
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form."""
@@ -98,11 +108,22 @@ def _peak(machine: Machine, motor: Check, lines: Sequence[Check]) -> Figure:
     carried = carried_torque(machine)
     ways = [] if motor.value is None else [(motor.value, motor.basis)]
     ways += [(one.torque, f"{one.words}: {one.model}") for one in carried.limits[:1]]
+    linear = [line for line in lines if line.id in _IN_PROPORTION]
+    ways += [
+        (required * line.margin, f"{line.title}: {line.basis}, by proportion")
+        for line in linear
+        if line.known and line.margin < 1e6
+    ]
     value, basis = min(ways, default=(None, motor.basis))
     status: Status = "pass"
     if value is not None and value < required * (1.0 - 1e-9):
         status = "fail"
-    elif len(ways) < _WAYS or carried.unknown:
+    elif (
+        motor.value is None
+        or not carried.limits
+        or carried.unknown
+        or not all(line.known for line in linear)
+    ):
         # What is known reaches it, but something is not known.
         value, status = None, "unknown"
     return Figure(name, title, value, "N*m", required, status, basis)
@@ -119,6 +140,8 @@ def _life(machine: Machine, by_id: dict[str, Check]) -> Figure:
     hours = {part.part: part.hours for part in life.parts}
     hours["cam bearings together"] = life.cam.set_hours
     hours |= {one.name: one.set_hours for one in life.runners}
+    for name, words in (("SUPPORT-LIFE", "shaft bearings"), ("OUTPUT-LIFE", "output bearing")):
+        hours[words] = by_id[name].value
     ended = {part: value for part, value in hours.items() if value is not None}
     first = min(ended, key=lambda part: ended[part], default="")
     value = ended.get(first, ENDLESS)

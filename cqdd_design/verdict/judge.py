@@ -23,7 +23,7 @@ _LIMITS = 6
 """Lines told as what binds, where none fails."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Verdict:
     """Whether a machine meets its requirements.
 
@@ -40,6 +40,10 @@ class Verdict:
     name: str
     lines: tuple[Check, ...]
     evidence: Evidence
+
+    def __repr__(self) -> str:
+        """The answer and the seven figures."""
+        return "\n".join([f"Verdict: {self.sentence}", *(f"  {one.told}" for one in self.headline)])
 
     @cached_property
     def headline(self) -> tuple[Figure, ...]:

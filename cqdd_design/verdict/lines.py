@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 
-from cqdd_design.errors import ContactError, GeometryError
-from cqdd_design.gearbox.checks.allowables import STATIC_SAFETY
+from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.checks.equilibrium import (
     DUTY_MODEL,
     MODEL,
@@ -14,7 +13,6 @@ from cqdd_design.gearbox.checks.equilibrium import (
     peak_checks,
 )
 from cqdd_design.gearbox.checks.guide_row import RIGID
-from cqdd_design.gearbox.checks.remedies import lower_torque
 from cqdd_design.gearbox.checks.rubbing import rubbing_check
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.contact.rubbing import ContactFriction
@@ -22,18 +20,18 @@ from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.film.plastics import rubbing_plastics, sliding_plastics
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
-from cqdd_design.machine.shaft import shaft_bending
 from cqdd_design.results import Check
 from cqdd_design.verdict.asked import asked_lines
 from cqdd_design.verdict.drawn import yield_line
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.motor import motor_lines
+from cqdd_design.verdict.shaft_lines import shaft_lines
 
 _BODIES = tuple(
     f"{part}-{kind}" for part in ("LIGAMENT", "ROOT", "RING") for kind in ("STRESS", "FATIGUE")
 )
 _ANGLES = 120
-"""Crank angles over the period at which shaft and plastics are looked at."""
+"""Crank angles over the period at which plastics are looked at."""
 _HEAT = ("THERMAL-RISE", "THERMAL-CLEARANCE")
 
 
@@ -46,7 +44,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         if check.id.startswith("MOTOR-"):
             continue
         lines.append(carried.pop(check.id, check))
-    lines += (*carried.values(), _support(machine), *_rubbing(machine))
+    lines += (*carried.values(), *shaft_lines(machine), *_rubbing(machine))
     lines += evidence.stress_checks or _missing(_BODIES, evidence.stress_missing)
     lines += evidence.heat_checks or _missing(_HEAT, evidence.heat_missing)
     lines += motor_lines(
@@ -92,40 +90,6 @@ def _carried(machine: Machine) -> dict[str, Check]:
     with suppress(ContactError):
         found |= {check.id: check for check in lasting_checks(state, machine.life)}
     return found
-
-
-def _support(machine: Machine) -> Check:
-    """The line of the shaft's own bearings."""
-    name, limit = "SUPPORT-STATIC", STATIC_SAFETY
-    asked, model = machine.design.requirements, machine.contact
-    rubbed = ContactFriction.of(model, "drive")
-    angles = perfect_angles(model, _ANGLES)
-    try:
-        bending = shaft_bending(
-            machine,
-            [
-                contact_sweep(model, torque, angles, friction=rubbed)
-                for torque in (asked.peak_torque, -asked.peak_torque)
-            ],
-        )
-    except (ContactError, GeometryError) as error:
-        return build_check(name, None, limit, error.message, "see why it is not known")
-    most, seat = max(bending.support_load), machine.seats[0].bearing.designation
-    if bending.support_rating is None:
-        told = f"{most:.0f} N on {seat}: a bush, whose rating is not known"
-        return build_check(
-            name, None, limit, told, "leave room for a bearing (a wider cam bearing)"
-        )
-    safety = bending.support_rating / most
-    return build_check(
-        name,
-        safety,
-        limit,
-        f"{seat}: {bending.support_rating:.0f} N/{most:.1f} N = {safety:.3f} at "
-        f"{asked.peak_torque:g} N*m",
-        "leave room for larger support bearings (a cam bearing with a larger bore); or "
-        + lower_torque(asked.peak_torque, safety / limit),
-    )
 
 
 def _rubbing(machine: Machine) -> tuple[Check, ...]:

@@ -38,7 +38,7 @@ def complaint(cqdd, tmp_path):
 
 def test_the_minimal_design_is_a_design(cqdd, tmp_path):
     (tmp_path / "fine.toml").write_text(MINIMAL)
-    assert cqdd("inertia", "fine.toml").code == 0
+    assert cqdd("export", "fine.toml", "--to", "bom").code == 0
 
 
 # Files ------------------------------------------------------------------------------------------

@@ -60,13 +60,17 @@ def test_contradictions_are_a_sentence(cqdd, options, says):
     assert done.out == ""
 
 
-def test_a_speed_above_the_motors_is_told_with_what_would_do(cqdd, tmp_path, paper_design_file):
+def test_a_speed_above_the_motors_is_told(cqdd):
     done = cqdd(
         "size", "--quick", "--ratio", "10", "--input-speed", "9000 rpm", "--peak-torque", "5 N*m"
     )
     told = " ".join((done.out + done.err).split())
     assert "Traceback" not in told
     assert done.code == 0
+
+
+@pytest.mark.deep
+def test_a_speed_above_the_motors_is_a_no_with_what_would_do(cqdd, tmp_path, paper_design_file):
     text = paper_design_file.read_text()
     (tmp_path / "fast.toml").write_text(text.replace('"1286 rpm"', '"9000 rpm"'))
     check = cqdd("check", "fast.toml")
@@ -75,6 +79,7 @@ def test_a_speed_above_the_motors_is_told_with_what_would_do(cqdd, tmp_path, pap
     assert "does NOT meet its requirements" in check.out
 
 
+@pytest.mark.deep
 def test_a_day_of_a_million_rows_is_answered(cqdd, tmp_path, paper_design_file):
     second = "".join(f"%d.{k:02d},{k / 20},{(50 - k) / 10}\n" for k in range(100))
     with (tmp_path / "day.csv").open("w") as stream:
@@ -92,7 +97,7 @@ def test_points_outside_are_named_with_line_time_torque_speed_and_limit(
 ):
     rows = "0,2,1\n0.2,90,1\n0.4,2,1\n0.6,3,60\n1,2,1\n"
     (tmp_path / "knee.csv").write_text(f"# knee\n{HEAD}\n{rows}")
-    done = cqdd("check", paper_design_file, "--duty", "knee.csv", "--json")
+    done = cqdd("analyse", paper_design_file, "--duty", "knee.csv", "--angles", "8", "--json")
     line = next(one for one in done.document["checks"] if one["id"] == "DUTY-ENVELOPE")
     assert (line["status"], line["value"]) == ("fail", 2.0)
     assert "2 of 5 rows in 2 stretches" in line["substituted"]
@@ -108,12 +113,11 @@ def test_a_given_duty_wins_over_that_of_the_design(cqdd, tmp_path, paper_design_
     (tmp_path / "logs").mkdir()
     (tmp_path / "logs" / "own.csv").write_text(GENTLE)
     (tmp_path / "other.csv").write_text(GENTLE.replace("0.3,2,-2", "0.3,4,-2"))
-    files = [
-        cqdd("analyse", own, "--angles", "8", *options, "--json").document["results"]["duty"]
-        for options in ((), ("--duty", "other.csv"))
-    ]
-    assert [one["file"] for one in files] == ["own.csv", "other.csv"]
-    assert [one["torque_peak_Nm"] for one in files] == [3.0, 4.0]
+    usual = cqdd("export", own, "--to", "bom", "--json").document["design"]["requirements"]
+    assert usual["duty_file"] == "logs/own.csv"
+    done = cqdd("analyse", own, "--angles", "8", "--duty", "other.csv", "--json").document
+    duty = done["results"]["duty"]
+    assert (duty["file"], duty["torque_peak_Nm"]) == ("other.csv", 4.0)
 
 
 @pytest.mark.deep

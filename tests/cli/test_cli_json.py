@@ -93,9 +93,10 @@ def test_a_report_replaces_its_own_page_and_shows_the_motor_of_the_file(
 def test_the_time_is_that_of_the_environment(cqdd, paper_design_file):
     fixed = {"SOURCE_DATE_EPOCH": "1700000000"}
     first = cqdd("check", paper_design_file, "--json", environment=fixed)
-    second = cqdd("check", paper_design_file, "--json", environment=fixed)
-    assert first.document["provenance"]["time"] == "2023-11-14T22:13:20Z"
-    assert first.out == second.out
+    now = cqdd("check", paper_design_file, "--json")
+    told, time = "2023-11-14T22:13:20Z", now.document["provenance"]["time"]
+    assert first.document["provenance"]["time"] == told != time
+    assert first.out == now.out.replace(time, told)
 
 
 def test_quiet_prints_nothing(cqdd, paper_design_file):
@@ -128,21 +129,24 @@ def test_check_says_what_would_make_it_pass(cqdd, paper_design_file):
     done = cqdd("check", paper_design_file)
     assert done.code == 4
     assert "CONTACT-RING-PEAK" in done.out
-    assert "raise disc_thickness" in done.out
+    assert "lower the continuous torque to" in done.out
+    assert "designation to 'THK RA6008'" in " ".join(done.out.split())
     assert "does NOT meet its requirements" in done.out.splitlines()[-1]
 
 
 def test_analyse_torque_moves_loads_and_not_checks(cqdd, paper_design_file):
-    peak = cqdd("analyse", paper_design_file, "--json").document
-    less = cqdd("analyse", paper_design_file, "--torque", "60 N*m", "--json").document
+    few = ("--angles", "24", "--json")
+    peak = cqdd("analyse", paper_design_file, *few).document
+    less = cqdd("analyse", paper_design_file, "--torque", "60 N*m", *few).document
     key = "ring_force_max_N"
     assert less["results"]["rigid"][key] == pytest.approx(0.5 * peak["results"]["rigid"][key])
     assert less["checks"] == peak["checks"]
 
 
 def test_analyse_speed_moves_the_life(cqdd, paper_design_file):
-    slow = cqdd("analyse", paper_design_file, "--speed", "643 rpm", "--json").document
-    full = cqdd("analyse", paper_design_file, "--json").document
+    few = ("--angles", "24", "--json")
+    slow = cqdd("analyse", paper_design_file, "--speed", "643 rpm", *few).document
+    full = cqdd("analyse", paper_design_file, *few).document
     hours = [d["results"]["bearings"]["cam"]["L10h"] for d in (slow, full)]
     assert hours[0] == pytest.approx(2.0 * hours[1])
 
@@ -153,7 +157,7 @@ def test_analyse_angles_are_the_points_of_the_curves(cqdd, paper_design_file):
 
 
 def test_numbers_that_do_not_exist_are_null_with_a_warning():
-    from cqdd_design.cli.envelope import json_ready
+    from cqdd_design.library.envelope import json_ready
 
     told = []
     assert json_ready({"a": [1.0, math.nan]}, "results", told) == {"a": [1.0, None]}

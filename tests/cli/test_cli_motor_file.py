@@ -33,9 +33,9 @@ def test_check_judges_the_motor_of_the_file(cqdd, paper_design_file, motor_file)
 
 
 def test_size_designs_for_the_motor_of_the_file(cqdd, tmp_path, motor_file):
-    usual = cqdd("size", "--quick", "--ratio", "10", "--out", "a.toml", "--json").document[
-        "results"
-    ]
+    motor_file.unlink()  # so that what follows is what others have asked for
+    usual = cqdd("size", "--quick", "--ratio", "10", "--json").document["results"]
+    motor_file.write_text(SMALL)
     done = cqdd(
         "size", "--quick", "--ratio", "10", "--motor-file", motor_file, "--out", "b.toml", "--json"
     )

@@ -20,7 +20,7 @@ def with_speed(folder: Path, value: str) -> Path:
 
 def test_analyse_tells_what_a_stop_does(cqdd, tmp_path):
     path = with_speed(tmp_path, '"3 rad/s"')
-    found = cqdd("analyse", str(path), "--angles", "60", "--json").document
+    found = cqdd("analyse", str(path), "--angles", "24", "--json").document
     given, rated = found["results"]["shock"]["given"], found["results"]["shock"]["rated"]
     assert given["speed_rad_per_s"] == 3.0
     by_energy = given["by_energy"]

@@ -205,7 +205,7 @@ def _balances(contact: dict[str, list]) -> None:
 
 def test_interference_is_told_as_preload(cqdd, tmp_path: Path) -> None:
     design = changed(tmp_path, 'equidistant = "6 um"', 'equidistant = "-6 um"')
-    done = cqdd("analyse", design, "--json")
+    done = cqdd("analyse", design, "--angles", "24", "--json")
     assert done.code == 0, done.err
     document = json.loads(done.out)
     assert document["results"]["contact"]["preload"]["ring_force_max_N"] > 100.0

@@ -1,4 +1,4 @@
-"""A small part of the fuzz campaign of `tools/fuzz`: four cases of every cheap group."""
+"""A small part of the fuzz campaign of `tools/fuzz`: one case of every cheap group."""
 
 import os
 import subprocess
@@ -31,11 +31,13 @@ def fresh(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 def test_cases_keep_what_is_promised():
     groups = [word for name in CHEAP for word in ("--group", name)]
-    done = fresh("-m", "tools.fuzz", "--seed", "0", "--cases", "2", *groups)
+    # Among other workers, kernels are compiled before they start.
+    ready = ["--compiled"] if "PYTEST_XDIST_WORKER" in os.environ else []
+    done = fresh("-m", "tools.fuzz", "--seed", "0", "--cases", "1", *ready, *groups)
     assert done.returncode == 0, done.stdout + done.stderr
     told = done.stdout.splitlines()
     assert [line.partition(":")[0] for line in told] == list(CHEAP)
-    assert all(line.endswith(" 0 broken") and ": 2 cases" in line for line in told)
+    assert all(line.endswith(" 0 broken") and ": 1 cases" in line for line in told)
 
 
 PROMISES = """

@@ -81,8 +81,8 @@ OTHERS: dict[str, dict[str, Any]] = {
 
 
 @pytest.fixture(scope="module")
-def paper_page(tmp_path_factory: pytest.TempPathFactory) -> str:
-    return build_report(paper_input(tmp_path_factory))
+def paper_page() -> str:
+    return build_report(paper_input())
 
 
 @pytest.fixture(scope="module")
@@ -232,6 +232,6 @@ def test_other_designs_draw_as_cleanly(name: str, tmp_path: Path) -> None:
 def test_sized_designs_draw_as_cleanly(
     ratio: int, tmp_path: Path, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
-    found = sized(tmp_path_factory, ratio)
+    found = sized(ratio=ratio)
     page = build_report(dataclasses.replace(report_input(found.design), sizing=found))
     _draws_cleanly(page, tmp_path)

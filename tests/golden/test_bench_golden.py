@@ -16,8 +16,8 @@ from shared_outputs import measure_paper_bench, paper_bench
 FILE = Path(__file__).with_suffix(".json")
 
 
-def test_rows_of_the_papers_bench(tmp_path_factory: pytest.TempPathFactory) -> None:
-    found = {metric.name: metric.known for metric in paper_bench(tmp_path_factory)[1].metrics}
+def test_rows_of_the_papers_bench() -> None:
+    found = {metric.name: metric.known for metric in paper_bench()[1].metrics}
     wanted = json.loads(FILE.read_text(encoding="utf-8"))
     none = {name for name, value in wanted.items() if value is None}
     assert {name for name, value in found.items() if value is None} == none

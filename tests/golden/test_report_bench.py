@@ -55,8 +55,8 @@ WORDS = Words("id", "title", "description", "caption")
 
 
 @pytest.fixture(scope="module")
-def paper_input(tmp_path_factory: pytest.TempPathFactory) -> ReportInput:
-    return shared_input(tmp_path_factory)
+def paper_input() -> ReportInput:
+    return shared_input()
 
 
 @pytest.fixture(scope="module")
@@ -65,8 +65,8 @@ def design(paper_input: ReportInput) -> Design:
 
 
 @pytest.fixture(scope="module")
-def found(tmp_path_factory: pytest.TempPathFactory) -> tuple[ActuatorParameters, BenchResult]:
-    return paper_bench(tmp_path_factory)
+def found() -> tuple[ActuatorParameters, BenchResult]:
+    return paper_bench()
 
 
 @pytest.fixture(scope="module")

@@ -25,8 +25,8 @@ VOID = {"meta", "link", "br", "hr", "img", "input", "col", "circle", "line", "pa
 
 
 @pytest.fixture(scope="module")
-def paper_input(tmp_path_factory: pytest.TempPathFactory) -> ReportInput:
-    return shared_input(tmp_path_factory)
+def paper_input() -> ReportInput:
+    return shared_input()
 
 
 @pytest.fixture(scope="module")
@@ -245,8 +245,8 @@ def test_without_bodies_and_sizing_their_sections_are_left_out(paper_input: Repo
         assert f'href="#{anchor}"' not in bare
 
 
-def test_a_sized_design_shows_how_it_was_found(tmp_path_factory: pytest.TempPathFactory) -> None:
-    found = sized(tmp_path_factory, 12)
+def test_a_sized_design_shows_how_it_was_found() -> None:
+    found = sized(ratio=10)
     page = build_report(dataclasses.replace(report_input(found.design), sizing=found))
     words = text_of(page[page.index('id="sizing"') : page.index('id="symbols"')])
     assert f"{found.candidates_screened:,}".replace(",", " ") in words

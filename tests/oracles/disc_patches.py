@@ -16,7 +16,7 @@ Hold = Callable[[np.ndarray], np.ndarray] | None
 
 
 class DiscPatches:
-    """A disc without its bearing's ring, and unit forces on patches round some of its places.
+    """A disc, its bearing's ring where it has one, and unit forces on patches round some places.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class DiscPatches:
         self.shape, self.ids, self.half_width = shape, list(ids), half_width
         self._moved: dict[Hold, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
         outline, places, plate = shape.outline, shape.places(), shape.plate
-        R = shape.bearing.outer
+        R, seat = shape.bearing.raceway, shape.bearing.outer
 
         def outside(u: np.ndarray) -> np.ndarray:
             return outline.profile(2.0 * np.pi * np.asarray(u))[0]
@@ -67,6 +67,17 @@ class DiscPatches:
         self.matrix = plane_stress.stiffness(
             self.mesh, plate.modulus, plate.poisson, plate.thickness
         )
+        if seat > R:
+            # No sides run along the seat: right where the ring is about as stiff as the disc.
+            corner = self.mesh.triangles[:3]
+            own = np.abs(self.mesh.nodes[corner].mean(axis=0)) < seat
+            ring = plane_stress.Lattice(self.mesh.nodes, self.mesh.triangles[:, own], [])
+            self.matrix = self.matrix + plane_stress.stiffness(
+                ring,
+                plate.modulus,
+                plate.poisson,
+                (shape.ring_factor - 1.0) * plate.thickness,
+            )
         self.directions = places.inward[self.ids] * turned
         self.patches = []
         for place, direction in zip(self.ids, self.directions, strict=True):
@@ -87,7 +98,7 @@ class DiscPatches:
         return self._moved[hold]
 
     def _solved(self, hold: Hold) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        R, edge = self.shape.bearing.outer, len(self.mesh.edges) - 1
+        R, edge = self.shape.bearing.raceway, len(self.mesh.edges) - 1
         length = 2.0 * np.pi * R
         even = [
             plane_stress.nodal(self.mesh, edge, lambda z, t=t: t(z) / length)

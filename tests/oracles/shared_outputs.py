@@ -7,13 +7,12 @@ the run have in common; a lock makes the others wait for it meanwhile.
 from __future__ import annotations
 
 import fcntl
+import hashlib
 import os
 import pickle
 from collections.abc import Callable
 from pathlib import Path
-from typing import TypeVar
-
-import pytest
+from typing import Any, TypeVar
 
 from cqdd_design.actuator.bench import BenchResult, run_bench
 from cqdd_design.actuator.build import actuator_parameters
@@ -32,11 +31,9 @@ PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 Made = TypeVar("Made")
 
 
-def shared(factory: pytest.TempPathFactory, name: str, make: Callable[[], Made]) -> Made:
+def shared(name: str, make: Callable[[], Made]) -> Made:
     """What `make` returns, made by the first of all workers that asks for `name`."""
-    root = factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        root = root.parent
+    root = Path(os.environ["CQDD_TEST_RUNS"])
     place = root / f"shared-{name}.pickle"
     with (root / f"shared-{name}.lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
@@ -64,14 +61,14 @@ def report_input(design: Design, file: Path | None = None) -> ReportInput:
     )
 
 
-def paper_input(factory: pytest.TempPathFactory) -> ReportInput:
+def paper_input() -> ReportInput:
     """That of the paper's design."""
-    return shared(factory, "paper-input", lambda: report_input(load_design(PAPER_FILE), PAPER_FILE))
+    return shared("paper-input", lambda: report_input(load_design(PAPER_FILE), PAPER_FILE))
 
 
-def paper_bench(factory: pytest.TempPathFactory) -> tuple[ActuatorParameters, BenchResult]:
+def paper_bench() -> tuple[ActuatorParameters, BenchResult]:
     """The paper's actuator, and what the test bench measures of it."""
-    return shared(factory, "paper-bench", measure_paper_bench)
+    return shared("paper-bench", measure_paper_bench)
 
 
 def measure_paper_bench() -> tuple[ActuatorParameters, BenchResult]:
@@ -80,6 +77,8 @@ def measure_paper_bench() -> tuple[ActuatorParameters, BenchResult]:
     return actuator, run_bench(actuator, rated_current=20.0, beside_paper=True)
 
 
-def sized(factory: pytest.TempPathFactory, ratio: int) -> SizingResult:
-    """The search for a design of a ratio, all else at its default."""
-    return shared(factory, f"sized-{ratio}", lambda: size(Requirements(ratio=ratio)))
+def sized(**given: Any) -> SizingResult:
+    """The search for a design of these requirements, all else at its default."""
+    asked = sorted(given.items())
+    name = hashlib.sha256(repr(asked).encode()).hexdigest()[:16]
+    return shared(f"sized-{name}", lambda: size(Requirements(**given)))

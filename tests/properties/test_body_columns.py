@@ -122,7 +122,7 @@ def test_holes_for_columns_make_a_disc_give_more_under_any_forces() -> None:
     assert grown == pytest.approx(1.45, abs=0.03)
     for _, body in (disc_of_s(3.0), disc_of_s(4.0)):
         assert np.abs(body.matrix - body.matrix.T).max() <= 1e-9 * np.abs(body.matrix).max()
-        assert body.reciprocity < 5e-4
+        assert body.reciprocity < 1e-9
 
 
 def test_a_disc_of_few_columns_comes_from_the_standard_one_of_its_kind() -> None:
@@ -130,9 +130,9 @@ def test_a_disc_of_few_columns_comes_from_the_standard_one_of_its_kind() -> None
     design = design_of_s(6, 3, 3.0)
     shape = DiscShape.from_design(design, 1)
     shape = replace(shape, side=1.5 * shape.side)
-    assert len([one for one in shape.symmetries() if one.sense.min() > 0.0]) == 1
+    assert shape.turns == 1
     bare = replace(shape, column_count=0)
-    assert len([one for one in bare.symmetries() if one.sense.min() > 0.0]) == 2
+    assert bare.turns == 2
     standard, turn, mirrored = shape.standard()
     assert (turn, mirrored) != (0.0, False)
     moved = np.exp(1j * turn) * (np.conj(shape.columns) if mirrored else shape.columns)
@@ -157,7 +157,7 @@ def test_a_period_lasts_until_columns_stand_as_they_did() -> None:
 @pytest.mark.parametrize(
     ("coarse", "within"), [(0.4e-3, 5e-2), pytest.param(0.2e-3, 3e-2, marks=pytest.mark.deep)]
 )
-@pytest.mark.parametrize("place", [3, 10 * PER_LOBE + 6])
+@pytest.mark.parametrize("place", [3, pytest.param(10 * PER_LOBE + 6, marks=pytest.mark.deep)])
 def test_stress_beside_columns_agrees_with_elongations_on_a_second_mesh(
     place: int, coarse: float, within: float
 ) -> None:

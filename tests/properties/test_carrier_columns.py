@@ -33,6 +33,7 @@ from cqdd_design.geometry.disc import (
     ligaments,
 )
 from cqdd_design.geometry.validate import validate_geometry
+from cqdd_design.roads.tolerance import tolerance
 from cqdd_design.solids.clocking import disc_groups
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
@@ -127,6 +128,14 @@ def test_columns_that_break_out_of_the_disc_are_refused_with_a_diameter_that_doe
     assert said in str(refused.value)
     named = str(refused.value).rpartition("lower it to ")[2].removesuffix(".")
     validate_geometry(with_columns(PAPER, named, **more), bore_diameter=bore)
+
+
+def test_no_gearboxes_are_drawn_whose_discs_cannot_be_cut() -> None:
+    """Holes for columns that run into output holes, and output holes that run into the bore."""
+    with pytest.raises(GeometryError, match="run into the output holes beside them"):
+        tolerance(with_columns(REFERENCE_S, "6 mm"), samples=1)
+    with pytest.raises(GeometryError, match="bore"):
+        tolerance(REFERENCE_S.replacing({"reducer.output_pins.circle_radius": "21 mm"}), samples=1)
 
 
 def test_where_no_column_fits_the_remedy_is_no_smaller_column() -> None:

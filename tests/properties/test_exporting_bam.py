@@ -66,7 +66,7 @@ def ours(p: ActuatorParameters, speed: float, carried: float, coefficient: float
     return n * motor_side + friction.output_coulomb * rise + viscous * speed
 
 
-@settings(max_examples=examples(150), deadline=None)
+@settings(max_examples=examples(80), deadline=None)
 @given(p=random_actuators(), speed=st.floats(0.0, 20.0), carried=st.floats(0.0, 200.0))
 def test_the_same_friction_budget_under_load(
     p: ActuatorParameters, speed: float, carried: float

@@ -38,7 +38,7 @@ def written(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[str, dict[s
     return str(path), expected(p)
 
 
-@settings(max_examples=examples(60), deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(p=random_actuators())
 def test_values_in_the_text(p: ActuatorParameters) -> None:
     root = ElementTree.fromstring(urdf_text(p, "drawn"))

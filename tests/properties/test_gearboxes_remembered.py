@@ -84,7 +84,8 @@ def test_the_code_of_another_state_is_another(tmp_path: Path, monkeypatch) -> No
     package.mkdir()
     source = package / "__init__.py"
     source.write_text("a = 1\n")
-    monkeypatch.setattr(remembered.cqdd_design, "__file__", str(source))
+    own = package / "gearbox" / "tolerance" / "remembered.py"
+    monkeypatch.setattr(remembered, "__file__", str(own))
     before = remembered._code.__wrapped__()
     (package / "kernel.nbi").write_text("compiled")
     assert remembered._code.__wrapped__() == before

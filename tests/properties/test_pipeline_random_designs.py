@@ -5,18 +5,20 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from contact_designs import contact_designs
 from examples import examples
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.catalog import bearings, materials, motors
-from cqdd_design.cli.envelope import json_ready
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import CqddError
 from cqdd_design.gearbox import GearboxAnalysis
+from cqdd_design.library.envelope import json_ready
 from cqdd_design.machine import resolve
 from cqdd_design.sizing.comparison import cycloid_limits
 
+BARE = sorted(name for name, row in motors().items() if row.torque_at == "motor")
 PAPER = (Path(__file__).parents[2] / "designs" / "cqdd-10.toml").read_text(encoding="utf-8")
 
 
@@ -55,7 +57,9 @@ def designs(draw: st.DrawFn) -> dict[str, object]:
     }
     carrier = {"joint": draw(mostly(st.just("clamped"), st.sampled_from(["hinged", "columns"])))}
     if carrier["joint"] == "columns":
-        carrier["column_diameter"] = draw(mostly(lengths(3.0, 0.2 * radius), lengths(1.0, radius)))
+        carrier["column_diameter"] = draw(
+            mostly(lengths(0.1 * radius, 0.2 * radius), lengths(1.0, radius))
+        )
     modification = {
         "equidistant": draw(mostly(micrometres(0, 30), micrometres(-500, 500))),
         "radial": draw(mostly(micrometres(0, 30), micrometres(-500, 500))),
@@ -102,7 +106,7 @@ def designs(draw: st.DrawFn) -> dict[str, object]:
         "continuous_torque": f"{peak * draw(st.floats(0.01, 0.99)):.6g} N*m",
         "input_speed": draw(st.floats(1.0, 30000.0).map(lambda value: f"{value:.6g} rpm")),
     }
-    motor = {"name": draw(st.sampled_from(sorted(motors())))}
+    motor = {"name": draw(mostly(st.sampled_from(BARE), st.sampled_from(sorted(motors()))))}
     return {"requirements": requirements, "reducer": reducer, "motor": motor}
 
 
@@ -120,13 +124,15 @@ def test_a_random_design_is_analysed_or_refused(mapping: dict[str, object]) -> N
     assert outcome.checks
 
 
-@settings(max_examples=examples(20), suppress_health_check=[HealthCheck.too_slow])
-@given(designs())
-def test_limits_of_a_random_design_are_found_or_refused(mapping: dict[str, object]) -> None:
+@pytest.mark.deep
+@settings(max_examples=6, deadline=None, suppress_health_check=list(HealthCheck))
+@given(contact_designs(most_lobes=12))
+def test_limits_of_a_design_that_exists_are_found_or_refused(design: Design) -> None:
     try:
-        limits = cycloid_limits(resolve(Design.from_mapping(mapping)))
+        limits = cycloid_limits(resolve(design))
     except CqddError:
         return
+    assert limits
     assert all(limit.torque_capacity >= 0.0 for limit in limits)
 
 

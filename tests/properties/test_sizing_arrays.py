@@ -28,7 +28,8 @@ from cqdd_design.sizing.bought_parts import bearing_table
 from cqdd_design.sizing.finish import design_of, is_load, torque_reserve
 from cqdd_design.sizing.frame import search_frame
 from cqdd_design.sizing.masses import SHAFT_DENSITY
-from cqdd_design.sizing.points import Evaluator, Pins
+from cqdd_design.sizing.points import Evaluator
+from cqdd_design.sizing.ring_stages import Pins
 from cqdd_design.sizing.stage_tables import stage_tables
 
 RATIOS = st.sampled_from([4, 5, 9, 10, 13, 20, 31, 60, 119])

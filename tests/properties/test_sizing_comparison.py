@@ -21,11 +21,26 @@ from cqdd_design.sizing.comparison import (
 PAPER = load_design(Path(__file__).parents[2] / "designs" / "cqdd-10.toml")
 
 
-def test_at_its_capacity_a_limit_is_just_met():
+@pytest.fixture(scope="module")
+def papers():
+    """The paper's machine, whose limits and comparison are found once."""
+    return resolve(PAPER)
+
+
+@pytest.fixture(scope="module")
+def limits(papers):
+    return cycloid_limits(papers)
+
+
+@pytest.fixture(scope="module")
+def compared(papers):
+    return compare_with_planetary(papers)
+
+
+def test_at_its_capacity_a_limit_is_just_met(papers):
     """Every capacity, found from one torque, is where the equilibrium itself meets the limit."""
-    machine = resolve(PAPER)
-    contacts = LoadedContacts(machine.contact)
-    solved = [one for one in torque_limits(machine) if one.model == EQUILIBRIUM]
+    contacts = LoadedContacts(papers.contact)
+    solved = [one for one in torque_limits(papers) if one.model == EQUILIBRIUM]
     assert len(solved) > 6
     for limit in solved:
         asked, found = (
@@ -34,11 +49,10 @@ def test_at_its_capacity_a_limit_is_just_met():
         assert math.isclose(limit.value * found / asked, limit.limit, rel_tol=2e-3), limit
 
 
-def test_values_are_those_of_analyse():
+def test_values_are_those_of_analyse(papers, limits):
     """Pressures and forces at the torques asked for are what the contact sweep prints."""
-    machine = resolve(PAPER)
-    found = {(one.part, one.title): one for one in cycloid_limits(machine)}
-    contact = analyse_contact(machine).to_dict()["contact"]
+    found = {(one.part, one.title): one for one in limits}
+    contact = analyse_contact(papers).to_dict()["contact"]
     ring = found["ring teeth", "Hertz pressure at the ring, peak torque"]
     assert ring.value == pytest.approx(contact["ring_pressure_max_MPa"], rel=1e-9)
     holes = found["output pins", "Hertz pressure of pins in holes, peak torque"]
@@ -49,26 +63,25 @@ def test_values_are_those_of_analyse():
     assert bending.value == pytest.approx(contact["output_pin_bending_max_MPa"], rel=1e-9)
     # Shear goes with the force: the rigid law's, less what it adds for sharing.
     shear = found["output pins", "Shear stress of the output pins, peak torque"]
-    rigid = machine.analysis
+    rigid = papers.analysis
     per_newton = rigid.output_pins.shear_stress_peak / rigid.rigid_peak.output_pin_force / 1e6
     expected = per_newton * contact["output_pin_force_max_N"]
     assert shear.value == pytest.approx(expected, rel=1e-9)
     assert {one.model for one in found.values()} == {EQUILIBRIUM}
 
 
-def test_a_torque_without_equilibrium_has_the_value_of_its_check_and_a_capacity_below():
+def test_a_torque_without_equilibrium_has_the_value_of_its_check_and_a_capacity_below(limits):
     """20 kN m bends everything out of reach; what the ring carries is found from less."""
     machine = resolve(PAPER.replacing({"requirements.peak_torque": 20000.0}))
     (ring,) = [one for one in cycloid_limits(machine) if "ring, peak" in one.title]
     (check,) = [one for one in machine.analysis.checks if one.id == "CONTACT-RING-PEAK"]
     assert ring.value == check.value
     assert ring.model == f"{RIGID}; torque by the {EQUILIBRIUM}"
-    usual = {one.title: one for one in cycloid_limits(resolve(PAPER))}[ring.title]
+    usual = {one.title: one for one in limits}[ring.title]
     assert ring.torque_capacity == pytest.approx(usual.torque_capacity, rel=5e-3)
 
 
-def test_every_strength_check_of_ring_pins_and_bearing_takes_part():
-    limits = cycloid_limits(resolve(PAPER))
+def test_every_strength_check_of_ring_pins_and_bearing_takes_part(limits):
     assert {limit.part for limit in limits} == {"ring teeth", "output pins", "cam bearing"}
     assert len(limits) == 10
 
@@ -77,13 +90,13 @@ def test_the_papers_machine_is_the_design_that_is_shipped():
     assert papers_machine().given.to_mapping() == PAPER.to_mapping()
 
 
-def test_the_papers_claims_are_judged_on_the_papers_cycloid():
+def test_the_papers_claims_are_judged_on_the_papers_cycloid(compared):
     """Another design beside the same planetary: its own limits move, the claims do not."""
     other = PAPER.replacing(
         {"reducer.output_pins.material": "Alloy steel 12.9 (ISO 7379)",
          "reducer.output_pins.count": 10, "requirements.peak_torque": 60.0}
     )  # fmt: skip
-    theirs, ours = (compare_with_planetary(resolve(one)) for one in (other, PAPER))
+    theirs, ours = compare_with_planetary(resolve(other)), compared
     assert theirs.claims == ours.claims
     assert theirs.cycloid != ours.cycloid
     assert "pressure of pins in holes" in ours.claims[4].ours
@@ -98,11 +111,11 @@ def test_discs_of_bronze_are_compared_with_gears_of_steel():
         compare_with_planetary(resolve(design), material="Bronze CuSn12")
 
 
-def test_options_left_out_are_the_papers():
-    found = compare_with_planetary(resolve(PAPER)).to_dict()["planetary"]
+def test_options_left_out_are_the_papers(papers, compared):
+    found = compared.to_dict()["planetary"]
     assert found["ratio"] == pytest.approx(10.5455, abs=1e-4)
     assert found["centre_distance_mm"] == pytest.approx(24.0)
     assert found["planets_that_fit"] == 3
-    other = compare_with_planetary(resolve(PAPER), module=2e-3, planets=2).to_dict()["planetary"]
+    other = compare_with_planetary(papers, module=2e-3, planets=2).to_dict()["planetary"]
     assert other["centre_distance_mm"] == pytest.approx(48.0)
     assert other["planets"] == 2

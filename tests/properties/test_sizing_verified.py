@@ -20,8 +20,9 @@ from cqdd_design.design import Requirements, load_design, requirements_from_mapp
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.temperatures import judged_temperatures
-from cqdd_design.sizing.able import HELD_SPEED, cooler, first_guess, weaker, what_it_can
-from cqdd_design.sizing.agreement import FITS, MATERIALS, Hunt, Space, agreed
+from cqdd_design.sizing.able import HELD_SPEED, cooler, first_guess, what_it_can
+from cqdd_design.sizing.agreement import FITS, MATERIALS, RING, Hunt, Space, agreed
+from cqdd_design.sizing.bearable import or_weaker, weaker
 from cqdd_design.sizing.exact import exact_checks, shortfalls
 from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.frame import Fit, search_frame
@@ -148,20 +149,55 @@ def test_they_become_what_the_motor_can_do(machine: Machine) -> None:
 
 def test_only_what_was_not_stated_grows_weaker() -> None:
     guess = first_guess(asked(), None)
-    less, both = weaker(guess, 0.5, both=False), weaker(guess, 0.5, both=True)
-    assert less is not None
-    assert both is not None
+    less, both = weaker(guess, 0.5, 1.0), weaker(guess, 0.5, 0.5)
     assert 0.45 * guess.peak_torque < less.peak_torque <= 0.5 * guess.peak_torque
     assert less.continuous_torque == guess.continuous_torque
     assert both.peak_torque == less.peak_torque
     assert 0.45 < both.continuous_torque / guess.continuous_torque <= 0.5
-    tiny = weaker(guess, 0.01, both=False)
-    assert tiny is not None
+    tiny = weaker(guess, 0.01, 1.0)
     assert tiny.continuous_torque == tiny.peak_torque
-    stated = weaker(asked(continuous_torque="5 N*m"), 0.5, both=True)
-    assert stated is not None
-    assert stated.continuous_torque == 5.0
-    assert weaker(asked(peak_torque="40 N*m"), 0.5, both=True) is None
+    assert weaker(asked(continuous_torque="5 N*m"), 0.5, 0.5).continuous_torque == 5.0
+    assert weaker(asked(peak_torque="40 N*m"), 0.5, 0.5).peak_torque == 40.0
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(
+    ("spared", "more"),
+    [("peak_torque", {"CONTACT-RING-CONTINUOUS": 25.0}), ("continuous_torque", {RING: 8.0})],
+)
+def test_what_is_not_borne_grows_less(spared: str, more: dict[str, float]) -> None:
+    """Where no design has the reserve that is asked for at one torque, the other falls less."""
+    guess = first_guess(asked(), None)
+    hunt = Hunt(guess, None, None, lambda _: None, stage_tables(10), "mass")
+    space = Space(2, MATERIALS[1], MATERIALS[1], FITS[0])
+    near = agreed(hunt, space, None)
+    assert near is not None
+    hunt.extra = more
+    assert agreed(hunt, space, None, near.needs) is None
+    found = or_weaker(hunt, lambda: agreed(hunt, space, None, near.needs), near)
+    assert found is not None
+    share = {
+        key: getattr(hunt.requirements, key) / getattr(guess, key)
+        for key in ("peak_torque", "continuous_torque")
+    }
+    assert min(share.values()) < 0.75
+    assert share.pop(spared) > min(share.values())
+
+
+@pytest.mark.deep
+def test_the_strongest_is_fallen_back_on() -> None:
+    """Making designs light leaves none with this reserve; the strongest one has it."""
+    hunt = Hunt(first_guess(asked(), None), None, None, lambda _: None, stage_tables(10), "mass")
+    space = Space(2, MATERIALS[1], MATERIALS[1], FITS[0])
+    near = agreed(hunt, space, None)
+    assert near is not None
+    hunt.extra = {"CONTACT-RING-CONTINUOUS": 8.0}
+    found = agreed(hunt, space, None, near.needs)
+    assert found is not None
+    lines = {one.id: one for one in exact_checks(resolve(found.sized.design))}
+    reserve = torque_reserve(lines["CONTACT-RING-CONTINUOUS"], found.sized.design)
+    assert reserve >= 8.0 * (1.0 - 1e-3)
+    assert found.sized.objective.mass < 0.6
 
 
 def test_a_smaller_bore_than_leaves_a_bearing_is_not_tried() -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from shared_outputs import paper_input
 
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.operating import held_torque, needed
@@ -314,15 +315,14 @@ def test_the_shafts_own_bearings_are_judged(machine: Machine, judged: Verdict) -
     assert bending.support_rating is not None
     wanted = bending.support_rating / max(bending.support_load)
     assert line.value == pytest.approx(wanted, rel=0.02)
-    paper = resolve(load_design(DESIGNS / "cqdd-10.toml"))
-    own = by_id(judge(paper, samples=0).lines)["SUPPORT-STATIC"]
+    own = by_id(paper_input().verdict.lines)["SUPPORT-STATIC"]
     assert own.status == "fail"
     assert own.value == pytest.approx(1270 / 5115, rel=0.02)
 
 
 def test_a_cam_bearing_that_wears_out_is_told_the_rating_it_needs(judged: Verdict) -> None:
     paper = resolve(load_design(DESIGNS / "cqdd-10.toml"))
-    line = by_id(judge(paper, samples=0).lines)["BEARING-LIFE"]
+    line = by_id(paper_input().verdict.lines)["BEARING-LIFE"]
     assert line.status == "fail"
     hours, required = line.compared
     rating = paper.cam.dynamic_rating

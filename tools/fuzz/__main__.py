@@ -53,10 +53,10 @@ def campaign(group: str, seed: int, numbers: Sequence[int]) -> list[tuple[int, O
     return found
 
 
-def preload() -> None:
+def preload(*, compiled: bool = False) -> None:
     """Compile and import once what the cases need."""
     script = Path(__file__).resolve().parents[2] / "tests" / "compile_kernels.py"
-    for half in ("gearbox", "actuator"):
+    for half in () if compiled else ("elastic", "moving", "gearboxes"):
         subprocess.run([sys.executable, str(script), half], check=True)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     for name in _PRELOADED:
@@ -70,7 +70,7 @@ def main() -> int:
         command = [sys.executable, "-m", "pytest", "-q", "--hypothesis-profile=random"]
         return subprocess.call([*command, *(asked.rest or ["tests/properties"])])
     warnings.simplefilter("ignore")  # of forks beside threads, and names twice in an archive
-    preload()
+    preload(compiled=asked.compiled)
     failed = 0
     for name in asked.group or GROUPS:
         numbers = range(asked.cases or GROUPS[name].cases)
@@ -92,6 +92,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--cases", type=int, help="of each group; default its own number")
     parser.add_argument("--case", type=int, help="this one alone")
+    parser.add_argument("--compiled", action="store_true", help="kernels are, as in a test's run")
     parser.add_argument("--show", action="store_true", help="print the case before it runs")
     parser.add_argument("--properties", action="store_true", help="hypothesis at random instead")
     parser.add_argument("rest", nargs="*", help="files of property tests")

@@ -21,7 +21,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cqdd_design import __version__
 from cqdd_design.catalog import find_material
 from cqdd_design.errors import ReadBackError
 from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts, reach_of
@@ -41,6 +40,7 @@ from cqdd_design.exporting.edm.start_holes import start_holes
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 from cqdd_design.files import WrittenFile, write_with
 from cqdd_design.geometry.contours import ArcContour, Circle, Contour, as_complex
+from cqdd_design.version import __version__
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing

@@ -23,7 +23,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cqdd_design import __version__
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts
 from cqdd_design.exporting.edm.gcode_check import check_program
@@ -40,6 +39,7 @@ from cqdd_design.exporting.edm.wire_path import (
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 from cqdd_design.files import WrittenFile, write_with
 from cqdd_design.geometry.contours import ArcContour, Circle, Contour
+from cqdd_design.version import __version__
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -6,7 +6,6 @@ import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from cqdd_design import __version__
 from cqdd_design.exporting.edm.cut_facts import (
     CUT_FINISH,
     FACE_FINISH,
@@ -18,6 +17,7 @@ from cqdd_design.exporting.edm.cut_facts import (
 )
 from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
 from cqdd_design.geometry.columns import has_columns
+from cqdd_design.version import __version__
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.cut_facts import CutFacts

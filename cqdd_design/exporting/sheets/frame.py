@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from cqdd_design import __version__
 from cqdd_design.exporting.edm.cut_facts import CUT_FINISH, zone_text
 from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
 from cqdd_design.exporting.sheets.canvas import sheet_date
@@ -12,6 +11,7 @@ from cqdd_design.exporting.sheets.drawing import OUTLINE, SMALL, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.geometry.columns import has_columns
 from cqdd_design.geometry.contours import Circle
+from cqdd_design.version import __version__
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.cut_facts import CutFacts

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from cqdd_design import __version__
 from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.version import __version__
 
 DEAD_MASS = 1e-3
 """kg for the output body of a model, as clients refuse zero; its mass is in the housing's. Without

@@ -14,10 +14,10 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from cqdd_design import __version__
 from cqdd_design.environment import source_date
 from cqdd_design.errors import ReadBackError
 from cqdd_design.files import WrittenFile, write_with
+from cqdd_design.version import __version__
 
 if TYPE_CHECKING:
     from cadquery import Assembly

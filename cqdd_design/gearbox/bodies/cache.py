@@ -19,7 +19,7 @@ from cqdd_design.environment import cache_folder
 from cqdd_design.files.kept import entry_path, read_entry, write_entry
 from cqdd_design.gearbox.bodies.model import Body
 
-VERSION = 4
+VERSION = 6
 """Of the method: raised whenever the same shape would give other numbers."""
 Shape = TypeVar("Shape")
 

@@ -149,17 +149,19 @@ class DiscShape:
                 circle(complex(c), self.column_radius),
                 -1,
                 joints=np.sort(np.mod(np.angle(c) / (2.0 * np.pi) + even, 1.0)),
+                loaded=False,
             )
             for c in self.columns
         )
         ring = self.bearing
         # And on every station, where a tent's slope jumps.
         stations = self.stations / (2.0 * np.pi)
-        if ring.raceway == ring.outer:
-            return (outside, *holes, *columns, Loop(circle(0j, ring.outer), -1, joints=stations))
-        factor = self.ring_factor
-        seat = Loop(circle(0j, ring.outer), -1, 1.0 - factor, inner=True)
-        raceway = Loop(circle(0j, ring.raceway), -1, factor, joints=stations)
+        bare = ring.raceway == ring.outer
+        factor = 1.0 if bare else self.ring_factor
+        raceway = Loop(circle(0j, ring.raceway), -1, factor, joints=stations, loaded=False)
+        if bare:
+            return (outside, *holes, *columns, raceway)
+        seat = Loop(circle(0j, ring.outer), -1, 1.0 - factor, inner=True, loaded=False)
         return (outside, *holes, *columns, seat, raceway)
 
     @property
@@ -241,14 +243,16 @@ class DiscShape:
         """Angle of the first and number, of output pins' holes and of columns'."""
         return (self.first_hole, self.hole_count), (self.first_column, self.column_count)
 
+    @property
+    def turns(self) -> int:
+        """How often a full turn carries the disc into itself."""
+        return math.gcd(self.outline.lobe_count, self.hole_count, self.column_count)
+
     def symmetries(self) -> list[Carried]:
-        """Where loads and places go when the disc is carried into itself."""
-        lobes = self.outline.lobe_count
+        """Where loads and places go by each of these turns."""
         return [
-            self.carried(self, float(turn), mirrored)
-            for mirrored in (False, True)
-            for turn in 2.0 * np.pi * np.arange(lobes) / lobes
-            if all(_same(first, count, float(turn), mirrored) for first, count in self._rows)
+            self.carried(self, float(turn), mirrored=False)
+            for turn in 2.0 * np.pi * np.arange(self.turns) / self.turns
         ]
 
     def carried(self, other: DiscShape, turn: float, mirrored: bool) -> Carried:
@@ -299,15 +303,6 @@ def _first(first: float, count: int, turn: float, mirrored: bool) -> float:
     # Rounded, so that what differs by the last digit is one disc, and the last is none.
     rounded = round(float(np.mod((-1 if mirrored else 1) * first + turn, pitch)), 12)
     return rounded % round(pitch, 12)
-
-
-def _same(first: float, count: int, turn: float, mirrored: bool) -> bool:
-    """Whether a turn carries `count` holes evenly round into themselves."""
-    if count == 0:
-        return True
-    pitch = 2.0 * np.pi / count
-    moved = (-1 if mirrored else 1) * first + turn - first + 0.5 * pitch
-    return bool(abs(np.remainder(moved, pitch) - 0.5 * pitch) < 1e-9)
 
 
 def lobe_length(outline: CycloidDisc) -> tuple[FloatArray, FloatArray]:

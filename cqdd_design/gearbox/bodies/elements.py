@@ -15,6 +15,8 @@ from cqdd_design.geometry.contours import ComplexArray, FloatArray, gauss_rule
 
 EDGE_POINTS = 10
 """Of quadrature, on a side; with 5 the two halves of an influence matrix differ by 1e-6."""
+_SMOOTH_POINTS = 6
+"""On a side of a loop without point loads, whose fields are smooth there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,6 +137,13 @@ class Elements:
         left, right = int(self.place.real.argmin()), int(self.place.real.argmax())
         return np.array([2 * left, 2 * left + 1, 2 * right + 1])
 
+    def rigid_motions(self) -> FloatArray:
+        """Unknowns (unknowns, 3) of a motion along x, along y, and of a turn about the origin."""
+        one, none = np.ones(len(self.place)), np.zeros(len(self.place))
+        x = np.stack([one, none, -self.place.imag], axis=-1)
+        y = np.stack([none, one, self.place.real], axis=-1)
+        return np.stack([x, y], axis=1).reshape(-1, 3)
+
 
 def elements(
     mesh: Mesh, loops: tuple[Loop, ...], plate: Plate, factor: FloatArray | None = None
@@ -198,15 +207,17 @@ def _stiffness(basis: Any, plate: Plate, factor: FloatArray) -> Any:
     return csr_matrix((each.ravel(), (rows.ravel(), columns.ravel())), shape=(size, size))
 
 
+def side_points(loop: Loop) -> int:
+    """Points of quadrature on each side of a loop."""
+    return EDGE_POINTS if loop.loaded else _SMOOTH_POINTS
+
+
 def _edges(mesh: Mesh, loops: tuple[Loop, ...], own: tuple[IntArray, ...], size: int) -> Edges:
     from scipy.sparse import csr_matrix
 
-    nodes, weights = gauss_rule(EDGE_POINTS)
-    shapes = np.stack(
-        [(1 - nodes) * (1 - 2 * nodes), nodes * (2 * nodes - 1), 4 * nodes * (1 - nodes)]
-    )
-    which, points, normals, lengths, columns = [], [], [], [], []
+    which, points, normals, lengths, columns, shapes = [], [], [], [], [], []
     for index, (loop, u, nodes_of) in enumerate(zip(loops, mesh.parameters, own, strict=True)):
+        nodes, weights = gauss_rule(side_points(loop))
         step = np.diff(u)[:, None]
         at = (u[:-1, None] + step * nodes).ravel()
         point, slope = loop.curve(at)
@@ -215,9 +226,11 @@ def _edges(mesh: Mesh, loops: tuple[Loop, ...], own: tuple[IntArray, ...], size:
         lengths.append((np.abs(slope).reshape(step.shape[0], -1) * step * weights).ravel())
         which.append(np.full(len(at), index))
         columns.append(np.repeat(nodes_of, len(nodes), axis=1))
+        shape = [(1 - nodes) * (1 - 2 * nodes), nodes * (2 * nodes - 1), 4 * nodes * (1 - nodes)]
+        shapes.append(np.tile(np.stack(shape), (1, len(step))))
     dofs = 2 * np.concatenate(columns, axis=1)
     total = dofs.shape[1]
-    values = np.tile(shapes, (1, total // len(nodes)))
+    values = np.concatenate(shapes, axis=1)
     rows = np.arange(total)
     trace = csr_matrix(
         (

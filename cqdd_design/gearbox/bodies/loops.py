@@ -30,6 +30,8 @@ class Loop:
         Parameters at which a vertex has to stand.
     inner : bool
         Whether it only parts two materials.
+    loaded : bool
+        Whether point loads stand on it. From those of other loops it is two sides and more away.
     """
 
     curve: Curve
@@ -37,6 +39,7 @@ class Loop:
     weight: float = 1.0
     joints: FloatArray | None = None
     inner: bool = False
+    loaded: bool = True
 
     def normal(self, u: FloatArray) -> ComplexArray:
         """Unit normal out of the body's own material."""

@@ -4,7 +4,7 @@ scipy's Delaunay triangulation with points of its own: netgen's wheel (6.2.2608)
 OpenCASCADE, 100 MB, and loads its symbols for the whole process, where CadQuery has another version
 of the same; gmsh and Triangle have licences that do not fit. Loads here are smooth (see
 :mod:`.point_load`), so a mesh of a few thousand triangles does, and the same numbers give the same
-mesh on every machine.
+mesh on every machine. What a turn carries into itself gets a mesh that it carries into itself too.
 """
 
 from __future__ import annotations
@@ -33,6 +33,10 @@ _LEAST_ANGLE = np.radians(12.0)
 _MOST_VERTICES = 60_000
 _EVENED = 6
 """Times every vertex inside moves to the middle of the triangles round it."""
+_FIRST = 0.0137
+"""Angle where the first sector begins, rad: where no centre of a triangle is likely to stand."""
+_MOVED = 1e-8
+"""How far vertices stand aside while their neighbours are found, over the body's radius."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +61,7 @@ class Mesh:
     parameters: tuple[FloatArray, ...]
 
 
-def mesh(loops: tuple[Loop, ...], largest: float, what: str) -> Mesh:
+def mesh(loops: tuple[Loop, ...], largest: float, what: str, turns: int = 1) -> Mesh:
     """Triangles between loops, of which the first bounds the body.
 
     Parameters
@@ -67,13 +71,16 @@ def mesh(loops: tuple[Loop, ...], largest: float, what: str) -> Mesh:
         Longest side, m.
     what : str
         Names the body in messages.
+    turns : int
+        How often a full turn about the origin carries the loops and their joints into themselves,
+        and the mesh with them.
 
     Raises
     ------
     GeometryError
         Where material is too thin for triangles.
     """
-    parameters, sizes = _spacing(loops, largest, what)
+    parameters, sizes = _spacing(loops, largest, what, turns)
     starts = np.cumsum([0] + [len(one) - 1 for one in parameters])
     edge = np.concatenate(
         [loop.curve(u[:-1])[0] for loop, u in zip(loops, parameters, strict=True)]
@@ -84,13 +91,13 @@ def mesh(loops: tuple[Loop, ...], largest: float, what: str) -> Mesh:
     )
     bounds = np.concatenate([s for s, loop in zip(sides, loops, strict=True) if not loop.inner])
     size = _Size(edge, np.concatenate(sizes), largest)
-    vertices, triangles = _fill(edge, bounds, size)
+    vertices, triangles = _fill(edge, bounds, size, turns)
     _refuse_broken(vertices, triangles, np.concatenate(sides), bounds, what)
     return Mesh(vertices, triangles, sides, parameters)
 
 
 def _spacing(
-    loops: tuple[Loop, ...], largest: float, what: str
+    loops: tuple[Loop, ...], largest: float, what: str, turns: int
 ) -> tuple[tuple[FloatArray, ...], list[FloatArray]]:
     """Parameters of the vertices on every loop, and the size wanted at each."""
     from scipy.spatial import cKDTree
@@ -123,17 +130,21 @@ def _spacing(
     apart, near = everywhere.query(_plane(np.concatenate(points)), k=24)
     for _ in range(6):
         flat = np.minimum(flat, (flat[near] + _GRADING * apart).min(axis=1))
-    parameters, sizes = [], []
+    parameters: list[FloatArray] = []
+    sizes: list[FloatArray] = []
     for index, loop in enumerate(loops):
+        same, times = _like(points, index, turns)
+        if times:
+            parameters.append(parameters[same] + times / turns)
+            sizes.append(sizes[same])
+            continue
         size = flat[index * _SAMPLES : (index + 1) * _SAMPLES]
-        placed = _placed(loop, size)
-        parameters.append(placed)
+        parts = turns if _central(points[index], reach) else 1
+        placed = _placed(loop, size, parts)
         chord = np.abs(np.diff(loop.curve(placed)[0]))
-        sizes.append(
-            np.minimum(
-                np.interp(placed[:-1], u, size, period=1.0), np.maximum(chord, np.roll(chord, 1))
-            )
-        )
+        there = np.interp(placed[: len(chord) // parts], u, size, period=1.0)
+        parameters.append(placed)
+        sizes.append(np.minimum(np.tile(there, parts), np.maximum(chord, np.roll(chord, 1))))
     if sum(map(len, parameters)) > _MOST_VERTICES // 6:
         raise GeometryError(
             f"{what} has material too thin beside its size to be meshed; widen its thinnest "
@@ -142,24 +153,46 @@ def _spacing(
     return tuple(parameters), sizes
 
 
-def _placed(loop: Loop, size: FloatArray) -> FloatArray:
-    """Parameters at equal counts of the wanted size, with a vertex on every joint."""
+def _central(points: ComplexArray, reach: float) -> bool:
+    """Whether a loop goes round the origin: a hole beside it has its middle elsewhere."""
+    return bool(abs(points.mean()) < 1e-3 * reach)
+
+
+def _like(points: list[ComplexArray], index: int, turns: int) -> tuple[int, int]:
+    """The first loop that a turn carries into this one, and how many such turns."""
+    reach = float(np.abs(points[0]).max())
+    if not _central(points[index], reach):
+        back = points[index].mean() * np.exp(-2j * np.pi * np.arange(turns) / turns)
+        for first in range(index):
+            same = np.flatnonzero(np.abs(points[first].mean() - back) < 1e-3 * reach)
+            if len(same):
+                return first, int(same[0])
+    return index, 0
+
+
+def _placed(loop: Loop, size: FloatArray, parts: int) -> FloatArray:
+    """Parameters at equal counts of the wanted size, with a vertex on every joint.
+
+    The same on each of `parts` equal parts of the loop.
+    """
     u = np.arange(_SAMPLES + 1) / _SAMPLES
     speed = np.abs(loop.curve(0.5 * (u[1:] + u[:-1]))[1])
     steps = speed / _SAMPLES / (0.5 * (size + np.roll(size, -1)))
     grown = np.concatenate([[0.0], np.cumsum(steps)])
     joints = np.array([0.0]) if loop.joints is None else loop.joints
-    ends = np.concatenate([joints, [joints[0] + 1.0]])
-    at = np.interp(
-        ends, np.concatenate([u, u[1:] + 1.0]), np.concatenate([grown, grown[1:] + grown[-1]])
-    )
-    pieces = []
-    for begin, end in pairwise(at):
-        count = max(int(np.ceil(end - begin - 1e-6)), 1)
-        pieces.append(begin + (end - begin) * np.arange(count) / count)
-    counted = np.concatenate([*pieces, at[-1:]])
+    last = joints[0] + 1.0 / parts
+    ends = np.append(joints[joints < last - 1e-9], last)
     twice = np.concatenate([grown, grown[1:] + grown[-1]])
-    return np.asarray(np.interp(counted, twice, np.concatenate([u, u[1:] + 1.0])))
+    around = np.concatenate([u, u[1:] + 1.0])
+    at = np.interp(ends, around, twice)
+    placed = []
+    for (begin, end), first in zip(pairwise(at), ends, strict=False):
+        count = max(int(np.ceil(end - begin - 1e-6)), 1)
+        inside = np.interp(begin + (end - begin) * np.arange(1, count) / count, twice, around)
+        placed.append(np.concatenate([[first], inside]))
+    part = np.concatenate(placed)
+    whole = part + np.arange(parts)[:, None] / parts
+    return np.append(whole, joints[0] + 1.0)
 
 
 class _Size:
@@ -176,21 +209,31 @@ class _Size:
         return np.minimum(self._size[near] + _GRADING * apart, self._largest), apart
 
 
-def _fill(edge: ComplexArray, bounds: IntArray, size: _Size) -> tuple[ComplexArray, IntArray]:
-    """Vertices: the edge's, and centres of circumcircles that are too large, evened out."""
-    vertices, triangles = edge, _inside(edge, edge, bounds)
+def _fill(
+    edge: ComplexArray, bounds: IntArray, size: _Size, turns: int
+) -> tuple[ComplexArray, IntArray]:
+    """Vertices: the edge's, and centres of circumcircles that are too large, evened out.
+
+    Those inside are found in the first sector and stand in all.
+    """
+    sectors = np.exp(2j * np.pi * np.arange(turns) / turns)[:, None]
+    inner = np.empty(0, dtype=complex)
+    vertices, triangles = edge, _inside(edge, edge, bounds, turns)
     for _ in range(40):
         centre, radius = _circumcircles(vertices[triangles])
         side, to_edge = size(centre)
         excess = radius / (0.62 * side)
-        large = np.flatnonzero((excess > 1.0) & (to_edge > 0.7 * side))
+        own = np.mod(np.angle(centre) - _FIRST, 2.0 * np.pi) < 2.0 * np.pi / turns
+        large = np.flatnonzero((excess > 1.0) & (to_edge > 0.7 * side) & own)
         good = large[_within(centre[large], edge, bounds)]
         order = good[np.argsort(-excess[good], kind="stable")]
-        taken = _apart(centre[order], 0.85 * side[order])
+        taken = _apart(centre[order], 0.85 * side[order], sectors)
         if not len(taken) or len(vertices) > _MOST_VERTICES:
             break
-        vertices = np.concatenate([vertices, taken])
-        triangles = _inside(vertices, edge, bounds)
+        inner = np.concatenate([inner, taken])
+        vertices = np.concatenate([edge, (sectors * inner).ravel()])
+        triangles = _inside(vertices, edge, bounds, turns)
+    first = slice(len(edge), len(edge) + len(inner))
     for _ in range(_EVENED):
         corner = vertices[triangles]
         middle = corner.mean(axis=0)
@@ -200,34 +243,39 @@ def _fill(edge: ComplexArray, bounds: IntArray, size: _Size) -> tuple[ComplexArr
         for row in triangles:
             np.add.at(weight, row, area)
             np.add.at(total, row, area * middle)
-        moved = total / np.where(weight > 0.0, weight, 1.0)
-        free = (np.arange(len(vertices)) >= len(edge)) & (weight > 0.0)
-        vertices = np.where(free, moved, vertices)
-        triangles = _inside(vertices, edge, bounds)
+        there = weight[first] > 0.0
+        inner = np.where(there, total[first] / np.where(there, weight[first], 1.0), inner)
+        vertices = np.concatenate([edge, (sectors * inner).ravel()])
+        triangles = _inside(vertices, edge, bounds, turns)
     return np.asarray(vertices), triangles
 
 
-def _apart(candidates: ComplexArray, distance: FloatArray) -> ComplexArray:
-    """Those candidates, in their order, that keep their distance from the ones taken before."""
+def _apart(candidates: ComplexArray, distance: FloatArray, sectors: ComplexArray) -> ComplexArray:
+    """Those candidates, in their order, that keep their distance from the ones taken before.
+
+    And from those in the sectors beside their own.
+    """
     from scipy.spatial import cKDTree
 
     if not len(candidates):
         return candidates
-    near = cKDTree(_plane(candidates)).query_ball_point(_plane(candidates), distance)
+    tree, beside = cKDTree(_plane(candidates)), sectors[[0, 1 % len(sectors), -1], 0]
+    near = [tree.query_ball_point(_plane(turn * candidates), distance) for turn in beside]
     taken = np.zeros(len(candidates), dtype=bool)
     barred = np.zeros(len(candidates), dtype=bool)
-    for index, close in enumerate(near):
+    for index in range(len(candidates)):
         if not barred[index]:
             taken[index] = True
-            barred[close] = True
+            for one in near:
+                barred[one[index]] = True
     return candidates[taken]
 
 
-def _inside(vertices: ComplexArray, edge: ComplexArray, bounds: IntArray) -> IntArray:
+def _inside(vertices: ComplexArray, edge: ComplexArray, bounds: IntArray, turns: int) -> IntArray:
     """Delaunay triangles in the material, (3, K), counter-clockwise."""
     from scipy.spatial import Delaunay
 
-    triangles = Delaunay(_plane(vertices)).simplices.T.astype(np.int64)
+    triangles = Delaunay(_plane(_aside(vertices, turns))).simplices.T.astype(np.int64)
     area = _area(vertices[triangles])
     triangles = np.where(area < 0.0, triangles[[0, 2, 1]], triangles)
     # A triangle with a vertex off the edges lies in the material, where alone such vertices are.
@@ -235,6 +283,18 @@ def _inside(vertices: ComplexArray, edge: ComplexArray, bounds: IntArray) -> Int
     doubtful = np.flatnonzero(~kept)
     kept[doubtful] = _within(vertices[triangles[:, doubtful]].mean(axis=0), edge, bounds)
     return np.ascontiguousarray(triangles[:, kept])
+
+
+def _aside(vertices: ComplexArray, turns: int) -> ComplexArray:
+    """Vertices a little out of place, in no order, but alike in all sectors.
+
+    Four on a circle have two triangulations, of which rounding would choose in every sector anew.
+    """
+    size = np.abs(vertices)
+    ray, reach = vertices / size, size.max()
+    turned = ray**turns
+    phase = 1e3 * (turned.real + 1.3 * turned.imag + 1.7 * size / reach)
+    return np.asarray(vertices + _MOVED * reach * ray * np.exp(1j * phase))
 
 
 def _within(z: ComplexArray, edge: ComplexArray, bounds: IntArray) -> NDArray[np.bool_]:

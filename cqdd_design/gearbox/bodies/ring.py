@@ -95,7 +95,9 @@ class RingShape:
                 apart.min(axis=1, initial=1.0) * self.contour.length() > _CLOSE * self.tooth_radius
             )
             vertices = np.concatenate([vertices, more[far]])
-        return Loop(circle(0j, self.outer), 1), replace(around, joints=np.sort(vertices))
+        return Loop(circle(0j, self.outer), 1, loaded=False), replace(
+            around, joints=np.sort(vertices)
+        )
 
     @property
     def angles(self) -> FloatArray:

@@ -282,7 +282,7 @@ def _edges(bodies: ElasticBodies) -> list[_Edge]:
     on_pitch = np.arange(len(roots)) % (len(roots) // ring.tooth_count)
     found = []
     for index, (shape, _) in enumerate(bodies.discs):
-        turns = [one.place for one in shape.symmetries() if one.sense.min() > 0.0]
+        turns = [one.place for one in shape.symmetries()]
         regions, orbit = np.array(disc_regions(shape)), np.min(turns, axis=0)
         found.append(_Edge(index, regions, shape.seen().point, orbit))
         found.append(_Edge(index, np.full(len(roots), "ring"), roots, on_pitch))

@@ -316,6 +316,28 @@ def edge_limit_fatigue(material: Material) -> Allowable:
     return Allowable(surface * endurance, f"{surface:.2f} (machined) x {told}")
 
 
+def shaft_limit_peak(material: Material) -> Allowable:
+    """Von Mises stress of a shaft at the peak torque: S_y/1.2, as for pins."""
+    return _yield_share(material, 1.0, "S_y")
+
+
+def shaft_limit_fatigue(material: Material, diameter: float) -> Allowable:
+    """Reversed stress that a shaft of a diameter (m) bears for ever: that of an edge, by its size.
+
+    The size factor of bending and torsion is 1.24 d^-0.107 from 2.79 to 51 mm (Budynas and Nisbett
+    2020, eq. 6-19), and no more than 1.
+
+    Examples
+    --------
+    >>> from cqdd_design.catalog.materials import find_material
+    >>> round(shaft_limit_fatigue(find_material("AISI 4140 Q&T 540C"), 10e-3).value / 1e6)
+    338
+    """
+    edge = edge_limit_fatigue(material)
+    size = min(1.24 * min(max(1e3 * diameter, 2.79), 51.0) ** -0.107, 1.0)
+    return Allowable(size * edge.value, f"{size:.2f} (size) x {edge.basis}")
+
+
 # Heat ------------------------------------------------------------------------------------------
 GREASE_MOST = 120.0
 """Grease at the teeth, pins and bearings, deg C: upper limit of a lithium grease of NLGI 2 (SKF

@@ -22,6 +22,7 @@ from cqdd_design.gearbox.checks.remedies import (
     lower_torque,
     softer_contact,
     stronger_pins,
+    torque_words,
 )
 from cqdd_design.gearbox.checks.state import GearboxState, build_check
 from cqdd_design.gearbox.life import LifeResult
@@ -267,12 +268,11 @@ def _lasting(
         limit = worst.stress * worst.reserve
         hours = "no end" if worst.hours is None else f"{worst.hours:.3g} h"
         told = f"{worst.stress / _MEGA:.1f} MPa at the {worst.part}, {worst.place}: lasts {hours}"
-    power = 1 if check_id == "PIN-BENDING-CONTINUOUS" else 2
-    torque = asked.continuous_torque * (limit / worst.stress) ** power if worst.stress else 0.0
-    remedy = f"lower the continuous torque to about {torque:.3g} N*m"
-    if power == 2:
-        thicker = reducer.disc_thickness * (worst.stress / max(limit, 1e-12)) ** 2
-        remedy = f"raise disc_thickness to about {thicker * 1e3:.3g} mm, or {remedy}"
+    torque = asked.continuous_torque
+    if check_id != "PIN-BENDING-CONTINUOUS":
+        remedy = softer_contact(
+            reducer.disc_thickness, torque, worst.stress, limit, "continuous torque"
+        )
         share = limit / worst.limit
 
         def rule(material: Material) -> Allowable:
@@ -285,9 +285,13 @@ def _lasting(
         other = find_material(reducer.ring_material if at_ring else reducer.output_pins.material)
         pair = {"disc": disc, "ring" if at_ring else "pins": other}
         spread = _RING_SPREAD if at_ring else _PIN_SPREAD
-        remedy += ", or " + harder_parts(pair, rule, worst.stress, spread)
+        remedy += harder_parts(pair, rule, worst.stress, spread)
     else:
-        remedy = "take thicker output_pins, or hold them at both ends, or " + remedy
+        share = limit / worst.stress if worst.stress else 0.0
+        remedy = (
+            "take thicker output_pins, or hold them at both ends, or lower the continuous torque "
+            f"to {torque_words(torque * share)}"
+        )
     return build_check(
         check_id,
         worst.stress / _MEGA,

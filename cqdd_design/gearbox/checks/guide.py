@@ -15,6 +15,7 @@ from cqdd_design.gearbox.checks import (
     guide_heat,
     guide_loads,
     guide_runners,
+    guide_shaft,
     guide_shape,
 )
 from cqdd_design.gearbox.checks.guide_row import CheckGuide
@@ -24,6 +25,7 @@ CHECK_GUIDE: dict[str, CheckGuide] = {
     for row in (
         *guide_shape.ROWS,
         *guide_loads.ROWS,
+        *guide_shaft.ROWS,
         *guide_runners.ROWS,
         *guide_bodies.ROWS,
         *guide_heat.ROWS,

@@ -150,17 +150,6 @@ ROWS = (
         basis=RIGID,
     ),
     CheckGuide(
-        "SUPPORT-STATIC",
-        "Support bearings of the shaft, static safety at peak torque",
-        "",
-        "min",
-        f"C0/P >= {limits.STATIC_SAFETY:g}, P from the forces of all discs on the shaft",
-        "The discs' forces are a couple that its two bearings hold; beyond C0 they take dents. "
-        "They are chosen by the room that the cam bearing's bore leaves.",
-        "ISO 76:2006; statics of the shaft, cqdd_design.machine.shaft",
-        basis="contact equilibrium of perfect parts, driving with friction",
-    ),
-    CheckGuide(
         "BEARING-RACEWAY",
         "Disc hard enough to be a raceway",
         "HRC",

@@ -39,12 +39,24 @@ def lower_torque(torque: float, share: float) -> str:
     return f"lower the torque to {torque_words(torque * share)}"
 
 
-def softer_contact(thickness: float, torque: float, pressure: float, limit: float) -> str:
-    """Say what brings a Hertz pressure down to a limit: it grows with sqrt(T/b)."""
-    if limit <= 0.0:
+def softer_contact(
+    thickness: float, torque: float, pressure: float, limit: float, which: str = "torque"
+) -> str:
+    """Say what brings a Hertz pressure down to a limit: it grows with sqrt(T/b).
+
+    Parameters
+    ----------
+    thickness : float
+        b of a disc, m.
+    torque : float
+        T, N m.
+    which : str
+        Name of the torque.
+    """
+    if min(limit, pressure) <= 0.0:
         return ""
     share = (pressure / limit) ** 2
-    words = f"lower the torque to {torque_words(torque / share)}, or "
+    words = f"lower the {which} to {torque_words(torque / share)}, or "
     if share <= _MOST_THICKENING:
         words = f"raise disc_thickness to {rounded_up(thickness * 1e3 * share):g} mm, or " + words
     return words

@@ -25,6 +25,7 @@ from cqdd_design.gearbox.life.contacts import Pressures
 from cqdd_design.gearbox.life.result import CaseLoads, DutyCase, LifeResult, PartLife
 from cqdd_design.gearbox.life.runners import RunnerDuty, RunnerLife, roller_life, sleeve_life
 from cqdd_design.gearbox.loads import rigid_maxima
+from cqdd_design.gearbox.pack_loads import PackLoads
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.contours import FloatArray
@@ -120,6 +121,7 @@ def life(design: Design, model: ContactModel, *, friction: bool = True) -> LifeR
         parts=parts,
         cam=_cam(duty),
         notes=_notes(parts),
+        pack=PackLoads.of(duty.sweeps),
         runners=_runners(duty),
     )
 

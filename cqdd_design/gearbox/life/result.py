@@ -10,6 +10,7 @@ from cqdd_design.gearbox.life.runners import RunnerLife
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.rubbing import PowerSense
+    from cqdd_design.gearbox.pack_loads import PackLoads
 
 
 @dataclass(frozen=True)
@@ -148,6 +149,8 @@ class LifeResult:
         Contact fatigue of ring, discs, holes and pins, and bending of the pins.
     notes : tuple of str
         What of it stands outside its source.
+    pack : PackLoads
+        What the cases put on shaft and carrier.
     runners : tuple of RunnerLife
         Of sleeves and rollers, where there are any.
     """
@@ -159,6 +162,7 @@ class LifeResult:
     parts: tuple[PartLife, ...]
     cam: CamLife
     notes: tuple[str, ...]
+    pack: PackLoads
     runners: tuple[RunnerLife, ...] = ()
 
     @property

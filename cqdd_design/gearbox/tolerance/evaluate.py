@@ -273,7 +273,8 @@ def evaluate_gearboxes(
         raise ContactError(
             "no gearbox of the batch has a contact equilibrium at every crank angle (number "
             f"{which} not at {angle:.6g} deg) and {torque:g} N*m; errors are too large for these "
-            "clearances: lower [tolerances], or the clearances."
+            "clearances, or friction jams it: lower [tolerances], reducer.friction, or the "
+            "clearances."
         )
     n = float(model.lobe_count)
     scale = np.array([_ARCMIN, _ARCMIN, 1.0, 1.0 / _ARCMIN, n, 1e-6, 1.0, 1.0, n])

@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 
-import cqdd_design
 from cqdd_design.design import Design
 from cqdd_design.environment import cache_folder
 from cqdd_design.files.kept import entry_path, read_entry, write_entry
@@ -64,7 +63,7 @@ def _physical(design: Design) -> dict[str, object]:
 @cache
 def _code() -> str:
     """Of this package as it stands: what another state of it has worked does not count."""
-    top = Path(cqdd_design.__file__).parent
+    top = Path(__file__).parents[2]
     told = []
     for folder, _, names in os.walk(top):
         for name in names:

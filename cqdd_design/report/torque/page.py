@@ -49,7 +49,7 @@ def torque_page(results: EvaluationResult, *, date: str = "") -> str:
     date : str
         As printed in the head; left out where empty.
     """
-    from cqdd_design import __version__
+    from cqdd_design.version import __version__
 
     page = environment().get_template("torque_page.html")
     return page.render(

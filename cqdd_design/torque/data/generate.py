@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from cqdd_design import __version__
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
@@ -19,6 +18,7 @@ from cqdd_design.machine import Machine
 from cqdd_design.torque.data import pendulum
 from cqdd_design.torque.data.episodes import DataSet, FloatArray
 from cqdd_design.torque.data.sensing import SensorChain
+from cqdd_design.version import __version__
 
 EPISODES = 320
 """On the gearbox of training: a fifth of them tests, 64."""

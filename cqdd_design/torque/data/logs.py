@@ -12,12 +12,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from cqdd_design import __version__
 from cqdd_design.errors import UsageError
 from cqdd_design.torque.data.episodes import DataSet, Episode, FloatArray
 from cqdd_design.torque.data.log_checks import check_signals, check_time
 from cqdd_design.torque.data.log_files import LogMap, read_columns
 from cqdd_design.torque.data.sensing import LEAST_OVERSAMPLING, Filter
+from cqdd_design.version import __version__
 
 RATE = 200.0
 """Of the episodes, Hz."""

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from cqdd_design import __version__
 from cqdd_design.errors import UsageError
 from cqdd_design.torque.data.episodes import DataSet
 from cqdd_design.torque.data.splits import Split, random_window_split
@@ -26,6 +25,7 @@ from cqdd_design.torque.training.recipe import Choice, Order, Progress
 from cqdd_design.torque.training.schedule import peak_rate
 from cqdd_design.torque.training.search import search
 from cqdd_design.torque.training.tensors import Prepared, Scaling, raw, scaling
+from cqdd_design.version import __version__
 
 _OF_MODEL = ("name", "family", "history", "layers", "hidden", "residual")
 """What a trained network takes from its model as it is."""

@@ -1,0 +1,82 @@
+"""What the checks of the shaft and of its bearings and the output's mean."""
+
+from __future__ import annotations
+
+from cqdd_design.gearbox.checks import allowables as limits
+from cqdd_design.gearbox.checks.guide_row import CheckGuide
+
+_EQUILIBRIUM = "contact equilibrium of perfect parts, driving with friction"
+_STATICS = "statics of the shaft, cqdd_design.machine.shaft_strength"
+_BUDYNAS = "Budynas and Nisbett 2020, Shigley's Mechanical Engineering Design, section 7-4"
+
+ROWS = (
+    CheckGuide(
+        "SHAFT-STRENGTH",
+        "Stress of the eccentric shaft, peak torque",
+        "MPa",
+        "max",
+        f"sqrt(sigma^2 + 3 tau^2) <= S_y/{limits.PIN_SAFETY_AT_PEAK:g} at every change of section",
+        "The cam bearing's bore and the eccentricity leave a thin core and thinner journals; the "
+        "motor's torque passes through the lower one.",
+        f"{_BUDYNAS}; {_STATICS}",
+        basis=_EQUILIBRIUM,
+    ),
+    CheckGuide(
+        "SHAFT-FATIGUE",
+        "Reversed stress of the eccentric shaft over the duty",
+        "MPa",
+        "max",
+        "sigma_a/(1 - sigma_m/S_u) <= S_e, von Mises with the notch factors of the shoulders",
+        "What turns with the crank bends the shaft always the same way, but each start from rest "
+        "and each change of sense is a cycle, and shoulders concentrate it.",
+        f"{_BUDYNAS}; Young and Budynas 2002, Roark's Formulas, table 17.1 (shoulders in bending); "
+        f"Pilkey and Pilkey 2008, chart 3.12 (in torsion); {_STATICS}",
+        basis=_EQUILIBRIUM,
+    ),
+    CheckGuide(
+        "SUPPORT-STATIC",
+        "Support bearings of the shaft, static safety at peak torque",
+        "",
+        "min",
+        f"C0/P >= {limits.STATIC_SAFETY:g}, P from the forces of all discs on the shaft",
+        "The discs' forces are a couple that its two bearings hold; beyond C0 they take dents. "
+        "They are chosen by the room that the cam bearing's bore leaves.",
+        f"ISO 76:2006; {_STATICS}",
+        basis=_EQUILIBRIUM,
+    ),
+    CheckGuide(
+        "SUPPORT-LIFE",
+        "Support bearings of the shaft together, basic rating life over the duty",
+        "h",
+        "min",
+        "L10h = 1e6 (C/P)^3/(60 rpm) >= required life, of both together over the duty",
+        "They turn as fast as the motor. The one in the carrier turns against it, 1 + 1/n times "
+        "as fast as the crank.",
+        f"ISO 281:2007; {_STATICS}",
+        basis=_EQUILIBRIUM,
+    ),
+    CheckGuide(
+        "OUTPUT-STATIC",
+        "Output bearing, static safety at peak torque and external loads",
+        "",
+        "min",
+        f"C0/P0 >= {limits.STATIC_SAFETY:g}; crossed rollers: P0 = F_r + 2 M/d_p + 0.44 F_a; "
+        "balls: 0.6 F_r + 0.5 (F_a + 4.37 M/d_p), at least F_r",
+        "Pins and shaft push the carrier from one side and tilt it, and what hangs on the joint "
+        "(requirements.external_moment, external_axial, external_radial) adds to that.",
+        "THK, General Catalog, Cross-Roller Ring; ISO 76:2006; Harris and Kotzalas 2006, Rolling "
+        "Bearing Analysis (balls under a moment)",
+        basis=_EQUILIBRIUM,
+    ),
+    CheckGuide(
+        "OUTPUT-LIFE",
+        "Output bearing, basic rating life over the duty",
+        "h",
+        "min",
+        "L10h = 1e6 (C/P)^p/(60 rpm) >= required life at the output's speed; crossed rollers: "
+        "P = F_r + 2 M/d_p + 0.45 F_a (0.67 and 0.67 beyond F_a = 1.5 of the rest)",
+        "It turns slowly, but carries all that the joint carries.",
+        "THK, General Catalog, Cross-Roller Ring; ISO 281:2007",
+        basis=_EQUILIBRIUM,
+    ),
+)

@@ -1,0 +1,206 @@
+"""Lines of the shaft, of the bearings at its ends, and of that between carrier and housing."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from cqdd_design.catalog.bearings import Bearing
+from cqdd_design.errors import CatalogError, ContactError, GeometryError
+from cqdd_design.gearbox.bearing_life import basic_rating_life_hours, life_exponent
+from cqdd_design.gearbox.cam_bearing import rolling_element
+from cqdd_design.gearbox.checks.allowables import STATIC_SAFETY, shaft_limit_peak
+from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS
+from cqdd_design.gearbox.checks.remedies import lower_torque
+from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.gearbox.contact.rubbing import ContactFriction
+from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.gearbox.life.cam import equivalent_load, set_life
+from cqdd_design.gearbox.output_bearing import dynamic_load, static_load
+from cqdd_design.gearbox.pack_loads import PackLoads
+from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.machine import Machine
+from cqdd_design.machine.carrier_bearing import bearing_for_loads
+from cqdd_design.machine.shaft_strength import (
+    output_loads,
+    shaft_strength,
+    support_loads,
+)
+from cqdd_design.results import Check
+
+_ANGLES = 120
+"""Crank angles over the period at which the peak torque is looked at."""
+_MEGA = 1e6
+_WIDER = "leave room for larger support bearings (a cam bearing with a larger bore)"
+_LIGHTER = "lower the torque or the external loads"
+
+
+def shaft_lines(machine: Machine) -> tuple[Check, ...]:
+    """Strength and fatigue of the shaft; static safety and life of its bearings and the output's.
+
+    Of perfect parts in contact equilibrium, driving with friction: at the peak torque in both
+    senses, and over the duty.
+    """
+    asked, model = machine.design.requirements, machine.contact
+    names = (*_AT_PEAK, *_OVER_DUTY)
+    try:
+        rubbed, angles = ContactFriction.of(model, "drive"), perfect_angles(model, _ANGLES)
+        peak = PackLoads.of(
+            [
+                contact_sweep(model, torque, angles, friction=rubbed)
+                for torque in (asked.peak_torque, -asked.peak_torque)
+            ]
+        )
+        duty = machine.life.pack
+        return (
+            *_strength(machine, peak, duty),
+            _support_static(machine, peak),
+            _support_life(machine, duty),
+            *_output(machine, peak, duty),
+        )
+    except (CatalogError, ContactError, GeometryError) as error:
+        return tuple(
+            build_check(one, None, None, error.message, "see why it is not known") for one in names
+        )
+
+
+_AT_PEAK = ("SHAFT-STRENGTH", "SUPPORT-STATIC", "OUTPUT-STATIC")
+_OVER_DUTY = ("SHAFT-FATIGUE", "SUPPORT-LIFE", "OUTPUT-LIFE")
+
+
+def _strength(machine: Machine, peak: PackLoads, duty: PackLoads) -> tuple[Check, Check]:
+    asked, found = machine.design.requirements, shaft_strength(machine, peak, duty)
+    allowed = shaft_limit_peak(found.material)
+    static, lasting = found.static, found.lasting
+    share = allowed.value / static.static
+    enough = found.limit / lasting.reversed_amplitude if lasting.reversed_amplitude else math.inf
+    thicker = "a cam bearing with a larger bore, or less eccentricity, leaves a thicker shaft; or "
+    return (
+        build_check(
+            "SHAFT-STRENGTH",
+            static.static / _MEGA,
+            allowed.value / _MEGA if allowed.value else None,
+            f"{static.static / _MEGA:.1f} MPa at the {static.step.place}, of "
+            f"{2e3 * static.step.radius:.3g} mm, at {asked.peak_torque:g} N*m",
+            thicker + lower_torque(asked.peak_torque, share),
+            basis=allowed.basis,
+        ),
+        build_check(
+            "SHAFT-FATIGUE",
+            lasting.reversed_amplitude / _MEGA,
+            found.limit / _MEGA if found.limit else None,
+            f"{lasting.reversed_amplitude / _MEGA:.1f} MPa reversed at the {lasting.step.place}, "
+            f"of {2e3 * lasting.step.radius:.3g} mm, notch factors {lasting.bending_factor:.2f} "
+            f"in bending and {lasting.torsion_factor:.2f} in torsion",
+            f"{thicker}lower the continuous torque to about "
+            f"{asked.continuous_torque * min(enough, 1.0):.3g} N*m",
+            basis=found.basis,
+            model=DUTY_MODEL,
+        ),
+    )
+
+
+def _support_static(machine: Machine, peak: PackLoads) -> Check:
+    asked, chosen = machine.design.requirements, machine.seats[0]
+    most, seat = float(support_loads(machine, peak).max()), chosen.bearing
+    if chosen.source == "bush" or seat.static_rating is None:
+        told = f"{most:.0f} N on {seat.designation}: its rating is not known"
+        return build_check(
+            "SUPPORT-STATIC", None, STATIC_SAFETY, told,
+            "leave room for a bearing (a wider cam bearing)",
+        )  # fmt: skip
+    safety = seat.static_rating / most
+    return build_check(
+        "SUPPORT-STATIC",
+        safety,
+        STATIC_SAFETY,
+        f"{seat.designation}: {seat.static_rating:.0f} N/{most:.1f} N = {safety:.3f} at "
+        f"{asked.peak_torque:g} N*m",
+        f"{_WIDER}; or {lower_torque(asked.peak_torque, safety / STATIC_SAFETY)}",
+    )
+
+
+def _support_life(machine: Machine, duty: PackLoads) -> Check:
+    chosen, ratio = machine.seats[0], machine.design.reducer.ratio
+    # The lower one stands in the housing, the upper one turns back with the carrier.
+    slip = np.array([ratio, ratio + 1.0])
+    loads = support_loads(machine, duty)
+    known = chosen.source != "bush"
+    return _life("SUPPORT-LIFE", machine, chosen.bearing if known else None, loads, slip, _WIDER)
+
+
+def _output(machine: Machine, peak: PackLoads, duty: PackLoads) -> tuple[Check, Check]:
+    """Static safety and life, and another bearing where this one has too little of either."""
+
+    def both(remedy: str) -> tuple[Check, Check]:
+        return _output_static(machine, peak, remedy), _output_life(machine, duty, remedy)
+
+    lines = both(_LIGHTER)
+    if all(line.status == "pass" for line in lines):
+        return lines
+    other = bearing_for_loads(machine)
+    if other is None or not other.bears or other.bearing == machine.seats[1].bearing:
+        return lines
+    named = f"set carrier_bearing.designation to '{other.bearing.designation}'"
+    return both(f"{named}, or {_LIGHTER}")
+
+
+def _output_static(machine: Machine, peak: PackLoads, remedy: str) -> Check:
+    asked, row = machine.design.requirements, machine.seats[1].bearing
+    load = output_loads(machine, peak)
+    most = float(static_load(row, load).max())
+    words = (
+        f"{load.radial.max():.0f} N across, {load.axial.max():.0f} N along, "
+        f"{load.moment.max():.3g} N*m tilting"
+    )
+    if row.static_rating is None:
+        told = f"{row.designation} under {words}: its rating is not known"
+        return build_check("OUTPUT-STATIC", None, STATIC_SAFETY, told, remedy)
+    safety = row.static_rating / most
+    return build_check(
+        "OUTPUT-STATIC",
+        safety,
+        STATIC_SAFETY,
+        f"{row.designation}: {row.static_rating:.0f} N/{most:.1f} N = {safety:.3f}, from {words} "
+        f"at {asked.peak_torque:g} N*m",
+        remedy,
+    )
+
+
+def _output_life(machine: Machine, duty: PackLoads, remedy: str) -> Check:
+    row, load = machine.seats[1].bearing, output_loads(machine, duty)
+    known = row if row.static_rating is not None else None
+    loads = dynamic_load(row, load)[..., None]
+    return _life("OUTPUT-LIFE", machine, known, loads, np.ones(1), remedy)
+
+
+def _life(
+    name: str,
+    machine: Machine,
+    row: Bearing | None,
+    loads: FloatArray,
+    slip: FloatArray,
+    remedy: str,
+) -> Check:
+    """L10 of B bearings together under loads (C, A, B) at `slip` (B,) times the output's speed."""
+    cases, required = machine.life.duty, machine.life.required_hours
+    if row is None or row.dynamic_rating is None:
+        told = "the rating of the bearing is not known"
+        return build_check(name, None, required, told, remedy, model=DUTY_MODEL)
+    element = rolling_element(row)
+    exponent = life_exponent(element)
+    shares = np.array([case.share for case in cases])
+    speeds = np.array([case.speed for case in cases])
+    equal = equivalent_load(loads, shares, speeds, exponent)
+    speed = float(shares @ speeds)
+    each = [
+        float(basic_rating_life_hours(row.dynamic_rating, load, speed * turn, exponent))
+        for load, turn in zip(equal, slip, strict=True)
+        if load > 0.0 and speed > 0.0
+    ]
+    hours = min(set_life(each, element), ENDLESS) if each else ENDLESS
+    told = f"{row.designation}: C {row.dynamic_rating:.0f} N under {max(equal):.1f} N"
+    return build_check(
+        name, hours, required, f"{told}: {hours:.4g} h together", remedy, model=DUTY_MODEL
+    )
