@@ -24,7 +24,7 @@ from cqdd_design.machine import resolve
 from cqdd_design.sizing.agreement import (
     Found,
     Hunt,
-    in_a_smaller_ring,
+    in_smaller_rings,
     least_ring,
     lightest,
     spaces,
@@ -69,7 +69,7 @@ def by_search(requirements: Requirements) -> tuple[Found | None, float]:
     began = time.process_time()
     hunt = _hunt(requirements)
     found = lightest(hunt)
-    found = None if found is None else in_a_smaller_ring(hunt, found)
+    found = None if found is None else next(iter(in_smaller_rings(hunt, found)), found)
     return found, time.process_time() - began
 
 

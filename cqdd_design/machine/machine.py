@@ -37,6 +37,9 @@ if TYPE_CHECKING:
 
 _FEW_TORQUES = 6
 """Up to which the losses of a duty are swept at its own torques."""
+_ROUGH_SHARES = (0.0, 1e-3, 5e-3, 0.02, 0.06, 0.15, 0.4, 1.0)
+"""Of the peak torque, where losses of rigid bodies are swept: straight lines between them are good
+to a per cent, as rigid bodies are."""
 
 
 class Cooling(NamedTuple):
@@ -72,7 +75,8 @@ class Machine:
         Of the parts, where they are not as drawn, at 20 deg C. Contacts, and what follows from
         them, are those of the warm parts; closed forms, solids and masses those of the drawing.
     stiff : bool
-        Whether discs and ring count as rigid, which spares their finite elements.
+        Whether discs and ring count as rigid, which spares their finite elements, and losses are
+        swept at few torques: a look at what the machine does.
     """
 
     given: Design
@@ -267,9 +271,11 @@ class Machine:
     @cached_property
     def losses(self) -> LossModel:
         """Losses over speed and torque; ContactError where a sweep has no equilibrium."""
-        from cqdd_design.gearbox.losses import loss_model
+        from cqdd_design.gearbox.losses import TORQUE_SHARES, loss_model
 
-        return loss_model(self.contact, self.friction, self.design.requirements.peak_torque)
+        shares = _ROUGH_SHARES if self.stiff else TORQUE_SHARES
+        peak = self.design.requirements.peak_torque
+        return loss_model(self.contact, self.friction, peak, shares)
 
     def losses_at(self, torques: Iterable[float]) -> LossModel:
         """As `losses`, but of warm parts swept at these torques alone, N m, where they are few."""

@@ -326,7 +326,7 @@ def heat_checks(found: MachineTemperatures) -> tuple[Check, ...]:
     )
     checks = (
         rise_check(parts, found.network.ambient, heat, as_drawn),
-        clearance_check(_added_overlaps(found), found.lacking_clearance),
+        clearance_check(_added_overlaps(found), lambda: found.lacking_clearance),
     )
     if not found.cold:
         return checks

@@ -9,7 +9,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import NamedTuple
+
+import numpy as np
 
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
@@ -45,8 +48,15 @@ NEEDLE_PINS = "AISI 52100 / 100Cr6 hardened"
 DISC_COUNTS = (2, 3)
 """Likewise of discs: those that balance."""
 _ROUNDS, _UNDAMPED, _STRONG_ROUNDS = 8, 3, 5
-_RING_STEPS = (0.06, 0.03, 0.015, 0.0075)
-"""By how much of its diameter the next ring is smaller, and the finer steps where that is none."""
+_RING_STEP, _FINER_STEPS = 0.04, (0.02, 0.01, 0.005)
+"""By how much of its diameter the next ring is smaller, and the finer steps from there."""
+_TEETH = (1.6, 2.5)
+"""Ring teeth over those of a point, with which a search near it begins too: thick ones take less
+wall, so that holes and bearing have more room."""
+_MAY_WIN = 1.1
+"""Objective over the best so far, up to which finer steps may make a design the best."""
+_SOLVED = 15
+"""Designs that are kept with their equilibria, but for the last."""
 _SETTLED = 2e-3
 """Change of every need, as a share, at which closed forms and equilibrium agree."""
 RING, _PINS, _CAM = "CONTACT-RING-PEAK", "CONTACT-PIN-PEAK", "BEARING-STATIC"
@@ -132,6 +142,8 @@ class Hunt:
         Whether output pins that are tried are on needles.
     tried : set of Goal
         Goals that were taken to meet something that is asked for.
+    solved : list
+        The last designs that were held against the equilibrium, for searches that come back.
     """
 
     requirements: Requirements
@@ -146,6 +158,24 @@ class Hunt:
     least_bore: float = 0.0
     pins: tuple[bool, ...] = (False,)
     tried: set[Goal] = field(default_factory=set)
+    solved: list[tuple[Machine, tuple[Check, ...]]] = field(default_factory=list)
+
+    def held_against(self, design: Design) -> tuple[Machine, tuple[Check, ...]]:
+        """The machine of a design, and its load lines by the equilibrium.
+
+        Raises
+        ------
+        ContactError, DesignError
+            When it has none.
+        """
+        for one in self.solved:
+            if one[0].given == design:
+                return one
+        machine = resolve(design, self.motor)
+        found = machine, exact_checks(machine)
+        self.solved[_SOLVED:] = []
+        self.solved.insert(0, found)
+        return found
 
     @property
     def may_roll(self) -> bool:
@@ -199,7 +229,7 @@ def lightest(hunt: Hunt) -> Found | None:
     best: Found | None = None
     for space in spaces(hunt.requirements, hunt.fit, hunt.pins):
         try:
-            found = agreed(hunt, space, best)
+            found = agreed(hunt, space, None if best is None else best.worth)
         except InfeasibleError:
             continue
         if found is not None and (best is None or found.worth < best.worth):
@@ -212,25 +242,56 @@ def least_ring(motor: Motor) -> float:
     return 0.0 if motor.bore_diameter is None else smallest_ring(motor.bore_diameter)
 
 
-def in_a_smaller_ring(hunt: Hunt, best: Found) -> Found:
-    """The best of some designs in smaller and smaller rings, while these are better."""
+def in_smaller_rings(hunt: Hunt, best: Found) -> list[Found]:
+    """Better designs in smaller rings, the best first.
+
+    All the way down to the least ring first: with one cam bearing a smaller ring is lighter, down
+    to where its discs need a wider bearing, so that there is more than one least mass. Then from
+    each of them that may win in finer steps.
+    """
     least = least_ring(best.search.frame.motor)
-    for step in _RING_STEPS:
+    ladder, ring = [best], best.sized.design.reducer.ring.outer_diameter
+    while ring > least:
+        ring = max((1.0 - _RING_STEP) * ring, least)
+        found, heavier = _in_ring(hunt, ladder[-1], ring, min(ladder, key=_worth))
+        if found is not None:
+            ladder.append(found)
+        elif not heavier:
+            break
+    ends = [one for one, below in pairwise(ladder) if one.worth < below.worth] + ladder[-1:]
+    for start in sorted(ends, key=_worth):
+        if start.sized.objective.score <= _MAY_WIN * min(ladder, key=_worth).sized.objective.score:
+            ladder.append(_finer(hunt, start, least))
+    return sorted((one for one in ladder if one.worth < best.worth), key=_worth)
+
+
+def _finer(hunt: Hunt, best: Found, least: float) -> Found:
+    """The last design in smaller and smaller rings that is better than the one before."""
+    for step in _FINER_STEPS:
         while (now := best.sized.design.reducer.ring.outer_diameter) > least:
-            found = _in_ring(hunt, best, max((1.0 - step) * now, least))
+            found, _ = _in_ring(hunt, best, max((1.0 - step) * now, least), best)
             if found is None or found.worth >= best.worth:
                 break
             best = found
     return best
 
 
-def _in_ring(hunt: Hunt, beside: Found, ring: float) -> Found | None:
-    """The best design in a ring of at most a diameter, m, near another."""
+def _in_ring(hunt: Hunt, beside: Found, ring: float, rival: Found) -> tuple[Found | None, bool]:
+    """The best design in a ring of a diameter, m, near another; or whether a rival is lighter.
+
+    What it weighs by closed forms is good to the needs of the other.
+    """
+    unrated, score = rival.worth
+    space = beside.space._replace(ring_limit=ring)
+    near = _with_other_teeth(beside.point)
     try:
-        space = beside.space._replace(ring_limit=ring)
-        return agreed(hunt, space, beside, beside.needs, beside.point)
+        return _settled(hunt, space, (unrated, _MAY_WIN * score), beside.needs, near)
     except InfeasibleError:
-        return None
+        return None, False
+
+
+def _worth(found: Found) -> tuple[bool, float]:
+    return found.worth
 
 
 class Strongest(NamedTuple):
@@ -292,8 +353,8 @@ def _strongest(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> Stronges
     if point is None:
         return None
     try:
-        machine = resolve(design_of(search.evaluator, point, 0), hunt.motor)
-        return Strongest(search, point, machine, exact_checks(machine))
+        machine, checks = hunt.held_against(design_of(search.evaluator, point, 0))
+        return Strongest(search, point, machine, checks)
     except (ContactError, DesignError):
         return None
 
@@ -301,23 +362,19 @@ def _strongest(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> Stronges
 def agreed(
     hunt: Hunt,
     space: Space,
-    rival: Found | None,
+    rival: tuple[bool, float] | None,
     known: Mapping[str, float] | None = None,
-    near: Points | None = None,
 ) -> Found | None:
     """Search again and again until closed forms ask for what the equilibrium takes.
 
     Parameters
     ----------
-    rival : Found or None
-        A design of another space, which this one has to beat.
+    rival : tuple, optional
+        What a design of another space is worth, which this one has to beat.
     known : mapping, optional
         Needs from a space near by.
-    near : Points, optional
-        A design of such a space, beside which to begin; the strongest is looked for only where
-        that leads to nothing.
     """
-    best, beaten = _settled(hunt, space, rival, known, near)
+    best, beaten = _settled(hunt, space, rival, known, None)
     if best is not None or beaten:
         return best
     # The search makes designs light before it makes them strong.
@@ -332,11 +389,18 @@ def agreed(
 def _settled(
     hunt: Hunt,
     space: Space,
-    rival: Found | None,
+    rival: tuple[bool, float] | None,
     known: Mapping[str, float] | None,
     near: Points | None,
 ) -> tuple[Found | None, bool]:
-    """The loop of `agreed`, and whether a rival was lighter before it began."""
+    """The loop of `agreed`, and whether a rival was lighter before it began.
+
+    Parameters
+    ----------
+    near : Points or None
+        Where to begin instead of at the strongest point, which then is begun at too where that
+        leads to nothing.
+    """
     search = Search.of(hunt.frame(space, {}), hunt.tables)
     most = search.most_reserve() if near is None else near
     strongest = near is None
@@ -364,12 +428,11 @@ def _settled(
             needs = {one: math.sqrt(value) for one, value in needs.items()}
             continue
         design, point = sized
-        if rival is not None and turn == 0 and (False, design.objective.score) > rival.worth:
+        if rival is not None and turn == 0 and (False, design.objective.score) > rival:
             # Closed forms alone make it heavier than one that is borne out.
             return None, True
-        machine = resolve(design.design, hunt.motor)
         try:
-            exact = exact_checks(machine)
+            machine, exact = hunt.held_against(design.design)
         except (ContactError, DesignError):
             needs = {one: 1.5 * needs.get(one, 1.0) for one in (RING, _PINS, _CAM)}
             continue
@@ -387,6 +450,14 @@ def _settled(
         if settled and best is not None:
             break
     return best, False
+
+
+def _with_other_teeth(point: Points) -> Points:
+    """A point, and places to begin at beside it that have thicker ring teeth."""
+    many = point.rows(np.zeros(1 + len(_TEETH), dtype=np.intp))
+    steps = many.steps.copy()
+    steps[1:, 1] = np.rint(np.array(_TEETH) * steps[1:, 1])
+    return replace(many, steps=steps)
 
 
 def _rated(machine: Machine) -> bool:

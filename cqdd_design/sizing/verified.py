@@ -27,7 +27,7 @@ from cqdd_design.sizing.agreement import (
     Hunt,
     Progress,
     agreed,
-    in_a_smaller_ring,
+    in_smaller_rings,
     lightest,
     spaces,
 )
@@ -47,6 +47,8 @@ _LEAST_STEP = 1e-6
 """Clearance that has to grow at all, m: to the next fit."""
 _TRIAL_SAMPLES = 32
 _TRIALS = 14
+_SMALLER = 3
+"""Designs in smaller rings that are looked at."""
 _LESS, _WEAKER = 0.9, 16
 """Share of both torques that is tried next where none of a refusal's is carried, and how often."""
 _BY_FRICTION = {"EFFICIENCY", "MOTOR-PEAK", "MOTOR-CONTINUOUS", "THERMAL-RISE"}
@@ -126,15 +128,17 @@ def size_to_verdict(
             break
         machine = resolve(found.sized.design, motor)
         fit: Fit | None = found.space.fit
-        can, step = _first_look(hunt, machine)
+        can, step = _look(hunt, replace(machine, stiff=True))
+        if can is None and step is None:
+            step = _closer_look(hunt, found, machine)
+            if step is None:
+                found, machine = _smaller(hunt, found, machine)
+                can, step = _look(hunt, machine)
         if can is not None:
             hunt.lowered |= can.continuous_torque < hunt.requirements.continuous_torque
             hunt.requirements = can
         else:
             if step is None:
-                step = _closer_look(hunt, found, machine)
-            if step is None:
-                found, machine = _smaller(hunt, found, machine)
                 progress(f"judging {found.sized.design.name} by the whole verdict")
                 last = judge(machine)
                 if last.meets == "yes":
@@ -285,29 +289,23 @@ def _wider(fit: Fit, step: float) -> Fit | None:
     return next((one for one in FITS if one.hole_clearance >= least), None)
 
 
-def _first_look(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, float | None]:
+def _look(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, float | None]:
     """What the motor can do, where that was asked, and clearance that heat needs more, m.
 
-    With rigid discs and ring first, whose finite elements cost more than all else here and change
-    either by a per cent; where that finds nothing, with elastic ones.
+    With rigid discs and ring first: their finite elements cost more than all else here, and change
+    either by a per cent.
     """
-    stiff = replace(machine, stiff=True)
-    for one in (stiff, machine):
-        can = None
-        if hunt.requirements.derived:
-            can = what_it_can(one, hunt.requirements, may_rise=not hunt.lowered)
+    if hunt.requirements.derived:
+        can = what_it_can(machine, hunt.requirements, may_rise=not hunt.lowered)
         if can is not None:
             return can, None
-        found, checks, _ = judged_temperatures(one)
-        step = clearance_needed(found, checks)
-        if step > 0.0:
-            return None, step
-        # Parts that press on each other are hot for that; without that, less torque is cooler.
-        hot = any(line.id == _HOT and line.known and not line.satisfied for line in checks)
-        less = cooler(hunt.requirements) if hot else None
-        if less is not None:
-            return less, None
-    return None, None
+    found, checks, _ = judged_temperatures(machine)
+    step = clearance_needed(found, checks)
+    if step > 0.0:
+        return None, step
+    # Parts that press on each other are hot for that; without that, less torque is cooler.
+    hot = any(line.id == _HOT and line.known and not line.satisfied for line in checks)
+    return (cooler(hunt.requirements) if hot else None), None
 
 
 def _closer_look(hunt: Hunt, found: Found, machine: Machine) -> float | None:
@@ -321,16 +319,14 @@ def _closer_look(hunt: Hunt, found: Found, machine: Machine) -> float | None:
 
 
 def _smaller(hunt: Hunt, found: Found, machine: Machine) -> tuple[Found, Machine]:
-    """The design, or a better one in a smaller ring of which the first looks say as much."""
-    other = in_a_smaller_ring(hunt, found)
-    if other is found:
-        return found, machine
-    small = resolve(other.sized.design, hunt.motor)
+    """The design, or the best in a smaller ring of which the looks say as much."""
     extra = dict(hunt.extra)
-    good = _first_look(hunt, small) == (None, None) and _closer_look(hunt, other, small) is None
-    if good:
-        return other, small
-    hunt.extra = extra
+    for other in in_smaller_rings(hunt, found)[:_SMALLER]:
+        small = resolve(other.sized.design, hunt.motor)
+        rigid = _look(hunt, replace(small, stiff=True))
+        if rigid == (None, None) and _closer_look(hunt, other, small) is None:
+            return other, small
+        hunt.extra = extra
     return found, machine
 
 

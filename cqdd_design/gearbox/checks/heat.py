@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 from cqdd_design.gearbox.checks.allowables import BINDING_OVERLAP
@@ -54,16 +55,19 @@ def rise_check(parts: tuple[WarmPart, ...], ambient: float, heat: float, as_draw
     )
 
 
-def clearance_check(states: tuple[Tightness, ...], lacking: float) -> Check:
+def clearance_check(states: tuple[Tightness, ...], lacking: Callable[[], float]) -> Check:
     """Check ``THERMAL-CLEARANCE`` over states of the parts.
 
     Parameters
     ----------
-    lacking : float
-        Overlap of parts that lose no more for pressing on each other, m: what clearance lacks.
+    lacking : callable
+        Overlap of parts that lose no more for pressing on each other, m: what clearance lacks;
+        asked for where they overlap.
     """
     worst = max(states, key=lambda one: one.overlap)
-    overlap, more = 1e6 * worst.overlap, max(1e6 * lacking, BINDING_OVERLAP)
+    overlap = 1e6 * worst.overlap
+    lacks = 1e6 * lacking() if overlap > BINDING_OVERLAP else 0.0
+    more = max(lacks, BINDING_OVERLAP)
     return build_check(
         "THERMAL-CLEARANCE",
         overlap,

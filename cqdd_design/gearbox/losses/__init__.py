@@ -9,9 +9,10 @@ from cqdd_design.gearbox.losses.backdrive import Backdrive
 from cqdd_design.gearbox.losses.machine import FrictionMachine
 from cqdd_design.gearbox.losses.model import EfficiencyMap, LossModel
 from cqdd_design.gearbox.losses.result import Losses
-from cqdd_design.gearbox.losses.swept import loss_model
+from cqdd_design.gearbox.losses.swept import TORQUE_SHARES, loss_model
 
 __all__ = [
+    "TORQUE_SHARES",
     "Backdrive",
     "EfficiencyMap",
     "FrictionMachine",
