@@ -106,7 +106,8 @@ def size(
         duty_columns=duty_columns,
     )
     if not quick or report:
-        out.note_compilation(simulation=True)
+        stopped = wanted.requirements.shock_speed > 0.0
+        out.note_compilation(simulation=report or stopped)
     road = size_and_write(
         wanted.requirements,
         target,
