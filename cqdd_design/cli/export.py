@@ -30,6 +30,12 @@ def export(
         str, option("polyline|entities", "Contours closed, or as lines and arcs end to end.")
     ] = "polyline",
     step_schema: Annotated[str, option("AP214|AP242", "Protocol of STEP.")] = "AP214",
+    gcode_dialect: Annotated[
+        str, option("iso|sodick", "G-code: offsets D set on the control, or H set in it.")
+    ] = "iso",
+    passes: Annotated[
+        int, option("N", "Of the wire in G-code, the rough cut and up to 3 skim cuts.")
+    ] = 4,
     tab_length: Annotated[
         str | None, option("Q", 'Left uncut in G-code until held; default "3 mm".')
     ] = None,
@@ -58,6 +64,8 @@ def export(
         dxf_version=dxf_version.upper(),
         dxf_style=dxf_style.lower(),
         step_schema=step_schema.upper(),
+        gcode_dialect=gcode_dialect.lower(),
+        passes=passes,
         **({} if tab is None else {"tab_length": tab}),
     )
     if len(design) > 1:

@@ -14,10 +14,12 @@ CHOICES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "dxf_version": ("R12", "R2000", "R2010"),
         "dxf_style": ("polyline", "entities"),
         "step_schema": ("AP214", "AP242"),
+        "gcode_dialect": ("iso", "sodick"),
     }
 )
 """What each option may be, the default among them."""
 
+MOST_PASSES = 4
 LEAST_TAB, MOST_TAB = 0.1e-3, 50e-3
 """Between these a tab holds a slug and is still a tab, m."""
 
@@ -36,6 +38,11 @@ class ExportOptions:
         for controls that chain them by themselves.
     step_schema : str
         ``AP214`` or ``AP242``.
+    gcode_dialect : str
+        ``iso``: offsets D, set on the control, and subprograms by O numbers; ``sodick``: offsets
+        H, set in the program, and subprograms by N numbers.
+    passes : int
+        Of the wire along every contour, the rough cut among them, 1 to 4.
     tab_length : float
         Of every contour, left uncut in G-code until the slug or the part is held, m. Contours
         shorter than eight tabs get an eighth of their length.
@@ -49,6 +56,8 @@ class ExportOptions:
     dxf_version: str = "R2000"
     dxf_style: str = "polyline"
     step_schema: str = "AP214"
+    gcode_dialect: str = "iso"
+    passes: int = 4
     tab_length: float = 3e-3
 
     def __post_init__(self) -> None:
@@ -61,6 +70,11 @@ class ExportOptions:
                 raise UsageError(
                     f"{option} cannot be '{value}'{hint} The choices are {', '.join(choices)}."
                 )
+        if not 1 <= self.passes <= MOST_PASSES:
+            raise UsageError(
+                f"--passes {self.passes} is outside 1 to {MOST_PASSES}; the nearest is "
+                f"{min(max(self.passes, 1), MOST_PASSES)}."
+            )
         if not (math.isfinite(self.tab_length) and LEAST_TAB <= self.tab_length <= MOST_TAB):
             nearest = LEAST_TAB if self.tab_length < LEAST_TAB else MOST_TAB
             raise UsageError(
@@ -74,6 +88,8 @@ class ExportOptions:
             *("--dxf-version", self.dxf_version),
             *("--dxf-style", self.dxf_style),
             *("--step-schema", self.step_schema),
+            *("--gcode-dialect", self.gcode_dialect),
+            *("--passes", str(self.passes)),
             *("--tab-length", f"{self.tab_length * 1e3!r} mm"),
         ]
 

@@ -61,6 +61,8 @@ def export(
     dxf_version: Literal["R12", "R2000", "R2010"] = "R2000",
     dxf_style: Literal["polyline", "entities"] = "polyline",
     step_schema: Literal["AP214", "AP242"] = "AP214",
+    gcode_dialect: Literal["iso", "sodick"] = "iso",
+    passes: int = 4,
     tab_length: Quantity | None = None,
     seed: int | None = None,
     calibration: CalibrationLike | None = None,
@@ -81,6 +83,10 @@ def export(
         Dialect of DXF; contours closed, or as lines and arcs end to end.
     step_schema : {"AP214", "AP242"}
         Protocol of STEP.
+    gcode_dialect : {"iso", "sodick"}
+        Offsets D, set on the control, or H, set in the program.
+    passes : int
+        Of the wire along a contour in G-code: the rough cut and up to three skim cuts.
     tab_length : quantity, optional
         Left uncut in G-code until held; default 3 mm.
     seed : int, optional
@@ -133,6 +139,8 @@ def export(
         dxf_version=dxf_version.upper(),
         dxf_style=dxf_style.lower(),
         step_schema=step_schema.upper(),
+        gcode_dialect=gcode_dialect.lower(),
+        passes=passes,
         **({} if tab is None else {"tab_length": tab}),
     )
     loaded = design_of(design)

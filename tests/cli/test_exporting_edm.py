@@ -54,6 +54,9 @@ def test_a_bearing_left_to_the_catalogue_changes_no_hash(cqdd, paper_design_file
         ("--step-schema", "AP203", "AP214, AP242"),
         ("--tab-length", "2", "mm"),
         ("--tab-length", "1 m", "nearest is 50 mm"),
+        ("--passes", "5", "1 to 4; the nearest is 4"),
+        ("--passes", "0", "1 to 4; the nearest is 1"),
+        ("--gcode-dialect", "fanuc", "The choices are iso, sodick"),
         ("--tab-length", "0 mm", "not above zero"),
     ],
 )

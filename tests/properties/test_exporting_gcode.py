@@ -8,6 +8,8 @@ from __future__ import annotations
 import cmath
 import math
 import re
+from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -22,6 +24,10 @@ from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.gcode import program
 from cqdd_design.exporting.edm.gcode_check import check_program
+from cqdd_design.exporting.edm.passes import contour_times, wire_passes
+from cqdd_design.exporting.edm.wire_path import segmented
+from cqdd_design.exporting.options import DEFAULTS
+from cqdd_design.gearbox.contact.sweep import contact_sweep
 from cqdd_design.geometry.contours import Circle
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
@@ -47,13 +53,25 @@ def text(paper, parts):
     return program(parts[0], paper)
 
 
+def _blocks(text):
+    """Blocks as they are run: those of a subprogram where it is called."""
+    bare = [re.sub(r"\(.*", "", line).strip() for line in text.splitlines()]
+    end = bare.index("M02")
+    subprograms = {}
+    for block in bare[end + 1 :]:
+        if re.fullmatch(r"[ON]\d{4}", block):
+            own = subprograms[block[1:]] = []
+        elif block not in {"M99", "%", ""}:
+            own.append(block)
+    for block in bare[:end]:
+        called = re.fullmatch(r"M98 P(\d{4})", block)
+        yield from subprograms[called.group(1)] if called else [block]
+
+
 def _cuts(text):
-    """Blocks of each cut: from a rapid to the next, as (command, end, centre, words), mm."""
+    """Blocks of each cut: from a rapid to the next, as (command, start, end, centre, words), mm."""
     cuts, here, motion = [], 0j, None
-    for line in text.splitlines():
-        block = re.sub(r"\(.*", "", line).strip()
-        if not block:
-            continue
+    for block in _blocks(text):
         words = dict(re.findall(NUMBER, block))
         command = re.search(r"G0[0-3]", block)
         motion = command.group() if command else motion
@@ -67,6 +85,22 @@ def _cuts(text):
         elif cuts and block == "M01":
             cuts[-1].append(("M01", here, here, None, block))
     return cuts
+
+
+def _passes(cut):
+    """Of the wall and of the tab: moves from offset on to offset off, both of them included."""
+    found = ([], [])
+    stopped, own = 0, None
+    for move in cut[1:]:
+        stopped += move[0] == "M01"
+        if re.match(r"G4[12]", move[4]):
+            own = []
+        if own is not None:
+            own.append(move)
+        if move[4].startswith("G40"):
+            found[stopped].append(own)
+            own = None
+    return found
 
 
 def _points(moves, count=7):
@@ -103,8 +137,10 @@ def _psi_form(design, count):
 
 
 def _contour_moves(cut):
-    """Without the rapid, lead-in, M01 and lead-out."""
-    return [move for move in cut[2:-1] if move[0] != "M01"]
+    """Of the first pass of the wall, and of the pass of the tab that runs the same way."""
+    wall, tab = _passes(cut)
+    onward = next(one for one in tab if one[0][2] == wall[0][-2][2])
+    return wall[0][1:-1] + onward[1:-1]
 
 
 def test_the_lobed_contour_is_the_exact_curve_within_fit_and_rounding(text, paper):
@@ -136,7 +172,9 @@ def test_radii_of_every_arc_agree_and_sides_keep_the_material(paper, parts, inde
             if centre is not None:
                 assert abs(abs(start - centre) - abs(end - centre)) < 1.5e-4
         outer = number == len(cuts)
-        code = re.search(r"G4[12]", cut[1][4]).group()
+        wall, tab = _passes(cut)
+        passes = wall + tab
+        codes = [re.search(r"G4[12]", one[0][4]).group() for one in passes]
         moves = _contour_moves(cut)
         points = _points(moves)
         centre = moves[0][3]
@@ -144,7 +182,14 @@ def test_radii_of_every_arc_agree_and_sides_keep_the_material(paper, parts, inde
         area = 0.5 * np.sum((points.conjugate() * np.roll(points, -1)).imag)
         # Left of a counter-clockwise path is the inside: the waste of a hole, never of the part.
         left_is_waste = (area > 0.0) != outer
-        assert code == ("G41" if left_is_waste else "G42")
+        assert codes[0] == ("G41" if left_is_waste else "G42")
+        # To and fro, also from the wall to the tab, with the waste on the same hand.
+        for here, there in pairwise(passes):
+            assert here[-2][2] == there[0][2]
+        for k, one in enumerate(passes):
+            same = [move[2] for move in one[1:-1]] == [move[2] for move in wall[0][1:-1]]
+            if k < len(wall):
+                assert (codes[k] == codes[0]) == same == (k % 2 == 0)
         lead = cut[1][2] - cut[1][1]
         # Rounding by 0.05 um turns the shortest arcs most.
         assert abs((lead * along.conjugate()).real) < 2e-4 * abs(lead) * abs(along)
@@ -154,10 +199,9 @@ def test_radii_of_every_arc_agree_and_sides_keep_the_material(paper, parts, inde
 def test_the_tab_is_as_long_as_asked(paper, parts, tab):
     for flat in parts:
         for cut in _cuts(program(flat, paper, ExportOptions(tab_length=tab))):
-            stop = next(k for k, move in enumerate(cut) if move[0] == "M01")
             whole, left = (
                 np.abs(np.diff(_points(moves, 200))).sum()
-                for moves in (_contour_moves(cut), cut[stop + 1 : -1])
+                for moves in (_contour_moves(cut), _passes(cut)[1][0][1:-1])
             )
             assert left == pytest.approx(min(1e3 * tab, whole / 8.0), abs=2e-3)
             assert cut[-1][4].startswith("G40 G01")
@@ -166,27 +210,113 @@ def test_the_tab_is_as_long_as_asked(paper, parts, tab):
 
 def test_holes_come_first_and_the_wire_is_cut_between(text):
     assert text.startswith("%\nO0001\n")
-    assert text.endswith("M02\n%\n")
+    assert text.endswith("M99\n%\n")
     assert text.isascii()
     titles = re.findall(r"\(CUT (\d) OF 7: (\w+) CONTOUR", text)
     assert titles == [(str(k), "INNER") for k in range(1, 7)] + [("7", "OUTER")]
-    assert text.count("\nM00\n") == 7 + 6
+    # To thread, to take the slug out of the tab, and to cut the wire.
+    assert text.count("\nM00\n") == 7 + 7 + 6
     assert text.count("\nM01\n") == 7
     assert re.search(r"^G90 G21", text, re.MULTILINE)
     # A bracket within a comment would end it.
     assert all(line.count("(") == line.count(")") <= 1 for line in text.splitlines())
 
 
-def test_a_seat_has_an_offset_of_its_own(text, paper, parts):
-    (note,) = re.findall(r"\((D02 FOR INNER CONTOUR 1[^)]*)\)", text)
+def test_a_seat_has_offsets_of_its_own(text, paper, parts):
+    (note,) = re.findall(r"\((11 AND ON FOR INNER CONTOUR 1[^)]*)\)", text)
     assert "28 N7" in note
     # 28 N7 is -7 to -28 um: the middle is 17.5 um less, half of it on each side.
     assert "+0.0087 MORE, TO CUT DIA 27.9825" in note
-    assert re.findall(r"G41 (D\d+)", text) == ["D02"] + ["D01"] * 5
+    assert re.findall(r"G41 (D\d+)", text)[:2] == ["D11", "D13"]
+    assert set(re.findall(r"G4[12] (D\d+)", text)) == {
+        f"D{base}{k}" for base in (0, 1) for k in (1, 2, 3, 4)
+    }
+    held = dict(re.findall(r"\((D\d+) = (\S+),", text))
+    for k in "1234":
+        assert float(held[f"D1{k}"]) - float(held[f"D0{k}"]) == pytest.approx(8.75e-3, abs=1e-4)
     ring = program(parts[1], paper)
     assert "72 N6" in ring
     assert "+0.0147 MORE, TO CUT DIA 72.0295" in ring
-    assert re.findall(r"G42 (D\d+)", ring) == ["D02"]
+
+
+def test_the_last_pass_is_the_wire_and_its_gap_and_each_leaves_what_the_next_take(paper, parts):
+    for count, left in ((1, [0]), (2, [50, 0]), (3, [65, 15, 0]), (4, [70, 20, 5, 0])):
+        found = wire_passes(parts[0].contours, paper.edm, count)
+        assert [one.left for one in found] == pytest.approx([1e-6 * one for one in left])
+        for one in found:
+            assert one.offset == pytest.approx(0.125e-3 + 12e-6 + one.left)
+        text = program(parts[0], paper, ExportOptions(passes=count))
+        told = [float(one) for one in re.findall(r"\(D0\d = (\S+),", text)]
+        assert told == pytest.approx([1e3 * one.offset for one in found], abs=6e-5)
+        for cut in _cuts(text):
+            assert [len(one) for one in _passes(cut)] == [count, count]
+
+
+def test_where_the_rough_cut_could_not_follow_skim_cuts_take_less(paper, parts):
+    arcs = segmented(parts[1].fitted)
+    tightest = arcs.arcs().radii[arcs.bulges > 0.0].min()
+    thick = paper.edm.model_copy(update={"wire_diameter": 2.0 * (tightest - 32e-6)})
+    found = wire_passes(parts[1].contours, thick, 4)
+    assert found[-1].offset == pytest.approx(tightest - 20e-6)
+    assert found[0].offset < tightest
+    assert found[0].left == pytest.approx(18e-6)
+    assert found[2].left / found[0].left == pytest.approx(5.0 / 70.0)
+
+
+@pytest.mark.parametrize("name", ["cqdd-10", "reference-s"])
+def test_no_tooth_touches_the_tab_of_a_disc(name, paper_design_file):
+    """By the equilibrium at the peak torque, of rigid bodies."""
+    machine = replace(resolve(load_design(paper_design_file.with_name(f"{name}.toml"))), stiff=True)
+    sweep = contact_sweep(machine.contact, machine.design.requirements.peak_torque)
+    point, _ = machine.contact.disc.profile(sweep.ring_parameter[sweep.ring_force > 0.0])
+    off = np.abs(math.tau / 10 * np.round(np.angle(point) * 10 / math.tau) - np.angle(point))
+    away = off * np.abs(point)
+    assert away.min() > 0.5 * DEFAULTS.tab_length
+
+
+def test_tabs_are_where_no_tooth_or_pin_pushes(paper, parts):
+    """Their middle is in a valley, between teeth, and outward in an output hole."""
+    for flat in parts:
+        for cut, number in zip(_cuts(program(flat, paper)), flat.cut_order, strict=True):
+            wall, tab = _passes(cut)
+            ends = wall[0][0][2], wall[0][-2][2]
+            way = np.array([move[2] for move in tab[0][:-1]])
+            assert {complex(way[0]), complex(way[-1])} == set(ends)
+            contour = flat.contours[number]
+            if not isinstance(contour, Circle):
+                middle = cmath.phase(ends[0] + ends[1])
+                pitch = 2.0 * math.pi / (10 if flat.label == "disc" else 11)
+                off = math.remainder(middle - (0.0 if flat.label == "disc" else pitch / 2), pitch)
+                assert abs(off) < 1e-3
+                # Deepest in the part, away from the waste.
+                radii = np.abs(_points(_contour_moves(cut)))
+                deep = radii.min() if flat.label == "disc" else radii.max()
+                assert abs(abs(0.5 * (ends[0] + ends[1])) - deep) < 0.3
+            elif abs(complex(*contour.centre)) > 1e-6:
+                outward = 1e3 * complex(*contour.centre)
+                lever = ((0.5 * (ends[0] + ends[1]) - outward) / outward).imag
+                assert abs(lever) < 1e-4
+
+
+def test_the_other_dialect_cuts_the_same(paper, parts):
+    usual = program(parts[0], paper)
+    other = program(parts[0], paper, ExportOptions(gcode_dialect="sodick"))
+    check_program(other, parts[0], paper.edm)
+    assert re.findall(r"^H001 = (\S+)", other, re.MULTILINE) == ["0.2070"]
+    assert "\nN0011\n" in other
+    assert "\nO0011\n" not in other
+    assert " D0" not in re.sub(r"\(.*\)", "", other)
+    for one, two in zip(_cuts(usual), _cuts(other), strict=True):
+        assert [move[:4] for move in one] == [move[:4] for move in two]
+
+
+def test_a_piece_takes_as_long_as_its_wall_and_its_passes(parts):
+    disc = parts[0]
+    wall = sum(one.length() for one in disc.contours)
+    holes = len(disc.contours)
+    for count in (1, 4):
+        expected = 60.0 * (holes + wall * disc.thickness / 100e-6 + (count - 1) * wall / 6e-3)
+        assert sum(contour_times(disc, count)) == pytest.approx(expected)
 
 
 def _replaced(text, old, new, count=1):
@@ -197,17 +327,24 @@ def _replaced(text, old, new, count=1):
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("G42", "G41", "G41 puts the wire into the material"),
+        (r"G42 D01 G01 X27\.122", "G41 D01 G01 X27.122", "G41 puts the wire into the material"),
         ("G41", "G42", "G42 puts the wire into the material"),
         ("G90 ", "G91 ", "G90 G21"),
         ("G21", "G20", "G90 G21"),
         (r"\nM01\n", "\n", "does not stop once"),
         (r"G02 X27\.", "G02 X27.1", "radii of|close"),
         (r"G02 (X\S+ Y\S+ I)-", r"G02 \1", "radii of"),
-        (r"G02 X", "G03 X", "exact curve|clockwise|turns by|threaded in the material"),
+        (r"\nG02 X", "\nG03 X", "exact curve|clockwise|turns by|material|contour|pass before"),
         (r"G00 X12", "G00 X19", "lead out as it led in|threaded in the material"),
         (r"%\n$", "", "begin and end with %"),
         (r"G01 X", "G01 Q", "without an offset"),
+        ("D02 = 0.1570", "D02 = 0.1470", "register 2 holds 0.1470 mm, not 0.1570"),
+        ("G42 D02", "G42 D03", "register 3 holds"),
+        ("G42 D12", "G41 D12", "G41 puts the wire into the material"),
+        ("M98 P0012", "M98 P0011", "does not begin|close|along the pass"),
+        ("M98 P0012", "M98 P0099", "calls no subprogram"),
+        (r"(G40 G01 X\d+\.)\d", r"\g<1>9", "middle of the kerf"),
+        (r"\nM99\n%", "\n%", "does not end at an M99"),
     ],
 )
 def test_a_spoilt_program_is_refused(text, paper, parts, old, new, said):

@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 
 from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, GeometryError, ReadBackError
+from cqdd_design.exporting.edm.begin import begun, tab_of
 from cqdd_design.exporting.edm.dxf import write_flat_part
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.loops import Loop
@@ -90,9 +91,31 @@ def test_any_path_keeps_its_distance_and_does_not_cross(disc, ring_type, wire):
             assert abs((lead * slope.conjugate()).real) < 1e-9 * abs(lead) * abs(slope)
 
 
+@pytest.mark.parametrize("tab", [0.5e-3, 3e-3, 20e-3])
+def test_a_contour_begins_half_a_tab_past_its_quiet_place_and_stays_the_same(paper, tab):
+    for flat in flat_parts(resolve(paper)):
+        for number, contour in enumerate(flat.contours):
+            found, same = begun(flat, number, tab), segmented(contour)
+            assert found.length() == pytest.approx(contour.length(), rel=1e-12)
+            assert found.moments().area == pytest.approx(same.moments().area, rel=1e-12)
+            points = found.evaluate(np.linspace(0.0, 1.0, 4))[0].reshape(-1, 2)
+            assert same.distances(points).max() < 1e-12
+            before, after = split_for_tab(found, 0.5 * tab_of(contour, tab))
+            quiet = complex(after.points[0])
+            assert before.length + after.length == pytest.approx(contour.length())
+            if isinstance(contour, Circle):
+                out = complex(*contour.centre)
+                expected = 0.0 if abs(out) < contour.radius else np.angle(out)
+                assert np.angle(quiet - out) == pytest.approx(expected, abs=1e-9)
+            else:
+                # To the next of the places that were looked at.
+                assert np.angle(quiet) == pytest.approx(flat.quiet_angle, abs=1e-4)
+
+
 def test_an_arc_moved_sideways_keeps_centre_and_sweep(paper, disc):
     path = wire_paths(disc, paper.edm)[0]
-    nominal, moved = disc.shape.outer.arcs(), path.contour.arcs()
+    begins = begun(disc, 0)
+    nominal, moved = begins.arcs(), path.contour.arcs()
     assert np.abs(nominal.centres - moved.centres).max() < 1e-12
     assert np.array_equal(nominal.sweeps, moved.sweeps)
     wider = np.where(nominal.sweeps > 0.0, 1.0, -1.0) * paper.edm.wire_offset
@@ -232,7 +255,9 @@ def test_a_lead_in_through_the_part_is_refused(paper, disc, written):
     drawing = ezdxf.readfile(written)
     space = drawing.modelspace()
     lead, hole = _lead(space), space.query('CIRCLE[layer=="START_HOLE"]')[0]
-    lead.dxf.start = hole.dxf.center = (-40.0, 0.0)
+    begin, end = (complex(*point.vec2) for point in (lead.dxf.start, lead.dxf.end))
+    across = end - 67.0 * (begin - end) / abs(begin - end)
+    lead.dxf.start = hole.dxf.center = (across.real, across.imag)
     drawing.saveas(written)
     with pytest.raises(ReadBackError, match="it would cut into the part"):
         read_back(written, disc, paper.edm, wire_paths=True)

@@ -14,8 +14,10 @@ from cqdd_design.catalog import find_material
 from cqdd_design.errors import DesignError
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.loops import LoopFit
+from cqdd_design.exporting.edm.passes import WirePass, blank_side, contour_times, wire_passes
 from cqdd_design.exporting.edm.seats import Seat, seats_of
 from cqdd_design.exporting.edm.wire_path import WirePath, wire_paths
+from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
@@ -65,6 +67,8 @@ class CutFacts:
         Of its fitted contour, measured.
     paths : tuple of WirePath
         One a contour, the outer one first.
+    passes : tuple of WirePass
+        Along every contour, the rough cut first.
     seats : tuple of Seat
         Contours with an ISO 286 zone.
     later : tuple of str
@@ -75,6 +79,7 @@ class CutFacts:
     design: Design
     fit: LoopFit
     paths: tuple[WirePath, ...]
+    passes: tuple[WirePass, ...]
     zones: Zones
     seats: tuple[Seat, ...]
     later: tuple[str, ...]
@@ -84,6 +89,16 @@ class CutFacts:
         """Of one piece as cut, kg: the area of its contours times thickness and density."""
         area = self.flat.shape.area()
         return area * self.flat.thickness * find_material(self.flat.material).density
+
+    @property
+    def times(self) -> tuple[float, ...]:
+        """Estimate for every contour of one piece, the outer one first, s."""
+        return contour_times(self.flat, len(self.passes))
+
+    @property
+    def blank(self) -> float:
+        """Side of the square blank, m."""
+        return blank_side(self.paths[0])
 
     @property
     def hardness(self) -> str:
@@ -124,7 +139,7 @@ class CutFacts:
         )
 
 
-def facts_of(flat: FlatPart, machine: Machine) -> CutFacts:
+def facts_of(flat: FlatPart, machine: Machine, options: ExportOptions = DEFAULTS) -> CutFacts:
     """Gather everything about a part.
 
     Raises
@@ -140,7 +155,8 @@ def facts_of(flat: FlatPart, machine: Machine) -> CutFacts:
         flat=flat,
         design=design,
         fit=contour_fit(flat),
-        paths=wire_paths(flat, design.edm),
+        paths=wire_paths(flat, design.edm, options.tab_length),
+        passes=wire_passes(flat.contours, design.edm, options.passes),
         zones=zones_of(flat, design),
         seats=seats_of(flat),
         later=_after_cutting(flat, machine),

@@ -138,7 +138,7 @@ def draw(
     space = drawing.modelspace()
     for number, contour in enumerate(flat.contours):
         _add_contour(space, contour, CUT_INNER if number else CUT_OUTER, options)
-    starts = start_holes(flat, design.edm.wire_diameter)
+    starts = start_holes(flat, design.edm.wire_diameter, options.tab_length)
     for start in starts:
         _add_contour(space, start, START_HOLE, options)
     for path in wire:

@@ -5,6 +5,7 @@ Discs that are one part, perhaps some of them turned over, need one program (`so
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -46,6 +47,9 @@ class FlatPart:
         Circle drawn for reference, m: through the output holes, or through the teeth.
     remarks : tuple of str
         What the shop must know of this part.
+    quiet_angle : float
+        Polar angle of a place of the fitted contour that carries least, rad: a valley of the disc,
+        between two teeth of the ring.
     turned_over : int
         How many of them are put in turned over.
     """
@@ -58,6 +62,7 @@ class FlatPart:
     quantity: int
     reference_radius: float
     remarks: tuple[str, ...]
+    quiet_angle: float = 0.0
     turned_over: int = 0
 
     @property
@@ -155,4 +160,5 @@ def _ring(design: Design) -> FlatPart:
         quantity=1,
         reference_radius=reducer.ring_pitch_radius,
         remarks=(f"{reducer.ring_tooth_count} TEETH; {kinds[reducer.ring_type]}",),
+        quiet_angle=math.pi / reducer.ring_tooth_count,
     )

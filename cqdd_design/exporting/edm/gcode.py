@@ -1,44 +1,59 @@
-"""G-code for wire EDM: one ISO program a part, on the nominal contour, the control offsets.
+"""G-code for wire EDM: one program a part, on the nominal contour, the control offsets.
 
-One contour, here a hole cut counter-clockwise::
+Every contour is cut by several passes, a rough cut and skim cuts, each with an offset of its own;
+what it runs along is a subprogram that they call. Here a hole, three passes::
 
-    G00 X.. Y..          rapid, wire cut, to the centre of the start hole
-    (M60)                thread; controls differ, so M50 and M60 are comments beside an M00
-    G41 D01 G01 X.. Y..  lead-in, perpendicular onto the contour, offset on
-    G03 X.. Y.. I.. J..  contour, centres incremental from the start of each arc
-    M01                  stop: all is cut but the tab; hold the slug
-    G03 ...              tab
-    G40 G01 X.. Y..      lead-out to the start hole, offset off
+    G00 X.. Y..           rapid, wire cut, to the centre of the start hole
+    (M60)                 thread; controls differ, so M50 and M60 are comments beside an M00
+    G41 D01 G01 X.. Y..   rough: lead-in, square onto the contour, offset on
+    M98 P0011             round to where the tab begins
+    G40 G01 X.. Y..       off the wall into the middle of the kerf, offset off
+    G42 D02 G01 X.. Y..   skim 1: back onto the wall, the other way round
+    M98 P0012             the same backwards
+    ...
+    M01                   stop: all is cut but the tab; hold the slug
+    G41 D01 ... M98 P0013 ... M00   the tab, rough; the slug comes out
+    ...                   the tab, skim cuts; the last leads out to the start hole
 
-Seats with a tolerance zone take D02 and on, whose values bring them to the middle of it. Holes
-first, so that the part stays in the plate to the last; the outer contour last. Contours run
+Passes run to and fro, since the way from the tab's edge to the start hole is through the slug.
+Seats with a tolerance zone take registers from 11 on, whose values bring them to the middle of it.
+Holes first, so that the part stays in the plate to the last; the outer contour last. Forward is
 counter-clockwise: the waste of a hole is to the left of the wire (G41), that of the outer contour
-to the right (G42).
+to the right (G42); backward it is the other way round.
+
+Source of passes that run to and fro, and of contour, tab and subprograms: Autodesk, FeatureCAM
+help, "Offset page" of wire EDM; BobCAD-CAM help, "Wire EDM 4 axis skim cut parameters".
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from cqdd_design.exporting.edm.begin import begun, tab_of
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts
 from cqdd_design.exporting.edm.gcode_check import check_program
+from cqdd_design.exporting.edm.passes import (
+    WirePass,
+    blank_side,
+    contour_times,
+    minutes,
+    wire_passes,
+)
 from cqdd_design.exporting.edm.seats import Seat, seats_of
 from cqdd_design.exporting.edm.wire_path import (
     OpenChain,
     WirePath,
     contour_name,
     contour_size,
-    segmented,
     split_for_tab,
     wire_paths,
 )
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 from cqdd_design.files import WrittenFile, write_with
-from cqdd_design.geometry.contours import ArcContour, Circle, Contour
+from cqdd_design.geometry.contours import Circle
 from cqdd_design.version import __version__
 
 if TYPE_CHECKING:
@@ -51,10 +66,50 @@ FOLDER = "edm"
 """Programs lie beside the EDM package."""
 DECIMALS = 4
 """Of a millimetre: 0.1 um."""
-TABS_PER_CONTOUR = 8.0
-"""A tab takes no more than this fraction of a contour."""
+_FORWARD, _BACK = ("G42", "G41"), ("G41", "G42")
+"""Offset to the side of the waste of an outer and of an inner contour, by direction."""
 
 _MM = 1e3
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """What controls write differently.
+
+    Attributes
+    ----------
+    offset : str
+        Format of an offset register.
+    subprogram : str
+        Format of a subprogram's first block.
+    assigned : bool
+        Whether the program sets its registers; else they are set on the control, and a comment
+        says to what.
+    """
+
+    offset: str
+    subprogram: str
+    assigned: bool
+
+
+DIALECTS = {
+    "iso": Dialect("D{:02d}", "O{:04d}", assigned=False),
+    "sodick": Dialect("H{:03d}", "N{:04d}", assigned=True),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class _Cut:
+    """One contour, with what its subprograms run along: all but the tab, and the tab."""
+
+    step: int
+    outer: bool
+    start: complex
+    wall: OpenChain
+    tab: OpenChain
+    turns: tuple[complex, complex]
+    """In the middle of the kerf, beside the contour's first joint and where the tab begins, m."""
+    circle: complex | None
 
 
 def export_gcode(job: ExportJob) -> tuple[WrittenFile, ...]:
@@ -90,59 +145,83 @@ def write_program(
 def program(flat: FlatPart, design: Design, options: ExportOptions = DEFAULTS) -> str:
     """Return the program of a part as text."""
     # The paths prove that the wire can follow; the program itself stays on the contour.
-    paths = wire_paths(flat, design.edm)
-    contours = [_on_grid(contour) for contour in flat.contours]
-    seats = seats_of(flat)
-    heading = _heading(flat, design, options, len(contours), seats)
+    paths = wire_paths(flat, design.edm, options.tab_length)
+    passes = wire_passes(flat.contours, design.edm, options.passes)
+    dialect, seats = DIALECTS[options.gcode_dialect], seats_of(flat)
+    bases = {seat.contour: 10 * place for place, seat in enumerate(seats, start=1)}
+    shifts = {seat.contour: seat.shift for seat in seats}
+    registers = {
+        base + one.number: one.offset + shift
+        for base, shift in ((0, 0.0), *((bases[k], shifts[k]) for k in bases))
+        for one in passes
+    }
+    heading = _heading(flat, design, options, seats, passes, paths[0])
     lines = ["%", "O0001", *_comments(heading)]
-    registers = {seat.contour: 2 + place for place, seat in enumerate(seats)}
+    lines += _register_lines(dialect, registers, passes)
     lines += ["G90 G21 G17", "G40"]
+    subprograms: list[str] = []
     for step, number in enumerate(flat.cut_order, start=1):
         size = contour_size(flat.contours[number])
-        title = f"CUT {step} OF {len(contours)}: {contour_name(number)}, {size}"
-        register = registers.get(number, 1)
-        lines += _cut(contours[number], paths[number], title, options.tab_length, register)
+        title = f"CUT {step} OF {len(flat.contours)}: {contour_name(number)}, {size}"
+        kerf = passes[0].offset + shifts.get(number, 0.0)
+        cut = _cut(flat, number, step, paths[number].start, kerf, options)
+        lines += _main(cut, title, passes, dialect, bases.get(number, 0))
+        subprograms += _subprograms(cut, dialect, len(passes))
         if number:
-            lines.append("(M50 CUT WIRE, REMOVE SLUG)")
-            lines.append("M00")
-    lines += ["(M50 CUT WIRE, TAKE THE PART)", "M02", "%"]
+            lines += ["(M50 CUT WIRE)", "M00"]
+    lines += ["(M50 CUT WIRE, TAKE THE PART)", "M02", *subprograms, "%"]
     return "\n".join(lines) + "\n"
-
-
-def tab_of(contour: ArcContour, wanted: float) -> float:
-    """Length of the tab of a contour, m."""
-    return min(wanted, contour.length() / TABS_PER_CONTOUR)
 
 
 def _heading(
     flat: FlatPart,
     design: Design,
     options: ExportOptions,
-    contours: int,
     seats: Sequence[Seat],
+    passes: Sequence[WirePass],
+    path: WirePath,
 ) -> list[str]:
     edm, fit = design.edm, contour_fit(flat)
+    whole = sum(contour_times(flat, len(passes)))
+    side = _MM * blank_side(path)
     return [
         f"PART {design.name}-{flat.label}, CUT {flat.quantity}",
         *flat.remarks,
         f"MATERIAL {flat.material}, THICKNESS {_MM * flat.thickness:g} MM",
+        f"BLANK {side:.0f} X {side:.0f} MM ABOUT THE PART AXIS AT LEAST, CLAMPED OUTSIDE DIA "
+        f"{2.0 * _MM * (abs(path.start) + 0.5 * path.start_diameter):.0f}",
         "UNITS MM, ABSOLUTE, ORIGIN ON THE PART AXIS, ARC CENTRES I J FROM EACH ARC START",
-        f"WIRE DIA {_MM * edm.wire_diameter:g}, SPARK GAP {_MM * edm.spark_gap:g}",
-        f"D01 IS WIRE OFFSET, {_MM * edm.wire_offset:.4f} ON THE FINISHING CUT: SET IT AND THE",
-        "OFFSETS OF ROUGH AND SKIM CUTS BY YOUR TECHNOLOGY",
+        f"WIRE DIA {_MM * edm.wire_diameter:g}, SPARK GAP {_MM * edm.spark_gap:g} ON THE LAST PASS",
+        "OFFSETS BELOW ARE WIRE RADIUS, THAT GAP AND WHAT LATER PASSES TAKE: REPLACE THEM BY THOSE",
+        "OF YOUR TECHNOLOGY, THE LAST AS IT IS",
         *(
-            f"D{place:02d} FOR {contour_name(seat.contour)}, SEAT DIA {seat}: D01 AND "
+            f"{place}1 AND ON FOR {contour_name(seat.contour)}, SEAT DIA {seat}: "
             f"{_MM * seat.shift:+.4f} MORE, TO CUT DIA {_MM * seat.middle:.4f}"
-            for place, seat in enumerate(seats, start=2)
+            for place, seat in enumerate(seats, start=1)
         ),
         f"CONTOUR OF {fit.segments} ARCS WITHIN {1e6 * fit.largest_deviation:.3f} UM OF THE EXACT "
         "CURVE, COORDINATES TO 0.1 UM",
-        f"{contours} CONTOURS, HOLES FIRST, OUTER CONTOUR LAST; ALL RUN COUNTER-CLOCKWISE",
+        f"{len(flat.contours)} CONTOURS, HOLES FIRST, OUTER CONTOUR LAST; PASSES RUN TO AND FRO",
         f"EACH STOPS AT M01 BEFORE A TAB OF UP TO {_MM * options.tab_length:g} MM: HOLD THE SLUG",
+        "TABS ARE WHERE NO TOOTH COMES, IN HOLES WHERE A PIN PUSHES LEAST",
+        f"ABOUT {minutes(whole)} A PIECE, AN ESTIMATE",
         "M60 THREADS AND M50 CUTS THE WIRE ON MANY CONTROLS; HERE THEY ARE COMMENTS AT AN M00,",
         "REPLACE BOTH BY YOUR OWN CODES FOR AUTOMATIC THREADING",
         f"DESIGN {design.sha256[:16]}, CQDD-DESIGN {__version__}",
     ]
+
+
+def _register_lines(
+    dialect: Dialect, registers: dict[int, float], passes: Sequence[WirePass]
+) -> list[str]:
+    """What the registers hold: in a comment each, or set."""
+    names = {one.number: one.name for one in passes}
+    lines = []
+    for number, value in registers.items():
+        told = f"{dialect.offset.format(number)} = {_number(value * _MM)}"
+        name = names[number % 10]
+        lines.append(f"{told} ({name})" if dialect.assigned else f"({told}, {name})")
+    return lines
 
 
 def _comments(lines: list[str]) -> list[str]:
@@ -151,37 +230,72 @@ def _comments(lines: list[str]) -> list[str]:
     return [f"({line.encode('ascii', 'replace').decode('ascii')})" for line in cleaned]
 
 
-def _on_grid(contour: Contour) -> Contour:
-    """Put centre and radius of a circle on the grid of the coordinates; all its arcs agree then."""
-    if isinstance(contour, ArcContour):
-        return contour
-    centre = [_rounded(v * _MM) / _MM for v in contour.centre]
-    return Circle(np.array(centre), _rounded(contour.radius * _MM) / _MM)
-
-
 def _cut(
-    nominal: Contour, path: WirePath, title: str, tab_length: float, register: int
+    flat: FlatPart,
+    number: int,
+    step: int,
+    start: complex,
+    kerf: float,
+    options: ExportOptions,
+) -> _Cut:
+    nominal = flat.contours[number]
+    contour = begun(flat, number, options.tab_length)
+    circle = None
+    if isinstance(nominal, Circle):
+        # On the grid of the coordinates, so that the radii of its arcs agree.
+        circle = complex(*(_rounded(v * _MM) / _MM for v in nominal.centre))
+    wall, tab = split_for_tab(contour, tab_of(nominal, options.tab_length))
+    into_waste = kerf if number else -kerf
+    turns = wall.beside(into_waste), tab.beside(into_waste)
+    return _Cut(step, number == 0, start, wall, tab, turns, circle)
+
+
+def _main(
+    cut: _Cut, title: str, passes: Sequence[WirePass], dialect: Dialect, base: int
 ) -> list[str]:
-    contour = segmented(nominal)
-    centre = complex(*nominal.centre) if isinstance(nominal, Circle) else None
-    tab = tab_of(contour, tab_length)
-    first, last = split_for_tab(contour, tab)
-    start = _xy(path.start)
-    side = "G42" if path.outer else "G41"
-    return [
-        *_comments([title]),
-        f"G00 {start}",
-        "(M60 THREAD WIRE)",
-        "M00",
-        f"{side} D{register:02d} G01 {_xy(complex(*contour.points[0]))}",
-        *_moves(first, centre),
-        *_comments(
-            [f"TAB OF {_MM * tab:.3f} MM LEFT: HOLD THE {'PART' if path.outer else 'SLUG'}"]
-        ),
-        "M01",
-        *_moves(last, centre),
-        f"G40 G01 {start}",
-    ]
+    """Blocks of the main program for one contour."""
+    held = "PART" if cut.outer else "SLUG"
+    lines = [*_comments([title]), f"G00 {_xy(cut.start)}", "(M60 THREAD WIRE)", "M00"]
+    place = 0  # 0 at the contour's first joint, 1 where the tab begins
+    for chain, first in ((cut.wall, 1), (cut.tab, 3)):
+        on_tab = chain is cut.tab
+        if on_tab:
+            length = _MM * chain.length
+            lines += [*_comments([f"TAB OF {length:.3f} MM LEFT: HOLD THE {held}"]), "M01"]
+        for one in passes:
+            # The wall is run from the first joint, the tab to it.
+            forward = (place == 1) == on_tab
+            side = (_FORWARD if forward else _BACK)[0 if cut.outer else 1]
+            here = complex((cut.wall if place == 0 else cut.tab).points[0])
+            register = dialect.offset.format(base + one.number)
+            place = 1 - place
+            last = on_tab and one is passes[-1]
+            lines += [
+                *_comments([f"{one.name}{' OF THE TAB' if on_tab else ''}"]),
+                f"{side} {register} G01 {_xy(here)}",
+                f"M98 P{10 * cut.step + first + (not forward):04d}",
+                f"G40 G01 {_xy(cut.start if last else cut.turns[place])}",
+            ]
+            if on_tab and one is passes[0]:
+                told = "THE PART IS FREE: HELD BY MAGNETS" if cut.outer else "TAKE THE SLUG OUT"
+                lines += [f"({told})", "M00"]
+    return lines
+
+
+def _subprograms(cut: _Cut, dialect: Dialect, passes: int) -> list[str]:
+    """What the passes run along: the wall and the tab, forward and, where it is run, backward."""
+    lines = []
+    for chain, first in ((cut.wall, 1), (cut.tab, 3)):
+        both = [(chain, first), (chain.reversed(), first + 1)]
+        if passes == 1:
+            both = both[:1]
+        for way, number in both:
+            lines += [
+                dialect.subprogram.format(10 * cut.step + number),
+                *_moves(way, cut.circle),
+                "M99",
+            ]
+    return lines
 
 
 def _moves(chain: OpenChain, circle: complex | None) -> list[str]:

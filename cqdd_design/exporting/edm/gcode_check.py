@@ -11,21 +11,60 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cqdd_design.errors import ReadBackError
-from cqdd_design.exporting.edm.loops import Loop, fit_of
+from cqdd_design.exporting.edm.loops import ComplexArray, FloatArray, Loop, fit_of
+from cqdd_design.exporting.edm.passes import wire_passes
 from cqdd_design.exporting.edm.readback import refuse_misfit
+from cqdd_design.exporting.edm.seats import seats_of
+from cqdd_design.exporting.edm.wire_check import nearest_distances
 from cqdd_design.geometry.contours import Circle
 
 if TYPE_CHECKING:
     from cqdd_design.design.actuator import Edm
     from cqdd_design.exporting.edm.flat_parts import FlatPart
 
+_BENDS = 1e-3
+"""Bulges of an arc forward and backward agree within this."""
 ROUNDING = 0.2e-6
 """What coordinates to 0.1 um can move a contour by, m."""
 RADII = 0.15e-6
 """Radii to start and end of an arc agree within this, m."""
+_FOLLOWS = 1e-6
+"""The wire keeps its offset within this, m: rounded joints turn short arcs, and with them the way
+to the wire."""
 
 _MM = 1e-3
 _WORD = re.compile(r"([A-Z])([-+]?\d*\.?\d+)")
+_REGISTER = re.compile(r"\b[DH]0*(\d+) = (\d+\.\d+)")
+_NESTED = 1
+"""Depth of subprograms."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pass:
+    """What is cut from one offset on to offset off.
+
+    Attributes
+    ----------
+    segments : Loop
+        Of the contour, in the order they are run; lead-in and lead-out apart. Not closed.
+    side : int
+        41: the wire is left of the path; 42: right of it.
+    register : int
+        Of its offset.
+    lead_in, lead_out : (complex, complex)
+        Start and end, m.
+    """
+
+    segments: Loop
+    side: int
+    register: int
+    lead_in: tuple[complex, complex]
+    lead_out: tuple[complex, complex]
+
+    def backward(self) -> Loop:
+        """Its segments the other way round."""
+        one = self.segments
+        return Loop(one.end[::-1], one.start[::-1], -one.bulge[::-1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,32 +73,60 @@ class Cut:
 
     Attributes
     ----------
-    loop : Loop
-        What is cut with the offset on, lead-in and lead-out apart.
-    side : int
-        41: the wire is left of the path; 42: right of it.
-    lead_in, lead_out : (complex, complex)
-        Start and end, m.
+    start : complex
+        Where the wire is threaded, m.
+    wall, tab : tuple of Pass
+        Before and after the stop.
     stops : int
         M01 along the contour.
     """
 
-    loop: Loop
-    side: int
-    lead_in: tuple[complex, complex]
-    lead_out: tuple[complex, complex]
+    start: complex
+    wall: tuple[Pass, ...]
+    tab: tuple[Pass, ...]
     stops: int
+
+    @property
+    def loop(self) -> Loop:
+        """The closed contour: the first pass of the wall, and the tab the same way round."""
+        wall, tab = self.wall[0].segments, self.tab[0].segments
+        if tab.start[0] != wall.end[-1]:
+            tab = self.tab[0].backward()
+        return Loop(
+            *(np.concatenate(both) for both in zip(_arrays(wall), _arrays(tab), strict=True))
+        )
+
+
+def _arrays(loop: Loop) -> tuple[ComplexArray, ComplexArray, FloatArray]:
+    return loop.start, loop.end, loop.bulge
 
 
 @dataclass
 class _Control:
     """The modal state of a control while it reads."""
 
+    subprograms: dict[int, list[str]]
     place: complex = 0j
     side: int = 40
+    register: int = 0
     segments: list[tuple[complex, complex, float]] = field(default_factory=list)
-    stops: int = 0
     lead_in: tuple[complex, complex] = (0j, 0j)
+    start: complex = 0j
+    wall: list[Pass] = field(default_factory=list)
+    tab: list[Pass] = field(default_factory=list)
+    stops: int = 0
+    cuts: list[Cut] = field(default_factory=list)
+
+    def finish_cut(self) -> None:
+        """What was cut from one start hole is a cut."""
+        if self.wall or self.tab:
+            self.cuts.append(Cut(self.start, tuple(self.wall), tuple(self.tab), self.stops))
+        self.wall, self.tab, self.stops = [], [], 0
+
+
+def registers_of(text: str) -> dict[int, float]:
+    """Offsets that a program sets or asks for, by register, m."""
+    return {int(number): float(value) * _MM for number, value in _REGISTER.findall(text)}
 
 
 def read_program(text: str) -> list[Cut]:
@@ -73,27 +140,59 @@ def read_program(text: str) -> list[Cut]:
     lines = text.split("\n")
     if lines[0] != "%" or lines[-2:] != ["%", ""]:
         raise ReadBackError("the program does not begin and end with %.")
-    blocks = [block for line in lines[1:-2] if (block := re.sub(r"\(.*?\)", "", line).strip())]
+    bare = (re.sub(r"\(.*?\)", "", line).strip() for line in lines[1:-2])
+    blocks = [block for block in bare if block and not _REGISTER.match(block)]
     modal = {word for block in blocks[:4] for word in block.split()}
     if not {"G90", "G21"} <= modal:
         raise ReadBackError("the program does not say G90 G21, absolute millimetres.")
-    control, cuts = _Control(), []
+    if "M02" not in blocks:
+        raise ReadBackError("the program does not end at an M02.")
+    end = blocks.index("M02")
+    control = _Control(_subprograms(blocks[end + 1 :]))
+    _run(control, blocks[:end], 0)
+    control.finish_cut()
+    return control.cuts
+
+
+def _subprograms(blocks: list[str]) -> dict[int, list[str]]:
+    """Blocks of every subprogram by its number."""
+    found: dict[int, list[str]] = {}
+    own: list[str] | None = None
+    for block in blocks:
+        if own is None:
+            if not re.fullmatch(r"[ON]\d+", block):
+                raise ReadBackError(f"the block '{block}' stands in no subprogram.")
+            own = found.setdefault(int(block[1:]), [])
+        elif block == "M99":
+            own = None
+        else:
+            own.append(block)
+    if own is not None:
+        raise ReadBackError("a subprogram does not end at an M99.")
+    return found
+
+
+def _run(control: _Control, blocks: list[str], depth: int) -> None:
     for block in blocks:
         found = _WORD.findall(block)
         if "".join(block.split()) != "".join(letter + value for letter, value in found):
             raise ReadBackError(f"the block '{block}' is not understood.")
-        cut = _obey(control, [(letter, float(value)) for letter, value in found], block)
-        if cut is not None:
-            cuts.append(cut)
-    return cuts
+        words = [(letter, float(value)) for letter, value in found]
+        if ("M", 98.0) in words:
+            called = int(dict(words).get("P", 0))
+            if depth >= _NESTED or called not in control.subprograms:
+                raise ReadBackError(f"the block '{block}' calls no subprogram.")
+            _run(control, control.subprograms[called], depth + 1)
+            continue
+        _obey(control, words, block)
 
 
-def _obey(control: _Control, words: list[tuple[str, float]], block: str) -> Cut | None:
+def _obey(control: _Control, words: list[tuple[str, float]], block: str) -> None:
     codes = [int(value) for letter, value in words if letter == "G"]
     given = {letter: value for letter, value in words if letter not in "GM"}
     control.stops += ("M", 1.0) in words
     if "X" not in given:
-        return None
+        return
     target = complex(given["X"], given["Y"]) * _MM
     begin, control.place = control.place, target
     motion = next((code for code in codes if code in (0, 1, 2, 3)), None)
@@ -102,19 +201,22 @@ def _obey(control: _Control, words: list[tuple[str, float]], block: str) -> Cut 
     turned = next((code for code in codes if code in (40, 41, 42)), None)
     if turned in (41, 42):
         control.side, control.lead_in = turned, (begin, target)
-        control.segments, control.stops = [], 0
-        return None
+        control.register = int(given.get("D", given.get("H", 0)))
+        control.segments = []
+        return
     if turned == 40 and control.side != 40:
-        return _finished(control, (begin, target))
+        _finish(control, (begin, target))
+        return
     if control.side == 40:
         if motion != 0:
             raise ReadBackError(f"the block '{block}' cuts without an offset.")
-        return None
+        control.finish_cut()
+        control.start = target
+        return
     bulge = 0.0
     if motion in (2, 3):
         bulge = _bulge(begin, target, complex(given["I"], given["J"]) * _MM, motion == 3, block)
     control.segments.append((begin, target, bulge))
-    return None
 
 
 def _bulge(start: complex, end: complex, to_centre: complex, left: bool, block: str) -> float:
@@ -128,41 +230,108 @@ def _bulge(start: complex, end: complex, to_centre: complex, left: bool, block: 
     return math.tan(sweep / 4.0) if left else -math.tan((2.0 * math.pi - sweep) / 4.0)
 
 
-def _finished(control: _Control, lead_out: tuple[complex, complex]) -> Cut:
+def _finish(control: _Control, lead_out: tuple[complex, complex]) -> None:
     if not control.segments:
         raise ReadBackError("an offset is taken off before anything is cut.")
     start, end, bulge = (np.array(values) for values in zip(*control.segments, strict=True))
-    if end[-1] != start[0] or (end[:-1] != start[1:]).any():
+    if (end[:-1] != start[1:]).any() or start[0] != control.lead_in[1]:
         raise ReadBackError("a contour of the program does not close.")
-    cut = Cut(Loop(start, end, bulge), control.side, control.lead_in, lead_out, control.stops)
-    control.side, control.stops = 40, 0
-    return cut
+    one = Pass(Loop(start, end, bulge), control.side, control.register, control.lead_in, lead_out)
+    (control.tab if control.stops else control.wall).append(one)
+    control.side = 40
 
 
 def check_program(text: str, flat: FlatPart, edm: Edm) -> list[Cut]:
-    """Read a program and refuse it unless it cuts the part and keeps its material.
+    """Read a program and refuse it unless every pass cuts the part and keeps its material.
 
     Raises
     ------
     ReadBackError
         Naming the cut that is wrong.
     """
-    cuts = read_program(text)
+    cuts, registers = read_program(text), registers_of(text)
     contours = [flat.contours[number] for number in flat.cut_order]
     if len(cuts) != len(contours):
         raise ReadBackError(f"{flat.label}: {len(cuts)} cuts for {len(contours)} contours.")
+    shifts = {seat.contour: seat.shift for seat in seats_of(flat)}
     for number, (cut, contour) in enumerate(zip(cuts, contours, strict=True), start=1):
         label, outer = f"{flat.label}, cut {number}", contour is flat.shape.outer
-        if cut.loop.area <= 0.0:
+        if cut.stops != 1 or len(cut.tab) != len(cut.wall):
+            raise ReadBackError(f"{label}: it does not stop once, before the passes of its tab.")
+        loop = cut.loop
+        if loop.end[-1] != loop.start[0] or (loop.end[:-1] != loop.start[1:]).any():
+            raise ReadBackError(f"{label}: the contour of the program does not close.")
+        if loop.area <= 0.0:
             raise ReadBackError(f"{label}: it runs clockwise.")
-        if cut.side != (42 if outer else 41):
-            raise ReadBackError(f"{label}: G{cut.side} puts the wire into the material.")
-        if (cut.loop.clearance(cut.lead_in[0]) > 0.0) != outer:
+        if (loop.clearance(cut.start) > 0.0) != outer:
             raise ReadBackError(f"{label}: the wire is threaded in the material.")
-        if cut.stops != 1 or cut.lead_out != cut.lead_in[::-1]:
-            raise ReadBackError(f"{label}: it does not stop once and lead out as it led in.")
-        _refuse_other_shape(label, cut.loop, contour, flat, edm, outer=outer)
+        if cut.wall[0].lead_in[0] != cut.start or cut.tab[-1].lead_out[1] != cut.start:
+            raise ReadBackError(f"{label}: it does not lead out as it led in.")
+        passes = wire_passes(flat.contours, edm, len(cut.wall))
+        shift = shifts.get(flat.cut_order[number - 1], 0.0)
+        offsets = [one.offset + shift for one in passes]
+        _refuse_other_passes(label, cut, registers, offsets, outer=outer)
+        _refuse_other_shape(label, loop, contour, flat, edm, outer=outer)
     return cuts
+
+
+def _refuse_other_passes(
+    label: str, cut: Cut, registers: dict[int, float], offsets: list[float], *, outer: bool
+) -> None:
+    """Every pass replayed: the wire at its offset from the contour, in the waste, to and fro."""
+    loop = cut.loop
+    begin, kerf = cut.wall[0].segments.start[0], offsets[0]
+    turn = begin
+    for passes in (cut.wall, cut.tab):
+        for number, (one, offset) in enumerate(zip(passes, offsets, strict=True), start=1):
+            name = f"{label}, pass {number}{' of the tab' if passes is cut.tab else ''}"
+            if abs(registers.get(one.register, 0.0) - offset) > 2.0 * ROUNDING:
+                raise ReadBackError(
+                    f"{name}: its register {one.register} holds "
+                    f"{registers.get(one.register, 0.0) * 1e3:.4f} mm, not {offset * 1e3:.4f} mm."
+                )
+            first = passes[0]
+            same = first.segments if number % 2 else first.backward()
+            if not _is_same(one.segments, same):
+                raise ReadBackError(f"{name}: it does not run along the pass before it.")
+            if one.segments.start[0] != turn:
+                raise ReadBackError(f"{name}: it does not begin where the wire is.")
+            turn = one.segments.end[-1]
+            path = _offset(one.segments, registers[one.register], left=one.side == 41)
+            away = nearest_distances(path, loop)
+            if np.abs(away - offset).max() > _FOLLOWS:
+                raise ReadBackError(
+                    f"{name}: the wire runs {away.min() * 1e3:.4f} to {away.max() * 1e3:.4f} mm "
+                    f"from the contour, not {offset * 1e3:.4f} mm."
+                )
+            middle = path.start[len(path.start) // 2]
+            if (loop.clearance(middle) > 0.0) != outer:
+                raise ReadBackError(f"{name}: G{one.side} puts the wire into the material.")
+            ends = [one.lead_out[1]] if passes is cut.wall or number < len(offsets) else []
+            for place in ends:
+                if abs(loop.clearance(place) - (kerf if outer else -kerf)) > _FOLLOWS:
+                    raise ReadBackError(f"{name}: it does not turn in the middle of the kerf.")
+    if turn != begin:
+        raise ReadBackError(f"{label}: its tab does not end where it began.")
+
+
+def _is_same(one: Loop, other: Loop) -> bool:
+    """Joint by joint; the rounded centre of an arc bends it a little less or more backwards."""
+    return (
+        np.array_equal(one.start, other.start)
+        and np.array_equal(one.end, other.end)
+        and bool(np.abs(one.bulge - other.bulge).max() < _BENDS)
+    )
+
+
+def _offset(loop: Loop, distance: float, *, left: bool) -> Loop:
+    """Segments moved sideways as a control moves them: arcs about their own centres."""
+    side = distance if left else -distance
+    along = (loop.end - loop.start) / np.abs(loop.end - loop.start)
+    half = np.exp(0.5j * loop.sweep)
+    return Loop(
+        loop.start + 1j * side * along / half, loop.end + 1j * side * along * half, loop.bulge
+    )
 
 
 def _refuse_other_shape(

@@ -16,8 +16,10 @@ import numpy as np
 
 from cqdd_design.design.actuator import THINNEST_WIRE
 from cqdd_design.errors import GeometryError
+from cqdd_design.exporting.edm.begin import begun
 from cqdd_design.exporting.edm.flat_parts import FlatPart, reach_of
-from cqdd_design.geometry.contours import Circle, Contour, as_complex, as_points
+from cqdd_design.exporting.options import DEFAULTS
+from cqdd_design.geometry.contours import ArcContour, Circle, Contour, as_complex, as_points
 from cqdd_design.units import LENGTH, parse_quantity
 
 DIAMETER = 1.5e-3
@@ -30,15 +32,22 @@ THREADING = 0.1e-3
 _PLACES = 96
 
 
-def start_holes(flat: FlatPart, wire_diameter: float) -> tuple[Circle, ...]:
+def start_holes(
+    flat: FlatPart, wire_diameter: float, tab: float = DEFAULTS.tab_length
+) -> tuple[Circle, ...]:
     """Start holes of a part: outside its outer contour, then inside each inner one, in order.
+
+    Parameters
+    ----------
+    tab : float
+        Length of the tab of a contour that is long enough, at whose end its cut begins, m.
 
     Raises
     ------
     GeometryError
         When a contour is too small for a hole that takes the wire.
     """
-    holes = [_beside(flat.shape.outer, -1.0, DIAMETER / 2.0, WALL)]
+    holes = [_beside(flat, 0, tab, DIAMETER / 2.0, WALL)]
     for number, contour in enumerate(flat.shape.holes, start=1):
         room = _room_at_centre(contour)
         scale = min(1.0, room / (DIAMETER / 2.0 + WALL))
@@ -56,7 +65,7 @@ def start_holes(flat: FlatPart, wire_diameter: float) -> tuple[Circle, ...]:
                 f"for a start hole that takes edm.wire_diameter {wire_diameter * 1e3:g} mm and is "
                 f"clear of the wall; make it {need * 1e3:.3g} mm, or {thinner}."
             )
-        holes.append(_beside(contour, 1.0, radius, scale * WALL))
+        holes.append(_beside(flat, number, tab, radius, scale * WALL))
     return tuple(holes)
 
 
@@ -67,17 +76,16 @@ def _room_at_centre(contour: Contour) -> float:
     return float(contour.distances(contour.moments().centroid[None, :])[0])
 
 
-def _first_joint(contour: Contour) -> tuple[complex, complex]:
+def _first_joint(contour: ArcContour) -> tuple[complex, complex]:
     """Where the cut of a contour starts, and the unit normal to its left."""
-    if isinstance(contour, Circle):
-        return complex(*contour.centre) + contour.radius, complex(-1.0, 0.0)
     slope = complex(*contour.evaluate(np.zeros(1))[1][0, 0])
     return complex(*contour.points[0]), 1j * slope / abs(slope)
 
 
-def _beside(contour: Contour, side: float, radius: float, wall: float) -> Circle:
+def _beside(flat: FlatPart, number: int, tab: float, radius: float, wall: float) -> Circle:
     """Find the nearest place to the first joint, straight off the contour, that is clear of it."""
-    joint, normal = _first_joint(contour)
+    contour, side = flat.contours[number], 1.0 if number else -1.0
+    joint, normal = _first_joint(begun(flat, number, tab))
     need = radius + wall
     centre = contour.centre if isinstance(contour, Circle) else contour.moments().centroid
     inward = abs(complex(*centre) - joint)

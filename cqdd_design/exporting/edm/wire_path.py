@@ -24,7 +24,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.errors import ReadBackError
+from cqdd_design.exporting.edm.begin import begun
 from cqdd_design.exporting.edm.start_holes import start_holes
+from cqdd_design.exporting.options import DEFAULTS
 from cqdd_design.geometry.contours import (
     ArcContour,
     Circle,
@@ -83,6 +85,22 @@ class OpenChain:
     points: ComplexArray
     bulges: FloatArray
 
+    @property
+    def length(self) -> float:
+        """M."""
+        turned = np.sinc(2.0 * np.arctan(self.bulges) / math.pi)
+        return float(np.sum(np.abs(np.diff(self.points)) / turned))
+
+    def reversed(self) -> OpenChain:
+        """From its end to its begin."""
+        return OpenChain(self.points[::-1], -self.bulges[::-1])
+
+    def beside(self, distance: float) -> complex:
+        """The place to the left of its begin, m."""
+        along = self.points[1] - self.points[0]
+        along *= np.exp(-2j * math.atan(float(self.bulges[0]))) / np.abs(along)
+        return complex(self.points[0] + 1j * distance * along)
+
 
 def contour_name(number: int) -> str:
     """Name of a contour of a part: 0 is the outer one."""
@@ -94,8 +112,13 @@ def contour_size(contour: Contour, sign: str = "dia ") -> str:
     return f"{sign}{2e3 * contour.radius:.4f}" if isinstance(contour, Circle) else "profile"
 
 
-def wire_paths(flat: FlatPart, edm: Edm) -> tuple[WirePath, ...]:
-    """Paths of every contour of a part, the outer one first.
+def wire_paths(flat: FlatPart, edm: Edm, tab: float = DEFAULTS.tab_length) -> tuple[WirePath, ...]:
+    """Paths of every contour of a part on the finishing cut, the outer one first.
+
+    Parameters
+    ----------
+    tab : float
+        As `start_holes` takes it.
 
     Raises
     ------
@@ -104,19 +127,22 @@ def wire_paths(flat: FlatPart, edm: Edm) -> tuple[WirePath, ...]:
     ReadBackError
         When the wire is too thick for a contour: the part exists, but the files would not cut it.
     """
-    starts = start_holes(flat, edm.wire_diameter)
+    starts = start_holes(flat, edm.wire_diameter, tab)
     return tuple(
         WirePath(
             contour_name(number),
             offset_contour(
-                contour, edm, outer=number == 0, feature=f"{flat.label}, {contour_name(number)}"
+                begun(flat, number, tab),
+                edm,
+                outer=number == 0,
+                feature=f"{flat.label}, {contour_name(number)}",
             ),
             complex(*start.centre),
             2.0 * start.radius,
             edm.wire_offset,
             number == 0,
         )
-        for number, (contour, start) in enumerate(zip(flat.contours, starts, strict=True))
+        for number, start in enumerate(starts)
     )
 
 

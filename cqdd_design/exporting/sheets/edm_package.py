@@ -31,7 +31,7 @@ def export_edm(job: ExportJob) -> tuple[WrittenFile, ...]:
     files: list[WrittenFile] = []
     parts: list[CutFacts] = []
     for flat in flat_parts(job.machine):
-        facts = facts_of(flat, job.machine)
+        facts = facts_of(flat, job.machine, job.options)
         path = job.path(f"-{flat.label}.dxf", FOLDER)
         files.append(write_flat_part(flat, job.design, path, job.options, wire=facts.paths))
         files += _sheets(job, facts)

@@ -15,6 +15,13 @@ from cqdd_design.exporting.edm.cut_facts import (
     WALL_SQUARENESS,
     zone_text,
 )
+from cqdd_design.exporting.edm.passes import (
+    BORDER,
+    ROUGH_RATE,
+    SKIM_SPEED,
+    THREADING_TIME,
+    minutes,
+)
 from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
 from cqdd_design.geometry.columns import has_columns
 from cqdd_design.version import __version__
@@ -46,7 +53,7 @@ def readme_text(parts: Sequence[CutFacts], options: ExportOptions) -> str:
         *_paragraph(
             "All files are in millimetres, the origin on the axis of the part, seen from above "
             "with the lower face on the table. Cut the parts below; each has one DXF, one cut "
-            "sheet (PDF, and the same as SVG) and, where it was asked for, one ISO program (.nc)."
+            "sheet (PDF, and the same as SVG) and, where it was asked for, one program (.nc)."
         ),
         "",
         *_part_lines(parts),
@@ -77,15 +84,24 @@ def readme_text(parts: Sequence[CutFacts], options: ExportOptions) -> str:
             ],
         ),
         *_section("Order of cuts", _order(parts)),
+        *_section("Blank and time", _blanks(parts)),
         *_section("Tolerances", _tolerances(parts)),
         *_section("Discs", _discs(parts)),
         *_section(
             "In the programs (.nc)",
             [
-                "G90 G21, arcs as G02 and G03 with I and J from the start of each arc. G41 and "
-                "G42 take the wire offset from D01; contours with a seat from D02, whose value "
-                "is in the program. Each contour stops at M01 before its last "
-                f"{_MM * options.tab_length:g} mm at most, the tab: hold the slug, then go on.",
+                "G90 G21, arcs as G02 and G03 with I and J from the start of each arc. "
+                f"{_passes(parts[0], options)} Each contour stops at M01 before its last "
+                f"{_MM * options.tab_length:g} mm at most, the tab: hold the slug, then go on; the "
+                "tab takes the same passes.",
+                "What a contour runs along is a subprogram, forward and backward; passes run to "
+                "and fro. G41 and G42 take the offset of each pass from a register of its own, "
+                "contours with a seat from 11 on; the values are in the program. They are wire "
+                "radius, gap and what later passes take: the last is right for this wire and gap, "
+                "replace the others by those of your technology.",
+                "Each contour begins so that its tab lies where no tooth comes, in a valley of the "
+                "disc or between two teeth of the ring, or outward in an output hole, where a pin "
+                "pushes least.",
                 "Threading and cutting of the wire differ between controls: M60 and M50 are "
                 "comments beside an M00.",
             ],
@@ -140,6 +156,32 @@ def _order(parts: Sequence[CutFacts]) -> list[str]:
             names = [*names[:3], "...", *names[-2:]]
         said.append(f"{facts.flat.label}: {', '.join(names)}.")
     return said
+
+
+def _passes(facts: CutFacts, options: ExportOptions) -> str:
+    told = ", ".join(
+        f"{one.name.lower()} {_MM * one.offset:.4f}" + (f" (leaves {_MM * one.left:.4f})")
+        for one in facts.passes
+    )
+    kind = "H, set in the program" if options.gcode_dialect == "sodick" else "D, set on the control"
+    many = "pass" if len(facts.passes) == 1 else "passes"
+    return f"{len(facts.passes)} {many} of {facts.flat.label}, offsets {kind}, mm: {told}."
+
+
+def _blanks(parts: Sequence[CutFacts]) -> list[str]:
+    said = []
+    for facts in parts:
+        side, hours = _MM * facts.blank, minutes(sum(facts.times)).lower()
+        said.append(
+            f"{facts.flat.label}: square blank of {side:.0f} mm at least about the axis of the "
+            f"part, {_MM * BORDER:g} mm of it outside the cuts to clamp on; about {hours} a piece."
+        )
+    return [
+        *said,
+        f"Times are an estimate: rough cut {ROUGH_RATE * 60e6:g} mm2 a minute, skim cuts "
+        f"{_MM * SKIM_SPEED * 60.0:g} mm a minute, {THREADING_TIME / 60.0:g} minute for each start "
+        "hole.",
+    ]
 
 
 def _tolerances(parts: Sequence[CutFacts]) -> list[str]:

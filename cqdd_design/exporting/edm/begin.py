@@ -1,0 +1,111 @@
+r"""Where the cut of a contour begins: so that its tab, the last that is cut, lies where least is.
+
+::
+
+      valley of the disc         between two teeth of the ring       an output hole
+        \            /                ____                          .-^-.  outward: a pin
+         \__________/                /    \   the tab               |   |  pushes along
+          ^ the tab                 /      \                        '---'  the circle there
+
+A tab is cut last, from a wall that is finished on both sides of it, and shows. Its middle is put
+where a tooth has no lever about the disc's centre, or where no tooth comes; in a round contour off
+the axis, where a pin's push has no lever about the axis. The bore and the outside of the ring are
+seats all round, and begin at the right.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cqdd_design.exporting.options import DEFAULTS
+from cqdd_design.geometry.contours import (
+    ArcContour,
+    Circle,
+    Contour,
+    FloatArray,
+    as_complex,
+    as_points,
+)
+
+if TYPE_CHECKING:
+    from cqdd_design.exporting.edm.flat_parts import FlatPart
+
+TABS_PER_CONTOUR = 8.0
+"""A tab takes no more than this fraction of a contour."""
+_PER_SEGMENT = 256
+_NO_ARC = 1e-7
+"""Shorter pieces of an arc are none, m."""
+
+
+def tab_of(contour: Contour, wanted: float = DEFAULTS.tab_length) -> float:
+    """Length of the tab of a contour, m."""
+    return min(wanted, contour.length() / TABS_PER_CONTOUR)
+
+
+def begun(flat: FlatPart, number: int, tab: float = DEFAULTS.tab_length) -> ArcContour:
+    """A contour of a part as arcs, from the end of its tab round to there.
+
+    Parameters
+    ----------
+    number : int
+        Of the contour: 0 is the outer one.
+    tab : float
+        Length of the tab where the contour is long enough, m.
+    """
+    contour = flat.contours[number]
+    half = 0.5 * tab_of(contour, tab)
+    if isinstance(contour, Circle):
+        place = complex(*contour.centre)
+        outward = cmath.phase(place) if abs(place) > contour.radius else 0.0
+        return _half_circles(contour, outward + half / contour.radius)
+    return _from_place(contour, _place_at(contour, flat.quiet_angle) + half)
+
+
+def _half_circles(circle: Circle, angle: float) -> ArcContour:
+    reach = circle.radius * np.array([math.cos(angle), math.sin(angle)])
+    return ArcContour(np.stack([circle.centre + reach, circle.centre - reach]), np.ones(2))
+
+
+def _lengths(contour: ArcContour) -> FloatArray:
+    start = as_complex(contour.points)
+    chord = np.abs(np.roll(start, -1) - start)
+    return np.asarray(chord / np.sinc(contour.sweeps / (2.0 * math.pi)))
+
+
+def _place_at(contour: ArcContour, angle: float) -> float:
+    """Way along a contour about the axis to where it has a polar angle, m."""
+    share = np.arange(_PER_SEGMENT) / _PER_SEGMENT
+    seen = np.angle(as_complex(contour.evaluate(share)[0]) * cmath.exp(-1j * angle))
+    segment, step = np.unravel_index(np.abs(seen).argmin(), seen.shape)
+    lengths = _lengths(contour)
+    return float(lengths[:segment].sum() + share[step] * lengths[segment])
+
+
+def _from_place(contour: ArcContour, place: float) -> ArcContour:
+    """The same contour from a place along it, m: one segment is cut in two."""
+    lengths = _lengths(contour)
+    ends = np.cumsum(lengths)
+    place %= float(ends[-1])
+    segment = int(np.searchsorted(ends, place, side="right"))
+    left = float(ends[segment]) - place
+    if min(left, float(lengths[segment]) - left) < _NO_ARC:
+        first = -segment - (left < _NO_ARC)
+        return ArcContour(np.roll(contour.points, first, axis=0), np.roll(contour.bulges, first))
+    share = 1.0 - left / float(lengths[segment])
+    at = as_complex(contour.evaluate(np.array([share]))[0])[segment]
+    quarter = math.atan(float(contour.bulges[segment]))
+    joints = as_complex(contour.points)
+    after = np.arange(segment + 1, segment + len(joints)) % len(joints)
+    points = np.concatenate([at, joints[after], joints[segment : segment + 1]])
+    bulges = np.concatenate(
+        [
+            [math.tan((1.0 - share) * quarter)],
+            contour.bulges[after],
+            [math.tan(share * quarter)],
+        ]
+    )
+    return ArcContour(as_points(points), bulges)
