@@ -106,6 +106,7 @@ def test_points_outside_are_named_with_line_time_torque_speed_and_limit(
     assert done.document["design"]["requirements"]["duty_file"] == "knee.csv"
 
 
+@pytest.mark.deep
 def test_a_given_duty_wins_over_that_of_the_design(cqdd, tmp_path, paper_design_file):
     own = tmp_path / "own.toml"
     text = paper_design_file.read_text()

@@ -10,7 +10,8 @@ def told(cqdd, design, *options):
     return done.document["results"]
 
 
-@pytest.mark.parametrize("sense", [pytest.param("drive", marks=pytest.mark.deep), "backdrive"])
+@pytest.mark.deep
+@pytest.mark.parametrize("sense", ["drive", "backdrive"])
 def test_friction_changes_forces_precision_and_life(cqdd, paper_design_file, sense):
     without = told(cqdd, paper_design_file, "--friction", "off")
     rubbed = told(cqdd, paper_design_file, "--friction", sense)

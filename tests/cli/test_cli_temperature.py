@@ -62,6 +62,7 @@ def test_a_material_without_expansion_is_a_sentence(cqdd, tmp_path: Path, comman
     assert "no thermal expansion of 'PA6-CF 15% FDM', of which the carrier is made" in done.err
 
 
+@pytest.mark.deep
 def test_a_part_beyond_its_materials_limit_is_said(cqdd, tmp_path: Path) -> None:
     path = with_table(tmp_path, '\n[housing]\nmaterial = "PLA"\n')
     done = cqdd("analyse", path, "--angles", "16", "--temperature", "60 degC")

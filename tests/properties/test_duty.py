@@ -307,6 +307,7 @@ def test_heat_of_a_log_is_that_of_its_rows(design):
     assert steps @ heats.fixed / log.cycle_time == pytest.approx(mean.heat.fixed, rel=1e-9)
 
 
+@pytest.mark.deep
 def test_the_winding_of_a_slow_cycle_is_hotter_than_its_mean(design):
     def found(cycle):
         time = np.linspace(0.0, cycle, 400)

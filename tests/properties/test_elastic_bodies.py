@@ -136,10 +136,8 @@ def on_springs(shape: DiscShape, body: Body, ids: list[int], stiffness: np.ndarr
     return held(contacts, reading, push, push, radial, stiffness, found)
 
 
-@pytest.mark.parametrize(
-    ("half_width", "coarse"),
-    [(0.3e-3, 0.6e-3), pytest.param(0.15e-3, 0.4e-3, marks=pytest.mark.deep)],
-)
+@pytest.mark.deep
+@pytest.mark.parametrize(("half_width", "coarse"), [(0.3e-3, 0.6e-3), (0.15e-3, 0.4e-3)])
 def test_influence_agrees_with_patches_on_a_fine_mesh_whatever_their_width(
     half_width: float, coarse: float
 ) -> None:

@@ -129,6 +129,7 @@ def test_wrong_rows_are_refused_before_anything_is_built(monkeypatch: pytest.Mon
         chosen({"mass": 1.0}, ["mass", "mass"], ["friction_load", "thermal_resistance"])
 
 
+@pytest.mark.deep
 def test_rows_without_a_value_are_none_in_the_calibration(actuator: ActuatorParameters) -> None:
     """The bench reads no torque bandwidth of this actuator: neither number nor agreement."""
     found = calibrate(

@@ -323,7 +323,8 @@ def test_rollers_and_pins_are_drawn_weighed_and_listed() -> None:
     assert listed["ring pin"] == ("make", "ground pin 4 x 21.5 mm")
 
 
-@pytest.mark.parametrize("kind", [pytest.param("plain", marks=pytest.mark.deep), "needle"])
+@pytest.mark.deep
+@pytest.mark.parametrize("kind", ["plain", "needle"])
 def test_nothing_runs_into_rollers_or_the_lands_that_hold_their_pins(kind: str) -> None:
     design = ring(roller=kind)
     bought = ("motor", "rotor", "stator", "screw", "encoder", "magnet")

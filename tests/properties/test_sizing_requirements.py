@@ -262,6 +262,7 @@ def test_a_geared_actuator_is_no_motor():
         requirements_from_mapping({"ratio": 10, "motor": "CubeMars AK80-9 V3"})
 
 
+@pytest.mark.deep
 def test_what_was_not_stated_stays_assumed():
     design = sized(ratio=10).design
     assert "requirements.peak_torque" in design.assumed

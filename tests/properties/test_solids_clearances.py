@@ -51,6 +51,7 @@ def test_gaps_are_those_of_the_design(motion: AssemblyMotion) -> None:
     assert {"eccentric shaft", "cam bearing"} in [set(pair) for pair in motion.seats]
 
 
+@pytest.mark.deep
 def test_columns_keep_their_distance_from_the_discs_all_the_way_round() -> None:
     design, parts = known_design("columns"), known_parts("columns")
     pieces = tuple(part_named(parts, name) for name in ("disc", "carrier column"))

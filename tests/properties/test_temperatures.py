@@ -264,6 +264,7 @@ def test_reference_s_is_too_hot_and_binds(found: MachineTemperatures) -> None:
     assert found.warnings
 
 
+@pytest.mark.deep
 def test_parts_that_press_on_each_other_heat_themselves(machine: Machine) -> None:
     """A load that S bears as drawn: its carrier grows, warm parts rub more, and heat runs away."""
     warm = resolve(

@@ -201,6 +201,7 @@ def test_an_interrupt_keeps_what_is_done() -> None:
     assert result.to_dict()["sensitivity"] is None
 
 
+@pytest.mark.deep
 def test_blocks_in_any_order_give_the_same() -> None:
     ensemble = make_ensemble(paper(), angles=44)
 
