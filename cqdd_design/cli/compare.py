@@ -16,7 +16,7 @@ from cqdd_design.cli.options import (
     quantity_option,
 )
 from cqdd_design.cli.session import Output, read_design
-from cqdd_design.cli.tables import number, table
+from cqdd_design.cli.tables import WIDTH, number, table
 
 if TYPE_CHECKING:
     from cqdd_design.planetary.compare import PlanetaryComparison
@@ -123,7 +123,7 @@ def _lines(found: PlanetaryComparison) -> list[str]:
     claims = []
     for claim in found.claims:
         told = f"- {claim.claim} Paper: {claim.paper}. Ours: {claim.ours}. It {claim.verdict}."
-        claims.append(textwrap.fill(told, width=96, subsequent_indent="  "))
+        claims.append(textwrap.fill(told, width=WIDTH, subsequent_indent="  "))
     settings = [
         [name, value, "default" if usual else "given"]
         for name, value, usual in found.gears.settings.rows()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -20,7 +21,7 @@ from cqdd_design.cli.options import (
 )
 from cqdd_design.cli.requirement_options import stated, with_requirements
 from cqdd_design.cli.session import Output
-from cqdd_design.cli.tables import binding, checks_table, headline_table, number, table
+from cqdd_design.cli.tables import WIDTH, binding, checks_table, headline_table, number, table
 
 if TYPE_CHECKING:
     from cqdd_design.roads.size import Road
@@ -84,6 +85,9 @@ def size(
             "--pick", help="Write this alternative; judged, and exit code 4 unless it is yes."
         ),
     ] = None,
+    verbose: Annotated[
+        bool, typer.Option("--verbose", help="Tell all checks, and what the search rejected.")
+    ] = False,
     force: Force = False,
     **asked: Any,
 ) -> int:
@@ -123,10 +127,10 @@ def size(
         progress=out.note,
     )
     judged = road.verdict
-    out.say(*_lines(road))
+    out.say(*_lines(road, verbose=verbose))
     if road.choice is not None:
         out.say(*_motors(road.choice))
-    out.say(*(_screened(road) if judged is None else _judged(judged)))
+    out.say(*(_screened(road) if judged is None else _judged(road, judged, verbose=verbose)))
     out.warn(*road.warnings)
     out.wrote(road.files)
     out.document(road.to_dict(), design=road.design, checks=road.lines, files=road.files)
@@ -136,13 +140,13 @@ def size(
     return 4
 
 
-def _lines(road: Road) -> list[str]:
+def _lines(road: Road, *, verbose: bool) -> list[str]:
     design, sizing = road.design, road.sizing
     others = sum(not key.startswith("requirements.") for key in design.assumed)
     assumed = [key.split(".")[1] for key in design.assumed if key.startswith("requirements.")]
     assumed = [key for key in assumed if key not in road.chosen]
     asked = design.to_mapping()["requirements"]
-    motor = "what the motor can do through this gearbox"
+    motor = "by what the motor can do"
     defaults = [[f"  {key}", str(asked[key]), motor] for key in asked if key in road.derived]
     defaults += [[f"  {key}", str(asked[key]), ""] for key in assumed]
     rejected = [[f"  {reason}", f"{count:,}"] for reason, count in sizing.rejected.items() if count]
@@ -151,14 +155,15 @@ def _lines(road: Road) -> list[str]:
         table(defaults),
         f"  and {others} defaults of the design file",
         "",
-        f"{sizing.candidates_screened:,} candidates, {sizing.survivors:,} pass the first screen; "
-        "rejected first by:",
-        table(rejected, right=(1,)),
+        f"{sizing.candidates_screened:,} candidates, {sizing.survivors:,} pass the first screen"
+        + ("; rejected first by:" if verbose else ""),
+        *([table(rejected, right=(1,))] if verbose else []),
         "",
         table(_choices(sizing), head=_CHOICE_HEAD, right=tuple(range(1, len(_CHOICE_HEAD)))),
-        f"counted: {sizing.objective.scope};",
-        "`inertia` weighs the whole machine.",
-        *_costs(sizing),
+        textwrap.fill(
+            f"sizes in mm; counted: {sizing.objective.scope}; `inertia` weighs the whole machine.",
+            WIDTH,
+        ),
         "",
     ]
 
@@ -169,7 +174,10 @@ def _costs(sizing: SizingResult) -> list[str]:
         f"{one.words} " + ("not in this space" if one.mass is None else f"{1e3 * one.mass:+.0f} g")
         for one in sizing.costs
     ]
-    return ["what more would cost, near this design: " + "; ".join(told)] if told else []
+    if not told:
+        return []
+    words = "what more would cost, near this design: " + "; ".join(told)
+    return [textwrap.fill(words, WIDTH, subsequent_indent="  "), ""]
 
 
 def _motors(choice: MotorChoice) -> list[str]:
@@ -195,20 +203,33 @@ def _screened(road: Road) -> list[str]:
     ]
 
 
-def _judged(judged: Verdict) -> list[str]:
-    """The verdict on the design that was written."""
-    return [headline_table(judged), "", binding(judged), "", judged.sentence]
+def _judged(road: Road, judged: Verdict, *, verbose: bool) -> list[str]:
+    """The verdict on the design that was written, and where to go from it."""
+    place = road.files[0].path.as_posix()
+    return [
+        *([checks_table(judged.lines), ""] if verbose else []),
+        headline_table(judged),
+        "",
+        binding(judged),
+        "",
+        *_costs(road.sizing),
+        judged.sentence,
+        "next:",
+        f"  cqdd-design check {place}",
+        f"  cqdd-design report {place}",
+        f"  cqdd-design export {place} --to edm,step",
+    ]
 
 
 _CHOICE_HEAD = (
     "design",
     "mass g",
-    "inertia kg*mm2",
+    "kg*mm2",
     "reserve",
-    "R mm",
-    "e mm",
-    "tooth mm",
-    "disc mm",
+    "R",
+    "e",
+    "tooth",
+    "disc",
     "pins",
     "bearing",
 )

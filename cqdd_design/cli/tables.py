@@ -11,10 +11,18 @@ if TYPE_CHECKING:
     from cqdd_design.verdict import Verdict
 
 
+WIDTH = 80
+"""Of a line, as far as what is told can be broken."""
+_LEAST_WIDTH = 16
+"""Of a last column that is folded."""
+
+
 def table(
     rows: Sequence[Sequence[str]], *, head: Sequence[str] | None = None, right: Sequence[int] = ()
 ) -> str:
     """Columns as wide as their longest cell, two blanks apart; no trailing blanks.
+
+    Words of the last column are folded where lines would be longer than 80.
 
     Parameters
     ----------
@@ -30,6 +38,10 @@ def table(
     if not every:
         return ""
     widths = [max(len(row[i]) for row in every) for i in range(len(every[0]))]
+    left = WIDTH - sum(width + 2 for width in widths[:-1])
+    if len(widths) > 1 and _LEAST_WIDTH <= left < widths[-1] and len(widths) - 1 not in right:
+        every = [folded for row in every for folded in _folded(row, left)]
+        widths[-1] = max(len(row[-1]) for row in every)
     if head is not None:
         every.insert(1, ["-" * width for width in widths])
     lines = []
@@ -42,6 +54,13 @@ def table(
     return "\n".join(lines)
 
 
+def _folded(row: list[str], width: int) -> list[list[str]]:
+    """A row, and the rows below it that go on with its last cell."""
+    pieces = textwrap.wrap(row[-1], width, break_long_words=False, break_on_hyphens=False) or [""]
+    blanks = [""] * (len(row) - 1)
+    return [[*(row[:-1] if place == 0 else blanks), one] for place, one in enumerate(pieces)]
+
+
 def number(value: float, digits: int = 4) -> str:
     """A number for people: four significant digits, no exponent in the usual range."""
     text = f"{value:.{digits}g}"
@@ -51,7 +70,7 @@ def number(value: float, digits: int = 4) -> str:
 
 
 def checks_table(checks: Sequence[Check]) -> str:
-    """One line a check: status, id, value, limit, margin, title."""
+    """One line a check: status, id, value, limit, margin; `explain` tells what each is."""
     rows = []
     for check in checks:
         relation = "<=" if check.sense == "max" else ">="
@@ -66,10 +85,9 @@ def checks_table(checks: Sequence[Check]) -> str:
                 _maybe(check.limit),
                 check.unit,
                 margin,
-                check.title,
             ]
         )
-    head = ["", "check", "value", "", "limit", "unit", "margin", "what"]
+    head = ["", "check", "value", "", "limit", "unit", "margin"]
     return table(rows, head=head, right=(2, 4, 6))
 
 
@@ -79,7 +97,7 @@ def _maybe(value: float | None) -> str:
 
 
 def headline_table(judged: Verdict) -> str:
-    """The seven figures: status, what, value, what is asked, unit, and what it rests on."""
+    """The seven figures: status, what, value, what is asked, unit; then what they rest on."""
     rows = [
         [
             one.status.upper() if one.status != "pass" else "pass",
@@ -87,11 +105,14 @@ def headline_table(judged: Verdict) -> str:
             _maybe(one.value),
             "-" if one.required is None else number(one.required),
             one.unit,
-            one.basis,
         ]
         for one in judged.headline
     ]
-    return table(rows, head=["", "figure", "value", "asked", "unit", "by"], right=(2, 3))
+    bases: dict[str, list[str]] = {}
+    for one in judged.headline:
+        bases.setdefault(one.basis, []).append(one.title.partition(" of ")[0])
+    figures = table(rows, head=["", "figure", "value", "asked", "unit"], right=(2, 3))
+    return figures + "\n" + told([(", ".join(names), basis) for basis, names in bases.items()])
 
 
 def binding(judged: Verdict) -> str:
@@ -101,7 +122,7 @@ def binding(judged: Verdict) -> str:
         return "what is not met, and what would change that:\n" + told(
             [
                 (
-                    line.id,
+                    f"{line.id}, {line.title}",
                     f"{line.substituted}: {line.remedy}" if not line.known else line.remedy,
                 )
                 for line in short
@@ -112,18 +133,23 @@ def binding(judged: Verdict) -> str:
     sentences = [f"closest to their limits, by margin: {closest}"]
     sentences += [f"sizes at their limit: {sizes}"] if sizes else []
     return "\n".join(
-        textwrap.fill(one, 96, subsequent_indent="  ", break_on_hyphens=False) for one in sentences
+        textwrap.fill(one, WIDTH, subsequent_indent="  ", break_on_hyphens=False)
+        for one in sentences
     )
 
 
 def remedies(checks: Sequence[Check]) -> str:
     """For each check that does not pass, what would make it pass."""
-    return told([(check.id, check.remedy) for check in checks if check.status != "pass"])
+    return told(
+        [(f"{check.id}, {check.title}", check.remedy) for check in checks if check.status != "pass"]
+    )
 
 
 def told(sentences: Sequence[tuple[str, str]]) -> str:
     """A list of names with a sentence each."""
     return "\n".join(
-        textwrap.fill(f"{name}: {sentence}", width=96, initial_indent="- ", subsequent_indent="  ")
+        textwrap.fill(
+            f"{name}: {sentence}", width=WIDTH, initial_indent="- ", subsequent_indent="  "
+        )
         for name, sentence in sentences
     )
