@@ -9,6 +9,7 @@ from cqdd_design.design import Design
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.columns import column_offsets, has_columns
+from cqdd_design.solids.dowel_rules import flange_dowels
 from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, PackLayout
 from cqdd_design.solids.selection import ChosenBearing, OutputPin, cap_screw, thread_size
 
@@ -127,6 +128,11 @@ def lay_out_carrier(
     bolt_circle = 0.5 * support.bearing.outer_diameter + 0.5 * room
     # Six bolts stand their circle's radius apart.
     bolt = thread_size(min(0.55 * room, bolt_circle / 2.0, 4.0 * unit))
+    if bolt > min(0.7 * room, bolt_circle / 1.5):
+        bolt = 0.0
+    # Beside the shaft's bearing where a wall stays, else above it.
+    beside_seat = 0.5 * (room - bolt) >= 0.8 * unit
+    depth = plate_top - bottom - (unit if beside_seat else support.bearing.width + 0.5 * unit)
     return CarrierLayout(
         joint=joint,
         columns=columns,
@@ -151,8 +157,12 @@ def lay_out_carrier(
         nut_top=nut_top,
         plate_top=plate_top,
         nut_radius=0.5 * output.bearing.bore_diameter - 0.25 * unit,
-        bolt_thread=bolt if bolt <= min(0.7 * room, bolt_circle / 1.5) else 0.0,
+        bolt_thread=bolt,
         bolt_circle_radius=bolt_circle,
+        bolt_depth=min(2.0 * bolt, depth),
+        flange_dowels=flange_dowels(
+            design, bolt_circle, bolt, min(0.7 * room, room - 1.6 * unit), depth, unit
+        ),
     )
 
 

@@ -85,6 +85,9 @@ def seat_fits(layout: Layout) -> tuple[Fit, ...]:
     if layout.dowels.radius:
         for part in ("ring", "housing"):
             fits.append(Fit(part, "holes of the ring dowels", 2.0 * layout.dowels.radius, "H7"))
+    if carrier.flange_dowels.count:
+        size = carrier.flange_dowels.diameter
+        fits.append(Fit("carrier plate", "dowel holes of the output", size, "H7"))
     if carrier.cap:
         holes = "bonded pin seats" if carrier.bonded_in_cap else "pin holes"
         fits.append(Fit("carrier cap", holes, pin, "H7"))

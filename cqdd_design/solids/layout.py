@@ -162,6 +162,21 @@ class ColumnLayout:
 
 
 @dataclass(frozen=True)
+class FlangeDowels:
+    """Dowel holes in the output's face, halfway between its bolts, m; all 0 without room.
+
+    Attributes
+    ----------
+    depth : float
+        Of the holes; dowels stand out as far.
+    """
+
+    diameter: float
+    depth: float
+    count: int
+
+
+@dataclass(frozen=True)
 class CarrierLayout:
     """Carrier plate, cap, nut, pins and output bearing, m.
 
@@ -187,8 +202,10 @@ class CarrierLayout:
         Heights on the plate.
     nut_radius : float
         Thread of the nut that holds the output bearing.
-    bolt_thread, bolt_circle_radius : float
+    bolt_thread, bolt_circle_radius, bolt_depth : float
         Tapped holes in the output face; a thread of 0 where there is no room.
+    flange_dowels : FlangeDowels
+        Between these.
     """
 
     joint: CarrierJoint
@@ -215,6 +232,8 @@ class CarrierLayout:
     nut_radius: float
     bolt_thread: float
     bolt_circle_radius: float
+    bolt_depth: float
+    flange_dowels: FlangeDowels
 
     @property
     def bonded_in_cap(self) -> bool:
@@ -347,12 +366,15 @@ class DowelLayout:
         rad, where the wall is thickest.
     bottom : float
         Of their holes, which open at the upper face of the ring.
+    bearing_length : float
+        Of `length`, between the chamfers of their ends.
     """
 
     radius: float
     angles: tuple[float, ...]
     bottom: float
     length: float
+    bearing_length: float
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
+from cqdd_design.catalog.dowels import MATERIAL as DOWEL_MATERIAL
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
@@ -144,13 +145,13 @@ def dowel_part(layout: Layout) -> list[Part]:
     dowels, radius = layout.dowels, layout.pack.ring_radius
     if dowels.radius <= 0.0:
         return []
-    size = f"{2e3 * dowels.radius:g} m6 x {dowels.length * 1e3:g}"
+    size = f"{2e3 * dowels.radius:g} m6 x {dowels.length * 1e3:g} A"
     places = (transform(angle, *_on(radius, angle), dowels.bottom) for angle in dowels.angles)
     return [
         Part(
             "ring dowel",
             motor_shapes.dowel(dowels),
-            "AISI 52100 / 100Cr6 hardened",
+            DOWEL_MATERIAL,
             _STEEL,
             "buy",
             f"ISO 8734 {size}, drilled and reamed with the ring in its seat",

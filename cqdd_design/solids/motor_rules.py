@@ -14,16 +14,14 @@ Half section, output upward; the discs are inside the tube::
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.geometry.scale import MOST_TUBE_WALL, largest_ring
-from cqdd_design.solids.layout import DowelLayout, MotorLayout
+from cqdd_design.solids.layout import MotorLayout
 from cqdd_design.solids.selection import cap_screw, thread_size
 
 if TYPE_CHECKING:
-    from cqdd_design.design import Design
     from cqdd_design.solids.layout import HousingLayout, PackLayout
     from cqdd_design.solids.selection import ChosenBearing
 
@@ -36,8 +34,6 @@ _SENSOR_GAP = 1.0e-3
 _SENSOR_HEIGHT, _BOARD_THICKNESS = 0.9e-3, 1.6e-3
 _MAGNETS = (3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0)
 """Diameters of diametric encoder magnets, mm; they are half as high, 2.5 mm at the most."""
-_DOWELS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
-"""Diameters of ground dowels, mm (ISO 8734)."""
 _SIZES = (
     ("bore_diameter", "stator bore"),
     ("outer_diameter", "outside diameter"),
@@ -178,33 +174,4 @@ def lay_out_motor(
         cover_screw=cap_screw(thread, flange + 1.2 * thread),
         cable_radius=min(0.3 * cable_room, 4.0 * unit) if cable_room > 3.0 * unit else 0.0,
         cable_circle=housing.flange_radius + 0.5 * unit + 0.35 * cable_room,
-    )
-
-
-def ring_dowels(
-    design: Design, pack: PackLayout, housing: HousingLayout, unit: float
-) -> DowelLayout:
-    """Dowels across the seam between the ring and the flange's part of its seat.
-
-    They are drilled and reamed with the ring in its seat, half in either part, so the wire cuts a
-    plain ring. Friction under the clamp holds the usual torque, the dowels every other.
-    """
-    most = min(
-        0.8 * (pack.ring_radius - pack.ledge_radius),
-        housing.bolt_circle_radius - 0.5 * housing.screw.thread - pack.ring_radius - 0.3 * unit,
-        3.0 * unit,
-    )
-    size = next((d for d in reversed(_DOWELS) if d * 1e-3 <= most + 1e-9), 0.0)
-    tooth_count = design.reducer.ring_tooth_count
-    count = min(4, tooth_count)
-    pitch = 2.0 * math.pi / tooth_count
-    # Behind a tooth the wall is thickest; behind the pocket of a pin it is thinnest.
-    first = 0.5 * pitch if design.reducer.ring_type == "pinwheel" else 0.0
-    teeth = [round(i * tooth_count / count) for i in range(count)]
-    bottom = max(housing.flange_bottom + 0.5 * unit, 0.0)
-    return DowelLayout(
-        radius=0.5e-3 * size,
-        angles=tuple(first + pitch * tooth for tooth in teeth),
-        bottom=bottom,
-        length=math.floor((pack.top - bottom) * 2e3) / 2e3,
     )

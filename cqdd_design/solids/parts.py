@@ -194,7 +194,7 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
     def made(name: str, shape: Stack, how: str = "turned and drilled") -> Part:
         return Part(name, shape, metal, _ALUMINIUM, "make", how, on_axis(name, CARRIER))
 
-    plate = carrier_shapes.carrier_plate(carrier, layout.shaft, layout.unit)
+    plate = carrier_shapes.carrier_plate(carrier, layout.shaft)
     parts = [made("carrier plate", plate)]
     if carrier.cap:
         how = "turned and drilled"

@@ -20,6 +20,7 @@ from cqdd_design.solids.carrier_rules import (
     pin_wall,
     reach_beside_circle,
 )
+from cqdd_design.solids.dowel_rules import ring_dowels
 from cqdd_design.solids.layout import (
     CarrierLayout,
     HeldPins,
@@ -29,7 +30,7 @@ from cqdd_design.solids.layout import (
     PackLayout,
     ShaftLayout,
 )
-from cqdd_design.solids.motor_rules import lay_out_motor, register_radius, ring_dowels
+from cqdd_design.solids.motor_rules import lay_out_motor, register_radius
 from cqdd_design.solids.selection import (
     ChosenBearing,
     OutputPin,

@@ -24,6 +24,7 @@ from cqdd_design.results import Check
 from cqdd_design.verdict.asked import asked_lines
 from cqdd_design.verdict.drawn import yield_line
 from cqdd_design.verdict.evidence import Evidence
+from cqdd_design.verdict.joint_lines import joint_lines
 from cqdd_design.verdict.motor import motor_lines
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
@@ -44,7 +45,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         if check.id.startswith("MOTOR-"):
             continue
         lines.append(carried.pop(check.id, check))
-    lines += (*carried.values(), *shaft_lines(machine), *_rubbing(machine))
+    lines += (*carried.values(), *shaft_lines(machine), *joint_lines(machine), *_rubbing(machine))
     lines += evidence.stress_checks or _missing(_BODIES, evidence.stress_missing)
     lines += evidence.heat_checks or _missing(_HEAT, evidence.heat_missing)
     lines += motor_lines(

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cqdd_design.catalog.dowels import SHEAR_STRENGTH
 from cqdd_design.catalog.materials import Material
 from cqdd_design.geometry.runners import LEAST_WALL
 
@@ -336,6 +337,33 @@ def shaft_limit_fatigue(material: Material, diameter: float) -> Allowable:
     edge = edge_limit_fatigue(material)
     size = min(1.24 * min(max(1e3 * diameter, 2.79), 51.0) ** -0.107, 1.0)
     return Allowable(size * edge.value, f"{size:.2f} (size) x {edge.basis}")
+
+
+# Dowels ----------------------------------------------------------------------------------------
+DOWEL_SAFETY = 1.5
+"""Against breaking in shear, at the peak torque."""
+
+
+def dowel_limit_shear() -> Allowable:
+    """Shear stress of a ground dowel at the peak torque.
+
+    Examples
+    --------
+    >>> round(dowel_limit_shear().value / 1e6)
+    597
+    """
+    return Allowable(
+        SHEAR_STRENGTH / DOWEL_SAFETY,
+        f"{SHEAR_STRENGTH / 1e6:.0f} MPa/{DOWEL_SAFETY:g}, hardened ground pins in single shear",
+    )
+
+
+def dowel_limit_seat(*materials: Material) -> Allowable:
+    """Mean pressure of a dowel on the weaker of its seats at the peak torque: S_y/1.2.
+
+    DIN 6892 (method C) lets keys press as hard as 0.9 S_y.
+    """
+    return min((_yield_share(one, 1.0, "S_y") for one in materials), key=lambda limit: limit.value)
 
 
 # Heat ------------------------------------------------------------------------------------------

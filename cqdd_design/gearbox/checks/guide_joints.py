@@ -1,0 +1,36 @@
+"""What the checks of dowels mean."""
+
+from __future__ import annotations
+
+from cqdd_design.gearbox.checks import allowables as limits
+from cqdd_design.gearbox.checks.guide_row import CheckGuide
+
+_EQUILIBRIUM = "contact equilibrium of perfect parts, driving with friction"
+_ROLOFF = "Wittel and others 2017, Roloff/Matek Maschinenelemente, section 9.3"
+
+ROWS = (
+    CheckGuide(
+        "DOWEL-SHEAR",
+        "Shear of the dowels of ring and output, peak torque",
+        "MPa",
+        "max",
+        "ring: tau = F/(d l) along its seam; output: F/(pi/4 d^2); F = T/(0.75 N R) <= "
+        f"strength/{limits.DOWEL_SAFETY:g}",
+        "The ring takes the output's torque and the crank's, and nothing but its dowels holds it "
+        "where the clamp's friction is not counted; the output's flange likewise.",
+        f"{_ROLOFF}; share of several: DIN 6892; ASME B18.8.2 (strength), ISO 8734 (sizes)",
+        basis=_EQUILIBRIUM,
+    ),
+    CheckGuide(
+        "DOWEL-BEARING",
+        "Pressure of the dowels of ring and output on their seats, peak torque",
+        "MPa",
+        "max",
+        "ring: p = 2 F/(d l), half a dowel in either part; output: F/(d l); F = T/(0.75 N R) <= "
+        f"S_y/{limits.PIN_SAFETY_AT_PEAK:g} of the weaker seat",
+        "A seat in aluminium or plastic that yields lets ring or flange turn a little at every "
+        "change of sense.",
+        f"{_ROLOFF}; share of several: DIN 6892",
+        basis=_EQUILIBRIUM,
+    ),
+)
