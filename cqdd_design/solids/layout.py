@@ -295,8 +295,8 @@ class MotorLayout:
         The rotor's ring of magnets and back iron.
     bell_radius, web_bottom, web_top : float
         Outside of the bell that carries the ring; its web.
-    hub_radius, hub_top : float
-        The bell's hub on the shaft's stub; it ends with the web.
+    hub_radius, hub_bottom, hub_top : float
+        The bell's hub on the shaft's stub; below the web it stands in the cover's dish.
     magnet_radius, magnet_height, magnet_bottom : float
         Of the encoder's magnet: flush with the end of the shaft, or on it.
     board_radius, board_bottom, board_top, sensor_top : float
@@ -326,6 +326,7 @@ class MotorLayout:
     web_bottom: float
     web_top: float
     hub_radius: float
+    hub_bottom: float
     hub_top: float
     magnet_radius: float
     magnet_height: float

@@ -14,14 +14,18 @@ Half section, output upward; the discs are inside the tube::
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
+from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, SAFETY, length_needed
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.geometry.scale import MOST_TUBE_WALL, largest_ring
 from cqdd_design.solids.layout import MotorLayout
 from cqdd_design.solids.selection import cap_screw, thread_size
 
 if TYPE_CHECKING:
+    from cqdd_design.design import Design
     from cqdd_design.solids.layout import HousingLayout, PackLayout
     from cqdd_design.solids.selection import ChosenBearing
 
@@ -34,6 +38,13 @@ _SENSOR_GAP = 1.0e-3
 _SENSOR_HEIGHT, _BOARD_THICKNESS = 0.9e-3, 1.6e-3
 _MAGNETS = (3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0)
 """Diameters of diametric encoder magnets, mm; they are half as high, 2.5 mm at the most."""
+_LEAST_EFFICIENCY = 0.6
+"""Of a gearbox between motor and output."""
+_BELL_METAL = "7075-T6"
+_HOT = 120.0
+"""At which the bond of the bell still holds the motor's torque, deg C: what grease bears."""
+_MOST_HUB = 2.0
+"""Length of a bonded hub over its diameter: beyond, only its ends carry."""
 _SIZES = (
     ("bore_diameter", "stator bore"),
     ("outer_diameter", "outside diameter"),
@@ -79,12 +90,43 @@ def register_radius(motor: Motor, pack: PackLayout, unit: float) -> tuple[float,
     return own, None, missing
 
 
+def bell_torque(design: Design, motor: Motor) -> float:
+    """Greatest torque that the motor puts through its bell, N m.
+
+    By the driver's current, and no more than the motor's own peak torque; where neither is known,
+    what the peak torque of the output asks for.
+    """
+    constant = motor.torque_constant
+    driven = None if constant is None else constant * design.motor.current_limit
+    known = [one for one in (driven, motor.peak_torque) if one]
+    asked = design.requirements.peak_torque / (_LEAST_EFFICIENCY * design.reducer.ratio)
+    return min(known, default=asked)
+
+
+def bell_material(design: Design) -> str:
+    """What the bell is made of: as the housing, or aluminium where that is no metal.
+
+    A plastic neither bonds to a shaft nor stays round at its magnets' temperature.
+    """
+    own = design.housing.material
+    return own if ROTOR_COMPOUND.share_on(find_material(own)) else _BELL_METAL
+
+
+def _hub_length(torque: float, diameter: float) -> float:
+    """Length of a bonded hub, m: what holds the torque hot, up to `_MOST_HUB` diameters."""
+    compound = ROTOR_COMPOUND
+    lasting = compound.strength * compound.metal_share * compound.share_at(_HOT) / SAFETY
+    needed = length_needed(torque, diameter, lasting)
+    return min(math.ceil(needed * 2e3) / 2e3, _MOST_HUB * diameter)
+
+
 def lay_out_motor(
     motor: Motor,
     pack: PackLayout,
     housing: HousingLayout,
     support: ChosenBearing,
     unit: float,
+    torque: float,
     *,
     weights: bool,
 ) -> MotorLayout:
@@ -98,6 +140,8 @@ def lay_out_motor(
         Its bore is the diameter of the shaft's stub.
     unit : float
         A millimetre at the scale of this machine, m.
+    torque : float
+        That the bell's hub passes to the shaft, N m; it is as long as that asks for.
     weights : bool
         Whether room for balance weights is left about the bell.
     """
@@ -121,7 +165,9 @@ def lay_out_motor(
     journal = 0.5 * support.bearing.bore_diameter
     magnet = next((d for d in reversed(_MAGNETS) if d <= 1.3e3 * journal), _MAGNETS[0]) * 1e-3
     height = min(0.5 * magnet, 2.5e-3)
-    end = web_bottom - 0.5 * unit
+    hub_top = housing.bottom - 0.8 * unit
+    hub_bottom = min(web_bottom, hub_top - _hub_length(torque, 2.0 * journal))
+    end = hub_bottom - 0.5 * unit
     # In a pocket of the shaft; on the end of a shaft too thin for one.
     magnet_bottom = end if magnet <= 1.3 * journal + 1e-9 else end - height
     sensor_top = magnet_bottom - _SENSOR_GAP
@@ -153,7 +199,8 @@ def lay_out_motor(
         web_bottom=web_bottom,
         web_top=web_top,
         hub_radius=journal + 3.5 * unit,
-        hub_top=housing.bottom - 0.8 * unit,
+        hub_bottom=hub_bottom,
+        hub_top=hub_top,
         magnet_radius=0.5 * magnet,
         magnet_height=height,
         magnet_bottom=magnet_bottom,

@@ -30,7 +30,7 @@ from cqdd_design.solids.layout import (
     PackLayout,
     ShaftLayout,
 )
-from cqdd_design.solids.motor_rules import lay_out_motor, register_radius
+from cqdd_design.solids.motor_rules import bell_torque, lay_out_motor, register_radius
 from cqdd_design.solids.selection import (
     ChosenBearing,
     OutputPin,
@@ -74,7 +74,8 @@ def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
     drawn = None
     if row is not None:
         weights = design.reducer.balance.counterweights
-        drawn = lay_out_motor(row, pack, housing, support, unit, weights=weights)
+        torque = bell_torque(design, row)
+        drawn = lay_out_motor(row, pack, housing, support, unit, torque, weights=weights)
     return Layout(
         unit=unit,
         pack=pack,
@@ -321,7 +322,7 @@ def _shaft(
     hole = journal - 2.0 * max(2.5 * unit, 0.15 * journal)
     bottom = housing.bottom - min(1.2 * journal, 12.0 * unit)
     if motor is not None:
-        bottom = motor.web_bottom - 0.5 * unit
+        bottom = motor.hub_bottom - 0.5 * unit
         # The encoder's magnet needs a seat at the end of the bore.
         hole = min(hole, 2.0 * motor.magnet_radius - 0.8e-3)
     return ShaftLayout(

@@ -1,21 +1,41 @@
-"""Lines of the joints that carry the torque: dowels."""
+"""Lines of the joints that carry the torque: dowels, and the bond of the motor's bell."""
 
 from __future__ import annotations
 
+from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, joint_shear
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.errors import CatalogError, ContactError, GeometryError
-from cqdd_design.gearbox.checks.allowables import Allowable, dowel_limit_shear
+from cqdd_design.gearbox.checks.allowables import (
+    GREASE_MOST,
+    Allowable,
+    bond_limit,
+    dowel_limit_shear,
+)
 from cqdd_design.gearbox.checks.remedies import lower_torque
 from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.machine.dowels import LoadedDowels, loaded_dowels
+from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.results import Check
+from cqdd_design.solids.motor_rules import bell_material, bell_torque
 
 _MEGA = 1e6
 _DOWELS = ("DOWEL-SHEAR", "DOWEL-BEARING")
 
 
-def joint_lines(machine: Machine) -> tuple[Check, ...]:
-    """Dowels of ring and output at the peak torque."""
+def joint_lines(machine: Machine, warm: MachineTemperatures | None) -> tuple[Check, ...]:
+    """Dowels of ring and output at the peak torque, the bell's bond at the motor's.
+
+    Parameters
+    ----------
+    warm : MachineTemperatures or None
+        Where they are not known, the bond is as warm as grease may be.
+    """
+    return (*_dowels(machine), _bell(machine, warm))
+
+
+def _dowels(machine: Machine) -> tuple[Check, ...]:
     try:
         found = loaded_dowels(machine)
         lacking = _lacking(machine)
@@ -35,6 +55,46 @@ def joint_lines(machine: Machine) -> tuple[Check, ...]:
     return (
         _dowel("DOWEL-SHEAR", shear, torque, "larger dowels ask for a thicker ring"),
         _dowel("DOWEL-BEARING", press, torque, "take a stronger housing.material or a larger ring"),
+    )
+
+
+def _bell(machine: Machine, warm: MachineTemperatures | None) -> Check:
+    name, design = "BELL-JOINT", machine.design
+    try:
+        layout = machine.layout
+    except (CatalogError, GeometryError) as error:
+        return build_check(name, None, None, error.message, "see why it is not known")
+    motor = layout.motor
+    if motor is None:
+        return build_check(
+            name, None, None, f"no bell is drawn: {layout.motor_missing}",
+            "name a motor whose sizes are known and into which the ring goes",
+        )  # fmt: skip
+    hot, guessed = GREASE_MOST, " (not known, what grease bears)"
+    if warm is not None:
+        hot, guessed = max(warm.hottest("rotor"), warm.hottest("shaft")), ""
+    metal = find_material(bell_material(design))
+    limit = bond_limit(ROTOR_COMPOUND, metal, hot)
+    stub, long = layout.shaft.support.bearing.bore_diameter, motor.hub_top - motor.hub_bottom
+    torque = bell_torque(design, layout.motor_row)
+    value = joint_shear(torque, stub, long)
+    less = limit.value / value * design.motor.current_limit
+    cure = (
+        "leave room for larger support bearings, whose bore is the stub's diameter (a cam bearing "
+        f"with a larger bore); or lower motor.current_limit to {rounded_down(less):g} A"
+        if less
+        else f"cool it: no strength of {ROTOR_COMPOUND.name} is known beyond "
+        f"{ROTOR_COMPOUND.hottest:g} degC"
+    )
+    return build_check(
+        name,
+        value / _MEGA,
+        limit.value / _MEGA,
+        f"{torque:.3g} N*m on a stub of {1e3 * stub:g} mm, bonded over {1e3 * long:.3g} mm at "
+        f"{hot:.0f} degC{guessed}: "
+        f"{value / _MEGA:.2f} MPa",
+        cure,
+        basis=limit.basis,
     )
 
 

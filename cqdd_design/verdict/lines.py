@@ -45,7 +45,12 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         if check.id.startswith("MOTOR-"):
             continue
         lines.append(carried.pop(check.id, check))
-    lines += (*carried.values(), *shaft_lines(machine), *joint_lines(machine), *_rubbing(machine))
+    lines += (
+        *carried.values(),
+        *shaft_lines(machine),
+        *joint_lines(machine, evidence.temperatures),
+        *_rubbing(machine),
+    )
     lines += evidence.stress_checks or _missing(_BODIES, evidence.stress_missing)
     lines += evidence.heat_checks or _missing(_HEAT, evidence.heat_missing)
     lines += motor_lines(

@@ -11,11 +11,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, joint_shear
 from cqdd_design.catalog.dowels import SHARE, across_a_joint, along_a_seam
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import load_design
+from cqdd_design.gearbox.checks.allowables import bond_limit
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.dowels import loaded_dowels, ring_torque
+from cqdd_design.machine.temperatures import MachineTemperatures
+from cqdd_design.machine.thermal_parts import NODES
 from cqdd_design.results import Check
+from cqdd_design.solids.motor_rules import bell_torque
 from cqdd_design.verdict.joint_lines import joint_lines
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
@@ -27,7 +33,7 @@ def machine() -> Machine:
 
 
 def lines_of(machine: Machine) -> dict[str, Check]:
-    return {line.id: line for line in joint_lines(machine)}
+    return {line.id: line for line in joint_lines(machine, None)}
 
 
 @given(
@@ -76,7 +82,8 @@ def test_dowel_lines_follow_the_torque(machine: Machine) -> None:
     assert lines_of(less)["DOWEL-BEARING"].status == "fail"
     none = replace(machine.layout, dowels=replace(machine.layout.dowels, radius=0.0))
     vars(less)["layout"] = none
-    assert {line.status for line in joint_lines(less)} == {"unknown"}
+    lacking = lines_of(less)
+    assert lacking["DOWEL-SHEAR"].status == lacking["DOWEL-BEARING"].status == "unknown"
 
 
 @pytest.mark.parametrize("torque", [40.0, 60.0, 150.0])
@@ -107,3 +114,69 @@ def test_dowel_holes_are_drawn_in_the_outputs_face(machine: Machine) -> None:
         assert np.hypot(*centre) == pytest.approx(carrier.bolt_circle_radius)
         apart = [np.hypot(*(centre - np.asarray(hole.centre))) for hole in holes if hole is not one]
         assert min(apart) > 0.5 * dowels.diameter + 0.5 * bolts
+
+
+def test_the_bells_hub_is_as_long_as_the_motors_torque_asks_for(machine: Machine) -> None:
+    """It holds the motor at 120 deg C, and half a millimetre less would not."""
+    motor, stub = machine.layout.motor, machine.seats[0].bearing.bore_diameter
+    assert motor is not None
+    torque = bell_torque(machine.design, machine.motor)
+    constant = machine.motor.torque_constant
+    assert constant is not None
+    assert torque == pytest.approx(constant * 50.5)
+    limit = bond_limit(ROTOR_COMPOUND, find_material("7075-T6"), 120.0).value
+    length = motor.hub_top - motor.hub_bottom
+    assert joint_shear(torque, stub, length) <= limit < joint_shear(torque, stub, length - 0.5e-3)
+    weaker = machine.changed({"motor.current_limit": "20 A"}).layout.motor
+    assert weaker is not None
+    assert weaker.hub_bottom > motor.hub_bottom
+    assert weaker.hub_bottom <= weaker.web_bottom
+    # Magnet, board and cover go with the end of the shaft.
+    assert machine.layout.shaft.bottom < motor.hub_bottom
+    assert motor.board_top < machine.layout.shaft.bottom
+    strong = machine.changed({"motor.current_limit": "2000 A"})
+    assert bell_torque(strong.design, strong.motor) == machine.motor.peak_torque
+
+
+def test_a_longer_hub_weighs_more_and_turns_with_the_shaft(machine: Machine) -> None:
+    """Solids, mass and inertia are those of the hub as drawn."""
+    weaker = machine.changed({"motor.current_limit": "20 A"})
+    long, short = (
+        {part.name: part.exact_properties for part in one.parts} for one in (machine, weaker)
+    )
+    for name in ("rotor bell", "eccentric shaft"):
+        assert long[name].mass > short[name].mass
+        assert long[name].inertia[2, 2] > short[name].inertia[2, 2]
+    motor, small = machine.layout.motor, weaker.layout.motor
+    assert motor is not None
+    assert small is not None
+    stub = 0.5 * machine.seats[0].bearing.bore_diameter
+    added = small.hub_bottom - motor.hub_bottom
+    metal = 2810.0 * math.pi * (motor.hub_radius**2 - stub**2) * added
+    assert long["rotor bell"].mass - short["rotor bell"].mass == pytest.approx(metal)
+
+
+def test_the_line_of_the_bond_follows_torque_and_heat(machine: Machine) -> None:
+    line = lines_of(machine)["BELL-JOINT"]
+    assert line.status == "pass"
+    short = replace(machine.layout, motor=replace(machine.layout.motor, hub_bottom=-21e-3))
+    other = machine.changed({})
+    vars(other)["layout"] = short
+    assert lines_of(other)["BELL-JOINT"].status == "fail"
+    vars(other)["layout"] = replace(machine.layout, motor=None, motor_missing="no motor")
+    assert lines_of(other)["BELL-JOINT"].status == "unknown"
+    warm = MachineTemperatures.__new__(MachineTemperatures)
+    vars(warm).update(steady=np.full(len(NODES), 60.0), cycle=None)
+    cool = {one.id: one for one in joint_lines(machine, warm)}["BELL-JOINT"]
+    assert cool.compared[1] > line.compared[1]
+    assert cool.value == line.value
+    vars(warm).update(steady=np.full(len(NODES), 300.0))
+    burnt = {one.id: one for one in joint_lines(machine, warm)}["BELL-JOINT"]
+    assert (burnt.status, burnt.limit) == ("fail", 0.0)
+
+
+def test_a_printed_housing_has_a_bell_of_metal(machine: Machine) -> None:
+    printed = machine.changed({"housing.material": "PC-CF FDM along layers"})
+    made = {part.name: part.material for part in printed.parts}
+    assert made["rotor bell"] == "7075-T6"
+    assert made["motor cover"] == "PC-CF FDM along layers"

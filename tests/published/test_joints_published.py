@@ -1,9 +1,10 @@
-"""Joints: dowels.
+"""Joints: dowels, and the bond of hubs.
 
 * ASME B18.8.2-2000, hardened ground machine dowel pins: single shear loads by diameter.
 * ASME B18.8.5M, the same in metric sizes, which are held to more.
 * ISO 8734:1997, table 1: lengths and chamfers.
-* Wittel and others 2017, Roloff/Matek Maschinenelemente, section 9.3: p = 4 T/(D d l).
+* Wittel and others 2017, Roloff/Matek Maschinenelemente, section 9.3: p = 4 T/(D d l);
+  section 5.1: T = pi/2 d^2 b tau/S of a bonded hub.
 """
 
 from __future__ import annotations
@@ -12,7 +13,9 @@ import math
 
 import pytest
 
+from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, joint_shear, length_needed
 from cqdd_design.catalog.dowels import SHEAR_STRENGTH, along_a_seam, dowels_within
+from cqdd_design.catalog.materials import find_material
 
 
 @pytest.mark.parametrize(
@@ -44,3 +47,22 @@ def test_a_pin_along_the_seam_of_shaft_and_hub() -> None:
     found = along_a_seam(80.0, 1, 0.5 * 25e-3, 5e-3, 28e-3)
     assert found.pressure == pytest.approx(4.0 * 80.0 / (25e-3 * 5e-3 * 28e-3))
     assert found.shear == pytest.approx(0.5 * found.pressure)
+
+
+def test_a_bonded_hub() -> None:
+    """T = pi/2 d^2 b tau/S: 20 mm, 25 mm long, 10 MPa over a safety of 2 hold 78.5 N m."""
+    torque = 0.5 * math.pi * 20e-3**2 * 25e-3 * 10e6 / 2.0
+    assert torque == pytest.approx(78.54, rel=1e-3)
+    assert joint_shear(torque, 20e-3, 25e-3) == pytest.approx(5e6)
+    assert length_needed(torque, 20e-3, 5e6) == pytest.approx(25e-3)
+
+
+def test_a_compound_is_weaker_on_aluminium_and_when_hot() -> None:
+    steel, light = find_material("AISI 4140 Q&T 540C"), find_material("7075-T6")
+    assert ROTOR_COMPOUND.share_on(steel) == 1.0
+    assert 0.0 < ROTOR_COMPOUND.share_on(light) < 1.0
+    assert ROTOR_COMPOUND.share_on(find_material("PLA")) == 0.0
+    shares = [ROTOR_COMPOUND.share_at(one) for one in (-20.0, 22.0, 60.0, 120.0, 150.0, 200.0)]
+    assert shares[:2] == [1.0, 1.0]
+    assert shares == sorted(shares, reverse=True)
+    assert shares[-1] == 0.0

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cqdd_design.catalog.adhesives import SAFETY, RetainingCompound
 from cqdd_design.catalog.dowels import SHEAR_STRENGTH
 from cqdd_design.catalog.materials import Material
 from cqdd_design.geometry.runners import LEAST_WALL
@@ -364,6 +365,29 @@ def dowel_limit_seat(*materials: Material) -> Allowable:
     DIN 6892 (method C) lets keys press as hard as 0.9 S_y.
     """
     return min((_yield_share(one, 1.0, "S_y") for one in materials), key=lambda limit: limit.value)
+
+
+# Bell -----------------------------------------------------------------------------------------
+BOND_SAFETY = SAFETY
+"""On the strength of a retaining compound, which layouts of the bell's hub take too."""
+
+
+def bond_limit(compound: RetainingCompound, hub: Material, temperature: float) -> Allowable:
+    """Shear stress of a bonded joint of a steel shaft and a hub at a temperature, deg C.
+
+    Examples
+    --------
+    >>> from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
+    >>> from cqdd_design.catalog.materials import find_material
+    >>> round(bond_limit(ROTOR_COMPOUND, find_material("7075-T6"), 22.0).value / 1e6, 2)
+    6.25
+    """
+    on, hot = compound.share_on(hub), compound.share_at(temperature)
+    return Allowable(
+        compound.strength * on * hot / BOND_SAFETY,
+        f"{compound.strength / 1e6:g} MPa of {compound.name} on steel x {on:g} ({hub.name}) x "
+        f"{hot:.2f} ({temperature:.0f} degC)/{BOND_SAFETY:g}; {compound.source}",
+    )
 
 
 # Heat ------------------------------------------------------------------------------------------

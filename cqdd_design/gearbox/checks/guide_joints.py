@@ -1,4 +1,4 @@
-"""What the checks of dowels mean."""
+"""What the checks of dowels and of the bell's bond mean."""
 
 from __future__ import annotations
 
@@ -32,5 +32,19 @@ ROWS = (
         "change of sense.",
         f"{_ROLOFF}; share of several: DIN 6892",
         basis=_EQUILIBRIUM,
+    ),
+    CheckGuide(
+        "BELL-JOINT",
+        "Shear of the bond of rotor bell and shaft, motor's peak torque",
+        "MPa",
+        "max",
+        "tau = 2 T/(pi d^2 l) <= strength of the compound x share on the bell x share at its "
+        f"temperature/{limits.BOND_SAFETY:g}",
+        "All that the motor gives goes through the hub of its bell, which nothing but a retaining "
+        "compound holds on the shaft's stub.",
+        "Wittel and others 2017, Roloff/Matek Maschinenelemente, section 5.1 (bonded hubs); ISO "
+        "10123 (strength)",
+        basis="torque at the driver's current, at most the motor's peak; hub as drawn; temperature "
+        "of the thermal network",
     ),
 )
