@@ -51,7 +51,7 @@ def ring_dowels(
     tooth_count = reducer.ring_tooth_count
     most = min(
         0.8 * (pack.ring_radius - pack.ledge_radius),
-        housing.bolt_circle_radius - 0.5 * housing.screw.thread - pack.ring_radius - 0.3 * unit,
+        housing.bolt_circle_radius - 0.55 * housing.mount_thread - pack.ring_radius - 0.3 * unit,
         3.0 * unit,
     )
     bottom = max(housing.flange_bottom + 0.5 * unit, 0.0)

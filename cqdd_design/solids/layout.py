@@ -257,6 +257,8 @@ class HousingLayout:
         Holds cover and ring clamp to the flange.
     screw_count : int
         And as many mounting holes between them.
+    mount_thread : float
+        Of the screws through these.
     clamp_inner : float
         Bore of the ring clamp.
     cover_flange_top, cover_hub_radius, cover_top : float
@@ -272,6 +274,7 @@ class HousingLayout:
     bolt_circle_radius: float
     screw: CapScrew
     screw_count: int
+    mount_thread: float
     clamp_inner: float
     cover_flange_top: float
     cover_hub_radius: float

@@ -26,6 +26,7 @@ _LIFE_LINES = (
 )
 _IN_PROPORTION = (
     *("SHAFT-STRENGTH", "SUPPORT-STATIC", "OUTPUT-STATIC", "DOWEL-SHEAR", "DOWEL-BEARING"),
+    "SCREW-SLIP",
     *("LIGAMENT-STRESS", "ROOT-STRESS", "RING-STRESS"),
 )
 """Lines at the peak torque whose value goes with the torque as good as linearly."""

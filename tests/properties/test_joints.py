@@ -14,15 +14,19 @@ from hypothesis import strategies as st
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, joint_shear
 from cqdd_design.catalog.dowels import SHARE, across_a_joint, along_a_seam
 from cqdd_design.catalog.materials import find_material
+from cqdd_design.catalog.tightening import Clamping, coarse_thread, preload_at_yield
 from cqdd_design.design import load_design
 from cqdd_design.gearbox.checks.allowables import bond_limit
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.dowels import loaded_dowels, ring_torque
+from cqdd_design.machine.screws import ScrewJoint, screw_joints
+from cqdd_design.machine.shaft_strength import output_loads
 from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.machine.thermal_parts import NODES
 from cqdd_design.results import Check
 from cqdd_design.solids.motor_rules import bell_torque
 from cqdd_design.verdict.joint_lines import joint_lines
+from cqdd_design.verdict.screw_lines import screw_lines
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 
@@ -180,3 +184,108 @@ def test_a_printed_housing_has_a_bell_of_metal(machine: Machine) -> None:
     made = {part.name: part.material for part in printed.parts}
     assert made["rotor bell"] == "7075-T6"
     assert made["motor cover"] == "PC-CF FDM along layers"
+
+
+# ------------------------------------------------------------------ screws
+
+SCREW, LIGHT = find_material("Alloy steel 12.9 (ISO 7379)"), find_material("7075-T6")
+M4 = Clamping(
+    thread=coarse_thread(4e-3),
+    screw=SCREW,
+    clamped=LIGHT,
+    tapped=LIGHT,
+    bearing_outer=7e-3,
+    bearing_inner=4.4e-3,
+    grip=8e-3,
+    engaged=6e-3,
+    faces=1,
+)
+
+
+def test_the_stated_torque_is_what_the_weakest_of_three_bears() -> None:
+    """Screw, seat of its head, thread."""
+    assert M4.preload == pytest.approx(preload_at_yield(M4.thread, 0.9 * 1080e6))
+    plastic = find_material("PC-CF FDM along layers")
+    soft = replace(M4, tapped=plastic)
+    assert soft.stripping is not None
+    assert soft.preload == pytest.approx(soft.stripping / 1.5)
+    seat = replace(M4, clamped=plastic)
+    assert seat.preload == pytest.approx(60e6 * 0.25 * math.pi * (7e-3**2 - 4.4e-3**2))
+    assert max(soft.torque, seat.torque) < 0.3 * M4.torque
+
+
+def test_what_settles_takes_more_from_short_screws() -> None:
+    assert M4.least_preload < M4.preload / 1.6
+    longer = replace(M4, grip=20e-3)
+    assert M4.least_preload < longer.least_preload < M4.preload / 1.6
+    assert replace(M4, faces=4).least_preload < M4.least_preload
+    # One face more, 2 um over the compliance of the joint.
+    lost = M4.preload / 1.6 - M4.least_preload
+    more = M4.preload / 1.6 - replace(M4, faces=2).least_preload
+    assert more / lost == pytest.approx(10.0 / 8.0)
+
+
+@given(across=st.floats(1.0, 5e3), along=st.floats(0.0, 500.0))
+def test_slip_is_a_balance_of_friction(across: float, along: float) -> None:
+    joint = ScrewJoint("here", "M4", 6, M4, across, along)
+    assert joint.slip_safety * across == pytest.approx(0.15 * (M4.least_preload - along))
+    assert replace(joint, across=2.0 * across).slip_safety < joint.slip_safety
+    assert replace(joint, along=along + 50.0).slip_safety < joint.slip_safety
+    assert replace(joint, along=2.0 * M4.preload).slip_safety == 0.0
+
+
+def test_screws_hold_what_the_output_bearing_and_the_torque_ask(machine: Machine) -> None:
+    joints = {one.place: one for one in screw_joints(machine)}
+    loads = output_loads(machine, machine.peak_pack)
+    cover = joints["cover and ring clamp on the housing"]
+    housing, torque = machine.layout.housing, machine.design.requirements.peak_torque
+    assert cover.across * 8 == pytest.approx(loads.radial.max())
+    assert cover.along * 8 * housing.bolt_circle_radius == pytest.approx(2.0 * loads.moment.max())
+    mount = joints["housing on its machine, by friction"]
+    assert mount.across * mount.count * housing.bolt_circle_radius == pytest.approx(torque)
+    hung = machine.changed({"requirements.external_moment": "30 N*m"})
+    heavy = {one.place: one for one in screw_joints(hung)}
+    for place in ("cover and ring clamp on the housing", "output's face"):
+        assert heavy[place].along > joints[place].along
+        assert heavy[place].slip_safety < joints[place].slip_safety
+
+
+def test_screw_lines_fail_where_joints_do(machine: Machine) -> None:
+    lines = {one.id: one for one in screw_lines(machine)}
+    assert {one.status for one in lines.values()} == {"pass"}
+    small = replace(machine.layout.housing, mount_thread=2e-3)
+    weak = machine.changed({})
+    vars(weak)["layout"] = replace(machine.layout, housing=small)
+    assert {one.id: one for one in screw_lines(weak)}["SCREW-SLIP"].status == "fail"
+    carrier = replace(machine.layout.carrier, bolt_depth=0.3e-3)
+    vars(weak)["layout"] = replace(machine.layout, carrier=carrier)
+    stripped = {one.id: one for one in screw_lines(weak)}["SCREW-THREAD"]
+    assert (stripped.status, stripped.value) == ("fail", 0.0)
+
+
+def test_mounting_screws_grow_with_the_torque(machine: Machine) -> None:
+    """And the flange with them; holes of screws, dowels and mounting stay apart."""
+    found = []
+    for torque in ("40 N*m", "90 N*m", "200 N*m"):
+        layout = machine.changed({"requirements.peak_torque": torque}).layout
+        housing = layout.housing
+        wall = housing.bolt_circle_radius - 0.55 * housing.mount_thread - layout.pack.ring_radius
+        assert wall > layout.dowels.radius + 0.2e-3
+        rim = housing.flange_radius - housing.bolt_circle_radius - 0.55 * housing.mount_thread
+        assert rim > 0.9e-3
+        found.append(housing.mount_thread)
+    assert found == sorted(found)
+    assert found[0] < found[-1]
+
+
+def test_columns_are_screwed_joints(machine: Machine) -> None:
+    reducer = {
+        "reducer.carrier.joint": "columns",
+        "reducer.carrier.column_count": 5,
+        "reducer.carrier.column_diameter": "5 mm",
+        "reducer.output_pins.count": 5,
+    }
+    held = machine.changed(reducer)
+    columns = next(one for one in screw_joints(held) if one.place.startswith("columns"))
+    radius = held.layout.carrier.pin_circle_radius
+    assert columns.across * columns.count * radius == pytest.approx(45.0)

@@ -14,6 +14,7 @@ import numpy as np
 from cqdd_design.catalog.adhesives import SAFETY, RetainingCompound
 from cqdd_design.catalog.dowels import SHEAR_STRENGTH
 from cqdd_design.catalog.materials import Material
+from cqdd_design.catalog.tightening import STRIPPING_SAFETY
 from cqdd_design.geometry.runners import LEAST_WALL
 
 UNEVEN_SHARING = 1.15
@@ -365,6 +366,32 @@ def dowel_limit_seat(*materials: Material) -> Allowable:
     DIN 6892 (method C) lets keys press as hard as 0.9 S_y.
     """
     return min((_yield_share(one, 1.0, "S_y") for one in materials), key=lambda limit: limit.value)
+
+
+# Screws ---------------------------------------------------------------------------------------
+SLIP_SAFETY = 1.2
+"""On slipping at the peak torque (VDI 2230, section 5.5.6: static loads)."""
+THREAD_SAFETY = STRIPPING_SAFETY
+"""On stripping at the greatest preload, which stated tightening torques leave."""
+PROOF_SHARE = 0.88
+"""Proof stress over yield strength of class 12.9, 970 of 1100 MPa (ISO 898-1, table 3)."""
+
+
+def screw_limit(material: Material) -> Allowable:
+    """Tension of a screw at its greatest preload.
+
+    Examples
+    --------
+    >>> from cqdd_design.catalog.materials import find_material
+    >>> round(screw_limit(find_material("Alloy steel 12.9 (ISO 7379)")).value / 1e6)
+    950
+    """
+    strength = material.yield_strength
+    if strength is None:
+        return Allowable(0.0, f"no yield strength in the catalogue for {material.name}")
+    return Allowable(
+        PROOF_SHARE * strength, f"{PROOF_SHARE:g} S_y {strength / 1e6:.0f} MPa ({material.name})"
+    )
 
 
 # Bell -----------------------------------------------------------------------------------------

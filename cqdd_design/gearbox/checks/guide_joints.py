@@ -1,11 +1,18 @@
-"""What the checks of dowels and of the bell's bond mean."""
+"""What the checks of dowels, of the bell's bond and of screws mean."""
 
 from __future__ import annotations
 
+from cqdd_design.catalog.tightening import (
+    GRIP_FRICTION,
+    SHEAR_SHARE,
+    TIGHTENING_FACTOR,
+    UTILISATION,
+)
 from cqdd_design.gearbox.checks import allowables as limits
 from cqdd_design.gearbox.checks.guide_row import CheckGuide
 
 _EQUILIBRIUM = "contact equilibrium of perfect parts, driving with friction"
+_VDI = "VDI 2230 part 1 (2015), concentric clamping"
 _ROLOFF = "Wittel and others 2017, Roloff/Matek Maschinenelemente, section 9.3"
 
 ROWS = (
@@ -46,5 +53,37 @@ ROWS = (
         "10123 (strength)",
         basis="torque at the driver's current, at most the motor's peak; hub as drawn; temperature "
         "of the thermal network",
+    ),
+    CheckGuide(
+        "SCREW-SLIP",
+        "Screwed joints, least clamping force over what holds them at peak torque",
+        "",
+        "min",
+        f"mu (F_M/alpha_A - F_Z - F_A)/F_Q >= {limits.SLIP_SAFETY:g}, mu {GRIP_FRICTION:g}, "
+        f"alpha_A {TIGHTENING_FACTOR:g}, F_M of the stated tightening torque",
+        "A joint that slips wears, loosens its screws and shears them. Short screws lose a third "
+        "of their preload as faces settle.",
+        f"{_VDI}, slipping and embedding",
+        basis=_EQUILIBRIUM,
+    ),
+    CheckGuide(
+        "SCREW-PRELOAD",
+        "Tension of screws at the stated tightening torque",
+        "MPa",
+        "max",
+        f"F_M/A_S <= {limits.PROOF_SHARE:g} S_y; F_M = what {UTILISATION:g} S_y in tension and "
+        "torsion, the seat of the head at its S_y and the thread all bear",
+        "More torque gains nothing: screw, seat or thread yields. Less lets the joint slip.",
+        f"{_VDI}, table A1; ISO 898-1",
+    ),
+    CheckGuide(
+        "SCREW-THREAD",
+        "Threads of screws, stripping over the greatest preload",
+        "",
+        "min",
+        f"F_mG/F_M >= {limits.THREAD_SAFETY:g}, F_mG = {SHEAR_SHARE:g} S_u pi d (m - 0.8 P) "
+        "(1/2 + (d - D_2) tan 30deg/P) of the part it is in",
+        "Aluminium and plastic strip before the screw breaks where too few turns engage.",
+        f"{_VDI}, section 5.5.5",
     ),
 )
