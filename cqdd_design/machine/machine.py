@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from cqdd_design.machine.capacity import LoadedContacts
     from cqdd_design.results import MassProperties
     from cqdd_design.solids.inertia import GearboxInertia
+    from cqdd_design.solids.retention import Retained
 
 
 _PEAK_ANGLES = 120
@@ -153,6 +154,13 @@ class Machine:
     def parts(self) -> tuple[Part, ...]:
         """Every part; GeometryError where they cannot exist or be put together."""
         return build_parts(self.design, self.layout)
+
+    @cached_property
+    def retention(self) -> tuple[Retained, ...]:
+        """What holds every part along the axis; GeometryError as `parts`."""
+        from cqdd_design.solids.retention import retention
+
+        return retention(self.parts, self.layout)
 
     @cached_property
     def inertia(self) -> GearboxInertia:

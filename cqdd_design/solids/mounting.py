@@ -14,8 +14,8 @@ SCREW_MATERIAL = "Alloy steel 12.9 (ISO 7379)"
 """Of mounting screws, and of every other that is not an output pin."""
 _THREADS = (2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0)
 """Mounting screws that are tried, mm."""
-_PAIRED, _ALONE = 0.46, 1.25
-_COVER_RESERVE = 1.2
+_PAIRED, _ALONE = 0.46, 1.1
+_COVER_RESERVE, _LARGER = 1.2, 2
 _RESERVE = 1.4
 """Of the clamping force over what the torque asks for, of cover and mounting."""
 
@@ -49,21 +49,24 @@ def clamping(thread: float, grip: float, metal: Material) -> Clamping:
 
 
 def cover_thread(design: Design, thread: float, count: int, grip: float) -> float:
-    """The thread of the cover's screws (m): the next size where it holds and this one does not.
+    """The thread of the cover's screws (m): up to two sizes more where that is enough.
 
     What pushes the output bearing to one side is about the force of the torque on the pins' circle,
     and less than half of it where pins stand opposite each other on several discs.
     """
-    pins, metal = design.reducer.output_pins, find_material(design.housing.material)
+    pins, asked = design.reducer.output_pins, design.requirements
+    metal, ring = find_material(design.housing.material), 0.5 * design.reducer.ring.outer_diameter
     paired = pins.count % 2 == 0 and design.reducer.disc_count > 1
-    force = (_PAIRED if paired else _ALONE) * design.requirements.peak_torque / pins.circle_radius
-    next_size = next((mm * 1e-3 for mm in _THREADS if mm * 1e-3 > thread + 1e-9), thread)
+    force = (_PAIRED if paired else _ALONE) * asked.peak_torque / pins.circle_radius
+    force += asked.external_radial or 0.0
+    along = (asked.external_axial or 0.0) + 2.0 * (asked.external_moment or 0.0) / ring
+    larger = [mm * 1e-3 for mm in _THREADS if mm * 1e-3 > thread + 1e-9]
 
     def holds(size: float) -> bool:
         left = clamping(size, grip, metal).least_preload
-        return count * left * GRIP_FRICTION >= _COVER_RESERVE * force
+        return (count * left - along) * GRIP_FRICTION >= _COVER_RESERVE * force
 
-    return next_size if holds(next_size) and not holds(thread) else thread
+    return next((size for size in (thread, *larger[:_LARGER]) if holds(size)), thread)
 
 
 def mounting_thread(

@@ -417,6 +417,10 @@ def bond_limit(compound: RetainingCompound, hub: Material, temperature: float) -
     )
 
 
+# Retention -------------------------------------------------------------------------------------
+SHOULDER_SHARE = 1.25
+"""Height of a shoulder over the chamfer of the ring that stands on it: a quarter of it bears."""
+
 # Heat ------------------------------------------------------------------------------------------
 GREASE_MOST = 120.0
 """Grease at the teeth, pins and bearings, deg C: upper limit of a lithium grease of NLGI 2 (SKF

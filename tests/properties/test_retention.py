@@ -1,0 +1,148 @@
+"""Every part keeps its place along the axis, and what takes a stop away is seen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cqdd_design.catalog.bearings import least_chamfer
+from cqdd_design.design import Design, load_design
+from cqdd_design.machine import Machine, resolve
+from cqdd_design.solids.part import Part
+from cqdd_design.solids.parts import build_parts
+from cqdd_design.solids.retention import Retained, retention
+from cqdd_design.verdict.retention_lines import retention_lines
+
+DESIGNS = Path(__file__).resolve().parents[2] / "designs"
+
+
+@pytest.fixture(scope="module")
+def machine() -> Machine:
+    return resolve(load_design(DESIGNS / "cqdd-10.toml"))
+
+
+def rows_of(machine: Machine, parts: Iterable[Part]) -> dict[str, Retained]:
+    return {row.name: row for row in retention(tuple(parts), machine.layout)}
+
+
+def free_in(rows: dict[str, Retained]) -> set[tuple[str, str]]:
+    return {(name, way) for name, row in rows.items() for way in row.free}
+
+
+@pytest.mark.parametrize("name", ["cqdd-10", "printed-13", "reference-s"])
+def test_the_committed_designs_hold_every_part(name: str) -> None:
+    held = resolve(load_design(DESIGNS / f"{name}.toml"))
+    assert {part.name for part in held.parts} <= {
+        row.name.rstrip(" 12") for row in held.retention
+    } | {"shaft bearing"}
+    assert {row.name for row in held.retention if row.free} == set()
+    assert [line.status for line in retention_lines(held)] == ["pass", "pass"]
+
+
+def test_stops_and_plays_are_those_of_the_layout(machine: Machine) -> None:
+    rows = {row.name: row for row in machine.retention}
+    pack, gap = machine.layout.pack, machine.layout.pack.gap
+    shaft = rows["eccentric shaft"]
+    assert shaft.up.by == "shaft bearing, output end"
+    assert shaft.down.by == "shaft bearing, housing end"
+    journal = 0.5 * machine.seats[0].bearing.bore_diameter
+    assert shaft.down.face == pytest.approx(machine.layout.shaft.shoulder_radius - journal)
+    assert (rows["output bearing"].up.by, rows["output bearing"].down.by) == (
+        "output cover",
+        "ring clamp",
+    )
+    assert rows["carrier plate"].up.by == rows["carrier plate"].down.by == "output bearing"
+    assert (rows["ring"].up.by, rows["ring"].down.by) == ("ring clamp", "housing")
+    assert rows["disc 1"].down.by == "carrier cap"
+    assert rows["disc 1"].down.play == pytest.approx(gap)
+    assert rows["disc 2"].up.by == "carrier plate"
+    dowels = machine.layout.dowels
+    loose = pack.top - dowels.bottom - dowels.length
+    both = (rows["ring dowel"].up.play or 0.0) + (rows["ring dowel"].down.play or 0.0)
+    assert both == pytest.approx(loose)
+
+
+@pytest.mark.parametrize(
+    ("gone", "free"),
+    [
+        ("ring clamp", {("ring", "up"), ("ring dowel", "up")}),
+        ("output cover", {("output bearing", "up"), ("carrier plate", "up"), ("disc 2", "up")}),
+        ("shoulder screw", {("carrier cap", "down")}),
+    ],
+)
+def test_what_is_left_out_holds_nothing(
+    machine: Machine, gone: str, free: set[tuple[str, str]]
+) -> None:
+    found = free_in(rows_of(machine, (one for one in machine.parts if one.name != gone)))
+    assert free <= found
+    # The lower bearing still holds the shaft downward.
+    assert ("eccentric shaft", "down") not in found
+    assert not {name for name, _ in found} & {"housing", "motor cover", "cover screw"}
+
+
+def test_without_its_nut_the_plate_rests_on_the_shaft(machine: Machine) -> None:
+    """Held, but through the shaft's bearings: the table says by what."""
+    rows = rows_of(machine, (one for one in machine.parts if one.name != "bearing nut"))
+    assert rows["carrier plate"].down.by == "shaft bearing, output end"
+
+
+def test_a_stop_that_is_too_far_away_is_none(machine: Machine) -> None:
+    """A cover drawn 2 mm higher holds neither the bearing nor what hangs on it."""
+    lifted = np.eye(4)
+    lifted[2, 3] = 2e-3
+    parts = [
+        replace(
+            one,
+            instances=tuple(
+                replace(piece, placement=lifted @ piece.placement) for piece in one.instances
+            ),
+        )
+        if one.name == "output cover"
+        else one
+        for one in machine.parts
+    ]
+    assert ("output bearing", "up") in free_in(rows_of(machine, parts))
+
+
+def test_a_cap_on_loose_dowels_falls_off() -> None:
+    """Where heads have no room pins are dowels, which a hinged joint leaves free in the cap."""
+    reducer = {
+        "ratio": 20,
+        "ring_pitch_radius": "34 mm",
+        "eccentricity": "0.8 mm",
+        "ring_pin_diameter": "4 mm",
+        "output_pins": {"count": 17, "diameter": "4 mm", "circle_radius": "21 mm"},
+    }
+    held, hinged = (
+        resolve(Design.from_mapping({"reducer": {**reducer, "carrier": {"joint": joint}}}))
+        for joint in ("clamped", "hinged")
+    )
+    assert hinged.layout.carrier.pin.screw is None
+    assert [line.status for line in retention_lines(held)] == ["pass", "pass"]
+    line = retention_lines(hinged)[0]
+    assert line.status == "fail"
+    assert "carrier cap downward" in line.substituted
+    assert "clamped" in line.remedy
+
+
+def test_a_low_shoulder_does_not_reach_past_the_chamfer(machine: Machine) -> None:
+    layout = machine.layout
+    journal = 0.5 * machine.seats[0].bearing.bore_diameter
+    low = journal + 1.2 * least_chamfer(2.0 * journal)
+    weak = machine.changed({})
+    changed = replace(layout, shaft=replace(layout.shaft, shoulder_radius=low))
+    vars(weak).update(layout=changed, parts=build_parts(machine.design, changed))
+    line = retention_lines(weak)[1]
+    assert line.status == "fail"
+    assert line.value == pytest.approx(1.2)
+
+
+def test_the_table_speaks_in_millimetres(machine: Machine) -> None:
+    row = next(one for one in machine.retention if one.name == "disc 1")
+    told = row.to_dict()
+    assert told["part"] == "disc 1"
+    assert told["down"] == {"held_by": "carrier cap", "play_mm": pytest.approx(0.5)}
