@@ -173,7 +173,8 @@ def lay_out_motor(
     sensor_top = magnet_bottom - _SENSOR_GAP
     board_top = sensor_top - _SENSOR_HEIGHT
     board_screw = cap_screw(2e-3, _BOARD_THICKNESS + 2.0e-3)
-    board = 0.5 * magnet + 9e-3
+    # Its screws' heads are higher than the gap to the shaft's end: they stand beside it.
+    board = max(0.5 * magnet + 9e-3, journal + board_screw.head_diameter + 0.9e-3)
 
     inner = bell + unit
     wall = 1.6 * unit
