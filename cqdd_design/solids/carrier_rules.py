@@ -15,6 +15,8 @@ from cqdd_design.solids.selection import ChosenBearing, OutputPin, cap_screw, th
 
 _ENGAGEMENT = 1.3
 """Least length of a column's screw in the plate, in threads."""
+_BETWEEN_HEADS = 0.4e-3
+"""Least wall between recesses for heads, m."""
 CLAMPED_SEAT = 1.0
 """Least length of a pin's seat in the cap that holds its slope, in diameters."""
 
@@ -81,10 +83,11 @@ def lay_out_carrier(
     most_outer = pack.inner_radius - 0.4 * unit
     # A catalogue head may be too large for a dense pin circle; ground dowels always fit.
     apart = 2.0 * circle * math.sin(math.pi / pins.count)
-    crowded = apart < 2.0 * counterbore + 0.4 * unit
+    between = max(0.4 * unit, _BETWEEN_HEADS)
+    crowded = apart < 2.0 * counterbore + between
     if beside:
         apart = 2.0 * circle * math.sin(0.5 * math.pi / pins.count)
-        crowded |= apart < counterbore + beside + 0.4 * unit
+        crowded |= apart < counterbore + beside + between
     inward = circle - counterbore - core < unit
     outward = circle + counterbore + 0.4 * unit > most_outer
     if crowded or inward or outward:

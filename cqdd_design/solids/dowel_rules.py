@@ -28,6 +28,8 @@ _SEAT_SHARE = 0.6
 """Of the weaker seat's yield strength that a layout lets a dowel press on it; checks allow more."""
 _SHEAR_SHARE = 0.5
 """Likewise of what breaks a dowel."""
+_LEAST_WALL = 0.5e-3
+"""Between dowels and bolts, m."""
 _LEAST_EFFICIENCY = 0.6
 """Of a gearbox whose ring takes the crank's torque too."""
 
@@ -101,7 +103,8 @@ def flange_dowels(
         Of the holes, at most, m.
     """
     between = 2.0 * circle * math.sin(math.pi / 12.0)
-    most = min(2.0 * (between - 0.5 * bolt - 0.6 * unit), wide, 6.0 * unit)
+    wall = max(0.6 * unit, _LEAST_WALL)
+    most = min(2.0 * (between - 0.5 * bolt - wall), wide, 6.0 * unit)
     torque = design.requirements.peak_torque
 
     def stress(one: _Try) -> DowelStress:

@@ -45,6 +45,8 @@ _HOT = 120.0
 """At which the bond of the bell still holds the motor's torque, deg C: what grease bears."""
 _MOST_HUB = 2.0
 """Length of a bonded hub over its diameter: beyond, only its ends carry."""
+_LEAST_WALL = 0.5e-3
+"""Inside the threads of the cover's ears, m."""
 _SIZES = (
     ("bore_diameter", "stator bore"),
     ("outer_diameter", "outside diameter"),
@@ -180,7 +182,7 @@ def lay_out_motor(
     wall = 1.6 * unit
     thread = thread_size(3.0 * unit)
     clearance = 0.55 * thread
-    circle = inner + wall + 0.3 * clearance
+    circle = inner + max(wall + 0.3 * clearance, 0.5 * thread + _LEAST_WALL)
     head = cap_screw(thread, 0.0).head_diameter
     ear_height = 2.0 * thread
     flange = min(3.0 * unit, pack.top - housing.flange_bottom)

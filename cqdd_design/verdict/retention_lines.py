@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from cqdd_design.catalog.bearings import least_chamfer
 from cqdd_design.errors import CatalogError, GeometryError
-from cqdd_design.gearbox.checks.allowables import SHOULDER_SHARE
+from cqdd_design.gearbox.checks.allowables import LEAST_WALL_BETWEEN_HOLES, SHOULDER_SHARE
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
 from cqdd_design.solids.retention import Retained, Stop
+from cqdd_design.solids.walls import Wall, least_walls
 
-_LINES = ("RETENTION-HELD", "RETENTION-SHOULDER")
+_LINES = ("RETENTION-HELD", "RETENTION-SHOULDER", "RETENTION-WALL")
 _CURES = {
     "carrier cap": "set carrier.joint to 'clamped' or 'columns', or give the pins room for heads "
     "(fewer or thinner output_pins, or another circle_radius)",
@@ -19,14 +20,14 @@ _CURES = {
 
 
 def retention_lines(machine: Machine) -> tuple[Check, ...]:
-    """Whether every part is held both ways, and shoulders reach their bearings."""
+    """Whether every part is held both ways, shoulders reach bearings, and holes have walls."""
     try:
         table = machine.retention
     except (CatalogError, GeometryError) as error:
         return tuple(
             build_check(one, None, None, error.message, "see why it is not known") for one in _LINES
         )
-    return (_held(table), _shoulder(table))
+    return (_held(table), _shoulder(table), _wall(least_walls(machine.parts)))
 
 
 def _held(table: tuple[Retained, ...]) -> Check:
@@ -66,4 +67,15 @@ def _shoulder(table: tuple[Retained, ...]) -> Check:
         f"{row.name} on {stop.by}: {1e3 * stop.face:.3g} mm, chamfer of the bearing "
         f"{1e3 * least_chamfer(row.bore):.3g} mm",
         "a cam bearing with a larger bore, or less eccentricity, leaves higher shoulders",
+    )
+
+
+def _wall(walls: tuple[Wall, ...]) -> Check:
+    least = min(walls, key=lambda one: one.thickness)
+    return build_check(
+        "RETENTION-WALL",
+        1e3 * least.thickness,
+        1e3 * LEAST_WALL_BETWEEN_HOLES,
+        f"{least.part}: {1e3 * least.thickness:.3g} mm between {least.between}",
+        "a larger ring, or fewer or thinner output_pins, leave more room",
     )

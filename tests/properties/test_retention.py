@@ -11,10 +11,13 @@ import pytest
 
 from cqdd_design.catalog.bearings import least_chamfer
 from cqdd_design.design import Design, load_design
+from cqdd_design.geometry.contours import PlanarPart
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.solids.layers import circle, prism
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.parts import build_parts
 from cqdd_design.solids.retention import Retained, retention
+from cqdd_design.solids.walls import least_walls
 from cqdd_design.verdict.retention_lines import retention_lines
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
@@ -40,7 +43,7 @@ def test_the_committed_designs_hold_every_part(name: str) -> None:
         row.name.rstrip(" 12") for row in held.retention
     } | {"shaft bearing"}
     assert {row.name for row in held.retention if row.free} == set()
-    assert [line.status for line in retention_lines(held)] == ["pass", "pass"]
+    assert [line.status for line in retention_lines(held)] == ["pass"] * 3
 
 
 def test_stops_and_plays_are_those_of_the_layout(machine: Machine) -> None:
@@ -122,7 +125,7 @@ def test_a_cap_on_loose_dowels_falls_off() -> None:
         for joint in ("clamped", "hinged")
     )
     assert hinged.layout.carrier.pin.screw is None
-    assert [line.status for line in retention_lines(held)] == ["pass", "pass"]
+    assert [line.status for line in retention_lines(held)] == ["pass"] * 3
     line = retention_lines(hinged)[0]
     assert line.status == "fail"
     assert "carrier cap downward" in line.substituted
@@ -146,3 +149,54 @@ def test_the_table_speaks_in_millimetres(machine: Machine) -> None:
     told = row.to_dict()
     assert told["part"] == "disc 1"
     assert told["down"] == {"held_by": "carrier cap", "play_mm": pytest.approx(0.5)}
+
+
+def test_walls_are_measured_between_circles(machine: Machine) -> None:
+    """Holes of 4 and 6 mm, 8 mm apart, in a plate of 20 mm: 3 mm, and 2 mm to the rim."""
+    plate = PlanarPart(
+        "plate",
+        circle(10e-3),
+        (circle(2e-3, np.array([-3e-3, 0.0])), circle(3e-3, np.array([5e-3, 0.0]))),
+    )
+    part = replace(machine.parts[0], name="plate", source="make", shape=prism(plate, 0.0, 1e-3))
+    found = least_walls([part])
+    assert [(one.part, round(1e3 * one.thickness, 9)) for one in found] == [("plate", 2.0)]
+    assert "rim" in found[0].between
+    bought = replace(part, source="buy")
+    assert least_walls([bought, replace(part, name="disc 1")]) == ()
+
+
+def test_thin_walls_are_warned_of(machine: Machine) -> None:
+    line = retention_lines(machine)[2]
+    assert line.status == "pass"
+    layout = machine.layout
+    near = replace(layout.housing, bolt_circle_radius=layout.housing.flange_radius - 2.4e-3)
+    weak, changed = machine.changed({}), replace(layout, housing=near)
+    vars(weak).update(layout=changed, parts=build_parts(machine.design, changed))
+    thin = retention_lines(weak)[2]
+    assert thin.status == "warn"
+    # M4 through a hole of 4.4 mm.
+    assert thin.value == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize("ring", [45, 60, 72, 100, 140])
+def test_layouts_of_any_size_leave_walls(ring: int) -> None:
+    scale = ring / 72.0
+    design = load_design(DESIGNS / "reference-s.toml")
+    reducer = {
+        "reducer.ring_pitch_radius": 32.75e-3 * scale,
+        "reducer.eccentricity": 1.97e-3 * scale,
+        "reducer.ring_pin_diameter": 6.6e-3 * scale,
+        "reducer.output_pins.circle_radius": 22e-3 * scale,
+        "reducer.ring.outer_diameter": 72e-3 * scale,
+        "reducer.output_pins.count": 8,
+        "reducer.cam_bearing.designation": "auto",
+        "requirements.outer_diameter": 72e-3 * scale,
+        "requirements.peak_torque": 90.0 * scale**2.5,
+        "requirements.continuous_torque": 30.0 * scale**2.5,
+    }
+    sized = resolve(design.replacing(reducer))
+    walls = least_walls(sized.parts)
+    assert min(one.thickness for one in walls) >= 0.4e-3 - 1e-9, min(
+        walls, key=lambda one: one.thickness
+    )

@@ -25,4 +25,15 @@ ROWS = (
         "A shoulder lower than the chamfer of the ring's edge does not hold it at all.",
         f"ISO 15, ISO 582 (chamfers); {HOUSE}",
     ),
+    CheckGuide(
+        "RETENTION-WALL",
+        "Thinnest wall of made parts between holes, and to their rims",
+        "mm",
+        "min",
+        "distance of two holes less their radii >= "
+        f"{1e3 * limits.LEAST_WALL_BETWEEN_HOLES:g} mm; discs and ring have checks of their own",
+        "Thinner walls tear or bulge when they are drilled and tapped.",
+        f"the parts as drawn, cqdd_design.solids.walls; {HOUSE}",
+        severity="warn",
+    ),
 )
