@@ -28,6 +28,8 @@ _SEAT_SHARE = 0.6
 """Of the weaker seat's yield strength that a layout lets a dowel press on it; checks allow more."""
 _SHEAR_SHARE = 0.5
 """Likewise of what breaks a dowel."""
+_END_PLAY = 0.3
+"""Of a ring's dowel in its hole, units."""
 _LEAST_WALL = 0.5e-3
 """Between dowels and bolts, m."""
 _LEAST_EFFICIENCY = 0.6
@@ -80,7 +82,8 @@ def ring_dowels(
     return DowelLayout(
         radius=0.5 * found.dowel.diameter,
         angles=tuple(first + pitch * tooth for tooth in teeth),
-        bottom=bottom,
+        # No deeper than that the clamp keeps them where they are.
+        bottom=max(bottom, pack.top - found.dowel.length - _END_PLAY * unit),
         length=found.dowel.length,
         bearing_length=found.dowel.bearing_length,
     )

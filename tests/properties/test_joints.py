@@ -25,6 +25,7 @@ from cqdd_design.machine.temperatures import MachineTemperatures
 from cqdd_design.machine.thermal_parts import NODES
 from cqdd_design.results import Check
 from cqdd_design.solids.motor_rules import bell_torque
+from cqdd_design.solids.mounting import forces
 from cqdd_design.verdict.joint_lines import joint_lines
 from cqdd_design.verdict.screw_lines import screw_lines
 
@@ -137,7 +138,8 @@ def test_the_bells_hub_is_as_long_as_the_motors_torque_asks_for(machine: Machine
     assert weaker.hub_bottom <= weaker.web_bottom
     # Magnet, board and cover go with the end of the shaft.
     assert machine.layout.shaft.bottom < motor.hub_bottom
-    assert motor.board_top < machine.layout.shaft.bottom
+    assert motor.magnet_bottom == pytest.approx(machine.layout.shaft.bottom)
+    assert motor.board_top < motor.magnet_bottom
     strong = machine.changed({"motor.current_limit": "2000 A"})
     assert bell_torque(strong.design, strong.motor) == machine.motor.peak_torque
 
@@ -264,6 +266,15 @@ def test_screw_lines_fail_where_joints_do(machine: Machine) -> None:
     vars(weak)["layout"] = replace(machine.layout, carrier=carrier)
     stripped = {one.id: one for one in screw_lines(weak)}["SCREW-THREAD"]
     assert (stripped.status, stripped.value) == ("fail", 0.0)
+
+
+def test_external_loads_add_up_at_the_mounting(machine: Machine) -> None:
+    """Eight screws at 40 mm: 2 M/(N R), F/N and T/(N R) each."""
+    asked = {"external_moment": "12 N*m", "external_axial": "300 N", "external_radial": "200 N"}
+    hung = machine.changed({f"requirements.{key}": value for key, value in asked.items()})
+    across, along = forces(hung.design.requirements, 8, 40e-3)
+    assert across == pytest.approx((90.0 / 40e-3 + 200.0) / 8)
+    assert along == pytest.approx(300.0 / 8 + 2.0 * 12.0 / (8 * 40e-3))
 
 
 def test_mounting_screws_grow_with_the_torque(machine: Machine) -> None:

@@ -14,8 +14,9 @@ from cqdd_design.design import Design, load_design
 from cqdd_design.geometry.contours import PlanarPart
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.solids.layers import circle, prism
-from cqdd_design.solids.part import Part
+from cqdd_design.solids.part import Part, placed
 from cqdd_design.solids.parts import build_parts
+from cqdd_design.solids.poses import HOUSING, transform
 from cqdd_design.solids.retention import Retained, retention
 from cqdd_design.solids.walls import least_walls
 from cqdd_design.verdict.retention_lines import retention_lines
@@ -111,6 +112,24 @@ def test_a_stop_that_is_too_far_away_is_none(machine: Machine) -> None:
     assert ("output bearing", "up") in free_in(rows_of(machine, parts))
 
 
+@pytest.mark.parametrize(("x", "held"), [(10e-3, False), (-10e-3, True), (11e-3, True)])
+def test_a_piece_over_a_hole_falls_through(machine: Machine, x: float, held: bool) -> None:
+    """A pin of 2 mm over a hole of 4 mm, beside it, and over its edge; all faces are flat rings."""
+    plate = PlanarPart("plate", circle(20e-3), (circle(2e-3, np.array([10e-3, 0.0])),))
+    proto = next(part for part in machine.parts if part.name == "housing")
+    below = replace(proto, shape=prism(plate, 0.0, 1e-3))
+    pin = PlanarPart("pin", circle(1.5e-3))
+    over = replace(
+        proto,
+        name="pin",
+        shape=prism(pin, 0.0, 5e-3),
+        instances=placed("pin", HOUSING, transform(0.3, x=x, z=1e-3)),
+    )
+    row = retention((below, over), machine.layout)[-1]
+    assert row.up.play is None
+    assert (row.down.by == "housing") is held
+
+
 def test_a_cap_on_loose_dowels_falls_off() -> None:
     """Where heads have no room pins are dowels, which a hinged joint leaves free in the cap."""
     reducer = {
@@ -162,6 +181,11 @@ def test_walls_are_measured_between_circles(machine: Machine) -> None:
     found = least_walls([part])
     assert [(one.part, round(1e3 * one.thickness, 9)) for one in found] == [("plate", 2.0)]
     assert "rim" in found[0].between
+    close = replace(plate, holes=(*plate.holes, circle(0.5e-3, np.array([0.0, 2.5e-3]))))
+    near = least_walls([replace(part, shape=prism(close, 0.0, 1e-3))])[0]
+    apart = np.hypot(3e-3, 2.5e-3) - 2.5e-3
+    assert near.between == "4 mm and 1 mm"
+    assert near.thickness == pytest.approx(apart)
     bought = replace(part, source="buy")
     assert least_walls([bought, replace(part, name="disc 1")]) == ()
 
