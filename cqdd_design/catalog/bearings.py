@@ -103,3 +103,20 @@ def find_bearing(designation: str) -> Bearing:
     2250.0
     """
     return find(designation, bearings(), "bearing")
+
+
+_CHAMFERS = ((8e-3, 0.15e-3), (10e-3, 0.2e-3))
+_CHAMFER = 0.3e-3
+
+
+def least_chamfer(bore: float) -> float:
+    """Least chamfer of ball bearings of a bore, m: of diameter series 8 (ISO 15), the smallest.
+
+    No fillet beside a seat may be larger, and a shoulder bears only beyond it.
+
+    Examples
+    --------
+    >>> [round(1e3 * least_chamfer(bore), 2) for bore in (6e-3, 8e-3, 15e-3)]
+    [0.15, 0.2, 0.3]
+    """
+    return next((chamfer for below, chamfer in _CHAMFERS if bore < below - 1e-9), _CHAMFER)

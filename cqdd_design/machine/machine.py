@@ -30,11 +30,15 @@ if TYPE_CHECKING:
     from cqdd_design.gearbox.life import LifeResult
     from cqdd_design.gearbox.losses import FrictionMachine, LossModel
     from cqdd_design.gearbox.losses.rolling import BearingFriction
+    from cqdd_design.gearbox.pack_loads import PackLoads
     from cqdd_design.machine.capacity import LoadedContacts
     from cqdd_design.results import MassProperties
     from cqdd_design.solids.inertia import GearboxInertia
+    from cqdd_design.solids.retention import Retained
 
 
+_PEAK_ANGLES = 120
+"""Crank angles over the period at which forces at the peak torque are looked at."""
 _FEW_TORQUES = 6
 """Up to which the losses of a duty are swept at its own torques."""
 _ROUGH_SHARES = (0.0, 1e-3, 5e-3, 0.02, 0.06, 0.15, 0.4, 1.0)
@@ -156,6 +160,13 @@ class Machine:
         return build_parts(self.design, self.layout)
 
     @cached_property
+    def retention(self) -> tuple[Retained, ...]:
+        """What holds every part along the axis; GeometryError as `parts`."""
+        from cqdd_design.solids.retention import retention
+
+        return retention(self.parts, self.layout)
+
+    @cached_property
     def inertia(self) -> GearboxInertia:
         """Mass properties of the parts in closed form."""
         from cqdd_design.solids.inertia import closed_form, gearbox_inertia
@@ -235,6 +246,22 @@ class Machine:
         from cqdd_design.gearbox.life import life
 
         return life(self.design, self.contact)
+
+    @cached_property
+    def peak_pack(self) -> PackLoads:
+        """Forces of the discs at the peak torque, both senses, driving with friction.
+
+        ContactError where it has no equilibrium.
+        """
+        from cqdd_design.gearbox.contact.rubbing import ContactFriction
+        from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+        from cqdd_design.gearbox.pack_loads import PackLoads
+
+        model, torque = self.contact, self.design.requirements.peak_torque
+        rubbed, angles = ContactFriction.of(model, "drive"), perfect_angles(model, _PEAK_ANGLES)
+        return PackLoads.of(
+            [contact_sweep(model, one, angles, friction=rubbed) for one in (torque, -torque)]
+        )
 
     @cached_property
     def bodies(self) -> ElasticBodies | None:

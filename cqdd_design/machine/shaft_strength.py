@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from cqdd_design.catalog.bearings import shaft_material
+from cqdd_design.catalog.bearings import least_chamfer, shaft_material
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.errors import CatalogError
 from cqdd_design.gearbox.checks.allowables import shaft_limit_fatigue
@@ -20,12 +20,6 @@ from cqdd_design.machine.shaft import disc_heights, knife_edges
 from cqdd_design.solids.layers import Layer
 from cqdd_design.solids.layout import PackLayout, ShaftLayout
 from cqdd_design.solids.rotating import eccentric_shaft
-
-_FILLETS = ((8e-3, 0.15e-3), (10e-3, 0.2e-3))
-_FILLET = 0.3e-3
-"""Least chamfer of ball bearings of up to these bores, m, and of wider ones (ISO 15, diameter
-series 8, which has the smallest): no fillet beside a seat may be larger, and edges of eccentrics,
-which nothing else decides, get the same."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +106,7 @@ def shaft_steps(pack: PackLayout, shaft: ShaftLayout) -> tuple[Step, ...]:
                 _outside(thin).radius,
                 shaft.bore_radius,
                 _outside(thick).radius + float(np.hypot(*_outside(thick).centre)),
-                _fillet(2.0 * seat),
+                least_chamfer(2.0 * seat),
             )
         )
     if pack.disc_count > 2:
@@ -127,10 +121,6 @@ def shaft_steps(pack: PackLayout, shaft: ShaftLayout) -> tuple[Step, ...]:
 def _outside(layer: Layer) -> Circle:
     assert isinstance(layer.shape.outer, Circle)
     return layer.shape.outer
-
-
-def _fillet(bore: float) -> float:
-    return next((fillet for below, fillet in _FILLETS if bore < below - 1e-9), _FILLET)
 
 
 def section_loads(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
+from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.checks.guide import check_guide
 from cqdd_design.results import Check
 from cqdd_design.roads.telling import Progress, silent
@@ -48,7 +49,16 @@ class Judgement:
         """The JSON form (``results`` of ``check``)."""
         told = self.verdict.to_dict() | {"meets": self.meets}
         seen = {} if self.motion is None else {"assembly": self.motion.to_dict()}
-        return {"verdict": told, **seen}
+        return {"verdict": told, "retention": self._retention, **seen}
+
+    @property
+    def _retention(self) -> list[dict[str, object]]:
+        """What holds every part; empty where nothing can be laid out."""
+        try:
+            table = self.verdict.evidence.machine.retention
+        except DesignError:
+            return []
+        return [row.to_dict() for row in table]
 
 
 def check(

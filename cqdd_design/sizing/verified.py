@@ -62,7 +62,8 @@ _GOALS: Mapping[str, Goal] = {
 }
 """Lines that are asked for, and the goal of a search that meets them if any does."""
 _HOT = "THERMAL-RISE"
-_SHAFT = {"SHAFT-STRENGTH", "SHAFT-FATIGUE", "SUPPORT-STATIC", "SUPPORT-LIFE"}
+_BOND = "BELL-JOINT"
+_SHAFT = {"SHAFT-STRENGTH", "SHAFT-FATIGUE", "SUPPORT-STATIC", "SUPPORT-LIFE", _BOND}
 """Lines that a cam bearing with a wider bore helps."""
 _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
@@ -385,7 +386,8 @@ def _next_step(hunt: Hunt, judged: Verdict) -> float | None:
     less = cooler(hunt.requirements) if failing & {_HOT, "MOTOR-CONTINUOUS"} else None
     if less is not None:
         hunt.requirements, hunt.lowered = less, True
-        failing -= {_HOT, "MOTOR-CONTINUOUS"}
+        # What is cooler is bonded better.
+        failing -= {_HOT, "MOTOR-CONTINUOUS", _BOND}
         if not failing:
             return 0.0
     if not failing <= {"YIELD", "THERMAL-CLEARANCE", *_SHAFT}:

@@ -5,6 +5,8 @@ Drawn in the carrier's frame, where the first pin stands at the hole clocking.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray, PlanarPart
@@ -26,12 +28,16 @@ from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, ShaftLayout
 from cqdd_design.solids.rotating import plain_pin
 from cqdd_design.solids.selection import CapScrew, OutputPin
 
-_BOLTS = 6
+OUTPUT_BOLTS = 6
+"""In the output's face."""
 _NUT_SLOTS = 4
 
 
-def carrier_plate(carrier: CarrierLayout, shaft: ShaftLayout, unit: float) -> Stack:
-    """The output plate: seats and threads of pins, threads for columns, bearing seats, bolts."""
+def carrier_plate(carrier: CarrierLayout, shaft: ShaftLayout) -> Stack:
+    """The output plate: seats and threads of pins, threads for columns, bearing seats, bolts.
+
+    And dowel holes between the bolts.
+    """
     output = carrier.output
     support = shaft.support
     seat_top = carrier.plate_bottom + support.bearing.width
@@ -59,12 +65,14 @@ def carrier_plate(carrier: CarrierLayout, shaft: ShaftLayout, unit: float) -> St
     if carrier.columns is not None:
         thread, top = 0.5 * carrier.columns.screw.thread, carrier.columns.thread_top
         drillings.append(Drilling(column_places(carrier), thread, carrier.plate_bottom, top))
+    top, dowels = carrier.plate_top, carrier.flange_dowels
     if carrier.bolt_thread:
-        depth = min(2.0 * carrier.bolt_thread, carrier.plate_top - seat_top - 0.5 * unit)
-        bolts = on_circle(_BOLTS, carrier.bolt_circle_radius, 0.0)
-        drillings.append(
-            Drilling(bolts, 0.5 * carrier.bolt_thread, carrier.plate_top - depth, carrier.plate_top)
-        )
+        bolts = on_circle(OUTPUT_BOLTS, carrier.bolt_circle_radius, 0.0)
+        drillings.append(Drilling(bolts, 0.5 * carrier.bolt_thread, top - carrier.bolt_depth, top))
+    if dowels.count:
+        first = math.pi / OUTPUT_BOLTS
+        places = on_circle(dowels.count, carrier.bolt_circle_radius, first)
+        drillings.append(Drilling(places, 0.5 * dowels.diameter, top - dowels.depth, top))
     return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], drillings)
 
 

@@ -9,11 +9,14 @@ from cqdd_design.design import Design
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.columns import column_offsets, has_columns
+from cqdd_design.solids.dowel_rules import flange_dowels
 from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, PackLayout
 from cqdd_design.solids.selection import ChosenBearing, OutputPin, cap_screw, thread_size
 
 _ENGAGEMENT = 1.3
 """Least length of a column's screw in the plate, in threads."""
+_BETWEEN_HEADS = 0.4e-3
+"""Least wall between recesses for heads, m."""
 CLAMPED_SEAT = 1.0
 """Least length of a pin's seat in the cap that holds its slope, in diameters."""
 
@@ -80,10 +83,11 @@ def lay_out_carrier(
     most_outer = pack.inner_radius - 0.4 * unit
     # A catalogue head may be too large for a dense pin circle; ground dowels always fit.
     apart = 2.0 * circle * math.sin(math.pi / pins.count)
-    crowded = apart < 2.0 * counterbore + 0.4 * unit
+    between = max(0.4 * unit, _BETWEEN_HEADS)
+    crowded = apart < 2.0 * counterbore + between
     if beside:
         apart = 2.0 * circle * math.sin(0.5 * math.pi / pins.count)
-        crowded |= apart < counterbore + beside + 0.4 * unit
+        crowded |= apart < counterbore + beside + between
     inward = circle - counterbore - core < unit
     outward = circle + counterbore + 0.4 * unit > most_outer
     if crowded or inward or outward:
@@ -127,6 +131,11 @@ def lay_out_carrier(
     bolt_circle = 0.5 * support.bearing.outer_diameter + 0.5 * room
     # Six bolts stand their circle's radius apart.
     bolt = thread_size(min(0.55 * room, bolt_circle / 2.0, 4.0 * unit))
+    if bolt > min(0.7 * room, bolt_circle / 1.5):
+        bolt = 0.0
+    # Beside the shaft's bearing where a wall stays, else above it.
+    beside_seat = 0.5 * (room - bolt) >= 0.8 * unit
+    depth = plate_top - bottom - (unit if beside_seat else support.bearing.width + 0.5 * unit)
     return CarrierLayout(
         joint=joint,
         columns=columns,
@@ -151,8 +160,12 @@ def lay_out_carrier(
         nut_top=nut_top,
         plate_top=plate_top,
         nut_radius=0.5 * output.bearing.bore_diameter - 0.25 * unit,
-        bolt_thread=bolt if bolt <= min(0.7 * room, bolt_circle / 1.5) else 0.0,
+        bolt_thread=bolt,
         bolt_circle_radius=bolt_circle,
+        bolt_depth=min(2.0 * bolt, depth),
+        flange_dowels=flange_dowels(
+            design, bolt_circle, bolt, min(0.7 * room, room - 1.6 * unit), depth, unit
+        ),
     )
 
 

@@ -6,6 +6,8 @@ bearings and the output bearing are pressed on what turns (k6) and slide in what
 and pins are located without play that matters: n6 in H7 for the ring, which its clamp then holds,
 H7 over the f9 shoulders of the screws. A retaining compound fills what H7 leaves there where a pin
 is to sit stiffly: in a cap whose joint is clamped, and in the plate where a dowel has no thread.
+The bell's bore is F7 over the k6 of the shaft, a slip fit of a few hundredths at most that the
+compound fills.
 """
 
 from __future__ import annotations
@@ -80,11 +82,14 @@ def seat_fits(layout: Layout) -> tuple[Fit, ...]:
         fits.append(Fit("housing", "stator register", 2.0 * housing.register_radius, "h7"))
     if layout.motor is not None:
         magnets = 2.0 * layout.motor.rotor_outer
-        fits.append(Fit("rotor bell", "bore", support.bore_diameter, "H7"))
+        fits.append(Fit("rotor bell", "bonded bore", support.bore_diameter, "F7"))
         fits.append(Fit("rotor bell", "seat of the ring of magnets", magnets, "H7"))
     if layout.dowels.radius:
         for part in ("ring", "housing"):
             fits.append(Fit(part, "holes of the ring dowels", 2.0 * layout.dowels.radius, "H7"))
+    if carrier.flange_dowels.count:
+        size = carrier.flange_dowels.diameter
+        fits.append(Fit("carrier plate", "dowel holes of the output", size, "H7"))
     if carrier.cap:
         holes = "bonded pin seats" if carrier.bonded_in_cap else "pin holes"
         fits.append(Fit("carrier cap", holes, pin, "H7"))

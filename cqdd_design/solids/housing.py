@@ -42,7 +42,7 @@ def _flange_drillings(
     """Screw holes of this radius, and mounting holes, through a part of the flange."""
     screw_at, mount_at = _screw_angles(housing)
     count, radius = housing.screw_count, housing.bolt_circle_radius
-    mount = _clearance_radius(housing.screw.thread)
+    mount = _clearance_radius(housing.mount_thread)
     return [
         Drilling(on_circle(count, radius, screw_at), screw_radius, bottom, top),
         Drilling(on_circle(count, radius, mount_at), mount, bottom, top),

@@ -162,6 +162,21 @@ class ColumnLayout:
 
 
 @dataclass(frozen=True)
+class FlangeDowels:
+    """Dowel holes in the output's face, halfway between its bolts, m; all 0 without room.
+
+    Attributes
+    ----------
+    depth : float
+        Of the holes; dowels stand out as far.
+    """
+
+    diameter: float
+    depth: float
+    count: int
+
+
+@dataclass(frozen=True)
 class CarrierLayout:
     """Carrier plate, cap, nut, pins and output bearing, m.
 
@@ -187,8 +202,10 @@ class CarrierLayout:
         Heights on the plate.
     nut_radius : float
         Thread of the nut that holds the output bearing.
-    bolt_thread, bolt_circle_radius : float
+    bolt_thread, bolt_circle_radius, bolt_depth : float
         Tapped holes in the output face; a thread of 0 where there is no room.
+    flange_dowels : FlangeDowels
+        Between these.
     """
 
     joint: CarrierJoint
@@ -215,6 +232,8 @@ class CarrierLayout:
     nut_radius: float
     bolt_thread: float
     bolt_circle_radius: float
+    bolt_depth: float
+    flange_dowels: FlangeDowels
 
     @property
     def bonded_in_cap(self) -> bool:
@@ -238,6 +257,8 @@ class HousingLayout:
         Holds cover and ring clamp to the flange.
     screw_count : int
         And as many mounting holes between them.
+    mount_thread : float
+        Of the screws through these.
     clamp_inner : float
         Bore of the ring clamp.
     cover_flange_top, cover_hub_radius, cover_top : float
@@ -253,6 +274,7 @@ class HousingLayout:
     bolt_circle_radius: float
     screw: CapScrew
     screw_count: int
+    mount_thread: float
     clamp_inner: float
     cover_flange_top: float
     cover_hub_radius: float
@@ -276,8 +298,8 @@ class MotorLayout:
         The rotor's ring of magnets and back iron.
     bell_radius, web_bottom, web_top : float
         Outside of the bell that carries the ring; its web.
-    hub_radius, hub_top : float
-        The bell's hub on the shaft's stub; it ends with the web.
+    hub_radius, hub_bottom, hub_top : float
+        The bell's hub on the shaft's stub; below the web it stands in the cover's dish.
     magnet_radius, magnet_height, magnet_bottom : float
         Of the encoder's magnet: flush with the end of the shaft, or on it.
     board_radius, board_bottom, board_top, sensor_top : float
@@ -307,6 +329,7 @@ class MotorLayout:
     web_bottom: float
     web_top: float
     hub_radius: float
+    hub_bottom: float
     hub_top: float
     magnet_radius: float
     magnet_height: float
@@ -347,12 +370,15 @@ class DowelLayout:
         rad, where the wall is thickest.
     bottom : float
         Of their holes, which open at the upper face of the ring.
+    bearing_length : float
+        Of `length`, between the chamfers of their ends.
     """
 
     radius: float
     angles: tuple[float, ...]
     bottom: float
     length: float
+    bearing_length: float
 
 
 @dataclass(frozen=True)

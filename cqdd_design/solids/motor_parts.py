@@ -6,6 +6,8 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
+from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
+from cqdd_design.catalog.dowels import MATERIAL as DOWEL_MATERIAL
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
@@ -15,6 +17,7 @@ from cqdd_design.solids.carrier import cap_screw_shape
 from cqdd_design.solids.inertia import BELL, ROTOR
 from cqdd_design.solids.layers import Stack, on_circle
 from cqdd_design.solids.layout import Layout, MotorLayout
+from cqdd_design.solids.motor_rules import bell_material
 from cqdd_design.solids.part import Colour, Part, Source, around, on_axis, placed
 from cqdd_design.solids.poses import HOUSING, SHAFT, transform
 from cqdd_design.solids.selection import CapScrew
@@ -72,8 +75,9 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
         return Part(name, shape, material, colour, source, designation, pieces, mass)
 
     bell = one(
-        BELL, motor_shapes.bell(motor, stub, unit), metal, _BELL,
-        "cup of the motor's rotor, turned and drilled, bonded on the shaft and to the magnets",
+        BELL, motor_shapes.bell(motor, stub, unit), bell_material(design), _BELL,
+        "cup of the motor's rotor, turned and drilled, bonded on the shaft and to the magnets with "
+        f"{ROTOR_COMPOUND.name}",
         turns=True, make=True,
     )  # fmt: skip
     masses = _motor_masses(row, motor, bell.exact_properties)
@@ -144,13 +148,13 @@ def dowel_part(layout: Layout) -> list[Part]:
     dowels, radius = layout.dowels, layout.pack.ring_radius
     if dowels.radius <= 0.0:
         return []
-    size = f"{2e3 * dowels.radius:g} m6 x {dowels.length * 1e3:g}"
+    size = f"{2e3 * dowels.radius:g} m6 x {dowels.length * 1e3:g} A"
     places = (transform(angle, *_on(radius, angle), dowels.bottom) for angle in dowels.angles)
     return [
         Part(
             "ring dowel",
             motor_shapes.dowel(dowels),
-            "AISI 52100 / 100Cr6 hardened",
+            DOWEL_MATERIAL,
             _STEEL,
             "buy",
             f"ISO 8734 {size}, drilled and reamed with the ring in its seat",

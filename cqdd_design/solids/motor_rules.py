@@ -17,9 +17,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, SAFETY, length_needed
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.geometry.scale import MOST_TUBE_WALL, largest_ring
-from cqdd_design.solids.layout import DowelLayout, MotorLayout
+from cqdd_design.solids.layout import MotorLayout
 from cqdd_design.solids.selection import cap_screw, thread_size
 
 if TYPE_CHECKING:
@@ -36,8 +38,15 @@ _SENSOR_GAP = 1.0e-3
 _SENSOR_HEIGHT, _BOARD_THICKNESS = 0.9e-3, 1.6e-3
 _MAGNETS = (3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0)
 """Diameters of diametric encoder magnets, mm; they are half as high, 2.5 mm at the most."""
-_DOWELS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
-"""Diameters of ground dowels, mm (ISO 8734)."""
+_LEAST_EFFICIENCY = 0.6
+"""Of a gearbox between motor and output."""
+_BELL_METAL = "7075-T6"
+_HOT = 120.0
+"""At which the bond of the bell still holds the motor's torque, deg C: what grease bears."""
+_MOST_HUB = 2.0
+"""Length of a bonded hub over its diameter: beyond, only its ends carry."""
+_LEAST_WALL = 0.5e-3
+"""Inside the threads of the cover's ears, m."""
 _SIZES = (
     ("bore_diameter", "stator bore"),
     ("outer_diameter", "outside diameter"),
@@ -83,12 +92,43 @@ def register_radius(motor: Motor, pack: PackLayout, unit: float) -> tuple[float,
     return own, None, missing
 
 
+def bell_torque(design: Design, motor: Motor) -> float:
+    """Greatest torque that the motor puts through its bell, N m.
+
+    By the driver's current, and no more than the motor's own peak torque; where neither is known,
+    what the peak torque of the output asks for.
+    """
+    constant = motor.torque_constant
+    driven = None if constant is None else constant * design.motor.current_limit
+    known = [one for one in (driven, motor.peak_torque) if one]
+    asked = design.requirements.peak_torque / (_LEAST_EFFICIENCY * design.reducer.ratio)
+    return min(known, default=asked)
+
+
+def bell_material(design: Design) -> str:
+    """What the bell is made of: as the housing, or aluminium where that is no metal.
+
+    A plastic neither bonds to a shaft nor stays round at its magnets' temperature.
+    """
+    own = design.housing.material
+    return own if ROTOR_COMPOUND.share_on(find_material(own)) else _BELL_METAL
+
+
+def _hub_length(torque: float, diameter: float) -> float:
+    """Length of a bonded hub, m: what holds the torque hot, up to `_MOST_HUB` diameters."""
+    compound = ROTOR_COMPOUND
+    lasting = compound.strength * compound.metal_share * compound.share_at(_HOT) / SAFETY
+    needed = length_needed(torque, diameter, lasting)
+    return min(math.ceil(needed * 2e3) / 2e3, _MOST_HUB * diameter)
+
+
 def lay_out_motor(
     motor: Motor,
     pack: PackLayout,
     housing: HousingLayout,
     support: ChosenBearing,
     unit: float,
+    torque: float,
     *,
     weights: bool,
 ) -> MotorLayout:
@@ -102,6 +142,8 @@ def lay_out_motor(
         Its bore is the diameter of the shaft's stub.
     unit : float
         A millimetre at the scale of this machine, m.
+    torque : float
+        That the bell's hub passes to the shaft, N m; it is as long as that asks for.
     weights : bool
         Whether room for balance weights is left about the bell.
     """
@@ -125,19 +167,22 @@ def lay_out_motor(
     journal = 0.5 * support.bearing.bore_diameter
     magnet = next((d for d in reversed(_MAGNETS) if d <= 1.3e3 * journal), _MAGNETS[0]) * 1e-3
     height = min(0.5 * magnet, 2.5e-3)
-    end = web_bottom - 0.5 * unit
+    hub_top = housing.bottom - 0.8 * unit
+    hub_bottom = min(web_bottom, hub_top - _hub_length(torque, 2.0 * journal))
+    end = hub_bottom - 0.5 * unit
     # In a pocket of the shaft; on the end of a shaft too thin for one.
     magnet_bottom = end if magnet <= 1.3 * journal + 1e-9 else end - height
     sensor_top = magnet_bottom - _SENSOR_GAP
     board_top = sensor_top - _SENSOR_HEIGHT
     board_screw = cap_screw(2e-3, _BOARD_THICKNESS + 2.0e-3)
-    board = 0.5 * magnet + 9e-3
+    # Its screws' heads are higher than the gap to the shaft's end: they stand beside it.
+    board = max(0.5 * magnet + 9e-3, journal + board_screw.head_diameter + 0.9e-3)
 
     inner = bell + unit
     wall = 1.6 * unit
     thread = thread_size(3.0 * unit)
     clearance = 0.55 * thread
-    circle = inner + wall + 0.3 * clearance
+    circle = inner + max(wall + 0.3 * clearance, 0.5 * thread + _LEAST_WALL)
     head = cap_screw(thread, 0.0).head_diameter
     ear_height = 2.0 * thread
     flange = min(3.0 * unit, pack.top - housing.flange_bottom)
@@ -157,7 +202,8 @@ def lay_out_motor(
         web_bottom=web_bottom,
         web_top=web_top,
         hub_radius=journal + 3.5 * unit,
-        hub_top=housing.bottom - 0.8 * unit,
+        hub_bottom=hub_bottom,
+        hub_top=hub_top,
         magnet_radius=0.5 * magnet,
         magnet_height=height,
         magnet_bottom=magnet_bottom,
@@ -178,33 +224,4 @@ def lay_out_motor(
         cover_screw=cap_screw(thread, flange + 1.2 * thread),
         cable_radius=min(0.3 * cable_room, 4.0 * unit) if cable_room > 3.0 * unit else 0.0,
         cable_circle=housing.flange_radius + 0.5 * unit + 0.35 * cable_room,
-    )
-
-
-def ring_dowels(
-    design: Design, pack: PackLayout, housing: HousingLayout, unit: float
-) -> DowelLayout:
-    """Dowels across the seam between the ring and the flange's part of its seat.
-
-    They are drilled and reamed with the ring in its seat, half in either part, so the wire cuts a
-    plain ring. Friction under the clamp holds the usual torque, the dowels every other.
-    """
-    most = min(
-        0.8 * (pack.ring_radius - pack.ledge_radius),
-        housing.bolt_circle_radius - 0.5 * housing.screw.thread - pack.ring_radius - 0.3 * unit,
-        3.0 * unit,
-    )
-    size = next((d for d in reversed(_DOWELS) if d * 1e-3 <= most + 1e-9), 0.0)
-    tooth_count = design.reducer.ring_tooth_count
-    count = min(4, tooth_count)
-    pitch = 2.0 * math.pi / tooth_count
-    # Behind a tooth the wall is thickest; behind the pocket of a pin it is thinnest.
-    first = 0.5 * pitch if design.reducer.ring_type == "pinwheel" else 0.0
-    teeth = [round(i * tooth_count / count) for i in range(count)]
-    bottom = max(housing.flange_bottom + 0.5 * unit, 0.0)
-    return DowelLayout(
-        radius=0.5e-3 * size,
-        angles=tuple(first + pitch * tooth for tooth in teeth),
-        bottom=bottom,
-        length=math.floor((pack.top - bottom) * 2e3) / 2e3,
     )

@@ -60,6 +60,7 @@ def bell(motor: MotorLayout, stub_radius: float, unit: float) -> Stack:
         Annulus(motor.web_top, motor.ring_bottom, inner, motor.bell_radius),
         Annulus(motor.ring_bottom, motor.ring_top, motor.rotor_outer, motor.bell_radius),
         Annulus(motor.web_top, motor.hub_top, stub_radius, motor.hub_radius),
+        Annulus(motor.hub_bottom, motor.web_bottom, stub_radius, motor.hub_radius),
     ]
     room = inner - 2.0 * unit - motor.hub_radius - 1.5 * unit
     middle = motor.hub_radius + 1.5 * unit + 0.5 * room
@@ -129,7 +130,7 @@ def _with_outer(shape: PlanarPart, outer: Circle | ArcContour) -> PlanarPart:
 def motor_cover(motor: MotorLayout, flange_bottom: float, unit: float) -> Stack:
     """The can over the bell: wall with ears, floor, and a dish for the encoder's board."""
     floor, wall = motor.cover_floor, motor.cover_wall
-    dish = motor.board_radius + 1.0 * unit
+    dish = max(motor.board_radius, motor.hub_radius) + 1.0 * unit
     # The board's screws need a plate they do not come through.
     reach = motor.board_screw.length - (motor.board_top - motor.board_bottom) + 0.3e-3
     bottom = motor.board_bottom - max(2.0 * unit, reach + 0.5e-3)

@@ -30,12 +30,12 @@ from cqdd_design.solids.motor_shapes import (
     with_magnet_pocket,
     with_motor_flange,
 )
+from cqdd_design.solids.mounting import SCREW_MATERIAL
 from cqdd_design.solids.part import Colour, Instance, Part, around, on_axis, placed
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
 from cqdd_design.solids.selection import ChosenBearing
 
 NUT_MATERIAL = "AISI 4140 Q&T 540C"
-FASTENER_MATERIAL = "Alloy steel 12.9 (ISO 7379)"
 
 _ALUMINIUM: Colour = (0.72, 0.74, 0.77)
 _HOUSING: Colour = (0.36, 0.40, 0.46)
@@ -71,7 +71,7 @@ def build_parts(design: Design, layout: Layout) -> tuple[Part, ...]:
         *_shaft_parts(layout),
         *_carrier_parts(design, layout),
         *_housing_parts(design, layout),
-        *motor_parts(design, layout, FASTENER_MATERIAL),
+        *motor_parts(design, layout, SCREW_MATERIAL),
     ]
     if design.reducer.balance.counterweights:
         parts += balance_weights(design, layout, parts, _SHAFT)
@@ -194,7 +194,7 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
     def made(name: str, shape: Stack, how: str = "turned and drilled") -> Part:
         return Part(name, shape, metal, _ALUMINIUM, "make", how, on_axis(name, CARRIER))
 
-    plate = carrier_shapes.carrier_plate(carrier, layout.shaft, layout.unit)
+    plate = carrier_shapes.carrier_plate(carrier, layout.shaft)
     parts = [made("carrier plate", plate)]
     if carrier.cap:
         how = "turned and drilled"
@@ -242,7 +242,7 @@ def _column_parts(layout: Layout) -> list[Part]:
         Part(
             "column screw",
             carrier_shapes.cap_screw_shape(columns.screw),
-            FASTENER_MATERIAL,
+            SCREW_MATERIAL,
             _SCREW,
             "buy",
             columns.screw.designation,
@@ -361,7 +361,7 @@ def _housing_parts(design: Design, layout: Layout) -> list[Part]:
         made("housing", _housing_shape(layout), _HOUSING),
         made("ring clamp", housing_shapes.ring_clamp(layout), _COVER),
         made("output cover", housing_shapes.output_cover(layout), _HOUSING),
-        Part("cover screw", screw, FASTENER_MATERIAL, _SCREW, "buy", how, screws),
+        Part("cover screw", screw, SCREW_MATERIAL, _SCREW, "buy", how, screws),
     ]
 
 

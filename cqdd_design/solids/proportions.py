@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from cqdd_design.catalog.bearings import AUTO, Bearing, find_bearing
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
@@ -20,6 +21,7 @@ from cqdd_design.solids.carrier_rules import (
     pin_wall,
     reach_beside_circle,
 )
+from cqdd_design.solids.dowel_rules import ring_dowels
 from cqdd_design.solids.layout import (
     CarrierLayout,
     HeldPins,
@@ -29,7 +31,8 @@ from cqdd_design.solids.layout import (
     PackLayout,
     ShaftLayout,
 )
-from cqdd_design.solids.motor_rules import lay_out_motor, register_radius, ring_dowels
+from cqdd_design.solids.motor_rules import bell_torque, lay_out_motor, register_radius
+from cqdd_design.solids.mounting import cover_thread, mounting_thread
 from cqdd_design.solids.selection import (
     ChosenBearing,
     OutputPin,
@@ -73,7 +76,8 @@ def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
     drawn = None
     if row is not None:
         weights = design.reducer.balance.counterweights
-        drawn = lay_out_motor(row, pack, housing, support, unit, weights=weights)
+        torque = bell_torque(design, row)
+        drawn = lay_out_motor(row, pack, housing, support, unit, torque, weights=weights)
     return Layout(
         unit=unit,
         pack=pack,
@@ -256,21 +260,33 @@ def _housing(
     motor: Motor | None,
 ) -> tuple[HousingLayout, float]:
     """Housing, and the height of the lower support bearing's upper face."""
-    thread = thread_size(3.0 * unit)
+    count = 6 if design.reducer.ring.outer_diameter < 50e-3 else 8
+    thread = cover_thread(design, thread_size(3.0 * unit), count, 5.5 * unit)
     lip = max(2.0 * unit, 0.3 * thread)
     hub = 0.5 * carrier.output.bearing.outer_diameter + 2.5 * unit
     head = cap_screw(thread, 0.0).head_diameter
-    bolt_circle = max(
-        register + 0.5 * thread + unit,
-        hub + 0.5 * head + 0.4 * unit,
-        pack.ring_radius + 0.5 * thread + unit,
-    )
     cover_flange_top = carrier.bearing_bottom + max(
         3.0 * unit, min(thread, carrier.output.bearing.width)
     )
     grip = cover_flange_top - pack.top
     screw = cap_screw(thread, grip + 1.3 * thread)
     flange_bottom = pack.top - max(screw.length - grip, 1.3 * thread) - 0.5 * unit
+    bolt_circle = max(
+        register + 0.5 * thread + unit,
+        hub + 0.5 * head + 0.4 * unit,
+        pack.ring_radius + 0.5 * thread + unit,
+    )
+    mount = mounting_thread(
+        design.requirements,
+        count,
+        bolt_circle,
+        thread,
+        cover_flange_top - flange_bottom,
+        find_material(design.housing.material),
+    )
+    # Larger ones leave a wall and the ring's dowels room.
+    bolt_circle = max(bolt_circle, pack.ring_radius + 0.55 * mount + 1.85 * unit)
+    rim = max(0.5 * head + unit, 0.55 * mount + unit)
 
     pin_heads = carrier.pin_circle_radius - 0.5 * max(
         carrier.pin.head_diameter, carrier.pin.nominal_diameter
@@ -284,11 +300,12 @@ def _housing(
     layout = HousingLayout(
         register_radius=register,
         seated_motor=motor is not None,
-        flange_radius=bolt_circle + 0.5 * head + unit,
+        flange_radius=bolt_circle + rim,
         flange_bottom=max(flange_bottom, bottom),
         bolt_circle_radius=bolt_circle,
         screw=screw,
-        screw_count=6 if design.reducer.ring.outer_diameter < 50e-3 else 8,
+        screw_count=count,
+        mount_thread=mount,
         clamp_inner=min(carrier.output.lip_radius, _most_clamp_radius(pack)),
         cover_flange_top=cover_flange_top,
         cover_hub_radius=hub,
@@ -320,7 +337,7 @@ def _shaft(
     hole = journal - 2.0 * max(2.5 * unit, 0.15 * journal)
     bottom = housing.bottom - min(1.2 * journal, 12.0 * unit)
     if motor is not None:
-        bottom = motor.web_bottom - 0.5 * unit
+        bottom = motor.hub_bottom - 0.5 * unit
         # The encoder's magnet needs a seat at the end of the bore.
         hole = min(hole, 2.0 * motor.magnet_radius - 0.8e-3)
     return ShaftLayout(

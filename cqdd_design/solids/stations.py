@@ -7,7 +7,7 @@ at one height on one body, such as eight screws, or one of two discs.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -37,12 +37,15 @@ class Span:
         Heights in the machine, m.
     inner, outer : float
         Radii between which there is material, m.
+    shape : PlanarPart
+        The layer's, in the part's own frame.
     """
 
     bottom: float
     top: float
     inner: float
     outer: float
+    shape: PlanarPart
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,10 +90,10 @@ class Station:
         found = []
         for layer in self.part.shape.layers:
             ends = sorted((flip * layer.bottom + lift, flip * layer.top + lift))
-            inner, outer = _radii(layer.shape)
+            inner, outer = ring_of(layer.shape)
             if self.off_axis:
                 inner, outer = self.axis_distance - outer, self.axis_distance + outer
-            found.append(Span(ends[0], ends[1], max(0.0, inner), outer))
+            found.append(Span(ends[0], ends[1], max(0.0, inner), outer, layer.shape))
         return tuple(sorted(found, key=lambda span: (span.bottom, span.outer)))
 
     @property
@@ -113,7 +116,7 @@ class Station:
         """Where it reaches farthest: a screw's head, a shaft's collar."""
         most = self.outer - 1e-9
         wide = [span for span in self.spans if span.outer >= most]
-        return Span(wide[0].bottom, wide[-1].top, wide[0].inner, wide[0].outer)
+        return replace(wide[0], top=wide[-1].top)
 
     @property
     def middle(self) -> float:
@@ -121,7 +124,7 @@ class Station:
         return 0.5 * (self.widest.bottom + self.widest.top)
 
 
-def _radii(shape: PlanarPart) -> tuple[float, float]:
+def ring_of(shape: PlanarPart) -> tuple[float, float]:
     """Bore and reach of a plane shape about its own axis, m."""
     outer = np.hypot(*shape.outer.sample(1e-5).T).max()
     inner = 0.0

@@ -25,7 +25,8 @@ _LIFE_LINES = (
     "OUTPUT-LIFE",
 )
 _IN_PROPORTION = (
-    *("SHAFT-STRENGTH", "SUPPORT-STATIC", "OUTPUT-STATIC"),
+    *("SHAFT-STRENGTH", "SUPPORT-STATIC", "OUTPUT-STATIC", "DOWEL-SHEAR", "DOWEL-BEARING"),
+    "SCREW-SLIP",
     *("LIGAMENT-STRESS", "ROOT-STRESS", "RING-STRESS"),
 )
 """Lines at the peak torque whose value goes with the torque as good as linearly."""

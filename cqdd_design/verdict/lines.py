@@ -24,7 +24,10 @@ from cqdd_design.results import Check
 from cqdd_design.verdict.asked import asked_lines
 from cqdd_design.verdict.drawn import yield_line
 from cqdd_design.verdict.evidence import Evidence
+from cqdd_design.verdict.joint_lines import joint_lines
 from cqdd_design.verdict.motor import motor_lines
+from cqdd_design.verdict.retention_lines import retention_lines
+from cqdd_design.verdict.screw_lines import screw_lines
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
 _BODIES = tuple(
@@ -44,7 +47,14 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         if check.id.startswith("MOTOR-"):
             continue
         lines.append(carried.pop(check.id, check))
-    lines += (*carried.values(), *shaft_lines(machine), *_rubbing(machine))
+    lines += (
+        *carried.values(),
+        *shaft_lines(machine),
+        *joint_lines(machine, evidence.temperatures),
+        *screw_lines(machine),
+        *retention_lines(machine),
+        *_rubbing(machine),
+    )
     lines += evidence.stress_checks or _missing(_BODIES, evidence.stress_missing)
     lines += evidence.heat_checks or _missing(_HEAT, evidence.heat_missing)
     lines += motor_lines(

@@ -14,8 +14,6 @@ from cqdd_design.gearbox.checks.allowables import STATIC_SAFETY, shaft_limit_pea
 from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS
 from cqdd_design.gearbox.checks.remedies import lower_torque
 from cqdd_design.gearbox.checks.state import build_check
-from cqdd_design.gearbox.contact.rubbing import ContactFriction
-from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.life.cam import equivalent_load, set_life
 from cqdd_design.gearbox.output_bearing import dynamic_load, static_load
 from cqdd_design.gearbox.pack_loads import PackLoads
@@ -29,8 +27,6 @@ from cqdd_design.machine.shaft_strength import (
 )
 from cqdd_design.results import Check
 
-_ANGLES = 120
-"""Crank angles over the period at which the peak torque is looked at."""
 _MEGA = 1e6
 _WIDER = "leave room for larger support bearings (a cam bearing with a larger bore)"
 _LIGHTER = "lower the torque or the external loads"
@@ -42,17 +38,9 @@ def shaft_lines(machine: Machine) -> tuple[Check, ...]:
     Of perfect parts in contact equilibrium, driving with friction: at the peak torque in both
     senses, and over the duty.
     """
-    asked, model = machine.design.requirements, machine.contact
     names = (*_AT_PEAK, *_OVER_DUTY)
     try:
-        rubbed, angles = ContactFriction.of(model, "drive"), perfect_angles(model, _ANGLES)
-        peak = PackLoads.of(
-            [
-                contact_sweep(model, torque, angles, friction=rubbed)
-                for torque in (asked.peak_torque, -asked.peak_torque)
-            ]
-        )
-        duty = machine.life.pack
+        peak, duty = machine.peak_pack, machine.life.pack
         return (
             *_strength(machine, peak, duty),
             _support_static(machine, peak),

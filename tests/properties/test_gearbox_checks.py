@@ -33,6 +33,8 @@ from cqdd_design.gearbox.checks import (
     guide_asked,
     guide_bodies,
     guide_heat,
+    guide_joints,
+    guide_retention,
     guide_shaft,
 )
 from cqdd_design.gearbox.contact.model import ContactModel
@@ -526,7 +528,7 @@ def test_guide_and_checks_speak_of_the_same_things() -> None:
     rare = {"BEARING-RACEWAY", "ASSEMBLY-CLEAR", "MOTOR-DATA", "BALANCE-WEIGHTS"}
     # Nor are gearboxes drawn; these lines are the verdict's.
     rare |= {"CONTACT-REACH", "DUTY-ENVELOPE", "YIELD", "PIN-RUBBING"}
-    rare |= {row.id for row in guide_shaft.ROWS}
+    rare |= {row.id for row in (*guide_shaft.ROWS, *guide_joints.ROWS, *guide_retention.ROWS)}
     rare |= {row.id for row in (*guide_asked.ROWS, *guide_bodies.ROWS, *guide_heat.ROWS)}
     assert seen == set(CHECK_GUIDE) - rare
     with pytest.raises(UsageError, match="BEARING-LIFE"):

@@ -313,8 +313,9 @@ def test_density_of_the_housing_shows_in_the_mass() -> None:
     light = {part.name: part.mass for part in resolve(design).parts}
     heavy = {part.name: part.mass for part in resolve(steel).parts}
     for name in ("housing", "carrier plate", "carrier cap", "ring clamp", "output cover"):
-        assert heavy[name] / light[name] == pytest.approx(7850.0 / 2810.0)
-    assert heavy["ring"] == light["ring"]
+        assert heavy[name] / light[name] == pytest.approx(7850.0 / 2810.0, rel=1e-3)
+    # The ring has fewer dowels in steel, which bears more pressure.
+    assert light["ring"] < heavy["ring"] < 1.002 * light["ring"]
 
 
 def test_fixed_parts_stay_where_they_are() -> None:
@@ -324,7 +325,7 @@ def test_fixed_parts_stay_where_they_are() -> None:
     # The catalogue's motor, once: its rotor is magnets and the bell that carries them.
     motor = weights["motor stator"] + weights["motor rotor"] + weights["rotor bell"]
     assert motor == pytest.approx(0.525, rel=1e-9)
-    assert sum(weights.values()) == pytest.approx(1.4817, abs=1e-4)
+    assert sum(weights.values()) == pytest.approx(1.4869, abs=1e-4)
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,10 @@ from cqdd_design.solids.clearances import assembly_motion
 from cqdd_design.solids.counterweights import crank_moments
 from cqdd_design.solids.layers import Annulus, circle, reshaped, scalloped_circle, turned
 from cqdd_design.solids.mesh import DISPLAY
+from cqdd_design.solids.motor_rules import lay_out_motor
+from cqdd_design.solids.motor_shapes import board_screw_circle
 from cqdd_design.solids.part import Part
+from cqdd_design.solids.selection import ChosenBearing
 
 BEARING = find_bearing("6902")
 MOTOR = ("motor stator", "motor rotor", "rotor bell", "motor cover", "encoder magnet")
@@ -128,11 +131,28 @@ def test_a_motor_that_cannot_be_drawn_is_left_out_and_told(
     assert why in resolve(design).layout.motor_missing
 
 
-@pytest.mark.parametrize(("outside", "size"), [("72 mm", 1.5), ("76 mm", 2.5), ("80 mm", 3.0)])
+@pytest.mark.parametrize(("outside", "size"), [("72 mm", 1.5), ("80 mm", 2.0), ("120 mm", 3.0)])
 def test_dowels_are_of_the_sizes_of_iso_8734(outside: str, size: float) -> None:
-    """A thicker ring takes the next size; its wall and the housing's both carry them."""
+    """A larger ring takes the next size, if the flange is as deep as the shortest of it is long."""
     design = known_design("paper").replacing({"reducer.ring.outer_diameter": outside})
     assert resolve(design).layout.dowels.radius == pytest.approx(0.5e-3 * size, rel=1e-12)
+
+
+@pytest.mark.parametrize("support", ["6800", "6802", "6805", "6808"])
+def test_screws_of_the_board_stand_beside_the_shafts_end(support: str) -> None:
+    """Their heads reach higher than the end of a thick shaft, which once turned into them."""
+    layout, row = resolve(known_design("paper")).layout, find_bearing(support)
+    motor = lay_out_motor(
+        layout.motor_row,
+        layout.pack,
+        layout.housing,
+        ChosenBearing(row),
+        layout.unit,
+        8.0,
+        weights=False,
+    )
+    heads = board_screw_circle(motor) - 0.5 * motor.board_screw.head_diameter
+    assert heads > 0.5 * row.bore_diameter + 0.3e-3
 
 
 def test_dowels_lie_half_in_ring_and_half_in_housing() -> None:

@@ -11,7 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cqdd_design.catalog.adhesives import SAFETY, RetainingCompound
+from cqdd_design.catalog.dowels import SHEAR_STRENGTH
 from cqdd_design.catalog.materials import Material
+from cqdd_design.catalog.tightening import STRIPPING_SAFETY
 from cqdd_design.geometry.runners import LEAST_WALL
 
 UNEVEN_SHARING = 1.15
@@ -337,6 +340,88 @@ def shaft_limit_fatigue(material: Material, diameter: float) -> Allowable:
     size = min(1.24 * min(max(1e3 * diameter, 2.79), 51.0) ** -0.107, 1.0)
     return Allowable(size * edge.value, f"{size:.2f} (size) x {edge.basis}")
 
+
+# Dowels ----------------------------------------------------------------------------------------
+DOWEL_SAFETY = 1.5
+"""Against breaking in shear, at the peak torque."""
+
+
+def dowel_limit_shear() -> Allowable:
+    """Shear stress of a ground dowel at the peak torque.
+
+    Examples
+    --------
+    >>> round(dowel_limit_shear().value / 1e6)
+    597
+    """
+    return Allowable(
+        SHEAR_STRENGTH / DOWEL_SAFETY,
+        f"{SHEAR_STRENGTH / 1e6:.0f} MPa/{DOWEL_SAFETY:g}, hardened ground pins in single shear",
+    )
+
+
+def dowel_limit_seat(*materials: Material) -> Allowable:
+    """Mean pressure of a dowel on the weaker of its seats at the peak torque: S_y/1.2.
+
+    DIN 6892 (method C) lets keys press as hard as 0.9 S_y.
+    """
+    return min((_yield_share(one, 1.0, "S_y") for one in materials), key=lambda limit: limit.value)
+
+
+# Screws ---------------------------------------------------------------------------------------
+SLIP_SAFETY = 1.2
+"""On slipping at the peak torque (VDI 2230, section 5.5.6: static loads)."""
+THREAD_SAFETY = STRIPPING_SAFETY
+"""On stripping at the greatest preload, which stated tightening torques leave."""
+PROOF_SHARE = 0.88
+"""Proof stress over yield strength of class 12.9, 970 of 1100 MPa (ISO 898-1, table 3)."""
+
+
+def screw_limit(material: Material) -> Allowable:
+    """Tension of a screw at its greatest preload.
+
+    Examples
+    --------
+    >>> from cqdd_design.catalog.materials import find_material
+    >>> round(screw_limit(find_material("Alloy steel 12.9 (ISO 7379)")).value / 1e6)
+    950
+    """
+    strength = material.yield_strength
+    if strength is None:
+        return Allowable(0.0, f"no yield strength in the catalogue for {material.name}")
+    return Allowable(
+        PROOF_SHARE * strength, f"{PROOF_SHARE:g} S_y {strength / 1e6:.0f} MPa ({material.name})"
+    )
+
+
+# Bell -----------------------------------------------------------------------------------------
+BOND_SAFETY = SAFETY
+"""On the strength of a retaining compound, which layouts of the bell's hub take too."""
+
+
+def bond_limit(compound: RetainingCompound, hub: Material, temperature: float) -> Allowable:
+    """Shear stress of a bonded joint of a steel shaft and a hub at a temperature, deg C.
+
+    Examples
+    --------
+    >>> from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
+    >>> from cqdd_design.catalog.materials import find_material
+    >>> round(bond_limit(ROTOR_COMPOUND, find_material("7075-T6"), 22.0).value / 1e6, 2)
+    6.25
+    """
+    on, hot = compound.share_on(hub), compound.share_at(temperature)
+    return Allowable(
+        compound.strength * on * hot / BOND_SAFETY,
+        f"{compound.strength / 1e6:g} MPa of {compound.name} on steel x {on:g} ({hub.name}) x "
+        f"{hot:.2f} ({temperature:.0f} degC)/{BOND_SAFETY:g}; {compound.source}",
+    )
+
+
+# Retention -------------------------------------------------------------------------------------
+LEAST_WALL_BETWEEN_HOLES = 0.4e-3
+"""Between drilled holes, and from them to rims, m (house rule: less tears in drilling)."""
+SHOULDER_SHARE = 1.25
+"""Height of a shoulder over the chamfer of the ring that stands on it: a quarter of it bears."""
 
 # Heat ------------------------------------------------------------------------------------------
 GREASE_MOST = 120.0

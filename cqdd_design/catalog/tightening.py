@@ -1,0 +1,221 @@
+"""Screws that are tightened: threads, the preload of a torque, and what is left of it (VDI 2230).
+
+The rules are those of VDI 2230 part 1 (2015) in their simple form: concentric clamping, a working
+load that takes all of itself from the clamp. Symbols are theirs::
+
+    F_M = nu R_p A_0/sqrt(1 + 3 (3/2 d_2/d_0 (P/(pi d_2) + 1.155 mu))^2)       the preload
+    M_A = F_M (0.16 P + 0.58 d_2 mu + mu D_Km/2)                               its torque
+    F_Z = f_Z/(delta_S + delta_P)                                              what embedding takes
+    F_V = F_M/alpha_A - F_Z                                                    what is left at least
+    F_mG = tau_B pi d m/P (P/2 + (d - D_2) tan 30 deg)                         what strips the nut
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from cqdd_design.catalog.materials import Material
+
+# Pitch of coarse threads, mm (ISO 261).
+_COARSE = {
+    1.6: 0.35, 2.0: 0.4, 2.5: 0.45, 3.0: 0.5, 4.0: 0.7, 5.0: 0.8, 6.0: 1.0, 8.0: 1.25,
+    10.0: 1.5, 12.0: 1.75, 16.0: 2.0, 20.0: 2.5,
+}  # fmt: skip
+_INCH = 25.4e-3
+FRICTION = 0.12
+"""mu of thread and head, lightly oiled: where friction class B of VDI 2230, 0.08 to 0.16, lies."""
+UTILISATION = 0.9
+"""nu: share of the yield strength that tension and torsion together take at the torque."""
+TIGHTENING_FACTOR = 1.6
+"""alpha_A of a torque wrench where friction is estimated: greatest over least preload."""
+EMBEDDING_ENDS, EMBEDDING_FACE = 6e-6, 2e-6
+"""f_Z of thread and head together, and of every face between clamped parts, m: ground and turned
+faces under a transverse load (VDI 2230, table 5.4/1)."""
+GRIP_FRICTION = 0.15
+"""mu of clean dry faces between clamped parts (VDI 2230, table A6: 0.1 to 0.18, steel on
+aluminium)."""
+SHEAR_SHARE = 0.6
+"""Shear strength of a thread's material over its ultimate strength, the least of VDI 2230's for
+steels and wrought aluminium."""
+STRIPPING_SAFETY = 1.5
+"""Least force that strips a thread over the greatest preload."""
+
+
+@dataclass(frozen=True)
+class Thread:
+    """A thread of 60 degrees, m."""
+
+    diameter: float
+    pitch: float
+
+    @property
+    def pitch_diameter(self) -> float:
+        """d_2, and D_2 of the nut."""
+        return self.diameter - 0.64952 * self.pitch
+
+    @property
+    def root_diameter(self) -> float:
+        """d_3."""
+        return self.diameter - 1.22687 * self.pitch
+
+    @property
+    def stress_diameter(self) -> float:
+        """d_0, the mean of both (ISO 898-1)."""
+        return 0.5 * (self.pitch_diameter + self.root_diameter)
+
+    @property
+    def stress_area(self) -> float:
+        """A_S, m^2.
+
+        Examples
+        --------
+        >>> round(coarse_thread(10e-3).stress_area * 1e6, 1)
+        58.0
+        """
+        return 0.25 * math.pi * self.stress_diameter**2
+
+
+def coarse_thread(diameter: float) -> Thread:
+    """The coarse metric thread of a nominal diameter, m."""
+    return Thread(diameter, _COARSE[round(diameter * 1e3, 3)] * 1e-3)
+
+
+def thread_named(name: str, diameter: float) -> Thread:
+    """A thread written ``M3``, ``10-24`` or ``5/16-18``, whose major diameter (m) is known.
+
+    Examples
+    --------
+    >>> print(round(thread_named("10-24", 4.826e-3).pitch * 1e3, 3))
+    1.058
+    """
+    if name.startswith("M"):
+        return coarse_thread(diameter)
+    return Thread(diameter, _INCH / float(name.rpartition("-")[2]))
+
+
+@dataclass(frozen=True)
+class Clamping:
+    """A screw and what it holds together.
+
+    Attributes
+    ----------
+    thread : Thread
+    screw, clamped, tapped : Material or None
+        Of the screw, of what is under its head, of the thread it is in; None where that is another
+        machine's and not judged.
+    bearing_outer, bearing_inner : float
+        Diameters of the face under the head, m.
+    grip, engaged : float
+        Length that is clamped, and that of thread in thread, m.
+    faces : int
+        Between clamped parts.
+    """
+
+    thread: Thread
+    screw: Material
+    clamped: Material
+    tapped: Material | None
+    bearing_outer: float
+    bearing_inner: float
+    grip: float
+    engaged: float
+    faces: int
+
+    @property
+    def preload(self) -> float:
+        """Greatest preload at the stated torque, N: what screw, head's seat and thread all bear."""
+        most = [preload_at_yield(self.thread, UTILISATION * (self.screw.yield_strength or 0.0))]
+        seat = self.clamped.yield_strength
+        if seat is not None:
+            most.append(seat * self.bearing_area)
+        if self.stripping is not None:
+            most.append(self.stripping / STRIPPING_SAFETY)
+        return min(most)
+
+    @property
+    def bearing_area(self) -> float:
+        """Under the head, m^2."""
+        return 0.25 * math.pi * (self.bearing_outer**2 - self.bearing_inner**2)
+
+    @property
+    def torque(self) -> float:
+        """That gives this preload, N m."""
+        mean = 0.5 * (self.bearing_outer + self.bearing_inner)
+        return tightening_torque(self.preload, self.thread, mean)
+
+    @property
+    def stress(self) -> float:
+        """Of the screw's tension at this preload, Pa."""
+        return self.preload / self.thread.stress_area
+
+    @property
+    def stripping(self) -> float | None:
+        """Force that strips the thread it is in, N; None where that is not judged."""
+        if self.tapped is None:
+            return None
+        weak = SHEAR_SHARE * (self.tapped.ultimate_strength or 0.0)
+        return stripping_force(self.thread, self.engaged, weak)
+
+    @property
+    def least_preload(self) -> float:
+        """What is left after scatter and embedding, N; 0 where embedding takes all."""
+        thread, steel = self.thread, self.screw.youngs_modulus
+        core = 0.25 * math.pi * thread.root_diameter**2
+        shank = 0.25 * math.pi * thread.diameter**2
+        nut = steel if self.tapped is None else self.tapped.youngs_modulus
+        d = thread.diameter
+        soft = (0.4 * d / shank + (self.grip + 0.5 * d) / core) / steel + 0.33 * d / shank / nut
+        area = substitution_area(self.bearing_outer, self.bearing_inner, self.grip)
+        soft += self.grip / (area * self.clamped.youngs_modulus)
+        lost = (EMBEDDING_ENDS + EMBEDDING_FACE * self.faces) / soft
+        return max(self.preload / TIGHTENING_FACTOR - lost, 0.0)
+
+
+def preload_at_yield(thread: Thread, strength: float, friction: float = FRICTION) -> float:
+    """Preload at which tension and torsion reach a strength (Pa), N (VDI 2230, eq. R8/1).
+
+    Examples
+    --------
+    Table A1 of VDI 2230 has 29.6 kN for M10, 8.8, at 0.12:
+
+    >>> round(preload_at_yield(coarse_thread(10e-3), 0.9 * 640e6) / 1e3, 1)
+    29.6
+    """
+    d2, d0 = thread.pitch_diameter, thread.stress_diameter
+    twist = 1.5 * d2 / d0 * (thread.pitch / (math.pi * d2) + 1.155 * friction)
+    return strength * thread.stress_area / math.sqrt(1.0 + 3.0 * twist**2)
+
+
+def tightening_torque(
+    preload: float, thread: Thread, head: float, friction: float = FRICTION
+) -> float:
+    """Torque of a preload (N), N m, with friction under the head at a mean diameter (m)."""
+    d2 = thread.pitch_diameter
+    return preload * (0.16 * thread.pitch + (0.58 * d2 + 0.5 * head) * friction)
+
+
+def stripping_force(thread: Thread, engaged: float, strength: float) -> float:
+    """Force that shears a nut thread off over an engaged length (m), N; its shear strength in Pa.
+
+    The first and the last half of a turn carry nothing (VDI 2230, section 5.5.5: 0.8 P).
+    """
+    carries = max(engaged - 0.8 * thread.pitch, 0.0)
+    depth = 0.5 + (thread.diameter - thread.pitch_diameter) / thread.pitch * math.tan(math.pi / 6.0)
+    return strength * math.pi * thread.diameter * carries * depth
+
+
+def substitution_area(head: float, hole: float, grip: float) -> float:
+    """Area of the cylinder that yields as wide clamped plates do, m^2 (VDI 2230, 1986).
+
+    Parameters
+    ----------
+    head, hole : float
+        Diameters under the head and of the hole, m.
+    grip : float
+        Length that is clamped, m.
+    """
+    wide = head + grip
+    spread = math.cbrt(grip * head / wide**2)
+    ring = 0.25 * math.pi * (head**2 - hole**2)
+    return ring + 0.125 * math.pi * head * (wide - head) * ((spread + 1.0) ** 2 - 1.0)

@@ -1,0 +1,39 @@
+"""What the checks of what keeps its place mean."""
+
+from __future__ import annotations
+
+from cqdd_design.gearbox.checks import allowables as limits
+from cqdd_design.gearbox.checks.guide_row import HOUSE, CheckGuide
+
+ROWS = (
+    CheckGuide(
+        "RETENTION-HELD",
+        "Parts that nothing holds along the axis",
+        "",
+        "max",
+        "number of parts and directions from which no way of faces, threads, press fits and bonds "
+        "leads to the housing = 0",
+        "What can wander along the axis does: it rubs on what turns, or leaves its seat.",
+        "the parts as drawn, cqdd_design.solids.retention",
+    ),
+    CheckGuide(
+        "RETENTION-SHOULDER",
+        "Lowest shoulder beside a bearing, over the bearing's chamfer",
+        "",
+        "min",
+        f"width of the face on a ring / least chamfer of ISO 15 >= {limits.SHOULDER_SHARE:g}",
+        "A shoulder lower than the chamfer of the ring's edge does not hold it at all.",
+        f"ISO 15, ISO 582 (chamfers); {HOUSE}",
+    ),
+    CheckGuide(
+        "RETENTION-WALL",
+        "Thinnest wall of made parts between holes, and to their rims",
+        "mm",
+        "min",
+        "distance of two holes less their radii >= "
+        f"{1e3 * limits.LEAST_WALL_BETWEEN_HOLES:g} mm; discs and ring have checks of their own",
+        "Thinner walls tear or bulge when they are drilled and tapped.",
+        f"the parts as drawn, cqdd_design.solids.walls; {HOUSE}",
+        severity="warn",
+    ),
+)

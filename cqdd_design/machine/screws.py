@@ -1,0 +1,241 @@
+"""The screwed joints of a machine: what clamps them, and what would part them at peak torque."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from cqdd_design.catalog.materials import Material, find_material
+from cqdd_design.catalog.tightening import (
+    GRIP_FRICTION,
+    Clamping,
+    coarse_thread,
+    thread_named,
+)
+from cqdd_design.machine.machine import Machine
+from cqdd_design.machine.shaft_strength import output_loads
+from cqdd_design.solids import mounting
+from cqdd_design.solids.carrier import OUTPUT_BOLTS
+from cqdd_design.solids.mounting import SCREW_MATERIAL
+
+
+@dataclass(frozen=True)
+class ScrewJoint:
+    """Equal screws on a circle.
+
+    Attributes
+    ----------
+    place, screw : str
+        What they hold, and which they are, in words.
+    across, along : float
+        Force that would make one slip, and that pulls it, N.
+    cure : str
+        What would hold it better.
+    """
+
+    place: str
+    screw: str
+    count: int
+    clamping: Clamping
+    across: float
+    along: float
+    cure: str = "take a stronger housing.material"
+
+    @property
+    def stripping_safety(self) -> float | None:
+        """Force that strips its thread over the greatest preload; None where not judged."""
+        strips, preload = self.clamping.stripping, self.clamping.preload
+        if strips is None:
+            return None
+        return strips / preload if preload > 0.0 else 0.0
+
+    @property
+    def slip_safety(self) -> float:
+        """Least clamping force over what the forces ask for; endless where none do."""
+        left = self.clamping.least_preload - self.along
+        if self.across <= 0.0:
+            return self.clamping.least_preload / self.along if self.along > 0.0 else math.inf
+        return max(left, 0.0) * GRIP_FRICTION / self.across
+
+
+def screw_joints(machine: Machine) -> tuple[ScrewJoint, ...]:
+    """Every screwed joint that is drawn, but for the encoder's board, which holds nothing else.
+
+    Raises
+    ------
+    ContactError
+        When the peak torque has no equilibrium.
+    GeometryError
+        When the machine cannot be laid out.
+    """
+    every = [_cover(machine), _mounting(machine), _output(machine)]
+    if machine.layout.carrier.pin.screw is not None:
+        every.append(_pins(machine))
+    if machine.layout.carrier.columns is not None:
+        every.append(_columns(machine))
+    if machine.layout.motor is not None:
+        every.append(_motor_cover(machine))
+    return tuple(one for one in every if one is not None)
+
+
+def _cover(machine: Machine) -> ScrewJoint:
+    """Between them cover and clamp hold the output bearing: what it carries parts them."""
+    layout = machine.layout
+    housing, loads = layout.housing, output_loads(machine, machine.peak_pack)
+    metal, grip = _housing_metal(machine), housing.cover_flange_top - layout.pack.top
+    screw, around = housing.screw, housing.screw_count * housing.bolt_circle_radius
+    pulled = loads.axial / housing.screw_count + 2.0 * loads.moment / around
+    clamping = Clamping(
+        thread=coarse_thread(screw.thread),
+        screw=find_material(SCREW_MATERIAL),
+        clamped=metal,
+        tapped=metal,
+        bearing_outer=screw.head_diameter,
+        bearing_inner=1.1 * screw.thread,
+        grip=grip,
+        engaged=min(screw.length - grip, layout.pack.top - housing.flange_bottom),
+        faces=2,
+    )
+    return ScrewJoint(
+        "cover and ring clamp on the housing",
+        screw.designation,
+        housing.screw_count,
+        clamping,
+        float(loads.radial.max()) / housing.screw_count,
+        float(pulled.max()),
+        "an even number of output_pins on a larger circle, on two discs, pushes the carrier less "
+        "to one side",
+    )
+
+
+def _mounting(machine: Machine) -> ScrewJoint:
+    """Through the holes between these, into what the actuator is fixed to."""
+    layout, asked = machine.layout, machine.design.requirements
+    housing = layout.housing
+    across, along = mounting.forces(asked, housing.screw_count, housing.bolt_circle_radius)
+    return ScrewJoint(
+        "housing on its machine, by friction",
+        f"M{1e3 * housing.mount_thread:g} of 12.9 in the mounting holes",
+        housing.screw_count,
+        mounting.clamping(
+            housing.mount_thread,
+            housing.cover_flange_top - housing.flange_bottom,
+            _housing_metal(machine),
+        ),
+        across,
+        along,
+        "raise ring.outer_diameter, or let dowels of what it is fixed to carry it",
+    )
+
+
+def _output(machine: Machine) -> ScrewJoint | None:
+    """Dowels hold the torque; the bolts hold what tilts and pulls."""
+    carrier, asked = machine.layout.carrier, machine.design.requirements
+    if not carrier.bolt_thread:
+        return None
+    metal, steel = _housing_metal(machine), find_material(SCREW_MATERIAL)
+    size = carrier.bolt_thread
+    tilting = 2.0 * (asked.external_moment or 0.0) / (OUTPUT_BOLTS * carrier.bolt_circle_radius)
+    return ScrewJoint(
+        "output's face",
+        f"M{1e3 * size:g} of 12.9, {1e3 * carrier.bolt_depth:.3g} mm deep",
+        OUTPUT_BOLTS,
+        Clamping(
+            thread=coarse_thread(size),
+            screw=steel,
+            # Of the other part nothing is known: steel, one and a half diameters thick.
+            clamped=steel,
+            tapped=metal,
+            bearing_outer=1.7 * size,
+            bearing_inner=1.1 * size,
+            grip=1.5 * size,
+            engaged=carrier.bolt_depth,
+            faces=1,
+        ),
+        0.0,
+        (asked.external_axial or 0.0) / OUTPUT_BOLTS + tilting,
+    )
+
+
+def _pins(machine: Machine) -> ScrewJoint | None:
+    """The shoulder's end on its step in the plate; its seat holds the forces across."""
+    pin, metal = machine.layout.carrier.pin, _housing_metal(machine)
+    if pin.screw is None:
+        return None
+    return ScrewJoint(
+        "output pins in the carrier plate",
+        f"shoulder screws {pin.screw.thread}",
+        machine.layout.carrier.pin_count,
+        Clamping(
+            thread=thread_named(pin.screw.thread, pin.thread_diameter),
+            screw=find_material(machine.design.reducer.output_pins.material),
+            clamped=metal,
+            tapped=metal,
+            bearing_outer=pin.nominal_diameter,
+            bearing_inner=pin.thread_diameter,
+            grip=0.0,
+            engaged=pin.thread_length,
+            faces=0,
+        ),
+        0.0,
+        0.0,
+    )
+
+
+def _columns(machine: Machine) -> ScrewJoint | None:
+    """Half of the torque comes from the cap, which the columns' ends carry by friction."""
+    carrier = machine.layout.carrier
+    columns = carrier.columns
+    if columns is None:
+        return None
+    metal, screw = _housing_metal(machine), columns.screw
+    half = 0.5 * machine.design.requirements.peak_torque
+    return ScrewJoint(
+        "columns between plate and cap",
+        screw.designation,
+        columns.count,
+        Clamping(
+            thread=coarse_thread(screw.thread),
+            screw=find_material(SCREW_MATERIAL),
+            clamped=metal,
+            tapped=metal,
+            bearing_outer=min(screw.head_diameter, 2.0 * columns.radius),
+            bearing_inner=2.0 * columns.bore_radius,
+            grip=carrier.plate_bottom - columns.seat,
+            engaged=columns.thread_top - carrier.plate_bottom,
+            faces=2,
+        ),
+        half / (columns.count * carrier.pin_circle_radius),
+        0.0,
+        "raise carrier.column_diameter, whose screw grows with it",
+    )
+
+
+def _motor_cover(machine: Machine) -> ScrewJoint | None:
+    layout, metal = machine.layout, _housing_metal(machine)
+    motor = layout.motor
+    if motor is None:
+        return None
+    screw, grip = motor.cover_screw, motor.flange_top - layout.housing.flange_bottom
+    return ScrewJoint(
+        "motor's cover, which carries nothing",
+        screw.designation,
+        motor.ear_count,
+        Clamping(
+            thread=coarse_thread(screw.thread),
+            screw=find_material(SCREW_MATERIAL),
+            clamped=metal,
+            tapped=metal,
+            bearing_outer=screw.head_diameter,
+            bearing_inner=1.1 * screw.thread,
+            grip=grip,
+            engaged=min(screw.length - grip, motor.ear_height),
+            faces=1,
+        ),
+        0.0,
+        0.0,
+    )
+
+
+def _housing_metal(machine: Machine) -> Material:
+    return find_material(machine.design.housing.material)

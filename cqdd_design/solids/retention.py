@@ -1,0 +1,276 @@
+"""What keeps every piece of the machine from moving along the axis, read off the parts as drawn.
+
+A station (see `stations`) is held in a direction by a face of another across a gap, the play, or it
+is fastened: screwed, pressed or bonded. Faces that turn against each other hold only where they are
+meant to, at bearings and discs. What holds has to be held itself: from stop to stop the
+way must lead to the housing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from cqdd_design.geometry.contours import Circle, ComplexArray, PlanarPart
+from cqdd_design.solids.counterweights import NAMES as WEIGHTS
+from cqdd_design.solids.layout import Layout
+from cqdd_design.solids.part import Instance, Part
+from cqdd_design.solids.stations import Span, Station, ring_of, stations
+
+UP, DOWN = "up", "down"
+_TOUCHING = 1e-6
+"""Overlap of faces that counts as rounding, m."""
+_LEAST_FACE = 0.05e-3
+"""Width of a face that stops anything, m."""
+_MOST_PLAY = 1.0
+"""Of parts, in units of the layout; what rolls on pins may float farther."""
+_EDGE = 0.05e-3
+"""Distance from edges at which points are looked at, m."""
+_RADII, _ANGLES = 3, 24
+"""Of these points in a piece beside the axis."""
+_ROLLING = ("sleeve", "roller", "needle")
+_GUIDED = ("shaft bearing", "output bearing")
+
+_FASTENED = (
+    ("ring clamp", "housing", "cover screws"),
+    ("output cover", "housing", "cover screws"),
+    ("cover screw", "housing", "its thread"),
+    ("motor stator", "housing", "bond on the register"),
+    ("motor cover", "housing", "its screws"),
+    ("motor cover screw", "motor cover", "its thread"),
+    ("encoder board", "motor cover", "its screws"),
+    ("encoder screw", "motor cover", "its thread"),
+    ("rotor bell", "eccentric shaft", "bond on the stub"),
+    ("motor rotor", "rotor bell", "bond in the bell"),
+    *((weight, "rotor bell", "bond on the bell") for weight in WEIGHTS),
+    ("encoder magnet", "eccentric shaft", "bond in its pocket"),
+    ("eccentric cam", "eccentric shaft", "press fit p6"),
+    ("cam bearing", "disc", "press fit N7"),
+    ("bearing nut", "carrier plate", "its thread"),
+    ("shoulder screw", "carrier plate", "its thread"),
+    ("dowel pin", "carrier plate", "bond in its seat"),
+    ("column screw", "carrier plate", "its thread"),
+)
+"""Part, what it is fastened to, and how."""
+
+
+@dataclass(frozen=True)
+class Stop:
+    """What holds a piece in one direction.
+
+    Attributes
+    ----------
+    by : str
+        Name of the other piece, or how it is fastened.
+    play : float or None
+        Gap to it, m; 0 where fastened, None where nothing holds.
+    face : float
+        Width of the faces that meet, m; 0 where fastened or free.
+    """
+
+    by: str
+    play: float | None
+    face: float = 0.0
+
+
+@dataclass(frozen=True)
+class Retained:
+    """A row of the table of retention.
+
+    Attributes
+    ----------
+    bore : float
+        Of a rolling bearing, m; 0 of other parts.
+    up, down : Stop
+    """
+
+    name: str
+    bore: float
+    up: Stop
+    down: Stop
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """Directions in which nothing holds it."""
+        ways = ((UP, self.up), (DOWN, self.down))
+        return tuple(way for way, stop in ways if stop.play is None)
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON form."""
+
+        def told(stop: Stop) -> dict[str, object]:
+            return {
+                "held_by": stop.by or None,
+                "play_mm": None if stop.play is None else 1e3 * stop.play,
+            }
+
+        return {"part": self.name, "up": told(self.up), "down": told(self.down)}
+
+
+def retention(parts: Sequence[Part], layout: Layout) -> tuple[Retained, ...]:
+    """What holds every station of a machine along its axis, upward and downward."""
+    every = stations(parts)
+    groups, ways = _fastened(every, layout)
+    most = _MOST_PLAY * layout.unit
+    told: list[list[Stop]] = [[] for _ in every]
+    for upward in (True, False):
+        stops = [dict(_stops(i, every, upward=upward, most=most)) for i in range(len(every))]
+        steps = _steps_to_ground(every, groups, stops)
+        for i, found in enumerate(told):
+            found.append(_stop(i, every, groups, ways[i], stops, steps))
+    return tuple(
+        Retained(one.name, _bore(one), *found) for one, found in zip(every, told, strict=True)
+    )
+
+
+def _bore(station: Station) -> float:
+    bought = station.part.source == "buy" and station.part.name.endswith("bearing")
+    rolling = bought and not station.off_axis
+    return 2.0 * min(span.inner for span in station.spans) if rolling else 0.0
+
+
+def _fastened(every: Sequence[Station], layout: Layout) -> tuple[list[int], list[str]]:
+    """The group of every station, and how it is fastened in it."""
+    groups, ways = list(range(len(every))), [""] * len(every)
+    pairs = list(_FASTENED)
+    carrier = layout.carrier
+    if carrier.bonded_in_cap:
+        pin = "dowel pin" if carrier.pin.screw is None else "shoulder screw"
+        pairs.append(("carrier cap", pin, "bond on the pins"))
+    if carrier.columns is not None:
+        pairs.append(("carrier cap", "column screw", "the columns' screws"))
+    for part, other, how in pairs:
+        for i, one in enumerate(every):
+            if not _is_called(one, part):
+                continue
+            for j, base in enumerate(every):
+                if _is_called(base, other) and (part != "cam bearing" or base.body == one.body):
+                    ways[i] = f"{base.name}, {how}"
+                    mine, its = groups[i], groups[j]
+                    groups = [its if group == mine else group for group in groups]
+    return groups, ways
+
+
+def _is_called(station: Station, name: str) -> bool:
+    own = station.part.name
+    return own == name or (name == "disc" and own.startswith("disc "))
+
+
+def _stops(
+    i: int, every: Sequence[Station], *, upward: bool, most: float
+) -> Iterator[tuple[int, Stop]]:
+    """Stations whose faces stop a station, with gap and width."""
+    floats = any(word in every[i].part.name for word in _ROLLING)
+    for j, other in enumerate(every):
+        if i == j or not _may_touch(every[i], other):
+            continue
+        best: Stop | None = None
+        for mine in every[i].spans:
+            for its in other.spans:
+                face = min(mine.outer, its.outer) - max(mine.inner, its.inner)
+                gap = its.bottom - mine.top if upward else mine.bottom - its.top
+                if face < _LEAST_FACE or gap < -_TOUCHING or not (floats or gap <= most):
+                    continue
+                if best is not None and gap >= (best.play or 0.0):
+                    continue
+                if _meet(every[i], mine, other, its):
+                    best = Stop(other.name, max(gap, 0.0), face)
+        if best is not None:
+            yield j, best
+
+
+def _meet(one: Station, own: Span, other: Station, its: Span) -> bool:
+    """Whether two layers, whose rings about the axis overlap, have material above each other.
+
+    Round parts do; of pieces beside the axis points are looked at, which holes may swallow.
+    """
+    if one.off_axis:
+        return bool(_material(its, other, _points(own, one.pieces[0])).any())
+    if other.off_axis:
+        return bool(_material(own, one, _points(its, other.pieces[0])).any())
+    return True
+
+
+def _points(span: Span, piece: Instance) -> ComplexArray:
+    """Points in the material of a piece's layer, as they lie about the axis of its body, m."""
+    own = Span(span.bottom, span.top, *ring_of(span.shape), span.shape)
+    edge = min(_EDGE, 0.25 * (own.outer - own.inner))
+    radii = np.linspace(own.inner + edge, own.outer - edge, _RADII)
+    ring = np.exp(2j * np.pi * np.arange(_ANGLES) / _ANGLES)
+    flat = (radii[:, None] * ring).ravel()
+    inside = flat[_inside(span.shape, flat)]
+    x, y = piece.placement[:2, :2] @ np.array([inside.real, inside.imag])
+    return np.asarray(x + piece.placement[0, 3] + 1j * (y + piece.placement[1, 3]))
+
+
+def _material(span: Span, station: Station, points: ComplexArray) -> np.ndarray:
+    """Which points about the axis lie in the material of a layer of any piece of a station."""
+    found = np.zeros(points.shape, dtype=bool)
+    for piece in station.pieces:
+        at = points - (piece.placement[0, 3] + 1j * piece.placement[1, 3])
+        x, y = piece.placement[:2, :2].T @ np.array([at.real, at.imag])
+        found |= _inside(span.shape, np.asarray(x + 1j * y))
+    return found
+
+
+def _inside(shape: PlanarPart, points: ComplexArray) -> np.ndarray:
+    """Which points are in a shape; outlines that are no circles count as round about the axis."""
+    inner, outer = ring_of(shape)
+    found = np.asarray((np.abs(points) < outer) & (np.abs(points) > inner))
+    for hole in shape.holes:
+        if isinstance(hole, Circle):
+            found &= np.abs(points - complex(*hole.centre)) > hole.radius
+    return found
+
+
+def _may_touch(one: Station, other: Station) -> bool:
+    """Whether two stations may hold each other by faces: what turns on its own must be guided."""
+    if one.body == other.body:
+        return True
+    names = one.part.name, other.part.name
+    if any(word in name for name in names for word in _GUIDED):
+        return True
+    kinds = {one.body.kind, other.body.kind}
+    return "disc" in kinds and "housing" not in kinds
+
+
+def _steps_to_ground(
+    every: Sequence[Station], groups: Sequence[int], stops: Sequence[dict[int, Stop]]
+) -> dict[int, int]:
+    """Groups from which a way of stops leads to the housing, with the number of its steps."""
+    steps = {groups[i]: 0 for i, one in enumerate(every) if one.part.name == "housing"}
+    for step in range(1, len(every)):
+        more = {
+            groups[i]
+            for i, found in enumerate(stops)
+            if groups[i] not in steps and any(groups[j] in steps for j in found)
+        }
+        if not more:
+            break
+        steps |= dict.fromkeys(more, step)
+    return steps
+
+
+def _stop(
+    i: int,
+    every: Sequence[Station],
+    groups: Sequence[int],
+    how: str,
+    stops: Sequence[dict[int, Stop]],
+    steps: dict[int, int],
+) -> Stop:
+    """What holds a station: how it is fastened, else the nearest face on the way to the housing."""
+    if every[i].part.name == "housing":
+        return Stop("what it is fixed to", 0.0)
+    own = steps.get(groups[i])
+    if own is None:
+        return Stop("", None)
+    if how:
+        return Stop(how, 0.0)
+    members = [k for k in range(len(every)) if groups[k] == groups[i]]
+    found = [
+        stop for k in members for j, stop in stops[k].items() if steps.get(groups[j], own) < own
+    ]
+    return min(found, key=lambda stop: (round(stop.play or 0.0, 9), -stop.face))

@@ -1,0 +1,128 @@
+"""Lines of the joints that carry the torque: dowels, and the bond of the motor's bell."""
+
+from __future__ import annotations
+
+from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, joint_shear
+from cqdd_design.catalog.materials import find_material
+from cqdd_design.errors import CatalogError, ContactError, GeometryError
+from cqdd_design.gearbox.checks.allowables import (
+    GREASE_MOST,
+    Allowable,
+    bond_limit,
+    dowel_limit_shear,
+)
+from cqdd_design.gearbox.checks.remedies import lower_torque
+from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.geometry.limits import rounded_down
+from cqdd_design.machine import Machine
+from cqdd_design.machine.dowels import LoadedDowels, loaded_dowels
+from cqdd_design.machine.temperatures import MachineTemperatures
+from cqdd_design.results import Check
+from cqdd_design.solids.motor_rules import bell_material, bell_torque
+
+_MEGA = 1e6
+_DOWELS = ("DOWEL-SHEAR", "DOWEL-BEARING")
+
+
+def joint_lines(machine: Machine, warm: MachineTemperatures | None) -> tuple[Check, ...]:
+    """Dowels of ring and output at the peak torque, the bell's bond at the motor's.
+
+    Parameters
+    ----------
+    warm : MachineTemperatures or None
+        Where they are not known, the bond is as warm as grease may be.
+    """
+    return (*_dowels(machine), _bell(machine, warm))
+
+
+def _dowels(machine: Machine) -> tuple[Check, ...]:
+    try:
+        found = loaded_dowels(machine)
+        lacking = _lacking(machine)
+    except (CatalogError, ContactError, GeometryError) as error:
+        return tuple(
+            build_check(one, None, None, error.message, "see why it is not known")
+            for one in _DOWELS
+        )
+    if lacking:
+        remedy = "raise ring.outer_diameter, or lower output_pins.diameter"
+        return tuple(build_check(one, None, None, lacking, remedy) for one in _DOWELS)
+    torque = machine.design.requirements.peak_torque
+    shear, press = (
+        [(one, one.stress.shear, dowel_limit_shear()) for one in found],
+        [(one, one.stress.pressure, one.seat) for one in found],
+    )
+    return (
+        _dowel("DOWEL-SHEAR", shear, torque, "larger dowels ask for a thicker ring"),
+        _dowel("DOWEL-BEARING", press, torque, "take a stronger housing.material or a larger ring"),
+    )
+
+
+def _bell(machine: Machine, warm: MachineTemperatures | None) -> Check:
+    name, design = "BELL-JOINT", machine.design
+    try:
+        layout = machine.layout
+    except (CatalogError, GeometryError) as error:
+        return build_check(name, None, None, error.message, "see why it is not known")
+    motor = layout.motor
+    if motor is None:
+        return build_check(
+            name, None, None, f"no bell is drawn: {layout.motor_missing}",
+            "name a motor whose sizes are known and into which the ring goes",
+        )  # fmt: skip
+    hot, guessed = GREASE_MOST, " (not known, what grease bears)"
+    if warm is not None:
+        hot, guessed = max(warm.hottest("rotor"), warm.hottest("shaft")), ""
+    metal = find_material(bell_material(design))
+    limit = bond_limit(ROTOR_COMPOUND, metal, hot)
+    stub, long = layout.shaft.support.bearing.bore_diameter, motor.hub_top - motor.hub_bottom
+    torque = bell_torque(design, layout.motor_row)
+    value = joint_shear(torque, stub, long)
+    less = limit.value / value * design.motor.current_limit
+    cure = (
+        "leave room for larger support bearings, whose bore is the stub's diameter (a cam bearing "
+        f"with a larger bore); or lower motor.current_limit to {rounded_down(less):g} A"
+        if less
+        else f"cool it: no strength of {ROTOR_COMPOUND.name} is known beyond "
+        f"{ROTOR_COMPOUND.hottest:g} degC"
+    )
+    return build_check(
+        name,
+        value / _MEGA,
+        limit.value / _MEGA,
+        f"{torque:.3g} N*m on a stub of {1e3 * stub:g} mm, bonded over {1e3 * long:.3g} mm at "
+        f"{hot:.0f} degC{guessed}: "
+        f"{value / _MEGA:.2f} MPa",
+        cure,
+        basis=limit.basis,
+    )
+
+
+def _lacking(machine: Machine) -> str:
+    """What has no dowel, in words."""
+    layout = machine.layout
+    if not layout.dowels.radius:
+        return "no dowel goes between the ring and its seat: nothing but the clamp holds it"
+    if not layout.carrier.flange_dowels.count:
+        return "no dowel goes into the output's face between the pins and the shaft's bearing"
+    return ""
+
+
+def _dowel(
+    name: str, every: list[tuple[LoadedDowels, float, Allowable]], torque: float, cure: str
+) -> Check:
+    """The line of the dowels with least reserve, the others beside it."""
+    told = "; ".join(
+        f"{one.place}: {one.size}, {value / _MEGA:.3g} of {limit.value / _MEGA:.3g} MPa under "
+        f"{one.torque:.4g} N*m"
+        for one, value, limit in every
+    )
+    _, value, limit = min(every, key=lambda row: row[2].value / row[1])
+    return build_check(
+        name,
+        value / _MEGA,
+        limit.value / _MEGA if limit.value else None,
+        told,
+        f"{cure}; or {lower_torque(torque, limit.value / value)}",
+        basis=limit.basis,
+    )

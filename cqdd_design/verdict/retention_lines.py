@@ -1,0 +1,81 @@
+"""Lines of what keeps its place: every part held along the axis, shoulders beside bearings."""
+
+from __future__ import annotations
+
+from cqdd_design.catalog.bearings import least_chamfer
+from cqdd_design.errors import CatalogError, GeometryError
+from cqdd_design.gearbox.checks.allowables import LEAST_WALL_BETWEEN_HOLES, SHOULDER_SHARE
+from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.machine import Machine
+from cqdd_design.results import Check
+from cqdd_design.solids.retention import Retained, Stop
+from cqdd_design.solids.walls import Wall, least_walls
+
+_LINES = ("RETENTION-HELD", "RETENTION-SHOULDER", "RETENTION-WALL")
+_CURES = {
+    "carrier cap": "set carrier.joint to 'clamped' or 'columns', or give the pins room for heads "
+    "(fewer or thinner output_pins, or another circle_radius)",
+    "carrier column": "give the columns screws (a larger carrier.column_diameter)",
+}
+
+
+def retention_lines(machine: Machine) -> tuple[Check, ...]:
+    """Whether every part is held both ways, shoulders reach bearings, and holes have walls."""
+    try:
+        table = machine.retention
+    except (CatalogError, GeometryError) as error:
+        return tuple(
+            build_check(one, None, None, error.message, "see why it is not known") for one in _LINES
+        )
+    return (_held(table), _shoulder(table), _wall(least_walls(machine.parts)))
+
+
+def _held(table: tuple[Retained, ...]) -> Check:
+    free = [(row.name, way) for row in table for way in row.free]
+    told = "nothing holds " + ", ".join(f"{name} {way}ward" for name, way in free)
+    if not free:
+        stopped = [(row, stop) for row in table for stop in (row.up, row.down) if stop.face > 0.0]
+        row, most = max(stopped, key=lambda pair: pair[1].play or 0.0)
+        told = (
+            f"{len(table)} of {len(table)} held both ways, {_by_faces(table)} of them by faces; "
+            f"most play: {row.name} to {most.by}, {1e3 * (most.play or 0.0):.3g} mm"
+        )
+    cure = next((_CURES[name] for name, _ in free if name in _CURES), "see what is beside it")
+    return build_check("RETENTION-HELD", float(len(free)), 0.0, told, cure)
+
+
+def _by_faces(table: tuple[Retained, ...]) -> int:
+    return sum(row.up.face > 0.0 and row.down.face > 0.0 for row in table)
+
+
+def _shoulder(table: tuple[Retained, ...]) -> Check:
+    every: list[tuple[float, Retained, Stop]] = [
+        (stop.face / least_chamfer(row.bore), row, stop)
+        for row in table
+        if row.bore
+        for stop in (row.up, row.down)
+        if stop.face > 0.0
+    ]
+    if not every:
+        told = "no bearing stands on a shoulder"
+        return build_check("RETENTION-SHOULDER", None, SHOULDER_SHARE, told, "see RETENTION-HELD")
+    share, row, stop = min(every, key=lambda one: one[0])
+    return build_check(
+        "RETENTION-SHOULDER",
+        share,
+        SHOULDER_SHARE,
+        f"{row.name} on {stop.by}: {1e3 * stop.face:.3g} mm, chamfer of the bearing "
+        f"{1e3 * least_chamfer(row.bore):.3g} mm",
+        "a cam bearing with a larger bore, or less eccentricity, leaves higher shoulders",
+    )
+
+
+def _wall(walls: tuple[Wall, ...]) -> Check:
+    least = min(walls, key=lambda one: one.thickness)
+    return build_check(
+        "RETENTION-WALL",
+        1e3 * least.thickness,
+        1e3 * LEAST_WALL_BETWEEN_HOLES,
+        f"{least.part}: {1e3 * least.thickness:.3g} mm between {least.between}",
+        "a larger ring, or fewer or thinner output_pins, leave more room",
+    )

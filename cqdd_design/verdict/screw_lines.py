@@ -1,0 +1,86 @@
+"""Lines of the screwed joints: slip, preload, threads."""
+
+from __future__ import annotations
+
+from cqdd_design.errors import CatalogError, ContactError, GeometryError
+from cqdd_design.gearbox.checks.allowables import SLIP_SAFETY, THREAD_SAFETY, screw_limit
+from cqdd_design.gearbox.checks.remedies import lower_torque
+from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.geometry.limits import rounded_down
+from cqdd_design.machine import Machine
+from cqdd_design.machine.screws import ScrewJoint, screw_joints
+from cqdd_design.results import Check
+
+_MEGA = 1e6
+_ENDLESS = 1e3
+"""Safety of a joint that nothing parts."""
+_LINES = ("SCREW-SLIP", "SCREW-PRELOAD", "SCREW-THREAD")
+
+
+def screw_lines(machine: Machine) -> tuple[Check, ...]:
+    """Every screwed joint at the peak torque and the external loads of the requirements."""
+    try:
+        every = screw_joints(machine)
+    except (CatalogError, ContactError, GeometryError) as error:
+        return tuple(
+            build_check(one, None, None, error.message, "see why it is not known") for one in _LINES
+        )
+    return (_slip(every, machine.design.requirements.peak_torque), _preload(every), _thread(every))
+
+
+def _slip(every: tuple[ScrewJoint, ...], torque: float) -> Check:
+    loaded = [one for one in every if one.across > 0.0 or one.along > 0.0]
+    worst = min(loaded, key=lambda one: one.slip_safety)
+    told = "; ".join(
+        f"{one.place}: {one.count} x {one.clamping.least_preload:.0f} N left, {one.across:.0f} N "
+        f"across and {one.along:.0f} N along each, safety {min(one.slip_safety, _ENDLESS):.3g}"
+        for one in loaded
+    )
+    share = worst.slip_safety / SLIP_SAFETY
+    return build_check(
+        "SCREW-SLIP",
+        min(worst.slip_safety, _ENDLESS),
+        SLIP_SAFETY,
+        told,
+        f"{worst.place}: {worst.cure}" + (f"; or {lower_torque(torque, share)}" if share else ""),
+    )
+
+
+def _preload(every: tuple[ScrewJoint, ...]) -> Check:
+    limits = {one.place: screw_limit(one.clamping.screw) for one in every}
+    worst = max(every, key=lambda one: one.clamping.stress / max(limits[one.place].value, 1.0))
+    told = "; ".join(
+        f"{one.place}: {one.count} {one.screw} at {_torque(one)}, {one.clamping.preload:.0f} N"
+        for one in every
+    )
+    allowed = limits[worst.place]
+    return build_check(
+        "SCREW-PRELOAD",
+        worst.clamping.stress / _MEGA,
+        allowed.value / _MEGA if allowed.value else None,
+        told,
+        "take screws of a known strength",
+        basis=allowed.basis,
+    )
+
+
+def _torque(one: ScrewJoint) -> str:
+    """That is stated for it, in words."""
+    torque = one.clamping.torque
+    return f"{rounded_down(torque, 2):g} N*m" if torque > 0.0 else "no torque"
+
+
+def _thread(every: tuple[ScrewJoint, ...]) -> Check:
+    judged = [(one, safe) for one in every if (safe := one.stripping_safety) is not None]
+    worst, least = min(judged, key=lambda row: row[1])
+    told = "; ".join(
+        f"{one.place}: {1e3 * one.clamping.engaged:.3g} mm in thread, safety {safe:.3g}"
+        for one, safe in judged
+    )
+    return build_check(
+        "SCREW-THREAD",
+        least,
+        THREAD_SAFETY,
+        told,
+        f"{worst.place}: take a housing.material of known strength",
+    )

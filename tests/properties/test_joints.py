@@ -1,0 +1,305 @@
+"""Joints that carry the torque: what loads them, and that layouts give them what they need."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, joint_shear
+from cqdd_design.catalog.dowels import SHARE, across_a_joint, along_a_seam
+from cqdd_design.catalog.materials import find_material
+from cqdd_design.catalog.tightening import Clamping, coarse_thread, preload_at_yield
+from cqdd_design.design import load_design
+from cqdd_design.gearbox.checks.allowables import bond_limit
+from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.dowels import loaded_dowels, ring_torque
+from cqdd_design.machine.screws import ScrewJoint, screw_joints
+from cqdd_design.machine.shaft_strength import output_loads
+from cqdd_design.machine.temperatures import MachineTemperatures
+from cqdd_design.machine.thermal_parts import NODES
+from cqdd_design.results import Check
+from cqdd_design.solids.motor_rules import bell_torque
+from cqdd_design.solids.mounting import forces
+from cqdd_design.verdict.joint_lines import joint_lines
+from cqdd_design.verdict.screw_lines import screw_lines
+
+DESIGNS = Path(__file__).resolve().parents[2] / "designs"
+
+
+@pytest.fixture(scope="module")
+def machine() -> Machine:
+    return resolve(load_design(DESIGNS / "reference-s.toml"))
+
+
+def lines_of(machine: Machine) -> dict[str, Check]:
+    return {line.id: line for line in joint_lines(machine, None)}
+
+
+@given(
+    torque=st.floats(1.0, 500.0),
+    count=st.integers(2, 12),
+    diameter=st.floats(1e-3, 10e-3),
+    length=st.floats(3e-3, 40e-3),
+)
+def test_dowels_hold_the_torque(torque: float, count: int, diameter: float, length: float) -> None:
+    """Their forces times their radius give the torque back, of those that bear."""
+    radius = 36e-3
+    seam = along_a_seam(torque, count, radius, diameter, length)
+    across = across_a_joint(torque, count, radius, diameter, length)
+    bearing = SHARE * count * radius
+    assert seam.pressure * 0.5 * diameter * length * bearing == pytest.approx(torque)
+    assert seam.shear * diameter * length * bearing == pytest.approx(torque)
+    assert across.pressure * diameter * length * bearing == pytest.approx(torque)
+    assert across.shear * 0.25 * math.pi * diameter**2 * bearing == pytest.approx(torque)
+    lone = across_a_joint(torque, 1, radius, diameter, length)
+    assert lone.pressure * diameter * length * radius == pytest.approx(torque)
+
+
+def test_the_ring_takes_the_torques_of_output_and_crank(machine: Machine) -> None:
+    """T (1 + 1/n) without friction, more with it: the sum of all moments on the gearbox is zero."""
+    asked, ratio = machine.design.requirements, machine.design.reducer.ratio
+    found = ring_torque(machine)
+    assert found > asked.peak_torque * (1.0 + 1.0 / ratio)
+    assert found < asked.peak_torque * (1.0 + 2.0 / ratio)
+    crank = np.abs(machine.peak_pack.torque.sum(axis=2)).max()
+    assert found - asked.peak_torque == pytest.approx(crank)
+
+
+def test_dowel_lines_follow_the_torque(machine: Machine) -> None:
+    """Twice the torque on the same dowels is twice the stress; a far larger one fails."""
+    one = lines_of(machine)
+    assert one["DOWEL-SHEAR"].status == one["DOWEL-BEARING"].status == "pass"
+    less = machine.changed({"requirements.peak_torque": "45 N*m"})
+    vars(less)["layout"] = machine.layout
+    half = lines_of(less)
+    for name in ("DOWEL-SHEAR", "DOWEL-BEARING"):
+        assert half[name].value == pytest.approx(0.5 * one[name].compared[0], rel=0.03)
+    weak = replace(
+        machine.layout, dowels=replace(machine.layout.dowels, angles=(0.0,), bearing_length=1e-3)
+    )
+    vars(less)["layout"] = weak
+    assert lines_of(less)["DOWEL-BEARING"].status == "fail"
+    none = replace(machine.layout, dowels=replace(machine.layout.dowels, radius=0.0))
+    vars(less)["layout"] = none
+    lacking = lines_of(less)
+    assert lacking["DOWEL-SHEAR"].status == lacking["DOWEL-BEARING"].status == "unknown"
+
+
+@pytest.mark.parametrize("torque", [40.0, 60.0, 150.0])
+def test_layouts_take_as_many_dowels_as_the_torque_asks_for(
+    machine: Machine, torque: float
+) -> None:
+    """And none fewer would do by the layout's own rule, which is closer than the check's."""
+    now = machine.changed({"requirements.peak_torque": torque})
+    counts = len(now.layout.dowels.angles), now.layout.carrier.flange_dowels.count
+    more = machine.changed({"requirements.peak_torque": 2.0 * torque})
+    after = len(more.layout.dowels.angles), more.layout.carrier.flange_dowels.count
+    assert all(b >= a for a, b in zip(counts, after, strict=True))
+    assert len(set(np.round(now.layout.dowels.angles, 9))) == counts[0]
+    assert [one.stress.pressure < one.seat.value for one in loaded_dowels(machine)] == [True, True]
+
+
+def test_dowel_holes_are_drawn_in_the_outputs_face(machine: Machine) -> None:
+    """Their volume is missing in the plate, and clear of the bolts beside them."""
+    carrier = machine.layout.carrier
+    plate = next(part for part in machine.parts if part.name == "carrier plate")
+    face = plate.shape.layers[-1].shape
+    dowels, bolts = carrier.flange_dowels, carrier.bolt_thread
+    holes = [hole for hole in face.holes if hasattr(hole, "radius")]
+    drawn = [one for one in holes if one.radius == pytest.approx(0.5 * dowels.diameter)]
+    assert len(drawn) == dowels.count
+    for one in drawn:
+        centre = np.asarray(one.centre)
+        assert np.hypot(*centre) == pytest.approx(carrier.bolt_circle_radius)
+        apart = [np.hypot(*(centre - np.asarray(hole.centre))) for hole in holes if hole is not one]
+        assert min(apart) > 0.5 * dowels.diameter + 0.5 * bolts
+
+
+def test_the_bells_hub_is_as_long_as_the_motors_torque_asks_for(machine: Machine) -> None:
+    """It holds the motor at 120 deg C, and half a millimetre less would not."""
+    motor, stub = machine.layout.motor, machine.seats[0].bearing.bore_diameter
+    assert motor is not None
+    torque = bell_torque(machine.design, machine.motor)
+    constant = machine.motor.torque_constant
+    assert constant is not None
+    assert torque == pytest.approx(constant * 50.5)
+    limit = bond_limit(ROTOR_COMPOUND, find_material("7075-T6"), 120.0).value
+    length = motor.hub_top - motor.hub_bottom
+    assert joint_shear(torque, stub, length) <= limit < joint_shear(torque, stub, length - 0.5e-3)
+    weaker = machine.changed({"motor.current_limit": "20 A"}).layout.motor
+    assert weaker is not None
+    assert weaker.hub_bottom > motor.hub_bottom
+    assert weaker.hub_bottom <= weaker.web_bottom
+    # Magnet, board and cover go with the end of the shaft.
+    assert machine.layout.shaft.bottom < motor.hub_bottom
+    assert motor.magnet_bottom == pytest.approx(machine.layout.shaft.bottom)
+    assert motor.board_top < motor.magnet_bottom
+    strong = machine.changed({"motor.current_limit": "2000 A"})
+    assert bell_torque(strong.design, strong.motor) == machine.motor.peak_torque
+
+
+def test_a_longer_hub_weighs_more_and_turns_with_the_shaft(machine: Machine) -> None:
+    """Solids, mass and inertia are those of the hub as drawn."""
+    weaker = machine.changed({"motor.current_limit": "20 A"})
+    long, short = (
+        {part.name: part.exact_properties for part in one.parts} for one in (machine, weaker)
+    )
+    for name in ("rotor bell", "eccentric shaft"):
+        assert long[name].mass > short[name].mass
+        assert long[name].inertia[2, 2] > short[name].inertia[2, 2]
+    motor, small = machine.layout.motor, weaker.layout.motor
+    assert motor is not None
+    assert small is not None
+    stub = 0.5 * machine.seats[0].bearing.bore_diameter
+    added = small.hub_bottom - motor.hub_bottom
+    metal = 2810.0 * math.pi * (motor.hub_radius**2 - stub**2) * added
+    assert long["rotor bell"].mass - short["rotor bell"].mass == pytest.approx(metal)
+
+
+def test_the_line_of_the_bond_follows_torque_and_heat(machine: Machine) -> None:
+    line = lines_of(machine)["BELL-JOINT"]
+    assert line.status == "pass"
+    short = replace(machine.layout, motor=replace(machine.layout.motor, hub_bottom=-21e-3))
+    other = machine.changed({})
+    vars(other)["layout"] = short
+    assert lines_of(other)["BELL-JOINT"].status == "fail"
+    vars(other)["layout"] = replace(machine.layout, motor=None, motor_missing="no motor")
+    assert lines_of(other)["BELL-JOINT"].status == "unknown"
+    warm = MachineTemperatures.__new__(MachineTemperatures)
+    vars(warm).update(steady=np.full(len(NODES), 60.0), cycle=None)
+    cool = {one.id: one for one in joint_lines(machine, warm)}["BELL-JOINT"]
+    assert cool.compared[1] > line.compared[1]
+    assert cool.value == line.value
+    vars(warm).update(steady=np.full(len(NODES), 300.0))
+    burnt = {one.id: one for one in joint_lines(machine, warm)}["BELL-JOINT"]
+    assert (burnt.status, burnt.limit) == ("fail", 0.0)
+
+
+def test_a_printed_housing_has_a_bell_of_metal(machine: Machine) -> None:
+    printed = machine.changed({"housing.material": "PC-CF FDM along layers"})
+    made = {part.name: part.material for part in printed.parts}
+    assert made["rotor bell"] == "7075-T6"
+    assert made["motor cover"] == "PC-CF FDM along layers"
+
+
+# ------------------------------------------------------------------ screws
+
+SCREW, LIGHT = find_material("Alloy steel 12.9 (ISO 7379)"), find_material("7075-T6")
+M4 = Clamping(
+    thread=coarse_thread(4e-3),
+    screw=SCREW,
+    clamped=LIGHT,
+    tapped=LIGHT,
+    bearing_outer=7e-3,
+    bearing_inner=4.4e-3,
+    grip=8e-3,
+    engaged=6e-3,
+    faces=1,
+)
+
+
+def test_the_stated_torque_is_what_the_weakest_of_three_bears() -> None:
+    """Screw, seat of its head, thread."""
+    assert M4.preload == pytest.approx(preload_at_yield(M4.thread, 0.9 * 1080e6))
+    plastic = find_material("PC-CF FDM along layers")
+    soft = replace(M4, tapped=plastic)
+    assert soft.stripping is not None
+    assert soft.preload == pytest.approx(soft.stripping / 1.5)
+    seat = replace(M4, clamped=plastic)
+    assert seat.preload == pytest.approx(60e6 * 0.25 * math.pi * (7e-3**2 - 4.4e-3**2))
+    assert max(soft.torque, seat.torque) < 0.3 * M4.torque
+
+
+def test_what_settles_takes_more_from_short_screws() -> None:
+    assert M4.least_preload < M4.preload / 1.6
+    longer = replace(M4, grip=20e-3)
+    assert M4.least_preload < longer.least_preload < M4.preload / 1.6
+    assert replace(M4, faces=4).least_preload < M4.least_preload
+    # One face more, 2 um over the compliance of the joint.
+    lost = M4.preload / 1.6 - M4.least_preload
+    more = M4.preload / 1.6 - replace(M4, faces=2).least_preload
+    assert more / lost == pytest.approx(10.0 / 8.0)
+
+
+@given(across=st.floats(1.0, 5e3), along=st.floats(0.0, 500.0))
+def test_slip_is_a_balance_of_friction(across: float, along: float) -> None:
+    joint = ScrewJoint("here", "M4", 6, M4, across, along)
+    assert joint.slip_safety * across == pytest.approx(0.15 * (M4.least_preload - along))
+    assert replace(joint, across=2.0 * across).slip_safety < joint.slip_safety
+    assert replace(joint, along=along + 50.0).slip_safety < joint.slip_safety
+    assert replace(joint, along=2.0 * M4.preload).slip_safety == 0.0
+
+
+def test_screws_hold_what_the_output_bearing_and_the_torque_ask(machine: Machine) -> None:
+    joints = {one.place: one for one in screw_joints(machine)}
+    loads = output_loads(machine, machine.peak_pack)
+    cover = joints["cover and ring clamp on the housing"]
+    housing, torque = machine.layout.housing, machine.design.requirements.peak_torque
+    assert cover.across * 8 == pytest.approx(loads.radial.max())
+    assert cover.along * 8 * housing.bolt_circle_radius == pytest.approx(2.0 * loads.moment.max())
+    mount = joints["housing on its machine, by friction"]
+    assert mount.across * mount.count * housing.bolt_circle_radius == pytest.approx(torque)
+    hung = machine.changed({"requirements.external_moment": "30 N*m"})
+    heavy = {one.place: one for one in screw_joints(hung)}
+    for place in ("cover and ring clamp on the housing", "output's face"):
+        assert heavy[place].along > joints[place].along
+    assert heavy["output's face"].slip_safety < joints["output's face"].slip_safety
+    # The layout has taken larger screws for the cover.
+    assert hung.layout.housing.screw.thread > housing.screw.thread
+    assert heavy["cover and ring clamp on the housing"].slip_safety > 1.2
+
+
+def test_screw_lines_fail_where_joints_do(machine: Machine) -> None:
+    lines = {one.id: one for one in screw_lines(machine)}
+    assert {one.status for one in lines.values()} == {"pass"}
+    small = replace(machine.layout.housing, mount_thread=2e-3)
+    weak = machine.changed({})
+    vars(weak)["layout"] = replace(machine.layout, housing=small)
+    assert {one.id: one for one in screw_lines(weak)}["SCREW-SLIP"].status == "fail"
+    carrier = replace(machine.layout.carrier, bolt_depth=0.3e-3)
+    vars(weak)["layout"] = replace(machine.layout, carrier=carrier)
+    stripped = {one.id: one for one in screw_lines(weak)}["SCREW-THREAD"]
+    assert (stripped.status, stripped.value) == ("fail", 0.0)
+
+
+def test_external_loads_add_up_at_the_mounting(machine: Machine) -> None:
+    """Eight screws at 40 mm: 2 M/(N R), F/N and T/(N R) each."""
+    asked = {"external_moment": "12 N*m", "external_axial": "300 N", "external_radial": "200 N"}
+    hung = machine.changed({f"requirements.{key}": value for key, value in asked.items()})
+    across, along = forces(hung.design.requirements, 8, 40e-3)
+    assert across == pytest.approx((90.0 / 40e-3 + 200.0) / 8)
+    assert along == pytest.approx(300.0 / 8 + 2.0 * 12.0 / (8 * 40e-3))
+
+
+def test_mounting_screws_grow_with_the_torque(machine: Machine) -> None:
+    """And the flange with them; holes of screws, dowels and mounting stay apart."""
+    found = []
+    for torque in ("40 N*m", "90 N*m", "200 N*m"):
+        layout = machine.changed({"requirements.peak_torque": torque}).layout
+        housing = layout.housing
+        wall = housing.bolt_circle_radius - 0.55 * housing.mount_thread - layout.pack.ring_radius
+        assert wall > layout.dowels.radius + 0.2e-3
+        rim = housing.flange_radius - housing.bolt_circle_radius - 0.55 * housing.mount_thread
+        assert rim > 0.9e-3
+        found.append(housing.mount_thread)
+    assert found == sorted(found)
+    assert found[0] < found[-1]
+
+
+def test_columns_are_screwed_joints(machine: Machine) -> None:
+    reducer = {
+        "reducer.carrier.joint": "columns",
+        "reducer.carrier.column_count": 5,
+        "reducer.carrier.column_diameter": "5 mm",
+        "reducer.output_pins.count": 5,
+    }
+    held = machine.changed(reducer)
+    columns = next(one for one in screw_joints(held) if one.place.startswith("columns"))
+    radius = held.layout.carrier.pin_circle_radius
+    assert columns.across * columns.count * radius == pytest.approx(45.0)

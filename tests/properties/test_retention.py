@@ -1,0 +1,226 @@
+"""Every part keeps its place along the axis, and what takes a stop away is seen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cqdd_design.catalog.bearings import least_chamfer
+from cqdd_design.design import Design, load_design
+from cqdd_design.geometry.contours import PlanarPart
+from cqdd_design.machine import Machine, resolve
+from cqdd_design.solids.layers import circle, prism
+from cqdd_design.solids.part import Part, placed
+from cqdd_design.solids.parts import build_parts
+from cqdd_design.solids.poses import HOUSING, transform
+from cqdd_design.solids.retention import Retained, retention
+from cqdd_design.solids.walls import least_walls
+from cqdd_design.verdict.retention_lines import retention_lines
+
+DESIGNS = Path(__file__).resolve().parents[2] / "designs"
+
+
+@pytest.fixture(scope="module")
+def machine() -> Machine:
+    return resolve(load_design(DESIGNS / "cqdd-10.toml"))
+
+
+def rows_of(machine: Machine, parts: Iterable[Part]) -> dict[str, Retained]:
+    return {row.name: row for row in retention(tuple(parts), machine.layout)}
+
+
+def free_in(rows: dict[str, Retained]) -> set[tuple[str, str]]:
+    return {(name, way) for name, row in rows.items() for way in row.free}
+
+
+@pytest.mark.parametrize("name", ["cqdd-10", "printed-13", "reference-s"])
+def test_the_committed_designs_hold_every_part(name: str) -> None:
+    held = resolve(load_design(DESIGNS / f"{name}.toml"))
+    assert {part.name for part in held.parts} <= {
+        row.name.rstrip(" 12") for row in held.retention
+    } | {"shaft bearing"}
+    assert {row.name for row in held.retention if row.free} == set()
+    assert [line.status for line in retention_lines(held)] == ["pass"] * 3
+
+
+def test_stops_and_plays_are_those_of_the_layout(machine: Machine) -> None:
+    rows = {row.name: row for row in machine.retention}
+    pack, gap = machine.layout.pack, machine.layout.pack.gap
+    shaft = rows["eccentric shaft"]
+    assert shaft.up.by == "shaft bearing, output end"
+    assert shaft.down.by == "shaft bearing, housing end"
+    journal = 0.5 * machine.seats[0].bearing.bore_diameter
+    assert shaft.down.face == pytest.approx(machine.layout.shaft.shoulder_radius - journal)
+    assert (rows["output bearing"].up.by, rows["output bearing"].down.by) == (
+        "output cover",
+        "ring clamp",
+    )
+    assert rows["carrier plate"].up.by == rows["carrier plate"].down.by == "output bearing"
+    assert (rows["ring"].up.by, rows["ring"].down.by) == ("ring clamp", "housing")
+    assert rows["disc 1"].down.by == "carrier cap"
+    assert rows["disc 1"].down.play == pytest.approx(gap)
+    assert rows["disc 2"].up.by == "carrier plate"
+    dowels = machine.layout.dowels
+    loose = pack.top - dowels.bottom - dowels.length
+    both = (rows["ring dowel"].up.play or 0.0) + (rows["ring dowel"].down.play or 0.0)
+    assert both == pytest.approx(loose)
+
+
+@pytest.mark.parametrize(
+    ("gone", "free"),
+    [
+        ("ring clamp", {("ring", "up"), ("ring dowel", "up")}),
+        ("output cover", {("output bearing", "up"), ("carrier plate", "up"), ("disc 2", "up")}),
+        ("shoulder screw", {("carrier cap", "down")}),
+    ],
+)
+def test_what_is_left_out_holds_nothing(
+    machine: Machine, gone: str, free: set[tuple[str, str]]
+) -> None:
+    found = free_in(rows_of(machine, (one for one in machine.parts if one.name != gone)))
+    assert free <= found
+    # The lower bearing still holds the shaft downward.
+    assert ("eccentric shaft", "down") not in found
+    assert not {name for name, _ in found} & {"housing", "motor cover", "cover screw"}
+
+
+def test_without_its_nut_the_plate_rests_on_the_shaft(machine: Machine) -> None:
+    """Held, but through the shaft's bearings: the table says by what."""
+    rows = rows_of(machine, (one for one in machine.parts if one.name != "bearing nut"))
+    assert rows["carrier plate"].down.by == "shaft bearing, output end"
+
+
+def test_a_stop_that_is_too_far_away_is_none(machine: Machine) -> None:
+    """A cover drawn 2 mm higher holds neither the bearing nor what hangs on it."""
+    lifted = np.eye(4)
+    lifted[2, 3] = 2e-3
+    parts = [
+        replace(
+            one,
+            instances=tuple(
+                replace(piece, placement=lifted @ piece.placement) for piece in one.instances
+            ),
+        )
+        if one.name == "output cover"
+        else one
+        for one in machine.parts
+    ]
+    assert ("output bearing", "up") in free_in(rows_of(machine, parts))
+
+
+@pytest.mark.parametrize(("x", "held"), [(10e-3, False), (-10e-3, True), (11e-3, True)])
+def test_a_piece_over_a_hole_falls_through(machine: Machine, x: float, held: bool) -> None:
+    """A pin of 2 mm over a hole of 4 mm, beside it, and over its edge; all faces are flat rings."""
+    plate = PlanarPart("plate", circle(20e-3), (circle(2e-3, np.array([10e-3, 0.0])),))
+    proto = next(part for part in machine.parts if part.name == "housing")
+    below = replace(proto, shape=prism(plate, 0.0, 1e-3))
+    pin = PlanarPart("pin", circle(1.5e-3))
+    over = replace(
+        proto,
+        name="pin",
+        shape=prism(pin, 0.0, 5e-3),
+        instances=placed("pin", HOUSING, transform(0.3, x=x, z=1e-3)),
+    )
+    row = retention((below, over), machine.layout)[-1]
+    assert row.up.play is None
+    assert (row.down.by == "housing") is held
+
+
+def test_a_cap_on_loose_dowels_falls_off() -> None:
+    """Where heads have no room pins are dowels, which a hinged joint leaves free in the cap."""
+    reducer = {
+        "ratio": 20,
+        "ring_pitch_radius": "34 mm",
+        "eccentricity": "0.8 mm",
+        "ring_pin_diameter": "4 mm",
+        "output_pins": {"count": 17, "diameter": "4 mm", "circle_radius": "21 mm"},
+    }
+    held, hinged = (
+        resolve(Design.from_mapping({"reducer": {**reducer, "carrier": {"joint": joint}}}))
+        for joint in ("clamped", "hinged")
+    )
+    assert hinged.layout.carrier.pin.screw is None
+    assert [line.status for line in retention_lines(held)] == ["pass"] * 3
+    line = retention_lines(hinged)[0]
+    assert line.status == "fail"
+    assert "carrier cap downward" in line.substituted
+    assert "clamped" in line.remedy
+
+
+def test_a_low_shoulder_does_not_reach_past_the_chamfer(machine: Machine) -> None:
+    layout = machine.layout
+    journal = 0.5 * machine.seats[0].bearing.bore_diameter
+    low = journal + 1.2 * least_chamfer(2.0 * journal)
+    weak = machine.changed({})
+    changed = replace(layout, shaft=replace(layout.shaft, shoulder_radius=low))
+    vars(weak).update(layout=changed, parts=build_parts(machine.design, changed))
+    line = retention_lines(weak)[1]
+    assert line.status == "fail"
+    assert line.value == pytest.approx(1.2)
+
+
+def test_the_table_speaks_in_millimetres(machine: Machine) -> None:
+    row = next(one for one in machine.retention if one.name == "disc 1")
+    told = row.to_dict()
+    assert told["part"] == "disc 1"
+    assert told["down"] == {"held_by": "carrier cap", "play_mm": pytest.approx(0.5)}
+
+
+def test_walls_are_measured_between_circles(machine: Machine) -> None:
+    """Holes of 4 and 6 mm, 8 mm apart, in a plate of 20 mm: 3 mm, and 2 mm to the rim."""
+    plate = PlanarPart(
+        "plate",
+        circle(10e-3),
+        (circle(2e-3, np.array([-3e-3, 0.0])), circle(3e-3, np.array([5e-3, 0.0]))),
+    )
+    part = replace(machine.parts[0], name="plate", source="make", shape=prism(plate, 0.0, 1e-3))
+    found = least_walls([part])
+    assert [(one.part, round(1e3 * one.thickness, 9)) for one in found] == [("plate", 2.0)]
+    assert "rim" in found[0].between
+    close = replace(plate, holes=(*plate.holes, circle(0.5e-3, np.array([0.0, 2.5e-3]))))
+    near = least_walls([replace(part, shape=prism(close, 0.0, 1e-3))])[0]
+    apart = np.hypot(3e-3, 2.5e-3) - 2.5e-3
+    assert near.between == "4 mm and 1 mm"
+    assert near.thickness == pytest.approx(apart)
+    bought = replace(part, source="buy")
+    assert least_walls([bought, replace(part, name="disc 1")]) == ()
+
+
+def test_thin_walls_are_warned_of(machine: Machine) -> None:
+    line = retention_lines(machine)[2]
+    assert line.status == "pass"
+    layout = machine.layout
+    near = replace(layout.housing, bolt_circle_radius=layout.housing.flange_radius - 2.4e-3)
+    weak, changed = machine.changed({}), replace(layout, housing=near)
+    vars(weak).update(layout=changed, parts=build_parts(machine.design, changed))
+    thin = retention_lines(weak)[2]
+    assert thin.status == "warn"
+    # M4 through a hole of 4.4 mm.
+    assert thin.value == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize("ring", [45, 60, 72, 100, 140])
+def test_layouts_of_any_size_leave_walls(ring: int) -> None:
+    scale = ring / 72.0
+    design = load_design(DESIGNS / "reference-s.toml")
+    reducer = {
+        "reducer.ring_pitch_radius": 32.75e-3 * scale,
+        "reducer.eccentricity": 1.97e-3 * scale,
+        "reducer.ring_pin_diameter": 6.6e-3 * scale,
+        "reducer.output_pins.circle_radius": 22e-3 * scale,
+        "reducer.ring.outer_diameter": 72e-3 * scale,
+        "reducer.output_pins.count": 8,
+        "reducer.cam_bearing.designation": "auto",
+        "requirements.outer_diameter": 72e-3 * scale,
+        "requirements.peak_torque": 90.0 * scale**2.5,
+        "requirements.continuous_torque": 30.0 * scale**2.5,
+    }
+    sized = resolve(design.replacing(reducer))
+    walls = least_walls(sized.parts)
+    assert min(one.thickness for one in walls) >= 0.4e-3 - 1e-9, min(
+        walls, key=lambda one: one.thickness
+    )
