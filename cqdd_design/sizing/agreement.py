@@ -138,6 +138,9 @@ class Hunt:
         The closest that heat and part errors leave.
     least_bore : float
         Of the cam bearings that are tried, m: smaller ones leave the shaft's ends no bearing.
+    most_pin_circle : float
+        Radius of the largest pin circle that is tried, m: round wider ones no carrier bearing of
+        the catalogue fits.
     pins : tuple of bool
         Whether output pins that are tried are on needles.
     tried : set of Goal
@@ -156,6 +159,7 @@ class Hunt:
     lowered: bool = False
     fit: Fit = FITS[0]
     least_bore: float = 0.0
+    most_pin_circle: float = math.inf
     pins: tuple[bool, ...] = (False,)
     tried: set[Goal] = field(default_factory=set)
     solved: list[tuple[Machine, tuple[Check, ...]]] = field(default_factory=list)
@@ -196,7 +200,12 @@ class Hunt:
         bearings = tuple(one for one in frame.bearings if one.bore_diameter >= self.least_bore)
         # The loop settles with rings of one diameter; smaller ones make it swing.
         return replace(
-            frame, needs=both, bearings=bearings, smaller_rings=False, ring_limit=space.ring_limit
+            frame,
+            needs=both,
+            bearings=bearings,
+            smaller_rings=False,
+            ring_limit=space.ring_limit,
+            pin_circle_limit=self.most_pin_circle,
         )
 
 

@@ -118,6 +118,8 @@ class Frame:
         Whether rings are as small as their teeth allow; else all have the largest diameter.
     ring_limit : float
         Outside diameter of the largest ring that is tried, m, where less than is asked for.
+    pin_circle_limit : float
+        Radius of the largest pin circle that is tried, m.
     needs : mapping of str to float
         Torque reserve by load check that closed forms have to show, see `needed`.
     """
@@ -149,6 +151,7 @@ class Frame:
     needles: bool = False
     smaller_rings: bool = True
     ring_limit: float = math.inf
+    pin_circle_limit: float = math.inf
     needs: Mapping[str, float] = field(default_factory=dict)
 
     def needed(self, check: str) -> float:

@@ -227,6 +227,7 @@ class _Facts(NamedTuple):
     radial: float
     relief_clearance: float
     wire_radius: float
+    pin_circle_limit: float
     pins: tuple[tuple[float, float], ...]
 
     @classmethod
@@ -241,6 +242,7 @@ class _Facts(NamedTuple):
             frame.radial,
             frame.relief_clearance,
             frame.wire_radius,
+            frame.pin_circle_limit,
             tuple((one.running_diameter, one.hole_clearance) for one in frame.pin_sizes),
         )
 

@@ -96,7 +96,7 @@ def largest_pin_circle(
 ) -> FloatArray:
     """Largest pin circle whose holes keep the least ligament to the lobed profile.
 
-    A profile point at (rho, theta) stays q away from a hole centre at angle delta as long as
+    And the frame's limit. A profile point at (rho, theta) stays q away from a hole centre at angle delta as long as
     R_w <= rho cos(theta - delta) - sqrt(q^2 - rho^2 sin^2(theta - delta)); the profile beside the
     valley nearest to any hole decides.
 
@@ -137,7 +137,7 @@ def largest_pin_circle(
     least = np.minimum(_parabola(*refined)[1], sampled.min(axis=0))
     # Without a profile point in reach of the hole the valley circle decides.
     valley = valley_distance(frame, ring)[own]
-    return np.where(np.isinf(least), valley - clear, least)
+    return np.minimum(np.where(np.isinf(least), valley - clear, least), frame.pin_circle_limit)
 
 
 def _parabola(

@@ -31,7 +31,7 @@ from cqdd_design.sizing.agreement import (
     lightest,
     spaces,
 )
-from cqdd_design.sizing.bearable import or_weaker
+from cqdd_design.sizing.bearable import or_weaker, weaker
 from cqdd_design.sizing.costs import costs
 from cqdd_design.sizing.exact import exact_checks
 from cqdd_design.sizing.finish import torque_reserve
@@ -47,6 +47,8 @@ _LEAST_STEP = 1e-6
 """Clearance that has to grow at all, m: to the next fit."""
 _TRIAL_SAMPLES = 32
 _TRIALS = 14
+_CLOSER, _CLOSER_PINS = 0.96, 6
+"""Of a pin circle without a rated carrier bearing, and how often one is tried."""
 _SMALLER = 3
 """Designs in smaller rings that are looked at."""
 _LESS, _WEAKER = 0.9, 16
@@ -125,6 +127,7 @@ def size_to_verdict(
     found = or_weaker(hunt, lambda: lightest(hunt))
     last: Verdict | None = None
     for _ in range(_TRIALS):
+        found = None if found is None else _with_rated_bearing(hunt, found)
         if found is None:
             break
         machine = resolve(found.sized.design, motor)
@@ -174,6 +177,25 @@ def _again(hunt: Hunt, found: Found) -> Found | None:
     if hunt.requirements.derived:
         return or_weaker(hunt, near, found)
     return near() or lightest(hunt)
+
+
+def _with_rated_bearing(hunt: Hunt, found: Found) -> Found:
+    """The design, or one near by on a pin circle round which a rated carrier bearing fits.
+
+    What a bearing that is made to order carries would stay unknown.
+    """
+    before = hunt.most_pin_circle
+    for _ in range(_CLOSER_PINS):
+        if found.rated:
+            return found
+        hunt.most_pin_circle = _CLOSER * found.sized.design.reducer.output_pins.circle_radius
+        near = _again(hunt, found)
+        if near is None:
+            break
+        found = near
+    if not found.rated:
+        hunt.most_pin_circle = before
+    return found
 
 
 def _verified(
@@ -297,7 +319,11 @@ def _look(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, float | No
     either by a per cent.
     """
     if hunt.requirements.derived:
-        can = what_it_can(machine, hunt.requirements, may_rise=not hunt.lowered)
+        try:
+            can = what_it_can(machine, hunt.requirements, may_rise=not hunt.lowered)
+        except ContactError:
+            # Beyond this gearbox at some angle or torque that the search did not look at.
+            return weaker(hunt.requirements, _LESS, _LESS), None
         if can is not None:
             return can, None
     found, checks, _ = judged_temperatures(machine)

@@ -41,6 +41,7 @@ def test_bending_is_bounded_in_the_document_and_in_the_text(cqdd, paper_design_f
     assert "carrier_tilting_moment_Nm" in text
 
 
+@pytest.mark.deep
 def test_a_line_that_may_leave_an_end_is_warned_of(cqdd, paper_design_file):
     """A small torque: balls yield by its power 2/3, lines by almost its first."""
     done = cqdd("analyse", paper_design_file, "--torque", "1 N*m", "--angles", "24", "--json")

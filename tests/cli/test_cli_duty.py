@@ -92,6 +92,7 @@ def test_a_day_of_a_million_rows_is_answered(cqdd, tmp_path, paper_design_file):
     assert results["duty"]["rows_outside"] == 0
 
 
+@pytest.mark.deep
 def test_points_outside_are_named_with_line_time_torque_speed_and_limit(
     cqdd, tmp_path, paper_design_file
 ):

@@ -16,6 +16,7 @@ def with_table(tmp_path: Path, text: str) -> str:
     return str(path)
 
 
+@pytest.mark.deep
 def test_warm_parts_move_the_backlash_and_leave_the_closed_forms(cqdd) -> None:
     cold, warm = (
         json.loads(cqdd("analyse", str(DESIGN), "--angles", "24", "--json", *more).out)

@@ -119,7 +119,7 @@ def test_a_no_ends_in_exit_code_four_with_what_would_change_it(cqdd, paper_desig
     failing = [one for one in limits if one["status"] == "fail"]
     assert failing
     for one in failing:
-        assert f"- {one['id']}: " in done.out
+        assert f"- {one['id']}, " in done.out
         assert one["remedy"]
 
 

@@ -54,6 +54,7 @@ assert any(" MB" in broken for broken in hungry.broken)
 """
 
 
+@pytest.mark.deep
 def test_a_broken_promise_is_told():
     done = fresh("-c", PROMISES)
     assert done.returncode == 0, done.stderr

@@ -134,6 +134,7 @@ def test_every_value_has_its_origin(page: str, paper_input: ReportInput) -> None
     assert {"reducer.eccentricity", "motor.name"}.isdisjoint(paper_input.design.assumed)
 
 
+@pytest.mark.deep
 def test_a_design_without_remarks_knows_given_default_and_derived() -> None:
     design = Design.from_mapping(
         {

@@ -101,6 +101,7 @@ def test_the_rolling_coefficient_is_the_one_of_every_needle_bearing() -> None:
     assert FRICTION_COEFFICIENT[cage.cage.kind] == 0.0025
 
 
+@pytest.mark.deep
 def test_rolling_takes_the_losses_off_the_pins() -> None:
     """Work of pin friction in the equilibrium of bare pins, plain sleeves and needles."""
     work = {}

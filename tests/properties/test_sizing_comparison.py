@@ -37,6 +37,7 @@ def compared(papers):
     return compare_with_planetary(papers)
 
 
+@pytest.mark.deep
 def test_at_its_capacity_a_limit_is_just_met(papers):
     """Every capacity, found from one torque, is where the equilibrium itself meets the limit."""
     contacts = LoadedContacts(papers.contact)
@@ -70,6 +71,7 @@ def test_values_are_those_of_analyse(papers, limits):
     assert {one.model for one in found.values()} == {EQUILIBRIUM}
 
 
+@pytest.mark.deep
 def test_a_torque_without_equilibrium_has_the_value_of_its_check_and_a_capacity_below(limits):
     """20 kN m bends everything out of reach; what the ring carries is found from less."""
     machine = resolve(PAPER.replacing({"requirements.peak_torque": 20000.0}))

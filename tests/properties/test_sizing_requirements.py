@@ -153,6 +153,7 @@ def test_a_bigger_ring_never_carries_less():
     assert most[-1] > 5.0 * most[0]
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize(
     "given",
     [
