@@ -96,7 +96,9 @@ def largest_pin_circle(
 ) -> FloatArray:
     """Largest pin circle whose holes keep the least ligament to the lobed profile.
 
-    And the frame's limit. A profile point at (rho, theta) stays q away from a hole centre at angle delta as long as
+    At most the frame's limit. A profile point at (rho, theta) stays q away from a hole centre at
+    angle delta as long as
+
     R_w <= rho cos(theta - delta) - sqrt(q^2 - rho^2 sin^2(theta - delta)); the profile beside the
     valley nearest to any hole decides.
 

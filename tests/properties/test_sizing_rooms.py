@@ -86,6 +86,15 @@ def test_past_a_ring_that_is_heavier_a_lighter_one_is_found():
     assert best.sized.design.reducer.disc_thickness > first.sized.design.reducer.disc_thickness
 
 
+def test_no_pin_circle_is_wider_than_a_carrier_bearing_allows(found):
+    usual = found.sized.design.reducer.output_pins.circle_radius
+    closer = replace(hunt(), most_pin_circle=0.95 * usual)
+    near = agreed(closer, HARD, None, found.needs)
+    assert 0.85 * usual < near.sized.design.reducer.output_pins.circle_radius <= 0.95 * usual
+    # With less lever pins are pushed more, and discs bear it.
+    assert near.sized.objective.score >= 0.995 * found.sized.objective.score
+
+
 def test_more_costs_what_a_search_for_more_finds():
     own = hunt(peak_torque="66 N*m")
     found = agreed(own, HARD, None)
