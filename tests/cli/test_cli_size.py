@@ -24,9 +24,12 @@ def test_the_first_command_of_a_newcomer(cqdd, tmp_path):
     }
     for path in written:
         assert f"wrote {path}" in done.out
-    assert "what the motor can do through this gearbox" in done.out
+    assert "by what the motor can do" in done.out
     assert "candidates" in done.out
-    assert "rejected first by" in done.out
+    assert "cqdd-design export designs/sized-10.toml --to edm,step" in done.out
+    # All checks and what was rejected are told with --verbose.
+    assert "rejected first by" not in done.out
+    assert max(map(len, done.out.splitlines())) <= 80
     told = re.search(r"sized-10 meets its requirements: of (\d+) lines (\d+) pass", done.out)
     assert told is not None
     assert told[1] == told[2]
@@ -43,6 +46,14 @@ def test_the_first_command_of_a_newcomer(cqdd, tmp_path):
 
 
 QUICK = ("size", "--quick", "--ratio", "10")
+
+
+def test_what_was_rejected_is_told_with_verbose(cqdd):
+    assert "rejected first by" not in cqdd(*QUICK).out
+    told = cqdd(*QUICK, "--verbose", "--force").out
+    assert re.search(r"rejected first by:\n  GEO-\S+ +[\d,]+\n", told)
+
+
 MILD = (
     *("--ratio", "10", "--discs", "2", "--peak-torque", "40 N*m"),
     *("--continuous-torque", "5 N*m", "--continuous-speed", "300 rpm"),
