@@ -131,6 +131,7 @@ def size_to_verdict(
         if found is None:
             break
         machine = resolve(found.sized.design, motor)
+        wider = found, machine
         fit: Fit | None = found.space.fit
         can, step = _look(hunt, replace(machine, stiff=True))
         if can is None and step is None:
@@ -138,6 +139,9 @@ def size_to_verdict(
             if step is None:
                 found, machine = _smaller(hunt, found, machine)
                 can, step = _look(hunt, machine)
+                if (can, step) != (None, None) and found is not wider[0]:
+                    found, machine = wider
+                    can, step = _look(hunt, machine)
         if can is not None:
             hunt.lowered |= can.continuous_torque < hunt.requirements.continuous_torque
             hunt.requirements = can
@@ -145,6 +149,10 @@ def size_to_verdict(
             if step is None:
                 progress(f"judging {found.sized.design.name} by the whole verdict")
                 last = judge(machine)
+                if last.meets != "yes" and found is not wider[0]:
+                    # A smaller ring leaves shaft and joints less room, at which no look was taken.
+                    found, machine = wider
+                    last = judge(machine)
                 if last.meets == "yes":
                     return _verified(hunt, found, last, requirements, began)
                 if _turned(hunt, last):
