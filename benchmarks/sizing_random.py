@@ -24,8 +24,6 @@ from cqdd_design.machine import resolve
 from cqdd_design.sizing.agreement import (
     Found,
     Hunt,
-    in_smaller_rings,
-    least_ring,
     lightest,
     spaces,
 )
@@ -34,6 +32,7 @@ from cqdd_design.sizing.finish import finish
 from cqdd_design.sizing.points import Evaluator, Points
 from cqdd_design.sizing.ring_stages import Pins
 from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.smaller_rings import in_smaller_rings, least_ring
 from cqdd_design.sizing.stage_tables import stage_tables
 
 TIMES = 100.0

@@ -9,17 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 from typing import NamedTuple
-
-import numpy as np
 
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design, Requirements
 from cqdd_design.errors import ContactError, DesignError, InfeasibleError
 from cqdd_design.gearbox.checks import allowables
-from cqdd_design.geometry.scale import smallest_ring
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.results import Check
 from cqdd_design.sizing.exact import exact_checks, shortfalls
@@ -48,13 +44,6 @@ NEEDLE_PINS = "AISI 52100 / 100Cr6 hardened"
 DISC_COUNTS = (2, 3)
 """Likewise of discs: those that balance."""
 _ROUNDS, _UNDAMPED, _STRONG_ROUNDS = 8, 3, 5
-_RING_STEP, _FINER_STEPS = 0.04, (0.02, 0.01, 0.005)
-"""By how much of its diameter the next ring is smaller, and the finer steps from there."""
-_TEETH = (1.6, 2.5)
-"""Ring teeth over those of a point, with which a search near it begins too: thick ones take less
-wall, so that holes and bearing have more room."""
-_MAY_WIN = 1.1
-"""Objective over the best so far, up to which finer steps may make a design the best."""
 _SOLVED = 15
 """Designs that are kept with their equilibria, but for the last."""
 _SETTLED = 2e-3
@@ -246,63 +235,6 @@ def lightest(hunt: Hunt) -> Found | None:
     return best
 
 
-def least_ring(motor: Motor) -> float:
-    """Diameter, m, below which no ring is tried: round a smaller one no tube fills the bore."""
-    return 0.0 if motor.bore_diameter is None else smallest_ring(motor.bore_diameter)
-
-
-def in_smaller_rings(hunt: Hunt, best: Found) -> list[Found]:
-    """Better designs in smaller rings, the best first.
-
-    All the way down to the least ring first: with one cam bearing a smaller ring is lighter, down
-    to where its discs need a wider bearing, so that there is more than one least mass. Then from
-    each of them that may win in finer steps.
-    """
-    least = least_ring(best.search.frame.motor)
-    ladder, ring = [best], best.sized.design.reducer.ring.outer_diameter
-    while ring > least:
-        ring = max((1.0 - _RING_STEP) * ring, least)
-        found, heavier = _in_ring(hunt, ladder[-1], ring, min(ladder, key=_worth))
-        if found is not None:
-            ladder.append(found)
-        elif not heavier:
-            break
-    ends = [one for one, below in pairwise(ladder) if one.worth < below.worth] + ladder[-1:]
-    for start in sorted(ends, key=_worth):
-        if start.sized.objective.score <= _MAY_WIN * min(ladder, key=_worth).sized.objective.score:
-            ladder.append(_finer(hunt, start, least))
-    return sorted((one for one in ladder if one.worth < best.worth), key=_worth)
-
-
-def _finer(hunt: Hunt, best: Found, least: float) -> Found:
-    """The last design in smaller and smaller rings that is better than the one before."""
-    for step in _FINER_STEPS:
-        while (now := best.sized.design.reducer.ring.outer_diameter) > least:
-            found, _ = _in_ring(hunt, best, max((1.0 - step) * now, least), best)
-            if found is None or found.worth >= best.worth:
-                break
-            best = found
-    return best
-
-
-def _in_ring(hunt: Hunt, beside: Found, ring: float, rival: Found) -> tuple[Found | None, bool]:
-    """The best design in a ring of a diameter, m, near another; or whether a rival is lighter.
-
-    What it weighs by closed forms is good to the needs of the other.
-    """
-    unrated, score = rival.worth
-    space = beside.space._replace(ring_limit=ring)
-    near = _with_other_teeth(beside.point)
-    try:
-        return _settled(hunt, space, (unrated, _MAY_WIN * score), beside.needs, near)
-    except InfeasibleError:
-        return None, False
-
-
-def _worth(found: Found) -> tuple[bool, float]:
-    return found.worth
-
-
 class Strongest(NamedTuple):
     """The point with the most torque reserve by closed forms, and what the equilibrium says."""
 
@@ -383,7 +315,7 @@ def agreed(
     known : mapping, optional
         Needs from a space near by.
     """
-    best, beaten = _settled(hunt, space, rival, known, None)
+    best, beaten = settled(hunt, space, rival, known, None)
     if best is not None or beaten:
         return best
     # The search makes designs light before it makes them strong.
@@ -391,11 +323,11 @@ def agreed(
     first = None if strong is None else strong.found(hunt, space)
     if first is None:
         return None
-    better, _ = _settled(hunt, space, None, first.needs, first.point)
+    better, _ = settled(hunt, space, None, first.needs, first.point)
     return first if better is None else min(first, better, key=lambda one: one.worth)
 
 
-def _settled(
+def settled(
     hunt: Hunt,
     space: Space,
     rival: tuple[bool, float] | None,
@@ -454,19 +386,11 @@ def _settled(
             one: needs.get(one, 1.0) * (value / needs.get(one, 1.0)) ** damping
             for one, value in short.items()
         }
-        settled = all(abs(after[one] / needs.get(one, 1.0) - 1.0) < _SETTLED for one in after)
+        still = all(abs(after[one] / needs.get(one, 1.0) - 1.0) < _SETTLED for one in after)
         needs, starts = after, point.joined(most)
-        if settled and best is not None:
+        if still and best is not None:
             break
     return best, False
-
-
-def _with_other_teeth(point: Points) -> Points:
-    """A point, and places to begin at beside it that have thicker ring teeth."""
-    many = point.rows(np.zeros(1 + len(_TEETH), dtype=np.intp))
-    steps = many.steps.copy()
-    steps[1:, 1] = np.rint(np.array(_TEETH) * steps[1:, 1])
-    return replace(many, steps=steps)
 
 
 def _rated(machine: Machine) -> bool:

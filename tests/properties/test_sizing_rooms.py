@@ -10,9 +10,10 @@ import pytest
 from cqdd_design.catalog.motors import find_motor
 from cqdd_design.design import requirements_from_mapping
 from cqdd_design.geometry.scale import largest_ring, millimetre_unit, smallest_ring
-from cqdd_design.sizing.agreement import MATERIALS, Hunt, Space, agreed, in_smaller_rings
+from cqdd_design.sizing.agreement import MATERIALS, Hunt, Space, agreed
 from cqdd_design.sizing.costs import costs
 from cqdd_design.sizing.frame import USUAL_FIT, search_frame
+from cqdd_design.sizing.smaller_rings import in_smaller_rings
 from cqdd_design.sizing.stage_tables import stage_tables
 
 ASKED = {

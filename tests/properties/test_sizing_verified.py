@@ -26,13 +26,12 @@ from cqdd_design.sizing.bearable import or_weaker, weaker
 from cqdd_design.sizing.exact import exact_checks, shortfalls
 from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.frame import Fit, search_frame
+from cqdd_design.sizing.looks import clearance_needed, read_spread
+from cqdd_design.sizing.refusals import unsettled
 from cqdd_design.sizing.reserves import ring_reserves
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.sizing.verified import (
     _next_step,
-    _unsettled,
-    clearance_needed,
-    read_spread,
     size_to_verdict,
 )
 from cqdd_design.verdict import judge
@@ -241,9 +240,9 @@ def test_trials_that_end_say_why_and_not_that_loads_are_not_borne(machine: Machi
     hunt = Hunt(asked(peak_torque="5 N*m"), None, None, lambda _: None, stage_tables(10), "mass")
     found = agreed(hunt, space, None)
     assert found is not None
-    assert "more clearance than the 110 um" in _unsettled(found).message
+    assert "more clearance than the 110 um" in unsettled(found).message
     moved = replace(found, space=space._replace(fit=FITS[0]))
-    told = _unsettled(moved).message
+    told = unsettled(moved).message
     assert "went on moving the design" in told
     assert "5 N*m" in told
 

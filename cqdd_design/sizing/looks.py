@@ -1,0 +1,114 @@
+"""Looks at a design before its whole verdict: at the motor, at heat, at a few toleranced gearboxes.
+
+They say what to ask of the next search: other torques where none were stated, more clearance, or
+more reserve.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from cqdd_design.design import Requirements
+from cqdd_design.errors import ContactError
+from cqdd_design.machine import Machine
+from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
+from cqdd_design.results import Check
+from cqdd_design.sizing.able import cooler, what_it_can
+from cqdd_design.sizing.agreement import Found, Hunt
+from cqdd_design.sizing.bearable import weaker
+from cqdd_design.sizing.exact import exact_checks
+from cqdd_design.sizing.finish import torque_reserve
+from cqdd_design.verdict.drawn import Allowed, Drawn, drawn_gearboxes, good_gearboxes, used
+
+HOT = "THERMAL-RISE"
+_LEAST_STEP = 1e-6
+"""Clearance that has to grow at all, m: to the next fit."""
+_TRIAL_SAMPLES = 32
+_LESS = 0.9
+"""Share of both torques that is tried next where a gearbox has no equilibrium."""
+_SPARE = 1.02
+"""Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
+
+
+def look(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, float | None]:
+    """What the motor can do, where that was asked, and clearance that heat needs more, m.
+
+    With rigid discs and ring first: their finite elements cost more than all else here, and change
+    either by a per cent.
+    """
+    if hunt.requirements.derived:
+        try:
+            can = what_it_can(machine, hunt.requirements, may_rise=not hunt.lowered)
+        except ContactError:
+            # Beyond this gearbox at some angle or torque that the search did not look at.
+            return weaker(hunt.requirements, _LESS, _LESS), None
+        if can is not None:
+            return can, None
+    found, checks, _ = judged_temperatures(machine)
+    step = clearance_needed(found, checks)
+    if step > 0.0:
+        return None, step
+    # Parts that press on each other are hot for that; without that, less torque is cooler.
+    hot = any(line.id == HOT and line.known and not line.satisfied for line in checks)
+    return (cooler(hunt.requirements) if hot else None), None
+
+
+def closer_look(hunt: Hunt, found: Found, machine: Machine) -> float | None:
+    """What a few gearboxes ask for: see `read_spread`."""
+    hunt.say(f"looking at toleranced gearboxes of {found.sized.design.name}")
+    try:
+        drawn = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False)
+    except ContactError:
+        return _LEAST_STEP
+    return read_spread(hunt, machine, drawn, exact_checks(machine))
+
+
+def clearance_needed(found: MachineTemperatures | None, checks: Iterable[Check]) -> float:
+    """Clearance that holes need more, or the least step, where warm parts overlap, m; else 0."""
+    for one in checks:
+        if one.id == "THERMAL-CLEARANCE" and not one.satisfied:
+            return max(2.0 * (found.lacking_clearance if found else 0.0), _LEAST_STEP)
+    return 0.0
+
+
+def read_spread(
+    hunt: Hunt, machine: Machine, drawn: Drawn, lines: tuple[Check, ...]
+) -> float | None:
+    """More clearance of the holes that part errors ask for, m; None where they ask for nothing.
+
+    0 where they ask for reserve instead, which is noted.
+    """
+    good = good_gearboxes(machine, drawn, lines)
+    if good is None:
+        return None
+    numbers, fails = good
+    count = len(drawn.continuous.values) + drawn.continuous.lost
+    share = machine.design.requirements.yield_share
+    if len(numbers) >= share * count:
+        return None
+    # No clearance makes a gearbox tighter or stiffer.
+    loose = any(fails.get(name, 0) > (1.0 - share) * count for name in ("backlash", "stiffness"))
+    jams = max(one.lost for one in drawn)
+    # Half of what may fail, all of it where a backlash is asked for: clearance would cost that.
+    may = (0.5 if machine.design.requirements.backlash is None else 1.0) * (1.0 - share) * count
+    if not loose and fails["bind"] + jams > may:
+        return _LEAST_STEP
+    allowed = Allowed.of(machine, lines)
+    assert allowed is not None
+    by_id = {line.id: line for line in lines}
+    # What may fail is shared among the lines that do.
+    quantile = 1.0 - (1.0 - share) / max(sum(1 for number in fails.values() if number), 1)
+    over = {
+        check: float(np.quantile(ratio, quantile)) for check, ratio in used(allowed, drawn).items()
+    }
+    short = {check: ratio for check, ratio in over.items() if ratio > 1.0}
+    for check, ratio in short.items():
+        # So much more than the perfect parts of this design have; pressure is a root of torque.
+        more = _SPARE * ratio
+        reserve = torque_reserve(by_id[check], machine.design)
+        hunt.extra[check] = reserve * (more**2 if check.startswith("CONTACT-") else more)
+    if loose:
+        return 0.0 if short else None
+    return 0.0 if short else _LEAST_STEP

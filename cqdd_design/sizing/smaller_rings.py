@@ -1,0 +1,87 @@
+"""Designs in smaller rings than the space leaves, where they are better."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from cqdd_design.catalog.motors import Motor
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.geometry.scale import smallest_ring
+from cqdd_design.sizing.agreement import Found, Hunt, settled
+from cqdd_design.sizing.points import Points
+
+_RING_STEP, _FINER_STEPS = 0.04, (0.02, 0.01, 0.005)
+"""By how much of its diameter the next ring is smaller, and the finer steps from there."""
+_TEETH = (1.6, 2.5)
+"""Ring teeth over those of a point, with which a search near it begins too: thick ones take less
+wall, so that holes and bearing have more room."""
+_MAY_WIN = 1.1
+"""Objective over the best so far, up to which finer steps may make a design the best."""
+
+
+def least_ring(motor: Motor) -> float:
+    """Diameter, m, below which no ring is tried: round a smaller one no tube fills the bore."""
+    return 0.0 if motor.bore_diameter is None else smallest_ring(motor.bore_diameter)
+
+
+def in_smaller_rings(hunt: Hunt, best: Found) -> list[Found]:
+    """Better designs in smaller rings, the best first.
+
+    All the way down to the least ring first: with one cam bearing a smaller ring is lighter, down
+    to where its discs need a wider bearing, so that there is more than one least mass. Then from
+    each of them that may win in finer steps.
+    """
+    least = least_ring(best.search.frame.motor)
+    ladder, ring = [best], best.sized.design.reducer.ring.outer_diameter
+    while ring > least:
+        ring = max((1.0 - _RING_STEP) * ring, least)
+        found, heavier = _in_ring(hunt, ladder[-1], ring, min(ladder, key=_worth))
+        if found is not None:
+            ladder.append(found)
+        elif not heavier:
+            break
+    ends = [one for one, below in pairwise(ladder) if one.worth < below.worth] + ladder[-1:]
+    for start in sorted(ends, key=_worth):
+        if start.sized.objective.score <= _MAY_WIN * min(ladder, key=_worth).sized.objective.score:
+            ladder.append(_finer(hunt, start, least))
+    return sorted((one for one in ladder if one.worth < best.worth), key=_worth)
+
+
+def _finer(hunt: Hunt, best: Found, least: float) -> Found:
+    """The last design in smaller and smaller rings that is better than the one before."""
+    for step in _FINER_STEPS:
+        while (now := best.sized.design.reducer.ring.outer_diameter) > least:
+            found, _ = _in_ring(hunt, best, max((1.0 - step) * now, least), best)
+            if found is None or found.worth >= best.worth:
+                break
+            best = found
+    return best
+
+
+def _in_ring(hunt: Hunt, beside: Found, ring: float, rival: Found) -> tuple[Found | None, bool]:
+    """The best design in a ring of a diameter, m, near another; or whether a rival is lighter.
+
+    What it weighs by closed forms is good to the needs of the other.
+    """
+    unrated, score = rival.worth
+    space = beside.space._replace(ring_limit=ring)
+    near = _with_other_teeth(beside.point)
+    try:
+        return settled(hunt, space, (unrated, _MAY_WIN * score), beside.needs, near)
+    except InfeasibleError:
+        return None, False
+
+
+def _worth(found: Found) -> tuple[bool, float]:
+    return found.worth
+
+
+def _with_other_teeth(point: Points) -> Points:
+    """A point, and places to begin at beside it that have thicker ring teeth."""
+    many = point.rows(np.zeros(1 + len(_TEETH), dtype=np.intp))
+    steps = many.steps.copy()
+    steps[1:, 1] = np.rint(np.array(_TEETH) * steps[1:, 1])
+    return replace(many, steps=steps)
