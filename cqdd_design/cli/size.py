@@ -205,7 +205,6 @@ def _screened(road: Road) -> list[str]:
 
 def _judged(road: Road, judged: Verdict, *, verbose: bool) -> list[str]:
     """The verdict on the design that was written, and where to go from it."""
-    place = road.files[0].path.as_posix()
     return [
         *([checks_table(judged.lines), ""] if verbose else []),
         headline_table(judged),
@@ -214,11 +213,19 @@ def _judged(road: Road, judged: Verdict, *, verbose: bool) -> list[str]:
         "",
         *_costs(road.sizing),
         judged.sentence,
-        "next:",
-        f"  cqdd-design check {place}",
-        f"  cqdd-design report {place}",
-        f"  cqdd-design export {place} --to edm,step",
+        *_next(road),
     ]
+
+
+def _next(road: Road) -> list[str]:
+    """Commands that go on from here, but for what was asked for already."""
+    place, done = road.files[0].path.as_posix(), {one.kind for one in road.files}
+    steps = [f"  cqdd-design check {place}"]
+    if "report" not in done:
+        steps.append(f"  cqdd-design report {place}")
+    if done <= {"design", "report"}:
+        steps.append(f"  cqdd-design export {place} --to edm,step")
+    return ["next:", *steps]
 
 
 _CHOICE_HEAD = (

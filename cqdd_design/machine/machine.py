@@ -43,7 +43,7 @@ _FEW_TORQUES = 6
 """Up to which the losses of a duty are swept at its own torques."""
 _ROUGH_SHARES = (0.0, 1e-3, 5e-3, 0.02, 0.06, 0.15, 0.4, 1.0)
 """Of the peak torque, where losses of rigid bodies are swept: straight lines between them are good
-to a per cent, as rigid bodies are."""
+to 3 %."""
 
 
 class Cooling(NamedTuple):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.tightening import (
@@ -17,6 +17,7 @@ from cqdd_design.machine.shaft_strength import output_loads
 from cqdd_design.solids import mounting
 from cqdd_design.solids.carrier import OUTPUT_BOLTS
 from cqdd_design.solids.mounting import SCREW_MATERIAL
+from cqdd_design.solids.selection import CapScrew
 
 
 @dataclass(frozen=True)
@@ -85,17 +86,8 @@ def _cover(machine: Machine) -> ScrewJoint:
     metal, grip = _housing_metal(machine), housing.cover_flange_top - layout.pack.top
     screw, around = housing.screw, housing.screw_count * housing.bolt_circle_radius
     pulled = loads.axial / housing.screw_count + 2.0 * loads.moment / around
-    clamping = Clamping(
-        thread=coarse_thread(screw.thread),
-        screw=find_material(SCREW_MATERIAL),
-        clamped=metal,
-        tapped=metal,
-        bearing_outer=screw.head_diameter,
-        bearing_inner=1.1 * screw.thread,
-        grip=grip,
-        engaged=min(screw.length - grip, layout.pack.top - housing.flange_bottom),
-        faces=2,
-    )
+    engaged = min(screw.length - grip, layout.pack.top - housing.flange_bottom)
+    clamping = _clamping(screw, metal, grip=grip, engaged=engaged, faces=2)
     return ScrewJoint(
         "cover and ring clamp on the housing",
         screw.designation,
@@ -194,16 +186,16 @@ def _columns(machine: Machine) -> ScrewJoint | None:
         "columns between plate and cap",
         screw.designation,
         columns.count,
-        Clamping(
-            thread=coarse_thread(screw.thread),
-            screw=find_material(SCREW_MATERIAL),
-            clamped=metal,
-            tapped=metal,
+        replace(
+            _clamping(
+                screw,
+                metal,
+                grip=carrier.plate_bottom - columns.seat,
+                engaged=columns.thread_top - carrier.plate_bottom,
+                faces=2,
+            ),
             bearing_outer=min(screw.head_diameter, 2.0 * columns.radius),
             bearing_inner=2.0 * columns.bore_radius,
-            grip=carrier.plate_bottom - columns.seat,
-            engaged=columns.thread_top - carrier.plate_bottom,
-            faces=2,
         ),
         half / (columns.count * carrier.pin_circle_radius),
         0.0,
@@ -221,19 +213,28 @@ def _motor_cover(machine: Machine) -> ScrewJoint | None:
         "motor's cover, which carries nothing",
         screw.designation,
         motor.ear_count,
-        Clamping(
-            thread=coarse_thread(screw.thread),
-            screw=find_material(SCREW_MATERIAL),
-            clamped=metal,
-            tapped=metal,
-            bearing_outer=screw.head_diameter,
-            bearing_inner=1.1 * screw.thread,
-            grip=grip,
-            engaged=min(screw.length - grip, motor.ear_height),
-            faces=1,
+        _clamping(
+            screw, metal, grip=grip, engaged=min(screw.length - grip, motor.ear_height), faces=1
         ),
         0.0,
         0.0,
+    )
+
+
+def _clamping(
+    screw: CapScrew, metal: Material, *, grip: float, engaged: float, faces: int
+) -> Clamping:
+    """Of a cap screw through one part into another of the same metal."""
+    return Clamping(
+        thread=coarse_thread(screw.thread),
+        screw=find_material(SCREW_MATERIAL),
+        clamped=metal,
+        tapped=metal,
+        bearing_outer=screw.head_diameter,
+        bearing_inner=1.1 * screw.thread,
+        grip=grip,
+        engaged=engaged,
+        faces=faces,
     )
 
 

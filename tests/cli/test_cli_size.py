@@ -26,7 +26,12 @@ def test_the_first_command_of_a_newcomer(cqdd, tmp_path):
         assert f"wrote {path}" in done.out
     assert "by what the motor can do" in done.out
     assert "candidates" in done.out
-    assert "cqdd-design export designs/sized-10.toml --to edm,step" in done.out
+    # What was asked for already is no next step.
+    assert done.out.partition("next:\n")[2].splitlines()[0] == (
+        "  cqdd-design check designs/sized-10.toml"
+    )
+    assert "cqdd-design report" not in done.out
+    assert "cqdd-design export" not in done.out
     # All checks and what was rejected are told with --verbose.
     assert "rejected first by" not in done.out
     assert max(map(len, done.out.splitlines())) <= 80
