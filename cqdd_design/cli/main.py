@@ -35,6 +35,7 @@ from cqdd_design.cli import (
     torque_import,
     torque_train,
 )
+from cqdd_design.cli.colour import with_coloured_start
 from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, command, print_result
 from cqdd_design.environment import missing_dependency
 from cqdd_design.errors import CqddError, UsageError, printable
@@ -177,7 +178,8 @@ def _end(
     if "--debug" in arguments and kind != "Interrupted":
         traceback.print_exc()
     message = message.replace("?.", "?")
-    print(f"cqdd-design: {printable(message)}", file=sys.stderr)
+    told = with_coloured_start(f"cqdd-design: {printable(message)}", "cqdd-design:", sys.stderr)
+    print(told, file=sys.stderr)
     if "--json" in arguments:
         from cqdd_design.library.envelope import error_document
 

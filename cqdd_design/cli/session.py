@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TextIO
 
 import typer
 
+from cqdd_design.cli.colour import coloured, is_coloured, with_coloured_start
 from cqdd_design.environment import source_date
 from cqdd_design.errors import UsageError, printable
 
@@ -129,7 +130,8 @@ class Output:
         """Print a part of the result for people."""
         if not (self.as_json or self.quiet):
             self.end_progress()
-            print_result("\n".join(lines))
+            text = "\n".join(lines)
+            print_result(coloured(text) if is_coloured(standard_output()) else text)
 
     def warn(self, *sentences: str) -> None:
         """Tell warnings on stderr and keep them for the envelope."""
@@ -141,7 +143,8 @@ class Output:
         """Narrate on stderr."""
         if not self.quiet:
             self.end_progress()
-            print(printable(sentence), file=sys.stderr, flush=True)
+            told = with_coloured_start(printable(sentence), "warning:", sys.stderr)
+            print(told, file=sys.stderr, flush=True)
 
     def note_compilation(self, *, simulation: bool = False) -> None:
         """Tell that the first run after installation compiles, where it does."""
