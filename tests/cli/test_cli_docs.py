@@ -258,6 +258,7 @@ def test_requirements_shown_are_requirements(tmp_path):
         load_requirements(path)
 
 
+@pytest.mark.deep
 def test_the_claims_of_the_paper_are_those_computed(cqdd):
     done = cqdd("compare", REPOSITORY / "designs" / "cqdd-10.toml", "--json")
     claims = done.document["results"]["paper_claims"]

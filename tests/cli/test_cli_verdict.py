@@ -24,6 +24,7 @@ def test_check_and_report_say_the_same(cqdd, paper_design_file, tmp_path):
     assert "Does not meet its requirements" in page
 
 
+@pytest.mark.deep
 def test_check_and_analyse_say_the_same(cqdd, paper_design_file):
     check = cqdd("check", paper_design_file, "--json").document
     analyse = cqdd("analyse", paper_design_file, "--json").document
