@@ -19,10 +19,11 @@ if TYPE_CHECKING:
     from typing import Any
 
     from cqdd_design.design import Design, Requirements
-    from cqdd_design.library.actuators import bench, calibrate, simulate
+    from cqdd_design.library.actuators import bench, calibrate
     from cqdd_design.library.designs import load, size
     from cqdd_design.library.gearboxes import compare, inertia, tolerance
     from cqdd_design.library.judging import analyse, check
+    from cqdd_design.library.simulating import simulate
     from cqdd_design.library.writing import export, report
     from cqdd_design.machine import Machine
     from cqdd_design.verdict import Verdict
@@ -66,7 +67,7 @@ _ROOMS = {
     "inertia": "library.gearboxes",
     "load": "library.designs",
     "report": "library.writing",
-    "simulate": "library.actuators",
+    "simulate": "library.simulating",
     "size": "library.designs",
     "tolerance": "library.gearboxes",
 }

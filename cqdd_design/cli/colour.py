@@ -8,8 +8,10 @@ import sys
 from typing import TextIO
 
 _STYLES = {"pass": "32", "WARN": "33", "FAIL": "31", "UNKNOWN": "35"}
+WARNING, ERROR = "warning:", "cqdd-design:"
+"""What sentences on standard error begin with."""
 _STATUS = re.compile(rf"^({'|'.join(_STYLES)})(?=\s)", re.M)
-_HEAD = re.compile(r"^(?!-)(\S.*|\s+\S.*)\n(-+(?:  -+)*)$", re.M)
+_HEAD = re.compile(r"^(?!-)(.*\S)\n(-+(?:  -+)*)$", re.M)
 _COMMAND = re.compile(r"^( +)(cqdd-design .*)$", re.M)
 _SENTENCES = (
     (re.compile(r"does NOT meet its requirements"), "1;31"),
@@ -44,7 +46,7 @@ def with_coloured_start(text: str, start: str, stream: TextIO) -> str:
     """A sentence on standard error, its start in colour: of a warning or an error."""
     if not (text.startswith(start) and is_coloured(stream)):
         return text
-    style = _STYLES["WARN" if start.startswith("warning") else "FAIL"]
+    style = _STYLES["WARN" if start == WARNING else "FAIL"]
     return _in(style, start) + text.removeprefix(start)
 
 

@@ -35,7 +35,7 @@ from cqdd_design.cli import (
     torque_import,
     torque_train,
 )
-from cqdd_design.cli.colour import with_coloured_start
+from cqdd_design.cli.colour import ERROR, with_coloured_start
 from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, command, print_result
 from cqdd_design.environment import missing_dependency
 from cqdd_design.errors import CqddError, UsageError, printable
@@ -178,7 +178,7 @@ def _end(
     if "--debug" in arguments and kind != "Interrupted":
         traceback.print_exc()
     message = message.replace("?.", "?")
-    told = with_coloured_start(f"cqdd-design: {printable(message)}", "cqdd-design:", sys.stderr)
+    told = with_coloured_start(f"{ERROR} {printable(message)}", ERROR, sys.stderr)
     print(told, file=sys.stderr)
     if "--json" in arguments:
         from cqdd_design.library.envelope import error_document

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TextIO
 
 import typer
 
-from cqdd_design.cli.colour import coloured, is_coloured, with_coloured_start
+from cqdd_design.cli.colour import WARNING, coloured, is_coloured, with_coloured_start
 from cqdd_design.environment import source_date
 from cqdd_design.errors import UsageError, printable
 
@@ -137,13 +137,13 @@ class Output:
         """Tell warnings on stderr and keep them for the envelope."""
         self.warnings += sentences
         for sentence in sentences:
-            self.note(f"warning: {sentence}")
+            self.note(f"{WARNING} {sentence}")
 
     def note(self, sentence: str) -> None:
         """Narrate on stderr."""
         if not self.quiet:
             self.end_progress()
-            told = with_coloured_start(printable(sentence), "warning:", sys.stderr)
+            told = with_coloured_start(printable(sentence), WARNING, sys.stderr)
             print(told, file=sys.stderr, flush=True)
 
     def note_compilation(self, *, simulation: bool = False) -> None:

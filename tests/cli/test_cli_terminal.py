@@ -19,6 +19,7 @@ TABLE = """\
 pass  GAP-DISCS       0.5  >=    0.3  mm      1.67
 WARN  LIFE-CAM       1002  >=   1000  h          1
 FAIL  RING-STRESS     120  <=    100  MPa    0.833
+UNKNOWN  TORQUE         ?  >=     12  N*m        ?
 
 cqdd-10 does NOT meet its requirements: of 3 lines 1 pass, 1 FAIL
 next:
@@ -31,6 +32,8 @@ def test_codes_alone_are_added_and_only_where_they_say_something() -> None:
     assert "\x1b[32mpass\x1b[0m  GAP" in told
     assert "\x1b[33mWARN\x1b[0m  LIFE" in told
     assert "\x1b[31mFAIL\x1b[0m  RING" in told
+    assert "\x1b[35mUNKNOWN\x1b[0m  TORQUE" in told
+    assert told.startswith("\x1b[1m      check "), "a heading is bold"
     assert "\x1b[1;31mdoes NOT meet its requirements\x1b[0m" in told
     assert "  \x1b[36mcqdd-design check cqdd-10.toml\x1b[0m" in told
     assert "1 pass, 1 FAIL" in told, "counts are no statuses"
@@ -85,5 +88,7 @@ def test_errors_begin_in_colour_and_documents_have_none() -> None:
     code, shown = on_terminal("check", "nowhere.toml")
     assert code == 2
     assert shown.startswith("\x1b[31mcqdd-design:\x1b[0m ")
+    _, shown = on_terminal("check", "nowhere.toml", NO_COLOR="1")
+    assert shown.startswith("cqdd-design: ")
     _, document = on_terminal("catalog", "fits", "--json")
     assert not CODES.search(document)
