@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from examples import examples
 from geometry_designs import design_of, discs
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from cqdd_design.design import load_design
@@ -24,11 +24,12 @@ from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.gcode import program
 from cqdd_design.exporting.edm.gcode_check import check_program
-from cqdd_design.exporting.edm.passes import contour_times, wire_passes
+from cqdd_design.exporting.edm.passes import BORDER, contour_times, wire_passes
 from cqdd_design.exporting.edm.wire_path import segmented
 from cqdd_design.exporting.options import DEFAULTS
 from cqdd_design.gearbox.contact.sweep import contact_sweep
 from cqdd_design.geometry.contours import Circle
+from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
 
@@ -353,6 +354,15 @@ def test_a_spoilt_program_is_refused(text, paper, parts, old, new, said):
         check_program(_replaced(text, old, new), parts[0], paper.edm)
 
 
+def test_the_blank_holds_the_start_hole_and_a_border_to_clamp(paper, parts):
+    for flat in parts:
+        told = program(flat, paper)
+        side = float(re.search(r"BLANK (\d+) X", told)[1])
+        x, y = re.findall(r"^G00 X(\S+) Y(\S+)$", told, flags=re.M)[-1]
+        beyond = 0.5 * side - math.hypot(float(x), float(y))
+        assert 1e3 * BORDER < beyond < 1e3 * BORDER + 3.0, "half of a start hole more, rounded"
+
+
 def test_a_missing_cut_and_the_wrong_part_are_refused(text, paper, parts):
     with pytest.raises(ReadBackError, match="7 cuts for 2 contours"):
         check_program(text, parts[1], paper.edm)
@@ -365,8 +375,18 @@ def test_a_missing_cut_and_the_wrong_part_are_refused(text, paper, parts):
 
 @SEVERAL
 @given(
-    discs(modified=True, least_lobes=4, most_lobes=40),
-    st.sampled_from(["solid", "conjugate", "pinwheel"]),
+    disc=discs(modified=True, least_lobes=4, most_lobes=40),
+    ring_type=st.sampled_from(["solid", "conjugate", "pinwheel"]),
+)
+# A hole whose centre lies off the grid of the coordinates, with joints that round away from it.
+@example(
+    disc=CycloidDisc(
+        lobe_count=15,
+        ring_pitch_radius=0.0625,
+        eccentricity=0.0009560793163542446,
+        tooth_radius=0.006096572563004008,
+    ),
+    ring_type="solid",
 )
 def test_any_design_gives_programs_that_pass_their_check(tmp_path_factory, disc, ring_type):
     folder = tmp_path_factory.mktemp("any")

@@ -240,11 +240,13 @@ def _cut(
 ) -> _Cut:
     nominal = flat.contours[number]
     contour = begun(flat, number, options.tab_length)
+    wall, tab = split_for_tab(contour, tab_of(nominal, options.tab_length))
     circle = None
     if isinstance(nominal, Circle):
-        # On the grid of the coordinates, so that the radii of its arcs agree.
+        # On the grid of the coordinates, its joints with it, so that the radii of its arcs agree.
+        exact = complex(*nominal.centre)
         circle = complex(*(_rounded(v * _MM) / _MM for v in nominal.centre))
-    wall, tab = split_for_tab(contour, tab_of(nominal, options.tab_length))
+        wall, tab = (OpenChain(one.points + circle - exact, one.bulges) for one in (wall, tab))
     into_waste = kerf if number else -kerf
     turns = wall.beside(into_waste), tab.beside(into_waste)
     return _Cut(step, number == 0, start, wall, tab, turns, circle)
