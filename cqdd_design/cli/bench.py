@@ -19,13 +19,21 @@ from cqdd_design.cli.options import (
     parse_positive,
 )
 from cqdd_design.cli.session import Output, read_design, read_specimen
-from cqdd_design.cli.tables import headline_table, number, table, told
+from cqdd_design.cli.tables import folded, headline_table, number, table, told
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from cqdd_design.actuator.bench import BenchResult
     from cqdd_design.actuator.comparison import ComparedActuator
+
+
+_OTHERWISE = (
+    "Measurements follow the protocols of the paper, these figures the requirements: "
+    "continuous_torque is of a standing output, the continuous torque above is held for ever at "
+    "the input speed; stall_torque is met while the current rises, which loosens some friction; "
+    "efficiency_peak is of motor and gearbox at their best point; backlash is of one gearbox."
+)
 
 
 def bench(
@@ -73,7 +81,7 @@ def bench(
     if others or not names:
         out.say("", *_comparison(found.actuators))
     if judged is not None:
-        out.say("", headline_table(judged), "", judged.sentence)
+        out.say("", headline_table(judged), "", *folded(_OTHERWISE), "", judged.sentence)
     out.wrote(files)
     out.warn(*result.warnings)
     out.document(found.to_dict(), design=loaded, checks=found.lines, files=files)
@@ -105,17 +113,21 @@ def _lines(result: BenchResult) -> list[str]:
             right=(1, 2, 4, 5) if result.beside_paper else (1, 2),
         ),
         "",
-        f"{len(rows)} measurements in {number(result.seconds)} s; dynamic rows at "
-        f"{result.voltage:g} V. Protocols stand in --json and in the report.",
+        *folded(
+            f"{len(rows)} measurements in {number(result.seconds)} s; dynamic rows at "
+            f"{result.voltage:g} V. Protocols stand in --json and in the report."
+        ),
     ]
     remarks = [(one.name, one.remark) for one in result.metrics if one.remark]
     lines += ["", told(remarks), ""] if remarks else []
-    lines.append(
-        "given: an input, an identity, or from clearances that the design assumes; calibrated: "
-        "fitted to a measured value; predicted: neither. "
-        "`cqdd-design calibrate` fits friction and cooling."
-    )
-    return lines
+    return [
+        *lines,
+        *folded(
+            "given: an input, an identity, or from clearances that the design assumes; "
+            "calibrated: fitted to a measured value; predicted: neither. "
+            "`cqdd-design calibrate` fits friction and cooling."
+        ),
+    ]
 
 
 def _comparison(actuators: Sequence[ComparedActuator]) -> list[str]:

@@ -40,7 +40,7 @@ def table(
     widths = [max(len(row[i]) for row in every) for i in range(len(every[0]))]
     left = WIDTH - sum(width + 2 for width in widths[:-1])
     if len(widths) > 1 and _LEAST_WIDTH <= left < widths[-1] and len(widths) - 1 not in right:
-        every = [folded for row in every for folded in _folded(row, left)]
+        every = [piece for row in every for piece in _row_folded(row, left)]
         widths[-1] = max(len(row[-1]) for row in every)
     if head is not None:
         every.insert(1, ["-" * width for width in widths])
@@ -54,7 +54,7 @@ def table(
     return "\n".join(lines)
 
 
-def _folded(row: list[str], width: int) -> list[list[str]]:
+def _row_folded(row: list[str], width: int) -> list[list[str]]:
     """A row, and the rows below it that go on with its last cell."""
     pieces = textwrap.wrap(row[-1], width, break_long_words=False, break_on_hyphens=False) or [""]
     blanks = [""] * (len(row) - 1)
@@ -143,6 +143,11 @@ def remedies(checks: Sequence[Check]) -> str:
     return told(
         [(f"{check.id}, {check.title}", check.remedy) for check in checks if check.status != "pass"]
     )
+
+
+def folded(sentence: str) -> list[str]:
+    """A sentence in lines of 80 at most."""
+    return textwrap.wrap(sentence, WIDTH, break_on_hyphens=False)
 
 
 def told(sentences: Sequence[tuple[str, str]]) -> str:
