@@ -168,24 +168,32 @@ class Compared(NamedTuple):
         return LIMITS[self.check]
 
 
-@lru_cache(maxsize=4)
 def torque_limits(machine: Machine, load: LoadName | None = None) -> tuple[TorqueLimit, ...]:
     """Torques at which a machine's gearbox reaches its limits, in the order of the checks.
 
-    Of one load, or of both. A report asks twice for one machine, so the last are kept. Limits
-    whose strength the catalogue does not give are left out.
+    Of one load, or of both. Limits whose strength the catalogue does not give are left out.
 
     Raises
     ------
     GeometryError
         When disc, ring or holes cannot exist.
     """
-    contacts = machine.loaded_contacts
     return tuple(
-        _limit(machine, contacts, one)
+        _limits(machine, one.row.load)[one.check]
         for one in compared_limits(machine)
         if load in {None, one.row.load}
     )
+
+
+@lru_cache(maxsize=8)
+def _limits(machine: Machine, load: LoadName) -> dict[str, TorqueLimit]:
+    """Limits of one load by their checks; a report asks for one load, then for both."""
+    contacts = machine.loaded_contacts
+    return {
+        one.check: _limit(machine, contacts, one)
+        for one in compared_limits(machine)
+        if one.row.load == load
+    }
 
 
 def carried_torque(machine: Machine) -> CarriedTorque:

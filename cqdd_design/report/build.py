@@ -39,6 +39,7 @@ from cqdd_design.report.judgement.origins import Value, defaults, values_by_grou
 from cqdd_design.report.judgement.planetary import planetary_view
 from cqdd_design.report.judgement.search import sizing_view
 from cqdd_design.report.judgement.verdict import pin_figure, verdict
+from cqdd_design.report.machine_view.packing import machine_values
 
 if TYPE_CHECKING:
     from cqdd_design.machine.contact_analysis import ContactAnalysis
@@ -121,7 +122,7 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
         _Chapter(
             "machine3d.html",
             (("machine", "The machine"),),
-            pictures and {"machine_views": pictures[0], "machine_viewer": pictures[1]},
+            pictures and machine_values(*pictures),
         ),
         chapter(
             "values", "Design values", {"values": groups[1:], "derived": derived_values(results)}
