@@ -39,6 +39,10 @@ def export(
     tab_length: Annotated[
         str | None, option("Q", 'Left uncut in G-code until held; default "3 mm".')
     ] = None,
+    prices: Annotated[
+        Path | None,
+        option("FILE.csv", "Prices for the bill: designation, price, currency, vendor."),
+    ] = None,
     workers: Annotated[
         int | None, option("N", "Designs at a time; default one for each core.", min=1)
     ] = None,
@@ -55,6 +59,7 @@ def export(
 ) -> int:
     """Files for makers (DXF, EDM, STEP, ...) and simulators."""
     from cqdd_design.exporting import ExportOptions
+    from cqdd_design.exporting.bill.prices import prices_asked_for
     from cqdd_design.roads.export import export as write
     from cqdd_design.units import LENGTH
 
@@ -66,6 +71,7 @@ def export(
         step_schema=step_schema.upper(),
         gcode_dialect=gcode_dialect.lower(),
         passes=passes,
+        prices=prices_asked_for(prices, kinds),
         **({} if tab is None else {"tab_length": tab}),
     )
     if len(design) > 1:

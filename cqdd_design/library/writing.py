@@ -64,6 +64,7 @@ def export(
     gcode_dialect: Literal["iso", "sodick"] = "iso",
     passes: int = 4,
     tab_length: Quantity | None = None,
+    prices: PathLike | None = None,
     seed: int | None = None,
     calibration: CalibrationLike | None = None,
     force: bool = False,
@@ -89,6 +90,8 @@ def export(
         Of the wire along a contour in G-code: the rough cut and up to three skim cuts.
     tab_length : quantity, optional
         Left uncut in G-code until held; default 3 mm.
+    prices : path, optional
+        CSV file of designation, price, currency and vendor for the bill of materials.
     seed : int, optional
         Gearbox of simulators drawn from the tolerances; default perfect parts.
     calibration : path or Calibrated, optional
@@ -128,6 +131,7 @@ def export(
     {'dxf'}
     """
     from cqdd_design.exporting import ExportOptions
+    from cqdd_design.exporting.bill.prices import prices_asked_for
     from cqdd_design.exporting.kinds import read_kinds
     from cqdd_design.roads.export import export as write
     from cqdd_design.roads.telling import silent
@@ -141,6 +145,7 @@ def export(
         step_schema=step_schema.upper(),
         gcode_dialect=gcode_dialect.lower(),
         passes=passes,
+        prices=prices_asked_for(None if prices is None else path_of("prices", prices), kinds),
         **({} if tab is None else {"tab_length": tab}),
     )
     loaded = design_of(design)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.dowels import MATERIAL as DOWEL_MATERIAL
+from cqdd_design.catalog.encoders import magnets_of, sensors_with
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
@@ -56,7 +57,11 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
     magnet = motor_shapes.encoder_magnet(motor)
     on_board = on_circle(3, motor_shapes.board_screw_circle(motor), 0.0)
     on_ears = on_circle(motor.ear_count, motor.ear_circle, float(motor.ear_angles[0]))
+    magnets = magnets_of(2.0 * motor.magnet_radius, motor.magnet_height)
     size = f"{2e3 * motor.magnet_radius:g} x {motor.magnet_height * 1e3:g} mm"
+    magnet_name = magnets[0].name if magnets else f"diametric magnet NdFeB N35 {size}"
+    bits = design.drive.encoder_bits
+    board_name = next((one.name for one in sensors_with(bits)), f"magnetic encoder, {bits} bits")
 
     def one(
         name: str,
@@ -94,12 +99,11 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
         one("motor cover", cover, metal, _COVER, "turned and milled", make=True),
         one(
             "encoder magnet", magnet, MAGNET_MATERIAL, _MAGNET,
-            f"diametric magnet {size}", turns=True, z=motor.magnet_bottom,
+            magnet_name, turns=True, z=motor.magnet_bottom,
         ),
         one(
             "encoder board", motor_shapes.encoder_board(motor), BOARD_MATERIAL, _BOARD,
-            f"magnetic encoder, {design.drive.encoder_bits} bits, on a "
-            f"{2e3 * motor.board_radius:g} mm board",
+            board_name,
         ),
         _screws("encoder screw", motor.board_screw, fastener, on_board, motor.board_top),
         _screws("motor cover screw", motor.cover_screw, fastener, on_ears, motor.flange_top),
@@ -157,7 +161,7 @@ def dowel_part(layout: Layout) -> list[Part]:
             DOWEL_MATERIAL,
             _STEEL,
             "buy",
-            f"ISO 8734 {size}, drilled and reamed with the ring in its seat",
+            f"ISO 8734 {size}",
             placed("ring dowel", HOUSING, *places),
         )
     ]

@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from cqdd_design.geometry.contours import ArcContour, Circle, PlanarPart, as_points
+from cqdd_design.geometry.grooves import grooved_circle
 from cqdd_design.solids.layers import (
     Annulus,
     Drilling,
@@ -203,11 +204,9 @@ def with_magnet_pocket(shaft: Stack, motor: MotorLayout) -> Stack:
 
 
 def with_dowel_notches(ring: Stack, pack: PackLayout, dowels: DowelLayout) -> Stack:
-    """The ring with the halves of the dowels' holes that lie in it."""
-    notched = scalloped_circle(
-        pack.ring_radius, dowels.angles, pack.ring_radius, dowels.radius, inward=True
-    )
-    return reshaped(ring, dowels.bottom, ring.top, lambda shape: _with_outer(shape, notched))
+    """The ring with the half grooves of the dowels, which the wire cuts all through it."""
+    notched = grooved_circle(pack.ring_radius, dowels.angles, dowels.radius)
+    return reshaped(ring, ring.bottom, ring.top, lambda shape: _with_outer(shape, notched))
 
 
 def with_dowel_grooves(housing: Stack, pack: PackLayout, dowels: DowelLayout) -> Stack:

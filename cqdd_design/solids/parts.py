@@ -260,14 +260,12 @@ def _pin_part(design: Design, layout: Layout) -> Part:
     carrier = layout.carrier
     pin, length = carrier.pin, carrier.shoulder_top - carrier.shoulder_bottom
     name = "dowel pin" if pin.screw is None else "shoulder screw"
-    size = f"{pin.nominal_diameter * 1e3:g} f9 x {length * 1e3:.4g}"
     if pin.screw is None:
+        size = f"{pin.nominal_diameter * 1e3:g} f9 x {length * 1e3:.4g}"
         bonded = "plate and cap" if carrier.bonded_in_cap else "the plate"
         designation = f"ground dowel {size}, bonded in {bonded}"
-    elif pin.screw.name.startswith("metric"):
-        designation = f"ISO 7379 {size} {pin.screw.thread}"
     else:
-        designation = f"shoulder screw {size} mm {pin.screw.thread}"
+        designation = pin.screw.designation(length)
     return Part(
         name,
         carrier_shapes.pin_shape(carrier),

@@ -13,14 +13,15 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.fits import FitLimits, fit_limits
 from cqdd_design.errors import CatalogError
-from cqdd_design.geometry.contours import Circle
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.flat_parts import FlatPart
 
-DISC_SEAT, RING_SEAT = (1, "N7"), (0, "n6")
-"""Contour and zone of the seat of a disc, its bore for the cam bearing, and of the ring, its
-outside: those of `solids.fits`, which needs a whole machine around them."""
+BORE_ZONE, OUTSIDE_ZONE, GROOVE_ZONE = "N7", "n6", "H7"
+"""Of a disc's bore for the cam bearing, of the ring's outside and of the half grooves in it for its
+dowels: those of `solids.fits`, which needs a whole machine around them."""
+POCKET_ZONE = "H7"
+"""Of the pockets that hold the pins of a pinwheel ring, over ground pins (h6)."""
 
 _MM = 1e3
 
@@ -62,12 +63,13 @@ class Seat:
 
 def seats_of(flat: FlatPart) -> tuple[Seat, ...]:
     """Seats of a flat part, those whose size the table of its zone knows."""
-    contour, zone = RING_SEAT if flat.label == "ring" else DISC_SEAT
-    circle = flat.contours[contour]
-    if not isinstance(circle, Circle):
-        return ()
-    diameter = 2.0 * circle.radius
+    found = (seat(contour, diameter, zone) for contour, diameter, zone in flat.seat_zones)
+    return tuple(one for one in found if one is not None)
+
+
+def seat(contour: int, diameter: float, zone: str) -> Seat | None:
+    """A seat of a contour, None where the table of its zone does not know the size (m)."""
     try:
-        return (Seat(contour, diameter, fit_limits(zone, diameter)),)
+        return Seat(contour, diameter, fit_limits(zone, diameter))
     except CatalogError:
-        return ()
+        return None
