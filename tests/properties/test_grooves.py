@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 import pytest
+from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from examples import examples
 
 from cqdd_design.design import load_design
 from cqdd_design.errors import GeometryError, ReadBackError
