@@ -203,10 +203,11 @@ def report(
     out: PathLike | None = None,
     seed: int | None = None,
     calibration: CalibrationLike | None = None,
+    format: str = "html",
     force: bool = False,
     progress: Callable[[str], None] | None = None,
 ) -> Reported:
-    """Write one self-contained HTML file for the design review.
+    """Write one self-contained file for the design review: HTML, or PDF through a browser.
 
     Parameters
     ----------
@@ -214,11 +215,13 @@ def report(
         A path is that of a design file, whose comments then stand in the report; a bare name may
         be an example's.
     out : path, optional
-        Default ``reports/NAME.html``, which is replaced.
+        Default ``reports/NAME.html`` or ``.pdf``, which is replaced.
     seed : int, optional
         Of the simulated gearbox; default perfect parts.
     calibration : path or Calibrated, optional
         Fitted factors to apply.
+    format : {"html", "pdf"}
+        The page, or its print by a browser of the Chromium family.
     force : bool
         Replace a file that was named.
     progress : callable, optional
@@ -235,6 +238,8 @@ def report(
         The file exists, or cannot be written.
     DesignError, GeometryError
         No valid design, or a shape that cannot exist.
+    DependencyError
+        No browser that prints.
 
     Notes
     -----
@@ -249,7 +254,7 @@ def report(
     >>> page.files[0].path.name, page.verdict.meets
     ('review.html', 'no')
     """
-    from cqdd_design.roads.report import write_report
+    from cqdd_design.roads.report import report_form, write_report
     from cqdd_design.roads.telling import silent
 
     loaded = design_of(design)
@@ -259,6 +264,7 @@ def report(
         None if out is None else path_of("out", out),
         specimen=specimen,
         source=source_of(design),
+        form=report_form(format),
         force=force,
         progress=progress or silent,
     )

@@ -257,7 +257,7 @@ class Figure:
             role="img",
             aria_labelledby=labels,
             id=f"{self.id}-svg",
-            style=f"max-width:{fixed(self.width)}px",
+            style=f"--wide:{fixed(self.width)}px",
         )
 
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from cqdd_design.report.machine_view.model import ViewerData
     from cqdd_design.report.machine_view.stills import MachineViews
 
+_DIGEST = hashlib.sha256().digest_size
 _MOST_KEPT = 100_000_000
 """Bytes of all entries together: some sixty machines."""
 
@@ -55,7 +56,10 @@ class Drawing:
         assert self.process is not None
         drawn, said = self.process.communicate()
         if self.process.returncode == 0:
-            found: tuple[MachineViews, ViewerData] = pickle.loads(drawn)
+            digest, pictures = drawn[:_DIGEST], drawn[_DIGEST:]
+            if hashlib.sha256(pictures).digest() != digest:
+                return "no pictures of the machine: what was drawn arrived damaged"
+            found: tuple[MachineViews, ViewerData] = pickle.loads(pictures)
             _keep(self.text, *found)
             return found
         lines = said.decode("utf-8", "replace").strip().splitlines()
