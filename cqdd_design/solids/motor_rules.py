@@ -66,8 +66,21 @@ def undrawn_sizes(motor: Motor) -> tuple[str, ...]:
 
 def drawn_motor(motor: Motor) -> tuple[Motor | None, str]:
     """Return a motor if its parts can be drawn, or None and why not."""
-    if undrawn_sizes(motor):
-        return None, f"the sizes of rotor and stator of {motor.name} are not all known"
+    if "inrunner" in motor.kind:
+        return None, (
+            f"{motor.name} is an inrunner, whose rotor turns inside its stator; only outrunners "
+            "are drawn, round the ring, and no housing for this one behind the gearbox"
+        )
+    lacking = [(field, words) for field, words in _SIZES if getattr(motor, field) is None]
+    if lacking:
+        *most, last = (words for _, words in lacking)
+        named = (
+            f"{', '.join(most)} and {last} of {motor.name} are"
+            if most
+            else (f"{last} of {motor.name} is")
+        )
+        keys = ", ".join(field for field, _ in lacking)
+        return None, f"the {named} not known (state {keys} in [motor] or with --motor-file)"
     return motor, ""
 
 

@@ -112,7 +112,12 @@ def bill_of_materials(machine: Machine) -> tuple[BomRow, ...]:
     rows = []
     for row in part_rows(machine.motor, machine.parts):
         part = parts.get(row.part)
-        if part is None or row.make_or_buy == "make":
+        if part is None:
+            # The motor, which is not among the parts.
+            told = f"not drawn: {machine.layout.motor_missing}; bell, cover and encoder are missing"
+            rows.append(replace(row, fitting=f"{told} in this bill"))
+            continue
+        if row.make_or_buy == "make":
             rows.append(row)
             continue
         bearing = bearings().get(row.designation)
