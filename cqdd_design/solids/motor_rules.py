@@ -94,15 +94,15 @@ def register_radius(motor: Motor, pack: PackLayout, unit: float) -> tuple[float,
     wall = 0.5 * bore - pack.ring_radius
     ring, stator = f"{2e3 * pack.ring_radius:.4g} mm", f"{bore * 1e3:.4g} mm stator bore"
     if wall < unit * (1.0 - 1e-9):
-        missing = (
+        misfit = (
             f"a ring of {ring} does not go into the {stator} of {motor.name}; with a wall of the "
             f"housing round it, it may be {1e3 * largest_ring(bore):.4g} mm"
         )
     elif wall > MOST_TUBE_WALL * unit:
-        missing = f"the {stator} of {motor.name} is far larger than a ring of {ring}"
+        misfit = f"the {stator} of {motor.name} is far larger than a ring of {ring}"
     else:
         return 0.5 * bore, drawn, missing
-    return own, None, missing
+    return own, None, f"{misfit}; besides, {missing}" if missing else misfit
 
 
 def bell_torque(design: Design, motor: Motor) -> float:
