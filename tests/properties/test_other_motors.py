@@ -58,7 +58,7 @@ def test_a_motor_without_its_sizes_is_left_out_by_a_sentence_everywhere(paper, n
             assert words in missing
             assert KEYS[words] in missing
     # The bill, the masses, the files and the verdict.
-    (line,) = (one for one in bill_of_materials(machine) if one.part == "motor")
+    (line,) = (one for one in bill_of_materials(machine, machine.parts) if one.part == "motor")
     assert line.designation == name
     assert missing in line.fitting
     warned = next(one for one in machine.inertia.warnings if "is not drawn" in one)

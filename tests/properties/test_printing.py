@@ -35,7 +35,7 @@ def machine(design):
 
 @pytest.fixture(scope="module")
 def every(machine):
-    return printed_parts(machine)
+    return printed_parts(machine, machine.parts)
 
 
 def test_rows_are_of_materials_of_the_catalogue_with_a_source():

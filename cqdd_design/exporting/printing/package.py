@@ -9,6 +9,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -67,7 +68,7 @@ def export_print(job: ExportJob) -> tuple[WrittenFile, ...]:
     DesignError
         When nothing is made of a plastic whose printing or moulding is known.
     """
-    every = printed_parts(job.machine)
+    every = printed_parts(job.machine, job.parts)
     if not every:
         known = ", ".join(f"'{name}'" for name in list(printed_materials())[:4])
         raise DesignError(
@@ -87,10 +88,10 @@ def export_print(job: ExportJob) -> tuple[WrittenFile, ...]:
     return (*files, write_atomically(readme, text, "print"))
 
 
-def printed_parts(machine: Machine) -> tuple[PrintedPart, ...]:
-    """Every part of a plastic whose printing or moulding is known."""
+def printed_parts(machine: Machine, parts: Iterable[Part]) -> tuple[PrintedPart, ...]:
+    """Those of the parts of a machine that are of a plastic to be printed or moulded."""
     plastics, found = printed_materials(), []
-    for part in machine.parts:
+    for part in parts:
         material = plastics.get(part.material)
         if material is None or part.source != "make":
             continue
