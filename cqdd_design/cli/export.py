@@ -61,6 +61,7 @@ def export(
     from cqdd_design.exporting import ExportOptions
     from cqdd_design.exporting.bill.prices import prices_asked_for
     from cqdd_design.roads.export import export as write
+    from cqdd_design.roads.export import left_out
     from cqdd_design.units import LENGTH
 
     kinds = read_kinds(to)
@@ -82,16 +83,18 @@ def export(
         more += [] if motor_file is None else ["--motor-file", str(motor_file)]
         return _several(out, design, kinds, folder, more, workers=workers, force=force)
     loaded = read_design(out, design[0], motor, motor_file)
+    specimen = read_specimen(out, loaded, calibration=calibration, seed=seed)
     files = write(
         loaded,
         kinds,
         folder,
-        specimen=read_specimen(out, loaded, calibration=calibration, seed=seed),
+        specimen=specimen,
         force=force,
         options=options,
         progress=out.stages(stages(kinds)),
     )
     out.wrote(files)
+    out.warn(*left_out(loaded, kinds, specimen=specimen))
     out.document({"kinds": list(kinds)}, design=loaded, files=files)
     return 0
 

@@ -134,6 +134,7 @@ def export(
     from cqdd_design.exporting.bill.prices import prices_asked_for
     from cqdd_design.exporting.kinds import read_kinds
     from cqdd_design.roads.export import export as write
+    from cqdd_design.roads.export import left_out
     from cqdd_design.roads.telling import silent
     from cqdd_design.units import LENGTH
 
@@ -159,6 +160,7 @@ def export(
         options=options,
         progress=progress or silent,
     )
+    told = (*told, *left_out(loaded, kinds, specimen=specimen))
     return Exported(loaded, told, kinds, files=files)
 
 

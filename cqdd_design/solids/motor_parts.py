@@ -10,6 +10,7 @@ from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.dowels import MATERIAL as DOWEL_MATERIAL
 from cqdd_design.catalog.encoders import magnets_of, sensors_with
 from cqdd_design.catalog.motors import Motor
+from cqdd_design.catalog.printing import made_how
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.results import MassProperties
@@ -96,7 +97,8 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
             f"{row.name}, ring of magnets", turns=True, mass=masses.magnets,
         ),
         replace(bell, catalogue_mass=masses.bell),
-        one("motor cover", cover, metal, _COVER, "turned and milled", make=True),
+        one("motor cover", cover, metal, _COVER, made_how(metal, "turned and milled"),
+            make=True),
         one(
             "encoder magnet", magnet, MAGNET_MATERIAL, _MAGNET,
             magnet_name, turns=True, z=motor.magnet_bottom,

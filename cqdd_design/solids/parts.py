@@ -9,6 +9,7 @@ import dataclasses
 from collections.abc import Iterable, Sequence
 
 from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, shaft_material
+from cqdd_design.catalog.printing import made_how
 from cqdd_design.design import Design
 from cqdd_design.geometry.columns import COLUMN_MATERIAL
 from cqdd_design.geometry.contours import FloatArray
@@ -103,7 +104,7 @@ def _disc_part(design: Design, layout: Layout, group: DiscGroup, *, alone: bool)
         design.reducer.disc_material,
         _DISCS[drawn % len(_DISCS)],
         "make",
-        f"wire EDM, {thickness * 1e3:g} mm plate",
+        made_how(design.reducer.disc_material, f"wire EDM, {thickness * 1e3:g} mm plate"),
         tuple(instances),
         exact_section=disc_moments(design, drawn, bore_diameter=bore),
         fitted_section=contour.moments(),
@@ -120,7 +121,7 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
         material,
         _RING,
         "make",
-        f"wire EDM, {height * 1e3:g} mm plate",
+        made_how(material, f"wire EDM, {height * 1e3:g} mm plate"),
         on_axis("ring", HOUSING),
         exact_section=ring_moments(design),
         fitted_section=contour.moments(),
@@ -191,13 +192,15 @@ def _bearing_part(
 def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
     carrier, metal = layout.carrier, design.housing.material
 
-    def made(name: str, shape: Stack, how: str = "turned and drilled") -> Part:
+    def made(name: str, shape: Stack, how: str) -> Part:
         return Part(name, shape, metal, _ALUMINIUM, "make", how, on_axis(name, CARRIER))
 
+    turned = made_how(metal, "turned and drilled")
+
     plate = carrier_shapes.carrier_plate(carrier, layout.shaft)
-    parts = [made("carrier plate", plate)]
+    parts = [made("carrier plate", plate, turned)]
     if carrier.cap:
-        how = "turned and drilled"
+        how = turned
         if carrier.bonded_in_cap:
             drawn = " and drawn against their heads" if carrier.pin.screw else ""
             how += f", seats {1e3 * carrier.pin.nominal_diameter:g} H7 bonded on the f9 pins{drawn}"
@@ -348,7 +351,7 @@ def _housing_parts(design: Design, layout: Layout) -> list[Part]:
     housing, metal = layout.housing, design.housing.material
 
     def made(name: str, shape: Stack, colour: Colour) -> Part:
-        how, pieces = "turned and drilled", on_axis(name, HOUSING)
+        how, pieces = made_how(metal, "turned and drilled"), on_axis(name, HOUSING)
         return Part(name, shape, metal, colour, "make", how, pieces)
 
     places = on_circle(housing.screw_count, housing.bolt_circle_radius, 0.0)

@@ -48,8 +48,8 @@ def parts(paper):
 
 
 @pytest.fixture(scope="module")
-def bill(paper):
-    return bill_of_materials(resolve(paper))
+def bill(paper, parts):
+    return bill_of_materials(resolve(paper), parts)
 
 
 @pytest.fixture(scope="module")
@@ -114,7 +114,7 @@ def test_bought_parts_can_be_ordered(rows):
 def test_a_motor_that_is_not_drawn_is_the_last_line(paper):
     design = paper.replacing({"motor.name": "MAD 5010 110KV"})
     machine = resolve(design)
-    every = csv.DictReader(io.StringIO(bom_csv(bill_of_materials(machine))))
+    every = csv.DictReader(io.StringIO(bom_csv(bill_of_materials(machine, machine.parts))))
     (motor,) = (row for row in every if row["part"] == "motor")
     assert (motor["part"], motor["designation"]) == ("motor", "MAD 5010 110KV")
     assert (motor["mass_each_kg"], motor["mass_total_kg"]) == ("", "")

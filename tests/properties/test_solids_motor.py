@@ -115,7 +115,7 @@ def test_the_magnet_is_flush_and_the_sensor_near_it() -> None:
     [
         (
             {"motor.name": "CubeMars R100 KV90"},
-            "sizes of rotor and stator of CubeMars R100",
+            "of CubeMars R100 KV90 are not known (state bore_diameter, outer_diameter, gap_",
         ),
         ({"reducer.ring.outer_diameter": 76e-3}, "it may be 72 mm"),
     ],

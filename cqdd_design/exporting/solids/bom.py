@@ -92,7 +92,7 @@ _MASSES = ("mass_each_kg", "mass_total_kg")
 
 def export_bom(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write ``<name>-bom.csv``."""
-    rows = bill_of_materials(job.machine)
+    rows = bill_of_materials(job.machine, job.parts)
     prices = job.options.prices
     if prices is not None:
         rows = priced(rows, prices)
@@ -101,18 +101,29 @@ def export_bom(job: ExportJob) -> tuple[WrittenFile, ...]:
     )
 
 
-def bill_of_materials(machine: Machine) -> tuple[BomRow, ...]:
-    """Return the whole bill of a machine: its parts, and what it takes beside them."""
+def bill_of_materials(machine: Machine, parts: Sequence[Part]) -> tuple[BomRow, ...]:
+    """Return the whole bill of a machine: its parts, and what it takes beside them.
+
+    Parameters
+    ----------
+    parts : sequence of Part
+        Of the machine.
+    """
     from cqdd_design.exporting.bill.consumables import consumables
     from cqdd_design.exporting.bill.fitting import fitting_notes
     from cqdd_design.exporting.bill.substitutes import ordered_as, substitutes
 
-    parts = {part.name: part for part in machine.parts}
+    named = {part.name: part for part in parts}
     notes = fitting_notes(machine)
     rows = []
-    for row in part_rows(machine.motor, machine.parts):
-        part = parts.get(row.part)
-        if part is None or row.make_or_buy == "make":
+    for row in part_rows(machine.motor, parts):
+        part = named.get(row.part)
+        if part is None:
+            # The motor, which is not among the parts.
+            told = f"not drawn: {machine.layout.motor_missing}; bell, cover and encoder are missing"
+            rows.append(replace(row, fitting=f"{told} in this bill"))
+            continue
+        if row.make_or_buy == "make":
             rows.append(row)
             continue
         bearing = bearings().get(row.designation)
