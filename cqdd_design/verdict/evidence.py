@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 from cqdd_design.actuator.build import actuator_parameters
@@ -81,12 +82,21 @@ def gather(
     """
     # What cannot exist is refused before anything is told.
     _ = machine.analysis
-    progress("judging loads, stress, life, heat and motor")
+    progress("judging loads, stress and life")
     stress, stress_checks, unstressed = judged_or_told(machine)
-    warm, heat_checks, cold = judged_temperatures(machine)
-    actuator, no_actuator = _actuator(machine, specimen)
-    progress("drawing toleranced gearboxes")
-    drawn, undrawn = _drawn(machine, samples, sensitivity)
+    # Gearboxes are drawn in compiled code, beside which heat and motor have another core.
+    with ThreadPoolExecutor(1) as beside:
+        heat = beside.submit(judged_temperatures, machine)
+        motor = beside.submit(_actuator, machine, specimen)
+        progress("drawing toleranced gearboxes, and judging heat and motor")
+        try:
+            drawn, undrawn = _drawn(machine, samples, sensitivity)
+        except BaseException:
+            # Ctrl-C: what has not begun is not waited for.
+            motor.cancel()
+            raise
+        warm, heat_checks, cold = heat.result()
+        actuator, no_actuator = motor.result()
     return Evidence(
         machine=machine,
         stress=stress,
