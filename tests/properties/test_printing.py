@@ -16,6 +16,7 @@ from cqdd_design.exporting.printing.compensate import Compensation, compensated,
 from cqdd_design.exporting.printing.coupon import HOLE_OFFSETS, PIN_OFFSETS, coupon
 from cqdd_design.exporting.printing.marks import marks
 from cqdd_design.exporting.printing.package import coupon_of, printed_parts
+from cqdd_design.exporting.printing.readme import readme_text
 from cqdd_design.exporting.printing.threads import with_inserts
 from cqdd_design.geometry.contours import Circle, as_complex
 from cqdd_design.machine import resolve
@@ -173,6 +174,26 @@ def test_no_fit_no_coupon():
     assert coupon([], "PLA") is None
 
 
+def test_the_readme_says_what_was_done_and_what_is_left(design, machine, every):
+    text = " ".join(readme_text(design, every, coupon_of(every)).split())
+    assert text.isascii()
+    assert "Scaled by 1.00301 for a shrinkage of 0.3 %, holes drawn +0 um" in text
+    assert "nothing measured yet" in text
+    assert "14 x M4, 8 mm deep: heat-set insert M4 x 4 in holes of 5.6 mm" in text
+    assert "BELOW 0.84 mm" in text
+    assert "it keeps strength and shape up to 110 degc" in text.lower()
+    assert "bores and pins of 5, 19, 21 mm" in text
+    measured = design.replacing({"printing.outside_error": "60 um", "printing.shrinkage": 0.002})
+    again = " ".join(
+        readme_text(measured, printed_parts(resolve(measured), machine.parts), None).split()
+    )
+    assert (
+        "shrinkage of 0.2 %, holes drawn +0 um and outsides -60 um on the diameter (measured)"
+        in again
+    )
+
+
+@pytest.mark.deep
 def test_measurements_come_back_as_files_and_are_said(design, tmp_path):
     """One small part of plastic, so that the kernel has little to do."""
     metal = {

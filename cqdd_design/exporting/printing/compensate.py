@@ -100,7 +100,6 @@ def compensated(part: Part, by: Compensation) -> Part:
 
 
 def _shape(name: str, shape: PlanarPart, by: Compensation) -> PlanarPart:
-    # Left of a counter-clockwise contour lies its inside.
     outer = grown(name, shape.outer, -0.5 * by.outside_error, by.outside_error)
     holes = tuple(grown(name, hole, -0.5 * by.hole_error, by.hole_error) for hole in shape.holes)
     return PlanarPart(shape.name, outer.scaled(by.scale), tuple(h.scaled(by.scale) for h in holes))

@@ -32,7 +32,7 @@ LEAST, GREATEST = 3e-3, 32e-3
 MOST_SIZES = 4
 _PLATE, _PIN, _MARK = 4e-3, 8e-3, 0.6e-3
 """Thickness of the plate, height of pins and marks above it, m."""
-_WALL, _ROW, _LABEL = 4e-3, 7e-3, 22e-3
+_WALL, _ROW, _LABEL = 4e-3, 8e-3, 22e-3
 """Between bores, for marks below a row, and for the diameter at its left, m."""
 _COLOUR: Colour = (0.85, 0.85, 0.70)
 
@@ -74,16 +74,16 @@ def coupon(parts: Iterable[Part], material: str) -> Coupon | None:
     if not sizes:
         return None
     pitch = [size + HOLE_OFFSETS[-1] + _WALL for size in sizes]
-    length = _LABEL + len(HOLE_OFFSETS) * max(max(pitch), 4.0 * mark_width("+30") / 3.0) + _WALL
+    apart = [max(step, mark_width("+30") + 2e-3) for step in pitch]
+    length = _LABEL + len(HOLE_OFFSETS) * max(apart) + _WALL
     holes: list[Circle] = []
     raised: list[Layer] = []
     top = 0.0
-    for size, step in zip(sizes, pitch, strict=True):
+    for size, step, wide in zip(sizes, pitch, apart, strict=True):
         for offsets, is_hole in ((HOLE_OFFSETS, True), (PIN_OFFSETS, False)):
             middle = top + _ROW + 0.5 * step
-            raised += marks(f"{1e3 * size:g}", _WALL, middle - 2.4e-3, _PLATE, _PLATE + _MARK)
+            raised += marks(f"{1e3 * size:g}", _WALL, middle - 2.8e-3, _PLATE, _PLATE + _MARK)
             for place, offset in enumerate(offsets):
-                wide = max(step, mark_width("+30") + 2e-3)
                 x = _LABEL + (place + 0.5) * wide
                 if is_hole:
                     holes.append(Circle(np.array([x, middle]), 0.5 * (size + offset)))

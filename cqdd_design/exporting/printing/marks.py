@@ -7,7 +7,7 @@ import numpy as np
 from cqdd_design.geometry.contours import ArcContour, PlanarPart
 from cqdd_design.solids.layers import Layer
 
-_BAR, _WIDE, _HIGH, _APART = 0.8e-3, 2.4e-3, 4.8e-3, 1.0e-3
+_BAR, _WIDE, _HIGH, _APART = 0.8e-3, 3.2e-3, 5.6e-3, 1.0e-3
 """Width of a bar, width and height of a digit, and from digit to digit, m."""
 _GAP = 0.05e-3
 """Between bars, which do not touch, m."""

@@ -123,6 +123,9 @@ _LABELS = {
     "environment.ambient": Label("air round the actuator"),
     "environment.coldest": Label("coldest start"),
     "edm.profile_tolerance": Label("files follow the exact curve within"),
+    "printing.hole_error": Label("printed holes measured less drawn"),
+    "printing.outside_error": Label("printed outsides measured less drawn"),
+    "printing.shrinkage": Label("shrinkage of printed parts"),
 }
 
 
