@@ -34,7 +34,7 @@ FLAGS = (
 )
 
 #: Seconds until a page that posts nothing is given up.
-LONGEST_WAIT = 300.0
+LONGEST_WAIT = 600.0
 
 _SENDER = """<script>
 window.postFindings = function (found) {

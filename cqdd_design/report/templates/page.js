@@ -26,7 +26,7 @@
     if (chapter) { links[chapter.id] = link; chapters.push(chapter); }
   });
   function follow() {
-    var now = null;
+    var now = chapters[0];
     chapters.forEach(function (chapter) {
       if (chapter.getBoundingClientRect().top < window.innerHeight / 3) { now = chapter; }
     });

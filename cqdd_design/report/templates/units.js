@@ -15,11 +15,15 @@
   };
   var names = Object.keys(UNITS).sort(function (a, b) { return b.length - a.length; });
   var NUMBER = "[\u2212-]?\\d+(?:\u202f\\d{3})*(?:\\.\\d+)?(?:\u202f\u00d7\u202f10[\u207b\u2070\u00b9\u00b2\u00b3\u2074-\u2079]+)?";
-  // Numbers that share the unit of the last: sides of a box, and "3 of 4 mm", "from 3 to 4 mm".
-  var SHARED = "((?:\u2300 ?|R )?(?:" + NUMBER + ") \u00d7 (?:" + NUMBER + " \u00d7 )|\u2300 ?" + NUMBER +
-    " \u00d7 |" + NUMBER + " (?:of|to) )?";
-  var PATTERN = new RegExp(SHARED + "(" + NUMBER + ")[\u202f ](" + names.join("|").replace(/\//g, "\\/") +
-    ")(?![\\w\u00b7/\u00b2\u00b3\u207b])", "g");
+  // Numbers before the last may share its unit: sides of a box, "3 of 4 MPa", "from 3 to 4 mm". In
+  // "2 \u00d7 8 mm" and "2 of 4 mm" the first counts pieces.
+  var PATTERN = new RegExp("(?<![\\w.])(\u2300 ?" + NUMBER + " [\u00d7x] |" + NUMBER + " \u00d7 " + NUMBER +
+    " \u00d7 |" + NUMBER + " (?:\u00d7|x|of|to) )?(" + NUMBER + ")[\u202f ](" +
+    names.join("|").replace(/\//g, "\\/") + ")(?![\\w\u00b7\u00b2\u00b3\u207b]|/[A-Za-z\u00b5])", "g");
+  function counts(before, name) {
+    var length = /^(mm|\u00b5m|m)$/.test(name);
+    return (/ of $/.test(before) && length) || /^\d+ \u00d7 $/.test(before);
+  }
   var SUPER = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
 
   function value(text) {
@@ -48,7 +52,7 @@
   function told(text) {
     return text.replace(PATTERN, function (all, before, number, name) {
       var unit = UNITS[name];
-      var first = before && before.replace(new RegExp(NUMBER, "g"), function (one) {
+      var first = counts(before || "", name) ? before : before && before.replace(new RegExp(NUMBER, "g"), function (one) {
         return converted(one, unit);
       });
       return (first || "") + converted(number, unit) + THIN + unit[1];
@@ -94,7 +98,7 @@
     var walker = document.createTreeWalker(document.querySelector(".page"), NodeFilter.SHOW_TEXT);
     var node;
     while ((node = walker.nextNode())) {
-      if (!node.parentNode.closest("script, style, thead")) { set(node, told(node.data)); }
+      if (!node.parentNode.closest("script, style, thead, title, desc")) { set(node, told(node.data)); }
     }
   }
   function back() {
