@@ -296,3 +296,8 @@ def test_picture_has_its_colours_where_the_stress_is() -> None:
     values = stress_view(strength, body_checks(machine.design, strength), outlines)
     assert values["give"] == "3.6"
     assert values["rows"][0][0] == "round the holes of a disc"
+    # Of plastics no fatigue limit is known.
+    checks = [replace(one, limit=None) for one in body_checks(machine.design, strength)]
+    told = stress_view(strength, checks, outlines)["rows"][0]
+    assert told[1] == values["rows"][0][1]
+    assert told[2] == "not known"

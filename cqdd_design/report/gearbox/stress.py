@@ -46,14 +46,7 @@ def stress_view(strength: BodyStrength, checks: Iterable[Check], outlines: Outli
     rows = tuple(
         (
             where,
-            *(
-                shown
-                for kind in ("STRESS", "FATIGUE")
-                for shown in (
-                    with_unit(by_id[f"{part}-{kind}"].compared[0], "MPa", 3),
-                    with_unit(by_id[f"{part}-{kind}"].compared[1], "MPa", 3),
-                )
-            ),
+            *(shown for kind in ("STRESS", "FATIGUE") for shown in _told(by_id[f"{part}-{kind}"])),
         )
         for part, where in _PARTS
     )
@@ -69,6 +62,15 @@ def stress_view(strength: BodyStrength, checks: Iterable[Check], outlines: Outli
         "give_free": significant(1e9 * free.mean, 2),
         "give_round": significant(1e9 * held.mean, 2),
     }
+
+
+def _told(check: Check) -> tuple[str, str]:
+    """Value and limit; plastics have no fatigue limit."""
+    value, limit = (
+        "not known" if one is None else with_unit(one, "MPa", 3)
+        for one in (check.value, check.limit)
+    )
+    return value, limit
 
 
 def stress_picture(picture: EdgePicture, outlines: Outlines) -> Figure:
