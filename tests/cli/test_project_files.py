@@ -139,3 +139,11 @@ def test_no_page_for_people_names_a_private_place():
     for text in [*TEXTS, WORKFLOW, REPOSITORY / "CITATION.cff", REPOSITORY / "pyproject.toml"]:
         hosts = re.findall(r"https?://([\w.-]+)", text.read_text(encoding="utf-8"))
         assert set(hosts) <= {"arxiv.org", "keepachangelog.com", "semver.org"}, text.name
+
+
+def test_the_sample_report_is_one_light_file():
+    """Under 2 MB, as every report is meant to be; none of its chapters left out."""
+    sample = (REPOSITORY / "reports" / "cqdd-10.html").read_bytes()
+    assert len(sample) < 2_000_000
+    for chapter in ("machine", "contact", "tolerances", "bench", "bom", "downloads", "planetary"):
+        assert f'id="{chapter}"'.encode() in sample

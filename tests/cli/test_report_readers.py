@@ -41,7 +41,7 @@ UNITS = {
 #: Units there and back, the contents, and what the keyboard reaches.
 _USED = """
   var page = frame.contentDocument, view = frame.contentWindow;
-  function shown() { return page.querySelector("main").innerText; }
+  function shown() { return page.querySelector(".page").innerText; }
   function choose(name, value) {
     page.querySelector("input[name='" + name + "'][value='" + value + "']").click();
   }

@@ -51,6 +51,7 @@
   each("input[name='looks']", function (choice) {
     choice.addEventListener("change", function () {
       document.documentElement.setAttribute("data-look", this.value);
+      reachable();
     });
   });
 
@@ -64,6 +65,7 @@
     });
   }
   window.addEventListener("resize", reachable);
+  document.addEventListener("cqdd-units", reachable);
 
   var model = byId("save-model");
   if (model) {

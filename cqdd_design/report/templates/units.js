@@ -98,18 +98,27 @@
     var walker = document.createTreeWalker(document.querySelector(".page"), NodeFilter.SHOW_TEXT);
     var node;
     while ((node = walker.nextNode())) {
-      if (!node.parentNode.closest("script, style, thead, title, desc")) { set(node, told(node.data)); }
+      if (!node.parentNode.closest("script, style, title, desc")) { set(node, told(node.data)); }
     }
+  }
+  function relabel() {
+    Array.prototype.forEach.call(document.querySelectorAll("[data-label]"), function (cell) {
+      var label = cell.getAttribute("data-label"), now = told(label);
+      if (now !== label) {
+        labels.push([cell, label]);
+        cell.setAttribute("data-label", now);
+      }
+    });
   }
   function back() {
     changed.splice(0).reverse().forEach(function (one) { one[0].data = one[1]; });
-    labels.splice(0).forEach(function (one) { one[0].setAttribute("data-label", one[1]); });
+    labels.splice(0).reverse().forEach(function (one) { one[0].setAttribute("data-label", one[1]); });
   }
   var note = document.getElementById("units-note");
   Array.prototype.forEach.call(document.getElementsByName("units"), function (choice) {
     choice.addEventListener("change", function () {
       back();
-      if (this.value === "us") { toInches(); }
+      if (this.value === "us") { toInches(); relabel(); }
       note.hidden = this.value !== "us";
       document.documentElement.setAttribute("data-units", this.value);
       document.dispatchEvent(new Event("cqdd-units"));
