@@ -10,6 +10,7 @@ import csv
 import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
 from cqdd_design.cli.check_names import CHECKS
 
@@ -26,7 +27,7 @@ _CATALOGUES = {
 }
 
 
-def designs(incomplete: str) -> list[str]:
+def designs(_context: Any, _parameter: Any, incomplete: str) -> list[str]:
     """Design files and folders that begin so."""
     head, slash, begun = incomplete.rpartition("/")
     folder = Path(head + slash) if slash else Path()
@@ -43,8 +44,8 @@ def designs(incomplete: str) -> list[str]:
     return found
 
 
-def _starting(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
-    def complete(incomplete: str) -> list[str]:
+def _starting(names: Callable[[], Iterable[str]]) -> Callable[[Any, Any, str], list[str]]:
+    def complete(_context: Any, _parameter: Any, incomplete: str) -> list[str]:
         begun = incomplete.casefold()
         found = [name for name in names() if name.casefold().startswith(begun)]
         # zsh and fish quote what they insert; bash puts it on the line as it is.

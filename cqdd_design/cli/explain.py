@@ -17,7 +17,7 @@ def explain(
     check: Annotated[
         str | None,
         typer.Argument(
-            metavar="CHECK", help="Id of a check; without it, all ids.", autocompletion=checks
+            metavar="CHECK", help="Id of a check; without it, all ids.", shell_complete=checks
         ),
     ] = None,
 ) -> None:

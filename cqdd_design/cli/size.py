@@ -58,7 +58,7 @@ def size(
         option(
             "NAME",
             "Default CubeMars RO100 KV55; any: the first that fits of all.",
-            autocompletion=motors,
+            shell_complete=motors,
         ),
     ] = None,
     motor_file: OwnMotor = None,
