@@ -153,7 +153,13 @@ class Output:
         kernels = missing(simulation=simulation)
         if kernels:
             self.note("compiling on this first use, once; the next run starts at once")
-            compile_kernels(kernels, self.counting("kernels compiled"))
+            tell = self.stages(len(kernels))
+
+            def progress(done: int, total: int) -> None:
+                if done:
+                    tell(f"{done} of {total} kernels compiled")
+
+            compile_kernels(kernels, progress)
             self.end_progress()
 
     def stages(self, total: int) -> Callable[[str], None]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from numba import _dynfunc
+from numba import _dynfunc  # type: ignore[attr-defined]
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import register_pass
@@ -21,29 +21,29 @@ from numba.extending import register_jitable
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
-class _Unfinished(JITCodeLibrary):  # type: ignore[misc]
+class _Unfinished(JITCodeLibrary):
     """Instructions that are linked into a kernel, neither optimised nor made machine code here."""
 
     def _optimize_final_module(self) -> None:
         """Left to the kernel."""
 
     def _finalize_final_module(self) -> None:
-        self._finalize_dynamic_globals()
+        self._finalize_dynamic_globals()  # type: ignore[no-untyped-call]
         self._finalized = True
 
 
-@register_pass(mutates_CFG=True, analysis_only=False)
-class _PartLowering(NativeLowering):  # type: ignore[misc]
+@register_pass(mutates_CFG=True, analysis_only=False)  # type: ignore[no-untyped-call]
+class _PartLowering(NativeLowering):
     """Lowering into an unfinished library; what stands for the part in Python is never called."""
 
     _name = "part_lowering"
 
     def run_pass(self, state: Any) -> bool:
         """Lower one part; see :class:`numba.core.typed_passes.BaseNativeLowering`."""
-        library = _Unfinished(state.targetctx.codegen(), state.func_id.func_qualname)
+        library = _Unfinished(state.targetctx.codegen(), state.func_id.func_qualname)  # type: ignore[no-untyped-call]
         state.library = library
         state.flags.no_compile = True
-        super().run_pass(state)
+        super().run_pass(state)  # type: ignore[no-untyped-call]
         lowered = state["cr"]
         described = lowered.fndesc
         name = described.qualname.rpartition(".")[2]
@@ -55,12 +55,12 @@ class _PartLowering(NativeLowering):  # type: ignore[misc]
         return True
 
 
-class _PartCompiler(CompilerBase):  # type: ignore[misc]
+class _PartCompiler(CompilerBase):
     """numba's own passes, with lowering that leaves the rest to the kernel."""
 
     def define_pipelines(self) -> list[Any]:
         """The pipelines, as numba asks for them."""
-        passes = DefaultPassBuilder.define_nopython_pipeline(self.state)
+        passes = DefaultPassBuilder.define_nopython_pipeline(self.state)  # type: ignore[no-untyped-call]
         passes.passes = [
             (_PartLowering if one is NativeLowering else one, why) for one, why in passes.passes
         ]

@@ -103,7 +103,7 @@ def signature(kernel: Kernel) -> tuple[Any, ...]:
     def typed(one: Any) -> Any:
         if isinstance(one, tuple):
             values = [typed(inner) for inner in one[1:]]
-            return numba.types.BaseTuple.from_types(values, known[one[0]])
+            return numba.types.BaseTuple.from_types(values, known[one[0]])  # type: ignore[no-untyped-call]
         scalar = scalars[one[0]]
         return numba.types.Array(scalar, int(one[1:]), "C") if one[1:] else scalar
 
