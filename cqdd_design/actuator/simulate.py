@@ -163,14 +163,6 @@ def simulate(
     )
 
 
-def is_compiled() -> bool:
-    """Whether the kernel need not be compiled now; see `gearbox.compiled.in_cache`."""
-    from cqdd_design.actuator.kernels import stepping as kernel
-    from cqdd_design.gearbox.compiled import in_cache
-
-    return in_cache(kernel.run_sets)
-
-
 def run_compiled(work: Work, threads: int | None = None) -> None:
     """Call the kernel for all sets, on threads that fetch a few sets whenever they are free.
 

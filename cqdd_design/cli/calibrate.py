@@ -70,7 +70,7 @@ def calibrate(
     loaded = read_design(out, design, motor, motor_file)
     if path is not None:
         refuse_overwrite(path, force=force)
-    out.note_compilation(simulation=True)
+    out.compile_ahead(simulation=True)
     found = fitted(
         loaded,
         rows,

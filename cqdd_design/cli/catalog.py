@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
+from cqdd_design.cli.completion import catalogued
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import table
 
@@ -18,6 +19,7 @@ def catalog(
             metavar="[[list|show] NAME]",
             help="A catalogue to list (materials, motors, bearings, screws, fits, "
             "lubricants, finishes, rubbing) or a row to show; without a name, what there is.",
+            shell_complete=catalogued,
         ),
     ] = None,
 ) -> None:

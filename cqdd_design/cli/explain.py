@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from cqdd_design.cli.completion import checks
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import table
 
@@ -14,7 +15,10 @@ from cqdd_design.cli.tables import table
 def explain(
     out: Output,
     check: Annotated[
-        str | None, typer.Argument(metavar="CHECK", help="Id of a check; without it, all ids.")
+        str | None,
+        typer.Argument(
+            metavar="CHECK", help="Id of a check; without it, all ids.", shell_complete=checks
+        ),
     ] = None,
 ) -> None:
     """Tell what a check means: its rule, why it matters, where it comes from."""

@@ -46,7 +46,6 @@ app = typer.Typer(
     help="Design cycloidal quasi-direct-drive actuators: from a ratio and a torque to a checked "
     "design, the DXF and STEP to make it from, and a report.",
     epilog="Start with: cqdd-design size --ratio 10 --report --export dxf,step",
-    add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from cqdd_design.cli import completion
 from cqdd_design.errors import UsageError
 from cqdd_design.library.calls import names, si_value
 
@@ -30,7 +31,10 @@ def count_option(text: str, least: int = 1) -> Any:
     return option("N", text, min=least)
 
 
-DesignFile = Annotated[Path, typer.Argument(metavar="DESIGN", help="Design file (TOML).")]
+DesignFile = Annotated[
+    Path,
+    typer.Argument(metavar="DESIGN", help="Design file (TOML).", shell_complete=completion.designs),
+]
 Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
 Calibrated = Annotated[
     Path | None,
@@ -42,6 +46,7 @@ NamedMotor = Annotated[
         "NAME",
         "Motor of the catalogue, instead of all that the design's [motor] says of one.",
         "--motor",
+        shell_complete=completion.motors,
     ),
 ]
 OwnMotor = Annotated[

@@ -146,17 +146,21 @@ class Output:
             told = with_coloured_start(printable(sentence), WARNING, sys.stderr)
             print(told, file=sys.stderr, flush=True)
 
-    def note_compilation(self, *, simulation: bool = False) -> None:
-        """Tell that the first run after installation compiles, where it does."""
-        from cqdd_design.gearbox.compiled import is_compiled
+    def compile_ahead(self, *, simulation: bool = False) -> None:
+        """On the first run after installation, compile what the command will call, and tell so."""
+        from cqdd_design.roads.kernels import compile_kernels, missing
 
-        if not is_compiled():
-            self.note("compiling the contact solver; this takes half a minute, once")
-        if simulation:
-            from cqdd_design.actuator.simulate import is_compiled as is_simulation_compiled
+        kernels = missing(simulation=simulation)
+        if kernels:
+            self.note("compiling on this first use, once; the next run starts at once")
+            tell = self.stages(len(kernels))
 
-            if not is_simulation_compiled():
-                self.note("compiling the actuator's simulation; this takes some ten seconds, once")
+            def progress(done: int, total: int) -> None:
+                if done:
+                    tell(f"{done} of {total} kernels compiled")
+
+            compile_kernels(kernels, progress)
+            self.end_progress()
 
     def stages(self, total: int) -> Callable[[str], None]:
         """A function that tells, on stderr, which of about `total` stages of work begins.

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from cqdd_design.cli.completion import motors
 from cqdd_design.cli.options import (
     Duty,
     DutyColumnNames,
@@ -54,7 +55,11 @@ def size(
     ratio: Annotated[str | None, option("N", "Reduction, a whole number from 4 to 119.")] = None,
     motor: Annotated[
         str | None,
-        option("NAME", "Default CubeMars RO100 KV55; any: the first that fits of all."),
+        option(
+            "NAME",
+            "Default CubeMars RO100 KV55; any: the first that fits of all.",
+            shell_complete=motors,
+        ),
     ] = None,
     motor_file: OwnMotor = None,
     discs: Annotated[int | None, option("N", "Discs on the crank, 1 to 3; default 2 or 3.")] = None,
@@ -111,7 +116,7 @@ def size(
     )
     if not quick or report:
         stopped = wanted.requirements.shock_speed > 0.0
-        out.note_compilation(simulation=report or stopped)
+        out.compile_ahead(simulation=report or stopped)
     road = size_and_write(
         wanted.requirements,
         target,

@@ -77,7 +77,7 @@ def generate(
     )
     loaded = read_design(out, design, motor, motor_file)
     specimen = read_specimen(out, loaded, calibration=calibration)
-    out.note_compilation(simulation=True)
+    out.compile_ahead(simulation=True)
     found = generated(
         loaded,
         request,

@@ -16,7 +16,7 @@ from numba.core.caching import FunctionCache
 
 from cqdd_design.files.kernel_stamp import kernel_stamp
 
-__all__ = ["numba"]
+__all__ = ["kept_signatures", "numba"]
 
 _log = logging.getLogger("cqdd_design")
 
@@ -58,6 +58,18 @@ def _stamp(cache: Any) -> None:
     """Keep a kernel as long as all that is in it stays; asked when all of its module is there."""
     if not isinstance(cache._cache_file._source_stamp, str):
         cache._cache_file._source_stamp = kernel_stamp(cache._py_func)
+
+
+def kept_signatures(cache: Any) -> list[Any]:
+    """Types of arguments for which a kernel's cache has machine code of the code that is there now.
+
+    None where it is spoilt.
+    """
+    _stamp(cache)
+    try:
+        return list(cache._cache_file._load_index())
+    except Exception:  # pickled files raise what they like
+        return []
 
 
 _guard()

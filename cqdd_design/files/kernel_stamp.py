@@ -94,4 +94,5 @@ def _plain(value: Any) -> str:
         return f"{value.__module__}.{value.__qualname__} {fields}"
     if hasattr(value, "py_func"):
         return f"{value.py_func.__qualname__} {_plain(getattr(value, 'targetoptions', None))}"
-    return f"{getattr(value, '__module__', '')}.{getattr(value, '__qualname__', type(value))}"
+    told = f"{getattr(value, '__module__', '')}.{getattr(value, '__qualname__', type(value))}"
+    return f"{told} {getattr(value, 'part_options', '')}"

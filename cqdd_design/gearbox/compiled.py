@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 
 def in_cache(kernel: Any) -> bool:
-    """Whether a former run has left a kernel compiled behind.
+    """Whether a former run has left a kernel compiled behind, of the code that is there now.
 
-    Told from the folder of numba's cache for it, beside its module or in the user's cache folder;
-    where numba keeps it elsewhere the answer is that it is compiled, and nothing is announced.
+    Where kernels are not compiled, or numba keeps none, the answer is yes: there is nothing to do
+    beforehand.
     """
+    from cqdd_design.files.kernel_cache import kept_signatures
+
     cache = getattr(kernel, "_cache", None)
-    folder = getattr(cache, "cache_path", None)
-    name = f"{kernel.__module__.rpartition('.')[2]}.{kernel.__name__}"
-    return folder is None or any(Path(folder).glob(f"{name}-*.nbi"))
-
-
-def is_compiled() -> bool:
-    """Whether the contact solver need not be compiled now."""
-    from cqdd_design.gearbox.contact.sweep_kernel import solve_sweep
-
-    return in_cache(solve_sweep)
+    return not hasattr(cache, "_cache_file") or bool(kept_signatures(cache))

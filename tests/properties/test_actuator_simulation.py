@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -34,10 +33,9 @@ from cqdd_design.actuator.scenario import (
     Start,
     Wall,
 )
-from cqdd_design.actuator.simulate import is_compiled, simulate
+from cqdd_design.actuator.simulate import simulate
 from cqdd_design.actuator.thermal import continuous_current
 from cqdd_design.errors import DesignError, UsageError
-from cqdd_design.gearbox.compiled import in_cache
 
 SAMPLE = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
 LOSSES = ("copper", "iron", "motor_friction", "output_friction", "gear_damping", "load_damping")
@@ -400,19 +398,6 @@ def test_a_simulation_of_nothing_is_refused() -> None:
             simulate(sets, scenes, 0.01, 1e-5)
     with pytest.raises(UsageError, match="threads -1"):
         simulate(machine(), SCENES["free"], 0.01, 1e-5, threads=-1)
-
-
-def test_compilation_is_told_from_the_cache(tmp_path: Path) -> None:
-    simulate(machine(), SCENES["free"], 1e-3, 2e-5)
-    assert is_compiled()
-    stand_in = SimpleNamespace(
-        _cache=SimpleNamespace(cache_path=str(tmp_path)),
-        __module__="somewhere.kernel",
-        __name__="run_sets",
-    )
-    assert not in_cache(stand_in)
-    (tmp_path / "kernel.run_sets-1.py311.nbi").touch()
-    assert in_cache(stand_in)
 
 
 def test_senseless_loads_and_signals_are_refused() -> None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from cqdd_design.files.kernel_cache import numba
+from cqdd_design.files import kernel_part
 
 FAST = {"contract", "arcp", "nsz"}
 """Fused products, reciprocals, unsigned zeros: quicker, and still the same numbers every time."""
 
-part = numba.njit(cache=True, error_model="numpy", fastmath=FAST, inline="always")
+part = kernel_part.part(fastmath=FAST, forceinline=True)
 """Decorator of what is compiled into the kernel itself: calls in the innermost loop would
 cost a quarter of the speed."""
 

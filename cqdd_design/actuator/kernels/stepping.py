@@ -36,7 +36,7 @@ from cqdd_design.actuator.kernels.gear import (
     meshed,
     passes_kink,
 )
-from cqdd_design.actuator.kernels.laws import FAST, at, part
+from cqdd_design.actuator.kernels.laws import at, part
 from cqdd_design.actuator.kernels.loads import (
     Motion,
     cogging,
@@ -334,7 +334,7 @@ def step_begun(
     )  # fmt: skip
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=FAST)
+@part
 def run_one(
     row: Any, table: Any, signals: Any, steps: Any, traces: Any, ledger: Any, i: int
 ) -> None:

@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from cqdd_design.files.kernel_cache import numba
+from cqdd_design.files.kernel_part import part
 
 
 @numba.njit(cache=True, error_model="numpy")
@@ -64,7 +65,7 @@ def add_contacts(
                 rubbed[a, i, j] += across
 
 
-@numba.njit(cache=True, error_model="numpy", forceinline=True)
+@part(forceinline=True)
 def _solve_lower(matrix: Any, given: Any, size: int, columns: int) -> None:
     """Cholesky's lower factor L of a positive definite matrix, over it, and L^-1 `given`.
 
@@ -84,7 +85,7 @@ def _solve_lower(matrix: Any, given: Any, size: int, columns: int) -> None:
                 given[i, c] -= factor * given[k, c]
 
 
-@numba.njit(cache=True, error_model="numpy", forceinline=True)
+@part(forceinline=True)
 def _inverse(a: float, b: float, c: float) -> tuple[float, float, float]:
     """Entries of the inverse of [[a, b], [b, c]]."""
     determinant = a * c - b * b

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from cqdd_design.files.kernel_cache import numba
+from cqdd_design.files.kernel_part import part
 from cqdd_design.gearbox.contact.compliant_kernel import (
     assemble,
     change_approach,
@@ -46,7 +46,7 @@ RIDGES = (1e-10, 1e-6, 1e-5, 1e-4)
 disc that hangs slack."""
 
 
-@numba.njit(cache=True, error_model="numpy", forceinline=True)
+@part(forceinline=True)
 def _lacking(work: YieldingWork, stiffness: float) -> tuple[float, float]:
     """Greatest force that is lacking, closings by their stiffness, and the sum of squares."""
     gradient, lack = work.gradient, work.lack
@@ -63,7 +63,7 @@ def _lacking(work: YieldingWork, stiffness: float) -> tuple[float, float]:
     return most, square
 
 
-@numba.njit(cache=True, error_model="numpy", forceinline=True)
+@part(forceinline=True)
 def _within_first_order(
     contacts: Contacts, springs: Springs, u: Any, approach: Any, work: YieldingWork, scale: float
 ) -> bool:
@@ -93,7 +93,7 @@ def _within_first_order(
     return True
 
 
-@numba.njit(cache=True, error_model="numpy", forceinline=True)
+@part(forceinline=True)
 def _take_step(
     contacts: Contacts, springs: Springs, u: Any, approach: Any, forces: Forces, work: YieldingWork
 ) -> None:
@@ -124,7 +124,7 @@ def _take_step(
         u[i] += step[i]
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def solve_yielding(
     contacts: Contacts,
     springs: Springs,
@@ -191,7 +191,7 @@ def solve_yielding(
                 trial_approach[d, k] = approach[d, k] + share * change[d, k]
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _some(compliance: Compliance, held: Any, share: float) -> Compliance:
     """Compliance with a share of what held plates and rigid bodies do not have."""
     pins = share * compliance.pins
@@ -200,7 +200,7 @@ def _some(compliance: Compliance, held: Any, share: float) -> Compliance:
     return Compliance(pins, share * compliance.at_cap, compliance.join, share * compliance.bodies)
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _from_held(contacts: Contacts, springs: Springs, start: Any, u: Any, approach: Any) -> None:
     """Motions and approaches of the state `start` (3 + 3 D,) of held plates and rigid bodies."""
     rows, gaps, coefficient = contacts.rows, contacts.gaps, contacts.coefficient
@@ -224,7 +224,7 @@ def _from_held(contacts: Contacts, springs: Springs, start: Any, u: Any, approac
             approach[d, k] = closed
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _raise(
     contacts: Contacts,
     springs: Springs,
@@ -265,7 +265,7 @@ def _raise(
     return CONVERGED, steps, torsional
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def solve_yielding_raised(
     contacts: Contacts,
     springs: Springs,
@@ -289,7 +289,7 @@ def solve_yielding_raised(
     )
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def solve_yielding_rubbed(
     contacts: Contacts,
     springs: Springs,
@@ -320,7 +320,7 @@ def solve_yielding_rubbed(
     return status, steps + more, torsional
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def solve_yielding_from(
     contacts: Contacts,
     springs: Springs,

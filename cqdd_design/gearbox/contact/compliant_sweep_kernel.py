@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from cqdd_design.files.kernel_cache import numba
+from cqdd_design.files.kernel_part import part
 from cqdd_design.gearbox.contact.compliant_kernel import (
     yielding_work,
 )
@@ -39,13 +40,13 @@ _POINTS = 3
 """States before an angle from which it is predicted."""
 
 
-@numba.njit(cache=True, error_model="numpy", forceinline=True)
+@part(forceinline=True)
 def rubbing_at(rubbing: Rubbing, a: int) -> Rubbing:
     """The friction at one of many crank angles."""
     return Rubbing(rubbing.share[a], rubbing.disc_arm[a], rubbing.carrier_arm[a])
 
 
-@numba.njit(cache=True, error_model="numpy", forceinline=True)
+@part(forceinline=True)
 def predict_yielding(result: YieldingResult, turns: Any, a: int) -> None:
     """Start for angle `a` from up to four before it, by Lagrange's polynomial through them.
 
@@ -83,7 +84,7 @@ def predict_yielding(result: YieldingResult, turns: Any, a: int) -> None:
                 closed[d, k] += weight * approach[at, d, k]
 
 
-@numba.njit(cache=True, error_model="numpy", forceinline=True)
+@part(forceinline=True)
 def compliance_at(compliance: Compliance, a: int) -> Compliance:
     """The compliance at one of many crank angles."""
     bodies = compliance.bodies

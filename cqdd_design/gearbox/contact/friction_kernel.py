@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from cqdd_design.files.kernel_cache import numba
+from cqdd_design.files.kernel_part import part
 from cqdd_design.gearbox.contact.equilibrium_kernel import (
     CONVERGED,
     NOT_CONVERGED,
@@ -47,14 +47,14 @@ leaves Newton's method as it is; the others hold a disc that hangs slack between
 which friction may wedge in more places than one."""
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def rubbing_work(discs: int, contacts: int) -> RubbingWork:
     """Scratch for states of D discs with C contacts each."""
     size = 3 + 3 * discs
     return RubbingWork(new_work(discs, contacts), np.empty((size, size)), np.empty(size))
 
 
-@numba.njit(cache=True, inline="always", error_model="numpy")
+@part(forceinline=True)
 def _press(
     contacts: Contacts,
     rubbing: Rubbing,
@@ -113,7 +113,7 @@ def _press(
     return largest, (px, py, pt, pc), on_disc, (cx, cy, ct)
 
 
-@numba.njit(cache=True, inline="always", error_model="numpy")
+@part(forceinline=True)
 def _add(matrix: Any, i: int, j: int, sign: float, block: Any) -> None:
     """Add a 3x3 block, row by row, at row i and column j."""
     xx, xy, xt, yx, yy, yt, tx, ty, tt = block
@@ -128,7 +128,7 @@ def _add(matrix: Any, i: int, j: int, sign: float, block: Any) -> None:
     matrix[i + 2, j + 2] += sign * tt
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def evaluate_rubbed(
     contacts: Contacts,
     springs: Springs,
@@ -212,7 +212,7 @@ def evaluate_rubbed(
     return largest
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def rubbed_step(work: RubbingWork, ridge: float) -> float:
     """Newton step into `work.work.step`; returns the torsional stiffness at the carrier.
 
@@ -251,7 +251,7 @@ def rubbed_step(work: RubbingWork, ridge: float) -> float:
     return 1.0 / float(unit[2])
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def solve_rubbed(
     contacts: Contacts,
     springs: Springs,

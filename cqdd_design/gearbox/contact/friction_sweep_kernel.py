@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from cqdd_design.files.kernel_cache import numba
+from cqdd_design.files.kernel_part import part
 from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, NOT_CONVERGED
 from cqdd_design.gearbox.contact.friction_kernel import RIDGES, rubbing_work, solve_rubbed
 from cqdd_design.gearbox.contact.kernel_values import (
@@ -29,7 +30,7 @@ _LEAST_RISE = 2.0**-8
 """Share of the friction below which no further rise is tried: the machine jams."""
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _raise(
     contacts: Contacts,
     springs: Springs,
@@ -69,7 +70,7 @@ def _raise(
     return CONVERGED, steps, torsional
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def solve_raised(
     contacts: Contacts,
     springs: Springs,

@@ -9,6 +9,7 @@ import math
 from typing import Any
 
 from cqdd_design.files.kernel_cache import numba
+from cqdd_design.files.kernel_part import part
 from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, new_work, solve_state
 from cqdd_design.gearbox.contact.kernel_values import (
     Contacts,
@@ -23,7 +24,7 @@ _FIRM_APPROACH = 5e-6
 """Approach, m, of a load that presses the discs firmly against what stops them."""
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def predict(state: Any, before: Any, turn: float, known: int, out: Any) -> None:
     """Start for the next angle: the last state turned with the crank, plus its last change.
 
@@ -45,7 +46,7 @@ def predict(state: Any, before: Any, turn: float, known: int, out: Any) -> None:
         out[i + 2] = t
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def solve_from_above(
     contacts: Contacts, springs: Springs, load: Load, state: Any, forces: Forces, work: Work
 ) -> tuple[int, int, float]:
@@ -73,7 +74,7 @@ def solve_from_above(
             firm = abs(pull)
 
 
-@numba.njit(cache=True, error_model="numpy", forceinline=True)
+@part(forceinline=True)
 def solve_near(
     contacts: Contacts, springs: Springs, load: Load, state: Any, forces: Forces, work: Work
 ) -> tuple[int, int, float]:
@@ -84,7 +85,7 @@ def solve_near(
     return status, steps, torsional
 
 
-@numba.njit(cache=True, error_model="numpy", forceinline=True)
+@part(forceinline=True)
 def contacts_at(contacts: Contacts, a: int) -> Contacts:
     """The contacts at one of many crank angles."""
     return Contacts(

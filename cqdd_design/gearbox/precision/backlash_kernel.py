@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from cqdd_design.files.kernel_cache import numba
+from cqdd_design.files.kernel_part import part
 from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, new_work, solve_state
 from cqdd_design.gearbox.contact.kernel_values import (
     Contacts,
@@ -39,7 +40,7 @@ _STILL = 2e-10
 """Metres at the pin circle between two rounds that count as standing still: 1e-4 arcmin or less."""
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _true_gaps(parts: RigidParts, at: int, state: Any, rows: Any, gaps: Any) -> None:
     """Rows and gaps linearised at the displaced state, with gaps in the nominal coordinates.
 
@@ -100,7 +101,7 @@ def _true_gaps(parts: RigidParts, at: int, state: Any, rows: Any, gaps: Any) -> 
             )
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _overlaps(forces: Forces) -> tuple[float, float]:
     """Greatest overlap and the sum of their squares; on springs of 1 N/m a force is one."""
     force, cam_force = forces.contact, forces.cam

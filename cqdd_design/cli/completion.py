@@ -1,0 +1,76 @@
+"""What the shell offers after TAB: design files, and names of motors, materials and checks.
+
+A shell waits for it, so names are read from the package's files, without numpy or the catalogue's
+readers. A test holds them against what those give.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+from cqdd_design.cli.check_names import CHECKS
+
+_ASKED_BY = "_CQDD_DESIGN_COMPLETE"
+"""Variable in which Typer's scripts say which shell asks."""
+_PACKAGE = Path(__file__).parents[1]
+_CATALOGUES = {
+    "materials": "materials.csv",
+    "motors": "motors.csv",
+    "bearings": "bearings.csv",
+    "screws": "shoulder_screws.csv",
+    "lubricants": "lubricants.csv",
+    "finishes": "finishes.csv",
+}
+
+
+def designs(_context: Any, _parameter: Any, incomplete: str) -> list[str]:
+    """Design files and folders that begin so."""
+    head, slash, begun = incomplete.rpartition("/")
+    folder = Path(head + slash) if slash else Path()
+    if not folder.is_dir():
+        return []
+    found = []
+    for one in sorted(folder.iterdir()):
+        if not one.name.startswith(begun) or (one.name.startswith(".") and not begun):
+            continue
+        if one.is_dir():
+            found.append(f"{head}{slash}{one.name}/")
+        elif one.suffix == ".toml":
+            found.append(f"{head}{slash}{one.name}")
+    return found
+
+
+def _starting(names: Callable[[], Iterable[str]]) -> Callable[[Any, Any, str], list[str]]:
+    def complete(_context: Any, _parameter: Any, incomplete: str) -> list[str]:
+        begun = incomplete.casefold()
+        found = [name for name in names() if name.casefold().startswith(begun)]
+        # zsh and fish quote what they insert; bash puts it on the line as it is.
+        bash = os.environ.get(_ASKED_BY, "").endswith("_bash")
+        return [name.replace(" ", "\\ ") for name in found] if bash else found
+
+    return complete
+
+
+def _rows(catalogue: str) -> list[str]:
+    path = _PACKAGE / "catalog" / "data" / _CATALOGUES[catalogue]
+    with path.open(newline="", encoding="utf-8") as file:
+        kept = (line for line in file if not line.startswith("#"))
+        return [row[0] for row in list(csv.reader(kept))[1:] if row]
+
+
+motors = _starting(lambda: _rows("motors"))
+checks = _starting(lambda: CHECKS)
+catalogued = _starting(
+    lambda: [
+        *_CATALOGUES,
+        "fits",
+        "rubbing",
+        *_rows("materials"),
+        *_rows("motors"),
+    ]
+)
+"""Catalogues, and the rows of those that designs name most."""

@@ -1,0 +1,161 @@
+"""Kernels compiled side by side, before a command needs them: once, on the first use.
+
+Each goes into numba's cache from a process of its own, as many at a time as there are processors;
+the command then reads them from there. What arguments a kernel takes stands here, since a process
+that compiles has none.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from cqdd_design.gearbox.compiled import in_cache
+
+_CONTACTS = ("Contacts", "f4", "f3", "f3", "f3", "f1")
+_SPRINGS = ("Springs", "i", "i", "i", "f", "f", "f1", "f", "f", "f")
+_LOAD = ("Load", "f", "f")
+_RUBBING = ("Rubbing", "f3", "f3", "f3")
+_SWEEP = ("SweepResult", "f2", "f3", "f3", "f1", "i1")
+
+
+class Kernel(NamedTuple):
+    """A kernel that commands call.
+
+    Attributes
+    ----------
+    module, name, values : str
+        Where it stands, what it is called, and where the named tuples it takes stand.
+    arguments : tuple
+        ``f3`` is a C-contiguous array of three axes of float64, ``i1`` one axis of int64, without
+        a number they are scalars; a tuple is a named tuple of such.
+    """
+
+    module: str
+    name: str
+    arguments: tuple[Any, ...]
+    values: str = "gearbox.contact.kernel_values"
+
+    def compiled(self) -> Any:
+        """The kernel itself."""
+        return getattr(importlib.import_module(f"cqdd_design.{self.module}"), self.name)
+
+
+GEARBOX = (
+    Kernel(
+        "gearbox.contact.compliant_sweep_kernel",
+        "yield_sweep",
+        (_CONTACTS, _SPRINGS, _LOAD, _RUBBING, ("Compliance", "f2", "f1", "f", "f4"), "f1", "f2",
+         ("YieldingResult", "f2", "f3", "f3", "f3", "f1", "i1")),
+    ),
+    Kernel(
+        "gearbox.contact.friction_sweep_kernel",
+        "rub_sweep",
+        (_CONTACTS, _SPRINGS, _LOAD, _RUBBING, "f1", _SWEEP, _SWEEP),
+    ),
+    Kernel(
+        "gearbox.contact.sweep_kernel",
+        "solve_sweep",
+        (_CONTACTS, _SPRINGS, _LOAD, "f1", _SWEEP),
+    ),
+    Kernel(
+        "gearbox.precision.backlash_kernel",
+        "backlash_sweep",
+        (("RigidParts", "f4", "f3", "f3", "f2", "f2", "f1", "f2", "f4", "f3", "f1", "f", "f"),
+         "i1", "f", "f2", ("Extremes", "f1", "f1", "f2")),
+    ),
+    Kernel(
+        "gearbox.bodies.compliance_kernel",
+        "add_bearing",
+        ("i3", "f3", "f2", "f2", "f2", "f2", "f2", "f3", "f2", "f3", "f3"),
+    ),
+    Kernel(
+        "gearbox.bodies.compliance_kernel",
+        "add_contacts",
+        ("i3", "f3", "f2", "f2", "f2", "f3", "f3"),
+    ),
+)  # fmt: skip
+"""What any analysis of a gearbox calls, the longest to compile first."""
+SIMULATION = (
+    Kernel(
+        "actuator.kernels.stepping",
+        "run_sets",
+        ("f2", "f3", ("Signals", *("f2",) * 5), ("Steps", "f", "i", "i"),
+         ("Traces", *("f2",) * 14), ("Ledger", *("f1",) * 12), "i", "i"),
+        "actuator.columns",
+    ),
+)  # fmt: skip
+"""What steps an actuator through time."""
+
+
+def signature(kernel: Kernel) -> tuple[Any, ...]:
+    """The numba types of a kernel's arguments."""
+    import numba
+
+    scalars = {"f": numba.float64, "i": numba.int64}
+    known = vars(importlib.import_module(f"cqdd_design.{kernel.values}"))
+
+    def typed(one: Any) -> Any:
+        if isinstance(one, tuple):
+            values = [typed(inner) for inner in one[1:]]
+            return numba.types.BaseTuple.from_types(values, known[one[0]])  # type: ignore[no-untyped-call]
+        scalar = scalars[one[0]]
+        return numba.types.Array(scalar, int(one[1:]), "C") if one[1:] else scalar
+
+    return tuple(typed(one) for one in kernel.arguments)
+
+
+def missing(*, simulation: bool = False) -> list[Kernel]:
+    """Kernels that no earlier run has left compiled."""
+    wanted = (GEARBOX[0], *SIMULATION, *GEARBOX[1:]) if simulation else GEARBOX
+    return [kernel for kernel in wanted if not in_cache(kernel.compiled())]
+
+
+def compile_kernels(kernels: list[Kernel], tell: Callable[[int, int], None]) -> None:
+    """Compile kernels into the cache, as many at a time as there are processors.
+
+    Parameters
+    ----------
+    tell : callable
+        Called with how many are done and how many there are, at the start and as each ends. One
+        that fails is not told: the command compiles it itself and says why.
+    """
+    left, done = list(kernels), 0
+    running: list[subprocess.Popen[bytes]] = []
+    tell(0, len(kernels))
+    try:
+        while left or running:
+            while left and len(running) < (os.cpu_count() or 1):
+                one = left.pop(0)
+                running.append(
+                    subprocess.Popen(
+                        [sys.executable, "-c", _WORK, one.name],
+                        stdin=subprocess.DEVNULL,
+                        stdout=subprocess.DEVNULL,
+                        stderr=subprocess.DEVNULL,
+                    )
+                )
+            time.sleep(0.05)
+            ended = [process for process in running if process.poll() is not None]
+            running = [process for process in running if process not in ended]
+            for _ in ended:
+                done += 1
+                tell(done, len(kernels))
+    finally:
+        for process in running:
+            process.kill()
+            process.wait()
+
+
+_WORK = f"import sys; from {__name__} import compile_one; compile_one(sys.argv[1])"
+
+
+def compile_one(name: str) -> None:
+    """Compile the kernel of this name into the cache."""
+    kernel = next(one for one in (*GEARBOX, *SIMULATION) if one.name == name)
+    kernel.compiled().compile(signature(kernel))
