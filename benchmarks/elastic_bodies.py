@@ -7,7 +7,8 @@ since machines are not alike, nor one machine at all times. Run it by hand on a 
 nothing else. Asked for: under 3 s for a new geometry, under 50 ms from disk.
 
 Beside the designs named, or reference-s and cqdd-10, it has reference-s with seven pins, whose ten
-lobes share no symmetry with its holes, and that with three discs, no two of one kind.
+lobes share no symmetry with its holes, that with three discs, no two of one kind, and 29 lobes with
+20 pins, again without symmetry.
 """
 
 from __future__ import annotations
@@ -46,6 +47,19 @@ def designs() -> Iterator[Design]:
     yield seven.replacing({"name": "seven pins, no symmetry"})
     three = {"reducer.disc_count": 3, "reducer.ring.outer_diameter": "80 mm"}
     yield seven.replacing({"name": "seven pins, three discs, no symmetry", **three})
+    many: dict[str, object] = {
+        "name": "29 lobes, 20 pins, no symmetry",
+        "requirements.ratio": 29,
+        "reducer.ratio": 29,
+        "reducer.ring_pitch_radius": "27.9 mm",
+        "reducer.eccentricity": "0.64 mm",
+        "reducer.ring_pin_diameter": "2.9 mm",
+        "reducer.output_pins.count": 20,
+        "reducer.output_pins.circle_radius": "21.65 mm",
+        "reducer.output_pins.hole_clocking": f"{90 / 29} deg",
+        "reducer.ring.outer_diameter": "60.7 mm",
+    }
+    yield seven.replacing(many)
 
 
 def main() -> None:

@@ -22,7 +22,14 @@ SYSTEM_LIBRARIES = {"libGL.so.1": "libgl1", "libX11.so.6": "libx11-6"}
 APT_LINE = "apt-get install -y libgl1"
 #: The end of the year 9999, past which dates have no usual form.
 _LAST_SECOND = 253402300799
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+#: Names on the path; beside them where macOS and Windows keep theirs.
+BROWSERS = (
+    *("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "microsoft-edge"),
+    "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+    "/Applications/Microsoft Edge.app/Contents/MacOS/Microsoft Edge",
+    r"C:\Program Files\Google\Chrome\Application\chrome.exe",
+    r"C:\Program Files (x86)\Microsoft\Edge\Application\msedge.exe",
+)
 
 
 @dataclass(frozen=True)
@@ -200,15 +207,20 @@ def _library(name: str, package: str) -> Finding:
     return Finding(name, "ok", "found")
 
 
+def find_browser() -> str | None:
+    """A browser of the Chromium family, which prints and is driven in one way; None without one."""
+    found = (shutil.which(name) for name in BROWSERS)
+    return next((place for place in found if place), None)
+
+
 def _browser() -> Finding:
-    for name in BROWSERS:
-        place = shutil.which(name)
-        if place:
-            return Finding("browser", "ok", place)
+    place = find_browser()
+    if place:
+        return Finding("browser", "ok", place)
     return Finding(
         "browser",
         "optional",
-        "no Chromium found; only the tests of the report need it: apt-get install -y chromium",
+        "no Chromium found; `report --format pdf` prints through it: apt-get install -y chromium",
     )
 
 

@@ -341,10 +341,11 @@ def measured_page() -> str:
         "loops": measured.loop_table,
         "friction": measured.friction_table,
         "parts": measured.parts_table,
+        "twists": measured.twist_table,
         "published": lambda: measured.published_table(_published("efficiency by films")),
     }
     if not measured.RECORDS.is_dir():
-        for name in ("records", "loops", "friction"):
+        for name in ("records", "loops", "friction", "twists"):
             del tables[name]
         print("measured.md: what was read off the records is not compared, they are not there")
     return _with_tables("measured.md", tables)

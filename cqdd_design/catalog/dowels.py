@@ -68,6 +68,16 @@ class Dowel:
         return self.length - 2.0 * self.chamfer
 
 
+def dowels() -> tuple[Dowel, ...]:
+    """Every dowel of the standard, the thinnest and shortest first."""
+    return tuple(
+        Dowel(diameter * 1e-3, length * 1e-3, chamfer * 1e-3)
+        for diameter, chamfer, least, most in _SIZES
+        for length in _LENGTHS
+        if least <= length <= most
+    )
+
+
 def dowels_within(most_diameter: float, most_length: float) -> tuple[Dowel, ...]:
     """The longest dowel of every diameter that goes into a hole, the thickest first.
 
@@ -81,14 +91,11 @@ def dowels_within(most_diameter: float, most_length: float) -> tuple[Dowel, ...]
     >>> [one.designation for one in dowels_within(2.2e-3, 4.6e-3)]
     ['ISO 8734 1.5 m6 x 4 A', 'ISO 8734 1 m6 x 4 A']
     """
-    found = []
-    for diameter, chamfer, least, most in reversed(_SIZES):
-        if diameter * 1e-3 > most_diameter + 1e-9:
-            continue
-        fitting = [one for one in _LENGTHS if least <= one <= min(most, 1e3 * most_length + 1e-6)]
-        if fitting:
-            found.append(Dowel(diameter * 1e-3, fitting[-1] * 1e-3, chamfer * 1e-3))
-    return tuple(found)
+    longest: dict[float, Dowel] = {}
+    for one in dowels():
+        if one.diameter <= most_diameter + 1e-9 and one.length <= most_length + 1e-9:
+            longest[one.diameter] = one
+    return tuple(longest[diameter] for diameter in sorted(longest, reverse=True))
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,9 @@ from typing import Literal
 
 from cqdd_design.catalog.reader import column, find, read_records
 
+_PLASTIC_MODULUS = 20e9
+"""Materials softer than this are plastics, Pa."""
+
 
 @dataclass(frozen=True)
 class Material:
@@ -74,6 +77,11 @@ class Material:
     emissivity: float | None = column("emissivity")
     service_limit: float | None = column("service_C")
     thermal_source: str = column("thermal_source")
+
+    @property
+    def is_plastic(self) -> bool:
+        """Whether it is softer than any metal of the catalogue."""
+        return self.youngs_modulus < _PLASTIC_MODULUS
 
     @property
     def brinell_hardness(self) -> float | None:

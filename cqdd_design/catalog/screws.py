@@ -13,6 +13,8 @@ from cqdd_design.catalog.reader import number, optional_number, read_rows
 from cqdd_design.catalog.threads import thread_sizes
 from cqdd_design.errors import CatalogError
 
+_SHOULDER_LENGTHS = (4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 40, 50, 60, 70, 80, 90, 100, 120)
+"""Of shoulders, mm (ISO 7379:1983; the shortest are those of the sizes below it)."""
 _BORE_SHARE = 0.6
 """Most of a column's diameter that its bore takes: seven eighths of its stiffness stay."""
 LEAST_COLUMN = 3e-3
@@ -37,6 +39,8 @@ class ShoulderScrew:
         m; None where the source gives none.
     standard_lengths : str
         Range of shoulder lengths, as printed, mm.
+    standard : str
+        ISO 7379, or empty: sizes that are sold beside it, below its 6.5 mm and between its own.
     source : str
         Where the row comes from.
     """
@@ -51,12 +55,37 @@ class ShoulderScrew:
     thread_length: float | None
     socket_size: float | None
     standard_lengths: str
+    standard: str
     source: str
 
     @property
     def mean_diameter(self) -> float:
         """Mean of the shoulder's limits, m: what a fit is measured to."""
         return 0.5 * (self.shoulder_diameter_min + self.shoulder_diameter_max)
+
+    @property
+    def lengths(self) -> tuple[float, ...]:
+        """Lengths of shoulder that are sold, m; none where the source gives no range."""
+        if "-" not in self.standard_lengths:
+            return ()
+        shortest, longest = (float(mm) for mm in self.standard_lengths.split("-"))
+        return tuple(1e-3 * mm for mm in _SHOULDER_LENGTHS if shortest <= mm <= longest)
+
+    def designation(self, length: float) -> str:
+        """To order one with a shoulder of some length, m.
+
+        Examples
+        --------
+        >>> find_shoulder_screw(8e-3).designation(25e-3)
+        'ISO 7379 8 f9 x 25 M6'
+        >>> find_shoulder_screw(4e-3).designation(25e-3)
+        'shoulder screw 4 f9 x 25 M3'
+        """
+        size = f"{self.shoulder_diameter * 1e3:g} f9 x {length * 1e3:.4g}"
+        if self.standard:
+            return f"{self.standard} {size} {self.thread}"
+        unit = "" if self.thread.startswith("M") else " mm"
+        return f"shoulder screw {size}{unit} {self.thread}"
 
 
 @functools.lru_cache(maxsize=1)
@@ -77,6 +106,7 @@ def shoulder_screws() -> dict[str, ShoulderScrew]:
             thread_length=optional_number(row, "thread_len_mm", 1e-3),
             socket_size=optional_number(row, "socket_mm", 1e-3),
             standard_lengths=row["std_lengths_mm"],
+            standard=row["standard"],
             source=row["source"],
         )
     return table

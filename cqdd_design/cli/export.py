@@ -39,6 +39,10 @@ def export(
     tab_length: Annotated[
         str | None, option("Q", 'Left uncut in G-code until held; default "3 mm".')
     ] = None,
+    prices: Annotated[
+        Path | None,
+        option("FILE.csv", "Prices for the bill: designation, price, currency, vendor."),
+    ] = None,
     workers: Annotated[
         int | None, option("N", "Designs at a time; default one for each core.", min=1)
     ] = None,
@@ -55,7 +59,9 @@ def export(
 ) -> int:
     """Files for makers (DXF, EDM, STEP, ...) and simulators."""
     from cqdd_design.exporting import ExportOptions
+    from cqdd_design.exporting.bill.prices import prices_asked_for
     from cqdd_design.roads.export import export as write
+    from cqdd_design.roads.export import left_out
     from cqdd_design.units import LENGTH
 
     kinds = read_kinds(to)
@@ -66,6 +72,7 @@ def export(
         step_schema=step_schema.upper(),
         gcode_dialect=gcode_dialect.lower(),
         passes=passes,
+        prices=prices_asked_for(prices, kinds),
         **({} if tab is None else {"tab_length": tab}),
     )
     if len(design) > 1:
@@ -76,16 +83,18 @@ def export(
         more += [] if motor_file is None else ["--motor-file", str(motor_file)]
         return _several(out, design, kinds, folder, more, workers=workers, force=force)
     loaded = read_design(out, design[0], motor, motor_file)
+    specimen = read_specimen(out, loaded, calibration=calibration, seed=seed)
     files = write(
         loaded,
         kinds,
         folder,
-        specimen=read_specimen(out, loaded, calibration=calibration, seed=seed),
+        specimen=specimen,
         force=force,
         options=options,
         progress=out.stages(stages(kinds)),
     )
     out.wrote(files)
+    out.warn(*left_out(loaded, kinds, specimen=specimen))
     out.document({"kinds": list(kinds)}, design=loaded, files=files)
     return 0
 

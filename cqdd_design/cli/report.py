@@ -24,8 +24,11 @@ def report(
     out: Output,
     design: DesignFile,
     target: Annotated[
-        Path | None, option("FILE", "Where to; default reports/NAME.html.", "--out")
+        Path | None, option("FILE", "Where to; default reports/NAME.html or NAME.pdf.", "--out")
     ] = None,
+    form: Annotated[
+        str, option("html|pdf", "The page, or its print by a browser (Chromium).", "--format")
+    ] = "html",
     seed: BenchSeed = None,
     calibration: Calibrated = None,
     motor: NamedMotor = None,
@@ -34,10 +37,11 @@ def report(
     duty_columns: DutyColumnNames = None,
     force: Force = False,
 ) -> None:
-    """One self-contained HTML file for the design review."""
+    """One self-contained file for the design review: HTML, or PDF through a browser."""
     from cqdd_design.cli.tables import headline_table
-    from cqdd_design.roads.report import REPORT_STAGES, write_report
+    from cqdd_design.roads.report import REPORT_STAGES, report_form, write_report
 
+    chosen = report_form(form)
     loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)
     out.note_compilation(simulation=True)
     written = write_report(
@@ -45,6 +49,7 @@ def report(
         target,
         specimen=read_specimen(out, loaded, calibration=calibration, seed=seed),
         source=design,
+        form=chosen,
         force=force,
         progress=out.stages(REPORT_STAGES),
     )

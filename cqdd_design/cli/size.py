@@ -170,10 +170,7 @@ def _lines(road: Road, *, verbose: bool) -> list[str]:
 
 def _costs(sizing: SizingResult) -> list[str]:
     """What more would cost, near the design."""
-    told = [
-        f"{one.words} " + ("not in this space" if one.mass is None else f"{1e3 * one.mass:+.0f} g")
-        for one in sizing.costs
-    ]
+    told = [one.told for one in sizing.costs]
     if not told:
         return []
     words = "what more would cost, near this design: " + "; ".join(told)

@@ -16,6 +16,7 @@ from cqdd_design.design.actuator import Drive, Edm, Environment, Housing, Tolera
 from cqdd_design.design.fields import FrozenModel
 from cqdd_design.design.motor import MotorFile, MotorTable
 from cqdd_design.design.motor_row import IN_DESIGN, motor_row, own_table
+from cqdd_design.design.printing import Printing
 from cqdd_design.design.problems import describe_problems
 from cqdd_design.design.reducer import Reducer
 from cqdd_design.design.requirements import Requirements
@@ -59,6 +60,7 @@ class Design(FrozenModel):
     environment: Environment = Environment()
     tolerances: Tolerances = Tolerances()
     edm: Edm = Edm()
+    printing: Printing | None = None
 
     if TYPE_CHECKING:  # what is an attribute's float is given with its unit
 

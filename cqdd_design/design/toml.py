@@ -140,17 +140,23 @@ def save_design(
     comments : mapping, optional
         Remarks for single keys of a new file.
     """
+    if not path.exists():
+        return write_atomically(path, design_text(design, comments), "design")
     import tomlkit
 
-    document: MutableMapping[str, Any]
-    if path.exists():
-        document = tomlkit.parse(read_text_file(path, LARGEST_FILE, wrong=DesignError))
-        old = Design.from_mapping(document.unwrap(), source=str(path))
-        _update(document, design.to_mapping(), old.to_mapping(), set(design.assumed))
-    else:
-        document = tomlkit.document()
-        _fill(document, design.to_mapping(), set(design.assumed), comments or {})
+    document = tomlkit.parse(read_text_file(path, LARGEST_FILE, wrong=DesignError))
+    old = Design.from_mapping(document.unwrap(), source=str(path))
+    _update(document, design.to_mapping(), old.to_mapping(), set(design.assumed))
     return write_atomically(path, tomlkit.dumps(document), "design")
+
+
+def design_text(design: Design, comments: Mapping[str, str] | None = None) -> str:
+    """A new design file with every key that was not assumed, as `save_design` writes it."""
+    import tomlkit
+
+    document = tomlkit.document()
+    _fill(document, design.to_mapping(), set(design.assumed), comments or {})
+    return tomlkit.dumps(document)
 
 
 def _read(path: Path) -> dict[str, Any]:

@@ -6,8 +6,12 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from cqdd_design.errors import UsageError, did_you_mean
+
+if TYPE_CHECKING:
+    from cqdd_design.exporting.bill.prices import PriceList
 
 CHOICES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -46,6 +50,8 @@ class ExportOptions:
     tab_length : float
         Of every contour, left uncut in G-code until the slug or the part is held, m. Contours
         shorter than eight tabs get an eighth of their length.
+    prices : PriceList or None
+        What parts cost, for the bill of materials.
 
     Raises
     ------
@@ -59,6 +65,7 @@ class ExportOptions:
     gcode_dialect: str = "iso"
     passes: int = 4
     tab_length: float = 3e-3
+    prices: PriceList | None = None
 
     def __post_init__(self) -> None:
         """Refuse what no writer knows."""
@@ -91,6 +98,7 @@ class ExportOptions:
             *("--gcode-dialect", self.gcode_dialect),
             *("--passes", str(self.passes)),
             *("--tab-length", f"{self.tab_length * 1e3!r} mm"),
+            *(() if self.prices is None else ("--prices", str(self.prices.path))),
         ]
 
 

@@ -10,12 +10,14 @@ M = mu_n F d/2 on the bore (JTEKT), and never count with more than the pin itsel
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from cqdd_design.catalog.bearings import FRICTION_COEFFICIENT
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.screws import mean_pin_diameter
 from cqdd_design.design import Design
 from cqdd_design.gearbox.film.mixed import BOUNDARY_FRICTION
@@ -27,6 +29,36 @@ from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
 def at_rest(coefficient: float | Literal["film"]) -> float:
     """The coefficient that a design states, or that of a boundary layer where the film gives it."""
     return BOUNDARY_FRICTION if coefficient == "film" else coefficient
+
+
+def most_breakaway(design: Design) -> tuple[float, float]:
+    """Most by which breakaway exceeds running friction, at teeth and at pins.
+
+    At rest nothing parts surfaces that rub, and metals have a boundary layer left: they break away
+    with its coefficient at most, or with their own where that is higher. Needles roll and break
+    away as bearings do, and the boundary layer of plastics is not known: no bound here.
+    """
+    reducer = design.reducer
+    discs = reducer.disc_material
+    teeth, pins = (reducer.ring_material, discs), (reducer.output_pins.material, discs)
+    return (
+        _most_breakaway(reducer.friction.tooth, ring_runner(design), teeth),
+        _most_breakaway(reducer.friction.pin, pin_runner(design), pins),
+    )
+
+
+def _most_breakaway(
+    stated: float | Literal["film"], runner: Runner | None, pair: tuple[str, str]
+) -> float:
+    if runner is not None and runner.cage is not None:
+        return math.inf
+    own = at_rest(stated)
+    # What turns on a pin rubs on it, and is of its material.
+    rubbing = pair if runner is None else pair[:1]
+    bounded = stated == "film" or not any(find_material(name).is_plastic for name in rubbing)
+    if own == 0.0 or not bounded:
+        return math.inf
+    return max(BOUNDARY_FRICTION / own, 1.0)
 
 
 def hole_friction(design: Design) -> float:

@@ -64,6 +64,7 @@ def export(
     gcode_dialect: Literal["iso", "sodick"] = "iso",
     passes: int = 4,
     tab_length: Quantity | None = None,
+    prices: PathLike | None = None,
     seed: int | None = None,
     calibration: CalibrationLike | None = None,
     force: bool = False,
@@ -89,6 +90,8 @@ def export(
         Of the wire along a contour in G-code: the rough cut and up to three skim cuts.
     tab_length : quantity, optional
         Left uncut in G-code until held; default 3 mm.
+    prices : path, optional
+        CSV file of designation, price, currency and vendor for the bill of materials.
     seed : int, optional
         Gearbox of simulators drawn from the tolerances; default perfect parts.
     calibration : path or Calibrated, optional
@@ -128,8 +131,10 @@ def export(
     {'dxf'}
     """
     from cqdd_design.exporting import ExportOptions
+    from cqdd_design.exporting.bill.prices import prices_asked_for
     from cqdd_design.exporting.kinds import read_kinds
     from cqdd_design.roads.export import export as write
+    from cqdd_design.roads.export import left_out
     from cqdd_design.roads.telling import silent
     from cqdd_design.units import LENGTH
 
@@ -141,6 +146,7 @@ def export(
         step_schema=step_schema.upper(),
         gcode_dialect=gcode_dialect.lower(),
         passes=passes,
+        prices=prices_asked_for(None if prices is None else path_of("prices", prices), kinds),
         **({} if tab is None else {"tab_length": tab}),
     )
     loaded = design_of(design)
@@ -154,6 +160,7 @@ def export(
         options=options,
         progress=progress or silent,
     )
+    told = (*told, *left_out(loaded, kinds, specimen=specimen))
     return Exported(loaded, told, kinds, files=files)
 
 
@@ -198,10 +205,11 @@ def report(
     out: PathLike | None = None,
     seed: int | None = None,
     calibration: CalibrationLike | None = None,
+    format: str = "html",
     force: bool = False,
     progress: Callable[[str], None] | None = None,
 ) -> Reported:
-    """Write one self-contained HTML file for the design review.
+    """Write one self-contained file for the design review: HTML, or PDF through a browser.
 
     Parameters
     ----------
@@ -209,11 +217,13 @@ def report(
         A path is that of a design file, whose comments then stand in the report; a bare name may
         be an example's.
     out : path, optional
-        Default ``reports/NAME.html``, which is replaced.
+        Default ``reports/NAME.html`` or ``.pdf``, which is replaced.
     seed : int, optional
         Of the simulated gearbox; default perfect parts.
     calibration : path or Calibrated, optional
         Fitted factors to apply.
+    format : {"html", "pdf"}
+        The page, or its print by a browser of the Chromium family.
     force : bool
         Replace a file that was named.
     progress : callable, optional
@@ -230,6 +240,8 @@ def report(
         The file exists, or cannot be written.
     DesignError, GeometryError
         No valid design, or a shape that cannot exist.
+    DependencyError
+        No browser that prints.
 
     Notes
     -----
@@ -244,7 +256,7 @@ def report(
     >>> page.files[0].path.name, page.verdict.meets
     ('review.html', 'no')
     """
-    from cqdd_design.roads.report import write_report
+    from cqdd_design.roads.report import report_form, write_report
     from cqdd_design.roads.telling import silent
 
     loaded = design_of(design)
@@ -254,6 +266,7 @@ def report(
         None if out is None else path_of("out", out),
         specimen=specimen,
         source=source_of(design),
+        form=report_form(format),
         force=force,
         progress=progress or silent,
     )

@@ -9,7 +9,7 @@ here.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from types import MappingProxyType
@@ -23,6 +23,8 @@ from cqdd_design.machine.capacity import LoadedContacts
 from cqdd_design.machine.machine import Machine
 
 RIGID = f"rigid law x {UNEVEN_SHARING:g}"
+_NEAR = 0.99
+"""Of a limit, from which it is looked for."""
 OUT_OF_REACH = "the parts would have to move farther than they reach"
 
 LoadName = Literal["peak", "continuous"]
@@ -168,30 +170,58 @@ class Compared(NamedTuple):
         return LIMITS[self.check]
 
 
-@lru_cache(maxsize=4)
 def torque_limits(machine: Machine, load: LoadName | None = None) -> tuple[TorqueLimit, ...]:
     """Torques at which a machine's gearbox reaches its limits, in the order of the checks.
 
-    Of one load, or of both. A report asks twice for one machine, so the last are kept. Limits
-    whose strength the catalogue does not give are left out.
+    Of one load, or of both. Limits whose strength the catalogue does not give are left out.
 
     Raises
     ------
     GeometryError
         When disc, ring or holes cannot exist.
     """
-    contacts = machine.loaded_contacts
     return tuple(
-        _limit(machine, contacts, one)
+        _limits(machine, one.row.load)[one.check]
         for one in compared_limits(machine)
         if load in {None, one.row.load}
     )
 
 
+@lru_cache(maxsize=8)
+def _limits(machine: Machine, load: LoadName) -> dict[str, TorqueLimit]:
+    """Limits of one load by their checks; a report asks for one load, then for both."""
+    contacts = machine.loaded_contacts
+    return {
+        one.check: _limit(machine, contacts, one)
+        for one in compared_limits(machine)
+        if one.row.load == load
+    }
+
+
 def carried_torque(machine: Machine) -> CarriedTorque:
     """What a machine's gearbox carries at its peak torque; errors as `torque_limits`."""
-    peak = torque_limits(machine, "peak")
-    known = {one.check for one in peak}
+    return _carried(machine, torque_limits(machine, "peak"))
+
+
+def carried_up_to(machine: Machine, torque: float) -> CarriedTorque:
+    """The same of those limits alone that a torque (N m) reaches, all but for a per cent.
+
+    To know that nothing gives way up to a torque takes one look, to know what would beyond it a
+    search of each limit.
+    """
+    contacts, every = machine.loaded_contacts, list(_compared_at_peak(machine))
+    near = every
+    try:
+        found = contacts.greatest(torque)
+        near = [one for one in every if one.per_key * found[one.row.key] > _NEAR * one.limit]
+    except ContactError:
+        # Beyond the end of the equilibrium every limit is looked for.
+        pass
+    return _carried(machine, [_limit(machine, contacts, one) for one in near])
+
+
+def _carried(machine: Machine, peak: Sequence[TorqueLimit]) -> CarriedTorque:
+    known = {one.check for one in _compared_at_peak(machine)}
     ends = sorted((one for one in peak if not one.reached), key=lambda one: one.torque)
     limits = [one for one in peak if one.reached] + ends[:1]
     return CarriedTorque(
@@ -203,6 +233,10 @@ def carried_torque(machine: Machine) -> CarriedTorque:
             if check.id in LIMITS and LIMITS[check.id].load == "peak" and check.id not in known
         ),
     )
+
+
+def _compared_at_peak(machine: Machine) -> Iterator[Compared]:
+    return (one for one in compared_limits(machine) if one.row.load == "peak")
 
 
 def compared_limits(machine: Machine) -> Iterator[Compared]:

@@ -75,25 +75,40 @@ def screw_joints(machine: Machine) -> tuple[ScrewJoint, ...]:
     return tuple(one for one in every if one is not None)
 
 
+def tightening_torques(machine: Machine) -> dict[str, float]:
+    """Torque of every screw that holds a joint, N m, by the name of its part."""
+    joints = {
+        "shoulder screw": _pins(machine),
+        "column screw": _columns(machine),
+        "motor cover screw": _motor_cover(machine),
+    }
+    found = {name: joint.clamping.torque for name, joint in joints.items() if joint is not None}
+    return {"cover screw": _cover_clamping(machine).torque, **found}
+
+
 def _cover(machine: Machine) -> ScrewJoint:
     """Between them cover and clamp hold the output bearing: what it carries parts them."""
     layout = machine.layout
     housing, loads = layout.housing, output_loads(machine, machine.peak_pack)
-    metal, grip = _housing_metal(machine), housing.cover_flange_top - layout.pack.top
-    screw, around = housing.screw, housing.screw_count * housing.bolt_circle_radius
+    around = housing.screw_count * housing.bolt_circle_radius
     pulled = loads.axial / housing.screw_count + 2.0 * loads.moment / around
-    engaged = min(screw.length - grip, layout.pack.top - housing.flange_bottom)
-    clamping = _clamping(screw, metal, grip=grip, engaged=engaged, faces=2)
     return ScrewJoint(
         "cover and ring clamp on the housing",
-        screw.designation,
+        housing.screw.designation,
         housing.screw_count,
-        clamping,
+        _cover_clamping(machine),
         float(loads.radial.max()) / housing.screw_count,
         float(pulled.max()),
         "an even number of output_pins on a larger circle, on two discs, pushes the carrier less "
         "to one side",
     )
+
+
+def _cover_clamping(machine: Machine) -> Clamping:
+    layout, housing = machine.layout, machine.layout.housing
+    grip = housing.cover_flange_top - layout.pack.top
+    engaged = min(housing.screw.length - grip, layout.pack.top - housing.flange_bottom)
+    return _clamping(housing.screw, _housing_metal(machine), grip=grip, engaged=engaged, faces=2)
 
 
 def _mounting(machine: Machine) -> ScrewJoint:

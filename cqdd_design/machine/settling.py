@@ -22,8 +22,9 @@ from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.thermal_parts import NODES, Node, by_node
 
 _GEARBOX: tuple[Node, ...] = ("ring", "disc", "shaft", "carrier")
-_ROUNDS, _STILL = 60, 1e-6
-"""Of the search, and K by which temperatures may still move."""
+_ROUNDS, _STILL, _NEARLY_STILL = 60, 1e-6, 1e-2
+"""Of the search, and K by which temperatures may still move; with rigid bodies, whose losses are
+good to a per cent."""
 _MOST_GAIN = 0.8
 """Of temperature by temperature that the search counts on."""
 _EDGE = 1e-6
@@ -79,12 +80,13 @@ def settle(machine: Machine, network: ThermalNetwork, lost: Losing) -> tuple[Dut
         Where no such temperatures are found.
     """
     now = np.full(len(NODES), network.ambient)
+    still = _NEARLY_STILL if machine.stiff else _STILL
     step, before, gain = np.zeros(now.shape), now, 0.0
     for _ in range(_ROUNDS):
         warm = machine.at(gearbox_parts(within_reach(now, network.ambient)))
         found = lost(warm, magnets_at(machine, now))
         then = network.steady(found.heat)
-        if np.abs(then - now).max() <= _STILL:
+        if np.abs(then - now).max() <= still:
             return found, then
         # What a kelvin more comes back as; beyond the most, heat runs away and is let go.
         if np.any(step):

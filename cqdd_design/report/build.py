@@ -25,6 +25,7 @@ from cqdd_design.report.gearbox.temperatures import temperatures_view
 from cqdd_design.report.gearbox.tolerances import tolerance_view
 from cqdd_design.report.ink.numbers import RPM, significant, with_unit
 from cqdd_design.report.ink.page import Values, environment
+from cqdd_design.report.ink.tables import readable_tables
 from cqdd_design.report.input import ReportInput
 from cqdd_design.report.judgement.check_rows import check_groups, printed
 from cqdd_design.report.judgement.closing import (
@@ -33,12 +34,14 @@ from cqdd_design.report.judgement.closing import (
     paper_symbols,
     sources_used,
 )
+from cqdd_design.report.judgement.downloads import downloads_view
 from cqdd_design.report.judgement.duty import duty_rows
 from cqdd_design.report.judgement.facts import derived_values, head_facts
-from cqdd_design.report.judgement.origins import Value, defaults, values_by_group
-from cqdd_design.report.judgement.planetary import planetary_view
+from cqdd_design.report.judgement.origins import Group, folded, values_by_group
+from cqdd_design.report.judgement.planetary import limit_models, limit_rows, planetary_view
 from cqdd_design.report.judgement.search import sizing_view
 from cqdd_design.report.judgement.verdict import pin_figure, verdict
+from cqdd_design.report.machine_view.packing import machine_values
 
 if TYPE_CHECKING:
     from cqdd_design.machine.contact_analysis import ContactAnalysis
@@ -68,12 +71,17 @@ def build_report(results: ReportInput) -> str:
         "date": results.provenance.time.partition("T")[0],
         "verdict": judged,
         "facts": head_facts(results, judged["least"]),
-        "contents": tuple(heading for chapter in shown for heading in chapter.headings),
+        "contents": tuple(
+            heading for chapter in shown if not chapter.appended for heading in chapter.headings
+        ),
+        "appendix": tuple(
+            heading for chapter in shown if chapter.appended for heading in chapter.headings
+        ),
         "chapters": tuple(chapter.template for chapter in shown),
     }
     for chapter in shown:
         context |= chapter.values or {}
-    return environment().get_template("report.html").render(context)
+    return readable_tables(environment().get_template("report.html").render(context))
 
 
 class _Chapter(NamedTuple):
@@ -82,6 +90,8 @@ class _Chapter(NamedTuple):
     template: str
     headings: tuple[tuple[str, str], ...]
     values: Values | None
+    appended: bool = False
+    """Of the appendix."""
 
 
 def _chapters(results: ReportInput) -> list[_Chapter]:
@@ -90,7 +100,7 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
     outlines = Outlines.from_design(design, gearbox.cam_bearing.bearing)
     groups, law = values_by_group(design, results.comments), gearbox.rigid
     pictures, found = results.pictures, results.evidence
-    uneven, pin_count = significant(UNEVEN_SHARING), design.reducer.output_pins.count
+    pin_count = design.reducer.output_pins.count
 
     def chapter(name: str, title: str, values: Values | None) -> _Chapter:
         """One whose template is called like its entry in the contents."""
@@ -100,11 +110,11 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
         return chapter(name, title, None if contact is None else {name: view(contact)})
 
     return [
-        chapter("verdict", "Verdict", {"pins": pin_figure(gearbox), "uneven_sharing": uneven}),
+        chapter("verdict", "Verdict", {}),
         chapter(
             "requirements",
             "Requirements",
-            {"requirements": groups[0], "duty_rows": duty_rows(design)},
+            {"requirements": folded(groups[:1], headings=False), "duty_rows": duty_rows(design)},
         ),
         _Chapter(
             "drawings.html",
@@ -121,12 +131,21 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
         _Chapter(
             "machine3d.html",
             (("machine", "The machine"),),
-            pictures and {"machine_views": pictures[0], "machine_viewer": pictures[1]},
+            pictures and machine_values(*pictures),
         ),
         chapter(
-            "values", "Design values", {"values": groups[1:], "derived": derived_values(results)}
+            "values",
+            "Design values",
+            {"values": folded(groups[1:]), "derived": derived_values(results)},
         ),
         chapter("checks", "Checks", {"check_groups": check_groups(results.checks)}),
+        chapter(
+            "limits",
+            "What limits the torque",
+            {"limits": limit_rows(results.limits), "limit_models": limit_models(results.limits)}
+            if results.limits
+            else None,
+        ),
         chapter("loads", "Forces", {"load_charts": load_charts(gearbox)}),
         of_contact("contact", "Contact", lambda found: contact_view(found, outlines, law)),
         chapter("stress", "Stress", _stress(results, outlines)),
@@ -153,7 +172,6 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
             "Test bench",
             results.bench and {"bench": bench_view(*results.bench, pin_count=pin_count)},
         ),
-        chapter("planetary", "Planetary", {"planetary": planetary_view(results.planetary)}),
         chapter("edm", "Wire EDM", {"edm": edm_view(results.machine)}),
         _Chapter(
             "bodies.html", (("inertia", "Inertia"), ("bom", "Bill of materials")), _bodies(results)
@@ -165,13 +183,32 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
         ),
         _Chapter(
             "closing.html",
-            (
-                ("symbols", "Symbols"),
-                ("assumptions", "Assumptions"),
-                ("sources", "Sources"),
-                ("provenance", "Provenance"),
-            ),
+            (("assumptions", "Assumptions"), ("sources", "Sources"), ("provenance", "Provenance")),
             _closing(results, groups),
+        ),
+        chapter("downloads", "Files", downloads_view(results)),
+        *_appendix(results),
+    ]
+
+
+def _appendix(results: ReportInput) -> list[_Chapter]:
+    """What the paper says, beside the paper's own actuator."""
+    compared = results.planetary
+    if compared is None:
+        return []
+    beside = {"planetary": planetary_view(compared, limits=False)}
+    return [
+        _Chapter("planetary.html", (("planetary", "Beside a planetary"),), beside, appended=True),
+        _Chapter(
+            "paper.html",
+            (("pins", "Output pins"), ("symbols", "Symbols and corrections")),
+            {
+                "pins": pin_figure(results.gearbox),
+                "uneven_sharing": significant(UNEVEN_SHARING),
+                "symbols": paper_symbols(results.design),
+                "errata": ERRATA,
+            },
+            appended=True,
         ),
     ]
 
@@ -204,17 +241,16 @@ def _bodies(results: ReportInput) -> Values | None:
     }
 
 
-def _closing(results: ReportInput, groups: tuple[tuple[str, tuple[Value, ...]], ...]) -> Values:
+def _closing(results: ReportInput, groups: tuple[Group, ...]) -> Values:
     design, analysis = results.design, results.gearbox
     parts = () if results.bodies is None else results.bodies.parts
-    literature, catalogue = sources_used(analysis, parts, results.checks)
+    literature, catalogue = sources_used(
+        analysis, parts, results.checks, planetary=results.planetary is not None
+    )
     return {
-        "symbols": paper_symbols(design),
-        "errata": ERRATA,
         "assumptions": model_assumptions(design),
         "warnings": tuple(printed(line) for line in (*analysis.warnings, *results.notes)),
-        "defaults": defaults(groups),
+        "defaults": folded(groups).left,
         "literature": literature,
         "catalogue": catalogue,
-        "files": results.files,
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cqdd_design.design import Design
@@ -12,6 +13,7 @@ from cqdd_design.gearbox import GearboxAnalysis
 from cqdd_design.machine import Machine
 from cqdd_design.machine.weighing import Bodies
 from cqdd_design.planetary.compare import PlanetaryComparison
+from cqdd_design.planetary.cycloid import CycloidLimit
 from cqdd_design.results import Check, Provenance
 
 if TYPE_CHECKING:
@@ -37,8 +39,10 @@ class ReportInput:
         The design, as given and made concrete.
     gearbox : GearboxAnalysis
         At the torques of the requirements.
-    planetary : PlanetaryComparison
-        For the same loads.
+    planetary : PlanetaryComparison or None
+        For the same loads, where the design is the paper's actuator.
+    limits : tuple of CycloidLimit
+        Torques at which parts of the gearbox reach their limits.
     comments : mapping
         Dotted key to the remark in the design file, from :func:`.origins.read_comments`.
     bodies : Bodies or None
@@ -49,6 +53,8 @@ class ReportInput:
         Where the design has been found by a search in the same run.
     files : tuple of WrittenFile
         Written in the same run.
+    target : Path or None
+        Where the page will stand, for links to these files.
     contact : ContactAnalysis or None
         At the torques of the requirements: contact, precision, losses and life.
     verdict : Verdict
@@ -67,14 +73,16 @@ class ReportInput:
 
     machine: Machine
     gearbox: GearboxAnalysis
-    planetary: PlanetaryComparison
     provenance: Provenance
     verdict: Verdict
+    planetary: PlanetaryComparison | None = None
+    limits: tuple[CycloidLimit, ...] = ()
     comments: Mapping[str, str] = field(default_factory=dict)
     bodies: Bodies | None = None
     notes: tuple[str, ...] = ()
     sizing: SizingResult | None = None
     files: tuple[WrittenFile, ...] = ()
+    target: Path | None = None
     contact: ContactAnalysis | None = None
     clearances: tuple[ClearancePoint, ...] = ()
     pictures: tuple[MachineViews, ViewerData] | None = None

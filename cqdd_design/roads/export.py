@@ -9,6 +9,7 @@ from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
 from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting import export as write
+from cqdd_design.exporting.kinds import KINDS, read_kinds
 from cqdd_design.exporting.options import DEFAULTS
 from cqdd_design.files import WrittenFile
 from cqdd_design.roads.telling import Progress, silent
@@ -28,4 +29,20 @@ def export(
     machine = specimen.machine(design)
     return write(
         machine, kinds, folder, force=force, progress=progress, options=options, specimen=specimen
+    )
+
+
+def left_out(
+    design: Design, kinds: str | Iterable[str], *, specimen: Specimen = AS_DRAWN
+) -> tuple[str, ...]:
+    """Sentences on what files of solids do not show: a motor that cannot be drawn."""
+    solid = [kind for kind in read_kinds(kinds) if KINDS[kind].needs_solids]
+    if not solid:
+        return ()
+    missing = specimen.machine(design).layout.motor_missing
+    if not missing:
+        return ()
+    return (
+        f"the motor is not drawn: {missing}. Its stator, rotor, bell and cover and the encoder are "
+        f"not in {', '.join(solid)}.",
     )

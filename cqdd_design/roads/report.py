@@ -1,15 +1,16 @@
-"""One self-contained HTML file about a design, from everything that can be computed of it."""
+"""One file about a design, a page or its print, from everything that can be computed of it."""
 
 from __future__ import annotations
 
 from contextlib import closing, nullcontext
 from pathlib import Path
-from typing import NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 from cqdd_design.actuator.shock import shocks
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
+from cqdd_design.catalog.paper import is_papers_actuator
 from cqdd_design.design import Design
-from cqdd_design.errors import ContactError
+from cqdd_design.errors import ContactError, UsageError, shown
 from cqdd_design.files import WrittenFile, refuse_overwrite, write_atomically
 from cqdd_design.gearbox.checks.allowables import YIELD_SAMPLES
 from cqdd_design.gearbox.tolerance.clearance import ClearancePoint, clearance_study
@@ -18,11 +19,14 @@ from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contac
 from cqdd_design.machine.weighing import weigh_if_possible
 from cqdd_design.report import ReportInput, build_report, read_comments
 from cqdd_design.report.machine_view.apart import start_drawing
+from cqdd_design.report.printing import printed_page, printing_browser
 from cqdd_design.roads.bench import measured_actuator
 from cqdd_design.roads.telling import Progress, provenance, silent
 from cqdd_design.sizing import SizingResult
-from cqdd_design.sizing.comparison import compare_with_planetary
+from cqdd_design.sizing.comparison import compare_with_planetary, cycloid_limits
 from cqdd_design.verdict import Verdict, judge
+
+ReportForm = Literal["html", "pdf"]
 
 #: How often `write_report` tells its progress.
 REPORT_STAGES = 7
@@ -30,6 +34,15 @@ REPORT_STAGES = 7
 #: Toleranced gearboxes at every clearance that is looked at.
 _CLEARANCE_SAMPLES, _LEAST_CLEARANCE_SAMPLES = 12, 8
 _REPORT_ANGLES = 1000
+
+
+def report_form(text: str) -> ReportForm:
+    """One of the forms; a UsageError for anything else."""
+    forms: tuple[ReportForm, ...] = get_args(ReportForm)
+    for known in forms:
+        if text == known:
+            return known
+    raise UsageError(f"--format {shown(text)}: a report is html or pdf.")
 
 
 class WrittenReport(NamedTuple):
@@ -53,6 +66,7 @@ def write_report(
     files: tuple[WrittenFile, ...] = (),
     verdict: Verdict | None = None,
     samples: int = YIELD_SAMPLES,
+    form: ReportForm = "html",
     force: bool = False,
     progress: Progress = silent,
 ) -> WrittenReport:
@@ -61,7 +75,8 @@ def write_report(
     Parameters
     ----------
     path : Path, optional
-        Default ``reports/NAME.html``, whose file is this function's own and is replaced.
+        Default ``reports/NAME.html`` (or ``.pdf``), whose file is this function's own and is
+        replaced.
     specimen : Specimen
         Which actuator is meant.
     source : Path, optional
@@ -74,6 +89,8 @@ def write_report(
         On the same design and specimen, where there is one already.
     samples : int
         Toleranced gearboxes to draw; 0 leaves the section out, and the line ``YIELD`` unknown.
+    form : {"html", "pdf"}
+        The page itself, or printed by a browser.
     force : bool
         Replace an existing file that was named.
     progress : callable
@@ -83,8 +100,14 @@ def write_report(
     -------
     WrittenReport
         The file, and what it says.
+
+    Raises
+    ------
+    DependencyError
+        A print is asked for and no browser is found, or it prints nothing.
     """
-    target = path or Path("reports") / f"{design.name}.html"
+    browser = printing_browser() if form == "pdf" else None
+    target = path or Path("reports") / f"{design.name}.{form}"
     refuse_overwrite(target, force=force or path is None)
     progress("analysing loads and the planetary")
     machine = specimen.machine(design)
@@ -116,7 +139,8 @@ def write_report(
     results = ReportInput(
         machine=machine,
         gearbox=analysis,
-        planetary=compare_with_planetary(machine),
+        planetary=compare_with_planetary(machine) if is_papers_actuator(design) else None,
+        limits=cycloid_limits(machine),
         provenance=provenance(design),
         comments={} if source is None else read_comments(source),
         bodies=bodies,
@@ -124,6 +148,8 @@ def write_report(
         verdict=judged,
         sizing=sizing,
         files=files,
+        # A print leads nowhere.
+        target=target if browser is None else None,
         contact=contact,
         clearances=clearances,
         pictures=pictures,
@@ -132,7 +158,9 @@ def write_report(
         shocks=stops,
     )
     progress("writing the report")
-    file = write_atomically(target, build_report(results), "report")
+    page = build_report(results)
+    content = page if browser is None else printed_page(page, browser)
+    file = write_atomically(target, content, "report")
     return WrittenReport(file, judged)
 
 

@@ -24,6 +24,8 @@ from cqdd_design.sizing.motors import MotorChoice, size_with_any
 from cqdd_design.sizing.verified import size_to_verdict
 from cqdd_design.verdict import Verdict, judge
 
+_SCREENED = "# No verdict has seen this design: closed forms alone chose it, see `check`.\n"
+"""First line of what the screen alone writes."""
 _STAMP = "# `size` replaces this file only while the lines above have this sha256: "
 
 
@@ -116,7 +118,8 @@ def size_and_write(
     report : bool
         Whether to write the report.
     force : bool
-        Replace an existing design file that was named, or edited.
+        Replace an existing design file that was named, or edited, or, by what the screen alone
+        found, one that the verdict was made on.
 
     Raises
     ------
@@ -130,6 +133,8 @@ def size_and_write(
         refuse_overwrite(target, force=force)
     elif not force:
         _refuse_edited(target)
+        if quick:
+            _refuse_judged(target)
     road = size_design(
         requirements,
         target,
@@ -309,6 +314,15 @@ def _refuse_edited(path: Path) -> None:
         )
 
 
+def _refuse_judged(path: Path) -> None:
+    """Raise where a file of this name holds a design that the whole search has judged."""
+    if path.exists() and not path.read_bytes().startswith(_SCREENED.encode()):
+        raise UsageError(
+            f"{path} was written by a search to the verdict, and the screen alone would replace it "
+            "by a design that nothing has judged; choose another place with --out, or add --force."
+        )
+
+
 def _digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
@@ -318,9 +332,17 @@ def _write_fresh(path: Path, road: Road) -> WrittenFile:
     with atomic_path(path) as temporary:
         temporary.unlink()
         save_design(temporary, road.design, comments=_origins(road))
-        content = temporary.read_bytes()
+        told = _SCREENED if road.verdict is None else ""
+        content = told.encode() + temporary.read_bytes() + _costs(road.sizing).encode()
         temporary.write_bytes(content + f"{_STAMP}{_digest(content)}\n".encode())
     return describe_file(path, "design")
+
+
+def _costs(sizing: SizingResult) -> str:
+    """Remarks on what more would cost, which only a search can tell; empty where it was not."""
+    if not sizing.costs:
+        return ""
+    return "".join(["# What more would cost:\n", *(f"# - {one.told}\n" for one in sizing.costs)])
 
 
 #: Reducer keys that sizing takes over from the requirements.

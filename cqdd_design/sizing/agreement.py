@@ -48,6 +48,8 @@ _SOLVED = 15
 """Designs that are kept with their equilibria, but for the last."""
 _SETTLED = 2e-3
 """Change of every need, as a share, at which closed forms and equilibrium agree."""
+_FAR = 1.1
+"""Objective over a rival's beyond which no further needs make a design win."""
 RING, _PINS, _CAM = "CONTACT-RING-PEAK", "CONTACT-PIN-PEAK", "BEARING-STATIC"
 
 
@@ -60,6 +62,11 @@ class Space(NamedTuple):
     fit: Fit
     needles: bool = False
     ring_limit: float = math.inf
+
+    @property
+    def is_soft(self) -> bool:
+        """Whether a part is of the weakest material that is tried."""
+        return MATERIALS[0] in {self.disc_material, self.ring_material}
 
     def of(self, requirements: Requirements) -> Requirements:
         """The requirements with these discs and materials, which are tried and not asked for."""
@@ -225,13 +232,16 @@ def spaces(
 def lightest(hunt: Hunt) -> Found | None:
     """The best of all spaces at the hunt's fit that the equilibrium bears out."""
     best: Found | None = None
-    for space in spaces(hunt.requirements, hunt.fit, hunt.pins):
+    every = list(spaces(hunt.requirements, hunt.fit, hunt.pins))
+    # The stronger material first: where it makes a light design, the other is soon given up.
+    for space in sorted(every, key=lambda one: (one.disc_count, one.needles, one.is_soft)):
         try:
             found = agreed(hunt, space, None if best is None else best.worth)
         except InfeasibleError:
             continue
-        if found is not None and (best is None or found.worth < best.worth):
-            best = found
+        if found is not None:
+            both = (found,) if best is None else (best, found)
+            best = min(both, key=lambda one: (one.worth, every.index(one.space)))
     return best
 
 
@@ -334,7 +344,7 @@ def settled(
     known: Mapping[str, float] | None,
     near: Points | None,
 ) -> tuple[Found | None, bool]:
-    """The loop of `agreed`, and whether a rival was lighter before it began.
+    """The loop of `agreed`, and whether it was left to a rival that is lighter.
 
     Parameters
     ----------
@@ -369,8 +379,10 @@ def settled(
             needs = {one: math.sqrt(value) for one, value in needs.items()}
             continue
         design, point = sized
-        if rival is not None and turn == 0 and (False, design.objective.score) > rival:
-            # Closed forms alone make it heavier than one that is borne out.
+        score = design.objective.score if turn == 0 else design.objective.score / _FAR
+        if best is None and rival is not None and (False, score) > rival:
+            # Closed forms alone make it heavier than one that is borne out, or, with what they
+            # lacked, far heavier.
             return None, True
         try:
             machine, exact = hunt.held_against(design.design)

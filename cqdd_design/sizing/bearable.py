@@ -16,7 +16,7 @@ from cqdd_design.sizing.finish import torque_reserve
 _LESS, _TURNS = 0.9, 12
 """Share of both torques that is tried next where the strongest design would bear them, and how
 often."""
-_JUST = 0.98
+JUST = 0.98
 """Of what the strongest design bears."""
 _LEAST = 0.1
 """Share of a torque that is tried at least."""
@@ -40,10 +40,10 @@ def or_weaker(
         found = search()
         if found is not None or PEAK not in hunt.requirements.derived:
             return found
-        peak, lasting = _bearable(hunt, near)
+        peak, lasting = bearable(hunt, near)
         if min(peak, lasting) < 1.0:
             lowered = lowered[0] or peak < 1.0, lowered[1] or lasting < 1.0
-            peak, lasting = (_JUST * one if one < 1.0 else one for one in (peak, lasting))
+            peak, lasting = (JUST * one if one < 1.0 else one for one in (peak, lasting))
         else:
             # Of what has been too much so far, and in the end of both.
             both = not any(lowered) or turn >= _TURNS // 2
@@ -71,8 +71,8 @@ def weaker(requirements: Requirements, peak: float, lasting: float) -> Requireme
     return requirements.model_copy(update={PEAK: most, CONTINUOUS: least})
 
 
-def _bearable(hunt: Hunt, near: Found | None) -> tuple[float, float]:
-    """Shares of the peak and of the continuous torque that the strongest design bears.
+def bearable(hunt: Hunt, near: Found | None) -> tuple[float, float]:
+    """Shares, up to 1, of the peak and of the continuous torque that the strongest design bears.
 
     The strongest is no stronger at one torque than it has to be for the other; where it is short
     of both, one that has to bear less of what it is shortest of may bear more of the other.
@@ -81,7 +81,7 @@ def _bearable(hunt: Hunt, near: Found | None) -> tuple[float, float]:
     if max(first) == 1.0:
         return first
     short = 0 if first[0] < first[1] else 1
-    shares = [_JUST * one if place == short else 1.0 for place, one in enumerate(first)]
+    shares = [JUST * one if place == short else 1.0 for place, one in enumerate(first)]
     second = _strongest(replace(hunt, requirements=weaker(asked, *shares)), near)
     other = shares[0] * second[0], shares[1] * second[1]
     return max(first, other, key=math.prod)

@@ -123,6 +123,12 @@ class Cost:
     asked: float
     mass: float | None
 
+    @property
+    def told(self) -> str:
+        """In words."""
+        more = "not in this space" if self.mass is None else f"{1e3 * self.mass:+.0f} g"
+        return f"{self.words} {more}"
+
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form."""
         more = None if self.mass is None else 1e3 * self.mass

@@ -15,6 +15,8 @@ from cqdd_design.sizing.points import Points
 
 _RING_STEP, _FINER_STEPS = 0.04, (0.02, 0.01, 0.005)
 """By how much of its diameter the next ring is smaller, and the finer steps from there."""
+_NO_STEP = 1e-3
+"""By how much, as a share, a ring has to be larger than one that brought nothing."""
 _TEETH = (1.6, 2.5)
 """Ring teeth over those of a point, with which a search near it begins too: thick ones take less
 wall, so that holes and bearing have more room."""
@@ -52,10 +54,15 @@ def in_smaller_rings(hunt: Hunt, best: Found) -> list[Found]:
 
 def _finer(hunt: Hunt, best: Found, least: float) -> Found:
     """The last design in smaller and smaller rings that is better than the one before."""
+    too_small = 0.0
     for step in _FINER_STEPS:
         while (now := best.sized.design.reducer.ring.outer_diameter) > least:
-            found, _ = _in_ring(hunt, best, max((1.0 - step) * now, least), best)
+            ring = max((1.0 - step) * now, least)
+            if ring < too_small * (1.0 + _NO_STEP):
+                break
+            found, _ = _in_ring(hunt, best, ring, best)
             if found is None or found.worth >= best.worth:
+                too_small = ring
                 break
             best = found
     return best

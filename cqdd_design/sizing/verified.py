@@ -21,6 +21,7 @@ from cqdd_design.sizing.frame import Fit, Goal
 from cqdd_design.sizing.looks import HOT, clearance_needed, closer_look, look, read_spread
 from cqdd_design.sizing.refusals import TRIALS, nothing, refused, unsettled
 from cqdd_design.sizing.result import SizingResult
+from cqdd_design.sizing.shafts import BOND, SHAFT, stronger_shaft
 from cqdd_design.sizing.smaller_rings import in_smaller_rings
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.verdict import Verdict, judge
@@ -39,9 +40,6 @@ _GOALS: Mapping[str, Goal] = {
     "EFFICIENCY": "efficiency",
 }
 """Lines that are asked for, and the goal of a search that meets them if any does."""
-_BOND = "BELL-JOINT"
-_SHAFT = {"SHAFT-STRENGTH", "SHAFT-FATIGUE", "SUPPORT-STATIC", "SUPPORT-LIFE", _BOND}
-"""Lines that a cam bearing with a wider bore helps."""
 
 
 @dataclass(frozen=True)
@@ -119,10 +117,10 @@ def size_to_verdict(
                         return _verified(hunt, tried, last, requirements, began)
             if can is None and step is None:
                 assert last is not None
-                if _turned(hunt, last):
+                if _turned(hunt, found, last):
                     found = or_weaker(hunt, lambda: lightest(hunt))
                     continue
-                step = _next_step(hunt, last)
+                step = _next_step(hunt, found, last)
                 if step is None:
                     break
         fit: Fit | None = found.space.fit
@@ -222,31 +220,26 @@ def _in_smaller_rings(hunt: Hunt, found: Found) -> Iterator[tuple[Found, Machine
         hunt.extra = extra
 
 
-def _next_step(hunt: Hunt, judged: Verdict) -> float | None:
+def _next_step(hunt: Hunt, found: Found, judged: Verdict) -> float | None:
     """What could bring a design that was judged nearer to a yes; see `read_spread`."""
     failing = {line.id for line in judged.lines if line.status in {"fail", "unknown"}}
     less = cooler(hunt.requirements) if failing & {HOT, "MOTOR-CONTINUOUS"} else None
     if less is not None:
         hunt.requirements, hunt.lowered = less, True
         # What is cooler is bonded better.
-        failing -= {HOT, "MOTOR-CONTINUOUS", _BOND}
+        failing -= {HOT, "MOTOR-CONTINUOUS", BOND}
         if not failing:
             return 0.0
-    if not failing <= {"YIELD", "THERMAL-CLEARANCE", *_SHAFT}:
+    if not failing <= {"YIELD", "THERMAL-CLEARANCE", *SHAFT}:
         return None
-    if failing & _SHAFT:
-        hunt.least_bore = _wider_bore(judged)
+    if failing & SHAFT:
+        stronger_shaft(hunt, found, judged)
         return 0.0
     step = clearance_needed(judged.evidence.temperatures, judged.lines)
     if step > 0.0:
         return step
     machine, drawn = judged.evidence.machine, judged.evidence.drawn
     return None if drawn is None else read_spread(hunt, machine, drawn, judged.lines)
-
-
-def _wider_bore(judged: Verdict) -> float:
-    """Least bore of the next cam bearing, m, where the shaft's ends have no bearing that lasts."""
-    return 1.001 * judged.evidence.machine.cam.bore_diameter
 
 
 def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
@@ -264,7 +257,7 @@ def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
     )
 
 
-def _turned(hunt: Hunt, judged: Verdict) -> bool:
+def _turned(hunt: Hunt, found: Found, judged: Verdict) -> bool:
     """Whether the hunt now goes for other pins, or for what a design falls short of."""
     if _needles_help(hunt, judged):
         hunt.pins = (True,)
@@ -272,10 +265,10 @@ def _turned(hunt: Hunt, judged: Verdict) -> bool:
         return True
     failing = {line.id for line in judged.lines if line.status in {"fail", "unknown"}}
     goals = [goal for name, goal in _GOALS.items() if name in failing and goal not in hunt.tried]
-    if not goals or not failing <= {*_GOALS, "YIELD", *_SHAFT} or goals[0] == hunt.goal:
+    if not goals or not failing <= {*_GOALS, "YIELD", *SHAFT} or goals[0] == hunt.goal:
         return False
-    if failing & _SHAFT:
-        hunt.least_bore = _wider_bore(judged)
+    if failing & SHAFT:
+        stronger_shaft(hunt, found, judged)
     hunt.goal, hunt.fit = goals[0], FITS[0]
     hunt.tried.add(goals[0])
     hunt.say(f"searching with {goals[0]} as the objective, which is asked for")

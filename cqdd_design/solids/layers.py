@@ -276,9 +276,9 @@ def notched_circle(radius: float, count: int, width: float, depth: float) -> Arc
 
 
 def scalloped_circle(
-    radius: float, angles: ArrayLike, distance: float, scallop: float, *, inward: bool = False
+    radius: float, angles: ArrayLike, distance: float, scallop: float
 ) -> ArcContour:
-    """A circle with round ears, or with round notches, about points near its edge.
+    """A circle with round ears about points near its edge.
 
     Parameters
     ----------
@@ -289,8 +289,6 @@ def scalloped_circle(
     distance, scallop : float
         Distance of those centres from the axis, and the radius about them, m; each small circle
         must cut the large one, and not its neighbours.
-    inward : bool
-        Whether the small circles are taken away instead of added.
     """
     at = np.asarray(angles, dtype=float)
     half = math.acos(
@@ -298,10 +296,9 @@ def scalloped_circle(
     )
     # Sweep about the small centre from one crossing to the other, outside the large circle.
     lean = math.atan2(radius * math.sin(half), radius * math.cos(half) - distance)
-    small = -(2.0 * math.pi - 2.0 * lean) if inward else 2.0 * lean
     points = radius * np.exp(1j * np.stack([at - half, at + half], axis=1))
     lands = np.diff(np.append(at, at[0] + 2.0 * math.pi)) - 2.0 * half
-    bulges = np.stack([np.full(len(at), math.tan(small / 4.0)), np.tan(lands / 4.0)], axis=1)
+    bulges = np.stack([np.full(len(at), math.tan(0.5 * lean)), np.tan(lands / 4.0)], axis=1)
     return ArcContour(as_points(points.ravel()), bulges.ravel())
 
 

@@ -10,7 +10,9 @@ import numpy as np
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.dowels import MATERIAL as DOWEL_MATERIAL
+from cqdd_design.catalog.encoders import magnets_of, sensors_with
 from cqdd_design.catalog.motors import Motor
+from cqdd_design.catalog.printing import made_how
 from cqdd_design.design import Design
 from cqdd_design.results import MassProperties
 from cqdd_design.solids import motor_shapes
@@ -66,7 +68,11 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
     on_cover, on_board = cover_features(motor, flange_bottom, unit), board_features(motor)
     cover = motor_shapes.motor_cover(motor, flange_bottom, unit, on_cover)
     magnet = motor_shapes.encoder_magnet(motor)
+    magnets = magnets_of(2.0 * motor.magnet_radius, motor.magnet_height)
     size = f"{2e3 * motor.magnet_radius:g} x {motor.magnet_height * 1e3:g} mm"
+    magnet_name = magnets[0].name if magnets else f"diametric magnet NdFeB N35 {size}"
+    bits = design.drive.encoder_bits
+    board_name = next((one.name for one in sensors_with(bits)), f"magnetic encoder, {bits} bits")
 
     def one(
         name: str,
@@ -104,15 +110,15 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
             f"{row.name}, ring of magnets", turns=True, mass=masses.magnets,
         ),
         replace(bell, catalogue_mass=masses.bell),
-        one("motor cover", cover, metal, _COVER, "turned and milled", make=True, features=on_cover),
+        one("motor cover", cover, metal, _COVER, made_how(metal, "turned and milled"),
+            make=True, features=on_cover),
         one(
             "encoder magnet", magnet, MAGNET_MATERIAL, _MAGNET,
-            f"diametric magnet {size}", turns=True, z=motor.magnet_bottom,
+            magnet_name, turns=True, z=motor.magnet_bottom,
         ),
         one(
             "encoder board", motor_shapes.encoder_board(motor, on_board), BOARD_MATERIAL, _BOARD,
-            f"magnetic encoder, {design.drive.encoder_bits} bits, on a "
-            f"{2e3 * motor.board_radius:g} mm board", features=on_board,
+            board_name, features=on_board,
         ),
         _screws("encoder screw", motor.board_screw, fastener, board_circle(motor), motor.board_top),
         _screws(
@@ -172,7 +178,7 @@ def dowel_part(layout: Layout) -> list[Part]:
             DOWEL_MATERIAL,
             _STEEL,
             "buy",
-            f"ISO 8734 {size}, drilled and reamed with the ring in its seat",
+            f"ISO 8734 {size}",
             placed("ring dowel", HOUSING, *places),
         )
     ]

@@ -66,8 +66,21 @@ def undrawn_sizes(motor: Motor) -> tuple[str, ...]:
 
 def drawn_motor(motor: Motor) -> tuple[Motor | None, str]:
     """Return a motor if its parts can be drawn, or None and why not."""
-    if undrawn_sizes(motor):
-        return None, f"the sizes of rotor and stator of {motor.name} are not all known"
+    if "inrunner" in motor.kind:
+        return None, (
+            f"{motor.name} is an inrunner, whose rotor turns inside its stator; only outrunners "
+            "are drawn, round the ring, and no housing for this one behind the gearbox"
+        )
+    lacking = [(field, words) for field, words in _SIZES if getattr(motor, field) is None]
+    if lacking:
+        *most, last = (words for _, words in lacking)
+        named = (
+            f"{', '.join(most)} and {last} of {motor.name} are"
+            if most
+            else (f"{last} of {motor.name} is")
+        )
+        keys = ", ".join(field for field, _ in lacking)
+        return None, f"the {named} not known (state {keys} in [motor] or with --motor-file)"
     return motor, ""
 
 
@@ -81,15 +94,15 @@ def register_radius(motor: Motor, pack: PackLayout, unit: float) -> tuple[float,
     wall = 0.5 * bore - pack.ring_radius
     ring, stator = f"{2e3 * pack.ring_radius:.4g} mm", f"{bore * 1e3:.4g} mm stator bore"
     if wall < unit * (1.0 - 1e-9):
-        missing = (
+        misfit = (
             f"a ring of {ring} does not go into the {stator} of {motor.name}; with a wall of the "
             f"housing round it, it may be {1e3 * largest_ring(bore):.4g} mm"
         )
     elif wall > MOST_TUBE_WALL * unit:
-        missing = f"the {stator} of {motor.name} is far larger than a ring of {ring}"
+        misfit = f"the {stator} of {motor.name} is far larger than a ring of {ring}"
     else:
         return 0.5 * bore, drawn, missing
-    return own, None, missing
+    return own, None, f"{misfit}; besides, {missing}" if missing else misfit
 
 
 def bell_torque(design: Design, motor: Motor) -> float:

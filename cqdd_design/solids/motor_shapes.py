@@ -11,6 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cqdd_design.geometry.contours import ArcContour, Circle, PlanarPart
+from cqdd_design.geometry.grooves import grooved_circle
 from cqdd_design.solids.features.kinds import Feature, FittedHole
 from cqdd_design.solids.features.motor import dish_bottom
 from cqdd_design.solids.features.removal import drillings
@@ -186,14 +187,15 @@ def with_magnet_pocket(shaft: Stack, motor: MotorLayout) -> Stack:
 
 
 def with_dowel_notches(ring: Stack, radius: float, holes: FittedHole) -> Stack:
-    """The ring of an outside radius (m) with its halves of the dowels' holes."""
-    notched = _across_seam(radius, holes, inward=True)
-    return reshaped(ring, holes.bottom, ring.top, lambda shape: _with_outer(shape, notched))
+    """The ring of an outside radius (m) with the half grooves of its dowels, cut all through it."""
+    notched = grooved_circle(radius, holes.circle.angles, 0.5 * holes.diameter)
+    return reshaped(ring, holes.bottom, holes.top, lambda shape: _with_outer(shape, notched))
 
 
 def with_dowel_grooves(housing: Stack, radius: float, holes: FittedHole) -> Stack:
     """The housing with its halves of the dowels' holes, in a seat of a radius (m)."""
-    grooved = _across_seam(radius, holes, inward=False)
+    circle = holes.circle
+    grooved = scalloped_circle(radius, circle.angles, circle.radius, 0.5 * holes.diameter)
 
     def change(shape: PlanarPart) -> PlanarPart:
         changed = tuple(
@@ -203,13 +205,6 @@ def with_dowel_grooves(housing: Stack, radius: float, holes: FittedHole) -> Stac
         return PlanarPart(shape.name, shape.outer, changed)
 
     return reshaped(housing, holes.bottom, holes.top, change)
-
-
-def _across_seam(radius: float, holes: FittedHole, *, inward: bool) -> ArcContour:
-    circle = holes.circle
-    return scalloped_circle(
-        radius, circle.angles, circle.radius, 0.5 * holes.diameter, inward=inward
-    )
 
 
 def dowel(dowels: DowelLayout) -> Stack:

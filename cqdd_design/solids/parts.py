@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, shaft_material
+from cqdd_design.catalog.printing import made_how
 from cqdd_design.design import Design
 from cqdd_design.geometry.columns import COLUMN_MATERIAL
 from cqdd_design.geometry.contours import FloatArray
@@ -32,7 +33,7 @@ from cqdd_design.solids.features.housing import (
     ring_dowel_holes,
     screw_circle,
 )
-from cqdd_design.solids.features.kinds import AxialThread, Feature
+from cqdd_design.solids.features.kinds import AxialThread, Feature, FittedHole
 from cqdd_design.solids.features.rotating import (
     loose_cam_features,
     pin_features,
@@ -117,7 +118,7 @@ def _disc_part(design: Design, layout: Layout, group: DiscGroup, *, alone: bool)
         design.reducer.disc_material,
         _DISCS[drawn % len(_DISCS)],
         "make",
-        f"wire EDM, {thickness * 1e3:g} mm plate",
+        made_how(design.reducer.disc_material, f"wire EDM, {thickness * 1e3:g} mm plate"),
         tuple(instances),
         exact_section=disc_moments(design, drawn, bore_diameter=bore),
         fitted_section=contour.moments(),
@@ -129,19 +130,21 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
     height, dowels = layout.pack.top, layout.dowels
     contour, material = ring_contour(design), design.reducer.ring_material
     shape = prism(contour, 0.0, height)
-    for holes in ring_dowel_holes(layout.pack, dowels):
-        shape = with_dowel_notches(shape, layout.pack.ring_radius, holes)
+    features = ring_features(design, layout.pack, dowels)
+    for holes in features:
+        if isinstance(holes, FittedHole):
+            shape = with_dowel_notches(shape, layout.pack.ring_radius, holes)
     ring = Part(
         "ring",
         shape,
         material,
         _RING,
         "make",
-        f"wire EDM, {height * 1e3:g} mm plate",
+        made_how(material, f"wire EDM, {height * 1e3:g} mm plate"),
         on_axis("ring", HOUSING),
         exact_section=ring_moments(design),
         fitted_section=contour.moments(),
-        stated=ring_features(design, layout.pack, dowels),
+        stated=features,
     )
     parts, pins = [ring], ring_pins(design)
     if pins:
@@ -217,34 +220,30 @@ def _bearing_part(
 def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
     carrier, metal = layout.carrier, design.housing.material
 
-    def made(
-        name: str,
-        shape: Stack,
-        features: tuple[Feature, ...] = (),
-        how: str = "turned and drilled",
-    ) -> Part:
+    def made(name: str, shape: Stack, how: str, features: tuple[Feature, ...]) -> Part:
         pieces = on_axis(name, CARRIER)
         return Part(name, shape, metal, _ALUMINIUM, "make", how, pieces, stated=features)
 
+    turned = made_how(metal, "turned and drilled")
     position = SIGMAS * design.tolerances.pin_position
     features = carrier_features.plate_features(carrier, layout.shaft, position)
     plate = carrier_shapes.carrier_plate(carrier, layout.shaft, features)
-    parts = [made("carrier plate", plate, features)]
+    parts = [made("carrier plate", plate, turned, features)]
     if carrier.cap:
-        how = "turned and drilled"
+        how = turned
         if carrier.bonded_in_cap:
             drawn = " and drawn against their heads" if carrier.pin.screw else ""
             how += f", seats {1e3 * carrier.pin.nominal_diameter:g} H7 bonded on the f9 pins{drawn}"
         features = carrier_features.cap_features(carrier, layout.pack.gap, position)
         cap = carrier_shapes.carrier_cap(carrier, layout.pack.gap, features)
-        parts.append(made("carrier cap", cap, features, how))
+        parts.append(made("carrier cap", cap, how, features))
     features = carrier_features.nut_features(carrier)
     core = next(one.core for one in features if isinstance(one, AxialThread))
     nut = made(
         "bearing nut",
         carrier_shapes.bearing_nut(carrier, core),
-        features,
         f"slotted nut, thread {2e3 * carrier.nut_radius:g} mm",
+        features,
     )
     parts += [
         dataclasses.replace(nut, material=NUT_MATERIAL, colour=_SCREW),
@@ -298,14 +297,12 @@ def _pin_part(design: Design, layout: Layout) -> Part:
     carrier = layout.carrier
     pin, length = carrier.pin, carrier.shoulder_top - carrier.shoulder_bottom
     name = "dowel pin" if pin.screw is None else "shoulder screw"
-    size = f"{pin.nominal_diameter * 1e3:g} f9 x {length * 1e3:.4g}"
     if pin.screw is None:
+        size = f"{pin.nominal_diameter * 1e3:g} f9 x {length * 1e3:.4g}"
         bonded = "plate and cap" if carrier.bonded_in_cap else "the plate"
         designation = f"ground dowel {size}, bonded in {bonded}"
-    elif pin.screw.name.startswith("metric"):
-        designation = f"ISO 7379 {size} {pin.screw.thread}"
     else:
-        designation = f"shoulder screw {size} mm {pin.screw.thread}"
+        designation = pin.screw.designation(length)
     return Part(
         name,
         carrier_shapes.pin_shape(carrier),
@@ -394,7 +391,7 @@ def _housing_parts(design: Design, layout: Layout) -> list[Part]:
     housing, metal = layout.housing, design.housing.material
 
     def made(name: str, shape: Stack, colour: Colour, features: tuple[Feature, ...]) -> Part:
-        how, pieces = "turned and drilled", on_axis(name, HOUSING)
+        how, pieces = made_how(metal, "turned and drilled"), on_axis(name, HOUSING)
         return Part(name, shape, metal, colour, "make", how, pieces, stated=features)
 
     body, clamp = housing_features(layout), clamp_features(layout)
@@ -415,6 +412,6 @@ def _housing_shape(layout: Layout, features: Sequence[Feature]) -> Stack:
     shape = housing_shapes.housing_body(layout, features)
     if layout.motor is not None:
         shape = with_motor_flange(shape, layout, layout.motor, features)
-    for holes in ring_dowel_holes(layout.pack, layout.dowels):
+    for holes in ring_dowel_holes(layout.pack, layout.dowels, layout.dowels.bottom):
         shape = with_dowel_grooves(shape, layout.pack.ring_radius, holes)
     return shape

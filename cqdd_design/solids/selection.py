@@ -37,9 +37,13 @@ _CAP_SCREWS = {
 }
 _CAP_SCREW_LENGTHS = (
     *(2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70, 80, 90, 100),
-    *range(110, 301, 10),
+    *range(110, 161, 10),
 )
-_SHOULDER_LENGTHS = (4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 40, 50, 60, 70, 80, 90, 100, 120)
+# Shortest and longest of the commercial range of each, mm (ISO 4762:2004, table 1).
+_CAP_SCREW_RANGES = {
+    1.6: (2.5, 16), 2.0: (3, 20), 2.5: (4, 25), 3.0: (5, 30), 4.0: (6, 40), 5.0: (8, 50),
+    6.0: (10, 60), 8.0: (12, 80), 10.0: (16, 100), 12.0: (20, 120), 16.0: (25, 160),
+}  # fmt: skip
 
 # ASME B18.3 and ISO 7379 shoulder screws share these proportions to the shoulder; used where a
 # catalogue row leaves a dimension out.
@@ -273,8 +277,13 @@ class CapScrew:
 
     @property
     def designation(self) -> str:
-        """Such as ``ISO 4762 M3 x 12``."""
-        return f"ISO 4762 M{self.thread * 1e3:g} x {self.length * 1e3:g}"
+        """Such as ``ISO 4762 M3 x 12 - 12.9``."""
+        return f"ISO 4762 M{self.thread * 1e3:g} x {self.length * 1e3:g} - 12.9"
+
+    @property
+    def is_sold(self) -> bool:
+        """Whether its length is in the commercial range of its thread."""
+        return self.length in cap_screw_lengths(self.thread)
 
 
 def thread_size(wanted: float) -> float:
@@ -282,14 +291,33 @@ def thread_size(wanted: float) -> float:
     return min(_CAP_SCREWS, key=lambda size: abs(size - wanted * 1e3)) * 1e-3
 
 
+def thread_sizes() -> tuple[float, ...]:
+    """Metric threads of the cap screws that are known, m."""
+    return tuple(mm * 1e-3 for mm in _CAP_SCREWS)
+
+
+def cap_screw_lengths(thread: float) -> tuple[float, ...]:
+    """Lengths under the head in the commercial range of a thread from `thread_size`, m.
+
+    Examples
+    --------
+    >>> [round(1e3 * one, 1) for one in cap_screw_lengths(1.6e-3)]
+    [2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0]
+    """
+    shortest, longest = _CAP_SCREW_RANGES[round(thread * 1e3, 3)]
+    return tuple(mm * 1e-3 for mm in _CAP_SCREW_LENGTHS if shortest <= mm <= longest)
+
+
 def cap_screw(thread: float, least_length: float) -> CapScrew:
-    """The cap screw of a thread from `thread_size` at least `least_length` (m) long."""
+    """The cap screw of a thread from `thread_size` at least `least_length` (m) long.
+
+    Of the commercial range; beyond its longest, one to the next five millimetres, to order.
+    """
     head, height, socket = _CAP_SCREWS[round(thread * 1e3, 3)]
-    longest = float(_CAP_SCREW_LENGTHS[-1])
-    length = next(
-        (float(mm) for mm in _CAP_SCREW_LENGTHS if mm * 1e-3 >= least_length - 1e-9), longest
-    )
-    return CapScrew(thread, length * 1e-3, head * 1e-3, height * 1e-3, socket * 1e-3)
+    special = _rounded_up(least_length, 5e-3)
+    sold = cap_screw_lengths(thread)
+    length = next((one for one in sold if one >= least_length - 1e-9), special)
+    return CapScrew(thread, length, head * 1e-3, height * 1e-3, socket * 1e-3)
 
 
 @dataclass(frozen=True)
@@ -325,13 +353,8 @@ class OutputPin:
         Where there is none, a special one to the next half millimetre.
         """
         special = _rounded_up(least, 0.5e-3)
-        if self.screw is None or "-" not in self.screw.standard_lengths:
-            return special
-        shortest, longest = (float(mm) for mm in self.screw.standard_lengths.split("-"))
-        for mm in _SHOULDER_LENGTHS:
-            if shortest <= mm <= longest and mm * 1e-3 >= least - 1e-9:
-                return mm * 1e-3
-        return special
+        sold = () if self.screw is None else self.screw.lengths
+        return next((length for length in sold if length >= least - 1e-9), special)
 
 
 def output_pin(diameter: float) -> OutputPin:

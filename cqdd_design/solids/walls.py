@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cqdd_design.catalog.printing import printed_materials
 from cqdd_design.geometry.contours import Circle, FloatArray, PlanarPart
 from cqdd_design.solids.features.removal import threads
 from cqdd_design.solids.layers import Drilling, Layer
@@ -27,11 +28,14 @@ class Wall:
         Name of the part; what the wall is between, in words.
     thickness : float
         m; negative where one cuts into the other.
+    least : float or None
+        That the part's plastic can have as it is printed or moulded, m; None of other materials.
     """
 
     part: str
     between: str
     thickness: float
+    least: float | None
 
 
 def least_walls(parts: Sequence[Part]) -> tuple[Wall, ...]:
@@ -44,7 +48,9 @@ def least_walls(parts: Sequence[Part]) -> tuple[Wall, ...]:
         every = [wall for layer in part.shape.layers for wall in _walls(_threaded(layer, cut))]
         if every:
             thickness, between = min(every)
-            rows.append(Wall(part.name, between, thickness))
+            plastic = printed_materials().get(part.material)
+            least = None if plastic is None else plastic.least_wall
+            rows.append(Wall(part.name, between, thickness, least))
     return tuple(rows)
 
 

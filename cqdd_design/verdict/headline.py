@@ -9,7 +9,7 @@ from cqdd_design.actuator.operating import held_torque
 from cqdd_design.errors import ContactError, GeometryError
 from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS
 from cqdd_design.machine import Machine
-from cqdd_design.machine.carrying import carried_torque
+from cqdd_design.machine.carrying import carried_torque, carried_up_to
 from cqdd_design.results import Check, Status
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.motor import MODEL as OPERATING
@@ -106,25 +106,21 @@ def _peak(machine: Machine, motor: Check, lines: Sequence[Check]) -> Figure:
     """What motor and gearbox both reach."""
     required = machine.design.requirements.peak_torque
     title, name = "peak torque at standstill", "peak_torque"
-    carried = carried_torque(machine)
     ways = [] if motor.value is None else [(motor.value, motor.basis)]
-    ways += [(one.torque, f"{one.words}: {one.model}") for one in carried.limits[:1]]
     linear = [line for line in lines if line.id in _IN_PROPORTION]
     ways += [
         (required * line.margin, f"{line.title}: {line.basis}, by proportion")
         for line in linear
         if line.known and line.margin < 1e6
     ]
+    # What gives way beyond all of these is not looked for.
+    carried = carried_up_to(machine, min(ways)[0]) if ways else carried_torque(machine)
+    ways += [(one.torque, f"{one.words}: {one.model}") for one in carried.limits[:1]]
     value, basis = min(ways, default=(None, motor.basis))
     status: Status = "pass"
     if value is not None and value < required * (1.0 - 1e-9):
         status = "fail"
-    elif (
-        motor.value is None
-        or not carried.limits
-        or carried.unknown
-        or not all(line.known for line in linear)
-    ):
+    elif motor.value is None or carried.unknown or not all(line.known for line in linear):
         # What is known reaches it, but something is not known.
         value, status = None, "unknown"
     return Figure(name, title, value, "N*m", required, status, basis)

@@ -71,11 +71,12 @@ def _shoulder(table: tuple[Retained, ...]) -> Check:
 
 
 def _wall(walls: tuple[Wall, ...]) -> Check:
-    least = min(walls, key=lambda one: one.thickness)
+    limits = {wall: wall.least or LEAST_WALL_BETWEEN_HOLES for wall in walls}
+    least = min(walls, key=lambda one: one.thickness / limits[one])
     return build_check(
         "RETENTION-WALL",
         1e3 * least.thickness,
-        1e3 * LEAST_WALL_BETWEEN_HOLES,
+        1e3 * limits[least],
         f"{least.part}: {1e3 * least.thickness:.3g} mm between {least.between}",
         "a larger ring, or fewer or thinner output_pins, leave more room",
     )

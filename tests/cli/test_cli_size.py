@@ -1,5 +1,6 @@
 """size: requirements to files, as whole processes."""
 
+import hashlib
 import re
 import tomllib
 
@@ -7,6 +8,7 @@ import pytest
 
 from cqdd_design.design import load_design
 from cqdd_design.design.requirements import LEAST_RATIO, MOST_RATIO
+from cqdd_design.roads.size import _STAMP
 
 
 @pytest.mark.deep
@@ -48,6 +50,8 @@ def test_the_first_command_of_a_newcomer(cqdd, tmp_path):
         assert 0.8 * figures[name]["value"] < figures[name]["required"] <= figures[name]["value"]
     text = (tmp_path / "designs" / "sized-10.toml").read_text()
     assert 'continuous_speed = "300 rpm" # assumed' in text
+    # What the search alone can tell goes with the design.
+    assert re.search(r"# What more would cost:\n# - 10 % more peak torque .+\n", text)
 
 
 QUICK = ("size", "--quick", "--ratio", "10")
@@ -114,11 +118,24 @@ def test_the_objectives_are_the_goals_of_the_search():
     assert tuple(one.value for one in Objective) == get_args(Goal)
 
 
-def test_the_screen_alone_says_that_it_is_no_verdict(cqdd):
+def test_the_screen_alone_says_that_it_is_no_verdict(cqdd, tmp_path):
     done = cqdd("size", "--quick", "--ratio", "10")
     assert done.code == 0
     assert "no verdict, but the screen by closed forms" in done.out
     assert "meets" not in done.out
+    # So does what it writes, and that does not take the place of what was judged.
+    own = tmp_path / "designs" / "sized-10.toml"
+    first, rest = own.read_text().split("\n", 1)
+    assert first.startswith("# No verdict has seen this design")
+    body = rest.rpartition("# `size`")[0]
+    own.write_text(body + _STAMP + hashlib.sha256(body.encode()).hexdigest() + "\n")
+    judged = own.read_bytes()
+    done = cqdd("size", "--quick", "--ratio", "10")
+    assert done.code == 2
+    assert "nothing has judged" in done.err
+    assert own.read_bytes() == judged
+    assert cqdd("size", "--quick", "--ratio", "10", "--force").code == 0
+    assert own.read_text().startswith(first)
 
 
 @pytest.mark.deep

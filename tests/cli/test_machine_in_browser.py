@@ -15,6 +15,7 @@ from cqdd_design.machine import resolve
 from cqdd_design.report.ink.page import environment
 from cqdd_design.report.ink.svg import Figure
 from cqdd_design.report.machine_view import MachineViews, hidden_line_views, viewer_data
+from cqdd_design.report.machine_view.packing import machine_values
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.poses import body_pose
 
@@ -68,13 +69,13 @@ _PROBE = """<script>
       }) };
   }
   // The page starts the view when its stage comes into sight; observers are told in their order.
-  var begun = false, able = cqddMachine.canDraw();
+  var begun = false;
   new IntersectionObserver(function (entries) {
     begun = begun || entries.some(function (entry) { return entry.isIntersecting; });
   }, { rootMargin: "200px" }).observe(document.getElementById("machine-stage"));
   var timer = setInterval(function () {
     var view = document.getElementById("machine-view");
-    if (!begun || (able && !window.cqddMachineHandle && !view.hasAttribute("data-failed"))) {
+    if (!begun || (!window.cqddMachineHandle && !view.hasAttribute("data-failed"))) {
       return;
     }
     clearInterval(timer);
@@ -118,7 +119,7 @@ def page_of(views: MachineViews, machine: tuple[Design, tuple[Part, ...]]) -> st
     fragment = (
         environment()
         .get_template("machine3d.html")
-        .render(machine_views=views, machine_viewer=viewer_data(*machine))
+        .render(machine_values(views, viewer_data(*machine)))
     )
     style = environment().get_template("style.css").render()
     probe = _PROBE.replace("CRANK_DEG", f"{math.degrees(CRANK):.12f}")
@@ -177,6 +178,7 @@ def test_the_poster_stays_where_webgl_is_missing(
 ) -> None:
     blank = Figure("machine-blank", "blank", "nothing", 10.0, 10.0, "<path d='M0 0h9v9'/>")
     found = seen_by(page_of(MachineViews(blank, blank, blank), machine), tmp_path, NO_WEBGL)
+    assert found["failed"] == "no WebGL"
     assert found["poster"] == "flex"
     assert found["errors"] == []
     assert "start" not in found

@@ -5,18 +5,22 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
+import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from report_browser import clipped, overlapping, probe, run_browser
+from report_browser import browser, clipped, overlapping, probe
 from shared_outputs import paper_input, report_input, sized
 
 from cqdd_design.design import Design, load_design
+from cqdd_design.errors import DependencyError
 from cqdd_design.gearbox.loads import rigid_series
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.report import build_report
+from cqdd_design.report.printing import printed_page
 
 FIGURES = {
     "front-view",
@@ -190,18 +194,34 @@ def test_it_is_complete_without_scripts(paper_page: str) -> None:
 
 
 @pytest.mark.deep
-def test_it_prints(paper_page: str, tmp_path: Path) -> None:
-    page = tmp_path / "page.html"
-    page.write_text(paper_page, encoding="utf-8")
-    pdf = tmp_path / "page.pdf"
-    run_browser(tmp_path, "--no-pdf-header-footer", f"--print-to-pdf={pdf}", page=page)
-    content = pdf.read_bytes()
+def test_it_prints_with_bookmarks(paper_page: str) -> None:
+    content = printed_page(paper_page, browser())
     sheets = re.findall(rb"/Type /Page\b(?!s)", content)
     boxes = re.findall(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", content)
     assert 8 <= len(sheets) <= 26
     width, height = (float(side) for side in boxes[0])
     assert width == pytest.approx(595, abs=2), "not A4"
     assert height == pytest.approx(842, abs=2), "not A4"
+    assert b"/Outlines" in content
+    for heading in (b"Verdict", b"Requirements", b"Checks", b"Provenance"):
+        assert b"/Title (" + heading + b")" in content
+
+
+def test_a_browser_that_prints_nothing_is_told(paper_page: str) -> None:
+    with pytest.raises(DependencyError, match="did not print the report"):
+        printed_page(paper_page, sys.executable)
+
+
+def test_without_a_browser_a_pdf_is_refused_before_anything_is_computed(
+    cqdd: Callable[..., Any], paper_design_file: Path, tmp_path: Path
+) -> None:
+    done = cqdd("report", paper_design_file, "--format", "pdf", environment={"PATH": str(tmp_path)})
+    assert done.code == 5
+    assert "apt-get install -y chromium" in done.err
+    assert not (tmp_path / "reports").exists()
+    done = cqdd("report", paper_design_file, "--format", "docx")
+    assert done.code == 2
+    assert "html or pdf" in done.err
 
 
 def _draws_cleanly(page: str, folder: Path) -> None:

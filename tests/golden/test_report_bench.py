@@ -577,7 +577,7 @@ def test_the_page_has_both_sections_in_order(page: str) -> None:
     assert headings == ["Virtual test bench", "Traces", "Beside other actuators"]
     anchors = re.findall(r'<a href="#([\w-]+)">', page[: page.index("</nav>")])
     assert anchors.index("actuator") + 1 == anchors.index("bench")
-    assert anchors.index("bench") + 1 == anchors.index("planetary")
+    assert anchors.index("bench") + 1 == anchors.index("edm")
     assert "<details" in section(page, "actuator")
 
 

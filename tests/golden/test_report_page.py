@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import base64
+import csv
 import dataclasses
 import html
+import io
+import json
 import re
 from collections import Counter
 from dataclasses import replace
 from html.parser import HTMLParser
+from pathlib import Path
 
 import pytest
 from shared_outputs import paper_input as shared_input
 from shared_outputs import report_input, sized
 
-from cqdd_design.design import Design
+from cqdd_design.design import Design, load_design
+from cqdd_design.files import WrittenFile
 from cqdd_design.gearbox.heat.expansion import HOTTEST
 from cqdd_design.machine import resolve
 from cqdd_design.machine.thermal_parts import by_node
@@ -47,7 +53,7 @@ def test_the_same_input_gives_the_same_bytes(paper_input: ReportInput, page: str
 
 def test_one_file_of_modest_size(page: str) -> None:
     assert len(page.encode()) < 1_500_000
-    assert not re.search(r"\b(?:src|href)\s*=\s*[\"'](?!#)", page), "points outside itself"
+    assert not re.search(r"\b(?:src|href)\s*=\s*[\"'](?!#|data:)", page), "points outside itself"
     assert not re.search(r"url\((?!#)|@import|https?://(?!www\.w3\.org)", page)
 
 
@@ -125,7 +131,15 @@ def test_every_value_has_its_origin(page: str, paper_input: ReportInput) -> None
         re.findall(r'<td title="([\w.]+)">.*?<span class="chip (\w+)">\2</span>', page, flags=re.S)
     )
     nested = [key for key in paper_input.design.dotted_keys() if "." in key]
-    assert list(rows) == nested
+    assert sorted(rows) == sorted(nested)
+    # What is left to the program is folded away.
+    open_, closed = (
+        re.sub(r"<details.*?</details>", "", page, flags=re.S),
+        "".join(re.findall(r"<details.*?</details>", page, flags=re.S)),
+    )
+    for key, origin in rows.items():
+        assert (f'title="{key}"' in closed) == (origin == "default"), key
+        assert (f'title="{key}"' in open_) != (origin == "default"), key
     assert rows["requirements.ratio"] == "paper"
     assert rows["requirements.input_speed"] == "derived"
     assert rows["reducer.eccentricity"] == "assumed"
@@ -162,7 +176,7 @@ def test_a_design_without_remarks_knows_given_default_and_derived() -> None:
 )
 def test_the_paper_s_symbols_are_mapped(page: str, symbol: str, value: str) -> None:
     closing = page[page.index('id="symbols"') :]
-    row = re.search(rf'<tr><td><span class="symbol">{symbol}</span>.*?</tr>', closing, re.S)
+    row = re.search(rf'<tr><td[^>]*><span class="symbol">{symbol}</span>.*?</tr>', closing, re.S)
     assert row is not None
     assert f">{value}\u202fmm<" in row[0]
 
@@ -200,7 +214,8 @@ def test_text_of_the_design_cannot_become_markup(paper_input: ReportInput) -> No
 
 
 def test_claims_of_the_paper_are_answered(page: str, paper_input: ReportInput) -> None:
-    planetary = text_of(page[page.index('id="planetary"') : page.index('id="symbols"')])
+    planetary = text_of(page[page.index('<section id="planetary"') : page.index('id="symbols"')])
+    assert paper_input.planetary is not None
     assert len(paper_input.planetary.claims) == 6
     assert "10.5455" in planetary
     assert "12 / 36 / 22 / 70" in planetary
@@ -249,7 +264,15 @@ def test_without_bodies_and_sizing_their_sections_are_left_out(paper_input: Repo
 def test_a_sized_design_shows_how_it_was_found() -> None:
     found = sized(ratio=10)
     page = build_report(dataclasses.replace(report_input(found.design), sizing=found))
-    words = text_of(page[page.index('id="sizing"') : page.index('id="symbols"')])
+    words = text_of(page[page.index('id="sizing"') : page.index('id="assumptions"')])
+    # The paper stands in the report of its own actuator alone.
+    assert "appendix" not in words.lower()
+    for anchor in ("planetary", "pins", "symbols"):
+        assert f'id="{anchor}"' not in page
+        assert f'href="#{anchor}"' not in page
+    assert "paper" not in text_of(
+        page[page.index('id="verdict"') : page.index('id="drawings"')]
+    ).replace("paper printed there", "")
     assert f"{found.candidates_screened:,}".replace(",", " ") in words
     for alternative in found.alternatives:
         assert alternative.design.name in words
@@ -308,6 +331,70 @@ def test_stress_of_discs_and_ring_is_a_chapter(paper_input: ReportInput, page: s
     assert 'id="stress"' not in build_report(replace(paper_input, verdict=judged))
 
 
+Given = dict[str, str | None]
+
+
+class _Tables(HTMLParser):
+    """Every table: its heads with their scopes, and the cells of its rows with their labels."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.tables: list[
+            tuple[list[dict[str, str | None]], list[list[dict[str, str | None]]]]
+        ] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        if tag == "table":
+            self.tables.append(([], []))
+        elif tag == "th":
+            self.tables[-1][0].append(dict(attrs))
+        elif tag == "tr":
+            self.tables[-1][1].append([])
+        elif tag == "td":
+            self.tables[-1][1][-1].append(dict(attrs))
+
+
+def test_heads_have_a_scope_and_cells_of_wide_tables_tell_their_column(page: str) -> None:
+    found = _Tables()
+    found.feed(page)
+    assert len(found.tables) > 20
+    wide = 0
+    for heads, rows in found.tables:
+        assert all(head.get("scope") in {"col", "rowgroup"} for head in heads)
+        columns = sum(head["scope"] == "col" for head in heads)
+        for cells in rows[1:]:
+            if columns >= 4 and len(cells) == columns:
+                assert all(cell.get("data-label") for cell in cells[1:])
+                wide += 1
+    assert wide > 100
+
+
+def test_files_travel_with_the_page_and_those_of_the_run_are_linked(
+    paper_input: ReportInput, page: str, tmp_path: Path
+) -> None:
+    """The design is the one that was judged; a drawing beside the page is found from it."""
+    carried = dict(
+        (name, base64.b64decode(content).decode())
+        for content, name in re.findall(
+            r'href="data:[\w/]+;base64,([^"]+)" download="([^"]+)"', page
+        )
+    )
+    assert set(carried) == {"cqdd-10.toml", "cqdd-10-checks.csv", "cqdd-10-verdict.json"}
+    again = tmp_path / "again.toml"
+    again.write_text(carried["cqdd-10.toml"], encoding="utf-8")
+    assert load_design(again).sha256 == paper_input.design.sha256
+    rows = list(csv.DictReader(io.StringIO(carried["cqdd-10-checks.csv"], newline="")))
+    assert [row["id"] for row in rows] == [check.id for check in paper_input.verdict.lines]
+    for row, check in zip(rows, paper_input.verdict.lines, strict=True):
+        assert row["value"] == ("" if check.value is None else repr(float(check.value)))
+    assert json.loads(carried["cqdd-10-verdict.json"])["meets"] == "no"
+    beside = WrittenFile(tmp_path / "exports" / "a b.dxf", "dxf", 3, "0" * 64)
+    linked = build_report(
+        replace(paper_input, files=(beside,), target=tmp_path / "reports" / "x.html")
+    )
+    assert '<a href="../exports/a%20b.dxf">a b.dxf</a>' in linked
+
+
 def test_what_is_closest_is_shown_where_nothing_fails(paper_input: ReportInput) -> None:
     lines = tuple(replace(line, value=line.limit) for line in paper_input.verdict.lines)
     assert "Closest to their limits" in told(paper_input, lines)
@@ -322,7 +409,7 @@ def test_the_page_ranks_what_binds_as_the_verdict_does(paper_input: ReportInput)
     )
     judged = replace(paper_input.verdict, lines=lines)
     page = build_report(replace(paper_input, verdict=judged))
-    table = page.partition('<table class="closest">')[2].partition("</table>")[0]
+    table = page.partition('<table class="stacked closest">')[2].partition("</table>")[0]
     shown = re.findall(r'href="#([A-Z0-9-]+)"', table)
     assert shown == [line.id for line in judged.limits]
     first = judged.limits[0].title

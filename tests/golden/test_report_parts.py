@@ -160,12 +160,31 @@ def test_ticks_are_round_and_few(span: float, most: int) -> None:
     assert min(abs(mantissa - good) for good in (1.0, 2.0, 2.5, 5.0)) < 1e-6
 
 
+def test_a_curve_keeps_its_shape_with_the_points_that_show() -> None:
+    x = np.linspace(0.0, 360.0, 721)
+    y = 1000.0 * np.abs(np.sin(np.radians(3.0 * x)))
+    ticks = (0.0, 360.0)
+    chart = line_chart(
+        Words("c", "t", "d"), x, [Curve("", y, "faint")], x_label="", y_label="", x_ticks=ticks
+    )
+    d = re.search(r'<path d="M([^"]+)" class="curve', chart.render())[1]  # type: ignore[index]
+    kept = np.array([[float(v) for v in pair.split()] for pair in d.split("L")])
+    assert 30 < len(kept) < 300
+    across = (kept[-1, 0] - kept[0, 0]) / 360.0
+    zero, high = kept[0, 1], (kept[0, 1] - kept[:, 1].min()) / 1000.0
+    # Across the curve it is a twentieth of a px; downward, where it is steep, a little more.
+    shown = np.interp(x, (kept[:, 0] - kept[0, 0]) / across, zero - kept[:, 1])
+    assert np.abs(shown - high * y).max() < 0.4
+    beside = np.abs(shown - high * y) / np.hypot(1.0, np.gradient(high * y, across * x))
+    assert beside.max() < 0.08
+
+
 def test_a_chart_puts_its_numbers_where_they_belong() -> None:
     x = np.linspace(0.0, 360.0, 5)
     figure = line_chart(
         Words("a-chart", "Title", "Description"),
         x,
-        [Curve("line", np.array([0.0, 50.0, 100.0, 50.0, 0.0]), "series-1")],
+        [Curve("line", np.array([0.0, 50.0, 110.0, 50.0, 0.0]), "series-1")],
         [Level("limit", 50.0)],
         x_label="angle",
         y_label="force",

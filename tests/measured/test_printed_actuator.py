@@ -79,6 +79,19 @@ def test_loaded_branches_are_predicted_too_stiff(page: ModuleType) -> None:
         assert 2.0 < found.read(page.largest(found)).stiffness / measured < 2.8, one.title
 
 
+@pytest.mark.deep
+def test_with_the_measured_play_the_moduli_lie_on_either_side(page: ModuleType) -> None:
+    """One clearance taken from the play: along the layers too stiff, across them too soft."""
+    measured = 1.0 / page.mean(page.loops(page.SPECIMENS[0].record, page.LARGE), "compliance")
+    play = page.mean(page.loops(page.SPECIMENS[0].record, page.SMALL), "play")
+    base = page.machine_of(page.SPECIMENS[0].material)
+    found = [page.solved(base.changed(page.LOOSE | more), 25.0) for more in ({}, page.ACROSS)]
+    along, across = (one.read(page.largest(one)).stiffness / measured for one in found)
+    assert found[0].read(4.0).play == pytest.approx(play, rel=0.03)
+    assert 1.2 < along < 1.6
+    assert 0.6 < across < 0.95
+
+
 def test_the_page_shows_what_the_records_say(page: ModuleType, repository: Path) -> None:
     told = (repository / "docs" / "measured.md").read_text(encoding="utf-8")
     assert page.read_table() in told

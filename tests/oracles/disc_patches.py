@@ -8,7 +8,7 @@ import numpy as np
 import plane_stress
 from scipy.sparse import coo_matrix
 
-from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape
+from cqdd_design.gearbox.bodies.disc import DiscShape
 from cqdd_design.gearbox.bodies.point_load import DEPTH
 
 Hold = Callable[[np.ndarray], np.ndarray] | None
@@ -86,8 +86,8 @@ class DiscPatches:
                 width = np.sqrt(np.clip(half_width**2 - np.abs(z - at) ** 2, 0.0, None))
                 return 2.0 / (np.pi * half_width**2) * width * along
 
-            lobes = PER_LOBE * outline.lobe_count
-            edge = 0 if place < lobes else 1 + (place - lobes) // PER_HOLE
+            lobes = shape.grid.per_lobe * outline.lobe_count
+            edge = 0 if place < lobes else 1 + (place - lobes) // shape.grid.per_hole
             force = plane_stress.nodal(self.mesh, edge, hertz)
             self.patches.append(force / abs(complex(force[0::2].sum(), force[1::2].sum())))
 

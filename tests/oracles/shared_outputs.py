@@ -17,13 +17,14 @@ from typing import Any, TypeVar
 from cqdd_design.actuator.bench import BenchResult, run_bench
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.catalog.paper import is_papers_actuator
 from cqdd_design.design import Design, Requirements, load_design
 from cqdd_design.machine import resolve
 from cqdd_design.machine.weighing import weigh_if_possible
 from cqdd_design.report import ReportInput, read_comments
 from cqdd_design.roads.telling import provenance
 from cqdd_design.sizing import SizingResult, size
-from cqdd_design.sizing.comparison import compare_with_planetary
+from cqdd_design.sizing.comparison import compare_with_planetary, cycloid_limits
 from cqdd_design.verdict import judge
 
 PAPER_FILE = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
@@ -52,7 +53,8 @@ def report_input(design: Design, file: Path | None = None) -> ReportInput:
     return ReportInput(
         machine=machine,
         gearbox=machine.analysis,
-        planetary=compare_with_planetary(machine),
+        planetary=compare_with_planetary(machine) if is_papers_actuator(design) else None,
+        limits=cycloid_limits(machine),
         provenance=provenance(design),
         verdict=judge(machine, samples=0),
         comments={} if file is None else read_comments(file),

@@ -14,7 +14,7 @@ from disc_patches import DiscPatches
 
 from cqdd_design.design import Design, load_design
 from cqdd_design.errors import GeometryError
-from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape
+from cqdd_design.gearbox.bodies.disc import GRIDS, DiscShape
 from cqdd_design.gearbox.bodies.made import elastic_bodies
 from cqdd_design.gearbox.bodies.mesh import mesh
 from cqdd_design.gearbox.bodies.model import Body, disc_body, of_standard, to_standard
@@ -30,6 +30,8 @@ from cqdd_design.geometry.disc import column_hole_centres
 from cqdd_design.machine import body_analysis, resolve
 from cqdd_design.report.drawings.outlines import Outlines
 from cqdd_design.report.gearbox.stress import stress_picture
+
+PER_LOBE, PER_HOLE = GRIDS[0]
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 

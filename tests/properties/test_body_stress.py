@@ -17,7 +17,7 @@ from cqdd_design.design import load_design
 from cqdd_design.errors import GeometryError
 from cqdd_design.gearbox.bodies import strength as strength_module
 from cqdd_design.gearbox.bodies import stress as stress_module
-from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape
+from cqdd_design.gearbox.bodies.disc import GRIDS, DiscShape
 from cqdd_design.gearbox.bodies.made import elastic_bodies
 from cqdd_design.gearbox.bodies.model import disc_body, ring_body
 from cqdd_design.gearbox.bodies.ring import RingShape
@@ -40,6 +40,8 @@ from cqdd_design.machine.body_analysis import analyse_bodies
 from cqdd_design.report.drawings.outlines import Outlines
 from cqdd_design.report.gearbox.stress import stress_picture, stress_view
 from cqdd_design.roads.analyse import analyse
+
+PER_LOBE, PER_HOLE = GRIDS[0]
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 

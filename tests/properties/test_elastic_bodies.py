@@ -33,7 +33,7 @@ from cqdd_design.gearbox.bodies.compliance import (
     under_disc,
 )
 from cqdd_design.gearbox.bodies.depths import ring_depths
-from cqdd_design.gearbox.bodies.disc import PER_LOBE, DiscShape
+from cqdd_design.gearbox.bodies.disc import GRIDS, DiscShape
 from cqdd_design.gearbox.bodies.elements import elements
 from cqdd_design.gearbox.bodies.influence import Loads, influence, self_balanced
 from cqdd_design.gearbox.bodies.made import elastic_bodies
@@ -49,9 +49,11 @@ from cqdd_design.gearbox.contact.kernel_values import SweepResult
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import NominalStates, error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.gearbox.disc_forces import disc_forces
 from cqdd_design.gearbox.pin_beam import PinBeam
 from cqdd_design.machine import resolve
 
+PER_LOBE = GRIDS[0].per_lobe
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 
 
@@ -100,6 +102,23 @@ def reference_s() -> Design:
             "motor": {"name": "CubeMars RO100 KV55"},
         }
     )
+
+
+@functools.cache
+def many_lobes() -> Design:
+    """29 lobes and 20 holes, which no turn carries into each other."""
+    requirements = reference_s().requirements.model_copy(update={"ratio": 29})
+    design = changed(
+        ratio=29,
+        ring_pitch_radius=27.9e-3,
+        eccentricity=0.64e-3,
+        ring_pin_diameter=2.9e-3,
+        output_pins=reference_s().reducer.output_pins.model_copy(
+            update={"count": 20, "circle_radius": 21.65e-3, "hole_clocking": np.pi / 58.0}
+        ),
+        ring=reference_s().reducer.ring.model_copy(update={"outer_diameter": 60.7e-3}),
+    )
+    return resolve(design.model_copy(update={"requirements": requirements})).design
 
 
 @functools.cache
@@ -589,6 +608,41 @@ def test_bodies_from_the_cache_are_those_that_were_made() -> None:
         assert (one.stress == other.stress).all()
 
 
+def test_discs_of_many_places_have_coarser_grids() -> None:
+    assert DiscShape.from_design(reference_s(), 0).grid == GRIDS[0]
+    shape = DiscShape.from_design(many_lobes(), 0)
+    assert shape.turns == 1
+    assert shape.grid == GRIDS[1]
+    # With 29 holes every lobe is like every other, and one of them is solved.
+    assert dataclasses.replace(shape, hole_count=29).grid == GRIDS[0]
+
+
+@pytest.mark.deep
+def test_a_coarser_grid_gives_what_a_finer_one_does(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Compliance at teeth and pins between its places, and the greatest stress at the edges."""
+    design = many_lobes()
+    model = ContactModel.from_design(design)
+    # At angles that no place stands on.
+    states = nominal_states(model, np.linspace(0.0, 2.0 * np.pi, 37, endpoint=False) + 0.0123)
+    forces = disc_forces(model, -10.0, states.crank_angle, 0)
+    pushes = np.concatenate([forces.ring_force, forces.pin_force], axis=1)
+    give, greatest = [], []
+    for grid in GRIDS:
+        monkeypatch.setattr(DiscShape, "grid", property(lambda _, grid=grid: grid))
+        shape = DiscShape.from_design(design, 0)
+        body = disc_body(shape)
+        assert body.reciprocity < 1e-9
+        springs = np.full((len(states.crank_angle), len(shape.stations)), 1e9)
+        give.append(np.einsum("aii->ai", disc_compliance(shape, body, model, states, 0, springs)))
+        greatest.append(
+            np.nanmax(np.abs(disc_stress(shape, body, model, states, 0, pushes, forces.cam_force)))
+        )
+    apart = np.abs(give[1] / give[0] - 1.0)
+    assert apart.max() < 0.07
+    assert apart.mean() < 0.01
+    assert greatest[1] == pytest.approx(greatest[0], rel=0.05)
+
+
 def tiny(matrix: float = 1.0) -> Body:
     return Body(np.full((2, 2), matrix), np.zeros((1, 2)), 0.0)
 
@@ -674,6 +728,8 @@ from cqdd_design.gearbox.bodies import cache
 from cqdd_design.gearbox.bodies.mesh import mesh
 from cqdd_design.gearbox.bodies.model import Body
 from cqdd_design.gearbox.bodies.point_load import Plate
+
+PER_LOBE = GRIDS[0].per_lobe
 cache.folder = lambda: Path(sys.argv[1])
 for k in range(200):
     plate = Plate(1.0, 0.3, float(k % 3 + 1))

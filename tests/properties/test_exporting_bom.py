@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import dataclasses
 import io
 import math
 import subprocess
@@ -12,13 +13,27 @@ import pytest
 
 from cqdd_design.catalog import bearings, find_material, find_motor
 from cqdd_design.design import load_design
-from cqdd_design.exporting.solids.bom import bill_of_materials, bom_csv
+from cqdd_design.errors import UsageError
+from cqdd_design.exporting.bill.consumables import bonds, free_space
+from cqdd_design.exporting.bill.known import catalogue_designations
+from cqdd_design.exporting.bill.prices import prices_asked_for, read_prices
+from cqdd_design.exporting.bill.substitutes import equal_bearings, longer_screw, ordered_as
+from cqdd_design.exporting.options import ExportOptions
+from cqdd_design.exporting.solids.bom import (
+    TOTAL,
+    bill_of_materials,
+    bom_csv,
+    priced,
+    total_rows,
+)
 from cqdd_design.machine import resolve
+from cqdd_design.machine.screws import screw_joints
 from cqdd_design.roads.export import export
 
 COLUMNS = [
     *("item", "part", "quantity", "make_or_buy", "material", "mass_each_kg", "mass_total_kg"),
-    *("designation", "notes"),
+    *("designation", "fitting", "substitutes", "price_each", "price_total", "currency", "vendor"),
+    "notes",
 ]
 
 
@@ -33,10 +48,13 @@ def parts(paper):
 
 
 @pytest.fixture(scope="module")
-def rows(paper, parts):
-    return list(
-        csv.DictReader(io.StringIO(bom_csv(bill_of_materials(resolve(paper).motor, parts))))
-    )
+def bill(paper, parts):
+    return bill_of_materials(resolve(paper), parts)
+
+
+@pytest.fixture(scope="module")
+def rows(bill):
+    return list(csv.DictReader(io.StringIO(bom_csv(bill))))
 
 
 def test_columns_and_items(rows):
@@ -48,7 +66,8 @@ def test_columns_and_items(rows):
 
 def test_every_part_is_there_in_its_number(rows, parts):
     listed = {row["part"]: int(row["quantity"]) for row in rows}
-    assert listed == {part.name: part.count for part in parts}
+    beside = {"retaining compound": 1, "lubricant": 1}
+    assert listed == {**{part.name: part.count for part in parts}, **beside}
     assert (listed["motor stator"], listed["motor rotor"]) == (1, 1)
     assert listed["disc"] == 2
     assert listed["shoulder screw"] == 5
@@ -56,14 +75,14 @@ def test_every_part_is_there_in_its_number(rows, parts):
 
 
 def test_masses_add_up_to_the_machine_with_its_motor(rows, parts, paper):
-    total = math.fsum(float(row["mass_total_kg"]) for row in rows)
+    total = math.fsum(float(row["mass_total_kg"] or 0.0) for row in rows)
     assert math.isclose(
         total, sum(part.mass * part.count for part in parts), abs_tol=1e-5 * len(rows)
     )
     motor = [row for row in rows if row["part"] in ("motor stator", "motor rotor", "rotor bell")]
     mass = math.fsum(float(row["mass_total_kg"]) for row in motor)
     assert math.isclose(mass, find_motor(paper.motor.name).mass, abs_tol=2e-5)
-    for row in rows:
+    for row in rows[: len(parts)]:
         each, every = float(row["mass_each_kg"]), float(row["mass_total_kg"])
         assert math.isclose(each * int(row["quantity"]), every, abs_tol=1e-5 * int(row["quantity"]))
 
@@ -81,8 +100,13 @@ def test_bought_parts_can_be_ordered(rows):
     by_part = {row["part"]: row for row in rows}
     assert by_part["cam bearing"]["designation"] == "6902"
     assert by_part["cam bearing"]["designation"] in bearings()
-    assert by_part["shoulder screw"]["designation"].startswith("ISO 7379 4 f9")
-    assert by_part["motor stator"]["designation"] == "CubeMars RO100 Lite KV55, stator"
+    assert by_part["shoulder screw"]["designation"].startswith("shoulder screw 4 f9")
+    assert by_part["motor stator"]["designation"] == "CubeMars RO100 Lite KV55"
+    assert by_part["encoder magnet"]["designation"] == "Radial Magnets 9042"
+    known = catalogue_designations()
+    for row in rows:
+        if row["make_or_buy"] == "buy" and row["part"] != "motor rotor":
+            assert row["designation"] in known, row
     assert "catalogue (the maker's page" in by_part["motor stator"]["notes"]
     assert "exact profile x 7850 kg/m3" in by_part["ring"]["notes"]
 
@@ -90,9 +114,8 @@ def test_bought_parts_can_be_ordered(rows):
 def test_a_motor_that_is_not_drawn_is_the_last_line(paper):
     design = paper.replacing({"motor.name": "MAD 5010 110KV"})
     machine = resolve(design)
-    (*_, motor) = csv.DictReader(
-        io.StringIO(bom_csv(bill_of_materials(machine.motor, machine.parts)))
-    )
+    every = csv.DictReader(io.StringIO(bom_csv(bill_of_materials(machine, machine.parts))))
+    (motor,) = (row for row in every if row["part"] == "motor")
     assert (motor["part"], motor["designation"]) == ("motor", "MAD 5010 110KV")
     assert (motor["mass_each_kg"], motor["mass_total_kg"]) == ("", "")
     assert "not in the catalogue" in motor["notes"]
@@ -122,3 +145,117 @@ def test_the_written_bill_is_the_same_twice(paper, tmp_path):
         file.sha256 for folder in ("a", "b") for file in export(paper, "bom", tmp_path / folder)
     }
     assert len(shas) == 1
+
+
+def test_torques_in_the_bill_are_those_of_the_joints_that_are_judged(paper, rows):
+    stiff = dataclasses.replace(resolve(paper), stiff=True)
+    by_screw = {joint.screw: joint.clamping.torque for joint in screw_joints(stiff)}
+    (row,) = (row for row in rows if row["part"] == "cover screw")
+    assert row["fitting"].startswith(f"tighten to {by_screw[row['designation']]:.2g} N m")
+
+
+def test_substitutes_of_bearings_are_no_smaller_and_no_weaker(rows):
+    found = 0
+    for row in bearings().values():
+        for other in equal_bearings(row):
+            found += 1
+            assert (other.bore_diameter, other.outer_diameter, other.width) == (
+                row.bore_diameter,
+                row.outer_diameter,
+                row.width,
+            )
+            assert other.dynamic_rating >= row.dynamic_rating
+            assert other.static_rating >= row.static_rating
+            assert other.kind == row.kind
+    assert found >= 2
+    by_part = {row["part"]: row for row in rows}
+    assert by_part["ring dowel"]["substitutes"] == "DIN 6325 1.5 m6 x 4 A"
+    assert by_part["cam bearing"]["substitutes"] == (
+        "ball bearing 15 x 28 x 7 mm of any maker, C 4.3 kN and C0 2.25 kN or more"
+    )
+    assert ordered_as(bearings()["needle cage K15x19x10"]) == "K15x19x10"
+
+
+def test_a_longer_screw_is_named_where_it_ends_in_its_thread(paper):
+    machine = resolve(paper)
+    assert longer_screw(machine, "encoder screw") is None
+    housing = machine.layout.housing
+    room = housing.cover_flange_top - housing.flange_bottom
+    other = longer_screw(machine, "cover screw")
+    steps = [one for one in (12e-3, 16e-3) if housing.screw.length < one <= room]
+    assert (other.length if other else None) == (steps[0] if steps else None)
+    wide = dataclasses.replace(housing, flange_bottom=housing.flange_bottom - 6e-3)
+    grown = dataclasses.replace(machine)
+    grown.__dict__["layout"] = dataclasses.replace(machine.layout, housing=wide)
+    assert longer_screw(grown, "cover screw").designation == "ISO 4762 M3 x 12 - 12.9"
+
+
+def test_grease_and_compound_are_of_the_space_there_is(paper, rows):
+    """The free space by hand: the ring's bore less two discs, two bearings, five pins and lobes."""
+    machine = resolve(paper)
+    parts = {part.name: part for part in machine.parts}
+    height = machine.layout.pack.top
+    bore = math.pi * machine.layout.pack.ring_radius**2 * height - parts["ring"].shape.volume
+    discs = 2 * (parts["disc"].shape.volume + parts["cam bearing"].shape.volume)
+    pins = 5 * math.pi / 4 * 3.975e-3**2 * height
+    lobes = 2 * math.pi * 7.5e-3**2 * 7e-3
+    assert math.isclose(free_space(machine), bore - discs - pins - lobes, rel_tol=0.06)
+    (grease,) = (row for row in rows if row["part"] == "lubricant")
+    assert grease["fitting"].startswith(f"about {free_space(machine) / 3 * 0.9e6:.2g} g")
+    (bell,) = (one for one in bonds(machine) if one.place == "bell on the shaft")
+    assert math.isclose(bell.gap, 0.5 * (20.5e-6 - 8e-6), rel_tol=0.2) or bell.gap == 20e-6
+
+
+def _list(tmp_path, text):
+    path = tmp_path / "prices.csv"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_prices_are_filled_in_and_added_up_for_each_currency(bill, tmp_path):
+    text = (
+        "designation,price,currency,vendor\n6902,4.5,EUR,Alpha\n disc ,80,EUR,\n"
+        "cubemars ro100  lite KV55,210,USD,Beta\n6903,5,EUR,\nlockring,,,\n"
+    )
+    rows = priced(bill, read_prices(_list(tmp_path, text)))
+    by_part = {row.part: row for row in rows}
+    assert by_part["cam bearing"].price_total == 9.0
+    assert by_part["cam bearing"].vendor == "Alpha"
+    assert by_part["disc"].price_total == 160.0
+    assert by_part["ring"].price_each is None
+    euro, dollar = total_rows(rows)
+    assert (euro.part, euro.price_total, euro.currency) == (TOTAL, 169.0, "EUR")
+    assert (dollar.price_total, dollar.currency) == (210.0, "USD")
+    assert euro.notes == f"{len(rows) - 4} of {len(rows) - 1} lines have no price"
+    last = bom_csv(rows, totals=True).splitlines()[-1]
+    assert ",210.00,USD,," in last
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("designation,price,currency\n6902x,4,EUR\n", ["line 2", "'6902x'", "'6902'"]),
+        ("designation,price,currency\n6902,4\n", ["line 2", "no currency", "EUR"]),
+        ("designation,price,currency\n6902,-4,EUR\n", ["'-4'", "no number from 0"]),
+        ("designation,price,currency\n6902,nan,EUR\n", ["no number"]),
+        ("designation,cost\n6902,4\n", ["no column 'price'", "designation,price,currency,vendor"]),
+        ("designation,price,currency\n6902,4,EUR\n6902 ,5,EUR\n", ["lines 2 and 3", "keep one"]),
+        ("designation,price,currency\n,4,EUR\n", ["without a designation"]),
+        ("", ["no column 'designation'"]),
+    ],
+)
+def test_a_wrong_price_list_is_refused_by_row(bill, tmp_path, text, words):
+    with pytest.raises(UsageError) as caught:
+        priced(bill, read_prices(_list(tmp_path, text)))
+    for word in words:
+        assert word in caught.value.message
+
+
+def test_prices_need_the_bill(tmp_path):
+    path = _list(tmp_path, "designation,price,currency\n6902,4,EUR\n")
+    with pytest.raises(UsageError, match="--to bom"):
+        prices_asked_for(path, ("dxf",))
+    assert prices_asked_for(None, ("dxf",)) is None
+    found = prices_asked_for(path, ("bom",))
+    assert found.of(" 6902").amount == 4.0
+    assert ExportOptions(prices=found).arguments()[-2:] == ["--prices", str(path)]

@@ -60,7 +60,7 @@ def test_layers_hold_what_they_say(drawings):
     assert kinds("cqdd-10-disc.dxf", "CUT_OUTER") == {"LWPOLYLINE": 1}
     assert kinds("cqdd-10-disc.dxf", "CUT_INNER") == {"CIRCLE": 6}
     assert kinds("cqdd-10-disc.dxf", "START_HOLE") == {"CIRCLE": 7}
-    assert kinds("cqdd-10-ring.dxf", "CUT_OUTER") == {"CIRCLE": 1}
+    assert kinds("cqdd-10-ring.dxf", "CUT_OUTER") == {"LWPOLYLINE": 1}
     assert kinds("cqdd-10-ring.dxf", "CUT_INNER") == {"LWPOLYLINE": 1}
     assert kinds("cqdd-10-ring.dxf", "START_HOLE") == {"CIRCLE": 2}
     for drawing in drawings.values():
@@ -87,9 +87,9 @@ def test_files_are_clean_metric_and_start_where_they_should(drawings):
         assert (audit.errors, audit.fixes) == ([], [])
         assert drawing.header["$INSUNITS"] == 4
         assert drawing.header["$MEASUREMENT"] == 1
-        (contour,) = drawing.modelspace().query("LWPOLYLINE")
-        assert contour.closed
-        x, y, _ = contour.get_points("xyb")[0]
+        contours = drawing.modelspace().query("LWPOLYLINE")
+        assert all(contour.closed for contour in contours)
+        x, y, _ = contours[-1].get_points("xyb")[0]
         assert (x > 0.0, y) == (True, 0.0)
 
 

@@ -254,8 +254,11 @@ def test_the_last_pass_is_the_wire_and_its_gap_and_each_leaves_what_the_next_tak
 
 
 def test_where_the_rough_cut_could_not_follow_skim_cuts_take_less(paper, parts):
-    arcs = segmented(parts[1].fitted)
-    tightest = arcs.arcs().radii[arcs.bulges > 0.0].min()
+    outer, inner = (segmented(one) for one in parts[1].contours)
+    # Inside of the teeth's fillets, outside of the dowels' grooves.
+    tightest = min(
+        inner.arcs().radii[inner.bulges > 0.0].min(), outer.arcs().radii[outer.bulges < 0.0].min()
+    )
     thick = paper.edm.model_copy(update={"wire_diameter": 2.0 * (tightest - 32e-6)})
     found = wire_passes(parts[1].contours, thick, 4)
     assert found[-1].offset == pytest.approx(tightest - 20e-6)

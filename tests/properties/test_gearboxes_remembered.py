@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from cqdd_design.design import load_design
+from cqdd_design.files import package_state as state
+from cqdd_design.files.package_state import package_state
 from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.gearbox.tolerance import remembered
 from cqdd_design.gearbox.tolerance.ensemble import Block, make_ensemble, work_block, work_here
@@ -65,7 +67,7 @@ def test_everything_that_moves_them_has_an_entry_of_its_own(own_cache: Path, mon
         list(remembered.work_remembered(each, block))
         assert len(list(own_cache.iterdir())) == count
     list(remembered.work_remembered(one, [Block(2, 2)]))
-    monkeypatch.setattr(remembered, "_code", lambda: "of another state of the package")
+    monkeypatch.setattr(remembered, "package_state", lambda: "of another state of the package")
     list(remembered.work_remembered(one, block))
     assert len(list(own_cache.iterdir())) == len(others) + 3
 
@@ -84,10 +86,9 @@ def test_the_code_of_another_state_is_another(tmp_path: Path, monkeypatch) -> No
     package.mkdir()
     source = package / "__init__.py"
     source.write_text("a = 1\n")
-    own = package / "gearbox" / "tolerance" / "remembered.py"
-    monkeypatch.setattr(remembered, "__file__", str(own))
-    before = remembered._code.__wrapped__()
+    monkeypatch.setattr(state, "__file__", str(package / "files" / "package_state.py"))
+    before = package_state.__wrapped__()
     (package / "kernel.nbi").write_text("compiled")
-    assert remembered._code.__wrapped__() == before
+    assert package_state.__wrapped__() == before
     (package / "data.csv").write_text("1")
-    assert remembered._code.__wrapped__() != before
+    assert package_state.__wrapped__() != before

@@ -37,6 +37,7 @@ from cqdd_design.gearbox.losses.model import SENSES
 from cqdd_design.gearbox.losses.rolling import drag_torque
 from cqdd_design.gearbox.losses.shaft import equivalent_load, support_reactions
 from cqdd_design.gearbox.losses.sliding import friction_work, pin_sliding, ring_sliding
+from cqdd_design.gearbox.rolling_contacts import most_breakaway
 from cqdd_design.gearbox.stages import Stages
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.cycloid import CycloidDisc
@@ -465,15 +466,40 @@ def test_backdrive_torques_balance_friction() -> None:
     assert static is not None
     assert model.at(5.0, dynamic).loss_torque_backward == pytest.approx(dynamic, rel=1e-9)
     assert dynamic == pytest.approx(found.load_independent / (1.0 - found.load_share), rel=1e-3)
-    # At rest: all friction 1.7 times as high, the yield stress of the grease as it is.
-    grease = 10.0 * float(model.machine.grease_torque(0.0))
-    slow_loss = model.at(0.0, static).loss_torque_backward
-    assert 1.7 * (slow_loss - grease) + grease == pytest.approx(static, rel=1e-9)
+    # At rest: bearings 1.7 times as high, teeth and pins from 0.08 to a boundary layer with 0.10,
+    # the yield stress of the grease as it is.
+    work = dict(zip(SOURCES, model.coulomb_work(static, "backdrive"), strict=True))
+    rubbing = work.pop("ring_teeth") + work.pop("output_pins")
+    grease = float(model.machine.grease_torque(0.0))
+    bearings = sum(work.values()) + total(model.machine.drag(0.0)) - grease
+    at_rest = 10.0 * (1.25 * rubbing + 1.7 * bearings + grease)
+    assert at_rest == pytest.approx(static, rel=1e-9)
     slow = model.backdrive(static_ratio=1.0)
     assert slow.static_torque == pytest.approx(slow.dynamic_torque, rel=1e-12)
     ordered = [model.backdrive(static_ratio=k).static_torque or 0.0 for k in (1.0, 1.5, 2.0)]
     assert ordered[0] < ordered[1] < ordered[2]
     assert (model.backdrive(output_speed=10.0).dynamic_torque or 0.0) > (slow.dynamic_torque or 0.0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "most"),
+    [
+        ({}, (1.25, 1.25)),
+        ({"reducer.friction.tooth": 0.03, "reducer.friction.pin": 0.15}, (10.0 / 3.0, 1.0)),
+        ({"reducer.friction.tooth": "film", "reducer.friction.pin": 0.0}, (1.0, math.inf)),
+        ({"reducer.ring_material": "PC-CF FDM along layers"}, (math.inf, 1.25)),
+    ],
+)
+def test_what_rubs_breaks_away_with_a_boundary_layer_at_most(
+    changes: dict[str, object], most: tuple[float, float]
+) -> None:
+    """Metals; of plastics no boundary layer is known, and none rubs on needles."""
+    assert most_breakaway(PAPER.replacing(changes)) == pytest.approx(most)
+
+
+def test_needles_break_away_as_bearings_do() -> None:
+    printed = load_design(DESIGNS / "printed-13.toml")
+    assert most_breakaway(printed)[1] == math.inf
 
 
 # --- map over speed and torque ------------------------------------------------------------------

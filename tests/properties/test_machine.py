@@ -33,7 +33,7 @@ def design(motor: str | None = None, **reducer: object) -> Design:
 
 
 def bought(machine: Machine, part: str) -> str:
-    rows = bill_of_materials(machine.motor, machine.parts)
+    rows = bill_of_materials(machine, machine.parts)
     return next(row.designation for row in rows if row.part == part)
 
 

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import base64
+import gzip
+import hashlib
 import importlib.util
+import io
 import json
 import math
+import pickle
 import re
 import shutil
 import struct
@@ -22,16 +27,18 @@ from solids_designs import CHANGES, known_design, known_parts, part_named
 from cqdd_design.design import Design
 from cqdd_design.machine import resolve
 from cqdd_design.report.ink.page import environment
+from cqdd_design.report.ink.svg import Figure, thinned
 from cqdd_design.report.machine_view import (
     MachineViews,
     ViewerData,
+    apart,
     hidden_line_views,
     viewer_data,
 )
 from cqdd_design.report.machine_view.aligned_section import cut_angles, cut_faces, section_figure
 from cqdd_design.report.machine_view.camera import Camera, tinted
 from cqdd_design.report.machine_view.explode import take_apart
-from cqdd_design.report.machine_view.paint import thinned
+from cqdd_design.report.machine_view.packing import machine_values, packed_model, packed_script
 from cqdd_design.report.machine_view.stills import exploded_figure
 from cqdd_design.solids.cad import MM
 from cqdd_design.solids.disassembly import disassembly_order
@@ -190,7 +197,7 @@ def test_chains_do_not_depend_on_the_order_of_lines() -> None:
 def test_thinning_keeps_corners_and_drops_what_is_straight() -> None:
     line = np.column_stack([np.arange(9.0), np.zeros(9)])
     corner = np.concatenate([line, [[8.0, 5.0]]])
-    assert thinned(corner).tolist() == [[0.0, 0.0], [8.0, 0.0], [8.0, 5.0]]
+    assert thinned(corner, 0.16).tolist() == [[0.0, 0.0], [8.0, 0.0], [8.0, 5.0]]
 
 
 def test_light_goes_from_dark_to_pale() -> None:
@@ -219,11 +226,32 @@ def read(document: dict[str, Any], binary: bytes, index: int) -> np.ndarray:
     return raw.reshape(accessor["count"], -1)[:, :3]
 
 
+def unpacked(text: str, *, restored: bool = True) -> bytes:
+    """What a page carries, turned back as its script does it."""
+    content = bytearray(gzip.decompress(base64.b64decode(text)))
+    if not restored:
+        return bytes(content)
+    document, _ = glb_parts(bytes(content))
+    start = 28 + struct.unpack_from("<I", content, 12)[0]
+    for accessor in document["accessors"]:
+        view = document["bufferViews"][accessor["bufferView"]]
+        if accessor["type"] == "SCALAR":
+            kind = {5123: "H", 5125: "I"}[accessor["componentType"]]
+            corners = memoryview(content)[start + view["byteOffset"] :][: view["byteLength"]]
+            corners, fresh = corners.cast(kind), 0
+            for i, back in enumerate(corners):
+                corners[i] = fresh - back
+                fresh += back == 0
+    return bytes(content)
+
+
 def test_model_decodes_back_to_the_solids() -> None:
     parts = known_parts("paper")
     data = model("paper")
     document, binary = glb_parts(data.glb)
-    assert len(data.glb_base64) + len(data.script) < 2_600_000
+    assert len(packed_model(data.glb)) + len(packed_script()) < 700_000
+    assert unpacked(packed_model(data.glb)) == data.glb
+    assert unpacked(packed_script(), restored=False) == VIEWER.read_bytes()
     assert document["extensionsRequired"] == ["KHR_mesh_quantization"]
     pieces = {node["name"]: node for node in document["nodes"][1:]}
     assert set(pieces) == {piece.name for part in parts for piece in part.instances}
@@ -235,8 +263,10 @@ def test_model_decodes_back_to_the_solids() -> None:
         corners = read(document, binary, primitive["indices"]).reshape(-1, 3)
         vertices = steps * node["scale"][0] + node["translation"]
         size = part.shape.outside_radius
-        assert vertices[:, 2].min() == pytest.approx(part.shape.bottom, abs=2e-5 * size)
-        assert vertices[:, 2].max() == pytest.approx(part.shape.top, abs=2e-5 * size)
+        # Half a step, 1/16383 of the greatest side: two radii or the length at most.
+        step = max(2.0 * size, part.shape.top - part.shape.bottom) / 16383
+        assert vertices[:, 2].min() == pytest.approx(part.shape.bottom, abs=0.51 * step)
+        assert vertices[:, 2].max() == pytest.approx(part.shape.top, abs=0.51 * step)
         a, b, c = (vertices[corners[:, k]] for k in range(3))
         volume = np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0
         assert volume == pytest.approx(part.volume, rel=0.02)
@@ -285,20 +315,53 @@ def test_the_fragment_needs_no_network() -> None:
     fragment = (
         environment()
         .get_template("machine3d.html")
-        .render(machine_views=views("paper"), machine_viewer=model("paper"))
+        .render(machine_values(views("paper"), model("paper")))
     )
     addresses = set(re.findall(r"https?://[\w./-]+", fragment))
     # The name of a namespace, which is no address to load from.
     assert addresses <= {"http://www.w3.org/1999/xhtml", "http://www.w3.org/2000/svg"}
     assert not re.search(r"<(?:script|img|link|iframe)[^>]+(?:src|href)=", fragment)
-    assert len(fragment) < 3_500_000
+    assert len(fragment) < 1_300_000
     still = (
-        environment()
-        .get_template("machine3d.html")
-        .render(machine_views=views("paper"), machine_viewer=None)
+        environment().get_template("machine3d.html").render(machine_values(views("paper"), None))
     )
     assert "<script" not in still
     assert "machine-exploded" in still
+
+
+def test_pictures_of_an_earlier_run_are_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By design and layout and the package's state; what is spoilt is drawn anew."""
+    monkeypatch.setenv("CQDD_DESIGN_CACHE", str(tmp_path))
+    monkeypatch.setattr(apart.subprocess, "Popen", _Drawn)
+    found = resolve(known_design("paper"))
+    first = apart.start_drawing(found)
+    assert first.process is not None
+    assert first.fetch() == apart.start_drawing(found).fetch() == _Drawn.views
+    assert apart.start_drawing(found).process is None
+    other = resolve(known_design("paper").replacing({"reducer.disc_spacing": 1e-3}))
+    assert apart.start_drawing(other).process is not None
+    (entry,) = (tmp_path / "pictures").iterdir()
+    entry.write_bytes(entry.read_bytes()[:-1] + b"0")
+    assert apart.start_drawing(found).process is not None
+
+
+class _Drawn:
+    """Stands for the process that draws: it has drawn this."""
+
+    views = (
+        MachineViews(*(Figure(name, "a", "b", 3.5, 2.0, "<g/>", "c") for name in "xyz")),
+        ViewerData(b"glTF\x00\xff", 7),
+    )
+    returncode = 0
+
+    def __init__(self, *_: object, **__: object) -> None:
+        self.stdin = io.BytesIO()
+
+    def communicate(self) -> tuple[bytes, bytes]:
+        drawn = pickle.dumps(self.views)
+        return hashlib.sha256(drawn).digest() + drawn, b""
 
 
 def test_the_vendored_script_carries_its_licence() -> None:

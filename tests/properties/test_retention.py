@@ -44,7 +44,9 @@ def test_the_committed_designs_hold_every_part(name: str) -> None:
         row.name.rstrip(" 12") for row in held.retention
     } | {"shaft bearing"}
     assert {row.name for row in held.retention if row.free} == set()
-    assert [line.status for line in retention_lines(held)] == ["pass"] * 3
+    # Of plastic, the threads of the motor's cover stand nearer to its bore than can be printed.
+    wall = "warn" if name == "printed-13" else "pass"
+    assert [line.status for line in retention_lines(held)] == ["pass", "pass", wall]
 
 
 def test_stops_and_plays_are_those_of_the_layout(machine: Machine) -> None:

@@ -309,7 +309,7 @@ def test_sleeves_and_cages_are_drawn_weighed_and_listed() -> None:
         np.testing.assert_allclose(
             other.placement[:3, 3] - one.placement[:3, 3], [0.0, 0.0, 0.5e-3], atol=1e-12
         )
-    rows = csv.DictReader(io.StringIO(bom_csv(bill_of_materials(machine.motor, machine.parts))))
+    rows = csv.DictReader(io.StringIO(bom_csv(bill_of_materials(machine, machine.parts))))
     listed = {row["part"]: row for row in rows}
     assert listed["pin needle cage"]["make_or_buy"] == "buy"
     assert listed["pin needle cage"]["designation"] == "needle cage K4x7x7"

@@ -316,7 +316,7 @@ def test_rollers_and_pins_are_drawn_weighed_and_listed() -> None:
     # Pins span the discs and the gaps beyond them, which is what they are taken to bend over.
     assert pin.shape.top - pin.shape.bottom == pytest.approx(17.5e-3 + 2.0 * 2e-3)
     assert pin.shape.outside_radius == pytest.approx(2e-3)
-    rows = csv.DictReader(io.StringIO(bom_csv(bill_of_materials(machine.motor, machine.parts))))
+    rows = csv.DictReader(io.StringIO(bom_csv(bill_of_materials(machine, machine.parts))))
     listed = {row["part"]: (row["make_or_buy"], row["designation"]) for row in rows}
     assert listed["ring needle cage"] == ("buy", "needle cage K4x7x7")
     assert listed["ring roller"] == ("make", "ground roller 7 x 8 x 8 mm")

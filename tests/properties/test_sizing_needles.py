@@ -200,16 +200,16 @@ def test_both_kinds_are_tried_where_asked():
     assert kinds == [False, True]
 
 
-def test_a_search_turns_to_what_is_asked_for_and_not_met():
+def test_a_search_turns_to_what_is_asked_for_and_not_met(found):
     asks = hunt(asked(pin_material="Alloy steel 12.9 (ISO 7379)"), fit=FITS[3])
     loose, heavy = Line("BACKLASH", 0.7), Line("MASS", 0.7)
-    assert not _turned(asks, Judged(loose, heavy))
+    assert not _turned(asks, found, Judged(loose, heavy))
     assert (asks.goal, asks.fit) == ("mass", FITS[3])
-    assert _turned(asks, Judged(loose, Line("YIELD", 0.5)))
+    assert _turned(asks, found, Judged(loose, Line("YIELD", 0.5)))
     assert (asks.goal, asks.fit) == ("backlash", FITS[0])
     # Once: what the best of that search does not meet is refused.
-    assert not _turned(asks, Judged(loose))
-    assert _turned(asks, Judged(loose, Line("EFFICIENCY", 0.5)))
+    assert not _turned(asks, found, Judged(loose))
+    assert _turned(asks, found, Judged(loose, Line("EFFICIENCY", 0.5)))
     assert asks.goal == "efficiency"
 
 

@@ -161,7 +161,7 @@ def test_a_motor_without_rotor_inertia_is_told() -> None:
     assert found.to_dict()["reflected_inertia_input_kgm2"] is None
     assert found.gearbox_reflected > 0.0
     assert found.group_inertias["motor"] is None
-    assert "of rotor and stator of CubeMars R100 KV90 are not all known" in found.warnings[0]
+    assert "of CubeMars R100 KV90 are not known" in found.warnings[0]
     assert "rotor inertia of CubeMars R100 KV90 is not known" in found.warnings[1]
     assert "not known" in found.inertia_scope
     assert resolve(known_design("paper")).inertia.warnings == ()

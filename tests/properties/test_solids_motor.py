@@ -42,26 +42,23 @@ def built(changes: dict[str, object]) -> tuple[Design, tuple[Part, ...]]:
     st.integers(1, 9),
     st.floats(0.9, 1.1),
     st.floats(0.02, 0.12),
-    st.booleans(),
 )
 @settings(
     max_examples=examples(60), deadline=None, suppress_health_check=[HealthCheck.filter_too_much]
 )
-def test_scallops_add_and_take_their_lunes(
-    radius: float, count: int, far: float, share: float, inward: bool
-) -> None:
+def test_scallops_add_their_lunes(radius: float, count: int, far: float, share: float) -> None:
     """Area by the closed form of two circles' lens; a circle cut by small ones and rebuilt."""
     distance, small = far * radius, share * radius
     if abs(distance - radius) > 0.9 * small or small > 0.8 * radius * math.sin(math.pi / count):
         return
     angles = 0.3 + 2.0 * math.pi * np.arange(count) / count
-    outline = scalloped_circle(radius, angles, distance, small, inward=inward)
+    outline = scalloped_circle(radius, angles, distance, small)
     one = math.acos((distance**2 + radius**2 - small**2) / (2.0 * distance * radius))
     two = math.acos((distance**2 + small**2 - radius**2) / (2.0 * distance * small))
     lens = radius**2 * (one - 0.5 * math.sin(2.0 * one)) + small**2 * (
         two - 0.5 * math.sin(2.0 * two)
     )
-    changed = -lens if inward else math.pi * small**2 - lens
+    changed = math.pi * small**2 - lens
     assert outline.moments().area == pytest.approx(math.pi * radius**2 + count * changed, rel=1e-9)
 
 
@@ -118,7 +115,7 @@ def test_the_magnet_is_flush_and_the_sensor_near_it() -> None:
     [
         (
             {"motor.name": "CubeMars R100 KV90"},
-            "sizes of rotor and stator of CubeMars R100",
+            "of CubeMars R100 KV90 are not known (state bore_diameter, outer_diameter, gap_",
         ),
         ({"reducer.ring.outer_diameter": 76e-3}, "it may be 72 mm"),
     ],
@@ -168,8 +165,8 @@ def test_dowels_lie_half_in_ring_and_half_in_housing() -> None:
         math.pi * layout.pack.ring_radius**2 - ring.shape.layers[-1].shape.outer.moments().area
     )
     per_hole = missing / dowel.count / (math.pi * dowels.radius**2)
-    # Nearly half: the ring's edge is curved.
-    assert 0.45 < per_hole < 0.5
+    # Nearly half, because the ring's edge is curved, and its rounded edges.
+    assert 0.48 < per_hole < 0.52
     assert hole > 0.0
     assert dowel.shape.top <= layout.pack.top - dowels.bottom
     assert plain.reducer.ring_tooth_count == 11

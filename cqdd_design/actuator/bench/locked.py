@@ -9,7 +9,8 @@ gearbox passes at the motor's angle x (at the output, from the middle of the pla
     down(x) = T - losses of being driven at T - drag           and comes back below it
 
 and in the play T is zero. x stays between where `up` and where `down` meet the torque, which is a
-play operator. Angles and losses are means over crank angles and both senses.
+play operator. Angles and losses are means over crank angles and both senses; either is linearised
+where its play is taken up, because loose parts have come far there (:mod:`..contact.taken_up`).
 """
 
 from __future__ import annotations
@@ -24,8 +25,8 @@ from cqdd_design.actuator.bench.readings import FrictionLine, LoopReading, read_
 from cqdd_design.actuator.parameters import FloatArray, MotorParameters
 from cqdd_design.errors import ContactError, UsageError
 from cqdd_design.gearbox.contact.rubbing import ContactFriction, PowerSense
-from cqdd_design.gearbox.contact.states import nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
+from cqdd_design.gearbox.contact.taken_up import taken_up
 from cqdd_design.gearbox.losses.machine import total
 from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.machine import Machine
@@ -149,8 +150,9 @@ def locked_output(machine: Machine, peak: float, motor: MotorParameters) -> Lock
     """
     model, friction = machine.contact, machine.friction
     n, senses = model.lobe_count, (1.0, -1.0)
-    states = nominal_states(model, perfect_angles(model, ANGLES))
-    play = float(backlash(model, states=states).free.mean())
+    angles = perfect_angles(model, ANGLES)
+    play = float(backlash(model, angles).free.mean())
+    touching = [taken_up(model, angles, sense) for sense in senses]
     rest = float(total(friction.drag(0.0)))
     drag = n * (rest + motor.dry_drag)
     torque = np.concatenate([[0.0], peak * np.array(SHARES)])
@@ -158,8 +160,14 @@ def locked_output(machine: Machine, peak: float, motor: MotorParameters) -> Lock
     def solve(power: PowerSense, load: float) -> tuple[float, float]:
         """Angle, and the losses at the output, while the gearbox passes a torque."""
         rubbed = ContactFriction.of(model, power)
-        both = [contact_sweep(model, s * load, states=states, friction=rubbed) for s in senses]
-        errors = [float(np.mean(one.carrier_angle_error)) for one in both]
+        both = [
+            contact_sweep(model, sense * load, states=at.states, friction=rubbed)
+            for sense, at in zip(senses, touching, strict=True)
+        ]
+        errors = [
+            float(np.mean(at.carrier_turn + one.carrier_angle_error))
+            for at, one in zip(touching, both, strict=True)
+        ]
         works = [sum(friction.coulomb_work(one).values()) for one in both]
         return 0.5 * (errors[0] - errors[1]), 0.5 * n * sum(works)
 

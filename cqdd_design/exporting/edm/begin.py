@@ -10,7 +10,7 @@ r"""Where the cut of a contour begins: so that its tab, the last that is cut, li
 A tab is cut last, from a wall that is finished on both sides of it, and shows. Its middle is put
 where a tooth has no lever about the disc's centre, or where no tooth comes; in a round contour off
 the axis, where a pin's push has no lever about the axis. The bore and the outside of the ring are
-seats all round, and begin at the right.
+seats all round: they begin at the right, or halfway between two grooves.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def begun(flat: FlatPart, number: int, tab: float = DEFAULTS.tab_length) -> ArcC
         place = complex(*contour.centre)
         outward = cmath.phase(place) if abs(place) > contour.radius else 0.0
         return _half_circles(contour, outward + half / contour.radius)
-    return _from_place(contour, _place_at(contour, flat.quiet_angle) + half)
+    return _from_place(contour, _place_at(contour, flat.quiet_at(contour)) + half)
 
 
 def _half_circles(circle: Circle, angle: float) -> ArcContour:

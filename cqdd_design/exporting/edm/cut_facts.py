@@ -7,11 +7,11 @@ two of them, an even one to the whole of its zone.
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog import find_material
-from cqdd_design.errors import DesignError
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.loops import LoopFit
 from cqdd_design.exporting.edm.passes import WirePass, blank_side, contour_times, wire_passes
@@ -71,8 +71,6 @@ class CutFacts:
         Along every contour, the rough cut first.
     seats : tuple of Seat
         Contours with an ISO 286 zone.
-    later : tuple of str
-        What is done to the part after it is cut.
     """
 
     flat: FlatPart
@@ -82,7 +80,6 @@ class CutFacts:
     passes: tuple[WirePass, ...]
     zones: Zones
     seats: tuple[Seat, ...]
-    later: tuple[str, ...]
 
     @property
     def mass(self) -> float:
@@ -114,7 +111,8 @@ class CutFacts:
     def remarks(self) -> tuple[str, ...]:
         """Remarks of the part, which are in capitals, as sentences."""
         said = (remark.capitalize().replace(" x axis", " X axis") for remark in self.flat.remarks)
-        return tuple(one + "." for one in said)
+        # Zones of holes are capitals, whatever the sentence.
+        return tuple(re.sub(r"\bh(\d+)\b", r"H\1", one) + "." for one in said)
 
     @property
     def seat_by_contour(self) -> dict[int, Seat]:
@@ -159,25 +157,6 @@ def facts_of(flat: FlatPart, machine: Machine, options: ExportOptions = DEFAULTS
         passes=wire_passes(flat.contours, design.edm, options.passes),
         zones=zones_of(flat, design),
         seats=seats_of(flat),
-        later=_after_cutting(flat, machine),
-    )
-
-
-def _after_cutting(flat: FlatPart, machine: Machine) -> tuple[str, ...]:
-    """Holes of the ring that are made with its housing, not by wire."""
-    if flat.label != "ring":
-        return ()
-    try:
-        dowels = machine.layout.dowels
-    except DesignError:
-        # No machine fits around this ring; it can still be cut and quoted.
-        return ()
-    if dowels.radius <= 0.0:
-        return ()
-    return (
-        f"Not by wire, not in this file: {len(dowels.angles)} holes \u00d8"
-        f"{2.0 * _MM * dowels.radius:g} H7 across the seam of ring and housing are drilled and "
-        "reamed with the housing at assembly.",
     )
 
 

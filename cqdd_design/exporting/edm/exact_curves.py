@@ -19,6 +19,7 @@ from cqdd_design.geometry.conjugate import SecondEnvelope, active_angle, swept_r
 from cqdd_design.geometry.contours import as_complex, gauss_rule
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.disc import profile_moments, profile_perimeter
+from cqdd_design.geometry.grooves import edge_radius
 from cqdd_design.geometry.relief import solid_relief
 from cqdd_design.geometry.ring import pocket_radius
 
@@ -95,6 +96,58 @@ def mirrored_curve(pieces: Sequence[Piece], count: int, corners: int) -> ExactCu
         perimeter=2.0 * count * float(sizes[:, 0].sum()),
         area=2.0 * count * float(sizes[:, 1].sum()),
     )
+
+
+def chained_curve(pieces: Sequence[Piece]) -> ExactCurve:
+    """Pieces end to end all the way round, without a corner."""
+    sizes = np.array([piece.length_and_area() for piece in pieces])
+    ends = 2.0 * math.pi * np.cumsum(sizes[:, 0]) / sizes[:, 0].sum()
+    begins = np.concatenate([[0.0], ends[:-1]])
+
+    def evaluate(t: FloatArray, of: str) -> ComplexArray:
+        turned = np.mod(t, 2.0 * math.pi)
+        which = np.minimum(np.searchsorted(ends, turned), len(pieces) - 1)
+        fraction = (turned - begins[which]) / (ends - begins)[which]
+        values = np.zeros(np.shape(t), dtype=complex)
+        for number, piece in enumerate(pieces):
+            here = which == number
+            values[here] = getattr(piece, of)(fraction[here])
+        return values
+
+    return ExactCurve(
+        point=lambda t: evaluate(t, "point"),
+        tangent=lambda t: evaluate(t, "tangent"),
+        breaks=np.append(begins, 2.0 * math.pi),
+        corners=0,
+        perimeter=float(sizes[:, 0].sum()),
+        area=float(sizes[:, 1].sum()),
+    )
+
+
+def grooved_curve(radius: float, angles: Sequence[float], groove: float) -> ExactCurve:
+    """Outside of a ring with half grooves (radii, m): by the circles that make it.
+
+    A fillet of radius f touches the outside from within and the groove g from without: the
+    triangle of axis, its centre and the groove's has the sides R - f, g + f and R.
+    """
+    R, g, f = radius, groove, edge_radius(groove)
+    half = math.acos(1.0 - ((g + f) ** 2 - f * f) / (2.0 * R * (R - f)))
+    # Angle at the fillet's centre between the lines to the axis and to the groove's centre.
+    at_fillet = math.acos(((R - f) ** 2 + (g + f) ** 2 - R * R) / (2.0 * (R - f) * (g + f)))
+    at_groove = math.pi - half - at_fillet
+    turn = math.pi - at_fillet
+    pieces = []
+    following = [*angles[1:], angles[0] + 2.0 * math.pi]
+    for at, after in zip(angles, following, strict=True):
+        axis = cmath.exp(1j * at)
+        before, behind = (cmath.rect(R - f, at + side * half) for side in (-1.0, 1.0))
+        pieces += [
+            arc_piece(before, f, at - half, turn),
+            arc_piece(R * axis, g, at + math.pi + at_groove, -2.0 * at_groove),
+            arc_piece(behind, f, at + half - turn, turn),
+            arc_piece(0.0, R, at + half, after - at - 2.0 * half),
+        ]
+    return chained_curve(pieces)
 
 
 def _repeated(half: FloatArray, count: int) -> FloatArray:

@@ -6,23 +6,30 @@ Discs that are one part, perhaps some of them turned over, need one program (`so
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cqdd_design.exporting.edm.exact_curves import disc_curve, ring_curve
+from cqdd_design.errors import DesignError
+from cqdd_design.exporting.edm.exact_curves import disc_curve, grooved_curve, ring_curve
 from cqdd_design.exporting.edm.loops import ExactCurve
+from cqdd_design.exporting.edm.seats import (
+    seat,
+)
 from cqdd_design.geometry.contours import ArcContour, Contour, PlanarPart
 from cqdd_design.geometry.disc import disc_contour
-from cqdd_design.geometry.ring import ring_contour
+from cqdd_design.geometry.grooves import grooved_circle
+from cqdd_design.geometry.ring import pocket_radius, ring_contour
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.solids.clocking import DiscGroup, disc_groups
+from cqdd_design.solids.features import zones
 from cqdd_design.solids.selection import output_pin
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
     from cqdd_design.machine import Machine
+    from cqdd_design.solids.layout import DowelLayout
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,9 +41,10 @@ class FlatPart:
     label : str
         Ends the file name: ``disc``, ``disc-2``, ``ring``.
     shape : PlanarPart
-        Contours as they are written, m. One of them is an `ArcContour`, the rest are circles.
+        Contours as they are written, m. One of them, the fitted one, stands for a curve; the rest
+        are circles, but for the outside of a ring with grooves.
     exact : ExactCurve
-        What the `ArcContour` stands for.
+        What the fitted contour stands for.
     thickness : float
         m.
     material : str
@@ -52,6 +60,12 @@ class FlatPart:
         between two teeth of the ring.
     turned_over : int
         How many of them are put in turned over.
+    seat_zones : tuple of (int, float, str)
+        Contour, diameter (m) and zone of every seat (see `seats`).
+    outside : ExactCurve or None
+        The outer contour, where it is not the fitted one and no circle.
+    quiet_outside : float
+        Polar angle of a place of that contour away from its grooves, rad.
     """
 
     label: str
@@ -64,6 +78,9 @@ class FlatPart:
     remarks: tuple[str, ...]
     quiet_angle: float = 0.0
     turned_over: int = 0
+    seat_zones: tuple[tuple[int, float, str], ...] = ()
+    outside: ExactCurve | None = None
+    quiet_outside: float = 0.0
 
     @property
     def contours(self) -> tuple[Contour, ...]:
@@ -77,8 +94,19 @@ class FlatPart:
 
     @property
     def fitted(self) -> ArcContour:
-        """The one contour that is no circle."""
-        return next(one for one in self.contours if isinstance(one, ArcContour))
+        """The contour that stands for a curve."""
+        arcs = (one for one in self.contours if isinstance(one, ArcContour))
+        return next(one for one in arcs if self.outside is None or one is not self.shape.outer)
+
+    def exact_of(self, contour: Contour) -> ExactCurve:
+        """What a contour that is no circle stands for."""
+        if self.outside is not None and contour is self.shape.outer:
+            return self.outside
+        return self.exact
+
+    def quiet_at(self, contour: Contour) -> float:
+        """Polar angle at which the tab of a contour that is no circle lies, rad."""
+        return self.quiet_angle if contour is self.fitted else self.quiet_outside
 
 
 def flat_parts(machine: Machine) -> tuple[FlatPart, ...]:
@@ -93,7 +121,7 @@ def flat_parts(machine: Machine) -> tuple[FlatPart, ...]:
     validate_geometry(design, bore_diameter=machine.cam.outer_diameter)
     groups = disc_groups(design)
     discs = tuple(_disc(machine, group, alone=len(groups) == 1) for group in groups)
-    return (*discs, _ring(design))
+    return (*discs, _ring(machine))
 
 
 def pin_diameter(design: Design) -> float:
@@ -124,6 +152,7 @@ def _disc(machine: Machine, group: DiscGroup, *, alone: bool) -> FlatPart:
         reference_radius=reducer.output_pins.circle_radius,
         remarks=_disc_remarks(group, reducer.disc_count),
         turned_over=sum(placed.turned_over for placed in group.placements),
+        seat_zones=((1, machine.cam.outer_diameter, zones.DISC_BORE),),
     )
 
 
@@ -142,7 +171,8 @@ def _disc_remarks(group: DiscGroup, discs: int) -> tuple[str, ...]:
     )
 
 
-def _ring(design: Design) -> FlatPart:
+def _ring(machine: Machine) -> FlatPart:
+    design = machine.design
     reducer = design.reducer
     pieces = "ROLLERS" if reducer.ring.roller_diameter else "PINS"
     kinds = {
@@ -151,9 +181,14 @@ def _ring(design: Design) -> FlatPart:
         "pinwheel": f"POCKETS FOR {reducer.ring_tooth_count} {pieces} OF DIA "
         f"{1e3 * reducer.tooth_diameter:g}",
     }
-    return FlatPart(
+    plain = ring_contour(design)
+    outside = reducer.ring.outer_diameter
+    seats = [(0, outside, zones.RING_OUTSIDE)]
+    if reducer.ring_type == "pinwheel" and not reducer.ring.roller_diameter:
+        seats.append((1, 2.0 * pocket_radius(design), zones.RING_PIN_SEAT))
+    flat = FlatPart(
         label="ring",
-        shape=ring_contour(design),
+        shape=plain,
         exact=ring_curve(design),
         thickness=reducer.pack_length,
         material=reducer.ring_material,
@@ -161,4 +196,38 @@ def _ring(design: Design) -> FlatPart:
         reference_radius=reducer.ring_pitch_radius,
         remarks=(f"{reducer.ring_tooth_count} TEETH; {kinds[reducer.ring_type]}",),
         quiet_angle=math.pi / reducer.ring_tooth_count,
+        seat_zones=tuple(seats),
+    )
+    try:
+        dowels = machine.layout.dowels
+    except DesignError:
+        # No machine fits around this ring; it can still be cut and quoted.
+        return flat
+    return _grooved(flat, dowels, 0.5 * outside) if dowels.radius > 0.0 else flat
+
+
+def _grooved(flat: FlatPart, dowels: DowelLayout, radius: float) -> FlatPart:
+    """The ring with the half grooves of its dowels.
+
+    They are drawn so large that the wire, shifted for the outside, cuts them to the middle of
+    their own zone.
+    """
+    angles, size = dowels.angles, 2.0 * dowels.radius
+    outside, groove = seat(0, 2.0 * radius, zones.RING_OUTSIDE), seat(1, size, zones.PIN_HOLE)
+    finished = size if groove is None else groove.middle
+    drawn = 0.5 * finished + (0.0 if outside is None else outside.shift)
+    shape = PlanarPart(flat.shape.name, grooved_circle(radius, angles, drawn), flat.shape.holes)
+    places = ", ".join(f"{math.degrees(angle):.4f}".rstrip("0").rstrip(".") for angle in angles)
+    told = (
+        f"{len(angles)} HALF GROOVES DIA {1e3 * size:g} {zones.PIN_HOLE} FOR DOWELS, CENTRES ON "
+        f"THE OUTSIDE AT {places} DEG, DRAWN DIA {2e3 * drawn:.4f}"
+    )
+    if outside is not None:
+        told += f": THE SHIFT OF THE OUTSIDE CUTS THEM TO DIA {1e3 * finished:.4f}"
+    return replace(
+        flat,
+        shape=shape,
+        outside=grooved_curve(radius, angles, drawn),
+        quiet_outside=0.5 * (angles[0] + angles[1]),
+        remarks=(*flat.remarks, told),
     )

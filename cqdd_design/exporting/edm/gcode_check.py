@@ -16,7 +16,7 @@ from cqdd_design.exporting.edm.passes import wire_passes
 from cqdd_design.exporting.edm.readback import refuse_misfit
 from cqdd_design.exporting.edm.seats import seats_of
 from cqdd_design.exporting.edm.wire_check import nearest_distances
-from cqdd_design.geometry.contours import Circle
+from cqdd_design.geometry.contours import Circle, Contour
 
 if TYPE_CHECKING:
     from cqdd_design.design.actuator import Edm
@@ -335,10 +335,10 @@ def _offset(loop: Loop, distance: float, *, left: bool) -> Loop:
 
 
 def _refuse_other_shape(
-    label: str, loop: Loop, contour: object, flat: FlatPart, edm: Edm, *, outer: bool
+    label: str, loop: Loop, contour: Contour, flat: FlatPart, edm: Edm, *, outer: bool
 ) -> None:
     if not isinstance(contour, Circle):
-        fit = fit_of(loop, flat.exact, outer=outer)
+        fit = fit_of(loop, flat.exact_of(contour), outer=outer)
         # Ends that are moved by the rounding turn the shortest arc most.
         kink = 2.0 * ROUNDING / float(loop.lengths.min())
         refuse_misfit(label, fit, edm.profile_tolerance + ROUNDING, kink)

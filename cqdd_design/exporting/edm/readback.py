@@ -76,18 +76,32 @@ def read_back(
     inner = _cut_layer(contents, CUT_INNER, label, options)
     _same_circles(label, CUT_OUTER, outer.circles, [flat.shape.outer])
     _same_circles(label, CUT_INNER, inner.circles, flat.shape.holes)
-    loops = outer.loops + inner.loops
-    lobed = not isinstance(flat.shape.outer, Circle)
-    if (len(outer.loops), len(inner.loops)) != ((1, 0) if lobed else (0, 1)):
+    arcs = [contour for contour in flat.contours if not isinstance(contour, Circle)]
+    outside = arcs[0] is flat.shape.outer
+    expected = (int(outside), len(arcs) - int(outside))
+    if (len(outer.loops), len(inner.loops)) != expected:
         raise ReadBackError(
             f"{label}: {len(outer.loops)} polylines on {CUT_OUTER} and {len(inner.loops)} on "
-            f"{CUT_INNER}; the part has one, on {CUT_OUTER if lobed else CUT_INNER}."
+            f"{CUT_INNER}; the part has {expected[0]} and {expected[1]}."
         )
-    fit = fit_of(loops[0], flat.exact, outer=lobed)
-    refuse_misfit(label, fit, edm.profile_tolerance)
+    loops = zip(arcs, outer.loops + inner.loops, strict=True)
+    fits = {
+        contour is flat.fitted: fit_of(
+            loop, flat.exact_of(contour), outer=contour is flat.shape.outer
+        )
+        for contour, loop in loops
+    }
+    for one in fits.values():
+        refuse_misfit(label, one, edm.profile_tolerance)
+    fit = fits[True]
     starts = circles_of(contents, START_HOLE)
     _refuse_bad_starts(label, starts, outer, inner)
-    concave = min([fit.least_concave_radius, *(circle.radius for circle in inner.circles)])
+    concave = min(
+        [
+            *(one.least_concave_radius for one in fits.values()),
+            *(circle.radius for circle in inner.circles),
+        ]
+    )
     _refuse_thick_wire(label, concave, edm)
     if wire_paths:
         measure_paths(

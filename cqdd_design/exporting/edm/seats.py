@@ -13,14 +13,10 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.fits import FitLimits, fit_limits
 from cqdd_design.errors import CatalogError
-from cqdd_design.geometry.contours import Circle
-from cqdd_design.solids.features import zones
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.flat_parts import FlatPart
 
-_DISC_SEAT, _RING_SEAT = 1, 0
-"""Contour of the seat of a disc, its bore for the cam bearing, and of the ring, its outside."""
 
 _MM = 1e3
 
@@ -62,14 +58,13 @@ class Seat:
 
 def seats_of(flat: FlatPart) -> tuple[Seat, ...]:
     """Seats of a flat part, those whose size the table of its zone knows."""
-    contour, zone = _DISC_SEAT, zones.DISC_BORE
-    if flat.label == "ring":
-        contour, zone = _RING_SEAT, zones.RING_OUTSIDE
-    circle = flat.contours[contour]
-    if not isinstance(circle, Circle):
-        return ()
-    diameter = 2.0 * circle.radius
+    found = (seat(contour, diameter, zone) for contour, diameter, zone in flat.seat_zones)
+    return tuple(one for one in found if one is not None)
+
+
+def seat(contour: int, diameter: float, zone: str) -> Seat | None:
+    """A seat of a contour, None where the table of its zone does not know the size (m)."""
     try:
-        return (Seat(contour, diameter, fit_limits(zone, diameter)),)
+        return Seat(contour, diameter, fit_limits(zone, diameter))
     except CatalogError:
-        return ()
+        return None

@@ -189,7 +189,7 @@ def _profile_callout(sheet: SheetDrawing, facts: CutFacts) -> None:
 def _concave_radius(sheet: SheetDrawing, facts: CutFacts, reach: float) -> None:
     """Dimension the tightest arc that the wire must follow, in the lower right of the view."""
     flat, factor = facts.flat, _MM * sheet.scale
-    outer = not isinstance(flat.shape.outer, Circle)
+    outer = flat.fitted is flat.shape.outer
     contour = segmented(facts.flat.fitted)
     arcs = contour.arcs()
     concave = (contour.bulges < 0.0) == outer
@@ -276,6 +276,9 @@ def _diameters(sheet: SheetDrawing, facts: CutFacts, left: complex, wide: float)
                 rows.append((2.0 * contour.radius, _seat_words(seats.get(number))))
             continue
         radii = np.abs(as_complex(contour.sample(1e-7)))
+        if contour is not facts.flat.fitted:
+            rows.append((2.0 * float(radii.max()), _seat_words(seats.get(number))))
+            continue
         rows += [(2.0 * float(radii.min()), "(%%c<>)"), (2.0 * float(radii.max()), "(%%c<>)")]
     right = left + wide
     for place, (diameter, words) in enumerate(sorted(rows)):

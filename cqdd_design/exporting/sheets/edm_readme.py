@@ -139,7 +139,6 @@ def _part_lines(parts: Sequence[CutFacts]) -> list[str]:
                 *facts.remarks,
                 f"Contour as written, read back and measured: {facts.fit_text[0]}; "
                 f"{facts.fit_text[1]}.",
-                *facts.later,
             ],
         )
     return lines

@@ -154,7 +154,6 @@ def notes(facts: CutFacts) -> list[str]:
         "Cut all contours in one clamping, holes first, the outer contour last.",
         "Stress relieve before cutting. No recast layer on the contour after the last skim cut.",
         "Sizes in brackets are auxiliary.",
-        *facts.later,
     ]
     return said
 

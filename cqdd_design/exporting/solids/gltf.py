@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from cqdd_design.solids.part import Part
 
 _COMPONENTS = {"<f4": 5126, "<u4": 5125, "<u2": 5123, "|i1": 5120}
-_VERTICES, _INDICES = 34962, 34963
+_VERTICES, INDICES = 34962, 34963
 
 
 class Buffer:
@@ -51,7 +51,7 @@ class Buffer:
             "buffer": 0,
             "byteOffset": len(self.content),
             "byteLength": len(content),
-            "target": _VERTICES if vectors else _INDICES,
+            "target": _VERTICES if vectors else INDICES,
         }
         if room:
             view["byteStride"] = array.itemsize * array.shape[1]

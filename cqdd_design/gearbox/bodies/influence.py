@@ -36,9 +36,9 @@ from cqdd_design.geometry.contours import ComplexArray, FloatArray, gauss_rule
 _GRADED = 3
 """Power by which points of quadrature crowd towards a point load on a side or beside it."""
 _GRADED_POINTS = 24
-_BLOCKS = 8
-"""In so many the point loads are taken where all are solved: of two blocks what one does to the
-other is found once, the other way is that by reciprocity. 1 finds both."""
+_BLOCKS = 4
+"""In so many the point loads are taken. Where all are solved, what two blocks do to each other is
+found once, and the other way is that by reciprocity; 1 finds both."""
 _NEAR = 1.0
 """Distance of a point load from a side, over its length, up to which they do."""
 
@@ -174,14 +174,18 @@ def influence(
     if loads.with_reactions:
         # How it turns as a whole hangs on what is held, and quadratic sides read a strain in it.
         found -= motions @ np.linalg.solve(motions.T @ motions, motions.T @ found)
-    moved = weighed @ found
-    moved[:, : len(sharp)] += _integrated(body, loops, chosen, plate)
-    matrix = shares.T @ (smooth.T @ moved[where])
-    pieces = _BLOCKS if len(sharp) == count else 1
-    blocks = list(pairwise(np.linspace(0, count, pieces + 1).astype(int).tolist()))
+    # Some places at a time: what all of them do at all edges would fill memory, not cache.
+    blocks = list(pairwise((2 * np.linspace(0, len(chosen), _BLOCKS + 1).astype(int)).tolist()))
+    matrix = np.empty((total, len(columns)))
     for begin, end in blocks:
-        after = 0 if pieces == 1 else begin
-        matrix[begin:end, after:] += left[:, begin:end].T @ moved[:, after:]
+        stop = len(columns) if end == len(sharp) else end
+        moved = weighed @ found[:, begin:stop]
+        some = chosen.some(np.arange(begin // 2, end // 2))
+        moved[:, : end - begin] += _integrated(body, loops, some, plate)
+        matrix[:, begin:stop] = shares.T @ (smooth.T @ moved[where])
+        rows = end if len(sharp) == count else count
+        matrix[:rows, begin:stop] += left[:, :rows].T @ moved
+        matrix[rows:count, end:stop] += left[:, rows:].T @ moved[:, end - begin :]
     # p_j(s_i)
     met = displacement(edges.point[loads.where], places, plate).reshape(len(where), count)
     matrix[:count] += ((weight[where, None] * smooth).T @ met).T @ share
@@ -189,7 +193,7 @@ def influence(
     x, y = displacement(chosen.point, places, plate).repeat(2, axis=1)
     along = chosen.directions
     matrix[:count, : len(sharp)] += x.T * along.real + y.T * along.imag
-    if pieces > 1:
+    if len(sharp) == count:
         for begin, end in blocks:
             matrix[end:count, begin:end] = matrix[begin:end, end:count].T
     return Influence(matrix, found)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.gearbox.bodies import point_load
-from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, Carried, DiscShape
+from cqdd_design.gearbox.bodies.disc import Carried, DiscShape
 from cqdd_design.gearbox.bodies.elements import Elements, elements
 from cqdd_design.gearbox.bodies.influence import Influence, Loads, influence, self_balanced
 from cqdd_design.gearbox.bodies.loops import Loop
@@ -29,23 +30,37 @@ class Body:
         along the normal into the material, and along that turned a quarter turn counter-clockwise.
         On a disc, outward radial loads on stations of the raceway follow. The loads of a disc are
         in balance with tractions spread evenly round its raceway.
-    stress : array (S, L)
-        Stress along the edge by every unit load, Pa/N, at `seen()` of a disc and `roots()` of a
-        ring. Meaningless where the load itself stands.
+    told_stress : array (S, L)
+        :attr:`stress`, or that of the body from which it is carried.
     reciprocity : float
         Largest difference between the two halves of the matrix as they were computed, over its
         largest entry; their mean is kept. It is 1e-10 to 5e-10, of quadrature: a turn that gives
         columns from others carries the mesh into itself too. Where every place is solved, only
-        pairs of one eighth of the places have both ways computed.
+        pairs of one quarter of the places have both ways computed.
+    carried : Carried, optional
+        Which load and place of that other body each one is.
     """
 
     matrix: FloatArray
-    stress: FloatArray
+    told_stress: FloatArray
     reciprocity: float
+    carried: Carried | None = None
+
+    @cached_property
+    def stress(self) -> FloatArray:
+        """Stress (S, L) along the edge by every unit load, Pa/N.
+
+        At `seen()` of a disc and `roots()` of a ring. Meaningless where the load itself
+        stands. Found when it is asked for: the equilibrium does without.
+        """
+        if self.carried is None:
+            return self.told_stress.astype(float)
+        index, sense, place = self.carried
+        return self.told_stress[np.ix_(place, index)] * sense
 
     def widened(self) -> Body:
         """The same in double precision, from the single one in which the cache keeps it."""
-        return Body(self.matrix.astype(float), self.stress.astype(float), self.reciprocity)
+        return replace(self, matrix=self.matrix.astype(float))
 
 
 def to_standard(shape: DiscShape) -> Carried:
@@ -56,17 +71,15 @@ def to_standard(shape: DiscShape) -> Carried:
 
 def of_standard(body: Body, carried: Carried) -> Body:
     """The body of a disc from that of the standard disc of its kind, as the cache keeps it."""
-    index, sense, place = carried
+    index, sense, _ = carried
     if sense.min() > 0.0 and (index == np.arange(len(index))).all():
         return body.widened()
     matrix = body.matrix.take(index, axis=0).take(index, axis=1)
-    stress = body.stress.take(place, axis=0).take(index, axis=1)
     if sense.min() < 0.0:
         signs = sense.astype(matrix.dtype)
         matrix *= signs[:, None]
         matrix *= signs
-        stress *= signs
-    return Body(matrix, stress, body.reciprocity).widened()
+    return replace(body, matrix=matrix, carried=carried).widened()
 
 
 def disc_body(shape: DiscShape) -> Body:
@@ -92,8 +105,8 @@ def disc_body(shape: DiscShape) -> Body:
     found = influence(body, loops, shape.plate, loads, body.rigid(), columns)
     where = np.concatenate(
         [
-            np.zeros(PER_LOBE * shape.outline.lobe_count, dtype=np.int64),
-            1 + np.repeat(np.arange(shape.hole_count + shape.column_count), PER_HOLE),
+            np.zeros(shape.grid.per_lobe * shape.outline.lobe_count, dtype=np.int64),
+            1 + np.repeat(np.arange(shape.hole_count + shape.column_count), shape.grid.per_hole),
         ]
     )
     stress = _edge_stress(body, loops, seen, where, places, shape.plate, found, columns)

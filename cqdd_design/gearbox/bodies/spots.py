@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape, lobe_length
+from cqdd_design.gearbox.bodies.disc import DiscShape, lobe_length
 from cqdd_design.gearbox.bodies.ring import PER_TOOTH, RingShape
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.states import NominalStates
@@ -39,17 +39,18 @@ def disc_spots(
     outline = shape.outline
     pitch = 2.0 * outline.half_pitch
     t = states.ring.parameter[:, disc_index]
+    per_lobe, per_hole = shape.grid
     grid, length = lobe_length(outline)
     lobe = np.floor(t / pitch)
     along = np.interp(t - lobe * pitch, grid, length) / length[-1]
     lobes = outline.lobe_count
-    near, share = _cubic(PER_LOBE * (lobe + along), PER_LOBE * lobes)
+    near, share = _cubic(per_lobe * (lobe + along), per_lobe * lobes)
     own = states.crank_angle + model.phases[disc_index]
     wall = own * (1.0 + 1.0 / lobes) + np.pi
     holes = shape.holes
     turned = wall[:, None] - np.angle(holes)
-    on_hole, hole_share = _cubic(PER_HOLE * turned / (2.0 * np.pi), PER_HOLE)
-    first = PER_LOBE * lobes + PER_HOLE * np.arange(len(holes))
+    on_hole, hole_share = _cubic(per_hole * turned / (2.0 * np.pi), per_hole)
+    first = per_lobe * lobes + per_hole * np.arange(len(holes))
     inward = np.broadcast_to(np.exp(1j * wall)[:, None], turned.shape)
     return Spots(
         np.concatenate([near, on_hole + first[:, None]], axis=1),

@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cqdd_design.gearbox.bodies.compliance import ElasticBodies
-from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE
 from cqdd_design.gearbox.bodies.give import ToothGive, tooth_gives
 from cqdd_design.gearbox.bodies.stress import Region, disc_regions, disc_stress, ring_stress
 from cqdd_design.gearbox.contact.solved import ContactSweep
@@ -355,8 +354,8 @@ def _picture(
     at = int(np.flatnonzero(sweep.crank_angle == peak.crank_angle)[0])
     shape = bodies.discs[peak.disc][0]
     edge, stress = edges[2 * peak.disc], stresses[2 * peak.disc][at]
-    rim = PER_LOBE * shape.outline.lobe_count
-    starts = [0, *range(rim, len(stress) + 1, PER_HOLE)]
+    rim = shape.grid.per_lobe * shape.outline.lobe_count
+    starts = [0, *range(rim, len(stress) + 1, shape.grid.per_hole)]
     loops = tuple(
         (edge.places[begin:end], stress[begin:end]) for begin, end in itertools.pairwise(starts)
     )

@@ -13,7 +13,7 @@ import numpy as np
 
 from cqdd_design.gearbox.bodies import bore
 from cqdd_design.gearbox.bodies.compliance import under_disc
-from cqdd_design.gearbox.bodies.disc import PER_HOLE, PER_LOBE, DiscShape
+from cqdd_design.gearbox.bodies.disc import DiscShape
 from cqdd_design.gearbox.bodies.model import Body
 from cqdd_design.gearbox.bodies.point_load import Places
 from cqdd_design.gearbox.bodies.ring import RingShape
@@ -90,9 +90,9 @@ def disc_stress(
     stiffness = under_disc(shape, model, states, disc_index, cam_force)
     found = bore.reactions(onto, body.matrix[first:, first:], direction, radial, stiffness)
     loads[:, first:] = found.stations[..., 0]
-    steps = np.full(spots.normal.shape, 2.0 * np.pi * shape.hole_radius / PER_HOLE)
+    steps = np.full(spots.normal.shape, 2.0 * np.pi * shape.hole_radius / shape.grid.per_hole)
     lobe = 2.0 * np.pi / shape.outline.lobe_count * shape.outline.tip_distance
-    steps[:, : model.tooth_count] = lobe / PER_LOBE
+    steps[:, : model.tooth_count] = lobe / shape.grid.per_lobe
     stress, places = loads @ body.stress.T, shape.places()
     _clear(stress[:, : len(places)], places, places, spots, forces, steps)
     return stress
@@ -100,23 +100,23 @@ def disc_stress(
 
 def disc_regions(shape: DiscShape) -> list[Region]:
     """What part of a disc each place belongs to: by the nearest edge across the material."""
-    found: list[Region] = ["root"] * (PER_LOBE * shape.outline.lobe_count)
-    half_pitch = np.exp(1j * np.pi / shape.hole_count)
+    found: list[Region] = ["root"] * (shape.grid.per_lobe * shape.outline.lobe_count)
+    count, half_pitch = shape.grid.per_hole, np.exp(1j * np.pi / shape.hole_count)
     for hole in shape.holes:
         beside = [
             bool((np.abs(shape.columns - at) < _THERE * shape.hole_circle).any())
             for at in (hole * half_pitch, hole / half_pitch)
         ]
         after, before = (_BETWEEN[one] for one in beside)
-        found += _wall("hole to profile", after, "hole to bore", before)
+        found += _wall(count, "hole to profile", after, "hole to bore", before)
     across = _BETWEEN[True]
-    column = _wall("column to profile", across, "column to bore", across)
+    column = _wall(count, "column to profile", across, "column to bore", across)
     return found + column * shape.column_count
 
 
-def _wall(profile: Region, after: Region, bore: Region, before: Region) -> list[Region]:
-    """Regions round a hole, from the direction outward, with the next and the one before."""
-    angles = np.angle(np.exp(2j * np.pi * np.arange(PER_HOLE) / PER_HOLE))
+def _wall(count: int, profile: Region, after: Region, bore: Region, before: Region) -> list[Region]:
+    """Regions of a hole's places, from the direction outward, with the next and the one before."""
+    angles = np.angle(np.exp(2j * np.pi * np.arange(count) / count))
     return [
         profile
         if abs(a) < 0.25 * np.pi

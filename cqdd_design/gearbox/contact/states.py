@@ -25,6 +25,8 @@ _KEPT = 100_000
 class NominalStates:
     """Contacts of the perfect gearbox at A crank angles; C = teeth + pins.
 
+    At the nominal pose, unless it says otherwise (:mod:`.taken_up`).
+
     Attributes
     ----------
     crank_angle : array (A,)
@@ -98,34 +100,56 @@ def _kept_states(model: ContactModel, crank_angle: bytes) -> NominalStates:
 
 
 def _nominal_states(model: ContactModel, crank_angle: FloatArray) -> NominalStates:
-    ring = ring_table(model, crank_angle)
-    pin_rows, pin_rates, pin_angle = pin_table(model, crank_angle)
+    rows, rates, pin_angle = pin_table(model, crank_angle)
+    still = np.concatenate([rates, np.zeros((*rates.shape[:-1], 1))], axis=-1)
+    gaps = np.full(rows.shape[:-1], model.pin_gap)
+    return states_of(
+        model, crank_angle, ring_table(model, crank_angle), (rows, still, gaps), pin_angle
+    )
+
+
+def states_of(
+    model: ContactModel,
+    crank_angle: FloatArray,
+    ring: RingTable,
+    pins: tuple[FloatArray, FloatArray, FloatArray],
+    pin_angle: FloatArray,
+) -> NominalStates:
+    """Contacts of ring and pins in one row each.
+
+    Parameters
+    ----------
+    crank_angle : array (A,)
+        rad.
+    pins : tuple of array
+        Rows (A, D, P, 3) with h in m, rates of the normal's angle, of h and of the gap
+        (A, D, P, 3), and gaps (A, D, P) of pins at their drawn radius, m.
+    pin_angle : array (A, P)
+        rad.
+    """
+    pin_rows, pin_rates, pin_gaps = pins
     length = model.pin_circle_radius
     rows = np.concatenate([ring.rows, pin_rows], axis=2)
     rows[..., 2] /= length
     opening = pin_openings(model, pin_rows, pin_angle)
-    still = np.zeros((*pin_rates.shape[:-1], 2))
-    still[..., 0] = opening[1]
+    moving = np.zeros((*pin_rates.shape[:-1], 4))
+    moving[..., :3] = pin_rates
+    moving[..., 2] += opening[1]
     softening = -model.ring_law.logarithm * ring.radius_rate
     rates = np.concatenate(
-        [
-            np.concatenate([ring.rates, softening[..., None]], axis=-1),
-            np.concatenate([pin_rates, still], axis=-1),
-        ],
-        axis=2,
+        [np.concatenate([ring.rates, softening[..., None]], axis=-1), moving], axis=2
     )
     rates[..., 1] /= length
-    pin_shape = pin_rows.shape[:-1]
     return NominalStates(
         crank_angle=crank_angle,
         ring=ring,
         pin_angle=pin_angle,
         rows=rows,
-        gaps=np.concatenate([ring.gap, model.pin_gap + opening[0]], axis=2),
+        gaps=np.concatenate([ring.gap, pin_gaps + opening[0]], axis=2),
         coefficient=np.concatenate(
             [
                 model.ring_coefficient(ring.equivalent_radius),
-                np.full(pin_shape, model.pin_coefficient()),
+                np.full(pin_gaps.shape, model.pin_coefficient()),
             ],
             axis=2,
         ),

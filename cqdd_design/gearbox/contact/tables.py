@@ -86,17 +86,23 @@ def _bend_slope(disc: CycloidDisc, t: FloatArray) -> FloatArray:
     return np.asarray((disc.rates(t + step)[1] - disc.rates(t - step)[1]) / (2.0 * step))
 
 
-def ring_table(model: ContactModel, crank_angle: FloatArray) -> RingTable:
-    """Ring contacts of every disc at the nominal pose.
+def ring_table(
+    model: ContactModel, crank_angle: FloatArray, turned: FloatArray | None = None
+) -> RingTable:
+    """Ring contacts of every disc at the nominal pose, or turned from it about its centre.
 
     Parameters
     ----------
     crank_angle : array (A,)
         rad.
+    turned : array (A, D), optional
+        rad, counter-clockwise; default the nominal pose.
     """
     disc, n = model.disc, model.lobe_count
     own = crank_angle[:, None] + model.phases
     turn, shift = disc_pose(disc, own)
+    if turned is not None:
+        turn = turn * np.exp(1j * turned)
     turn, shift = turn[..., None], shift[..., None]
     tooth = as_complex(tooth_centres(disc))
     seen = (tooth - shift) / turn

@@ -12,9 +12,6 @@ from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.losses.sliding import pin_sliding
 from cqdd_design.gearbox.rolling_contacts import at_rest
 
-_PLASTIC_MODULUS = 20e9
-"""Materials softer than this are plastics, Pa."""
-
 
 @dataclass(frozen=True)
 class RubbingPlastic:
@@ -43,11 +40,6 @@ class RubbingPlastic:
         return self.pressure * self.speed
 
 
-def is_plastic(name: str) -> bool:
-    """Whether a material of the catalogue is one."""
-    return find_material(name).youngs_modulus < _PLASTIC_MODULUS
-
-
 def sliding_plastics(design: Design, model: ContactModel) -> tuple[str, ...]:
     """Plastics that slide at output pins: pins and holes, or pins under plain sleeves.
 
@@ -58,7 +50,7 @@ def sliding_plastics(design: Design, model: ContactModel) -> tuple[str, ...]:
     reducer = design.reducer
     pair = [reducer.disc_material, reducer.output_pins.material]
     rubbing = pair if model.hole_film.journal is None else pair[1:]
-    return tuple(name for name in dict.fromkeys(rubbing) if is_plastic(name))
+    return tuple(name for name in dict.fromkeys(rubbing) if find_material(name).is_plastic)
 
 
 def rubbing_plastics(
@@ -88,7 +80,7 @@ def films_on_plastics(design: Design, model: ContactModel) -> tuple[str, ...]:
     """A sentence on films between plastics, where there are any."""
     reducer = design.reducer
     pair = (reducer.disc_material, reducer.output_pins.material, reducer.ring_material)
-    soft = [name for name in dict.fromkeys(pair) if is_plastic(name)]
+    soft = [name for name in dict.fromkeys(pair) if find_material(name).is_plastic]
     if not soft or not any(model.by_film):
         return ()
     return (

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cqdd_design.catalog.lubricants import find_lubricant
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
 from cqdd_design.gearbox.contact.films import hole_film, ring_film, travel
 from cqdd_design.gearbox.contact.model import ContactModel
@@ -17,7 +18,7 @@ from cqdd_design.gearbox.contact.states import NominalStates
 from cqdd_design.gearbox.film.law import Film, FilmLaw
 from cqdd_design.gearbox.film.mixed import asperity_share
 from cqdd_design.gearbox.film.of_design import ContactFilm
-from cqdd_design.gearbox.film.plastics import films_on_plastics, is_plastic
+from cqdd_design.gearbox.film.plastics import films_on_plastics
 from cqdd_design.gearbox.film.wear import WEAR_BAND, Wear, wear_depth
 from cqdd_design.gearbox.life.life import duty_cases
 from cqdd_design.gearbox.losses import LossModel
@@ -198,9 +199,9 @@ def _wear(
     way = _way_on_tooth(model, sweep, states)
     reducer = design.reducer
     # The band is that of steel; on plastics nothing is known.
-    soft = is_plastic(reducer.disc_material)
-    teeth_known = not (soft or is_plastic(reducer.ring_material)) and way > 0.0
-    pins_known = not (soft or is_plastic(reducer.output_pins.material))
+    soft = find_material(reducer.disc_material).is_plastic
+    teeth_known = not (soft or find_material(reducer.ring_material).is_plastic) and way > 0.0
+    pins_known = not (soft or find_material(reducer.output_pins.material).is_plastic)
     if teeth_known and model.tooth_film is not None and model.tooth_film.journal is None:
         disc_flank = band(teeth, _perimeter(model) * length)
         ring_tooth = band(teeth, model.tooth_count * way * length)

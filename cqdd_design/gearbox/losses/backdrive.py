@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike
 
 STATIC_RATIO = 1.5
 """Breakaway over running friction. Greased hard steel on hard steel: 1.3 (lard) to 1.9 (castor
-oil) and 2.3 (mineral oil) in handbook tables (Marks; Kirk-Othmer); bearings are taken alike."""
+oil) and 2.3 (mineral oil) in handbook tables (Marks; Kirk-Othmer), where what the ratio is of ends
+at the boundary layer's coefficient; bearings are taken alike."""
 
 NOT_INCLUDED = (
     "motor cogging and hysteresis, and friction of the motor's own bearings",

@@ -27,6 +27,7 @@ from cqdd_design.gearbox.output_pins import disc_positions, pin_span
 from cqdd_design.gearbox.rolling_contacts import (
     greatest_roller_turn,
     hole_friction,
+    most_breakaway,
     sleeve_turn,
     tooth_friction,
 )
@@ -46,6 +47,8 @@ SOURCES = (
     "grease",
 )
 """Where power is lost, in the order of every table of losses."""
+RUBBING = ("ring_teeth", "output_pins")
+"""Those of them that mesh, in the order of the coefficients of a design."""
 
 _LEAST_FILM = 50e-6
 """Thinnest grease film between faces that a design sets without any gap, m."""
@@ -78,6 +81,8 @@ class FrictionMachine:
     tooth_coefficient, pin_coefficient : float
         mu felt at ring teeth and at output pins, sliding or rolling (:mod:`..rolling_contacts`), as
         the design states it or without a film.
+    most_breakaway : tuple of float
+        Most by which breakaway exceeds running friction at teeth and at pins.
     disc_heights : tuple of float
         Mid-planes of the discs from the first carrier plate.
     span : float
@@ -97,6 +102,7 @@ class FrictionMachine:
     eccentricity: float
     tooth_coefficient: float
     pin_coefficient: float
+    most_breakaway: tuple[float, float]
     disc_heights: tuple[float, ...]
     span: float
     cam: BearingFriction
@@ -139,6 +145,7 @@ class FrictionMachine:
             eccentricity=reducer.eccentricity,
             tooth_coefficient=tooth_friction(design),
             pin_coefficient=hole_friction(design),
+            most_breakaway=most_breakaway(design),
             disc_heights=tuple(float(z) for z in disc_positions(*stack)),
             span=float(pin_span(*stack)),
             cam=BearingFriction.of(cam),

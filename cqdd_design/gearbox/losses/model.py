@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from cqdd_design.errors import UsageError
 from cqdd_design.gearbox.losses.backdrive import STATIC_RATIO, Backdrive, balance_torque
 from cqdd_design.gearbox.losses.film_work import FilmWork
-from cqdd_design.gearbox.losses.machine import SOURCES, FrictionMachine, total
+from cqdd_design.gearbox.losses.machine import RUBBING, SOURCES, FrictionMachine, total
 from cqdd_design.gearbox.losses.result import Losses
 from cqdd_design.geometry.contours import FloatArray
 
@@ -308,9 +308,9 @@ class LossModel:
         Parameters
         ----------
         static_ratio : float
-            Breakaway over running friction, at least 1, of sliding contacts and bearings; the
-            yield stress of the grease is already that of rest, and so is the friction of teeth and
-            pins whose film is gone.
+            Breakaway over running friction, at least 1, of bearings, and of teeth and pins as far
+            as a boundary layer goes (:func:`..rolling_contacts.most_breakaway`); the yield stress
+            of the grease is already that of rest.
         output_speed : float
             Of the dynamic torque, rad/s; the default is the limit of slow motion, because drag
             grows with speed.
@@ -332,10 +332,10 @@ class LossModel:
             self.torque, "backdrive", speed if film_speed is None else film_speed
         )
         rest = self.coulomb_work(self.torque, "backdrive", 0.0)
-        broken = static_ratio * rest.sum(axis=1)
-        if self.film is not None:
-            sliding = [SOURCES.index(name) for name in ("ring_teeth", "output_pins")]
-            broken -= (static_ratio - 1.0) * rest[:, sliding].sum(axis=1)
+        ratios = np.full(len(SOURCES), static_ratio)
+        for name, most in zip(RUBBING, self.machine.most_breakaway, strict=True):
+            ratios[SOURCES.index(name)] = min(static_ratio, most)
+        broken = rest @ ratios
         dynamic = n * (moving.sum(axis=1) + running + shaft_running)
         static = n * (broken + static_ratio * (resting - grease) + grease + shaft_resting)
         return Backdrive(

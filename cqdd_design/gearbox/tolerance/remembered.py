@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
-import os
 from collections.abc import Iterator
-from functools import cache
-from pathlib import Path
 
 import numpy as np
 
 from cqdd_design.design import Design
 from cqdd_design.environment import cache_folder
 from cqdd_design.files.kept import entry_path, read_entry, write_entry
+from cqdd_design.files.package_state import package_state
 from cqdd_design.gearbox.tolerance.ensemble import Block, Ensemble, work_block
 from cqdd_design.geometry.contours import FloatArray
 
@@ -32,7 +29,7 @@ def work_remembered(ensemble: Ensemble, blocks: list[Block]) -> Iterator[tuple[i
 def _block(ensemble: Ensemble, block: Block) -> FloatArray:
     text = json.dumps(
         {
-            "code": _code(),
+            "code": package_state(),
             "design": _physical(ensemble.design),
             "bodies": None if ensemble.bodies is None else _physical(ensemble.bodies),
             "torque": ensemble.torque,
@@ -58,17 +55,3 @@ def _physical(design: Design) -> dict[str, object]:
     mapping = design.to_mapping()
     mapping["requirements"].pop("motor", None)
     return {key: value for key, value in mapping.items() if key not in _ELSEWHERE}
-
-
-@cache
-def _code() -> str:
-    """Of this package as it stands: what another state of it has worked does not count."""
-    top = Path(__file__).parents[2]
-    told = []
-    for folder, _, names in os.walk(top):
-        for name in names:
-            if not name.endswith((".pyc", ".nbc", ".nbi")):
-                status = os.stat(os.path.join(folder, name))
-                place = os.path.relpath(os.path.join(folder, name), top)
-                told.append(f"{place} {status.st_size} {status.st_mtime_ns}")
-    return hashlib.sha256("\n".join(sorted(told)).encode()).hexdigest()

@@ -8,7 +8,7 @@ from collections.abc import Container
 from cqdd_design.catalog.paper import METRICS, is_papers_actuator
 from cqdd_design.design import Design
 from cqdd_design.errors import CatalogError
-from cqdd_design.exporting.solids.bom import BomRow, bill_of_materials
+from cqdd_design.exporting.solids.bom import BomRow, part_rows
 from cqdd_design.gearbox.balance import paper_disc_count
 from cqdd_design.machine.weighing import DISC_COUNTS, Bodies
 from cqdd_design.report.ink.numbers import decimals, millimetres, significant, with_unit
@@ -33,7 +33,7 @@ def bodies_view(design: Design, bodies: Bodies) -> Values:
     return {
         "rows": tuple(
             _part_row(row, by_name.get(row.part), inertia)
-            for row in bill_of_materials(bodies.inertia.motor, bodies.parts)
+            for row in part_rows(bodies.inertia.motor, bodies.parts)
         ),
         "total_mass": "not known"
         if inertia.whole_mass is None

@@ -76,6 +76,32 @@ def rectangle(x: float, y: float, width: float, height: float, class_: str) -> s
     return element("rect", x=x, y=y, width=width, height=height, class_=class_)
 
 
+def thinned(points: FloatArray, fine: float) -> FloatArray:
+    """A chain (k, 2) without the points that lie within `fine` of the line through the others.
+
+    The algorithm of Douglas and Peucker, 1973.
+    """
+    keep = np.zeros(len(points), dtype=bool)
+    keep[[0, -1]] = True
+    spans = [(0, len(points) - 1)]
+    while spans:
+        first, last = spans.pop()
+        if last - first < 2:
+            continue
+        chord = points[last] - points[first]
+        length = float(np.hypot(*chord))
+        away = points[first + 1 : last] - points[first]
+        if length < fine:
+            distance = np.hypot(*away.T)
+        else:
+            distance = np.abs(away[:, 0] * chord[1] - away[:, 1] * chord[0]) / length
+        worst = int(distance.argmax())
+        if distance[worst] > fine:
+            keep[first + 1 + worst] = True
+            spans += [(first, first + 1 + worst), (first + 1 + worst, last)]
+    return points[keep]
+
+
 def polyline(points: Iterable[Point], class_: str, *, closed: bool = False) -> str:
     """A chain of straight lines."""
     joined = "L".join(f"{fixed(x)} {fixed(y)}" for x, y in points)
@@ -231,7 +257,7 @@ class Figure:
             role="img",
             aria_labelledby=labels,
             id=f"{self.id}-svg",
-            style=f"max-width:{fixed(self.width)}px",
+            style=f"--wide:{fixed(self.width)}px",
         )
 
 

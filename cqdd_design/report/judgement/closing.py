@@ -129,7 +129,11 @@ Source = tuple[str, str]
 
 
 def sources_used(
-    analysis: GearboxAnalysis, parts: Sequence[Part] = (), checks: Sequence[Check] = ()
+    analysis: GearboxAnalysis,
+    parts: Sequence[Part] = (),
+    checks: Sequence[Check] = (),
+    *,
+    planetary: bool = False,
 ) -> tuple[tuple[Source, ...], tuple[Source, ...]]:
     """Literature behind the checks and the comparison, and catalogue rows, as used here.
 
@@ -141,6 +145,8 @@ def sources_used(
         Of the machine, where they have been weighed.
     checks : sequence of Check
         Besides those of the analysis.
+    planetary : bool
+        Whether the report compares with one.
 
     Returns
     -------
@@ -152,7 +158,7 @@ def sources_used(
         literature = check.source.partition("; limit: ")[0]
         for part in _parts(literature):
             used.setdefault(part, []).append(check.id)
-    for text in PLANETARY_SOURCES:
+    for text in PLANETARY_SOURCES if planetary else ():
         used.setdefault(text, []).append("planetary comparison")
     literature_rows = tuple((text, _listed(ids)) for text, ids in used.items())
     return literature_rows, _catalogue(analysis, parts)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from cqdd_design.design import LARGEST_FILE, Design
 from cqdd_design.design.model import supply_taken_over
@@ -72,6 +72,10 @@ class Value:
     note: str
 
 
+Group = tuple[str, tuple[Value, ...]]
+"""A heading and its rows."""
+
+
 def read_comments(path: Path) -> dict[str, str]:
     """The comments at the ends of lines of a design file, by dotted key.
 
@@ -87,9 +91,7 @@ def read_comments(path: Path) -> dict[str, str]:
     return {key: comment.lstrip("# ").strip() for key, comment in comments.items() if comment}
 
 
-def values_by_group(
-    design: Design, comments: Mapping[str, str]
-) -> tuple[tuple[str, tuple[Value, ...]], ...]:
+def values_by_group(design: Design, comments: Mapping[str, str]) -> tuple[Group, ...]:
     """All values of a design with their origins, grouped under headings in file order.
 
     Parameters
@@ -148,11 +150,31 @@ def _shown(key: str, raw: object) -> str:
     return f"{raw:g}" if isinstance(raw, float) else str(raw)
 
 
-def defaults(groups: tuple[tuple[str, tuple[Value, ...]], ...]) -> tuple[str, ...]:
-    """Words and values of what the design file leaves to this program."""
-    return tuple(
-        f"{row.label.words} {row.shown}"
-        for _, rows in groups
-        for row in rows
-        if row.origin == "default"
-    )
+class Folded(NamedTuple):
+    """Groups of values: those that somebody chose or that follow, and those left to the program.
+
+    Attributes
+    ----------
+    given, defaults : tuple of (str, tuple of Value)
+        Headings and rows.
+    left : int
+        Number of the defaults.
+    """
+
+    given: tuple[Group, ...]
+    defaults: tuple[Group, ...]
+    left: int
+
+
+def folded(groups: Sequence[Group], *, headings: bool = True) -> Folded:
+    """Groups of values, apart by whether they are defaults; without `headings` these are empty."""
+
+    def those(default: bool) -> tuple[Group, ...]:
+        chosen = (
+            (name, tuple(row for row in rows if (row.origin == "default") is default))
+            for name, rows in groups
+        )
+        return tuple((name if headings else "", rows) for name, rows in chosen if rows)
+
+    defaults = those(default=True)
+    return Folded(those(default=False), defaults, sum(len(rows) for _, rows in defaults))

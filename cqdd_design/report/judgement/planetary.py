@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from cqdd_design.planetary.assembly import MOST_PLANETS, assembles
 from cqdd_design.planetary.compare import PlanetaryComparison
+from cqdd_design.planetary.cycloid import CycloidLimit
 from cqdd_design.planetary.kinematics import ratio_ring_fixed
 from cqdd_design.planetary.rating import MeshRating
 from cqdd_design.planetary.settings import RatingSettings
@@ -20,11 +21,13 @@ _ASSEMBLING = 12
 _MESH = {"sun_planet": "sun and planet", "planet_ring": "planet and ring"}
 
 
-def planetary_view(comparison: PlanetaryComparison) -> Values:
-    """Answers, ratings by number of planets, what limits the cycloid, and the paper's claims."""
+def planetary_view(comparison: PlanetaryComparison, *, limits: bool = True) -> Values:
+    """Answers, ratings by number of planets, what limits the cycloid, and the paper's claims.
+
+    Without `limits` the cycloid's are left out, where they stand elsewhere on the page.
+    """
     settings = comparison.gears.settings
     contact, bending = settings.least_contact_safety, settings.least_bending_safety
-    limits = sorted(comparison.cycloid, key=lambda one: (one.load != "peak", one.torque_capacity))
     return {
         "summary": _summary(comparison),
         "headings": (
@@ -33,17 +36,8 @@ def planetary_view(comparison: PlanetaryComparison) -> Values:
             f"contact, continuous (S_H ≥ {contact:g})",
         ),
         "rows": _rows(comparison),
-        "cycloid": tuple(
-            (
-                limit.load,
-                limit.part,
-                limit.title,
-                f"{significant(limit.value)} of {with_unit(limit.limit, limit.unit)}",
-                (with_unit(limit.torque_capacity, "N*m", 3), limit.holds),
-            )
-            for limit in limits
-        ),
-        "cycloid_models": " and ".join(dict.fromkeys(limit.model for limit in limits)),
+        "cycloid": limit_rows(comparison.cycloid) if limits else (),
+        "cycloid_models": limit_models(comparison.cycloid),
         "claims": tuple(
             (
                 printed(claim.claim),
@@ -57,6 +51,26 @@ def planetary_view(comparison: PlanetaryComparison) -> Values:
         ),
         "warnings": tuple(printed(warning) for warning in comparison.warnings),
     }
+
+
+def limit_rows(limits: Iterable[CycloidLimit]) -> tuple[tuple[object, ...], ...]:
+    """Load, part, what is compared, how far it is reached, and the torque at its limit."""
+    return tuple(
+        (
+            limit.load,
+            limit.part,
+            limit.title,
+            f"{significant(limit.value)} of {with_unit(limit.limit, limit.unit)}",
+            (with_unit(limit.torque_capacity, "N*m", 3), limit.holds),
+        )
+        for limit in sorted(limits, key=lambda one: (one.load != "peak", one.torque_capacity))
+    )
+
+
+def limit_models(limits: Iterable[CycloidLimit]) -> str:
+    """What those torques rest on."""
+    ranked = sorted(limits, key=lambda one: (one.load != "peak", one.torque_capacity))
+    return " and ".join(dict.fromkeys(limit.model for limit in ranked))
 
 
 def _other_settings(settings: RatingSettings) -> str:

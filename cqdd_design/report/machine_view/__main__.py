@@ -1,26 +1,41 @@
 """Draw a machine in a process of its own: a pickled job on standard input, views on the output.
 
-The CAD kernel takes its time, and now and then the process; the report goes on beside it.
+The CAD kernel takes its time, and now and then the process; the report goes on beside it. Before
+the views stands their digest.
 """
 
+import hashlib
+import os
 import pickle
 import sys
+from typing import BinaryIO
 
+from cqdd_design.design import Design
 from cqdd_design.errors import CqddError
 from cqdd_design.report.machine_view import hidden_line_views, viewer_data
+from cqdd_design.solids.layout import Layout
 from cqdd_design.solids.parts import build_parts
 
 
 def main() -> int:
     """Read (design, layout), write (views, viewer)."""
     design, layout = pickle.load(sys.stdin.buffer)
+    # What libraries print of their own goes to the errors, not among the views.
+    sys.stdout.flush()
+    with os.fdopen(os.dup(1), "wb") as out:
+        os.dup2(2, 1)
+        return _draw(design, layout, out)
+
+
+def _draw(design: Design, layout: Layout, out: BinaryIO) -> int:
     try:
         parts = build_parts(design, layout)
         found = hidden_line_views(design, parts), viewer_data(design, parts)
     except CqddError as error:
         sys.stderr.write(f"{error.message}\n")
         return error.exit_code
-    pickle.dump(found, sys.stdout.buffer)
+    drawn = pickle.dumps(found)
+    out.write(hashlib.sha256(drawn).digest() + drawn)
     return 0
 
 

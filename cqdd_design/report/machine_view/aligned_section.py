@@ -24,6 +24,8 @@ from cqdd_design.report.machine_view.balloons import spread
 from cqdd_design.report.machine_view.camera import Camera, tinted
 from cqdd_design.report.machine_view.paint import (
     INK,
+    SCALED,
+    UNSCALED,
     Sheet,
     bounds,
     path_data,
@@ -193,7 +195,7 @@ def _ground(lines: Sequence[FloatArray], faces: Sequence[CutFace], sheet: Sheet)
                 strips.append(CrossSection([strip], FillRule.NonZero))
     ground = CrossSection.batch_boolean(strips, OpType.Add)
     data = path_data([np.asarray(loop) for loop in ground.to_polygons()], sheet, closed=True)
-    return element("path", d=data, fill="#eef1f4", fill_rule="evenodd")
+    return element("path", d=data, fill="#eef1f4", fill_rule="evenodd", transform=SCALED)
 
 
 def _reach(line: FloatArray, height: float, side: float) -> float:
@@ -218,10 +220,16 @@ def _face(face: CutFace, sheet: Sheet) -> str:
     data = path_data(face.loops, sheet, closed=True)
     station = face.station
     fill = tinted(station.part.colour, 0.74)
-    drawn = [element("path", d=data, fill=fill, fill_rule="evenodd")]
+    drawn = [element("path", d=data, fill=fill, fill_rule="evenodd", transform=SCALED)]
     if _hatched(station):
         drawn.append(
-            element("path", d=data, fill=f"url(#cut-{station.number})", fill_rule="evenodd")
+            element(
+                "path",
+                d=data,
+                fill=f"url(#cut-{station.number})",
+                fill_rule="evenodd",
+                transform=SCALED,
+            )
         )
     elif station.part.inner_body is not None:
         drawn.append(_bearing_mark(face, sheet))
@@ -258,7 +266,7 @@ def _patterns(parts: Sequence[Part], faces: Sequence[CutFace]) -> str:
                 width=spacing,
                 height=spacing,
                 patternUnits="userSpaceOnUse",
-                patternTransform=f"rotate({angle})",
+                patternTransform=f"rotate({angle}) {UNSCALED}",
             )
         )
     return element("defs", *found) if found else ""

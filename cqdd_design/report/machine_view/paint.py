@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray
-from cqdd_design.report.ink.svg import element, fixed
+from cqdd_design.report.ink.svg import element, fixed, thinned
 from cqdd_design.report.machine_view.camera import Camera
 from cqdd_design.report.machine_view.surfaces import Patch
 from cqdd_design.solids.hidden_lines import VisibleLines
@@ -19,8 +19,8 @@ from cqdd_design.solids.stations import Posed
 if TYPE_CHECKING:
     from manifold3d import Manifold
 
-_DECIMALS = 1
-"""Of px: a twentieth of a px is finer than any screen shows."""
+_TENTH = 0.1
+"""Of a px, the grid of drawn points: half of it is finer than any screen shows."""
 _SMALL = 0.02
 """Outlines simpler than the drawing can show, mm."""
 
@@ -28,6 +28,10 @@ _FINE = 0.16
 """Points this near to the line without them are left out, px."""
 
 INK = "#17212b"
+SCALED = f"scale({_TENTH:g})"
+"""Transform of what :func:`path_data` gives."""
+UNSCALED = f"scale({1.0 / _TENTH:g})"
+"""For patterns in it."""
 
 
 @dataclass(frozen=True)
@@ -55,45 +59,22 @@ class Sheet:
 
 
 def path_data(lines: Iterable[FloatArray], sheet: Sheet, *, closed: bool) -> str:
-    """Path data of chains (k, 2) in mm, with relative steps and no more points than show."""
+    """Path data of chains (k, 2) in mm, with relative steps and no more points than show.
+
+    In whole tenths of a px: whoever draws it scales it by :data:`_TENTH`.
+    """
     pieces = []
     for line in lines:
-        grid = np.round(thinned(sheet.px(line)) * 10**_DECIMALS).astype(np.int64)
+        grid = np.round(thinned(sheet.px(line), _FINE) / _TENTH).astype(np.int64)
         keep = np.ones(len(grid), dtype=bool)
         keep[1:] = (np.diff(grid, axis=0) != 0).any(axis=1)
         grid = grid[keep]
         if len(grid) < 2:
             continue
-        steps = " ".join(_tenths(step) for step in np.diff(grid, axis=0))
-        pieces.append(f"M{_tenths(grid[0])}l{steps}{'Z' if closed else ''}")
+        steps = " ".join(map(str, np.diff(grid, axis=0).ravel().tolist())).replace(" -", "-")
+        first = " ".join(map(str, grid[0].tolist())).replace(" -", "-")
+        pieces.append(f"M{first}l{steps}{'Z' if closed else ''}")
     return "".join(pieces)
-
-
-def thinned(points: FloatArray) -> FloatArray:
-    """A chain (k, 2) in px without the points that the eye would not miss (Douglas-Peucker)."""
-    keep = np.zeros(len(points), dtype=bool)
-    keep[[0, -1]] = True
-    spans = [(0, len(points) - 1)]
-    while spans:
-        first, last = spans.pop()
-        if last - first < 2:
-            continue
-        chord = points[last] - points[first]
-        length = float(np.hypot(*chord))
-        away = points[first + 1 : last] - points[first]
-        if length < _FINE:
-            distance = np.hypot(*away.T)
-        else:
-            distance = np.abs(away[:, 0] * chord[1] - away[:, 1] * chord[0]) / length
-        worst = int(distance.argmax())
-        if distance[worst] > _FINE:
-            keep[first + 1 + worst] = True
-            spans += [(first, first + 1 + worst), (first + 1 + worst, last)]
-    return points[keep]
-
-
-def _tenths(pair: np.ndarray) -> str:
-    return " ".join(fixed(int(value) / 10**_DECIMALS, _DECIMALS) for value in pair)
 
 
 def painted(patches: Sequence[Patch], sheet: Sheet) -> str:
@@ -112,8 +93,9 @@ def painted(patches: Sequence[Patch], sheet: Sheet) -> str:
         *found,
         fill="currentColor",
         stroke="currentColor",
-        stroke_width="0.5",
+        stroke_width=fixed(0.5 / _TENTH),
         fill_rule="evenodd",
+        transform=SCALED,
     )
 
 
@@ -134,9 +116,10 @@ def stroked(
         d=data,
         fill="none",
         stroke=INK,
-        stroke_width=fixed(width),
+        stroke_width=fixed(width / _TENTH),
         stroke_linejoin="round",
         stroke_linecap="round",
+        transform=SCALED,
     )
 
 

@@ -72,6 +72,10 @@
     var text = Math.round(value).toString();
     return text.length > 4 ? text.replace(/\B(?=(\d{3})+$)/g, "\u202f") : text;
   }
+  function say(id, text) {
+    var us = document.documentElement.getAttribute("data-units") === "us";
+    byId(id).textContent = us ? window.cqddUnits(text) : text;
+  }
   function signed(value) { return value.toFixed(1).replace("-", "\u2212"); }
 
   function draw() {
@@ -104,9 +108,9 @@
     var tooth = most(now.ring), pin = most(now.pin);
     byId("mesh-crank").textContent = signed(angle) + "\u00b0";
     byId("mesh-carrier").textContent = signed(-angle / n) + "\u00b0";
-    byId("mesh-ring-force").textContent = grouped(now.ring[tooth]) + "\u202fN on tooth " + (tooth + 1);
-    byId("mesh-pin-force").textContent = grouped(now.pin[pin]) + "\u202fN on pin " + (pin + 1);
-    byId("mesh-cam-force").textContent = grouped(load) + "\u202fN";
+    say("mesh-ring-force", grouped(now.ring[tooth]) + "\u202fN on tooth " + (tooth + 1));
+    say("mesh-pin-force", grouped(now.pin[pin]) + "\u202fN on pin " + (pin + 1));
+    say("mesh-cam-force", grouped(load) + "\u202fN");
     figure.setAttribute("data-crank-deg", angle.toFixed(3));
   }
 
@@ -149,6 +153,7 @@
       figure.classList.toggle("one-disc", !this.checked);
     });
   }
+  document.addEventListener("cqdd-units", draw);
   document.documentElement.classList.add("scripted");
   draw();
 }());

@@ -9,6 +9,7 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.report.ink.numbers import grouped, per_cent, significant
 from cqdd_design.report.ink.page import Values, environment
 from cqdd_design.report.ink.svg import Figure, Words
+from cqdd_design.report.ink.tables import readable_tables
 from cqdd_design.report.torque.charts import (
     Errors,
     IntervalBar,
@@ -52,13 +53,15 @@ def torque_page(results: EvaluationResult, *, date: str = "") -> str:
     from cqdd_design.version import __version__
 
     page = environment().get_template("torque_page.html")
-    return page.render(
-        torque=torque_view(results),
-        facts=_facts(results),
-        title=str(results.data.facts.get("design", "Torque data")),
-        version=__version__,
-        date=date,
-        data_sha256=results.data.sha256,
+    return readable_tables(
+        page.render(
+            torque=torque_view(results),
+            facts=_facts(results),
+            title=str(results.data.facts.get("design", "Torque data")),
+            version=__version__,
+            date=date,
+            data_sha256=results.data.sha256,
+        )
     )
 
 

@@ -62,7 +62,7 @@ def housing_features(layout: Layout) -> tuple[Feature, ...]:
                mouth=pack.top, facing="up", depth=deep, room=deep),
         _mounting(housing, housing.flange_bottom, pack.top),
         *_ring_pin_seats(pack, -pack.relief, downward=True),
-        *ring_dowel_holes(pack, layout.dowels),
+        *ring_dowel_holes(pack, layout.dowels, layout.dowels.bottom),
     ]  # fmt: skip
     if layout.motor is not None:
         found += _motor_flange(housing, layout.motor)
@@ -100,14 +100,16 @@ def ear_circle(motor: MotorLayout) -> BoltCircle:
     return BoltCircle("motor cover screws", motor.ear_circle, tuple(motor.ear_angles.tolist()))
 
 
-def ring_dowel_holes(pack: PackLayout, dowels: DowelLayout) -> tuple[FittedHole, ...]:
-    """Of the dowels between ring and housing, of which each has one half."""
+def ring_dowel_holes(
+    pack: PackLayout, dowels: DowelLayout, bottom: float
+) -> tuple[FittedHole, ...]:
+    """Of the dowels between ring and housing, of which each has one half, from a height (m) up."""
     if not dowels.radius:
         return ()
     circle = BoltCircle("ring dowels", pack.ring_radius, dowels.angles)
     return (
         fitted("holes of the ring dowels", 2.0 * dowels.radius, zones.PIN_HOLE, circle,
-               bottom=dowels.bottom, top=pack.top, facing="up", position=_SEAM_POSITION,
+               bottom=bottom, top=pack.top, facing="up", position=_SEAM_POSITION,
                seam=True, refers="AB"),
     )  # fmt: skip
 

@@ -52,6 +52,7 @@ __all__ = [
     "Shoulder",
     "TappedHole",
     "Undercut",
+    "fit_label",
 ]
 
 ON_AXIS: Centre = (0.0, 0.0)
@@ -326,3 +327,8 @@ class Joint:
 Feature: TypeAlias = (
     Seat | Shoulder | Chamfer | Undercut | Hole | CutProfile | AxialThread | Groove | Joint
 )
+
+
+def fit_label(one: Seat | FittedHole) -> str:
+    """As on a drawing: ``bore for the cam bearing 28 N7``."""
+    return f"{one.name} {one.diameter * 1e3:.6g} {one.zone}"

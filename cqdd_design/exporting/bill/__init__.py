@@ -1,0 +1,1 @@
+"""What the bill of materials says beside names and masses: fitting, substitutes, prices."""

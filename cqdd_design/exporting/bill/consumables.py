@@ -1,0 +1,151 @@
+"""What a machine takes beside its parts: retaining compound and lubricant, and how much of each."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
+from cqdd_design.catalog.fits import fit_limits
+from cqdd_design.catalog.lubricants import find_lubricant
+from cqdd_design.errors import CatalogError
+from cqdd_design.exporting.bill.substitutes import other_lubricants
+
+if TYPE_CHECKING:
+    from cqdd_design.machine import Machine
+
+_FILL = 1.0 / 3.0
+"""Share of the free space round discs and pins that grease fills: bearings are filled to between 30
+and 50 % (SKF 2013, Rolling bearings, initial grease fill), slow gears by no more."""
+_WASTE = 2.0
+"""What is spread over what stays in the gap."""
+_LEAST_GAP = 20e-6
+"""Mean radial gap of a bond whose fit is tighter, m."""
+_MM3, _ML = 1e9, 1e6
+
+
+@dataclass(frozen=True)
+class Consumable:
+    """A line of the bill that is no part.
+
+    Attributes
+    ----------
+    name, designation, fitting, substitutes, source : str
+        As the columns of the bill.
+    """
+
+    name: str
+    designation: str
+    fitting: str
+    substitutes: str
+    source: str
+
+
+@dataclass(frozen=True)
+class Bond:
+    """A cylindrical bond, m: all of `count` of them together."""
+
+    place: str
+    diameter: float
+    length: float
+    gap: float
+    count: int = 1
+
+    @property
+    def volume(self) -> float:
+        """Of the compound that is spread, m^3."""
+        return _WASTE * self.count * math.pi * self.diameter * self.length * self.gap
+
+
+def bonds(machine: Machine) -> tuple[Bond, ...]:
+    """Every cylindrical bond that is drawn."""
+    layout = machine.layout
+    motor, carrier, stub = layout.motor, layout.carrier, layout.shaft.support.bearing.bore_diameter
+    found = []
+    if motor is not None:
+        ring = motor.ring_top - motor.ring_bottom
+        found += [
+            Bond(
+                "bell on the shaft", stub, motor.hub_top - motor.hub_bottom, _gap("F7", "k6", stub)
+            ),
+            Bond("magnets in the bell", 2.0 * motor.rotor_outer, ring, _LEAST_GAP),
+            Bond(
+                "stator on the housing",
+                2.0 * motor.stack_inner,
+                motor.stack_top - motor.stack_bottom,
+                _LEAST_GAP,
+            ),
+        ]
+    pin = carrier.pin.nominal_diameter
+    if carrier.bonded_in_cap:
+        depth = -layout.pack.gap - carrier.shoulder_bottom
+        found.append(Bond("pins in the cap", pin, depth, _gap("H7", "f9", pin), carrier.pin_count))
+    if carrier.pin.screw is None:
+        depth = carrier.shoulder_top - carrier.plate_bottom
+        found.append(
+            Bond("pins in the plate", pin, depth, _gap("H7", "f9", pin), carrier.pin_count)
+        )
+    return tuple(found)
+
+
+def _gap(hole: str, shaft: str, diameter: float) -> float:
+    """Mean radial gap of a fit, m; the least where the table of a zone does not know the size."""
+    try:
+        outer, inner = fit_limits(hole, diameter), fit_limits(shaft, diameter)
+    except CatalogError:
+        return _LEAST_GAP
+    mean = 0.5 * (outer.lower + outer.upper - inner.lower - inner.upper)
+    return max(0.5 * mean, _LEAST_GAP)
+
+
+def free_space(machine: Machine) -> float:
+    """Space inside the ring beside discs, cam bearings, pins and what turns on them, m^3."""
+    height = machine.layout.pack.top
+    free = 0.0
+    for part in machine.parts:
+        solid = sum(
+            layer.shape.area() * max(min(layer.top + z, height) - max(layer.bottom + z, 0.0), 0.0)
+            for piece in part.instances
+            for layer in part.shape.layers
+            for z in (0.0 if part.name.startswith("disc") else float(piece.placement[2, 3]),)
+        )
+        if part.name == "ring":
+            whole = math.pi * machine.layout.pack.ring_radius**2 * height
+            free += whole - solid
+        elif part.name.startswith(("disc", "cam bearing", "pin ", "ring pin", "ring roller")) or (
+            part.name in ("shoulder screw", "dowel pin", "carrier column", "eccentric shaft")
+        ):
+            free -= solid
+    return max(free, 0.0)
+
+
+def consumables(machine: Machine) -> tuple[Consumable, ...]:
+    """Compound and lubricant of a machine."""
+    places = bonds(machine)
+    found = []
+    if places:
+        amount = _ML * sum(one.volume for one in places)
+        found.append(
+            Consumable(
+                "retaining compound",
+                ROTOR_COMPOUND.name,
+                f"about {amount:.2g} ml: {', '.join(one.place for one in places)}; surfaces clean "
+                "and dry",
+                "",
+                ROTOR_COMPOUND.source,
+            )
+        )
+    lubricant, _ = find_lubricant(machine.design.reducer.friction.lubricant)
+    volume = _FILL * free_space(machine)
+    found.append(
+        Consumable(
+            "lubricant",
+            lubricant.name,
+            f"about {1e3 * volume * lubricant.density:.2g} g ({_ML * volume:.2g} ml), a third of "
+            "the free space inside the ring: on teeth, lobes and pins, and in open bearings",
+            "; ".join(other_lubricants(lubricant.name)),
+            lubricant.source,
+        )
+    )
+    return tuple(found)

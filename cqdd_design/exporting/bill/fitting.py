@@ -1,0 +1,116 @@
+"""Notes for fitting of the parts of a bill: seats, torques, bonds, gaps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
+from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.machine.screws import tightening_torques
+
+if TYPE_CHECKING:
+    from cqdd_design.machine import Machine
+    from cqdd_design.solids.layout import Layout
+    from cqdd_design.solids.part import Part
+
+_SAME = 1e-7
+_MM = 1e3
+
+
+def fitting_notes(machine: Machine) -> dict[str, str]:
+    """How bought parts are put in, by the name of the part; those without are left out."""
+    layout, parts = machine.layout, {part.name: part for part in machine.parts}
+    notes = {**_bearings(machine, parts), **_needles(parts), **_motor(machine)}
+    for name, torque in tightening_torques(machine).items():
+        if name in parts:
+            notes[name] = f"tighten to {torque:.2g} N m, thread and head lightly oiled"
+    notes["encoder screw"] = "holds the board alone; tighten by hand"
+    carrier = layout.carrier
+    if carrier.bonded_in_cap and carrier.pin.screw is not None:
+        notes["shoulder screw"] += f"; seat in the cap bonded with {ROTOR_COMPOUND.name}"
+    if layout.dowels.radius:
+        notes["ring dowel"] = (
+            "slid in with the ring in its seat, half in its grooves and half in the housing's; "
+            "the clamp keeps them"
+        )
+    return {name: note for name, note in notes.items() if name in parts}
+
+
+def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:
+    layout = machine.layout
+    return {
+        "cam bearing": _seated(
+            layout.pack.cam.bearing.bore_diameter,
+            layout.pack.cam.bearing.outer_diameter,
+            parts.values(),
+            ("eccentric shaft", "disc"),
+        ),
+        "shaft bearing": _seated(
+            layout.shaft.support.bearing.bore_diameter,
+            layout.shaft.support.bearing.outer_diameter,
+            parts.values(),
+            ("eccentric shaft", "housing"),
+        ),
+        "output bearing": _seated(
+            layout.carrier.output.bearing.bore_diameter,
+            layout.carrier.output.bearing.outer_diameter,
+            parts.values(),
+            ("carrier plate", "output cover"),
+        )
+        + "; locked with the bearing nut",
+    }
+
+
+def _seated(bore: float, outer: float, parts: Iterable[Part], names: tuple[str, str]) -> str:
+    """Seats of the inner and of the outer ring, as the fits of the parts around them say."""
+
+    def zone(name: str, diameter: float) -> str:
+        for part in parts_list:
+            for fit in part.fits:
+                if _is(part, name) and abs(fit.diameter - diameter) < _SAME:
+                    return f"{_MM * diameter:g} {fit.zone}"
+        return f"{_MM * diameter:g}"
+
+    parts_list = tuple(parts)
+    inner, outside = names
+    return f"on the {inner} {zone(inner, bore)}, in the {outside} {zone(outside, outer)}"
+
+
+def _is(part: Part, name: str) -> bool:
+    """Whether a part is called so; ``disc`` stands for every disc."""
+    return part.name == name or (name == "disc" and part.name.startswith("disc "))
+
+
+def _needles(parts: dict[str, Part]) -> dict[str, str]:
+    notes = {}
+    for name, part in parts.items():
+        if name.endswith(("needle cage", "needle bearing")):
+            row = find_bearing(part.designation)
+            on = "on hardened pins" if row.raceway_diameter is None else "on its inner ring"
+            notes[name] = f"packed with grease, {on}"
+    return notes
+
+
+def _motor(machine: Machine) -> dict[str, str]:
+    layout: Layout = machine.layout
+    motor = layout.motor
+    if motor is None:
+        return {}
+    gap = motor.magnet_bottom - motor.sensor_top
+    board, thick = 2.0 * motor.board_radius, motor.board_top - motor.board_bottom
+    return {
+        "motor stator": f"bonded on the housing's register, {2.0 * _MM * motor.stack_inner:g} h7",
+        "motor rotor": f"bonded into the bell with {ROTOR_COMPOUND.name}; comes with the stator",
+        "encoder magnet": (
+            "bonded into the shaft's end"
+            if motor.magnet_bottom >= layout.shaft.bottom - _SAME
+            else "bonded on the shaft's end, centred by a sleeve"
+        )
+        + f" with {ROTOR_COMPOUND.name}",
+        "encoder board": (
+            f"{_MM * gap:g} mm from magnet to sensor; the sensor stands in the middle of a round "
+            f"board of {_MM * board:g} mm, {_MM * thick:g} mm "
+            "thick, on three screws (outline in STEP)"
+        ),
+    }

@@ -1,0 +1,125 @@
+"""Files of printed and moulded parts: STEP, STL and 3MF as they are made, and a test coupon.
+
+::
+
+    <out>/print/<name>-disc.step   .stl   .3mf     of every part of plastic, compensated
+                <name>-coupon.step .3mf            to be measured, not compensated
+                README.txt                         what was done to the parts, and what is left
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from cqdd_design.catalog.printing import PrintedMaterial, printed_materials
+from cqdd_design.errors import DesignError
+from cqdd_design.exporting.printing.compensate import Compensation, compensated, compensation
+from cqdd_design.exporting.printing.coupon import Coupon, coupon
+from cqdd_design.exporting.printing.readme import readme_text
+from cqdd_design.exporting.printing.threads import ThreadedHoles, with_inserts
+from cqdd_design.exporting.solids.meshes import write_3mf, write_stl
+from cqdd_design.exporting.solids.step import file_label, write_part_step
+from cqdd_design.files import WrittenFile, write_atomically
+from cqdd_design.solids.part import on_axis
+from cqdd_design.solids.poses import HOUSING
+from cqdd_design.solids.walls import Wall, least_walls
+
+if TYPE_CHECKING:
+    from cqdd_design.exporting.job import ExportJob
+    from cqdd_design.machine import Machine
+    from cqdd_design.solids.part import Part
+
+FOLDER = "print"
+
+
+@dataclass(frozen=True, eq=False)
+class PrintedPart:
+    """A part of plastic.
+
+    Attributes
+    ----------
+    drawn, made : Part
+        As it should become, and as its file has it.
+    by : Compensation
+        What lies between them.
+    material : PrintedMaterial
+    threads : tuple of ThreadedHoles
+        And what goes into them.
+    wall : Wall or None
+        The thinnest between its holes, inserts' among them; None where it has no round holes.
+    """
+
+    drawn: Part
+    made: Part
+    by: Compensation
+    material: PrintedMaterial
+    threads: tuple[ThreadedHoles, ...]
+    wall: Wall | None
+
+
+def export_print(job: ExportJob) -> tuple[WrittenFile, ...]:
+    """Write the package of a design into ``print/``.
+
+    Raises
+    ------
+    DesignError
+        When nothing is made of a plastic whose printing or moulding is known.
+    """
+    every = printed_parts(job.machine, job.parts)
+    if not every:
+        known = ", ".join(f"'{name}'" for name in list(printed_materials())[:4])
+        raise DesignError(
+            f"{job.design.name}: no part is of a plastic to be printed or moulded; set "
+            f"reducer.disc_material, reducer.ring_material or housing.material to one, such as "
+            f"{known}."
+        )
+    files: list[WrittenFile] = []
+    for one in every:
+        piece = replace(one.made, instances=on_axis(one.made.name, HOUSING))
+        files += _files(job, piece, file_label(piece.name), stl=True)
+    test = coupon_of(every)
+    if test is not None:
+        files += _files(job, test.part, "coupon", stl=False)
+    readme = job.folder / FOLDER / "README.txt"
+    text = readme_text(job.design, every, test)
+    return (*files, write_atomically(readme, text, "print"))
+
+
+def printed_parts(machine: Machine, parts: Iterable[Part]) -> tuple[PrintedPart, ...]:
+    """Those of the parts of a machine that are of a plastic to be printed or moulded."""
+    plastics, found = printed_materials(), []
+    for part in parts:
+        material = plastics.get(part.material)
+        if material is None or part.source != "make":
+            continue
+        by = compensation(material, machine.design.printing)
+        bored, threads = with_inserts(part, material.least_wall)
+        walls = least_walls([bored])
+        found.append(
+            PrintedPart(
+                part, compensated(bored, by), by, material, threads, walls[0] if walls else None
+            )
+        )
+    return tuple(found)
+
+
+def coupon_of(every: tuple[PrintedPart, ...]) -> Coupon | None:
+    """The coupon of the material that most of the parts are of."""
+    names = [one.material.material for one in every]
+    usual = max(names, key=names.count)
+    parts = [one.drawn for one in every if one.material.material == usual]
+    return coupon(parts, usual)
+
+
+def _files(job: ExportJob, part: Part, label: str, *, stl: bool) -> list[WrittenFile]:
+    def path(ending: str) -> Path:
+        return job.path(f"-{label}{ending}", FOLDER)
+
+    files = [
+        write_part_step(job.design, part, path(".step"), job.options.step_schema),
+        write_3mf(job.design, [part], path(".3mf")),
+    ]
+    return [*files, write_stl(part, path(".stl"))] if stl else files

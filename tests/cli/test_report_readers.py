@@ -1,0 +1,154 @@
+"""Report and torque page for every reader: desk and phone, in the dark, by ear, by the keys."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from page_readers import axe_source, read
+from shared_outputs import paper_bench, paper_input
+
+from cqdd_design.machine.contact_analysis import analyse_contact
+from cqdd_design.report import build_report
+from cqdd_design.report.torque.page import torque_page
+from cqdd_design.torque.data.episodes import DataSet, Episode
+from cqdd_design.torque.evaluation.behaviour import Effort
+from cqdd_design.torque.evaluation.estimator import Estimator
+from cqdd_design.torque.evaluation.evaluate import evaluate
+
+pytestmark = pytest.mark.deep
+
+#: Units there and back, the contents, and what the keyboard reaches.
+_USED = """
+  var page = frame.contentDocument, view = frame.contentWindow;
+  function shown() { return page.querySelector("main").innerText; }
+  function choose(name, value) {
+    page.querySelector("input[name='" + name + "'][value='" + value + "']").click();
+  }
+  function columns(id) {
+    return Array.prototype.map.call(page.querySelectorAll("#" + id + " tr"), function (row) {
+      return Array.prototype.map.call(row.children, function (c) { return c.textContent; }); });
+  }
+  var si = shown(), seats = columns("bom");
+  choose("units", "us");
+  var us = shown(), converted = columns("bom");
+  var drawn = page.querySelector("#front-view").textContent;
+  choose("units", "si");
+  var again = shown();
+  var button = page.getElementById("contents-button"), list = page.getElementById("contents-list");
+  var bar = view.getComputedStyle(button.parentNode).display;
+  var before = view.getComputedStyle(list).display;
+  if (bar !== "none") { button.click(); }
+  var after = view.getComputedStyle(list).display, told = button.getAttribute("aria-expanded");
+  var link = list.querySelector("a[href='#checks']");
+  link.click();
+  page.documentElement.style.scrollBehavior = "auto";
+  page.getElementById("checks").scrollIntoView();
+  view.dispatchEvent(new view.Event("scroll"));
+  var nav = page.getElementById("contents").getBoundingClientRect();
+  var headings = Array.prototype.map.call(page.querySelectorAll("h1, h2, h3, h4"), function (h) {
+    return Number(h.tagName[1]); });
+  return { same: si === again, si: si, us: us, drawn: drawn, seats: seats, converted: converted,
+    bar: bar, before: before, after: after, told: told, nav: [nav.top, nav.bottom, nav.height],
+    current: (list.querySelector("[aria-current]") || {}).textContent, headings: headings,
+    scrolled: Array.prototype.filter.call(page.querySelectorAll("figure, .scroll"),
+      function (box) { return box.scrollWidth > box.clientWidth + 1 &&
+        box.getAttribute("tabindex") !== "0"; }).length };
+"""
+
+
+@pytest.fixture(scope="module")
+def readers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    """All chapters but tolerances and the solids."""
+    results = paper_input()
+    contact = analyse_contact(results.machine, angles=120)
+    page = build_report(dataclasses.replace(results, contact=contact, bench=paper_bench()))
+    return read(page, tmp_path_factory.mktemp("readers"), axe=axe_source(), more=_USED)
+
+
+def test_every_reader_can_read_it(readers: dict[str, Any]) -> None:
+    """No text under 11 px, nothing wider than the screen, 4.5 to 1, and nothing serious by axe."""
+    for screen, seen in readers.items():
+        _legible(screen, seen)
+
+
+def _legible(screen: str, seen: dict[str, Any]) -> None:
+    assert seen["small"] == [], screen
+    assert seen["pale"] == [], screen
+    assert seen["cut"] == [], screen
+    assert seen["overflow"] <= 0, screen
+    serious = [v for v in seen["violations"] if v["impact"] in {"serious", "critical"}]
+    assert serious == [], screen
+
+
+def test_contents_are_at_hand_and_headings_in_order(readers: dict[str, Any]) -> None:
+    for screen, seen in readers.items():
+        used = seen["more"]
+        narrow = screen.startswith("400")
+        assert (used["bar"] != "none") == narrow
+        assert used["before"] == ("none" if narrow else "block")
+        assert used["after"] == "block"
+        assert used["told"] == str(narrow).lower()
+        # Far down the page the contents, or the bar that opens them, are still in sight.
+        assert 0.0 <= used["nav"][0] < used["nav"][1] <= 900.0
+        assert used["current"] == "Checks"
+        assert used["headings"][0] == 1
+        assert used["headings"].count(1) == 1
+        steps = np.diff(used["headings"])
+        assert steps.max() <= 1, "a level of headings is left out"
+        assert used["scrolled"] == 0, "a scrolled box that no key reaches"
+
+
+def test_units_go_to_inches_and_back(readers: dict[str, Any]) -> None:
+    used = readers["1300 900 light"]["more"]
+    assert used["same"]
+    assert "120\u202fN\u00b7m" in used["si"]
+    assert "1062\u202flbf\u00b7in" in used["us"]
+    assert "120\u202fN\u00b7m" not in used["us"]
+    # A limit of 120 degC, and a ring of 72 x 16.5 mm with both of its sides.
+    assert "248\u202f\u00b0F" in used["us"]
+    assert "\u2300 2.835 \u00d7 0.6496\u202fin" in used["us"]
+    assert "2 \u00d7 0.315\u202fin" in used["us"], "pieces are no length"
+    assert "1.26\u202fin" in used["drawn"]
+    for row, other in zip(used["seats"], used["converted"], strict=True):
+        for cell, new in zip(row, other, strict=True):
+            if cell.endswith("\u202fg") and cell.split("\u202f")[0].replace(".", "").isdigit():
+                grams, ounces = float(cell.split("\u202f")[0]), float(new.split("\u202f")[0])
+                assert ounces == pytest.approx(grams / 28.349523, rel=5e-3)
+
+
+def test_the_torque_page_can_be_read_too(tmp_path: Path) -> None:
+    for screen, seen in read(torque_page(_evaluated()), tmp_path, axe=axe_source()).items():
+        _legible(screen, seen)
+
+
+def _evaluated() -> Any:
+    """Three estimators with known errors on swings in closed form."""
+    rng, step = np.random.default_rng(4), 0.005
+    time = step * np.arange(1200)
+    episodes = []
+    for k in range(6):
+        pulse = 5.0 + 0.3 * k
+        position, velocity = np.sin(pulse * time), pulse * np.cos(pulse * time)
+        torque = -0.2 * pulse**2 * position + 0.4 * np.sin(11.0 * position)
+        columns = {"target": position, "position": position, "velocity": velocity}
+        columns["torque"] = torque + 0.05 * rng.normal(size=len(time))
+        episodes.append(Episode(f"e{k:02}", {"number": str(k)}, step, columns))
+    pendulum = {"hanging_angle": 3.14159, "gravity": 9.80665, "viscous": 0.0}
+    pendulum |= {"bar_inertia": 0.08, "bar_gravity_moment": 1.8}
+    data = DataSet(tuple(episodes), 60.0, 2.0, (-90.0, 90.0), {"pendulum": pendulum})
+
+    def known(name: str, noise: float, kind: str) -> Estimator:
+        def estimate(episode: Episode) -> np.ndarray:
+            own = np.random.default_rng([len(name), int(episode.group["number"])])
+            return episode.columns["torque"] + noise * own.normal(size=len(episode))
+
+        return Estimator(name, estimate, 7, 1, kind, "", needs=("torque",))
+
+    models = [known("pva-gru", 0.5, "network"), known("mlp", 1.0, "network")]
+    effort = Effort(draws=100, rollouts=0, drift_steps=0, timed=False)
+    names = {"trajectory": tuple(one.name for one in episodes)}
+    return evaluate(data, names, [*models, known("pd-law", 2.0, "baseline")], effort=effort)

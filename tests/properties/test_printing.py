@@ -1,0 +1,223 @@
+"""Printed and moulded parts: compensation, inserts, walls, the coupon and its way back."""
+
+from __future__ import annotations
+
+import math
+import zipfile
+
+import numpy as np
+import pytest
+
+from cqdd_design.catalog import materials
+from cqdd_design.catalog.printing import inserts, printed_materials
+from cqdd_design.design import load_design
+from cqdd_design.errors import DesignError, GeometryError
+from cqdd_design.exporting.printing.compensate import Compensation, compensated, grown
+from cqdd_design.exporting.printing.coupon import HOLE_OFFSETS, PIN_OFFSETS, coupon
+from cqdd_design.exporting.printing.marks import marks
+from cqdd_design.exporting.printing.package import coupon_of, printed_parts
+from cqdd_design.exporting.printing.threads import with_inserts
+from cqdd_design.geometry.contours import Circle, as_complex
+from cqdd_design.machine import resolve
+from cqdd_design.roads.export import export
+from cqdd_design.verdict.retention_lines import retention_lines
+
+
+@pytest.fixture(scope="module")
+def design(paper_design_file):
+    return load_design(paper_design_file.with_name("printed-13.toml"))
+
+
+@pytest.fixture(scope="module")
+def machine(design):
+    return resolve(design)
+
+
+@pytest.fixture(scope="module")
+def every(machine):
+    return printed_parts(machine, machine.parts)
+
+
+def test_rows_are_of_materials_of_the_catalogue_with_a_source():
+    known = materials()
+    for name, row in printed_materials().items():
+        assert known[name].youngs_modulus < 10e9
+        assert row.source
+        assert 0.0 <= row.shrinkage <= 0.03
+        assert row.least_wall >= 2.0 * row.line_width - 1e-9 or row.process == "SLS"
+    for one in inserts():
+        assert one.hole > one.thread
+        assert one.source
+
+
+def test_all_parts_of_plastic_are_in_the_package_and_no_metal(every):
+    names = {one.drawn.name for one in every}
+    assert {"disc", "ring", "carrier plate", "carrier cap", "housing", "motor cover"} <= names
+    assert not names & {"eccentric shaft", "rotor bell", "cam bearing"}
+    assert all(one.drawn.designation.startswith("printed, FDM") for one in every)
+
+
+def test_what_the_printer_does_to_a_file_gives_the_drawing(machine):
+    """A printer that shrinks by 0.4 %, with holes 0.12 mm small and outsides 0.05 mm large."""
+    by = Compensation(0.004, -120e-6, 50e-6, measured=True)
+    for part in machine.parts:
+        if part.name not in ("carrier cap", "ring clamp", "disc"):
+            continue
+        made = compensated(part, by)
+        for layer, drawn in zip(made.shape.layers, part.shape.layers, strict=True):
+            assert layer.height * (1.0 - 0.004) == pytest.approx(drawn.height, rel=1e-12)
+            holes = zip(layer.shape.holes, drawn.shape.holes, strict=True)
+            for file, wanted in holes:
+                if isinstance(file, Circle):
+                    printed = 2.0 * file.radius * (1.0 - 0.004) - 120e-6
+                    assert printed == pytest.approx(2.0 * wanted.radius, abs=1e-12)
+            if isinstance(drawn.shape.outer, Circle):
+                printed = 2.0 * layer.shape.outer.radius * (1.0 - 0.004) + 50e-6
+                assert printed == pytest.approx(2.0 * drawn.shape.outer.radius, abs=1e-12)
+
+
+def test_curves_move_along_their_normals(machine):
+    """The disc's lobes and the teeth of the ring by 60 um everywhere, corners too."""
+    parts = {part.name: part for part in machine.parts}
+    lobes = parts["disc"].shape.layers[0].shape.outer
+    teeth = parts["ring"].shape.layers[0].shape.holes[0]
+    for contour, distance in ((lobes, -60e-6), (teeth, 60e-6)):
+        moved = grown("part", contour, distance, 120e-6)
+        away = contour.distances(moved.sample(2e-7))
+        assert away.min() == pytest.approx(60e-6, abs=0.5e-6)
+        assert away.max() == pytest.approx(60e-6, abs=0.5e-6)
+        assert (moved.moments().area > contour.moments().area) == (distance > 0.0)
+    ears = parts["motor cover"].shape.layers[-1].shape.outer
+    moved = grown("part", ears, 60e-6, 120e-6)
+    assert ears.distances(moved.sample(2e-7)).min() == pytest.approx(60e-6, abs=0.5e-6)
+    # Arcs keep their centres, and inner corners lie where the moved arcs meet.
+    assert moved.arcs().centres == pytest.approx(ears.arcs().centres, abs=1e-12)
+    radii = ears.arcs().radii + np.sign(ears.bulges) * 60e-6
+    assert moved.arcs().radii == pytest.approx(radii, abs=1e-12)
+
+
+def test_an_error_as_large_as_a_hole_is_refused_by_name(machine):
+    part = next(one for one in machine.parts if one.name == "motor cover")
+    with pytest.raises(GeometryError) as caught:
+        compensated(part, Compensation(0.0, 2.5e-3, 0.0, measured=True))
+    assert "motor cover" in caught.value.message
+    assert "printing.hole_error" in caught.value.message
+
+
+def test_threads_in_plastic_become_holes_of_inserts_that_leave_a_wall(every):
+    by_name = {one.drawn.name: one for one in every}
+    plate = by_name["carrier plate"]
+    # Of the pins or columns and of the output, drilled deeper than the screws reach.
+    assert sum(threads.count for threads in plate.threads) == 14
+    assert {threads.insert.name for threads in plate.threads} == {"heat-set insert M4 x 8.1"}
+    bored, _ = with_inserts(plate.drawn, plate.material.least_wall)
+    sizes = [
+        round(2e3 * hole.radius, 4)
+        for layer in bored.shape.layers
+        for hole in layer.shape.holes
+        if isinstance(hole, Circle)
+    ]
+    assert 3.3 not in sizes
+    assert sizes.count(5.6) >= 14
+    assert plate.wall.thickness >= plate.material.least_wall
+    cover = {threads.thread: threads for threads in by_name["motor cover"].threads}
+    assert cover[3e-3].insert is None
+    assert "there is room for holes of" in str(cover[3e-3])
+    assert "it is too short" in str(cover[2e-3])
+
+
+def test_walls_of_plastic_are_judged_by_what_can_be_printed(machine):
+    (wall,) = (one for one in retention_lines(machine) if one.id == "RETENTION-WALL")
+    assert wall.limit == pytest.approx(0.84)
+
+
+def test_the_coupon_has_bores_and_pins_of_the_fits_at_every_offset(every):
+    test = coupon_of(every)
+    assert test.sizes == (5e-3, 19e-3, 21e-3)
+    plate = test.part.shape.layers[0]
+    holes = sorted(round(2.0 * hole.radius, 7) for hole in plate.shape.holes)
+    assert holes == sorted(round(s + o, 7) for s in test.sizes for o in HOLE_OFFSETS)
+    pins = [layer for layer in test.part.shape.layers if isinstance(layer.shape.outer, Circle)]
+    found = sorted(round(2.0 * layer.shape.outer.radius, 7) for layer in pins)
+    assert found == sorted(round(s + o, 7) for s in test.sizes for o in PIN_OFFSETS)
+    assert all(layer.bottom == plate.top for layer in pins)
+    # Nothing stands over a hole or over another thing, all of it on the plate.
+    raised = [layer.shape.outer for layer in test.part.shape.layers[1:]]
+    outlines = [as_complex(one.sample(1e-5)) for one in raised]
+    corners = plate.shape.outer.points
+    for points in outlines:
+        assert (points.real > corners[:, 0].min()).all()
+        assert (points.real < corners[:, 0].max()).all()
+        assert (points.imag < corners[:, 1].max()).all()
+        for hole in plate.shape.holes:
+            assert np.abs(points - complex(*hole.centre)).min() > hole.radius + 0.5e-3
+    boxes = [(p.real.min(), p.real.max(), p.imag.min(), p.imag.max()) for p in outlines]
+    for k, a in enumerate(boxes):
+        for b in boxes[:k]:
+            assert a[1] <= b[0] or b[1] <= a[0] or a[3] <= b[2] or b[3] <= a[2]
+
+
+def test_marks_of_every_sign_differ():
+    shown = {
+        sign: frozenset(
+            (round(1e6 * x), round(1e6 * y))
+            for bar in marks(sign, 0.0, 0.0, 0.0, 1e-3)
+            for x, y in bar.shape.outer.points
+        )
+        for sign in "0123456789+-."
+    }
+    assert len(set(shown.values())) == len(shown)
+    assert len(marks("8", 0.0, 0.0, 0.0, 1e-3)) == 7
+
+
+def test_no_fit_no_coupon():
+    assert coupon([], "PLA") is None
+
+
+def test_measurements_come_back_as_files_and_are_said(design, tmp_path):
+    """One small part of plastic, so that the kernel has little to do."""
+    metal = {
+        "reducer.disc_material": "AISI 4140 Q&T 540C",
+        "housing.material": "7075-T6",
+        "printing.hole_error": "-100 um",
+        "printing.shrinkage": 0.005,
+    }
+    files = {one.path.name: one.path for one in export(design.replacing(metal), "print", tmp_path)}
+    assert sorted(files) == [
+        "README.txt",
+        "printed-13-ring.3mf",
+        "printed-13-ring.step",
+        "printed-13-ring.stl",
+    ]
+    text = " ".join(files["README.txt"].read_text(encoding="ascii").split())
+    assert "shrinkage of 0.5 %, holes drawn +100 um and outsides +0 um" in text
+    assert "(measured)" in text
+    assert "No fit of the design is of a size" in text
+    data = files["printed-13-ring.stl"].read_bytes()
+    count = int.from_bytes(data[80:84], "little")
+    record = np.dtype([("n", "<f4", 3), ("p", "<f4", (3, 3)), ("a", "<u2")])
+    points = np.frombuffer(data[84:], dtype=record, count=count)["p"].reshape(-1, 3)
+    radii = np.hypot(points[:, 0], points[:, 1])
+    assert radii.max() == pytest.approx(0.5 * 71.5 / 0.995, abs=1e-3)
+    drawn = (34.0 - 3.5 + 0.05) / 0.995
+    assert radii.min() == pytest.approx(drawn, abs=0.02)
+    assert np.ptp(points[:, 2]) == pytest.approx(25.0 / 0.995, rel=1e-3) or np.ptp(
+        points[:, 2]
+    ) == pytest.approx(1e3 * design.reducer.pack_length / 0.995, rel=1e-5)
+    with zipfile.ZipFile(files["printed-13-ring.3mf"]) as archive:
+        model = archive.read("3D/3dmodel.model").decode()
+    assert model.count("<item ") == 1
+
+
+def test_a_machine_of_metal_has_nothing_to_print(paper_design_file, tmp_path):
+    with pytest.raises(DesignError, match=r"reducer\.disc_material"):
+        export(load_design(paper_design_file), "print", tmp_path)
+
+
+@pytest.mark.deep
+def test_the_printed_design_is_exported_whole(design, tmp_path):
+    files = export(design.replacing({"printing.hole_error": "-80 um"}), "print", tmp_path)
+    names = {one.path.name for one in files}
+    assert len(names) == 8 * 3 + 2 + 1
+    assert {"printed-13-coupon.step", "printed-13-coupon.3mf"} <= names
+    assert all(math.isfinite(one.bytes) and one.bytes > 1000 for one in files)
