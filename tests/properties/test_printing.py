@@ -16,7 +16,7 @@ from cqdd_design.exporting.printing.compensate import Compensation, compensated,
 from cqdd_design.exporting.printing.coupon import HOLE_OFFSETS, PIN_OFFSETS, coupon
 from cqdd_design.exporting.printing.marks import marks
 from cqdd_design.exporting.printing.package import coupon_of, printed_parts
-from cqdd_design.exporting.printing.threads import with_inserts
+from cqdd_design.exporting.printing.threads import ThreadedHoles, with_inserts
 from cqdd_design.geometry.contours import Circle, as_complex
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
@@ -123,7 +123,8 @@ def test_threads_in_plastic_become_holes_of_inserts_that_leave_a_wall(every):
     cover = {threads.thread: threads for threads in by_name["motor cover"].threads}
     assert cover[3e-3].insert is None
     assert "there is room for holes of" in str(cover[3e-3])
-    assert "it is too short" in str(cover[2e-3])
+    assert cover[2e-3].insert.name == "heat-set insert M2 x 3"
+    assert "it is too short" in str(ThreadedHoles(2e-3, 1e-3, 3, 4e-3, None))
 
 
 def test_walls_of_plastic_are_judged_by_what_can_be_printed(machine):
