@@ -8,6 +8,8 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, shaft_material
 from cqdd_design.catalog.printing import made_how
 from cqdd_design.design import Design
@@ -21,8 +23,24 @@ from cqdd_design.solids import housing as housing_shapes
 from cqdd_design.solids import rotating
 from cqdd_design.solids.clocking import DiscGroup, disc_groups
 from cqdd_design.solids.counterweights import balance_weights
-from cqdd_design.solids.fits import seat_fits
-from cqdd_design.solids.layers import Stack, on_circle, prism
+from cqdd_design.solids.features import carrier as carrier_features
+from cqdd_design.solids.features import zones
+from cqdd_design.solids.features.flat import SIGMAS, disc_features, ring_features
+from cqdd_design.solids.features.housing import (
+    clamp_features,
+    cover_features,
+    housing_features,
+    ring_dowel_holes,
+    screw_circle,
+)
+from cqdd_design.solids.features.kinds import AxialThread, Feature, FittedHole
+from cqdd_design.solids.features.rotating import (
+    loose_cam_features,
+    pin_features,
+    shaft_features,
+    sleeve_features,
+)
+from cqdd_design.solids.layers import Stack, prism
 from cqdd_design.solids.layout import Layout, PackLayout
 from cqdd_design.solids.motor_parts import dowel_part, motor_parts
 from cqdd_design.solids.motor_shapes import (
@@ -69,18 +87,14 @@ def build_parts(design: Design, layout: Layout) -> tuple[Part, ...]:
     parts = [
         *_disc_parts(design, layout),
         *_ring_parts(design, layout),
-        *_shaft_parts(layout),
+        *_shaft_parts(design, layout),
         *_carrier_parts(design, layout),
         *_housing_parts(design, layout),
         *motor_parts(design, layout, SCREW_MATERIAL),
     ]
     if design.reducer.balance.counterweights:
         parts += balance_weights(design, layout, parts, _SHAFT)
-    fits = seat_fits(layout)
-    return tuple(
-        dataclasses.replace(part, fits=tuple(fit for fit in fits if fit.belongs_to(part.name)))
-        for part in parts
-    )
+    return tuple(parts)
 
 
 def _disc_parts(design: Design, layout: Layout) -> list[Part]:
@@ -108,16 +122,21 @@ def _disc_part(design: Design, layout: Layout, group: DiscGroup, *, alone: bool)
         tuple(instances),
         exact_section=disc_moments(design, drawn, bore_diameter=bore),
         fitted_section=contour.moments(),
+        stated=disc_features(design, pack, drawn),
     )
 
 
 def _ring_parts(design: Design, layout: Layout) -> list[Part]:
     height, dowels = layout.pack.top, layout.dowels
     contour, material = ring_contour(design), design.reducer.ring_material
-    plain = prism(contour, 0.0, height)
+    shape = prism(contour, 0.0, height)
+    features = ring_features(design, layout.pack, dowels)
+    for holes in features:
+        if isinstance(holes, FittedHole):
+            shape = with_dowel_notches(shape, layout.pack.ring_radius, holes)
     ring = Part(
         "ring",
-        with_dowel_notches(plain, layout.pack, dowels) if dowels.radius else plain,
+        shape,
         material,
         _RING,
         "make",
@@ -125,6 +144,7 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
         on_axis("ring", HOUSING),
         exact_section=ring_moments(design),
         fitted_section=contour.moments(),
+        stated=features,
     )
     parts, pins = [ring], ring_pins(design)
     if pins:
@@ -133,7 +153,12 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
         shape = rotating.plain_pin(diameter, -beyond, height + beyond)
         designation = f"ground pin {diameter * 1e3:g} x {(height + 2.0 * beyond) * 1e3:.6g} mm"
         pieces = around("ring pin", HOUSING, (pin.centre for pin in pins))
-        parts.append(Part("ring pin", shape, material, _BEARING, "make", designation, pieces))
+        stated = pin_features(diameter, -beyond, height + beyond, zones.RING_PIN)
+        parts.append(
+            Part(
+                "ring pin", shape, material, _BEARING, "make", designation, pieces, stated=stated
+            )
+        )  # fmt: skip
     rollers = ring_runner(design)
     if rollers is not None:
         centres = [pin.centre for pin in pins]
@@ -141,21 +166,24 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
     return [*parts, *dowel_part(layout)]
 
 
-def _shaft_parts(layout: Layout) -> list[Part]:
+def _shaft_parts(design: Design, layout: Layout) -> list[Part]:
     pack, shaft, motor = layout.pack, layout.shaft, layout.motor
     material = shaft_material(pack.cam.bearing)
 
-    def ground(name: str, shape: Stack, more: str = "") -> Part:
-        how = f"turned and ground{more}"
-        return Part(name, shape, material, _SHAFT, "make", how, on_axis(name, SHAFT))
+    def ground(name: str, shape: Stack, features: tuple[Feature, ...], more: str = "") -> Part:
+        how, pieces = f"turned and ground{more}", on_axis(name, SHAFT)
+        return Part(name, shape, material, _SHAFT, "make", how, pieces, stated=features)
+
+    position = SIGMAS * design.tolerances.eccentricity
 
     turned = rotating.eccentric_shaft(pack, shaft)
     if motor is not None:
         turned = with_magnet_pocket(turned, motor)
-    parts = [ground("eccentric shaft", turned)]
+    parts = [ground("eccentric shaft", turned, shaft_features(pack, shaft, motor, position))]
     if pack.disc_count > 2:
         loose = rotating.loose_cam(pack, shaft)
-        parts.append(ground("eccentric cam", loose, ", pressed on the shaft"))
+        features = loose_cam_features(pack, shaft, position)
+        parts.append(ground("eccentric cam", loose, features, ", pressed on the shaft"))
     cams = [
         Instance(f"cam bearing {disc + 1}", Body("disc", disc), transform(z=pack.cam_bottom(disc)))
         for disc in range(pack.disc_count)
@@ -192,24 +220,30 @@ def _bearing_part(
 def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
     carrier, metal = layout.carrier, design.housing.material
 
-    def made(name: str, shape: Stack, how: str) -> Part:
-        return Part(name, shape, metal, _ALUMINIUM, "make", how, on_axis(name, CARRIER))
+    def made(name: str, shape: Stack, how: str, features: tuple[Feature, ...]) -> Part:
+        pieces = on_axis(name, CARRIER)
+        return Part(name, shape, metal, _ALUMINIUM, "make", how, pieces, stated=features)
 
     turned = made_how(metal, "turned and drilled")
-
-    plate = carrier_shapes.carrier_plate(carrier, layout.shaft)
-    parts = [made("carrier plate", plate, turned)]
+    position = SIGMAS * design.tolerances.pin_position
+    features = carrier_features.plate_features(carrier, layout.shaft, position)
+    plate = carrier_shapes.carrier_plate(carrier, layout.shaft, features)
+    parts = [made("carrier plate", plate, turned, features)]
     if carrier.cap:
         how = turned
         if carrier.bonded_in_cap:
             drawn = " and drawn against their heads" if carrier.pin.screw else ""
             how += f", seats {1e3 * carrier.pin.nominal_diameter:g} H7 bonded on the f9 pins{drawn}"
-        cap = carrier_shapes.carrier_cap(carrier, layout.pack.gap)
-        parts.append(made("carrier cap", cap, how))
+        features = carrier_features.cap_features(carrier, layout.pack.gap, position)
+        cap = carrier_shapes.carrier_cap(carrier, layout.pack.gap, features)
+        parts.append(made("carrier cap", cap, how, features))
+    features = carrier_features.nut_features(carrier)
+    core = next(one.core for one in features if isinstance(one, AxialThread))
     nut = made(
         "bearing nut",
-        carrier_shapes.bearing_nut(carrier),
+        carrier_shapes.bearing_nut(carrier, core),
         f"slotted nut, thread {2e3 * carrier.nut_radius:g} mm",
+        features,
     )
     parts += [
         dataclasses.replace(nut, material=NUT_MATERIAL, colour=_SCREW),
@@ -228,7 +262,7 @@ def _column_parts(layout: Layout) -> list[Part]:
     columns, pack = layout.carrier.columns, layout.pack
     if columns is None:
         return []
-    places = carrier_shapes.column_places(layout.carrier)
+    places = np.array(carrier_features.column_circle(layout.carrier, columns).centres)
     bottom, top = -pack.gap, layout.carrier.plate_bottom
     size = f"{2e3 * columns.radius:.6g} x {2e3 * columns.bore_radius:g} x {1e3 * (top - bottom):g}"
     heads_down = (transform(x=x, y=y, z=columns.seat, turned_over=True) for x, y in places)
@@ -241,6 +275,7 @@ def _column_parts(layout: Layout) -> list[Part]:
             "make",
             f"tube {size} mm, faces ground as one set to one length",
             around("carrier column", CARRIER, places),
+            stated=carrier_features.column_features(columns, bottom, top),
         ),
         Part(
             "column screw",
@@ -255,8 +290,7 @@ def _column_parts(layout: Layout) -> list[Part]:
 
 
 def _pin_positions(layout: Layout) -> FloatArray:
-    carrier = layout.carrier
-    return on_circle(carrier.pin_count, carrier.pin_circle_radius, carrier.clocking)
+    return np.array(carrier_features.pin_circle(layout.carrier).centres)
 
 
 def _pin_part(design: Design, layout: Layout) -> Part:
@@ -277,6 +311,11 @@ def _pin_part(design: Design, layout: Layout) -> Part:
         "make" if pin.screw is None else "buy",
         designation,
         around(name, CARRIER, _pin_positions(layout)),
+        stated=()
+        if pin.screw
+        else pin_features(
+            pin.nominal_diameter, carrier.shoulder_bottom, carrier.shoulder_top, zones.PIN
+        ),
     )
 
 
@@ -327,6 +366,7 @@ def _runner_parts(
         "make",
         f"ground {name} {inner * 1e3:g} x {outer * 1e3:g} x {length * 1e3:g} mm",
         at_every_disc(f"{where} {name}", length),
+        stated=sleeve_features(inner, outer, length),
     )
     if cage is None:
         return [turning]
@@ -350,26 +390,28 @@ def _needle_part(called: str, row: Bearing, standing: tuple[Instance, ...]) -> P
 def _housing_parts(design: Design, layout: Layout) -> list[Part]:
     housing, metal = layout.housing, design.housing.material
 
-    def made(name: str, shape: Stack, colour: Colour) -> Part:
+    def made(name: str, shape: Stack, colour: Colour, features: tuple[Feature, ...]) -> Part:
         how, pieces = made_how(metal, "turned and drilled"), on_axis(name, HOUSING)
-        return Part(name, shape, metal, colour, "make", how, pieces)
+        return Part(name, shape, metal, colour, "make", how, pieces, stated=features)
 
-    places = on_circle(housing.screw_count, housing.bolt_circle_radius, 0.0)
+    body, clamp = housing_features(layout), clamp_features(layout)
+    cover = cover_features(layout)
+    places = np.array(screw_circle(housing).centres)
     screws = around("cover screw", HOUSING, places, housing.cover_flange_top)
     screw = carrier_shapes.cap_screw_shape(housing.screw)
     how = housing.screw.designation
     return [
-        made("housing", _housing_shape(layout), _HOUSING),
-        made("ring clamp", housing_shapes.ring_clamp(layout), _COVER),
-        made("output cover", housing_shapes.output_cover(layout), _HOUSING),
+        made("housing", _housing_shape(layout, body), _HOUSING, body),
+        made("ring clamp", housing_shapes.ring_clamp(layout, clamp), _COVER, clamp),
+        made("output cover", housing_shapes.output_cover(layout, cover), _HOUSING, cover),
         Part("cover screw", screw, SCREW_MATERIAL, _SCREW, "buy", how, screws),
     ]
 
 
-def _housing_shape(layout: Layout) -> Stack:
-    shape = housing_shapes.housing_body(layout)
+def _housing_shape(layout: Layout, features: Sequence[Feature]) -> Stack:
+    shape = housing_shapes.housing_body(layout, features)
     if layout.motor is not None:
-        shape = with_motor_flange(shape, layout, layout.motor)
-    if layout.dowels.radius:
-        shape = with_dowel_grooves(shape, layout.pack, layout.dowels)
+        shape = with_motor_flange(shape, layout, layout.motor, features)
+    for holes in ring_dowel_holes(layout.pack, layout.dowels, layout.dowels.bottom):
+        shape = with_dowel_grooves(shape, layout.pack.ring_radius, holes)
     return shape

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import re
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from cqdd_design.exporting.job import ExportJob
 from cqdd_design.exporting.solids import step
 from cqdd_design.exporting.solids.step import export_step, file_label, write_part_step, write_step
 from cqdd_design.machine import resolve
+from cqdd_design.solids.features.kinds import TappedHole
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("cadquery") is None, reason="cadquery is not installed"
@@ -64,6 +66,24 @@ def test_pieces_stand_where_the_mechanism_puts_them(tmp_path: Path) -> None:
             centre = child.obj.moved(child.loc).Center().toTuple()
             wanted = (pose[:3, :3] @ part.shape.mass_properties(1.0).centre + pose[:3, 3]) * 1e3
             assert np.abs(np.array(centre) - wanted).max() < 1e-6, piece.name
+
+
+def test_features_are_surfaces_of_their_kind_in_text_and_read_back(assembly_file: Path) -> None:
+    """Chamfers and drill points are cones and fillets tori, by two readers and by the features."""
+    text = assembly_file.read_text()
+    parts = known_parts("paper")
+    cuts = [cut for part in parts for cut in part.cuts]
+    fillets = sum(len(cut.centres) * sum(map(bool, cut.bulges)) for cut in cuts)
+    read = read_pieces(assembly_file)
+    first = [read[part.instances[0].name].obj for part in parts]
+    faces = Counter(face.geomType() for shape in first for face in shape.Faces())
+    assert len(re.findall(r"TOROIDAL_SURFACE\(", text)) == faces["TORUS"] == fillets > 4
+    assert len(re.findall(r"CONICAL_SURFACE\(", text)) == faces["CONE"] >= len(cuts)
+    tapped = [one for part in parts for one in part.features if isinstance(one, TappedHole)]
+    assert len(tapped) >= 5
+    for one in tapped:
+        drilled = f"{0.5e3 * one.drill:.6g}"
+        assert re.search(rf"CYLINDRICAL_SURFACE\('',#\d+,{re.escape(drilled)}0*\)", text), one.name
 
 
 def test_header_says_what_and_whose(assembly_file: Path) -> None:

@@ -17,7 +17,7 @@ from cqdd_design.exporting.printing.coupon import HOLE_OFFSETS, PIN_OFFSETS, cou
 from cqdd_design.exporting.printing.marks import marks
 from cqdd_design.exporting.printing.package import coupon_of, printed_parts
 from cqdd_design.exporting.printing.readme import readme_text
-from cqdd_design.exporting.printing.threads import with_inserts
+from cqdd_design.exporting.printing.threads import ThreadedHoles, with_inserts
 from cqdd_design.geometry.contours import Circle, as_complex
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
@@ -105,25 +105,27 @@ def test_an_error_as_large_as_a_hole_is_refused_by_name(machine):
     assert "printing.hole_error" in caught.value.message
 
 
-def test_threads_in_plastic_become_holes_of_inserts_that_leave_a_wall(machine, every):
+def test_threads_in_plastic_become_holes_of_inserts_that_leave_a_wall(every):
     by_name = {one.drawn.name: one for one in every}
     plate = by_name["carrier plate"]
-    (threads,) = plate.threads
-    assert (threads.count, threads.insert.name) == (14, "heat-set insert M4 x 4")
-    bored, _ = with_inserts(plate.drawn, machine.layout, plate.material.least_wall)
+    # Of the pins or columns and of the output, drilled deeper than the screws reach.
+    assert sum(threads.count for threads in plate.threads) == 14
+    assert {threads.insert.name for threads in plate.threads} == {"heat-set insert M4 x 8.1"}
+    bored, _ = with_inserts(plate.drawn, plate.material.least_wall)
     sizes = [
         round(2e3 * hole.radius, 4)
         for layer in bored.shape.layers
         for hole in layer.shape.holes
         if isinstance(hole, Circle)
     ]
-    assert 4.0 not in sizes
+    assert 3.3 not in sizes
     assert sizes.count(5.6) >= 14
     assert plate.wall.thickness >= plate.material.least_wall
     cover = {threads.thread: threads for threads in by_name["motor cover"].threads}
     assert cover[3e-3].insert is None
     assert "there is room for holes of" in str(cover[3e-3])
-    assert "it is too short" in str(cover[2e-3])
+    assert cover[2e-3].insert.name == "heat-set insert M2 x 3"
+    assert "it is too short" in str(ThreadedHoles(2e-3, 1e-3, 3, 4e-3, None))
 
 
 def test_walls_of_plastic_are_judged_by_what_can_be_printed(machine):

@@ -18,10 +18,10 @@ from cqdd_design.geometry.contours import Circle
 from cqdd_design.machine import resolve
 from cqdd_design.solids.clearances import assembly_motion
 from cqdd_design.solids.counterweights import crank_moments
+from cqdd_design.solids.features.motor import board_circle
 from cqdd_design.solids.layers import Annulus, circle, reshaped, scalloped_circle, turned
 from cqdd_design.solids.mesh import DISPLAY
 from cqdd_design.solids.motor_rules import lay_out_motor
-from cqdd_design.solids.motor_shapes import board_screw_circle
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.selection import ChosenBearing
 
@@ -85,7 +85,7 @@ def test_the_motor_is_the_catalogues() -> None:
     assert turning == pytest.approx(row.rotor_inertia, rel=1e-12)
     assert bell.shape.outside_radius == pytest.approx(0.5 * row.outer_diameter)
     # The bell weighs what is drawn of it.
-    assert bell.mass == pytest.approx(bell.shape.volume * 2810.0, rel=1e-3)
+    assert bell.mass == pytest.approx(bell.volume * 2810.0, rel=1e-3)
     assert stator.shape.inside_radius == pytest.approx(0.5 * row.bore_diameter)
     # Half the gap's width on either side of its diameter.
     gap = rotor.shape.inside_radius - stator.shape.outside_radius
@@ -148,7 +148,7 @@ def test_screws_of_the_board_stand_beside_the_shafts_end(support: str) -> None:
         8.0,
         weights=False,
     )
-    heads = board_screw_circle(motor) - 0.5 * motor.board_screw.head_diameter
+    heads = board_circle(motor).radius - 0.5 * motor.board_screw.head_diameter
     assert heads > 0.5 * row.bore_diameter + 0.3e-3
 
 

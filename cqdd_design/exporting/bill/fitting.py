@@ -68,13 +68,18 @@ def _seated(bore: float, outer: float, parts: Iterable[Part], names: tuple[str, 
     def zone(name: str, diameter: float) -> str:
         for part in parts_list:
             for fit in part.fits:
-                if fit.part == name and abs(fit.diameter - diameter) < _SAME:
+                if _is(part, name) and abs(fit.diameter - diameter) < _SAME:
                     return f"{_MM * diameter:g} {fit.zone}"
         return f"{_MM * diameter:g}"
 
     parts_list = tuple(parts)
     inner, outside = names
     return f"on the {inner} {zone(inner, bore)}, in the {outside} {zone(outside, outer)}"
+
+
+def _is(part: Part, name: str) -> bool:
+    """Whether a part is called so; ``disc`` stands for every disc."""
+    return part.name == name or (name == "disc" and part.name.startswith("disc "))
 
 
 def _needles(parts: dict[str, Part]) -> dict[str, str]:

@@ -15,10 +15,6 @@ from cqdd_design.errors import DesignError
 from cqdd_design.exporting.edm.exact_curves import disc_curve, grooved_curve, ring_curve
 from cqdd_design.exporting.edm.loops import ExactCurve
 from cqdd_design.exporting.edm.seats import (
-    BORE_ZONE,
-    GROOVE_ZONE,
-    OUTSIDE_ZONE,
-    POCKET_ZONE,
     seat,
 )
 from cqdd_design.geometry.contours import ArcContour, Contour, PlanarPart
@@ -27,6 +23,7 @@ from cqdd_design.geometry.grooves import grooved_circle
 from cqdd_design.geometry.ring import pocket_radius, ring_contour
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.solids.clocking import DiscGroup, disc_groups
+from cqdd_design.solids.features import zones
 from cqdd_design.solids.selection import output_pin
 
 if TYPE_CHECKING:
@@ -155,7 +152,7 @@ def _disc(machine: Machine, group: DiscGroup, *, alone: bool) -> FlatPart:
         reference_radius=reducer.output_pins.circle_radius,
         remarks=_disc_remarks(group, reducer.disc_count),
         turned_over=sum(placed.turned_over for placed in group.placements),
-        seat_zones=((1, machine.cam.outer_diameter, BORE_ZONE),),
+        seat_zones=((1, machine.cam.outer_diameter, zones.DISC_BORE),),
     )
 
 
@@ -186,9 +183,9 @@ def _ring(machine: Machine) -> FlatPart:
     }
     plain = ring_contour(design)
     outside = reducer.ring.outer_diameter
-    seats = [(0, outside, OUTSIDE_ZONE)]
+    seats = [(0, outside, zones.RING_OUTSIDE)]
     if reducer.ring_type == "pinwheel" and not reducer.ring.roller_diameter:
-        seats.append((1, 2.0 * pocket_radius(design), POCKET_ZONE))
+        seats.append((1, 2.0 * pocket_radius(design), zones.RING_PIN_SEAT))
     flat = FlatPart(
         label="ring",
         shape=plain,
@@ -216,14 +213,14 @@ def _grooved(flat: FlatPart, dowels: DowelLayout, radius: float) -> FlatPart:
     their own zone.
     """
     angles, size = dowels.angles, 2.0 * dowels.radius
-    outside, groove = seat(0, 2.0 * radius, OUTSIDE_ZONE), seat(1, size, GROOVE_ZONE)
+    outside, groove = seat(0, 2.0 * radius, zones.RING_OUTSIDE), seat(1, size, zones.PIN_HOLE)
     finished = size if groove is None else groove.middle
     drawn = 0.5 * finished + (0.0 if outside is None else outside.shift)
     shape = PlanarPart(flat.shape.name, grooved_circle(radius, angles, drawn), flat.shape.holes)
     places = ", ".join(f"{math.degrees(angle):.4f}".rstrip("0").rstrip(".") for angle in angles)
     told = (
-        f"{len(angles)} HALF GROOVES DIA {1e3 * size:g} {GROOVE_ZONE} FOR DOWELS, CENTRES ON THE "
-        f"OUTSIDE AT {places} DEG, DRAWN DIA {2e3 * drawn:.4f}"
+        f"{len(angles)} HALF GROOVES DIA {1e3 * size:g} {zones.PIN_HOLE} FOR DOWELS, CENTRES ON "
+        f"THE OUTSIDE AT {places} DEG, DRAWN DIA {2e3 * drawn:.4f}"
     )
     if outside is not None:
         told += f": THE SHIFT OF THE OUTSIDE CUTS THEM TO DIA {1e3 * finished:.4f}"

@@ -17,11 +17,6 @@ from cqdd_design.errors import CatalogError
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.flat_parts import FlatPart
 
-BORE_ZONE, OUTSIDE_ZONE, GROOVE_ZONE = "N7", "n6", "H7"
-"""Of a disc's bore for the cam bearing, of the ring's outside and of the half grooves in it for its
-dowels: those of `solids.fits`, which needs a whole machine around them."""
-POCKET_ZONE = "H7"
-"""Of the pockets that hold the pins of a pinwheel ring, over ground pins (h6)."""
 
 _MM = 1e3
 

@@ -96,7 +96,7 @@ def printed_parts(machine: Machine, parts: Iterable[Part]) -> tuple[PrintedPart,
         if material is None or part.source != "make":
             continue
         by = compensation(material, machine.design.printing)
-        bored, threads = with_inserts(part, machine.layout, material.least_wall)
+        bored, threads = with_inserts(part, material.least_wall)
         walls = least_walls([bored])
         found.append(
             PrintedPart(

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog import find_material
+from cqdd_design.solids.features.kinds import fit_label
 from cqdd_design.version import __version__
 
 if TYPE_CHECKING:
@@ -71,7 +72,9 @@ def _part(one: PrintedPart) -> Iterator[str]:
         told = f"it keeps strength and shape up to {hottest:g} degC"
     yield from _wrapped(f"{told[0].upper()}{told[1:]}.", "- ")
     for fit in part.fits:
-        yield from _wrapped(f"Fit: {fit}; what the printer leaves is reamed or pressed.", "- ")
+        yield from _wrapped(
+            f"Fit: {fit_label(fit)}; what the printer leaves is reamed or pressed.", "- "
+        )
 
 
 def _coupon(design: Design, test: Coupon | None) -> Iterator[str]:

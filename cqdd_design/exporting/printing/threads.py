@@ -1,8 +1,8 @@
 """Holes for heat-set inserts where a screw would be in plastic.
 
-A plastic thread creeps and strips: what is drawn as a thread becomes the hole of the longest insert
-that its depth takes and whose hole leaves a wall. Where none goes in, the hole stays as it is
-drawn, and a sentence says so.
+A plastic thread creeps and strips: what is drilled for a thread becomes the hole of the longest
+insert that its depth takes and whose hole leaves a wall. Where none goes in, the hole stays as it
+is drawn, and a sentence says so.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ import numpy as np
 
 from cqdd_design.catalog.printing import Insert, insert_for
 from cqdd_design.geometry.contours import Circle, Contour, PlanarPart
+from cqdd_design.solids.features.kinds import TappedHole
 from cqdd_design.solids.layers import Layer, Stack
 
 if TYPE_CHECKING:
-    from cqdd_design.solids.layout import Layout
     from cqdd_design.solids.part import Part
 
 _SAME = 1e-7
@@ -54,41 +54,25 @@ class ThreadedHoles:
                 if insert_for(self.thread, self.depth)
                 else "it is too short"
             )
-            return f"{what}: no insert goes in, {why}; drawn as the thread, to be cut by hand"
+            return f"{what}: no insert goes in, {why}; drawn at its drill, to be tapped by hand"
         return f"{what}: {self.insert.name} in holes of {_MM * self.insert.hole:g} mm"
 
 
-def threads_of(part: str, layout: Layout) -> tuple[float, ...]:
-    """Diameters of the metric threads that a part is drawn with, m."""
-    carrier, motor = layout.carrier, layout.motor
-    found: list[float] = []
-    if part == "housing":
-        found = [layout.housing.screw.thread]
-    elif part == "carrier plate":
-        found = [carrier.bolt_thread]
-        if carrier.pin.screw is not None:
-            found.append(carrier.pin.thread_diameter)
-        if carrier.columns is not None:
-            found.append(carrier.columns.screw.thread)
-    elif part == "motor cover" and motor is not None:
-        found = [motor.board_screw.thread, motor.cover_screw.thread]
-    return tuple(sorted({one for one in found if one > 0.0}))
-
-
-def with_inserts(
-    part: Part, layout: Layout, least_wall: float
-) -> tuple[Part, tuple[ThreadedHoles, ...]]:
+def with_inserts(part: Part, least_wall: float) -> tuple[Part, tuple[ThreadedHoles, ...]]:
     """A part with holes for inserts instead of its threads, and what they are.
+
+    What a drill or a turning tool would leave beside, countersinks and points, it does not have.
 
     Parameters
     ----------
     least_wall : float
         That the part's material can have, m.
     """
-    threads = threads_of(part.name, layout)
+    tapped = {one.thread: one for one in part.stated if isinstance(one, TappedHole)}
     found, bores = [], {}
-    for thread in threads:
-        depths, rooms = _depths(part.shape, thread), _rooms(part.shape, thread)
+    for thread, drilled in sorted(tapped.items()):
+        drill = drilled.drill
+        depths, rooms = _depths(part.shape, drill), _rooms(part.shape, drill)
         fitting = {
             place: _fitting(thread, depth, rooms[place] - least_wall)
             for place, depth in depths.items()
@@ -99,12 +83,12 @@ def with_inserts(
             room = min(rooms[place] for place in places) - least_wall
             found.append(ThreadedHoles(thread, depth, len(places), room, insert))
             if insert is not None:
-                bores.update({(thread, place): 0.5 * insert.hole for place in places})
+                bores.update({(drill, place): 0.5 * insert.hole for place in places})
 
     def changed(hole: Contour) -> Contour:
-        for thread in threads:
-            if _is_thread(hole, thread):
-                radius = bores.get((thread, _place(hole)))
+        for one in tapped.values():
+            if _is_drilled(hole, one.drill):
+                radius = bores.get((one.drill, _place(hole)))
                 return hole if radius is None else Circle(hole.centre, radius)
         return hole
 
@@ -116,7 +100,7 @@ def with_inserts(
         )
         for layer in part.shape.layers
     )
-    return replace(part, shape=Stack(layers)), tuple(found)
+    return replace(part, shape=Stack(layers), stated=()), tuple(found)
 
 
 def _fitting(thread: float, depth: float, room: float) -> Insert | None:
@@ -125,31 +109,31 @@ def _fitting(thread: float, depth: float, room: float) -> Insert | None:
     return None if insert is None or insert.hole > 2.0 * room + _SAME else insert
 
 
-def _is_thread(hole: Contour, thread: float) -> TypeGuard[Circle]:
-    return isinstance(hole, Circle) and abs(2.0 * hole.radius - thread) < _SAME
+def _is_drilled(hole: Contour, drill: float) -> TypeGuard[Circle]:
+    return isinstance(hole, Circle) and abs(2.0 * hole.radius - drill) < _SAME
 
 
 def _place(hole: Circle) -> tuple[float, float]:
     return round(float(hole.centre[0]), 7), round(float(hole.centre[1]), 7)
 
 
-def _depths(shape: Stack, thread: float) -> dict[tuple[float, float], float]:
+def _depths(shape: Stack, drill: float) -> dict[tuple[float, float], float]:
     """Depth of the thread at every place that has one, m."""
     depths: dict[tuple[float, float], float] = {}
     for layer in shape.layers:
         for hole in layer.shape.holes:
-            if _is_thread(hole, thread):
+            if _is_drilled(hole, drill):
                 place = _place(hole)
                 depths[place] = round(depths.get(place, 0.0) + layer.height, 7)
     return depths
 
 
-def _rooms(shape: Stack, thread: float) -> dict[tuple[float, float], float]:
+def _rooms(shape: Stack, drill: float) -> dict[tuple[float, float], float]:
     """Distance from the axis of every thread to the nearest other contour beside it, m."""
     rooms: dict[tuple[float, float], float] = {}
     for layer in shape.layers:
         for hole in layer.shape.holes:
-            if not _is_thread(hole, thread):
+            if not _is_drilled(hole, drill):
                 continue
             place = _place(hole)
             others = (one for one in (layer.shape.outer, *layer.shape.holes) if one is not hole)
