@@ -21,10 +21,10 @@ from cqdd_design.exporting.edm.cut_facts import facts_of, zone_text
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.seats import seats_of
 from cqdd_design.exporting.sheets.canvas import pdf_bytes
-from cqdd_design.exporting.sheets.cut_sheet import FRONT, SCALES, draw_sheet, sheet_scale
+from cqdd_design.exporting.sheets.cut_sheet import FRONT, draw_sheet, sheet_scale
 from cqdd_design.exporting.sheets.drawing import OUTLINE, THIN, SheetDrawing
-from cqdd_design.exporting.sheets.frame import BOTTOM, LEFT, RIGHT, TOP
 from cqdd_design.exporting.sheets.lettering import WIDTHS, fitting_height, printable, text_width
+from cqdd_design.exporting.sheets.title_block import BOTTOM, LEFT, RIGHT, SCALES, TOP
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
 from cqdd_design.solids.fits import seat_fits
@@ -167,7 +167,8 @@ def test_the_disc_sheet_shows_what_it_must(package):
         "2, 1 turned over",
         "mark upper face",
         "2 : 1",
-        "ISO 2768-fH, sizes in mm, edges broken 0.1 \u00d7 45\u00b0",
+        "ISO 8015, ISO 2768-fH, sizes in mm",
+            "outside -0.3, inside +0.3",
         "Cut 2, flip 1: disc 1 as drawn, disc 2 turned over about the X axis.",
     ):
         assert phrase in words, phrase

@@ -31,8 +31,9 @@ from cqdd_design.exporting.edm.flat_parts import reach_of
 from cqdd_design.exporting.edm.wire_path import segmented
 from cqdd_design.exporting.sheets.canvas import Canvas, render
 from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SMALL, TEXT, SheetDrawing, new_sheet
-from cqdd_design.exporting.sheets.frame import HEIGHT, WIDTH, draw_frame
+from cqdd_design.exporting.sheets.frame import draw_frame
 from cqdd_design.exporting.sheets.lettering import text_width
+from cqdd_design.exporting.sheets.title_block import HEIGHT, SCALES, WIDTH
 from cqdd_design.geometry.contours import Circle, ComplexArray, FloatArray, as_complex
 
 if TYPE_CHECKING:
@@ -43,8 +44,6 @@ FRONT = complex(122.0, 174.0)
 SECTION = complex(246.0, 174.0)
 """Centre of the section."""
 MOST_REACH, MOST_THICKNESS = 72.5, 34.0
-SCALES = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02)
-"""ISO 5455."""
 
 _MM = 1e3
 

@@ -1,0 +1,267 @@
+"""Callouts of a sheet: lines of text, boxed sizes, tolerance frames and surface signs in a block.
+
+Blocks stand on a stair beside a view, so that no leader runs through another block::
+
+      _________________
+     | third |  ______ |______
+     |         | second       |  _______
+     |         |                | first |
+     |         |                |
+    =====================================   the view
+
+Each leader rises straight from what it points to, and a block begins at its leader. A block stands
+above every block that its own width reaches over, whose leaders end below it therefore.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from cqdd_design.exporting.sheets.drawing import CELL, SMALL, TEXT, SheetDrawing
+from cqdd_design.exporting.sheets.lettering import text_width
+
+_GAP, _INDENT = 1.6, 1.5
+_BETWEEN = 2.0
+"""Between blocks, mm."""
+_APART = 2.4
+"""Least distance between two leaders, mm."""
+_SIGN = 8.6
+"""Width of a surface sign without its value, mm."""
+
+
+@dataclass(frozen=True)
+class Words:
+    """A piece of text."""
+
+    text: str
+    height: float = SMALL
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height, mm."""
+        return text_width(self.text, self.height), self.height + 1.8
+
+    def draw(self, sheet: SheetDrawing, corner: complex) -> None:
+        """Write it above its lower left corner."""
+        sheet.text(corner + 0.9j, self.text, self.height)
+
+
+@dataclass(frozen=True)
+class Boxed:
+    """A theoretically exact dimension (ISO 1101)."""
+
+    text: str
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height, mm."""
+        return text_width(self.text, SMALL) + 1.6, SMALL + 2.4
+
+    def draw(self, sheet: SheetDrawing, corner: complex) -> None:
+        """Write it in its box."""
+        width, height = self.size
+        sheet.box(corner + 0.2j, width, height - 0.4)
+        sheet.text(corner + 0.8 + 1.2j, self.text, SMALL)
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A tolerance frame (ISO 1101)."""
+
+    symbol: str
+    value: str
+    datums: tuple[str, ...] = ()
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height, mm."""
+        cells = (self.value, *self.datums)
+        wide = sum(max(text_width(words, TEXT) + 2.4, CELL) for words in cells)
+        return CELL + wide, CELL + 0.8
+
+    def draw(self, sheet: SheetDrawing, corner: complex) -> None:
+        """Draw it."""
+        sheet.tolerance(corner + 0.4j, self.symbol, self.value, self.datums)
+
+
+@dataclass(frozen=True)
+class Surface:
+    """The sign for a surface from which material is removed, with its roughness (ISO 21920)."""
+
+    value: str
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height, mm."""
+        return 1.7 + 3.9 + text_width(self.value, SMALL) + 1.0, 6.8
+
+    def draw(self, sheet: SheetDrawing, corner: complex) -> None:
+        """Draw it."""
+        sheet.finish(corner + 1.8, self.value)
+
+
+@dataclass(frozen=True)
+class DatumMark:
+    """A letter in a box with its triangle, to the right of a line it stands on."""
+
+    letter: str
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height, mm."""
+        return 5.0 + CELL, CELL + 0.8
+
+    def draw(self, sheet: SheetDrawing, corner: complex) -> None:
+        """Draw it."""
+        sheet.datum(corner + 0.5j * self.size[1], 1.0 + 0j, self.letter)
+
+
+Cell: TypeAlias = Words | Boxed | Frame | Surface | DatumMark
+Row: TypeAlias = tuple[Cell, ...]
+Tip: TypeAlias = Literal["arrow", "dot", "face"]
+
+
+@dataclass(frozen=True)
+class Block:
+    """Rows of a callout from the top down, and what it points to, mm of paper.
+
+    Attributes
+    ----------
+    target : complex
+    tip : {"arrow", "dot", "face"}
+        How the leader ends: with an arrow on an edge, a dot within an outline, or as an extension
+        of a face that is seen edge on.
+    """
+
+    target: complex
+    rows: tuple[Row, ...]
+    tip: Tip = "arrow"
+
+    @property
+    def width(self) -> float:
+        """mm."""
+        return _INDENT + max(sum(c.size[0] for c in row) + _GAP * (len(row) - 1) for row in self.rows)
+
+    @property
+    def height(self) -> float:
+        """mm."""
+        return sum(max(cell.size[1] for cell in row) for row in self.rows)
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A block on the sheet: its leader's x, the y nearest to the view, and where it goes from it."""
+
+    block: Block
+    x: float
+    y: float
+    right: bool
+    up: bool
+
+    @property
+    def box(self) -> tuple[float, float, float, float]:
+        """Left, bottom, right, top, mm."""
+        width, height = self.block.width, self.block.height
+        left = self.x if self.right else self.x - width
+        bottom = self.y if self.up else self.y - height
+        return left, bottom, left + width, bottom + height
+
+    def draw(self, sheet: SheetDrawing, shift: complex) -> None:
+        """Draw block and leader, moved."""
+        left, bottom, right, top = self.box
+        corner = complex(left, bottom) + shift
+        block, target = self.block, self.block.target + shift
+        foot = complex(self.x + shift.real, corner.imag)
+        self._leader(sheet, target, foot)
+        sheet.line(corner, corner + (right - left))
+        level = top + shift.imag
+        for row in block.rows:
+            level -= max(cell.size[1] for cell in row)
+            x = corner.real + (_INDENT if self.right else 0.2)
+            for cell in row:
+                cell.draw(sheet, complex(x, level))
+                x += cell.size[0] + _GAP
+
+    def _leader(self, sheet: SheetDrawing, target: complex, foot: complex) -> None:
+        sheet.line(target, foot)
+        if self.block.tip == "arrow":
+            sheet.triangle(target, target - foot)
+        elif self.block.tip == "dot":
+            sheet.dot(target)
+
+
+def stair(blocks: Sequence[Block], level: float, *, right: bool, up: bool) -> list[Placed]:
+    """Place blocks on one stair.
+
+    Parameters
+    ----------
+    blocks : sequence of Block
+        In a frame of the view, mm.
+    level : float
+        Where the stair begins, mm: above it where `up`, below it otherwise.
+    right, up : bool
+        Whether blocks reach to the right of their leaders, and whether the stair rises.
+    """
+    side, way = (1.0 if right else -1.0), (1.0 if up else -1.0)
+    ordered = sorted(blocks, key=lambda b: (-side * b.target.real, way * b.target.imag))
+    done: list[tuple[float, float, float]] = []
+    placed = []
+    for block in ordered:
+        x = side * block.target.real
+        if done:
+            x = min(x, done[-1][0] - _APART)
+        reach = x + block.width + _BETWEEN
+        low = max([way * level, *(top for start, _, top in done if start < reach)])
+        done.append((x, reach, low + block.height + _BETWEEN))
+        placed.append(Placed(block, side * x, way * low, right, up))
+    return placed
+
+
+@dataclass(frozen=True)
+class Extent:
+    """A box on paper, mm."""
+
+    left: float = 0.0
+    bottom: float = 0.0
+    right: float = 0.0
+    top: float = 0.0
+
+    @classmethod
+    def of(cls, boxes: Sequence[tuple[float, float, float, float]]) -> Extent:
+        """Round several boxes."""
+        left, bottom, right, top = zip(*boxes, strict=True)
+        return cls(min(left), min(bottom), max(right), max(top))
+
+
+@dataclass(frozen=True)
+class Around:
+    """Blocks round a view: stairs above and below it, to the left and to the right."""
+
+    placed: tuple[Placed, ...] = field(default=())
+
+    @property
+    def boxes(self) -> list[tuple[float, float, float, float]]:
+        """Of all blocks."""
+        return [one.box for one in self.placed]
+
+
+def stairs_above(blocks: Sequence[Block], middle: float, level: float) -> list[Placed]:
+    """Two stairs that go up, to either side from the middle of a view."""
+    left = [block for block in blocks if block.target.real < middle]
+    others = [block for block in blocks if block.target.real >= middle]
+    return [
+        *stair(left, level, right=False, up=True),
+        *stair(others, level, right=True, up=True),
+    ]
+
+
+def stairs_below(blocks: Sequence[Block], middle: float, level: float) -> list[Placed]:
+    """Two stairs that go down, to either side from the middle of a view."""
+    left = [block for block in blocks if block.target.real < middle]
+    others = [block for block in blocks if block.target.real >= middle]
+    return [
+        *stair(left, level, right=False, up=False),
+        *stair(others, level, right=True, up=False),
+    ]
