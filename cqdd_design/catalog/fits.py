@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from dataclasses import dataclass
 
 from cqdd_design.catalog.reader import optional_number, read_rows
@@ -31,6 +32,49 @@ class FitLimits:
     lower: float
     upper: float
     source: str
+
+
+@functools.lru_cache(maxsize=1)
+def _grades() -> dict[str, tuple[tuple[float, float], ...]]:
+    """Largest size (m) and width (m) of every row of the standard tolerances, by grade."""
+    table: dict[str, tuple[tuple[float, float], ...]] = {}
+    for row in read_rows("iso286.csv"):
+        if row["row"] == "grade":
+            one = float(row["up_to_mm"]) * 1e-3, float(row["width_um"]) * 1e-6
+            table[row["code"]] = (*table.get(row["code"], ()), one)
+    return table
+
+
+# Standard tolerances in units of i (ISO 286-1, table 1).
+_GRADE_UNITS = {"IT5": 7.0, "IT6": 10.0, "IT7": 16.0, "IT8": 25.0, "IT9": 40.0, "IT10": 64.0}
+
+
+def standard_tolerance(grade: int, size: float) -> float:
+    """Width of a tolerance grade at a nominal size (m), m.
+
+    Beyond the table, and from IT5 to IT10, by its formula i = 0.45 D^(1/3) + 0.001 D (um, mm) at
+    the size itself; it holds to 500 mm.
+
+    Raises
+    ------
+    CatalogError
+        When the grade has neither.
+
+    Examples
+    --------
+    >>> round(standard_tolerance(5, 10e-3) * 1e6), round(standard_tolerance(7, 0.15) * 1e6)
+    (6, 41)
+    """
+    name, mm = f"IT{grade}", size * 1e3
+    table = _grades().get(name, ())
+    found = next((width for most, width in table if size <= most + 1e-12), None)
+    if found is not None:
+        return found
+    if name not in _GRADE_UNITS:
+        known = ", ".join(_grades())
+        raise CatalogError(f"no standard tolerance {name} for {mm:g} mm; there are {known}.")
+    unit = 0.45 * math.cbrt(mm) + 0.001 * mm
+    return round(_GRADE_UNITS[name] * unit) * 1e-6
 
 
 @functools.lru_cache(maxsize=1)

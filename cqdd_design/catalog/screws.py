@@ -10,22 +10,9 @@ from dataclasses import dataclass
 
 from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.catalog.reader import number, optional_number, read_rows
+from cqdd_design.catalog.threads import thread_sizes
 from cqdd_design.errors import CatalogError
 
-# Bores of clearance over metric threads, mm (ISO 273:1979, fine series).
-_FINE_BORES = {
-    1.6: 1.7,
-    2.0: 2.2,
-    2.5: 2.7,
-    3.0: 3.2,
-    4.0: 4.3,
-    5.0: 5.3,
-    6.0: 6.4,
-    8.0: 8.4,
-    10.0: 10.5,
-    12.0: 13.0,
-    16.0: 17.0,
-}
 _BORE_SHARE = 0.6
 """Most of a column's diameter that its bore takes: seven eighths of its stiffness stay."""
 LEAST_COLUMN = 3e-3
@@ -173,11 +160,10 @@ def column_screw(diameter: float) -> ColumnScrew:
     ColumnScrew(thread=0.003, bore=0.0032)
     """
     most = _BORE_SHARE * diameter * 1e3
-    fitting = [(size, bore) for size, bore in _FINE_BORES.items() if bore <= most + 1e-9]
+    fitting = [row for row in thread_sizes().values() if row.fine * 1e3 <= most + 1e-9]
     if diameter < LEAST_COLUMN or not fitting:
         raise CatalogError(
             f"no screw goes through a column of {diameter * 1e3:g} mm; the least is "
             f"{LEAST_COLUMN * 1e3:g} mm."
         )
-    thread, bore = fitting[-1]
-    return ColumnScrew(thread * 1e-3, bore * 1e-3)
+    return ColumnScrew(fitting[-1].diameter, fitting[-1].fine)

@@ -16,13 +16,8 @@ import math
 from dataclasses import dataclass
 
 from cqdd_design.catalog.materials import Material
+from cqdd_design.catalog.threads import Thread
 
-# Pitch of coarse threads, mm (ISO 261).
-_COARSE = {
-    1.6: 0.35, 2.0: 0.4, 2.5: 0.45, 3.0: 0.5, 4.0: 0.7, 5.0: 0.8, 6.0: 1.0, 8.0: 1.25,
-    10.0: 1.5, 12.0: 1.75, 16.0: 2.0, 20.0: 2.5,
-}  # fmt: skip
-_INCH = 25.4e-3
 FRICTION = 0.12
 """mu of thread and head, lightly oiled: where friction class B of VDI 2230, 0.08 to 0.16, lies."""
 UTILISATION = 0.9
@@ -40,58 +35,6 @@ SHEAR_SHARE = 0.6
 steels and wrought aluminium."""
 STRIPPING_SAFETY = 1.5
 """Least force that strips a thread over the greatest preload."""
-
-
-@dataclass(frozen=True)
-class Thread:
-    """A thread of 60 degrees, m."""
-
-    diameter: float
-    pitch: float
-
-    @property
-    def pitch_diameter(self) -> float:
-        """d_2, and D_2 of the nut."""
-        return self.diameter - 0.64952 * self.pitch
-
-    @property
-    def root_diameter(self) -> float:
-        """d_3."""
-        return self.diameter - 1.22687 * self.pitch
-
-    @property
-    def stress_diameter(self) -> float:
-        """d_0, the mean of both (ISO 898-1)."""
-        return 0.5 * (self.pitch_diameter + self.root_diameter)
-
-    @property
-    def stress_area(self) -> float:
-        """A_S, m^2.
-
-        Examples
-        --------
-        >>> round(coarse_thread(10e-3).stress_area * 1e6, 1)
-        58.0
-        """
-        return 0.25 * math.pi * self.stress_diameter**2
-
-
-def coarse_thread(diameter: float) -> Thread:
-    """The coarse metric thread of a nominal diameter, m."""
-    return Thread(diameter, _COARSE[round(diameter * 1e3, 3)] * 1e-3)
-
-
-def thread_named(name: str, diameter: float) -> Thread:
-    """A thread written ``M3``, ``10-24`` or ``5/16-18``, whose major diameter (m) is known.
-
-    Examples
-    --------
-    >>> print(round(thread_named("10-24", 4.826e-3).pitch * 1e3, 3))
-    1.058
-    """
-    if name.startswith("M"):
-        return coarse_thread(diameter)
-    return Thread(diameter, _INCH / float(name.rpartition("-")[2]))
 
 
 @dataclass(frozen=True)

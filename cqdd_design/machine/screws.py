@@ -6,16 +6,12 @@ import math
 from dataclasses import dataclass, replace
 
 from cqdd_design.catalog.materials import Material, find_material
-from cqdd_design.catalog.tightening import (
-    GRIP_FRICTION,
-    Clamping,
-    coarse_thread,
-    thread_named,
-)
+from cqdd_design.catalog.threads import coarse_thread, thread_named
+from cqdd_design.catalog.tightening import GRIP_FRICTION, Clamping
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.shaft_strength import output_loads
 from cqdd_design.solids import mounting
-from cqdd_design.solids.carrier import OUTPUT_BOLTS
+from cqdd_design.solids.features.carrier import OUTPUT_BOLTS
 from cqdd_design.solids.mounting import SCREW_MATERIAL
 from cqdd_design.solids.selection import CapScrew
 

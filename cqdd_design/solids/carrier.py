@@ -5,21 +5,19 @@ Drawn in the carrier's frame, where the first pin stands at the hole clocking.
 
 from __future__ import annotations
 
-import math
+from collections.abc import Sequence
 
-import numpy as np
-
-from cqdd_design.geometry.contours import FloatArray, PlanarPart
+from cqdd_design.geometry.contours import PlanarPart
+from cqdd_design.solids.features.kinds import Feature
+from cqdd_design.solids.features.removal import drillings
 from cqdd_design.solids.layers import (
     Annulus,
-    Drilling,
     Layer,
     Stack,
     circle,
     cylinder,
     hexagon,
     notched_circle,
-    on_circle,
     pierced,
     prism,
     turned,
@@ -28,16 +26,11 @@ from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, ShaftLayout
 from cqdd_design.solids.rotating import plain_pin
 from cqdd_design.solids.selection import CapScrew, OutputPin
 
-OUTPUT_BOLTS = 6
-"""In the output's face."""
 _NUT_SLOTS = 4
 
 
-def carrier_plate(carrier: CarrierLayout, shaft: ShaftLayout) -> Stack:
-    """The output plate: seats and threads of pins, threads for columns, bearing seats, bolts.
-
-    And dowel holes between the bolts.
-    """
+def carrier_plate(carrier: CarrierLayout, shaft: ShaftLayout, features: Sequence[Feature]) -> Stack:
+    """The output plate, turned, with the holes of its features."""
     output = carrier.output
     support = shaft.support
     seat_top = carrier.plate_bottom + support.bearing.width
@@ -52,55 +45,13 @@ def carrier_plate(carrier: CarrierLayout, shaft: ShaftLayout) -> Stack:
         split = min(max(seat_top, bottom), top)
         rings.append(Annulus(bottom, split, seat, radius))
         rings.append(Annulus(split, top, way, radius))
-    pins = on_circle(carrier.pin_count, carrier.pin_circle_radius, carrier.clocking)
-    pin = carrier.pin
-    drillings = [
-        Drilling(pins, 0.5 * pin.nominal_diameter, carrier.plate_bottom, carrier.shoulder_top)
-    ]
-    if pin.screw is not None:
-        thread_top = carrier.shoulder_top + pin.thread_length
-        drillings.append(
-            Drilling(pins, 0.5 * pin.thread_diameter, carrier.shoulder_top, thread_top)
-        )
-    if carrier.columns is not None:
-        thread, top = 0.5 * carrier.columns.screw.thread, carrier.columns.thread_top
-        drillings.append(Drilling(column_places(carrier), thread, carrier.plate_bottom, top))
-    top, dowels = carrier.plate_top, carrier.flange_dowels
-    if carrier.bolt_thread:
-        bolts = on_circle(OUTPUT_BOLTS, carrier.bolt_circle_radius, 0.0)
-        drillings.append(Drilling(bolts, 0.5 * carrier.bolt_thread, top - carrier.bolt_depth, top))
-    if dowels.count:
-        first = math.pi / OUTPUT_BOLTS
-        places = on_circle(dowels.count, carrier.bolt_circle_radius, first)
-        drillings.append(Drilling(places, 0.5 * dowels.diameter, top - dowels.depth, top))
-    return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], drillings)
+    return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], drillings(features))
 
 
-def carrier_cap(carrier: CarrierLayout, gap: float) -> Stack:
-    """The ring that holds the far ends of pins and columns, counterbored for the screw heads."""
-    pins = on_circle(carrier.pin_count, carrier.pin_circle_radius, carrier.clocking)
-    drillings = [Drilling(pins, 0.5 * carrier.pin.nominal_diameter, carrier.shoulder_bottom, -gap)]
-    if carrier.counterbore_radius:
-        drillings.append(
-            Drilling(pins, carrier.counterbore_radius, carrier.cap_bottom, carrier.shoulder_bottom)
-        )
-    columns = carrier.columns
-    if columns is not None:
-        places = column_places(carrier)
-        drillings += [
-            Drilling(places, columns.bore_radius, columns.seat, -gap),
-            Drilling(places, columns.counterbore_radius, carrier.cap_bottom, columns.seat),
-        ]
+def carrier_cap(carrier: CarrierLayout, gap: float, features: Sequence[Feature]) -> Stack:
+    """The ring that holds the far ends of pins and columns, with the holes of its features."""
     ring = Annulus(carrier.cap_bottom, -gap, carrier.cap_inner, carrier.cap_outer)
-    return turned([ring], drillings)
-
-
-def column_places(carrier: CarrierLayout) -> FloatArray:
-    """Axes (N_c, 2) of the columns, m; none without columns."""
-    columns = carrier.columns
-    if columns is None:
-        return np.zeros((0, 2))
-    return on_circle(columns.count, carrier.pin_circle_radius, columns.angle)
+    return turned([ring], drillings(features))
 
 
 def column_shape(columns: ColumnLayout, bottom: float, top: float) -> Stack:

@@ -135,7 +135,8 @@ def lay_out_carrier(
         bolt = 0.0
     # Beside the shaft's bearing where a wall stays, else above it.
     beside_seat = 0.5 * (room - bolt) >= 0.8 * unit
-    depth = plate_top - bottom - (unit if beside_seat else support.bearing.width + 0.5 * unit)
+    bolt_room = plate_top - bottom - (0.0 if beside_seat else support.bearing.width)
+    depth = bolt_room - (unit if beside_seat else 0.5 * unit)
     return CarrierLayout(
         joint=joint,
         columns=columns,
@@ -163,6 +164,7 @@ def lay_out_carrier(
         bolt_thread=bolt,
         bolt_circle_radius=bolt_circle,
         bolt_depth=min(2.0 * bolt, depth),
+        bolt_room=bolt_room,
         flange_dowels=flange_dowels(
             design, bolt_circle, bolt, min(0.7 * room, room - 1.6 * unit), depth, unit
         ),

@@ -202,8 +202,9 @@ class CarrierLayout:
         Heights on the plate.
     nut_radius : float
         Thread of the nut that holds the output bearing.
-    bolt_thread, bolt_circle_radius, bolt_depth : float
-        Tapped holes in the output face; a thread of 0 where there is no room.
+    bolt_thread, bolt_circle_radius, bolt_depth, bolt_room : float
+        Tapped holes in the output face; a thread of 0 where there is no room. `bolt_room` is how
+        thick the plate is there.
     flange_dowels : FlangeDowels
         Between these.
     """
@@ -233,6 +234,7 @@ class CarrierLayout:
     bolt_thread: float
     bolt_circle_radius: float
     bolt_depth: float
+    bolt_room: float
     flange_dowels: FlangeDowels
 
     @property

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.materials import Material, find_material
-from cqdd_design.catalog.tightening import GRIP_FRICTION, Clamping, coarse_thread
+from cqdd_design.catalog.threads import coarse_thread
+from cqdd_design.catalog.tightening import GRIP_FRICTION, Clamping
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design, Requirements

@@ -17,6 +17,7 @@ from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray, Moments
 from cqdd_design.results import MassProperties
+from cqdd_design.solids.features.kinds import Feature
 from cqdd_design.solids.fits import Fit
 from cqdd_design.solids.layers import Stack, prism_properties
 from cqdd_design.solids.poses import Body, body_pose, transform
@@ -79,6 +80,8 @@ class Part:
         closely fit it.
     fits : tuple of Fit
         Tolerance zones of its seats.
+    features : tuple of Feature
+        What it is made of besides its turned or cut body; the holes of `shape` are theirs.
     """
 
     name: str
@@ -93,6 +96,7 @@ class Part:
     exact_section: Moments | None = None
     fitted_section: Moments | None = None
     fits: tuple[Fit, ...] = ()
+    features: tuple[Feature, ...] = ()
 
     @property
     def count(self) -> int:

@@ -8,6 +8,8 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, shaft_material
 from cqdd_design.design import Design
 from cqdd_design.geometry.columns import COLUMN_MATERIAL
@@ -20,6 +22,8 @@ from cqdd_design.solids import housing as housing_shapes
 from cqdd_design.solids import rotating
 from cqdd_design.solids.clocking import DiscGroup, disc_groups
 from cqdd_design.solids.counterweights import balance_weights
+from cqdd_design.solids.features import carrier as carrier_features
+from cqdd_design.solids.features.kinds import Feature
 from cqdd_design.solids.fits import seat_fits
 from cqdd_design.solids.layers import Stack, on_circle, prism
 from cqdd_design.solids.layout import Layout, PackLayout
@@ -35,6 +39,8 @@ from cqdd_design.solids.part import Colour, Instance, Part, around, on_axis, pla
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
 from cqdd_design.solids.selection import ChosenBearing
 
+_ZONE_WIDTH = 6.0
+"""Diameter of the zone of an axis over the standard deviation of its place."""
 NUT_MATERIAL = "AISI 4140 Q&T 540C"
 
 _ALUMINIUM: Colour = (0.72, 0.74, 0.77)
@@ -191,22 +197,31 @@ def _bearing_part(
 def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
     carrier, metal = layout.carrier, design.housing.material
 
-    def made(name: str, shape: Stack, how: str = "turned and drilled") -> Part:
-        return Part(name, shape, metal, _ALUMINIUM, "make", how, on_axis(name, CARRIER))
+    def made(
+        name: str,
+        shape: Stack,
+        features: tuple[Feature, ...] = (),
+        how: str = "turned and drilled",
+    ) -> Part:
+        pieces = on_axis(name, CARRIER)
+        return Part(name, shape, metal, _ALUMINIUM, "make", how, pieces, features=features)
 
-    plate = carrier_shapes.carrier_plate(carrier, layout.shaft)
-    parts = [made("carrier plate", plate)]
+    position = _ZONE_WIDTH * design.tolerances.pin_position
+    features = carrier_features.plate_features(carrier, layout.shaft, position)
+    plate = carrier_shapes.carrier_plate(carrier, layout.shaft, features)
+    parts = [made("carrier plate", plate, features)]
     if carrier.cap:
         how = "turned and drilled"
         if carrier.bonded_in_cap:
             drawn = " and drawn against their heads" if carrier.pin.screw else ""
             how += f", seats {1e3 * carrier.pin.nominal_diameter:g} H7 bonded on the f9 pins{drawn}"
-        cap = carrier_shapes.carrier_cap(carrier, layout.pack.gap)
-        parts.append(made("carrier cap", cap, how))
+        features = carrier_features.cap_features(carrier, layout.pack.gap, position)
+        cap = carrier_shapes.carrier_cap(carrier, layout.pack.gap, features)
+        parts.append(made("carrier cap", cap, features, how))
     nut = made(
         "bearing nut",
         carrier_shapes.bearing_nut(carrier),
-        f"slotted nut, thread {2e3 * carrier.nut_radius:g} mm",
+        how=f"slotted nut, thread {2e3 * carrier.nut_radius:g} mm",
     )
     parts += [
         dataclasses.replace(nut, material=NUT_MATERIAL, colour=_SCREW),
@@ -225,7 +240,7 @@ def _column_parts(layout: Layout) -> list[Part]:
     columns, pack = layout.carrier.columns, layout.pack
     if columns is None:
         return []
-    places = carrier_shapes.column_places(layout.carrier)
+    places = np.array(carrier_features.column_circle(layout.carrier, columns).centres)
     bottom, top = -pack.gap, layout.carrier.plate_bottom
     size = f"{2e3 * columns.radius:.6g} x {2e3 * columns.bore_radius:g} x {1e3 * (top - bottom):g}"
     heads_down = (transform(x=x, y=y, z=columns.seat, turned_over=True) for x, y in places)
@@ -252,8 +267,7 @@ def _column_parts(layout: Layout) -> list[Part]:
 
 
 def _pin_positions(layout: Layout) -> FloatArray:
-    carrier = layout.carrier
-    return on_circle(carrier.pin_count, carrier.pin_circle_radius, carrier.clocking)
+    return np.array(carrier_features.pin_circle(layout.carrier).centres)
 
 
 def _pin_part(design: Design, layout: Layout) -> Part:

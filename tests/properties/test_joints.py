@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, joint_shear
 from cqdd_design.catalog.dowels import SHARE, across_a_joint, along_a_seam
 from cqdd_design.catalog.materials import find_material
-from cqdd_design.catalog.tightening import Clamping, coarse_thread, preload_at_yield
+from cqdd_design.catalog.threads import coarse_thread
+from cqdd_design.catalog.tightening import Clamping, preload_at_yield
 from cqdd_design.design import load_design
 from cqdd_design.gearbox.checks.allowables import bond_limit
 from cqdd_design.machine import Machine, resolve

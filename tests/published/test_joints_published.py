@@ -18,8 +18,8 @@ import pytest
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, joint_shear, length_needed
 from cqdd_design.catalog.dowels import SHEAR_STRENGTH, along_a_seam, dowels_within
 from cqdd_design.catalog.materials import find_material
+from cqdd_design.catalog.threads import coarse_thread
 from cqdd_design.catalog.tightening import (
-    coarse_thread,
     preload_at_yield,
     stripping_force,
     substitution_area,

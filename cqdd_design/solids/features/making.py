@@ -1,0 +1,216 @@
+"""Features with the sizes that follow from others: how deep to drill, how rough, how true.
+
+Sources of the rules: form and run-out of bearing seats by SKF (table "Tolerances of form and
+position": cylindricity and total run-out of a seat IT5/2, run-out of its abutment IT5, where the
+seat itself is IT6 on shafts and IT7 in housings), so half of one grade finer than the seat, and
+one grade finer for its shoulder. Position of screw holes by the rule of fixed fasteners (ASME
+Y14.5, appendix B): half of the clearance in each part. Roughness by the grade: Ra 0.8 um of IT6,
+1.6 um of IT7, half of it where ground (SKF, "Surface roughness of bearing seats").
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+from cqdd_design.catalog.fits import standard_tolerance
+from cqdd_design.catalog.threads import Thread, tap_drill, thread_size_of
+from cqdd_design.catalog.undercuts import undercut_for
+from cqdd_design.errors import CatalogError
+from cqdd_design.solids.features.kinds import (
+    ON_AXIS,
+    BoltCircle,
+    Centre,
+    ClearanceHole,
+    Facing,
+    FittedHole,
+    Seat,
+    Shoulder,
+    TappedHole,
+    Undercut,
+)
+
+POINT_ANGLE = math.radians(118.0)
+"""Of twist drills (DIN 1412)."""
+TURNED, FINE, GROUND, GENERAL = 1.6e-6, 0.8e-6, 0.4e-6, 3.2e-6
+"""Ra of turned seats, of fine turned ones, of ground ones, and of what is to general limits, m."""
+THREAD_CLASS = "6H"
+_RUN_OUT_TURNS = 3.0
+"""Drilled beyond the full thread, in pitches: what a tap's lead of 2 to 3 threads leaves (DIN 2197
+form C)."""
+_POSITION_STEP = 0.01e-3
+_RELIEF_SHARE = 0.34
+"""Most of a seat's length that an undercut takes."""
+
+
+def grade_of(zone: str) -> int:
+    """The tolerance grade of a zone: 6 of ``k6``."""
+    return int(zone.lstrip("ABCDEFGHJKMNPRSTUVXYZabcdefghjkmnprstuvxyz"))
+
+
+def seat(
+    name: str,
+    diameter: float,
+    bottom: float,
+    top: float,
+    zone: str,
+    *,
+    inside: bool = False,
+    ground: bool = False,
+    datum: str = "",
+    refers: str = "",
+    centre: Centre = ON_AXIS,
+) -> Seat:
+    """A seat whose form, run-out and roughness follow from the grade of its zone."""
+    grade = grade_of(zone)
+    form = _to_tenths(0.5 * standard_tolerance(grade - 1, diameter))
+    rough = GROUND if ground else FINE if grade < 7 else TURNED
+    return Seat(
+        name, diameter, bottom, top, inside, zone, rough, ground,
+        run_out=form if refers else 0.0,
+        cylindricity=form,
+        datum=datum, refers=refers, centre=centre,
+    )  # fmt: skip
+
+
+def shoulder(
+    name: str,
+    height: float,
+    inner: float,
+    outer: float,
+    facing: Facing,
+    seat: Seat,
+    *,
+    fillet: float = 0.0,
+    datum: str = "",
+    refers: str = "A",
+) -> Shoulder:
+    """The face beside a seat, one grade truer than it."""
+    run_out = standard_tolerance(grade_of(seat.zone) - 1, 2.0 * outer)
+    return Shoulder(
+        name, height, inner, outer, facing, seat.roughness, run_out, fillet, datum, refers
+    )
+
+
+def relief(name: str, seat: Seat, facing: Facing, corner: float) -> Undercut | None:
+    """The undercut that ends a ground seat at its shoulder; None where the seat is too short.
+
+    Of form E: the shoulders of small bearings are too low to lose the face that form F takes.
+
+    Parameters
+    ----------
+    facing : {"up", "down"}
+        The way the shoulder's face looks.
+    corner : float
+        Least corner radius of what sits there, m.
+    """
+    row = undercut_for(seat.diameter, corner, _RELIEF_SHARE * (seat.top - seat.bottom))
+    if row is None:
+        return None
+    return Undercut(
+        name, "E", seat.name, 0.5 * seat.diameter,
+        height=seat.bottom if facing == "up" else seat.top,
+        facing=facing,
+        inside=seat.inside,
+        radius=row.radius, depth=row.depth, width=row.width, face_depth=0.0,
+        centre=seat.centre,
+    )  # fmt: skip
+
+
+def tapped(
+    name: str,
+    thread: Thread,
+    designation: str,
+    circle: BoltCircle,
+    *,
+    mouth: float,
+    facing: Facing,
+    depth: float,
+    room: float,
+    countersunk: bool = True,
+) -> TappedHole:
+    """Tapped holes with their drill: right through where the room ends within the tap's lead.
+
+    Parameters
+    ----------
+    mouth : float
+        Height of the face it opens in, m.
+    depth : float
+        Of the full thread, m.
+    room : float
+        From the mouth to where the material ends, m.
+    """
+    drill = tap_drill(thread)
+    deep = depth + _RUN_OUT_TURNS * thread.pitch
+    through = deep + point_length(drill) > room - thread.pitch
+    return TappedHole(
+        name,
+        thread.diameter,
+        thread.pitch,
+        designation,
+        THREAD_CLASS,
+        drill,
+        mouth,
+        facing,
+        thread_depth=depth,
+        drill_depth=room if through else deep,
+        through=through,
+        countersink=thread.diameter if countersunk else 0.0,
+        circle=circle,
+        position=screw_position(thread.diameter),
+    )
+
+
+def point_length(diameter: float) -> float:
+    """Height of the cone that a drill leaves, m."""
+    return 0.5 * diameter / math.tan(0.5 * POINT_ANGLE)
+
+
+def screw_position(thread: float) -> float:
+    """Zone of the axes of holes for a screw and its thread, m: half of the clearance for either."""
+    try:
+        free = thread_size_of(thread).medium - thread
+    except CatalogError:
+        free = 0.1 * thread
+    return math.floor(0.5 * free / _POSITION_STEP + 1e-6) * _POSITION_STEP
+
+
+def clearance(
+    name: str,
+    thread: float,
+    bottom: float,
+    top: float,
+    circle: BoltCircle,
+    *,
+    series: Literal["medium", "fine"] = "medium",
+    refers: str = "A",
+) -> ClearanceHole:
+    """Holes for a screw."""
+    row = thread_size_of(thread)
+    diameter = row.medium if series == "medium" else row.fine
+    at = screw_position(thread)
+    return ClearanceHole(name, thread, diameter, series, bottom, top, circle, at, refers)
+
+
+def fitted(
+    name: str,
+    diameter: float,
+    zone: str,
+    circle: BoltCircle,
+    *,
+    bottom: float,
+    top: float,
+    facing: Facing,
+    position: float,
+    through: bool = False,
+    refers: str = "A",
+) -> FittedHole:
+    """Reamed holes."""
+    return FittedHole(
+        name, diameter, zone, bottom, top, through, facing, TURNED, circle, position, refers
+    )
+
+
+def _to_tenths(value: float) -> float:
+    """Rounded to half a micrometre, m."""
+    return max(round(value * 2e6), 1) / 2e6
