@@ -64,6 +64,9 @@ _ROWS = (
     ExportKind("3mf", "solids.meshes:export_3mf", "meshes of the machine", _SOLID, "makers"),
     ExportKind("glb", "solids.meshes:export_glb", "the machine for viewers", _SOLID, "makers"),
     ExportKind("svg", "sheets.svg:export_svg", "front views, true to scale", _PLAIN, "makers"),
+    ExportKind(
+        "sheets", "sheets.sheet_files:export_sheets", "a drawing of every part", _SOLID, "makers"
+    ),
     ExportKind("bom", "solids.bom:export_bom", "bill of materials", _SOLID, "makers"),
     ExportKind("mjcf", "simulators.mjcf:export_mjcf", "model for MuJoCo", _PLAIN, "simulators"),
     ExportKind("urdf", "simulators.urdf:export_urdf", "robot of one joint", _PLAIN, "simulators"),

@@ -39,9 +39,7 @@ def cut_rectangles(found: Sequence[Slab], direction: float) -> tuple[Rectangle, 
     )
 
 
-def lines_behind(
-    layers: Iterable[Layer], direction: float, *, upper: bool
-) -> tuple[Line, ...]:
+def lines_behind(layers: Iterable[Layer], direction: float, *, upper: bool) -> tuple[Line, ...]:
     """Visible edges behind the half plane of a direction (rad), on one side of the axis.
 
     Parameters
@@ -82,9 +80,7 @@ class _Column:
         self.walls, self.upper = walls, upper
         self.breaks = [x for x in walls.breaks().tolist() if x and (x > 0.0) == upper]
         bisect.insort(self.breaks, 0.0)
-        self.sights = [
-            walls.sight(0.5 * (one + two))[0] for one, two in pairwise(self.breaks)
-        ]
+        self.sights = [walls.sight(0.5 * (one + two))[0] for one, two in pairwise(self.breaks)]
 
     def key(self, x: float) -> Key:
         """What is met at a place."""
@@ -131,7 +127,10 @@ def _joined(lines: Sequence[Line]) -> list[Line]:
             else:
                 merged.append([low, high])
         for low, high in merged:
-            ends = (complex(low, level), complex(high, level)) if along else (
-                complex(level, low), complex(level, high))
-            joined.append(ends)
+            one, two = (
+                (complex(low, level), complex(high, level))
+                if along
+                else (complex(level, low), complex(level, high))
+            )
+            joined.append((one, two))
     return joined

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import pairwise
 
 import numpy as np
 
@@ -26,7 +26,7 @@ from cqdd_design.solids.slabs import Walls
 
 _BESIDE = 2e-6
 """How far from an edge heights are looked at, m."""
-_STEPS, _HALVINGS = 90, 24
+_STEPS, _HALVINGS = 90, 20
 """Places along a full turn at which an edge is looked at; halvings between two that differ."""
 
 
@@ -47,7 +47,7 @@ class Arc:
 
     @property
     def radius(self) -> float:
-        """m."""
+        """In m."""
         return abs(self.start - self.centre)
 
     def at(self, share: FloatArray) -> ComplexArray:
@@ -142,25 +142,24 @@ class _Scene:
         shown = self.shown(arc, shares)
         if shown.all():
             return [arc]
-        pieces, low = [], 0.0
-        for value, group in groupby(range(count), key=lambda i: bool(shown[i])):
-            last = list(group)[-1]
-            high = 1.0 if last == count - 1 else self._change(arc, shares[last], shares[last + 1])
-            if value:
-                pieces.append(arc.piece(low, high))
-            low = high
-        return pieces
+        last = np.nonzero(shown[1:] != shown[:-1])[0]
+        changes = self._changes(arc, shares[last], shares[last + 1])
+        ends = [0.0, *changes.tolist(), 1.0]
+        first = bool(shown[0])
+        return [
+            arc.piece(low, high)
+            for place, (low, high) in enumerate(pairwise(ends))
+            if first == (place % 2 == 0)
+        ]
 
-    def _change(self, arc: Arc, low: float, high: float) -> float:
-        """The share between two at which the edge appears or disappears."""
-        before = self.shown(arc, np.array([low]))[0]
+    def _changes(self, arc: Arc, low: FloatArray, high: FloatArray) -> FloatArray:
+        """Shares between pairs of which the edge appears or disappears."""
+        before = self.shown(arc, low)
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
-            if self.shown(arc, np.array([middle]))[0] == before:
-                low = middle
-            else:
-                high = middle
-        return 0.5 * (low + high)
+            same = self.shown(arc, middle) == before
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        return np.asarray(0.5 * (low + high))
 
 
 class _Inside:

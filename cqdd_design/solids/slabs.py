@@ -91,7 +91,9 @@ class Walls:
         with np.errstate(divide="ignore", invalid="ignore"):
             straight = np.where(b != 0.0, -a / b, np.nan)
             half = np.sqrt(r * r - a * a)
-        places = np.stack([np.where(s == 0.0, straight, c - half), np.where(s == 0.0, np.nan, c + half)])
+        places = np.stack(
+            [np.where(s == 0.0, straight, c - half), np.where(s == 0.0, np.nan, c + half)]
+        )
         with np.errstate(invalid="ignore"):
             inside = (places > self.begin) & (places < self.end)
         return np.asarray(places[inside])

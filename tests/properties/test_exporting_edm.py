@@ -168,7 +168,7 @@ def test_the_disc_sheet_shows_what_it_must(package):
         "mark upper face",
         "2 : 1",
         "ISO 8015, ISO 2768-fH, sizes in mm",
-            "outside -0.3, inside +0.3",
+        "outside -0.3, inside +0.3",
         "Cut 2, flip 1: disc 1 as drawn, disc 2 turned over about the X axis.",
     ):
         assert phrase in words, phrase

@@ -16,7 +16,7 @@ above every block that its own width reaches over, whose leaders end below it th
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from cqdd_design.exporting.sheets.drawing import CELL, SMALL, TEXT, SheetDrawing
@@ -120,6 +120,8 @@ class DatumMark:
 
 Cell: TypeAlias = Words | Boxed | Frame | Surface | DatumMark
 Row: TypeAlias = tuple[Cell, ...]
+Box: TypeAlias = tuple[float, float, float, float]
+"""Left, bottom, right, top, mm."""
 Tip: TypeAlias = Literal["arrow", "dot", "face"]
 
 
@@ -141,12 +143,13 @@ class Block:
 
     @property
     def width(self) -> float:
-        """mm."""
-        return _INDENT + max(sum(c.size[0] for c in row) + _GAP * (len(row) - 1) for row in self.rows)
+        """In mm."""
+        widths = (sum(c.size[0] for c in row) + _GAP * (len(row) - 1) for row in self.rows)
+        return _INDENT + max(widths)
 
     @property
     def height(self) -> float:
-        """mm."""
+        """In mm."""
         return sum(max(cell.size[1] for cell in row) for row in self.rows)
 
 
@@ -161,7 +164,7 @@ class Placed:
     up: bool
 
     @property
-    def box(self) -> tuple[float, float, float, float]:
+    def box(self) -> Box:
         """Left, bottom, right, top, mm."""
         width, height = self.block.width, self.block.height
         left = self.x if self.right else self.x - width
@@ -223,28 +226,39 @@ def stair(blocks: Sequence[Block], level: float, *, right: bool, up: bool) -> li
 class Extent:
     """A box on paper, mm."""
 
-    left: float = 0.0
-    bottom: float = 0.0
-    right: float = 0.0
-    top: float = 0.0
+    left: float
+    bottom: float
+    right: float
+    top: float
+
+    @property
+    def width(self) -> float:
+        """In mm."""
+        return self.right - self.left
+
+    @property
+    def height(self) -> float:
+        """In mm."""
+        return self.top - self.bottom
 
     @classmethod
-    def of(cls, boxes: Sequence[tuple[float, float, float, float]]) -> Extent:
+    def of(cls, boxes: Sequence[Box]) -> Extent:
         """Round several boxes."""
         left, bottom, right, top = zip(*boxes, strict=True)
         return cls(min(left), min(bottom), max(right), max(top))
 
 
-@dataclass(frozen=True)
-class Around:
-    """Blocks round a view: stairs above and below it, to the left and to the right."""
-
-    placed: tuple[Placed, ...] = field(default=())
-
-    @property
-    def boxes(self) -> list[tuple[float, float, float, float]]:
-        """Of all blocks."""
-        return [one.box for one in self.placed]
+def distance_beside(left: Sequence[Box], right: Sequence[Box], gap: float) -> float:
+    """How far to the right of one group of boxes another must stand to keep a gap from it, mm."""
+    return max(
+        (
+            one[2] - two[0] + gap
+            for one in left
+            for two in right
+            if one[1] < two[3] + gap and two[1] < one[3] + gap
+        ),
+        default=0.0,
+    )
 
 
 def stairs_above(blocks: Sequence[Block], middle: float, level: float) -> list[Placed]:

@@ -27,8 +27,8 @@ _STYLED: dict[str, Any] = {"dimstyle": STYLE, "dxfattribs": {"layer": THIN}}
 CELL = 5.6
 """Height of a tolerance frame, mm."""
 
-_HATCH = 4.0
-"""Between hatching lines, mm along an edge."""
+_HATCH, _FACE_HATCH = 4.0, 2.2
+"""Between hatching lines, mm: along an edge, and across the lines."""
 _EIGHTH = cmath.exp(-0.25j * math.pi)
 _CENTRE_LINE = [10.0, 6.0, -1.5, 1.0, -1.5]
 _DASHED = [3.0, 2.0, -1.0]
@@ -129,7 +129,11 @@ class SheetDrawing:
             self.line(begin, end)
 
     def hatch_face(
-        self, loops: Sequence[Sequence[complex]], spacing: float = _HATCH, *, falling: bool = False
+        self,
+        loops: Sequence[Sequence[complex]],
+        spacing: float = _FACE_HATCH,
+        *,
+        falling: bool = False,
     ) -> None:
         """Hatch what closed chains of lines bound, at 45 degrees, falling to the right if asked."""
         mirror = -1.0 if falling else 1.0
@@ -140,8 +144,10 @@ class SheetDrawing:
             # A hair beside the grid: a corner on a hatching line is met once.
             level = step * spacing + 1e-7
             for one, two in _chords(turned, level):
-                ends = [(complex(x, level) / _EIGHTH) for x in (one, two)]
-                self.line(*(complex(p.real, mirror * p.imag) for p in ends))
+                begin, end = (complex(x, level) / _EIGHTH for x in (one, two))
+                self.line(
+                    complex(begin.real, mirror * begin.imag), complex(end.real, mirror * end.imag)
+                )
 
     def text(
         self,
@@ -176,30 +182,10 @@ class SheetDrawing:
             base=_xy(base), p1=_xy(one), p2=_xy(two), angle=angle, text=words, **_STYLED
         ).render()
 
-    def diameter(self, centre: complex, radius: float, angle: float, share: float) -> None:
-        """Dimension a circle across at `angle` (deg), the text at `share` of the radius."""
-        place = centre + cmath.rect(share * radius, math.radians(angle))
-        self._space.add_diameter_dim(
-            center=_xy(centre), radius=radius, angle=angle, location=_xy(place), **_STYLED
-        ).render()
-
     def radius(self, centre: complex, radius: float, angle: float, place: complex) -> None:
         """Dimension an arc at `angle` (deg) of it, the text at `place`, with a leader there."""
         self._space.add_radius_dim(
             center=_xy(centre), radius=radius, angle=angle, location=_xy(place), **_STYLED
-        ).render()
-
-    def angle(self, centre: complex, radius: float, start: float, end: float, out: float) -> None:
-        """Dimension the angle between two directions (deg) at `radius`, the text farther `out`."""
-        middle = math.radians(0.5 * (start + end))
-        self._space.add_angular_dim_cra(
-            center=_xy(centre),
-            radius=radius,
-            start_angle=start,
-            end_angle=end,
-            distance=0.0,
-            location=_xy(centre + cmath.rect(radius + out, middle)),
-            **_STYLED,
         ).render()
 
     def callout(self, target: complex, elbow: complex, words: str, width: float) -> None:

@@ -23,6 +23,8 @@ from cqdd_design.geometry.contours import Circle
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.cut_facts import CutFacts
 
+SIMULTANEOUS = "SIM1"
+"""Marks the zones of a disc that hold at once (ISO 5458): its lobes and its holes."""
 _MM = 1e3
 _NOTES = complex(308.0, 280.0)
 _NOTE_WIDTH = 99.0
@@ -103,12 +105,23 @@ def notes(facts: CutFacts) -> list[str]:
     said += [
         f"Datum A: axis of {'the outside' if flat.label == 'ring' else 'the bore'}. Datum B: lower "
         "face, on the table of the machine.",
+        *_clocking(facts),
         "Cut all contours in one clamping, holes first, the outer contour last.",
         "Stress relieve before cutting. No recast layer on the contour after the last skim cut.",
         "Sizes in brackets are auxiliary.",
         *facts.later,
     ]
     return said
+
+
+def _clocking(facts: CutFacts) -> list[str]:
+    """What holds the holes in place round the axis, seen from the lobes."""
+    if facts.flat.label == "ring":
+        return []
+    return [
+        f"{SIMULTANEOUS}: zones of contour and holes hold at once (ISO 5458), so the holes are "
+        "clocked to the lobes.",
+    ]
 
 
 def _curve(facts: CutFacts) -> str:

@@ -12,7 +12,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cqdd_design.geometry.contours import ArcContour, Circle, Contour, FloatArray
+from cqdd_design.geometry.contours import (
+    ArcContour,
+    Circle,
+    Contour,
+    FloatArray,
+    as_complex,
+)
 from cqdd_design.solids.axial_view import Rectangle
 from cqdd_design.solids.features.kinds import (
     AxialThread,
@@ -71,7 +77,19 @@ def cylinders(shape: Stack) -> tuple[Cylinder, ...]:
 
 
 def _walls(layer: Layer) -> list[tuple[Contour, bool]]:
-    return [(layer.shape.outer, False), *((hole, True) for hole in layer.shape.holes)]
+    """Contours with whether each is a bore; one with ears or notches counts as its circle."""
+    walls = [(layer.shape.outer, False), *((hole, True) for hole in layer.shape.holes)]
+    return [(_circle_of(contour), inside) for contour, inside in walls]
+
+
+def _circle_of(contour: Contour) -> Contour:
+    if isinstance(contour, Circle):
+        return contour
+    arcs = contour.arcs()
+    round_axis = (np.hypot(*arcs.centres.T) < 1e-9) & np.isfinite(arcs.radii)
+    if not round_axis.any():
+        return contour
+    return Circle(np.zeros(2), float(arcs.radii[round_axis].max()))
 
 
 def _beside(one: Layer, other: Layer) -> bool:
@@ -98,6 +116,49 @@ def _continues(known: Cylinder, contour: Circle, inside: bool, layer: Layer) -> 
         and abs(known.centre - complex(*contour.centre)) < SAME
         and abs(known.top - layer.bottom) < SAME
     )
+
+
+def outside(shape: Stack) -> float:
+    """Farthest that a part reaches from its axis, m, to 1 um."""
+    return max(float(np.hypot(*layer.shape.outer.sample(1e-6).T).max()) for layer in shape.layers)
+
+
+@dataclass(frozen=True)
+class Slots:
+    """Equal radial slots in the edge of a part, m.
+
+    Attributes
+    ----------
+    floor : complex
+        Middle of the first one's floor.
+    """
+
+    count: int
+    width: float
+    depth: float
+    floor: complex
+
+
+def slots(shape: Stack) -> Slots | None:
+    """The slots of a part whose outside is a circle but for these."""
+    floors: list[complex] = []
+    width, radius = 0.0, 0.0
+    for layer in shape.layers:
+        contour = layer.shape.outer
+        if not isinstance(contour, ArcContour):
+            continue
+        radius = float(np.hypot(*contour.points.T).max())
+        ends = as_complex(contour.points)
+        for start, end, bulge in zip(ends, np.roll(ends, -1), contour.bulges, strict=True):
+            middle = 0.5 * complex(start + end)
+            square = abs(((end - start) * np.conj(middle)).real) < 1e-9 * abs(middle)
+            known = any(abs(middle - floor) < 1e-9 for floor in floors)
+            if bulge == 0.0 and square and not known:
+                floors.append(middle)
+                width = abs(complex(end - start))
+    if not floors:
+        return None
+    return Slots(len(floors), width, radius - abs(floors[0]), floors[0])
 
 
 def spoken_for(cylinder: Cylinder, features: Iterable[Feature]) -> bool:
@@ -137,7 +198,9 @@ def _of_contours(layer: Layer) -> tuple[float, ...]:
 
 
 def cut_face(
-    upper: Sequence[Rectangle], lower: Sequence[Rectangle], features: Sequence[Feature],
+    upper: Sequence[Rectangle],
+    lower: Sequence[Rectangle],
+    features: Sequence[Feature],
     directions: tuple[float, float],
 ) -> list[FloatArray]:
     """Outlines (k, 2) of the face that the section cuts, mm: along the axis and across it.
@@ -259,6 +322,7 @@ def _drill_points(feature: TappedHole, direction: float) -> list[FloatArray]:
         if middle is not None and middle > 0.0:
             tip = bottom - up * radius / _POINT
             found.append(
-                _MM * np.array([(bottom, middle - radius), (tip, middle), (bottom, middle + radius)])
+                _MM
+                * np.array([(bottom, middle - radius), (tip, middle), (bottom, middle + radius)])
             )
     return found

@@ -17,8 +17,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from cqdd_design.exporting.sheets.blocks import Block, Placed, Row, stair
-from cqdd_design.exporting.sheets.drawing import OUTLINE, SMALL, TEXT, SheetDrawing
+from cqdd_design.exporting.sheets.blocks import Block, Box, Placed, Row, stair
+from cqdd_design.exporting.sheets.drawing import SMALL, TEXT, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import short_number, text_width
 
 _FIRST, _PITCH = 11.0, 8.0
@@ -27,7 +27,10 @@ _ROW = 4.4
 """Least distance of two lengths, mm."""
 _ARROWS = 7.0
 """Below this a dimension's arrows point at it from outside, mm."""
+_CLOSE = 5.0
+"""Lengths nearer to each other have strokes instead of arrows, mm."""
 _DATUM = 12.0
+"""Room that a datum takes below its dimension, mm."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +87,9 @@ class Column:
             sheet.line(shift + begin, shift + complex(self.x + out * 1.2, level))
         upper = max(high, self.text_at + self.length)
         if 2.0 * size.radius < _ARROWS:
-            sheet.line(shift + complex(self.x, low - 5.0), shift + complex(self.x, max(upper, high + 5.0)))
+            sheet.line(
+                shift + complex(self.x, low - 5.0), shift + complex(self.x, max(upper, high + 5.0))
+            )
             ends = ((low, 1j), (high, -1j))
         else:
             over = upper if self.text_at >= high else high
@@ -113,7 +118,16 @@ class Sizes:
     left: float
     right: float
     top: float
-    bottom: float
+
+    @property
+    def boxes(self) -> list[Box]:
+        """Of the blocks below the columns, and of the datums over them."""
+        datums = [
+            (c.x - 3.0, c.size.middle - c.size.radius - _DATUM - 2.0, c.x + 3.0, 0.0)
+            for c in self.columns
+            if c.size.datum
+        ]
+        return [*datums, *(one.box for one in self.placed)]
 
     def draw(self, sheet: SheetDrawing, shift: complex) -> None:
         """Draw all of them about the middle of the section."""
@@ -153,16 +167,13 @@ def columns_of(
                 rows.append(Block(foot, size.rows))
         level = -max(reach, most) - (_DATUM if any(d.datum for d in ordered) else 3.0) - 2.0
         placed += stair(rows, level, right=out > 0.0, up=False)
-    edges = [abs(c.x) + 2.0 for c in columns]
-    boxes = [one.box for one in placed]
     return Sizes(
         tuple(columns),
         tuple(placed),
-        left=min([-half - 6.0, *(c.x - 4.0 for c in columns), *(b[0] for b in boxes)]),
-        right=max([half + 6.0, *(c.x + 2.0 for c in columns), *(b[2] for b in boxes)]),
+        left=min([-half - 6.0, *(c.x - 4.0 for c in columns)]),
+        right=max([half + 6.0, *(c.x + 2.0 for c in columns)]),
         top=max([reach, *(c.text_at + c.length for c in columns)]),
-        bottom=min([-reach, *(b[1] for b in boxes)]),
-    ) if edges else Sizes((), (), -half - 6.0, half + 6.0, reach, -reach)
+    )
 
 
 @dataclass(frozen=True)
@@ -179,6 +190,12 @@ class Lengths:
         widest = max((text_width(self._words(v), SMALL) for _, v in self.marks), default=0.0)
         return 9.0 + widest
 
+    @property
+    def width(self) -> float:
+        """Of the row of values, mm."""
+        places = _spread([x for x, _ in self.marks], _ROW)
+        return 2.0 * max(map(abs, places), default=0.0) + _ROW
+
     @staticmethod
     def _words(value: float) -> str:
         return short_number(value, 4)
@@ -186,18 +203,24 @@ class Lengths:
     def draw(self, sheet: SheetDrawing, shift: complex, bottoms: Sequence[float]) -> None:
         """Draw extension lines from the part, the line with its origin, and the values."""
         y = self.level
+        rising = sorted(x for x, _ in self.marks)
         places = _spread([x for x, _ in self.marks], _ROW)
         at = sorted(zip(self.marks, places, bottoms, strict=True))
         for (x, value), place, bottom in at:
             sheet.line(shift + complex(x, bottom - 0.8), shift + complex(x, y - 1.2))
             if abs(x - self.origin) < 1e-9:
                 sheet.circle(shift + complex(x, y), 1.2)
+            elif min((abs(x - other) for other in rising if other != x), default=9.0) < _CLOSE:
+                # No room for an arrow: an oblique stroke (ISO 129-1).
+                sheet.line(shift + complex(x - 0.9, y - 0.9), shift + complex(x + 0.9, y + 0.9))
             else:
                 sheet.triangle(shift + complex(x, y), complex(x - self.origin, 0.0))
             sheet.line(shift + complex(x, y - 1.2), shift + complex(place, y - 4.5))
             words = self._words(value)
             wide = text_width(words, SMALL)
-            sheet.text(shift + complex(place + 0.5 * SMALL, y - 5.4 - wide), words, SMALL, turn=90.0)
+            sheet.text(
+                shift + complex(place + 0.5 * SMALL, y - 5.4 - wide), words, SMALL, turn=90.0
+            )
         ends = [x for x, _ in self.marks]
         for end in (min(ends), max(ends)):
             if abs(end - self.origin) > 1e-9:
@@ -219,8 +242,3 @@ def _spread(wanted: Sequence[float], apart: float) -> list[float]:
     for rank, i in enumerate(order):
         places[i] = level[rank] + rank * apart
     return places
-
-
-def outline(sheet: SheetDrawing, points: Sequence[complex]) -> None:
-    """A closed thick outline."""
-    sheet.chain(points, OUTLINE, close=True)
