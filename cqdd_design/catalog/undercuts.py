@@ -1,4 +1,4 @@
-"""Undercuts of ground cylinders (DIN 509, forms E and F)."""
+"""Undercuts of ground cylinders (DIN 509, form E)."""
 
 from __future__ import annotations
 
@@ -22,8 +22,6 @@ class UndercutSize:
         t1, below the cylinder.
     width : float
         f, along the cylinder.
-    face_depth : float
-        t2, into the shoulder; form F alone.
     source : str
         Where the row comes from.
     """
@@ -32,7 +30,6 @@ class UndercutSize:
     radius: float = column("r_mm", 1e-3)
     depth: float = column("t1_mm", 1e-3)
     width: float = column("f_mm", 1e-3)
-    face_depth: float = column("t2_mm", 1e-3)
     source: str = column("source")
 
     @property

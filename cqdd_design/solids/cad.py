@@ -7,6 +7,7 @@ commands without CAD neither pay for it nor need its system libraries.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +15,7 @@ import numpy as np
 from cqdd_design.environment import missing_dependency
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.contours import ArcContour, Circle, Contour, FloatArray, PlanarPart
+from cqdd_design.solids.features.revolved import Revolved
 from cqdd_design.solids.layers import Layer, Stack
 
 if TYPE_CHECKING:
@@ -46,11 +48,12 @@ def import_cadquery() -> Any:
     return cadquery
 
 
-def build_solid(name: str, shape: Stack) -> Solid:
-    """The solid of a stack of layers, in mm.
+def build_solid(name: str, shape: Stack, cuts: Sequence[Revolved] = ()) -> Solid:
+    """The solid of a stack of layers without what is turned or drilled off it, in mm.
 
     Every layer is a prism over a face whose edges are the very lines and arcs of its contours;
-    layers are fused and faces that continue each other are merged where the kernel can.
+    layers are fused and faces that continue each other are merged where the kernel can. Bodies of
+    revolution are then cut away, with true cones and tori.
 
     Raises
     ------
@@ -62,9 +65,11 @@ def build_solid(name: str, shape: Stack) -> Solid:
     cadquery = import_cadquery()
     prisms = [_prism(layer) for layer in shape.layers]
     fused = prisms[0].fuse(*prisms[1:]) if len(prisms) > 1 else prisms[0]
-    exact = shape.volume * MM**3
+    tools = [tool for cut in cuts for tool in _revolved(cut)]
+    exact = (shape.volume - math.fsum(cut.volume for cut in cuts)) * MM**3
     # Merging faces now and then loses some; the solid with its seams is sound then.
-    for found in (fused.clean(), fused):
+    for whole in (fused.clean, lambda: fused):
+        found = whole().cut(*tools) if tools else whole()
         solids = found.Solids()
         sound = len(solids) == 1 and solids[0].isValid()
         if sound and math.isclose(solids[0].Volume(), exact, rel_tol=_VOLUME_TOLERANCE):
@@ -84,6 +89,24 @@ def _prism(layer: Layer) -> Solid:
     face = planar_face(layer.shape, layer.bottom)
     solid: Solid = cadquery.Solid.extrudeLinear(face, cadquery.Vector(0.0, 0.0, layer.height * MM))
     return solid
+
+
+def _revolved(cut: Revolved) -> Iterator[Solid]:
+    """The bodies of a cut, each about its own axis."""
+    cadquery = import_cadquery()
+    points = np.array(cut.outline)
+    bulges = np.array(cut.bulges) if cut.bulges else np.zeros(len(points))
+    halfway = ArcContour(points, bulges).evaluate([0.5])[0][:, 0]
+    for x, y in cut.centres:
+        wire = _joined_wire(_beside(x, y, points), _beside(x, y, halfway), bulges)
+        foot = _rounded(np.array([x, y]))
+        axis = [cadquery.Vector(*foot, z) for z in (0.0, 1.0)]
+        yield cadquery.Solid.revolve(wire, [], 360.0, *axis)
+
+
+def _beside(x: float, y: float, flat: FloatArray) -> FloatArray:
+    """Points (r, z) beside an upright axis, as (x + r, y, z) in mm."""
+    return _rounded(np.column_stack([x + flat[:, 0], np.full(len(flat), y), flat[:, 1]]))
 
 
 def planar_face(shape: PlanarPart, height: float = 0.0) -> Face:
@@ -109,7 +132,19 @@ def contour_wire(contour: Contour, height: float = 0.0) -> Wire:
 
 
 def _arc_wire(contour: ArcContour, z: float) -> Wire:
-    """Edges between shared vertices: the kernel would merge separate ones by chance of memory."""
+    flat = [_rounded(contour.points), _rounded(contour.evaluate([0.5])[0][:, 0])]
+    corners, halfway = (np.column_stack([one, np.full(len(one), z)]) for one in flat)
+    return _joined_wire(corners, halfway, contour.bulges)
+
+
+def _joined_wire(points: FloatArray, halfway: FloatArray, bulges: FloatArray) -> Wire:
+    """Edges between shared vertices: the kernel would merge separate ones by chance of memory.
+
+    Parameters
+    ----------
+    points, halfway : array (k, 3)
+        Corners, and the middles of the segments from them, mm.
+    """
     cadquery = import_cadquery()
     from OCP.BRepBuilderAPI import (
         BRepBuilderAPI_MakeEdge,
@@ -119,11 +154,11 @@ def _arc_wire(contour: ArcContour, z: float) -> Wire:
     from OCP.GC import GC_MakeArcOfCircle, GC_MakeSegment
     from OCP.gp import gp_Pnt
 
-    joints = [gp_Pnt(x, y, z) for x, y in _rounded(contour.points).tolist()]
-    middles = [gp_Pnt(x, y, z) for x, y in _rounded(contour.evaluate([0.5])[0][:, 0]).tolist()]
+    joints = [gp_Pnt(*point) for point in points.tolist()]
+    middles = [gp_Pnt(*point) for point in halfway.tolist()]
     vertices = [BRepBuilderAPI_MakeVertex(joint).Vertex() for joint in joints]
     maker = BRepBuilderAPI_MakeWire()
-    for i, bulge in enumerate(contour.bulges):
+    for i, bulge in enumerate(bulges):
         j = (i + 1) % len(joints)
         if bulge == 0.0:
             curve = GC_MakeSegment(joints[i], joints[j]).Value()

@@ -59,12 +59,12 @@ def column_shape(columns: ColumnLayout, bottom: float, top: float) -> Stack:
     return turned([Annulus(bottom, top, columns.bore_radius, columns.radius)])
 
 
-def bearing_nut(carrier: CarrierLayout) -> Stack:
-    """The slotted nut that holds the output bearing on the plate."""
+def bearing_nut(carrier: CarrierLayout, core: float) -> Stack:
+    """The slotted nut that holds the output bearing on the plate, bored to a diameter (m)."""
     radius = carrier.output.shoulder_radius
     width = radius - carrier.nut_radius
     outer = notched_circle(radius, _NUT_SLOTS, 1.5 * width, 0.45 * width)
-    shape = PlanarPart("nut", outer, (circle(carrier.nut_radius),))
+    shape = PlanarPart("nut", outer, (circle(0.5 * core),))
     return prism(shape, carrier.bearing_top, carrier.nut_top)
 
 

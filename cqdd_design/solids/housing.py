@@ -17,39 +17,16 @@ a ledge and carries the output bearing::
 
 from __future__ import annotations
 
-import math
+from collections.abc import Sequence
 from itertools import pairwise
 
-from cqdd_design.solids.layers import Annulus, Drilling, Stack, on_circle, turned
-from cqdd_design.solids.layout import HeldPins, HousingLayout, Layout
-
-_CLEARANCE_SHARE = 1.1
-"""Clearance hole over thread, the medium series of ISO 273 to a tenth of a millimetre."""
-
-
-def _clearance_radius(thread: float) -> float:
-    return 0.5 * round(_CLEARANCE_SHARE * thread, 4)
+from cqdd_design.solids.features.kinds import Feature
+from cqdd_design.solids.features.removal import drillings
+from cqdd_design.solids.layers import Annulus, Stack, turned
+from cqdd_design.solids.layout import Layout
 
 
-def _screw_angles(housing: HousingLayout) -> tuple[float, float]:
-    """Angles of the first cover screw and of the first mounting hole, rad."""
-    return 0.0, math.pi / housing.screw_count
-
-
-def _flange_drillings(
-    housing: HousingLayout, bottom: float, top: float, screw_radius: float
-) -> list[Drilling]:
-    """Screw holes of this radius, and mounting holes, through a part of the flange."""
-    screw_at, mount_at = _screw_angles(housing)
-    count, radius = housing.screw_count, housing.bolt_circle_radius
-    mount = _clearance_radius(housing.mount_thread)
-    return [
-        Drilling(on_circle(count, radius, screw_at), screw_radius, bottom, top),
-        Drilling(on_circle(count, radius, mount_at), mount, bottom, top),
-    ]
-
-
-def housing_body(layout: Layout) -> Stack:
+def housing_body(layout: Layout, features: Sequence[Feature]) -> Stack:
     """The tube: stator register outside, ring seat inside, flange at the output end, floor."""
     housing, pack = layout.housing, layout.pack
     support = layout.shaft.support
@@ -78,14 +55,10 @@ def housing_body(layout: Layout) -> Stack:
         rings.append(Annulus(bottom, top, cavity, outside))
         if middle < seat_top:
             rings.append(Annulus(bottom, top, bore, housing.boss_radius))
-    holes = [
-        *_flange_drillings(housing, flange, pack.top, 0.5 * housing.screw.thread),
-        *_pin_seats(pack.held_pins, -pack.relief, downward=True),
-    ]
-    return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], holes)
+    return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], drillings(features))
 
 
-def ring_clamp(layout: Layout) -> Stack:
+def ring_clamp(layout: Layout, features: Sequence[Feature]) -> Stack:
     """The plate between flange and cover that clamps the ring and carries the output bearing."""
     housing, pack = layout.housing, layout.pack
     bottom, top = pack.top, layout.carrier.bearing_bottom
@@ -94,24 +67,10 @@ def ring_clamp(layout: Layout) -> Stack:
         Annulus(bottom, relief, max(pack.ledge_radius, housing.clamp_inner), housing.flange_radius),
         Annulus(relief, top, housing.clamp_inner, housing.flange_radius),
     ]
-    clearance = _clearance_radius(housing.screw.thread)
-    holes = [
-        *_flange_drillings(housing, bottom, top, clearance),
-        *_pin_seats(pack.held_pins, relief, downward=False),
-    ]
-    return turned(rings, holes)
+    return turned(rings, drillings(features))
 
 
-def _pin_seats(pins: HeldPins | None, mouth: float, *, downward: bool) -> list[Drilling]:
-    """Seats of the ends of ring pins that rollers leave free along the discs."""
-    if pins is None:
-        return []
-    bottom, top = (mouth - pins.depth, mouth) if downward else (mouth, mouth + pins.depth)
-    centres = on_circle(pins.count, pins.circle_radius, 0.0)
-    return [Drilling(centres, 0.5 * pins.diameter, bottom, top)]
-
-
-def output_cover(layout: Layout) -> Stack:
+def output_cover(layout: Layout, features: Sequence[Feature]) -> Stack:
     """The cover: seat of the output bearing, open below, and a lip that holds its outer ring."""
     housing, carrier = layout.housing, layout.carrier
     seat = 0.5 * carrier.output.bearing.outer_diameter
@@ -124,6 +83,4 @@ def output_cover(layout: Layout) -> Stack:
         outside = housing.flange_radius if middle < flange else housing.cover_hub_radius
         inside = seat if middle < carrier.bearing_top else carrier.output.lip_radius
         rings.append(Annulus(low, high, inside, outside))
-    clearance = _clearance_radius(housing.screw.thread)
-    holes = _flange_drillings(housing, bottom, flange, clearance)
-    return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], holes)
+    return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], drillings(features))

@@ -9,6 +9,7 @@ can explain are reported.
 from __future__ import annotations
 
 import atexit
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -17,11 +18,14 @@ import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.solids.cad import MM
+from cqdd_design.solids.features.removal import threads
 from cqdd_design.solids.mesh import Quality, closed_mesh
 from cqdd_design.solids.part import Part
 
 if TYPE_CHECKING:
     from manifold3d import Manifold
+
+_THREAD_SIDES = 48
 
 
 @dataclass(frozen=True)
@@ -57,15 +61,24 @@ class Overlap:
 
 @lru_cache(maxsize=512)
 def _manifold(part: Part, quality: Quality) -> Manifold:
+    """A part as screws find it: threads, which are drawn at their drill, cut to their diameter."""
     import manifold3d
 
     mesh = closed_mesh(part, quality)
-    return manifold3d.Manifold(
+    body = manifold3d.Manifold(
         manifold3d.Mesh64(
             np.ascontiguousarray(mesh.vertices, dtype=np.float64),
             np.ascontiguousarray(mesh.triangles, dtype=np.uint64),
         )
     )
+    cut = []
+    for thread in threads(part.features):
+        # Corners of the prism lie outside the thread.
+        radius = thread.radius * MM / math.cos(math.pi / _THREAD_SIDES)
+        height = (thread.top - thread.bottom) * MM
+        one = manifold3d.Manifold.cylinder(height, radius, circular_segments=_THREAD_SIDES)
+        cut += [one.translate((x * MM, y * MM, thread.bottom * MM)) for x, y in thread.centres]
+    return body - manifold3d.Manifold.batch_boolean(cut, manifold3d.OpType.Add) if cut else body
 
 
 # Meshes that outlive the interpreter's modules would be reported as leaks.

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 IntArray = NDArray[np.int64]
 
+_INTERIOR = 16.0
+"""How much farther than at its rims a face may be off within, where it is curved two ways."""
 _JOIN = 1e-6
 """Vertices within this of each other are one, mm: far above rounding, far below a facet."""
 
@@ -96,7 +98,7 @@ def facets(part: Part, quality: Quality = FINE) -> Facets:
     for mesher in ("delabella", "watson"):
         found = _facets(part, quality, mesher)
         joined = _joined(found)
-        off = abs(joined.volume / (part.shape.volume * MM**3) - 1.0)
+        off = abs(joined.volume / (part.volume * MM**3) - 1.0)
         if _is_closed(joined.triangles) and off < slack:
             return found
     raise GeometryError(
@@ -154,7 +156,7 @@ def _facets(part: Part, quality: Quality, mesher: str) -> Facets:
     from OCP.TopLoc import TopLoc_Location
 
     # A copy, so that the facets of one quality never reach another or a STEP file.
-    solid = part.solid.copy()
+    solid = part.faceted_solid.copy()
     _mesh_in_place(solid.wrapped, quality, mesher, part.shape.outside_radius * MM)
     vertices: list[tuple[float, float, float]] = []
     blocks: list[IntArray] = []
@@ -188,6 +190,9 @@ def _mesh_in_place(shape: Any, quality: Quality, mesher: str, radius: float) -> 
     settings = IMeshTools_Parameters()
     settings.Deflection = quality.deflection * radius
     settings.Angle = quality.angle
+    # Cones get points within them that their rims do not need.
+    settings.DeflectionInterior = _INTERIOR * settings.Deflection
+    settings.AngleInterior = 2.0 * quality.angle
     settings.Relative = False
     settings.InParallel = False
     settings.MeshAlgo = (

@@ -6,16 +6,25 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
+import numpy as np
+
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.dowels import MATERIAL as DOWEL_MATERIAL
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
-from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.results import MassProperties
 from cqdd_design.solids import motor_shapes
 from cqdd_design.solids.carrier import cap_screw_shape
+from cqdd_design.solids.features.housing import ear_circle
+from cqdd_design.solids.features.kinds import BoltCircle, Feature
+from cqdd_design.solids.features.motor import (
+    bell_features,
+    board_circle,
+    board_features,
+    cover_features,
+)
 from cqdd_design.solids.inertia import BELL, ROTOR
-from cqdd_design.solids.layers import Stack, on_circle
+from cqdd_design.solids.layers import Stack
 from cqdd_design.solids.layout import Layout, MotorLayout
 from cqdd_design.solids.motor_rules import bell_material
 from cqdd_design.solids.part import Colour, Part, Source, around, on_axis, placed
@@ -52,10 +61,11 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
         return []
     row, metal, unit = layout.motor_row, design.housing.material, layout.unit
     stub = 0.5 * layout.shaft.support.bearing.bore_diameter
-    cover = motor_shapes.motor_cover(motor, layout.housing.flange_bottom, unit)
+    flange_bottom = layout.housing.flange_bottom
+    on_bell = bell_features(motor, stub, unit)
+    on_cover, on_board = cover_features(motor, flange_bottom, unit), board_features(motor)
+    cover = motor_shapes.motor_cover(motor, flange_bottom, unit, on_cover)
     magnet = motor_shapes.encoder_magnet(motor)
-    on_board = on_circle(3, motor_shapes.board_screw_circle(motor), 0.0)
-    on_ears = on_circle(motor.ear_count, motor.ear_circle, float(motor.ear_angles[0]))
     size = f"{2e3 * motor.magnet_radius:g} x {motor.magnet_height * 1e3:g} mm"
 
     def one(
@@ -69,16 +79,19 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
         z: float = 0.0,
         make: bool = False,
         mass: float | None = None,
+        features: tuple[Feature, ...] = (),
     ) -> Part:
         pieces = on_axis(name, SHAFT if turns else HOUSING, z)
         source: Source = "make" if make else "buy"
-        return Part(name, shape, material, colour, source, designation, pieces, mass)
+        return Part(
+            name, shape, material, colour, source, designation, pieces, mass, stated=features
+        )
 
     bell = one(
-        BELL, motor_shapes.bell(motor, stub, unit), bell_material(design), _BELL,
+        BELL, motor_shapes.bell(motor, stub, on_bell), bell_material(design), _BELL,
         "cup of the motor's rotor, turned and drilled, bonded on the shaft and to the magnets with "
         f"{ROTOR_COMPOUND.name}",
-        turns=True, make=True,
+        turns=True, make=True, features=on_bell,
     )  # fmt: skip
     masses = _motor_masses(row, motor, bell.exact_properties)
     return [
@@ -91,18 +104,20 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
             f"{row.name}, ring of magnets", turns=True, mass=masses.magnets,
         ),
         replace(bell, catalogue_mass=masses.bell),
-        one("motor cover", cover, metal, _COVER, "turned and milled", make=True),
+        one("motor cover", cover, metal, _COVER, "turned and milled", make=True, features=on_cover),
         one(
             "encoder magnet", magnet, MAGNET_MATERIAL, _MAGNET,
             f"diametric magnet {size}", turns=True, z=motor.magnet_bottom,
         ),
         one(
-            "encoder board", motor_shapes.encoder_board(motor), BOARD_MATERIAL, _BOARD,
+            "encoder board", motor_shapes.encoder_board(motor, on_board), BOARD_MATERIAL, _BOARD,
             f"magnetic encoder, {design.drive.encoder_bits} bits, on a "
-            f"{2e3 * motor.board_radius:g} mm board",
+            f"{2e3 * motor.board_radius:g} mm board", features=on_board,
         ),
-        _screws("encoder screw", motor.board_screw, fastener, on_board, motor.board_top),
-        _screws("motor cover screw", motor.cover_screw, fastener, on_ears, motor.flange_top),
+        _screws("encoder screw", motor.board_screw, fastener, board_circle(motor), motor.board_top),
+        _screws(
+            "motor cover screw", motor.cover_screw, fastener, ear_circle(motor), motor.flange_top
+        ),
     ]  # fmt: skip
 
 
@@ -136,9 +151,9 @@ def _motor_masses(row: Motor, motor: MotorLayout, bell: MassProperties) -> _Mass
     return _Masses(stator, magnets, carried if part < 1.0 else None)
 
 
-def _screws(name: str, screw: CapScrew, material: str, places: FloatArray, height: float) -> Part:
-    """Cap screws of the housing at places (k, 2), their heads on a height, m."""
-    pieces = around(name, HOUSING, places, height)
+def _screws(name: str, screw: CapScrew, material: str, circle: BoltCircle, height: float) -> Part:
+    """Cap screws of the housing on a circle, their heads on a height, m."""
+    pieces = around(name, HOUSING, np.array(circle.centres), height)
     shape = cap_screw_shape(screw)
     return Part(name, shape, material, _SCREW, "buy", screw.designation, pieces)
 

@@ -6,28 +6,28 @@ Drawn in the frame of the body each belongs to, with heights as in `layout`.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
-from cqdd_design.geometry.contours import ArcContour, Circle, PlanarPart, as_points
+from cqdd_design.geometry.contours import ArcContour, Circle, PlanarPart
+from cqdd_design.solids.features.kinds import Feature, FittedHole
+from cqdd_design.solids.features.motor import dish_bottom
+from cqdd_design.solids.features.removal import drillings
 from cqdd_design.solids.layers import (
     Annulus,
-    Drilling,
     Layer,
     Stack,
     circle,
     cylinder,
-    on_circle,
     prism,
     reshaped,
     scalloped_circle,
     turned,
 )
-from cqdd_design.solids.layout import DowelLayout, Layout, MotorLayout, PackLayout
+from cqdd_design.solids.layout import DowelLayout, Layout, MotorLayout
 
-_LIGHTENING, _BOARD_SCREWS, _SENSOR_SIDE = 6, 3, 3.0e-3
-_CLEARANCE_SHARE = 0.55
-"""Radius of a clearance hole over the thread, the medium series of ISO 273."""
+_SENSOR_SIDE = 3.0e-3
 
 
 def stator(motor: MotorLayout) -> Stack:
@@ -52,7 +52,7 @@ def rotor(motor: MotorLayout) -> Stack:
     )
 
 
-def bell(motor: MotorLayout, stub_radius: float, unit: float) -> Stack:
+def bell(motor: MotorLayout, stub_radius: float, features: Sequence[Feature]) -> Stack:
     """The rotor's carrier: sleeve round the ring, web with lightening holes, hub on the stub."""
     inner = motor.rotor_inner
     rings = [
@@ -62,18 +62,16 @@ def bell(motor: MotorLayout, stub_radius: float, unit: float) -> Stack:
         Annulus(motor.web_top, motor.hub_top, stub_radius, motor.hub_radius),
         Annulus(motor.hub_bottom, motor.web_bottom, stub_radius, motor.hub_radius),
     ]
-    room = inner - 2.0 * unit - motor.hub_radius - 1.5 * unit
-    middle = motor.hub_radius + 1.5 * unit + 0.5 * room
-    hole = min(0.5 * room, middle * math.sin(math.pi / _LIGHTENING) - 1.5 * unit)
-    holes = []
-    if hole > unit:
-        centres = on_circle(_LIGHTENING, middle, math.pi / _LIGHTENING)
-        holes.append(Drilling(centres, hole, motor.web_bottom, motor.web_top))
-    return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], holes)
+    return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], drillings(features))
 
 
-def with_motor_flange(housing_stack: Stack, layout: Layout, motor: MotorLayout) -> Stack:
-    """The housing with lip and skirt for the stator, and its flange grown over the motor."""
+def with_motor_flange(
+    housing_stack: Stack, layout: Layout, motor: MotorLayout, features: Sequence[Feature]
+) -> Stack:
+    """The housing with lip and skirt for the stator, and its flange grown over the motor.
+
+    The features' holes outside the flange are in its ears and between them.
+    """
     housing = layout.housing
     lip = 0.5 * (motor.stack_inner + motor.slot_radius)
     layers = list(housing_stack.layers)
@@ -94,14 +92,7 @@ def with_motor_flange(housing_stack: Stack, layout: Layout, motor: MotorLayout) 
         ),
     )
     ears = scalloped_circle(motor.cover_outer, motor.ear_angles, motor.ear_circle, motor.ear_radius)
-    holes: list[Circle] = [
-        circle(_CLEARANCE_SHARE * motor.cover_screw.thread, centre)
-        for centre in _ear_centres(motor)
-    ]
-    if motor.cable_radius:
-        # Between two ears, whose screws stand half a pitch off +x.
-        centre = motor.cable_circle * np.array([1.0, 0.0])
-        holes.append(circle(motor.cable_radius, centre))
+    holes = _holes(features, housing.flange_radius)
     return reshaped(
         grown,
         housing.flange_bottom,
@@ -119,21 +110,27 @@ def _is_round(shape: PlanarPart, radius: float) -> bool:
     return isinstance(shape.outer, Circle) and abs(shape.outer.radius - radius) < 1e-9
 
 
-def _ear_centres(motor: MotorLayout) -> np.ndarray:
-    return as_points(motor.ear_circle * np.exp(1j * motor.ear_angles))
+def _holes(features: Sequence[Feature], beyond: float) -> list[Circle]:
+    """Holes whose axes are farther from the part's than a radius (m)."""
+    return [
+        circle(drilling.radius, centre)
+        for drilling in drillings(features)
+        for centre in drilling.centres
+        if math.hypot(*centre) > beyond
+    ]
 
 
 def _with_outer(shape: PlanarPart, outer: Circle | ArcContour) -> PlanarPart:
     return PlanarPart(shape.name, outer, shape.holes)
 
 
-def motor_cover(motor: MotorLayout, flange_bottom: float, unit: float) -> Stack:
+def motor_cover(
+    motor: MotorLayout, flange_bottom: float, unit: float, features: Sequence[Feature]
+) -> Stack:
     """The can over the bell: wall with ears, floor, and a dish for the encoder's board."""
     floor, wall = motor.cover_floor, motor.cover_wall
     dish = max(motor.board_radius, motor.hub_radius) + 1.0 * unit
-    # The board's screws need a plate they do not come through.
-    reach = motor.board_screw.length - (motor.board_top - motor.board_bottom) + 0.3e-3
-    bottom = motor.board_bottom - max(2.0 * unit, reach + 0.5e-3)
+    bottom = dish_bottom(motor, unit)
     floor_bottom = floor - wall
     # The dish's plate, its wall up to the floor, the floor, and the can.
     dish_wall_bottom = min(motor.board_bottom, floor_bottom)
@@ -147,16 +144,9 @@ def motor_cover(motor: MotorLayout, flange_bottom: float, unit: float) -> Stack:
         Annulus(flange_bottom - motor.ear_height, flange_bottom, motor.cover_inner,
                 motor.cover_outer),
     ]  # fmt: skip
-    screws = on_circle(_BOARD_SCREWS, board_screw_circle(motor), 0.0)
-    tapped = Drilling(
-        screws,
-        0.5 * motor.board_screw.thread,
-        motor.board_bottom - reach,
-        motor.board_bottom,
-    )
-    body = turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], [tapped])
+    body = turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], drillings(features))
     ears = scalloped_circle(motor.cover_outer, motor.ear_angles, motor.ear_circle, motor.ear_radius)
-    holes = [circle(0.5 * motor.cover_screw.thread, centre) for centre in _ear_centres(motor)]
+    holes = _holes(features, motor.cover_outer)
     return reshaped(
         body,
         flange_bottom - motor.ear_height,
@@ -165,27 +155,20 @@ def motor_cover(motor: MotorLayout, flange_bottom: float, unit: float) -> Stack:
     )
 
 
-def board_screw_circle(motor: MotorLayout) -> float:
-    """Radius of the circle of the board's screws, m."""
-    return motor.board_radius - 0.5 * motor.board_screw.head_diameter - 0.4e-3
-
-
 def encoder_magnet(motor: MotorLayout) -> Stack:
     """Diametric magnet in the end of the shaft, standing on z = 0."""
     return prism(PlanarPart("magnet", circle(motor.magnet_radius)), 0.0, motor.magnet_height)
 
 
-def encoder_board(motor: MotorLayout) -> Stack:
+def encoder_board(motor: MotorLayout, features: Sequence[Feature]) -> Stack:
     """Round board with the sensor's package over its middle."""
-    screws = on_circle(_BOARD_SCREWS, board_screw_circle(motor), 0.0)
-    clearance = _CLEARANCE_SHARE * motor.board_screw.thread
     half = 0.5 * _SENSOR_SIDE
     package = ArcContour(
         np.array([[half, -half], [half, half], [-half, half], [-half, -half]]), np.zeros(4)
     )
     board = turned(
         [Annulus(motor.board_bottom, motor.board_top, 0.0, motor.board_radius)],
-        [Drilling(screws, clearance, motor.board_bottom, motor.board_top)],
+        drillings(features),
     )
     sensor = Layer(PlanarPart("sensor", package), motor.board_top, motor.sensor_top)
     return Stack((*board.layers, sensor))
@@ -202,28 +185,31 @@ def with_magnet_pocket(shaft: Stack, motor: MotorLayout) -> Stack:
     return reshaped(shaft, shaft.bottom, shaft.bottom + motor.magnet_height, pocketed)
 
 
-def with_dowel_notches(ring: Stack, pack: PackLayout, dowels: DowelLayout) -> Stack:
-    """The ring with the halves of the dowels' holes that lie in it."""
-    notched = scalloped_circle(
-        pack.ring_radius, dowels.angles, pack.ring_radius, dowels.radius, inward=True
-    )
-    return reshaped(ring, dowels.bottom, ring.top, lambda shape: _with_outer(shape, notched))
+def with_dowel_notches(ring: Stack, radius: float, holes: FittedHole) -> Stack:
+    """The ring of an outside radius (m) with its halves of the dowels' holes."""
+    notched = _across_seam(radius, holes, inward=True)
+    return reshaped(ring, holes.bottom, ring.top, lambda shape: _with_outer(shape, notched))
 
 
-def with_dowel_grooves(housing: Stack, pack: PackLayout, dowels: DowelLayout) -> Stack:
-    """The housing with the halves of the dowels' holes that lie in it."""
-    grooved = scalloped_circle(pack.ring_radius, dowels.angles, pack.ring_radius, dowels.radius)
+def with_dowel_grooves(housing: Stack, radius: float, holes: FittedHole) -> Stack:
+    """The housing with its halves of the dowels' holes, in a seat of a radius (m)."""
+    grooved = _across_seam(radius, holes, inward=False)
 
     def change(shape: PlanarPart) -> PlanarPart:
-        holes = tuple(
-            grooved
-            if isinstance(hole, Circle) and abs(hole.radius - pack.ring_radius) < 1e-9
-            else hole
+        changed = tuple(
+            grooved if isinstance(hole, Circle) and abs(hole.radius - radius) < 1e-9 else hole
             for hole in shape.holes
         )
-        return PlanarPart(shape.name, shape.outer, holes)
+        return PlanarPart(shape.name, shape.outer, changed)
 
-    return reshaped(housing, dowels.bottom, pack.top, change)
+    return reshaped(housing, holes.bottom, holes.top, change)
+
+
+def _across_seam(radius: float, holes: FittedHole, *, inward: bool) -> ArcContour:
+    circle = holes.circle
+    return scalloped_circle(
+        radius, circle.angles, circle.radius, 0.5 * holes.diameter, inward=inward
+    )
 
 
 def dowel(dowels: DowelLayout) -> Stack:

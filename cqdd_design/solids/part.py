@@ -17,8 +17,10 @@ from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray, Moments
 from cqdd_design.results import MassProperties
-from cqdd_design.solids.features.kinds import Feature
-from cqdd_design.solids.fits import Fit
+from cqdd_design.solids.features.edges import edges
+from cqdd_design.solids.features.kinds import Feature, FittedHole, Seat
+from cqdd_design.solids.features.removal import cuts
+from cqdd_design.solids.features.revolved import Revolved
 from cqdd_design.solids.layers import Stack, prism_properties
 from cqdd_design.solids.poses import Body, body_pose, transform
 
@@ -78,10 +80,8 @@ class Part:
     exact_section, fitted_section : Moments or None
         For discs and rings: plane integrals of the exact curve, and of the arcs of the shape that
         closely fit it.
-    fits : tuple of Fit
-        Tolerance zones of its seats.
-    features : tuple of Feature
-        What it is made of besides its turned or cut body; the holes of `shape` are theirs.
+    stated : tuple of Feature
+        What its maker is told besides its body; the holes of `shape` are theirs.
     """
 
     name: str
@@ -95,27 +95,47 @@ class Part:
     inner_body: Body | None = None
     exact_section: Moments | None = None
     fitted_section: Moments | None = None
-    fits: tuple[Fit, ...] = ()
-    features: tuple[Feature, ...] = ()
+    stated: tuple[Feature, ...] = ()
 
     @property
     def count(self) -> int:
         """Number of pieces."""
         return len(self.instances)
 
+    @cached_property
+    def features(self) -> tuple[Feature, ...]:
+        """All that it is made of: what is stated, and chamfers on the edges that turning leaves."""
+        turned = self.source == "make" and self.exact_section is None
+        return (*self.stated, *edges(self.shape)) if turned else self.stated
+
+    @property
+    def fits(self) -> tuple[Seat | FittedHole, ...]:
+        """Features with a tolerance zone."""
+        return tuple(one for one in self.stated if isinstance(one, Seat | FittedHole))
+
+    @cached_property
+    def cuts(self) -> tuple[Revolved, ...]:
+        """What chamfers, undercuts, grooves and drills take off the shape."""
+        return cuts(self.features)
+
+    @cached_property
+    def volume(self) -> float:
+        """Closed-form volume of one piece as drawn, m^3."""
+        return self.shape.volume - math.fsum(cut.volume for cut in self.cuts)
+
     @property
     def exact_volume(self) -> float:
         """Closed-form volume of one piece, m^3; of the exact curve for discs and rings."""
         if self.exact_section is None or self.fitted_section is None:
-            return self.shape.volume
+            return self.volume
         off = self.exact_section.area - self.fitted_section.area
-        return self.shape.volume + off * (self.shape.top - self.shape.bottom)
+        return self.volume + off * (self.shape.top - self.shape.bottom)
 
     @property
     def density(self) -> float:
         """Mass over volume, kg/m^3; that of the material unless a catalogue gives the mass."""
         if self.catalogue_mass is not None:
-            return self.catalogue_mass / self.shape.volume
+            return self.catalogue_mass / self.volume
         return find_material(self.material).density
 
     @property
@@ -128,6 +148,8 @@ class Part:
         """Closed-form mass properties of one piece in the part's frame."""
         shape, density = self.shape, self.density
         own = shape.mass_properties(density)
+        for cut in self.cuts:
+            own = own + cut.mass_properties(-density)
         if self.exact_section is None or self.fitted_section is None:
             return own
         return (
@@ -141,7 +163,17 @@ class Part:
         """The CadQuery solid in the part's frame, in mm."""
         from cqdd_design.solids.cad import build_solid
 
-        return build_solid(self.name, self.shape)
+        return build_solid(self.name, self.shape, self.cuts)
+
+    @cached_property
+    def faceted_solid(self) -> Solid:
+        """The solid to take meshes of: that with chords for its smallest arcs, in mm."""
+        from cqdd_design.solids.cad import build_solid
+
+        chorded = [cut.chorded for cut in self.cuts]
+        if chorded == list(self.cuts):
+            return self.solid
+        return build_solid(self.name, self.shape, chorded)
 
 
 def placed(name: str, body: Body, *placements: FloatArray) -> tuple[Instance, ...]:

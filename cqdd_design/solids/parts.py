@@ -23,9 +23,23 @@ from cqdd_design.solids import rotating
 from cqdd_design.solids.clocking import DiscGroup, disc_groups
 from cqdd_design.solids.counterweights import balance_weights
 from cqdd_design.solids.features import carrier as carrier_features
-from cqdd_design.solids.features.kinds import Feature
-from cqdd_design.solids.fits import seat_fits
-from cqdd_design.solids.layers import Stack, on_circle, prism
+from cqdd_design.solids.features import zones
+from cqdd_design.solids.features.flat import SIGMAS, disc_features, ring_features
+from cqdd_design.solids.features.housing import (
+    clamp_features,
+    cover_features,
+    housing_features,
+    ring_dowel_holes,
+    screw_circle,
+)
+from cqdd_design.solids.features.kinds import AxialThread, Feature
+from cqdd_design.solids.features.rotating import (
+    loose_cam_features,
+    pin_features,
+    shaft_features,
+    sleeve_features,
+)
+from cqdd_design.solids.layers import Stack, prism
 from cqdd_design.solids.layout import Layout, PackLayout
 from cqdd_design.solids.motor_parts import dowel_part, motor_parts
 from cqdd_design.solids.motor_shapes import (
@@ -39,8 +53,6 @@ from cqdd_design.solids.part import Colour, Instance, Part, around, on_axis, pla
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
 from cqdd_design.solids.selection import ChosenBearing
 
-_ZONE_WIDTH = 6.0
-"""Diameter of the zone of an axis over the standard deviation of its place."""
 NUT_MATERIAL = "AISI 4140 Q&T 540C"
 
 _ALUMINIUM: Colour = (0.72, 0.74, 0.77)
@@ -74,18 +86,14 @@ def build_parts(design: Design, layout: Layout) -> tuple[Part, ...]:
     parts = [
         *_disc_parts(design, layout),
         *_ring_parts(design, layout),
-        *_shaft_parts(layout),
+        *_shaft_parts(design, layout),
         *_carrier_parts(design, layout),
         *_housing_parts(design, layout),
         *motor_parts(design, layout, SCREW_MATERIAL),
     ]
     if design.reducer.balance.counterweights:
         parts += balance_weights(design, layout, parts, _SHAFT)
-    fits = seat_fits(layout)
-    return tuple(
-        dataclasses.replace(part, fits=tuple(fit for fit in fits if fit.belongs_to(part.name)))
-        for part in parts
-    )
+    return tuple(parts)
 
 
 def _disc_parts(design: Design, layout: Layout) -> list[Part]:
@@ -113,16 +121,19 @@ def _disc_part(design: Design, layout: Layout, group: DiscGroup, *, alone: bool)
         tuple(instances),
         exact_section=disc_moments(design, drawn, bore_diameter=bore),
         fitted_section=contour.moments(),
+        stated=disc_features(design, pack, drawn),
     )
 
 
 def _ring_parts(design: Design, layout: Layout) -> list[Part]:
     height, dowels = layout.pack.top, layout.dowels
     contour, material = ring_contour(design), design.reducer.ring_material
-    plain = prism(contour, 0.0, height)
+    shape = prism(contour, 0.0, height)
+    for holes in ring_dowel_holes(layout.pack, dowels):
+        shape = with_dowel_notches(shape, layout.pack.ring_radius, holes)
     ring = Part(
         "ring",
-        with_dowel_notches(plain, layout.pack, dowels) if dowels.radius else plain,
+        shape,
         material,
         _RING,
         "make",
@@ -130,6 +141,7 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
         on_axis("ring", HOUSING),
         exact_section=ring_moments(design),
         fitted_section=contour.moments(),
+        stated=ring_features(design, layout.pack, dowels),
     )
     parts, pins = [ring], ring_pins(design)
     if pins:
@@ -138,7 +150,12 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
         shape = rotating.plain_pin(diameter, -beyond, height + beyond)
         designation = f"ground pin {diameter * 1e3:g} x {(height + 2.0 * beyond) * 1e3:.6g} mm"
         pieces = around("ring pin", HOUSING, (pin.centre for pin in pins))
-        parts.append(Part("ring pin", shape, material, _BEARING, "make", designation, pieces))
+        stated = pin_features(diameter, -beyond, height + beyond, zones.RING_PIN)
+        parts.append(
+            Part(
+                "ring pin", shape, material, _BEARING, "make", designation, pieces, stated=stated
+            )
+        )  # fmt: skip
     rollers = ring_runner(design)
     if rollers is not None:
         centres = [pin.centre for pin in pins]
@@ -146,21 +163,24 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
     return [*parts, *dowel_part(layout)]
 
 
-def _shaft_parts(layout: Layout) -> list[Part]:
+def _shaft_parts(design: Design, layout: Layout) -> list[Part]:
     pack, shaft, motor = layout.pack, layout.shaft, layout.motor
     material = shaft_material(pack.cam.bearing)
 
-    def ground(name: str, shape: Stack, more: str = "") -> Part:
-        how = f"turned and ground{more}"
-        return Part(name, shape, material, _SHAFT, "make", how, on_axis(name, SHAFT))
+    def ground(name: str, shape: Stack, features: tuple[Feature, ...], more: str = "") -> Part:
+        how, pieces = f"turned and ground{more}", on_axis(name, SHAFT)
+        return Part(name, shape, material, _SHAFT, "make", how, pieces, stated=features)
+
+    position = SIGMAS * design.tolerances.eccentricity
 
     turned = rotating.eccentric_shaft(pack, shaft)
     if motor is not None:
         turned = with_magnet_pocket(turned, motor)
-    parts = [ground("eccentric shaft", turned)]
+    parts = [ground("eccentric shaft", turned, shaft_features(pack, shaft, motor, position))]
     if pack.disc_count > 2:
         loose = rotating.loose_cam(pack, shaft)
-        parts.append(ground("eccentric cam", loose, ", pressed on the shaft"))
+        features = loose_cam_features(pack, shaft, position)
+        parts.append(ground("eccentric cam", loose, features, ", pressed on the shaft"))
     cams = [
         Instance(f"cam bearing {disc + 1}", Body("disc", disc), transform(z=pack.cam_bottom(disc)))
         for disc in range(pack.disc_count)
@@ -204,9 +224,9 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
         how: str = "turned and drilled",
     ) -> Part:
         pieces = on_axis(name, CARRIER)
-        return Part(name, shape, metal, _ALUMINIUM, "make", how, pieces, features=features)
+        return Part(name, shape, metal, _ALUMINIUM, "make", how, pieces, stated=features)
 
-    position = _ZONE_WIDTH * design.tolerances.pin_position
+    position = SIGMAS * design.tolerances.pin_position
     features = carrier_features.plate_features(carrier, layout.shaft, position)
     plate = carrier_shapes.carrier_plate(carrier, layout.shaft, features)
     parts = [made("carrier plate", plate, features)]
@@ -218,10 +238,13 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
         features = carrier_features.cap_features(carrier, layout.pack.gap, position)
         cap = carrier_shapes.carrier_cap(carrier, layout.pack.gap, features)
         parts.append(made("carrier cap", cap, features, how))
+    features = carrier_features.nut_features(carrier)
+    core = next(one.core for one in features if isinstance(one, AxialThread))
     nut = made(
         "bearing nut",
-        carrier_shapes.bearing_nut(carrier),
-        how=f"slotted nut, thread {2e3 * carrier.nut_radius:g} mm",
+        carrier_shapes.bearing_nut(carrier, core),
+        features,
+        f"slotted nut, thread {2e3 * carrier.nut_radius:g} mm",
     )
     parts += [
         dataclasses.replace(nut, material=NUT_MATERIAL, colour=_SCREW),
@@ -253,6 +276,7 @@ def _column_parts(layout: Layout) -> list[Part]:
             "make",
             f"tube {size} mm, faces ground as one set to one length",
             around("carrier column", CARRIER, places),
+            stated=carrier_features.column_features(columns, bottom, top),
         ),
         Part(
             "column screw",
@@ -290,6 +314,11 @@ def _pin_part(design: Design, layout: Layout) -> Part:
         "make" if pin.screw is None else "buy",
         designation,
         around(name, CARRIER, _pin_positions(layout)),
+        stated=()
+        if pin.screw
+        else pin_features(
+            pin.nominal_diameter, carrier.shoulder_bottom, carrier.shoulder_top, zones.PIN
+        ),
     )
 
 
@@ -340,6 +369,7 @@ def _runner_parts(
         "make",
         f"ground {name} {inner * 1e3:g} x {outer * 1e3:g} x {length * 1e3:g} mm",
         at_every_disc(f"{where} {name}", length),
+        stated=sleeve_features(inner, outer, length),
     )
     if cage is None:
         return [turning]
@@ -363,26 +393,28 @@ def _needle_part(called: str, row: Bearing, standing: tuple[Instance, ...]) -> P
 def _housing_parts(design: Design, layout: Layout) -> list[Part]:
     housing, metal = layout.housing, design.housing.material
 
-    def made(name: str, shape: Stack, colour: Colour) -> Part:
+    def made(name: str, shape: Stack, colour: Colour, features: tuple[Feature, ...]) -> Part:
         how, pieces = "turned and drilled", on_axis(name, HOUSING)
-        return Part(name, shape, metal, colour, "make", how, pieces)
+        return Part(name, shape, metal, colour, "make", how, pieces, stated=features)
 
-    places = on_circle(housing.screw_count, housing.bolt_circle_radius, 0.0)
+    body, clamp = housing_features(layout), clamp_features(layout)
+    cover = cover_features(layout)
+    places = np.array(screw_circle(housing).centres)
     screws = around("cover screw", HOUSING, places, housing.cover_flange_top)
     screw = carrier_shapes.cap_screw_shape(housing.screw)
     how = housing.screw.designation
     return [
-        made("housing", _housing_shape(layout), _HOUSING),
-        made("ring clamp", housing_shapes.ring_clamp(layout), _COVER),
-        made("output cover", housing_shapes.output_cover(layout), _HOUSING),
+        made("housing", _housing_shape(layout, body), _HOUSING, body),
+        made("ring clamp", housing_shapes.ring_clamp(layout, clamp), _COVER, clamp),
+        made("output cover", housing_shapes.output_cover(layout, cover), _HOUSING, cover),
         Part("cover screw", screw, SCREW_MATERIAL, _SCREW, "buy", how, screws),
     ]
 
 
-def _housing_shape(layout: Layout) -> Stack:
-    shape = housing_shapes.housing_body(layout)
+def _housing_shape(layout: Layout, features: Sequence[Feature]) -> Stack:
+    shape = housing_shapes.housing_body(layout, features)
     if layout.motor is not None:
-        shape = with_motor_flange(shape, layout, layout.motor)
-    if layout.dowels.radius:
-        shape = with_dowel_grooves(shape, layout.pack, layout.dowels)
+        shape = with_motor_flange(shape, layout, layout.motor, features)
+    for holes in ring_dowel_holes(layout.pack, layout.dowels):
+        shape = with_dowel_grooves(shape, layout.pack.ring_radius, holes)
     return shape

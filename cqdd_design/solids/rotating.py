@@ -6,11 +6,8 @@ Each is drawn in the frame of the body it belongs to, at crank angle 0, with hei
 
 from __future__ import annotations
 
-import math
-
-import numpy as np
-
-from cqdd_design.geometry.contours import FloatArray, PlanarPart
+from cqdd_design.geometry.contours import PlanarPart
+from cqdd_design.solids.features.rotating import crank_offset
 from cqdd_design.solids.layers import (
     Annulus,
     Layer,
@@ -26,12 +23,6 @@ from cqdd_design.solids.selection import RING_SHARE, ChosenBearing
 
 _BAND_SHARE = 0.8
 """Width of balls and cage as a share of a bearing's width, for its envelope."""
-
-
-def crank_offset(pack: PackLayout, disc: int) -> FloatArray:
-    """Centre (2,) of a lobe of the shaft at crank angle 0, m."""
-    phase = 2.0 * math.pi * disc / pack.disc_count
-    return pack.eccentricity * np.array([math.cos(phase), math.sin(phase)])
 
 
 def eccentric_shaft(pack: PackLayout, shaft: ShaftLayout) -> Stack:

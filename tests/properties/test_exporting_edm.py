@@ -27,7 +27,6 @@ from cqdd_design.exporting.sheets.lettering import WIDTHS, fitting_height, print
 from cqdd_design.exporting.sheets.title_block import BOTTOM, LEFT, RIGHT, SCALES, TOP
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
-from cqdd_design.solids.fits import seat_fits
 
 COLUMNS = {"reducer.carrier.joint": "columns", "reducer.carrier.column_diameter": "4 mm"}
 SEVERAL = settings(
@@ -311,11 +310,11 @@ def test_seats_are_brought_to_the_middle_of_their_zones(paper):
 
 
 def test_seats_are_those_of_the_machine(paper):
-    fits = seat_fits(resolve(paper).layout)
+    parts = {part.name: part for part in resolve(paper).parts}
     for flat in flat_parts(resolve(paper)):
         (seat,) = seats_of(flat)
-        part = "ring" if flat.label == "ring" else "disc"
-        (fit,) = [f for f in fits if f.part == part and math.isclose(f.diameter, seat.diameter)]
+        fits = parts["ring" if flat.label == "ring" else "disc"].fits
+        (fit,) = [one for one in fits if math.isclose(one.diameter, seat.diameter)]
         assert fit.limits == seat.limits
 
 

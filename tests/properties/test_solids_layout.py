@@ -130,12 +130,13 @@ def test_a_clamped_pin_has_a_bonded_seat_of_its_diameter_in_the_cap() -> None:
         if bonded:
             told += ", seats 4 H7 bonded on the f9 pins and drawn against their heads"
         assert cap.designation == told
-        assert [fit.feature for fit in cap.fits] == ["bonded pin seats" if bonded else "pin holes"]
+        assert [fit.name for fit in cap.fits] == ["bonded pin seats" if bonded else "pin holes"]
     # A dowel has no thread that would hold it in the plate.
     dowel = part_named(known_parts("one disc"), "dowel pin")
     assert dowel.designation.endswith("bonded in the plate")
     plate = part_named(known_parts("one disc"), "carrier plate")
-    assert "bonded pin seats 4.5 H7" in {str(fit) for fit in plate.fits}
+    bonded_seats = next(fit for fit in plate.fits if fit.name == "bonded pin seats")
+    assert (bonded_seats.diameter, bonded_seats.zone) == (4.5e-3, "H7")
 
 
 def test_columns_stand_between_plate_and_cap_each_drawn_by_its_screw() -> None:
@@ -295,9 +296,10 @@ def test_notches_take_their_area_from_the_circle() -> None:
 def test_fits_are_named_and_have_limits() -> None:
     parts = known_parts("three discs")
     disc = part_named(parts, "disc 2")
-    assert [str(fit) for fit in disc.fits] == ["bore for the cam bearing 24 N7"]
+    (bore,) = disc.fits
+    assert (bore.name, bore.diameter, bore.zone) == ("bore for the cam bearing", 24e-3, "N7")
     housing = part_named(parts, "housing")
-    seat = next(fit for fit in housing.fits if fit.feature == "ring seat")
+    seat = next(fit for fit in housing.fits if fit.name == "ring seat")
     assert (seat.zone, seat.limits.lower, seat.limits.upper) == ("H7", 0.0, pytest.approx(30e-6))
     made = [part for part in parts if part.source == "make"]
     assert {part.name for part in made if not part.fits} == {

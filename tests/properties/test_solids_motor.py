@@ -18,10 +18,10 @@ from cqdd_design.geometry.contours import Circle
 from cqdd_design.machine import resolve
 from cqdd_design.solids.clearances import assembly_motion
 from cqdd_design.solids.counterweights import crank_moments
+from cqdd_design.solids.features.motor import board_circle
 from cqdd_design.solids.layers import Annulus, circle, reshaped, scalloped_circle, turned
 from cqdd_design.solids.mesh import DISPLAY
 from cqdd_design.solids.motor_rules import lay_out_motor
-from cqdd_design.solids.motor_shapes import board_screw_circle
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.selection import ChosenBearing
 
@@ -151,7 +151,7 @@ def test_screws_of_the_board_stand_beside_the_shafts_end(support: str) -> None:
         8.0,
         weights=False,
     )
-    heads = board_screw_circle(motor) - 0.5 * motor.board_screw.head_diameter
+    heads = board_circle(motor).radius - 0.5 * motor.board_screw.head_diameter
     assert heads > 0.5 * row.bore_diameter + 0.3e-3
 
 

@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING
 from cqdd_design.catalog.fits import FitLimits, fit_limits
 from cqdd_design.errors import CatalogError
 from cqdd_design.geometry.contours import Circle
+from cqdd_design.solids.features import zones
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.flat_parts import FlatPart
 
-DISC_SEAT, RING_SEAT = (1, "N7"), (0, "n6")
-"""Contour and zone of the seat of a disc, its bore for the cam bearing, and of the ring, its
-outside: those of `solids.fits`, which needs a whole machine around them."""
+_DISC_SEAT, _RING_SEAT = 1, 0
+"""Contour of the seat of a disc, its bore for the cam bearing, and of the ring, its outside."""
 
 _MM = 1e3
 
@@ -62,7 +62,9 @@ class Seat:
 
 def seats_of(flat: FlatPart) -> tuple[Seat, ...]:
     """Seats of a flat part, those whose size the table of its zone knows."""
-    contour, zone = RING_SEAT if flat.label == "ring" else DISC_SEAT
+    contour, zone = _DISC_SEAT, zones.DISC_BORE
+    if flat.label == "ring":
+        contour, zone = _RING_SEAT, zones.RING_OUTSIDE
     circle = flat.contours[contour]
     if not isinstance(circle, Circle):
         return ()

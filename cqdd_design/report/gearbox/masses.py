@@ -15,7 +15,7 @@ from cqdd_design.report.ink.numbers import decimals, millimetres, significant, w
 from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Figure, Words, line, rectangle, text
 from cqdd_design.report.judgement.check_rows import printed
-from cqdd_design.solids.fits import Fit
+from cqdd_design.solids.features.kinds import FittedHole, Seat
 from cqdd_design.solids.inertia import ROTOR_PARTS, ROTOR_SCOPE, GearboxInertia, PartInertia
 
 Row = tuple[str, ...]
@@ -50,14 +50,14 @@ def bodies_view(design: Design, bodies: Bodies) -> Values:
     }
 
 
-def _seat(part: str, fit: Fit) -> Row:
+def _seat(part: str, fit: Seat | FittedHole) -> Row:
     try:
         limits = fit.limits
     except CatalogError:
         upper = lower = "beyond the table"
     else:
         upper, lower = (f"{1e6 * value:+.4g}" for value in (limits.upper, limits.lower))
-    return part, fit.feature, millimetres(fit.diameter, 4), fit.zone, upper, lower
+    return part, fit.name, millimetres(fit.diameter, 4), fit.zone, upper, lower
 
 
 def _part_row(row: BomRow, part: PartInertia | None, inertia: GearboxInertia) -> Row:

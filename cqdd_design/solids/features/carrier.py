@@ -5,16 +5,32 @@ from __future__ import annotations
 import math
 
 from cqdd_design.catalog.bearings import least_chamfer
-from cqdd_design.catalog.threads import coarse_thread, groove_of, thread_named
+from cqdd_design.catalog.threads import (
+    Thread,
+    ThreadGroove,
+    coarse_thread,
+    groove_of,
+    thread_named,
+)
+from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.kinds import (
     AxialThread,
     BoltCircle,
     Counterbore,
+    Facing,
     Feature,
     Groove,
     Joint,
 )
-from cqdd_design.solids.features.making import clearance, fitted, seat, shoulder, tapped
+from cqdd_design.solids.features.making import (
+    THREAD_CLASS,
+    clearance,
+    fitted,
+    metric,
+    seat,
+    shoulder,
+    tapped,
+)
 from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, ShaftLayout
 
 OUTPUT_BOLTS = 6
@@ -57,15 +73,15 @@ def plate_features(
 
 def _plate_seats(carrier: CarrierLayout, shaft: ShaftLayout) -> list[Feature]:
     output, support = carrier.output.bearing, shaft.support.bearing
-    groove = groove_of((carrier.nut_top - carrier.bearing_top) / _NUT_TURNS)
+    groove = _nut_groove(carrier)
     outside = seat(
         "seat of the output bearing", output.bore_diameter,
-        carrier.bearing_bottom, carrier.bearing_top - groove.width, "k6", datum="A",
+        carrier.bearing_bottom, carrier.bearing_top - groove.width, zones.JOURNAL, datum="A",
     )  # fmt: skip
     seat_top = carrier.plate_bottom + support.width
     bore = seat(
         "seat of the shaft bearing", support.outer_diameter,
-        carrier.plate_bottom, seat_top, "H7", inside=True, refers="A",
+        carrier.plate_bottom, seat_top, zones.HOUSED, inside=True, refers="A",
     )  # fmt: skip
     thread = 2.0 * carrier.nut_radius
     return [
@@ -93,8 +109,39 @@ def _plate_seats(carrier: CarrierLayout, shaft: ShaftLayout) -> list[Feature]:
     ]  # fmt: skip
 
 
+def _nut_groove(carrier: CarrierLayout) -> ThreadGroove:
+    """The groove of the nut's thread, whose pitch gives the nut its turns."""
+    return groove_of((carrier.nut_top - carrier.bearing_top) / _NUT_TURNS)
+
+
 def _axial(thread: float, pitch: float) -> str:
     return f"M{thread * 1e3:.6g} x {pitch * 1e3:g}"
+
+
+def nut_features(carrier: CarrierLayout) -> tuple[Feature, ...]:
+    """Of the slotted nut on the plate."""
+    thread = Thread(2.0 * carrier.nut_radius, _nut_groove(carrier).pitch)
+    bottom, top = carrier.bearing_top, carrier.nut_top
+    return (
+        AxialThread(
+            "thread", thread.diameter, thread.pitch, _axial(thread.diameter, thread.pitch),
+            THREAD_CLASS, inside=True, bottom=bottom, top=top, core=thread.core_diameter,
+        ),
+        shoulder("face on the output bearing", bottom, carrier.nut_radius,
+                 carrier.output.shoulder_radius, "down", None, datum="B", refers="A"),
+    )  # fmt: skip
+
+
+def column_features(columns: ColumnLayout, bottom: float, top: float) -> tuple[Feature, ...]:
+    """Of a column: its faces, ground to one length as a set."""
+    faces: tuple[tuple[str, float, Facing, str, str], ...] = (
+        ("lower face", bottom, "down", "A", ""), ("upper face", top, "up", "", "A"),
+    )  # fmt: skip
+    return tuple(
+        shoulder(name, height, columns.bore_radius, columns.radius, facing, None, datum=datum,
+                 refers=refers)
+        for name, height, facing, datum, refers in faces
+    )  # fmt: skip
 
 
 def _plate_pins(carrier: CarrierLayout, position: float) -> list[Feature]:
@@ -102,7 +149,7 @@ def _plate_pins(carrier: CarrierLayout, position: float) -> list[Feature]:
     bonded = "bonded " if pin.screw is None else ""
     holes: list[Feature] = [
         fitted(
-            f"{bonded}pin seats", pin.nominal_diameter, "H7", circle,
+            f"{bonded}pin seats", pin.nominal_diameter, zones.PIN_HOLE, circle,
             bottom=carrier.plate_bottom, top=carrier.shoulder_top, facing="down",
             position=position, refers="AB",
         )
@@ -130,17 +177,13 @@ def _plate_columns(carrier: CarrierLayout) -> list[Feature]:
     thread = coarse_thread(columns.screw.thread)
     return [
         tapped(
-            "threads of the columns' screws", thread, _metric(thread.diameter), circle,
+            "threads of the columns' screws", thread, metric(thread), circle,
             mouth=carrier.plate_bottom, facing="down",
             depth=columns.thread_top - carrier.plate_bottom,
             room=carrier.plate_top - carrier.plate_bottom,
         ),
         Joint("columns", "screwed", "threads of the columns' screws", "column screw", "its thread"),
     ]  # fmt: skip
-
-
-def _metric(thread: float) -> str:
-    return f"M{thread * 1e3:g}"
 
 
 def _output_face(carrier: CarrierLayout) -> list[Feature]:
@@ -151,7 +194,7 @@ def _output_face(carrier: CarrierLayout) -> list[Feature]:
         thread = coarse_thread(carrier.bolt_thread)
         found.append(
             tapped(
-                "threads of the output", thread, _metric(thread.diameter), circle,
+                "threads of the output", thread, metric(thread), circle,
                 mouth=top, facing="up", depth=carrier.bolt_depth, room=carrier.bolt_room,
             )
         )  # fmt: skip
@@ -160,9 +203,9 @@ def _output_face(carrier: CarrierLayout) -> list[Feature]:
         circle = BoltCircle.even("output dowels", dowels.count, carrier.bolt_circle_radius, first)
         found.append(
             fitted(
-                "dowel holes of the output", dowels.diameter, "H7", circle,
+                "dowel holes of the output", dowels.diameter, zones.PIN_HOLE, circle,
                 bottom=top - dowels.depth, top=top, facing="up", position=_FLANGE_POSITION,
-                refers="AB",
+                room=carrier.bolt_room - dowels.depth, refers="AB",
             )
         )  # fmt: skip
     return found
@@ -182,7 +225,7 @@ def cap_features(carrier: CarrierLayout, gap: float, pin_position: float) -> tup
     found: list[Feature] = [
         fitted(
             "bonded pin seats" if carrier.bonded_in_cap else "pin holes",
-            carrier.pin.nominal_diameter, "H7", circle,
+            carrier.pin.nominal_diameter, zones.PIN_HOLE, circle,
             bottom=carrier.shoulder_bottom, top=-gap, facing="up", position=pin_position,
             through=True, refers="B",
         )

@@ -18,45 +18,43 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from cqdd_design.catalog.fits import FitLimits, fit_limits
+from cqdd_design.solids.features.holes import (
+    BoltCircle,
+    Centre,
+    ClearanceHole,
+    Counterbore,
+    CutHole,
+    Facing,
+    FittedHole,
+    Hole,
+    PlainHole,
+    TappedHole,
+)
 
-Facing = Literal["up", "down"]
-Centre: TypeAlias = tuple[float, float]
+__all__ = [
+    "ON_AXIS",
+    "AxialThread",
+    "BoltCircle",
+    "Centre",
+    "Chamfer",
+    "ClearanceHole",
+    "Counterbore",
+    "CutHole",
+    "CutProfile",
+    "Facing",
+    "Feature",
+    "FittedHole",
+    "Groove",
+    "Hole",
+    "Joint",
+    "PlainHole",
+    "Seat",
+    "Shoulder",
+    "TappedHole",
+    "Undercut",
+]
+
 ON_AXIS: Centre = (0.0, 0.0)
-
-
-@dataclass(frozen=True)
-class BoltCircle:
-    """Where the holes of a pattern stand; holes that share one are made in one setting.
-
-    Attributes
-    ----------
-    name : str
-        Such as ``output bolts``; the same on parts that are put together by it.
-    radius : float
-        About the part's axis, m.
-    angles : tuple of float
-        Directions of the holes from +x, rad.
-    """
-
-    name: str
-    radius: float
-    angles: tuple[float, ...]
-
-    @classmethod
-    def even(cls, name: str, count: int, radius: float, first: float = 0.0) -> BoltCircle:
-        """Holes evenly spaced, the first in a direction (rad)."""
-        step = 2.0 * math.pi / count
-        return cls(name, radius, tuple(first + step * i for i in range(count)))
-
-    @property
-    def count(self) -> int:
-        """Number of holes."""
-        return len(self.angles)
-
-    @property
-    def centres(self) -> tuple[Centre, ...]:
-        """Axes of the holes, m."""
-        return tuple((self.radius * math.cos(a), self.radius * math.sin(a)) for a in self.angles)
 
 
 @dataclass(frozen=True)
@@ -85,6 +83,8 @@ class Seat:
         Letters; see the module.
     centre : (float, float)
         Of its axis; lobes of an eccentric shaft stand off the part's.
+    position : float
+        Diameter of the zone of an axis that stands off the part's, m; 0 of others, which run true.
     """
 
     name: str
@@ -100,6 +100,7 @@ class Seat:
     datum: str = ""
     refers: str = ""
     centre: Centre = ON_AXIS
+    position: float = 0.0
 
     @property
     def limits(self) -> FitLimits:
@@ -177,13 +178,13 @@ class Chamfer:
 
 @dataclass(frozen=True)
 class Undercut:
-    """The relief beside a ground cylinder, so that the wheel clears and a sharp corner sits.
+    """The relief that ends a ground cylinder at its shoulder, so that the wheel clears it.
 
-    DIN 509: form E relieves the cylinder alone, form F its shoulder too. Sizes in `undercuts.csv`.
+    Form E of DIN 509, which relieves the cylinder alone: the shoulders of small bearings are too
+    low to lose the face that form F takes. Sizes in `undercuts.csv`.
 
     Attributes
     ----------
-    form : {"E", "F"}
     seat : str
         Name of the seat that it ends.
     cylinder : float
@@ -192,198 +193,51 @@ class Undercut:
         Of the shoulder's face, m.
     facing : {"up", "down"}
         The way that face looks: the seat lies on that side.
-    inside : bool
-        Whether the seat is a bore.
     radius : float
         Of its fillets, r, m.
     depth : float
         Below the cylinder, t1, m.
     width : float
         Along the cylinder, f, m.
-    face_depth : float
-        Into the shoulder, t2, m; 0 of form E.
     centre : (float, float)
         Of the seat's axis.
     """
 
     name: str
-    form: Literal["E", "F"]
     seat: str
     cylinder: float
     height: float
     facing: Facing
-    inside: bool
     radius: float
     depth: float
     width: float
-    face_depth: float
     centre: Centre = ON_AXIS
 
     @property
     def designation(self) -> str:
-        """As on a drawing: ``DIN 509 - F 0.6 x 0.3``."""
-        return f"DIN 509 - {self.form} {self.radius * 1e3:g} x {self.depth * 1e3:g}"
+        """As on a drawing: ``DIN 509 - E 0.6 x 0.3``."""
+        return f"DIN 509 - E {self.radius * 1e3:g} x {self.depth * 1e3:g}"
 
 
 @dataclass(frozen=True)
-class TappedHole:
-    """Tapped holes: drilled, countersunk and cut with a tap.
+class CutProfile:
+    """An outline cut by wire, which the layers have.
 
     Attributes
     ----------
-    thread, pitch : float
-        Nominal diameter and pitch of the thread, m.
-    designation : str
-        Such as ``M4`` or ``10-24 UNC``.
-    tolerance : str
-        Class of the thread, such as ``6H``.
-    drill : float
-        Diameter of the tap drill, m.
-    mouth : float
-        Height of the face the hole opens in, m.
-    facing : {"up", "down"}
-        The way that face looks.
-    thread_depth, drill_depth : float
-        Of the full thread, and of the drill's cylinder without its point, m; of a hole right
-        through both are the thickness.
-    through : bool
-    countersink : float
-        Diameter of the 90 degree countersink at the mouth, m; 0 where the mouth lies in a bore.
-    circle : BoltCircle
-    position : float
-        Diameter of the zone of its axis, m.
+    bottom, top : float
+        m.
+    zone : float
+        Width of the zone that it lies in, m.
     refers : str
-        Letters of the datums of the position.
+        Letters of its datums; see the module.
     """
 
     name: str
-    thread: float
-    pitch: float
-    designation: str
-    tolerance: str
-    drill: float
-    mouth: float
-    facing: Facing
-    thread_depth: float
-    drill_depth: float
-    through: bool
-    countersink: float
-    circle: BoltCircle
-    position: float
-    refers: str = "A"
-
-
-@dataclass(frozen=True)
-class ClearanceHole:
-    """Holes that a screw passes freely.
-
-    Attributes
-    ----------
-    thread : float
-        Nominal diameter of the screw, m.
-    diameter : float
-        By ISO 273, m.
-    series : {"medium", "fine"}
-        Of ISO 273.
-    bottom, top : float
-        m.
-    circle, position, refers
-        As of `TappedHole`.
-    """
-
-    name: str
-    thread: float
-    diameter: float
-    series: Literal["medium", "fine"]
     bottom: float
     top: float
-    circle: BoltCircle
-    position: float
+    zone: float
     refers: str = "A"
-
-
-@dataclass(frozen=True)
-class Counterbore:
-    """Flat recesses for the heads of screws (DIN 974-1).
-
-    Attributes
-    ----------
-    diameter : float
-        m.
-    mouth : float
-        Height of the face it opens in, m.
-    facing : {"up", "down"}
-        The way that face looks.
-    depth : float
-        m.
-    circle, refers
-        As of `TappedHole`.
-    """
-
-    name: str
-    diameter: float
-    mouth: float
-    facing: Facing
-    depth: float
-    circle: BoltCircle
-    refers: str = "A"
-
-
-@dataclass(frozen=True)
-class FittedHole:
-    """Reamed or bored holes for pins and dowels.
-
-    Attributes
-    ----------
-    diameter : float
-        Nominal, m.
-    zone : str
-        ISO 286, such as ``H7``.
-    bottom, top : float
-        m.
-    through : bool
-    facing : {"up", "down"}
-        The way the face looks in which it is entered.
-    roughness : float
-        Ra, m.
-    circle, position, refers
-        As of `TappedHole`.
-    """
-
-    name: str
-    diameter: float
-    zone: str
-    bottom: float
-    top: float
-    through: bool
-    facing: Facing
-    roughness: float
-    circle: BoltCircle
-    position: float
-    refers: str = "A"
-
-    @property
-    def limits(self) -> FitLimits:
-        """Deviations from nominal; a `CatalogError` where the zone's table ends."""
-        return fit_limits(self.zone, self.diameter)
-
-
-@dataclass(frozen=True)
-class PlainHole:
-    """Holes to general tolerances: for cables, to save weight, for a tool.
-
-    Attributes
-    ----------
-    diameter, bottom, top : float
-        m.
-    circle : BoltCircle
-    """
-
-    name: str
-    diameter: float
-    bottom: float
-    top: float
-    circle: BoltCircle
 
 
 @dataclass(frozen=True)
@@ -469,5 +323,6 @@ class Joint:
     how: str
 
 
-Hole: TypeAlias = TappedHole | ClearanceHole | Counterbore | FittedHole | PlainHole
-Feature: TypeAlias = Seat | Shoulder | Chamfer | Undercut | Hole | AxialThread | Groove | Joint
+Feature: TypeAlias = (
+    Seat | Shoulder | Chamfer | Undercut | Hole | CutProfile | AxialThread | Groove | Joint
+)

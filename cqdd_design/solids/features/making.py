@@ -39,6 +39,8 @@ _RUN_OUT_TURNS = 3.0
 """Drilled beyond the full thread, in pitches: what a tap's lead of 2 to 3 threads leaves (DIN 2197
 form C)."""
 _POSITION_STEP = 0.01e-3
+_FLOOR = 0.3e-3
+"""Least material beyond the point of a drill, m."""
 _RELIEF_SHARE = 0.34
 """Most of a seat's length that an undercut takes."""
 
@@ -60,6 +62,7 @@ def seat(
     datum: str = "",
     refers: str = "",
     centre: Centre = ON_AXIS,
+    position: float = 0.0,
 ) -> Seat:
     """A seat whose form, run-out and roughness follow from the grade of its zone."""
     grade = grade_of(zone)
@@ -69,7 +72,7 @@ def seat(
         name, diameter, bottom, top, inside, zone, rough, ground,
         run_out=form if refers else 0.0,
         cylindricity=form,
-        datum=datum, refers=refers, centre=centre,
+        datum=datum, refers=refers, centre=centre, position=position,
     )  # fmt: skip
 
 
@@ -79,40 +82,45 @@ def shoulder(
     inner: float,
     outer: float,
     facing: Facing,
-    seat: Seat,
+    seat: Seat | None,
     *,
     fillet: float = 0.0,
     datum: str = "",
     refers: str = "A",
 ) -> Shoulder:
-    """The face beside a seat, one grade truer than it."""
-    run_out = standard_tolerance(grade_of(seat.zone) - 1, 2.0 * outer)
-    return Shoulder(
-        name, height, inner, outer, facing, seat.roughness, run_out, fillet, datum, refers
-    )
+    """The face beside a seat, one grade truer than it; as beside H7 where there is none."""
+    grade, rough = (7, TURNED) if seat is None else (grade_of(seat.zone), seat.roughness)
+    run_out = standard_tolerance(grade - 1, 2.0 * outer)
+    return Shoulder(name, height, inner, outer, facing, rough, run_out, fillet, datum, refers)
 
 
-def relief(name: str, seat: Seat, facing: Facing, corner: float) -> Undercut | None:
+def metric(thread: Thread) -> str:
+    """Designation of a coarse metric thread, such as ``M3``."""
+    return f"M{thread.diameter * 1e3:g}"
+
+
+def relief(
+    name: str, seat: Seat, facing: Facing, corner: float, *, length: float
+) -> Undercut | None:
     """The undercut that ends a ground seat at its shoulder; None where the seat is too short.
-
-    Of form E: the shoulders of small bearings are too low to lose the face that form F takes.
 
     Parameters
     ----------
+    length : float
+        Of the seat as far as something sits on it, m.
     facing : {"up", "down"}
         The way the shoulder's face looks.
     corner : float
         Least corner radius of what sits there, m.
     """
-    row = undercut_for(seat.diameter, corner, _RELIEF_SHARE * (seat.top - seat.bottom))
+    row = undercut_for(seat.diameter, corner, _RELIEF_SHARE * length)
     if row is None:
         return None
     return Undercut(
-        name, "E", seat.name, 0.5 * seat.diameter,
+        name, seat.name, 0.5 * seat.diameter,
         height=seat.bottom if facing == "up" else seat.top,
         facing=facing,
-        inside=seat.inside,
-        radius=row.radius, depth=row.depth, width=row.width, face_depth=0.0,
+        radius=row.radius, depth=row.depth, width=row.width,
         centre=seat.centre,
     )  # fmt: skip
 
@@ -203,12 +211,22 @@ def fitted(
     facing: Facing,
     position: float,
     through: bool = False,
+    room: float = 0.0,
+    seam: bool = False,
     refers: str = "A",
 ) -> FittedHole:
-    """Reamed holes."""
+    """Reamed holes; with room beyond their end they keep the point of their drill.
+
+    Parameters
+    ----------
+    room : float
+        Material beyond the end, m.
+    """
+    pointed = not through and room > point_length(diameter) + _FLOOR
     return FittedHole(
-        name, diameter, zone, bottom, top, through, facing, TURNED, circle, position, refers
-    )
+        name, diameter, zone, bottom, top, through, pointed, facing, TURNED, circle, position,
+        refers, seam,
+    )  # fmt: skip
 
 
 def _to_tenths(value: float) -> float:

@@ -1,0 +1,163 @@
+"""Features of the housing: tube, ring clamp, output cover."""
+
+from __future__ import annotations
+
+import math
+
+from cqdd_design.catalog.bearings import least_chamfer
+from cqdd_design.catalog.threads import coarse_thread
+from cqdd_design.solids.features import zones
+from cqdd_design.solids.features.kinds import (
+    BoltCircle,
+    ClearanceHole,
+    Feature,
+    FittedHole,
+    Joint,
+    PlainHole,
+)
+from cqdd_design.solids.features.making import clearance, fitted, metric, seat, shoulder, tapped
+from cqdd_design.solids.layout import DowelLayout, HousingLayout, Layout, MotorLayout, PackLayout
+
+_SEAM_POSITION = 20e-6
+"""Of dowels drilled and reamed in one with the ring in its seat, m."""
+_RING_PIN_POSITION = 10e-6
+"""Of the ends of a ring's pins, which gear with the discs, m."""
+
+
+def screw_circle(housing: HousingLayout) -> BoltCircle:
+    """Of the screws through cover and clamp into the housing."""
+    return BoltCircle.even("cover screws", housing.screw_count, housing.bolt_circle_radius)
+
+
+def _mounting(housing: HousingLayout, bottom: float, top: float) -> ClearanceHole:
+    """The holes by which the actuator is fixed, between the screws."""
+    first = math.pi / housing.screw_count
+    circle = BoltCircle.even("mounting", housing.screw_count, housing.bolt_circle_radius, first)
+    return clearance("mounting holes", housing.mount_thread, bottom, top, circle)
+
+
+def housing_features(layout: Layout) -> tuple[Feature, ...]:
+    """Of the tube with floor and flange."""
+    housing, pack = layout.housing, layout.pack
+    support, seat_top = layout.shaft.support, layout.shaft.lower_seat_top
+    seat_bottom = seat_top - support.bearing.width
+    ring = seat(
+        "ring seat", 2.0 * pack.ring_radius, 0.0, pack.top, zones.RING_SEAT, inside=True, datum="A"
+    )
+    bore = seat(
+        "seat of the shaft bearing", support.bearing.outer_diameter, seat_bottom, seat_top,
+        zones.HOUSED, inside=True, refers="A",
+    )  # fmt: skip
+    thread = coarse_thread(housing.screw.thread)
+    deep = pack.top - housing.flange_bottom
+    found: list[Feature] = [
+        ring,
+        shoulder("ledge of the ring", 0.0, pack.ledge_radius, pack.ring_radius, "up", ring,
+                 fillet=_RING_CORNER, datum="B"),
+        bore,
+        shoulder("shoulder of the shaft bearing", seat_bottom, support.lip_radius,
+                 0.5 * support.bearing.outer_diameter, "up", bore,
+                 fillet=least_chamfer(support.bearing.bore_diameter), refers="A"),
+        tapped("threads of the cover's screws", thread, metric(thread), screw_circle(housing),
+               mouth=pack.top, facing="up", depth=deep, room=deep),
+        _mounting(housing, housing.flange_bottom, pack.top),
+        *_ring_pin_seats(pack, -pack.relief, downward=True),
+        *ring_dowel_holes(pack, layout.dowels),
+    ]  # fmt: skip
+    if layout.motor is not None:
+        found += _motor_flange(housing, layout.motor)
+    return tuple(found)
+
+
+_RING_CORNER = 0.2e-3
+"""Largest corner radius in the ring's seat: the ring is cut by wire, its edges are broken less."""
+
+
+def _motor_flange(housing: HousingLayout, motor: MotorLayout) -> list[Feature]:
+    """Register, lip and ears for stator and cover, and the hole of the phase leads."""
+    register = seat(
+        "stator register", 2.0 * housing.register_radius,
+        min(housing.bottom, motor.stack_bottom), motor.stack_top, zones.REGISTER, refers="A",
+    )  # fmt: skip
+    found: list[Feature] = [
+        register,
+        Joint("motor stator", "bonded", register.name, "motor stator", "bond on the register"),
+        clearance("holes of the motor cover's screws", motor.cover_screw.thread,
+                  housing.flange_bottom, motor.flange_top, ear_circle(motor)),
+    ]  # fmt: skip
+    if motor.cable_radius:
+        # Between two ears, whose screws stand half a pitch off +x.
+        where = BoltCircle("phase leads", motor.cable_circle, (0.0,))
+        found.append(
+            PlainHole("hole of the phase leads", 2.0 * motor.cable_radius, housing.flange_bottom,
+                      motor.flange_top, where)
+        )  # fmt: skip
+    return found
+
+
+def ear_circle(motor: MotorLayout) -> BoltCircle:
+    """Of the ears' screws, on flange and cover."""
+    return BoltCircle("motor cover screws", motor.ear_circle, tuple(motor.ear_angles.tolist()))
+
+
+def ring_dowel_holes(pack: PackLayout, dowels: DowelLayout) -> tuple[FittedHole, ...]:
+    """Of the dowels between ring and housing, of which each has one half."""
+    if not dowels.radius:
+        return ()
+    circle = BoltCircle("ring dowels", pack.ring_radius, dowels.angles)
+    return (
+        fitted("holes of the ring dowels", 2.0 * dowels.radius, zones.PIN_HOLE, circle,
+               bottom=dowels.bottom, top=pack.top, facing="up", position=_SEAM_POSITION,
+               seam=True, refers="AB"),
+    )  # fmt: skip
+
+
+def _ring_pin_seats(pack: PackLayout, mouth: float, *, downward: bool) -> tuple[FittedHole, ...]:
+    """Seats of the ends of ring pins that rollers leave free along the discs."""
+    pins = pack.held_pins
+    if pins is None:
+        return ()
+    bottom, top = (mouth - pins.depth, mouth) if downward else (mouth, mouth + pins.depth)
+    circle = BoltCircle.even("ring pins", pins.count, pins.circle_radius)
+    return (
+        fitted("seats of the ring pins", pins.diameter, zones.RING_PIN_SEAT, circle,
+               bottom=bottom, top=top, facing="up" if downward else "down",
+               position=_RING_PIN_POSITION, refers="AB"),
+    )  # fmt: skip
+
+
+def clamp_features(layout: Layout) -> tuple[Feature, ...]:
+    """Of the plate between flange and cover."""
+    housing, pack, output = layout.housing, layout.pack, layout.carrier.output.bearing
+    bottom, top = pack.top, layout.carrier.bearing_bottom
+    return (
+        clearance("holes of the cover's screws", housing.screw.thread, bottom, top,
+                  screw_circle(housing), refers="B"),
+        _mounting(housing, bottom, top),
+        shoulder("face on the ring", bottom, max(pack.ledge_radius, housing.clamp_inner),
+                 housing.flange_radius, "down", None, datum="B", refers=""),
+        shoulder("face under the output bearing", top, housing.clamp_inner,
+                 0.5 * output.outer_diameter, "up", None, refers="B"),
+        *_ring_pin_seats(pack, bottom + pack.relief, downward=False),
+    )  # fmt: skip
+
+
+def cover_features(layout: Layout) -> tuple[Feature, ...]:
+    """Of the cover that carries the output bearing."""
+    housing, carrier = layout.housing, layout.carrier
+    output, bottom = carrier.output.bearing, carrier.bearing_bottom
+    bore = seat(
+        "seat of the output bearing", output.outer_diameter, bottom, carrier.bearing_top,
+        zones.HOUSED, inside=True, datum="A",
+    )  # fmt: skip
+    return (
+        bore,
+        shoulder("lip over the output bearing", carrier.bearing_top, carrier.output.lip_radius,
+                 0.5 * output.outer_diameter, "down", bore,
+                 fillet=least_chamfer(output.bore_diameter)),
+        shoulder("face on the ring clamp", bottom, 0.5 * output.outer_diameter,
+                 housing.flange_radius, "down", bore, datum="B"),
+        clearance("holes of the cover's screws", housing.screw.thread, bottom,
+                  housing.cover_flange_top, screw_circle(housing)),
+        _mounting(housing, bottom, housing.cover_flange_top),
+    )  # fmt: skip

@@ -1,0 +1,94 @@
+"""Features of the motor's bell and cover."""
+
+from __future__ import annotations
+
+import math
+
+from cqdd_design.catalog.threads import coarse_thread
+from cqdd_design.solids.features import zones
+from cqdd_design.solids.features.housing import ear_circle
+from cqdd_design.solids.features.kinds import BoltCircle, Feature, Joint, PlainHole
+from cqdd_design.solids.features.making import clearance, metric, seat, shoulder, tapped
+from cqdd_design.solids.layout import MotorLayout
+
+_LIGHTENING, _BOARD_SCREWS = 6, 3
+_BOARD_GAP = 0.4e-3
+"""Between the heads of the board's screws and its edge, m."""
+
+
+def bell_features(motor: MotorLayout, stub_radius: float, unit: float) -> tuple[Feature, ...]:
+    """Of the rotor's carrier; its datum is its bore."""
+    bore = seat(
+        "bonded bore", 2.0 * stub_radius, motor.hub_bottom, motor.hub_top, zones.BELL_BORE,
+        inside=True, datum="A",
+    )  # fmt: skip
+    ring = seat(
+        "seat of the ring of magnets", 2.0 * motor.rotor_outer, motor.ring_bottom, motor.ring_top,
+        zones.MAGNETS, inside=True, refers="A",
+    )  # fmt: skip
+    return (
+        bore,
+        ring,
+        shoulder("shoulder of the ring of magnets", motor.ring_bottom, motor.rotor_inner,
+                 motor.rotor_outer, "up", ring, fillet=_MAGNET_CORNER),
+        Joint("eccentric shaft", "bonded", bore.name, "eccentric shaft", "bond on the stub"),
+        Joint("motor rotor", "bonded", ring.name, "motor rotor", "bond in the bell"),
+        *_lightening(motor, unit),
+    )  # fmt: skip
+
+
+_MAGNET_CORNER = 0.3e-3
+"""Largest corner radius under the ring of magnets, m."""
+
+
+def _lightening(motor: MotorLayout, unit: float) -> tuple[PlainHole, ...]:
+    """Holes in the web, where they save anything."""
+    room = motor.rotor_inner - 2.0 * unit - motor.hub_radius - 1.5 * unit
+    middle = motor.hub_radius + 1.5 * unit + 0.5 * room
+    hole = min(0.5 * room, middle * math.sin(math.pi / _LIGHTENING) - 1.5 * unit)
+    if hole <= unit:
+        return ()
+    circle = BoltCircle.even("lightening", _LIGHTENING, middle, math.pi / _LIGHTENING)
+    return (PlainHole("lightening holes", 2.0 * hole, motor.web_bottom, motor.web_top, circle),)
+
+
+def board_circle(motor: MotorLayout) -> BoltCircle:
+    """Of the screws of the encoder's board."""
+    radius = motor.board_radius - 0.5 * motor.board_screw.head_diameter - _BOARD_GAP
+    return BoltCircle.even("encoder screws", _BOARD_SCREWS, radius)
+
+
+def dish_bottom(motor: MotorLayout, unit: float) -> float:
+    """Height of the underside of the dish that carries the board, m.
+
+    The board's screws need a plate they do not come through.
+    """
+    return motor.board_bottom - max(2.0 * unit, _board_thread(motor) + 0.5e-3)
+
+
+def _board_thread(motor: MotorLayout) -> float:
+    """How deep the board's screws reach into the dish, with some play, m."""
+    return motor.board_screw.length - (motor.board_top - motor.board_bottom) + 0.3e-3
+
+
+def cover_features(motor: MotorLayout, flange_bottom: float, unit: float) -> tuple[Feature, ...]:
+    """Of the can over the bell."""
+    small, large = coarse_thread(motor.board_screw.thread), coarse_thread(motor.cover_screw.thread)
+    return (
+        tapped("threads of the board's screws", small, metric(small), board_circle(motor),
+               mouth=motor.board_bottom, facing="up", depth=_board_thread(motor),
+               room=motor.board_bottom - dish_bottom(motor, unit)),
+        tapped("threads of the cover's screws", large, metric(large), ear_circle(motor),
+               mouth=flange_bottom, facing="up", depth=motor.ear_height, room=motor.ear_height,
+               countersunk=False),
+        shoulder("face on the housing", flange_bottom, motor.cover_inner, motor.cover_outer, "up",
+                 None, datum="B", refers=""),
+    )  # fmt: skip
+
+
+def board_features(motor: MotorLayout) -> tuple[Feature, ...]:
+    """Of the encoder's board."""
+    return (
+        clearance("holes of the screws", motor.board_screw.thread, motor.board_bottom,
+                  motor.board_top, board_circle(motor), refers=""),
+    )  # fmt: skip

@@ -1,0 +1,139 @@
+"""Features of the rotating group: eccentric shaft, loose cam, sleeves, pins."""
+
+from __future__ import annotations
+
+import math
+
+from cqdd_design.catalog.bearings import least_chamfer
+from cqdd_design.solids.features import zones
+from cqdd_design.solids.features.kinds import Centre, Feature, Joint, Seat
+from cqdd_design.solids.features.making import relief, seat, shoulder
+from cqdd_design.solids.layout import MotorLayout, PackLayout, ShaftLayout
+
+_WITH_RINGS = ("ball", "crossed roller")
+"""Cam bearings whose inner ring sits on the lobe; needles roll on it, and it has no undercut."""
+
+
+def crank_offset(pack: PackLayout, disc: int) -> Centre:
+    """Centre of a lobe of the shaft at crank angle 0, m."""
+    phase = 2.0 * math.pi * disc / pack.disc_count
+    return pack.eccentricity * math.cos(phase), pack.eccentricity * math.sin(phase)
+
+
+def shaft_features(
+    pack: PackLayout, shaft: ShaftLayout, motor: MotorLayout | None, position: float
+) -> tuple[Feature, ...]:
+    """Of the eccentric shaft; its datum is the common axis A-B of its journals.
+
+    Parameters
+    ----------
+    position : float
+        Diameter of the zone of a lobe's axis, m.
+    """
+    found = journal_features(shaft)
+    lobes = min(pack.disc_count, 2)
+    for disc in range(lobes):
+        facing_up = disc > 0
+        found += lobe_features(pack, disc, position, collar_below=facing_up, collar=lobes > 1)
+    if pack.disc_count > 2:
+        core = seat(
+            "seat of the eccentric cam", 2.0 * shaft.shoulder_radius, pack.cam_top(1),
+            pack.cam_top(2), zones.PRESSED_CAM, ground=True, refers="AB",
+        )  # fmt: skip
+        found += [core, Joint("eccentric cam", "pressed", core.name, "eccentric cam", "press fit")]
+    if motor is not None:
+        found += _motor_end(shaft, motor)
+    return tuple(found)
+
+
+def journal_features(shaft: ShaftLayout) -> list[Feature]:
+    """Journals, the shoulders between them, and their undercuts."""
+    bearing = shaft.support.bearing
+    bore, corner = bearing.bore_diameter, least_chamfer(bearing.bore_diameter)
+    lower = seat(
+        "lower journal and rotor seat", bore, shaft.bottom, shaft.lower_seat_top, zones.JOURNAL,
+        ground=True, datum="A", refers="AB",
+    )  # fmt: skip
+    upper = seat(
+        "upper journal", bore, shaft.upper_seat_bottom, shaft.top, zones.JOURNAL,
+        ground=True, datum="B", refers="AB",
+    )  # fmt: skip
+    reach = min(bearing.width, lower.top - lower.bottom)
+    ends = (
+        shoulder("lower shoulder", shaft.lower_seat_top, 0.5 * bore, shaft.shoulder_radius, "down",
+                 lower, refers="AB"),
+        shoulder("upper shoulder", shaft.upper_seat_bottom, 0.5 * bore, shaft.shoulder_radius, "up",
+                 upper, refers="AB"),
+    )  # fmt: skip
+    reliefs = (
+        relief("undercut of the lower journal", lower, "down", corner, length=reach),
+        relief("undercut of the upper journal", upper, "up", corner, length=reach),
+    )
+    return [lower, upper, *ends, *(one for one in reliefs if one is not None)]
+
+
+def lobe_features(
+    pack: PackLayout, disc: int, position: float, *, collar_below: bool, collar: bool
+) -> list[Feature]:
+    """A lobe, and its undercut at the collar beside it.
+
+    Parameters
+    ----------
+    position : float
+        Diameter of the zone of its axis, m.
+    collar_below, collar : bool
+        Whether the collar is below it, or above; whether it has one at all.
+    """
+    bearing = pack.cam.bearing
+    lobe = seat(
+        f"lobe {disc + 1}", bearing.bore_diameter, pack.cam_bottom(disc), pack.cam_top(disc),
+        zones.LOBE, ground=True, refers="AB", centre=crank_offset(pack, disc), position=position,
+    )  # fmt: skip
+    if not collar or bearing.kind not in _WITH_RINGS:
+        return [lobe]
+    cut = relief(
+        f"undercut of lobe {disc + 1}", lobe, "up" if collar_below else "down",
+        least_chamfer(bearing.bore_diameter), length=lobe.top - lobe.bottom,
+    )  # fmt: skip
+    return [lobe] if cut is None else [lobe, cut]
+
+
+def _motor_end(shaft: ShaftLayout, motor: MotorLayout) -> list[Feature]:
+    """The stub for the rotor's bell, and the pocket of the encoder's magnet where it is inside."""
+    bell = Joint(
+        "rotor bell", "bonded", "lower journal and rotor seat", "rotor bell", "bond on the stub"
+    )
+    if motor.magnet_bottom < shaft.bottom - 1e-9:
+        return [bell]
+    top = shaft.bottom + motor.magnet_height
+    pocket = seat(
+        "pocket of the encoder's magnet", 2.0 * motor.magnet_radius, shaft.bottom, top,
+        zones.MAGNET_POCKET, inside=True, refers="AB",
+    )  # fmt: skip
+    bond = Joint("encoder magnet", "bonded", pocket.name, "encoder magnet", "bond in its pocket")
+    return [bell, pocket, bond]
+
+
+def loose_cam_features(
+    pack: PackLayout, shaft: ShaftLayout, position: float
+) -> tuple[Feature, ...]:
+    """Of the cam of the third disc; its datum is its bore."""
+    bore = seat(
+        "bore", 2.0 * shaft.shoulder_radius, pack.cam_top(1), pack.cam_top(2), zones.CAM_BORE,
+        inside=True, datum="A",
+    )  # fmt: skip
+    lobe = lobe_features(pack, 2, position, collar_below=True, collar=True)
+    return (bore, *lobe)
+
+
+def sleeve_features(inner: float, outer: float, length: float) -> tuple[Feature, ...]:
+    """Of a sleeve or roller that turns on a pin: bore and outside, ground."""
+    return (
+        seat("bore", inner, 0.0, length, zones.PIN_HOLE, inside=True, ground=True, datum="A"),
+        seat("outside", outer, 0.0, length, zones.RING_PIN, ground=True, refers="A"),
+    )
+
+
+def pin_features(diameter: float, bottom: float, top: float, zone: str) -> tuple[Seat, ...]:
+    """Of a ground pin."""
+    return (seat("outside", diameter, bottom, top, zone, ground=True, datum="A"),)

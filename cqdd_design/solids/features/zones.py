@@ -1,0 +1,27 @@
+"""Tolerance zones of the seats, named as on a drawing (ISO 286), and why these.
+
+The load of a cam bearing turns with the crank, so its inner ring has a standing load and slips on
+the lobe (h6), while its outer ring is pressed into the disc (N7). The shaft's support bearings and
+the output bearing are pressed on what turns (k6) and slide in what stands (H7). Ring and pins are
+located without play that matters: n6 in H7 for the ring, which its clamp then holds, H7 over the
+f9 shoulders of the screws. A retaining compound fills what H7 leaves there where a pin is to sit
+stiffly: in a cap whose joint is clamped, and in the plate where a dowel has no thread. The bell's
+bore is F7 over the k6 of the shaft, a slip fit of a few hundredths at most that the compound fills.
+"""
+
+from __future__ import annotations
+
+DISC_BORE, LOBE = "N7", "h6"
+"""Round and inside the cam bearing."""
+JOURNAL, HOUSED = "k6", "H7"
+"""What turns in a bearing, and what stands round one."""
+RING_OUTSIDE, RING_SEAT = "n6", "H7"
+PIN, PIN_HOLE = "f9", "H7"
+"""Output pins and their seats; dowels and what they sit in."""
+REGISTER = "h7"
+"""Under the stator."""
+BELL_BORE, MAGNETS, MAGNET_POCKET = "F7", "H7", "H9"
+PRESSED_CAM, CAM_BORE = "p6", "H7"
+"""Seat of a loose eccentric cam, and its bore."""
+RING_PIN, RING_PIN_SEAT = "h6", "H7"
+"""Of ring pins whose ends housing and clamp hold."""
