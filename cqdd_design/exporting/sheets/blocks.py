@@ -155,7 +155,7 @@ class Block:
 
 @dataclass(frozen=True)
 class Placed:
-    """A block on the sheet: its leader's x, the y nearest to the view, and where it goes from it."""
+    """A block on the sheet: its leader's x, its y nearest to the view, and where it goes from it."""
 
     block: Block
     x: float
