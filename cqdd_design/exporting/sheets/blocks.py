@@ -155,7 +155,7 @@ class Block:
 
 @dataclass(frozen=True)
 class Placed:
-    """A block on the sheet: its leader's x, its y nearest to the view, and where it goes from it."""
+    """A block on the sheet: its leader's x, its y nearest to the view, and where it goes."""
 
     block: Block
     x: float
@@ -261,21 +261,11 @@ def distance_beside(left: Sequence[Box], right: Sequence[Box], gap: float) -> fl
     )
 
 
-def stairs_above(blocks: Sequence[Block], middle: float, level: float) -> list[Placed]:
-    """Two stairs that go up, to either side from the middle of a view."""
-    left = [block for block in blocks if block.target.real < middle]
-    others = [block for block in blocks if block.target.real >= middle]
+def stairs(blocks: Sequence[Block], level: float, *, up: bool) -> list[Placed]:
+    """Two stairs beside each other: the left half of the blocks goes to the left."""
+    ordered = sorted(blocks, key=lambda block: block.target.real)
+    half = len(ordered) // 2
     return [
-        *stair(left, level, right=False, up=True),
-        *stair(others, level, right=True, up=True),
-    ]
-
-
-def stairs_below(blocks: Sequence[Block], middle: float, level: float) -> list[Placed]:
-    """Two stairs that go down, to either side from the middle of a view."""
-    left = [block for block in blocks if block.target.real < middle]
-    others = [block for block in blocks if block.target.real >= middle]
-    return [
-        *stair(left, level, right=False, up=False),
-        *stair(others, level, right=True, up=False),
+        *stair(ordered[:half], level, right=False, up=up),
+        *stair(ordered[half:], level, right=True, up=up),
     ]

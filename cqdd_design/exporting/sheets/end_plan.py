@@ -14,8 +14,7 @@ from cqdd_design.exporting.sheets.blocks import (
     Boxed,
     Placed,
     Words,
-    stairs_above,
-    stairs_below,
+    stairs,
 )
 from cqdd_design.exporting.sheets.drawing import AXIS, HIDDEN, OUTLINE, SheetDrawing
 from cqdd_design.exporting.sheets.profile import slots
@@ -45,6 +44,11 @@ _MARKS = 14.0
 def drilled_size(hole: Hole) -> float:
     """Diameter of a hole as it is drilled, m."""
     return hole.drill if isinstance(hole, TappedHole) else hole.diameter
+
+
+def is_seam(hole: Hole) -> bool:
+    """Whether a hole lies half in another part: the outline has it."""
+    return isinstance(hole, FittedHole) and hole.seam
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +126,7 @@ class EndPlan:
         level = self.reach + _MARKS
         above = [block for block in blocks if block.target.imag >= 0.0]
         below = [block for block in blocks if block.target.imag < 0.0]
-        return [*stairs_above(above, 0.0, level), *stairs_below(below, 0.0, -level)]
+        return [*stairs(above, level, up=True), *stairs(below, -level, up=False)]
 
     def _hole_blocks(self) -> list[Block]:
         blocks = []
@@ -134,7 +138,7 @@ class EndPlan:
             up = 1j if centre.imag >= 0.0 else -1j
             rows = [row for hole in group for row in hole_rows(hole)]
             first = (Words(f"H{number}"), *rows[0])
-            hidden = [hole for hole in group if not self.shape.seen(hole)]
+            hidden = [hole for hole in group if not self.shape.seen(hole) and not is_seam(hole)]
             rows = [first, *rows[1:], circle_row(group[0].circle)]
             if len(hidden) == len(group):
                 rows.append((Words("from the far side"),))
@@ -165,10 +169,18 @@ class EndPlan:
                         places = found.setdefault(key, [])
                         if all(abs(centre - other) > 1e-7 for other in places):
                             places.append(complex(centre))
+        seams = {
+            round(0.5 * hole.diameter, 8)
+            for group in self.shape.facts.holes
+            for hole in group
+            if is_seam(hole)
+        }
         blocks = []
         for (radius, distance), places in found.items():
+            if radius in seams:
+                continue
             first = min(places, key=lambda c: round(cmath.phase(c) % (2.0 * math.pi), 6))
-            toward = cmath.rect(1.0, math.radians(-20.0))
+            toward = cmath.rect(1.0, math.radians(-160.0))
             spot = max(places, key=lambda c: round((self.at(c) * toward.conjugate()).real, 6))
             out = self.at(spot) / abs(self.at(spot))
             words = (
@@ -242,6 +254,8 @@ class EndPlan:
                 sheet.line(place + centre - big * along, place + centre + big * along, AXIS)
             for hole in group:
                 hidden = not self.shape.seen(hole)
+                if is_seam(hole):
+                    continue
                 for c in circle.centres:
                     centre = place + self.at(complex(*c))
                     radius = 0.5 * self.factor * drilled_size(hole)

@@ -148,7 +148,7 @@ def notes(facts: PartFacts) -> list[str]:
             said.append(f"Datum {feature.datum}: {what} of the {feature.name}.")
     said += [joint_note(joint) for joint in facts.joints]
     if facts.holes:
-        said.append("Coordinates of holes are auxiliary: sizes in boxes rule. X points up.")
+        said.append("X and Y of holes are theoretically exact; X points up in the view.")
     said.append("Dimensions in boxes are theoretically exact (ISO 1101).")
     said.append("Lengths run from the face marked with a circle.")
     return said

@@ -6,7 +6,6 @@ each is dimensioned once: by its feature where there is one, by the body otherwi
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
@@ -20,21 +19,12 @@ from cqdd_design.geometry.contours import (
     as_complex,
 )
 from cqdd_design.solids.axial_view import Rectangle
-from cqdd_design.solids.features.kinds import (
-    AxialThread,
-    Chamfer,
-    Feature,
-    Groove,
-    Seat,
-    TappedHole,
-    Undercut,
-)
+from cqdd_design.solids.features.kinds import AxialThread, Feature, Seat
+from cqdd_design.solids.features.revolved import Revolved
 from cqdd_design.solids.layers import Layer, Stack
 from cqdd_design.solids.slabs import SAME
 
 _MM = 1e3
-_POINT = math.tan(math.radians(59.0))
-"""Radius over height of the cone that a drill of 118 degrees leaves (DIN 1412)."""
 
 
 @dataclass(frozen=True)
@@ -200,7 +190,7 @@ def _of_contours(layer: Layer) -> tuple[float, ...]:
 def cut_face(
     upper: Sequence[Rectangle],
     lower: Sequence[Rectangle],
-    features: Sequence[Feature],
+    cuts: Sequence[Revolved],
     directions: tuple[float, float],
 ) -> list[FloatArray]:
     """Outlines (k, 2) of the face that the section cuts, mm: along the axis and across it.
@@ -209,24 +199,39 @@ def cut_face(
     ----------
     upper, lower : sequence of Rectangle
         Of the two half planes.
-    features : sequence of Feature
-        Chamfers, undercuts and grooves are taken away, and the points of drills.
+    cuts : sequence of Revolved
+        What features take away besides.
     directions : (float, float)
         Of the half planes, rad.
-    """  # fmt: skip
+    """
     from manifold3d import CrossSection, FillRule, OpType
 
     halves = []
     for pieces, direction, side in zip((upper, lower), directions, (1.0, -1.0), strict=True):
-        boxes = [_box(piece, side) for piece in pieces]
-        face = CrossSection(boxes, FillRule.NonZero)
-        gone = [loop * (1.0, side) for loop in removed(features, direction)]
+        face = CrossSection([_box(piece, side) for piece in pieces], FillRule.NonZero)
+        gone = [loop * (1.0, side) for loop in removed(cuts, direction)]
         gone = [loop if _area(loop) > 0.0 else loop[::-1] for loop in gone]
         if gone:
             face = face - CrossSection(gone, FillRule.NonZero)
         halves.append(face)
     joined = CrossSection.batch_boolean(halves, OpType.Add).simplify(1e-5)
     return [np.asarray(loop) for loop in joined.to_polygons()]
+
+
+def removed(cuts: Iterable[Revolved], direction: float) -> list[FloatArray]:
+    """Outlines of what is cut away in a half plane, mm: along the axis and across it."""
+    loops = []
+    for cut in cuts:
+        corners = np.array(cut.chorded.outline)
+        for centre in cut.centres:
+            along = complex(*centre) * np.exp(-1j * direction)
+            if abs(along.imag) > 1e-6:
+                continue
+            for side in (1.0, -1.0):
+                across = along.real + side * corners[:, 0]
+                if across.max() > 0.0:
+                    loops.append(_MM * np.column_stack([corners[:, 1], across]))
+    return loops
 
 
 def _area(loop: FloatArray) -> float:
@@ -239,90 +244,3 @@ def _box(piece: Rectangle, side: float) -> FloatArray:
     a, b = round(_MM * piece.bottom, 7), round(_MM * piece.top, 7)
     c, d = round(_MM * low, 7), round(_MM * high, 7)
     return np.array([(a, c), (b, c), (b, d), (a, d)])
-
-
-def removed(features: Iterable[Feature], direction: float) -> list[FloatArray]:
-    """What features take from a half plane besides the body's own holes, mm: z, r."""
-    loops: list[FloatArray] = []
-    for feature in features:
-        if isinstance(feature, Chamfer):
-            loops += _chamfers(feature, direction)
-        elif isinstance(feature, Groove):
-            loops.append(_groove(feature))
-        elif isinstance(feature, Undercut):
-            loops.append(_undercut(feature, direction))
-        elif isinstance(feature, TappedHole):
-            loops += _drill_points(feature, direction)
-    return loops
-
-
-def _offset(centre: tuple[float, float], direction: float) -> float | None:
-    """Where the half plane runs through an axis, m; None where it passes beside it."""
-    along = complex(*centre) * np.exp(-1j * direction)
-    return float(along.real) if abs(along.imag) < 1e-6 else None
-
-
-def _chamfers(feature: Chamfer, direction: float) -> list[FloatArray]:
-    up = 1.0 if feature.facing == "up" else -1.0
-    out = -1.0 if feature.inside else 1.0
-    z, width, depth = feature.height, feature.width, feature.depth
-    over = 0.05 * width
-    found = []
-    for centre in feature.centres:
-        middle = _offset(centre, direction)
-        if middle is None:
-            continue
-        for side in (1.0, -1.0):
-            r, away = middle + side * feature.radius, side * out
-            loop = [
-                (z - up * width, r),
-                (z, r - away * depth),
-                (z + up * over, r - away * depth),
-                (z + up * over, r + away * over),
-                (z - up * width, r + away * over),
-            ]
-            if r > 0.0:
-                found.append(_MM * np.array(loop))
-    return found
-
-
-def _groove(feature: Groove) -> FloatArray:
-    floor, wall = 0.5 * feature.diameter, feature.cylinder
-    far = wall + 1e-3 if not feature.inside else wall - 1e-4
-    a, b = feature.bottom, feature.top
-    return _MM * np.array([(a, floor), (b, floor), (b, far), (a, far)])
-
-
-def _undercut(feature: Undercut, direction: float) -> FloatArray:
-    """The relief of DIN 509: a fillet from the shoulder, a floor, and a slope of 15 degrees."""
-    up = 1.0 if feature.facing == "up" else -1.0
-    inward = 1.0 if feature.inside else -1.0
-    middle = _offset(feature.centre, direction) or 0.0
-    r0, z0 = middle + feature.cylinder, feature.height
-    depth, r = feature.depth, feature.radius
-    run = depth / math.tan(math.radians(15.0))
-    first = math.acos(max(1.0 - depth / r, -1.0))
-    turns = np.linspace(first, 0.0, 7)
-    fillet = [(r * (1.0 - math.sin(t)), depth - r * (1.0 - math.cos(t))) for t in turns]
-    path = [*fillet, (max(feature.width - run, r), depth), (feature.width, 0.0)]
-    over = -0.2 * depth
-    path += [(feature.width, over), (fillet[0][0], over)]
-    return _MM * np.array([(z0 + up * x, r0 + inward * d) for x, d in path])
-
-
-def _drill_points(feature: TappedHole, direction: float) -> list[FloatArray]:
-    if feature.through:
-        return []
-    up = 1.0 if feature.facing == "up" else -1.0
-    radius = 0.5 * feature.drill
-    bottom = feature.mouth - up * feature.drill_depth
-    found = []
-    for centre in feature.circle.centres:
-        middle = _offset(centre, direction)
-        if middle is not None and middle > 0.0:
-            tip = bottom - up * radius / _POINT
-            found.append(
-                _MM
-                * np.array([(bottom, middle - radius), (tip, middle), (bottom, middle + radius)])
-            )
-    return found

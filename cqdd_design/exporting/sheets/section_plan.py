@@ -10,7 +10,7 @@ from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from cqdd_design.exporting.sheets.blocks import Block, Box, Placed, Words, stairs_above
+from cqdd_design.exporting.sheets.blocks import Block, Box, Placed, Words, stairs
 from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.profile import (
@@ -116,13 +116,7 @@ class SectionShape:
     @cached_property
     def face(self) -> list[FloatArray]:
         """Outlines of the cut face, mm."""
-        features = [*self.facts.part.features, *self._countersinks]
-        return cut_face(*self.rectangles, features, self.directions)
-
-    @property
-    def _countersinks(self) -> list[Chamfer]:
-        given = set(self.facts.part.features)
-        return [edge for edge in self.facts.broken_edges if edge not in given]
+        return cut_face(*self.rectangles, self.facts.part.cuts, self.directions)
 
     @cached_property
     def behind(self) -> tuple[Line, ...]:
@@ -285,10 +279,9 @@ class SectionPlan:
             f for f in facts.part.features if isinstance(f, Undercut)
         ):
             side = 1.0 if relief.facing == "up" else -1.0
-            deep = relief.depth if relief.inside else -relief.depth
             off = (complex(*relief.centre) * cmath.exp(-1j * self.shape.directions[0])).real
             target = self.at(
-                relief.height + 0.5 * side * relief.width, off + relief.cylinder + deep
+                relief.height + 0.5 * side * relief.width, off + relief.cylinder - relief.depth
             )
             blocks.append(Block(target, ((Words(undercut_text(count, relief)),),)))
         for feature in facts.part.features:
@@ -300,7 +293,7 @@ class SectionPlan:
                 target = self.at(feature.height, feature.outer)
                 blocks.append(Block(target, shoulder_rows(feature), "face"))
         level = max(self.reach + 5.0, self.sizes.top + 3.0)
-        return stairs_above(blocks, 0.0, level)
+        return stairs(blocks, level, up=True)
 
     @cached_property
     def title_level(self) -> float:

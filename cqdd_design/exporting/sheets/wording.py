@@ -95,12 +95,15 @@ def seat_text(seat: Seat) -> str:
 
 def seat_rows(seat: Seat) -> tuple[Row, ...]:
     """Surface and tolerances of form and run-out."""
-    cells: list[Cell] = [Surface(roughness(seat.roughness) + (" ground" if seat.ground else ""))]
+    sign: Row = (Surface(roughness(seat.roughness) + (" ground" if seat.ground else "")),)
+    cells: list[Cell] = []
     if seat.cylindricity:
         cells.append(Frame("cylindricity", mm(seat.cylindricity)))
-    if seat.run_out and seat.refers:
+    if seat.position:
+        cells.append(Frame("position", f"{DIA}{mm(seat.position)}", tuple(seat.refers)))
+    elif seat.run_out and seat.refers:
         cells.append(Frame("total run-out", mm(seat.run_out), tuple(seat.refers)))
-    return (tuple(cells),)
+    return (sign, tuple(cells)) if len(cells) > 1 else ((*sign, *cells),)
 
 
 def thread_text(thread: AxialThread) -> str:
@@ -162,6 +165,8 @@ def hole_rows(hole: Hole) -> tuple[Row, ...]:
         size = fit_text(hole.diameter, hole.zone, limits_of(hole))
         deep = "through" if hole.through else f"{BY} {mm(hole.top - hole.bottom)} deep"
         rows.append((Words(f"{lead}{size} {deep}"),))
+        if hole.seam:
+            rows.append((Words("reamed across the seam with its mate in place"),))
     else:
         rows.append((Words(f"{lead}{DIA}{mm(hole.diameter)}"),))
     frame: list[Cell] = []
@@ -176,13 +181,12 @@ def hole_rows(hole: Hole) -> tuple[Row, ...]:
 
 def circle_row(circle: BoltCircle) -> Row:
     """Where the holes of a circle stand, in boxes: exact by theory."""
-    first = degrees(circle.angles[0])
-    cells: list[Cell] = [Words("on"), Boxed(f"{DIA}{mm(2.0 * circle.radius)}"), Words("from")]
-    cells.append(Boxed(first))
-    if circle.count > 1 and evenly(circle):
+    cells: list[Cell] = [Words("on"), Boxed(f"{DIA}{mm(2.0 * circle.radius)}")]
+    if not evenly(circle):
+        return (*cells, Words("at X and Y of the table"))
+    cells += [Words("from"), Boxed(degrees(circle.angles[0]))]
+    if circle.count > 1:
         cells += [Words("every"), Boxed(degrees(2.0 * math.pi / circle.count))]
-    else:
-        cells += [Boxed(degrees(angle)) for angle in circle.angles[1:]]
     return tuple(cells)
 
 
