@@ -180,7 +180,7 @@ class EndPlan:
             if radius in seams:
                 continue
             first = min(places, key=lambda c: round(cmath.phase(c) % (2.0 * math.pi), 6))
-            toward = cmath.rect(1.0, math.radians(-160.0))
+            toward = cmath.rect(1.0, math.radians(-120.0))
             spot = max(places, key=lambda c: round((self.at(c) * toward.conjugate()).real, 6))
             out = self.at(spot) / abs(self.at(spot))
             words = (
