@@ -2,7 +2,7 @@
 
 A piece that moves sweeps the prism under its shape; it can leave where that prism meets no material
 of what is still in place. Screws leave on the side of their heads, and what they are screwed into
-waits for them. Where no single thing can move, a unit does: one thing with all that it pushes
+waits for them; nuts leave along their threads. Where no single thing can move, a unit does: one thing with all that it pushes
 before it, such as the carrier with discs and shaft, which is put together on the bench (Wilson and
 Latombe 1994, blocking graphs). Put together is the same backwards.
 """
@@ -20,6 +20,7 @@ import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray, PlanarPart
 from cqdd_design.solids.disassembly import disassembly_order
+from cqdd_design.solids.features.kinds import AxialThread
 from cqdd_design.solids.layers import Layer
 from cqdd_design.solids.stations import Station, stations
 
@@ -218,11 +219,26 @@ class _Thing:
                 self._known[key] = not self._meets(other, way)
         return self._known[key]
 
+    @cached_property
+    def _threads(self) -> dict[str, AxialThread]:
+        features = self.station.part.features
+        return {one.designation: one for one in features if isinstance(one, AxialThread)}
+
+    def _screwed(self, other: _Thing) -> float:
+        """Area of the ring in which the threads of a nut and its bolt overlap, mm^2."""
+        shared = self._threads.keys() & other._threads.keys()
+        if not shared:
+            return 0.0
+        pair = [thing._threads[name] for name in sorted(shared) for thing in (self, other)]
+        core, outside = min(t.core for t in pair), max(t.thread for t in pair)
+        return 0.25e6 * math.pi * (outside**2 - core**2)
+
     def _meets(self, other: _Thing, way: Way) -> bool:
         """Whether what it sweeps on its way meets another thing's material."""
+        free = _TOUCH + 1.01 * self._screwed(other)
         return any(
             (high > bottom + _LEVEL if way == "up" else low < top - _LEVEL)
-            and (shape ^ block).area() > _TOUCH
+            and (shape ^ block).area() > free
             for bottom, top, shape in self.prisms
             for low, high, block in other.prisms
         )

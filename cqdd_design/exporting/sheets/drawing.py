@@ -16,8 +16,8 @@ from cqdd_design.geometry.contours import Circle, Contour
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
 
-OUTLINE, THIN, AXIS, HIDDEN = "OUTLINE", "THIN", "AXIS", "HIDDEN"
-_PENS = {OUTLINE: 50, THIN: 18, AXIS: 18, HIDDEN: 18}
+OUTLINE, FINE, THIN, AXIS, HIDDEN = "OUTLINE", "FINE", "THIN", "AXIS", "HIDDEN"
+_PENS = {OUTLINE: 50, FINE: 25, THIN: 18, AXIS: 18, HIDDEN: 18}
 """Layers and their pens, hundredths of a millimetre."""
 TEXT, SMALL = 2.5, 2.2
 """Cap heights, mm."""

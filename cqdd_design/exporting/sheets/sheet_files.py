@@ -37,6 +37,8 @@ def export_sheets(job: ExportJob) -> tuple[WrittenFile, ...]:
 
 def _sheets(job: ExportJob) -> Iterator[tuple[str, str, SheetDrawing]]:
     """File name, title and drawing of every sheet, in the order of the parts."""
+    from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
+    from cqdd_design.exporting.sheets.assembly_sheet import draw_assembly
     from cqdd_design.exporting.sheets.cut_sheet import draw_cut_sheet
     from cqdd_design.exporting.sheets.part_facts import PartFacts
     from cqdd_design.exporting.sheets.part_sheet import draw_part
@@ -52,6 +54,8 @@ def _sheets(job: ExportJob) -> Iterator[tuple[str, str, SheetDrawing]]:
         else:
             made = PartFacts(part, job.design)
             yield made.number, "sheet of the part", draw_part(made)
+    whole = AssemblyFacts(job.machine)
+    yield whole.number, "assembly", draw_assembly(whole)
 
 
 def _written(job: ExportJob, number: str, title: str, sheet: SheetDrawing) -> list[WrittenFile]:

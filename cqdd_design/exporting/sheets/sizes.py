@@ -193,7 +193,7 @@ class Lengths:
     @property
     def width(self) -> float:
         """Of the row of values, mm."""
-        places = _spread([x for x, _ in self.marks], _ROW)
+        places = spread([x for x, _ in self.marks], _ROW)
         return 2.0 * max(map(abs, places), default=0.0) + _ROW
 
     @staticmethod
@@ -204,7 +204,7 @@ class Lengths:
         """Draw extension lines from the part, the line with its origin, and the values."""
         y = self.level
         rising = sorted(x for x, _ in self.marks)
-        places = _spread([x for x, _ in self.marks], _ROW)
+        places = spread([x for x, _ in self.marks], _ROW)
         at = sorted(zip(self.marks, places, bottoms, strict=True))
         for (x, value), place, bottom in at:
             sheet.line(shift + complex(x, bottom - 0.8), shift + complex(x, y - 1.2))
@@ -227,8 +227,8 @@ class Lengths:
                 sheet.line(shift + complex(self.origin, y), shift + complex(end, y))
 
 
-def _spread(wanted: Sequence[float], apart: float) -> list[float]:
-    """Rising places near the wanted ones, `apart` from each other."""
+def spread(wanted: Sequence[float], apart: float) -> list[float]:
+    """Places near the wanted ones in their order, `apart` from each other."""
     order = sorted(range(len(wanted)), key=lambda i: wanted[i])
     blocks: list[list[float]] = []
     for rank, i in enumerate(order):

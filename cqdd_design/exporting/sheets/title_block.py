@@ -100,6 +100,7 @@ def draw_notes(
     width: float,
     height: float,
     columns: int = 1,
+    title: str = "NOTES",
 ) -> None:
     """Write numbered notes from their upper left corner, smaller where there is little room."""
     indent, pitch = 5.0, 3.9
@@ -110,7 +111,7 @@ def draw_notes(
         lines = _lines(notes, wide - indent, size)
     pitch *= size / SMALL
     rows = -(-len(lines) // columns)
-    sheet.text(corner, "NOTES", 3.0)
+    sheet.text(corner, title, 3.0)
     for place, (number, line) in enumerate(lines):
         column, row = divmod(place, rows)
         at = corner + column * width / columns - 1j * (5.5 + row * pitch)
