@@ -2,9 +2,10 @@
 
 A piece that moves sweeps the prism under its shape; it can leave where that prism meets no material
 of what is still in place. Screws leave on the side of their heads, and what they are screwed into
-waits for them; nuts leave along their threads. Where no single thing can move, a unit does: one thing with all that it pushes
-before it, such as the carrier with discs and shaft, which is put together on the bench (Wilson and
-Latombe 1994, blocking graphs). Put together is the same backwards.
+waits for them; nuts leave along their threads. Where no single thing can move, a unit does: one
+thing with all that it pushes before it, such as the carrier with discs and shaft, which is put
+together on the bench (Wilson and Latombe 1994, blocking graphs). Put together is the same
+backwards.
 """
 
 from __future__ import annotations

@@ -73,7 +73,7 @@ class AssemblyFacts:
 
     def notes(self) -> list[str]:
         """Adhesives, grease and what to measure."""
-        said = []
+        said: list[str] = []
         for part in self.parts:
             for feature in part.features:
                 if isinstance(feature, Joint) and feature.kind != "screwed":
@@ -118,7 +118,7 @@ class AssemblyFacts:
         steps, whole = self._apart
         if not whole:
             return []
-        said = []
+        said: list[str] = []
         for step in reversed(steps):
             what = f"the {unit_name(step)}" if step.is_unit else _pieces(step.moved[0])
             how = _SIDES[step.way] if said else "to begin with"

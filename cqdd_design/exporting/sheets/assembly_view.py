@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cqdd_design.exporting.sheets.blocks import spread
 from cqdd_design.exporting.sheets.drawing import AXIS, FINE, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.profile import cut_face
-from cqdd_design.exporting.sheets.sizes import spread
 from cqdd_design.solids.apart import posed_layers
 from cqdd_design.solids.axial_view import Line, Rectangle, cut_rectangles, lines_behind
 from cqdd_design.solids.cut_plane import cut_angles, is_hatched

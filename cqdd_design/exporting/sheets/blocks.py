@@ -195,30 +195,28 @@ class Placed:
             sheet.dot(target)
 
 
-def stair(blocks: Sequence[Block], level: float, *, right: bool, up: bool) -> list[Placed]:
+def stair(
+    blocks: Sequence[tuple[Block, float]], level: float, *, right: bool, up: bool
+) -> list[Placed]:
     """Place blocks on one stair.
 
     Parameters
     ----------
-    blocks : sequence of Block
-        In a frame of the view, mm.
+    blocks : sequence of (Block, float)
+        In a frame of the view, each with the x of its leader, mm.
     level : float
         Where the stair begins, mm: above it where `up`, below it otherwise.
     right, up : bool
         Whether blocks reach to the right of their leaders, and whether the stair rises.
     """
     side, way = (1.0 if right else -1.0), (1.0 if up else -1.0)
-    ordered = sorted(blocks, key=lambda b: (-side * b.target.real, way * b.target.imag))
-    done: list[tuple[float, float, float]] = []
+    done: list[tuple[float, float]] = []
     placed = []
-    for block in ordered:
-        x = side * block.target.real
-        if done:
-            x = min(x, done[-1][0] - _APART)
-        reach = x + block.width + _BETWEEN
-        low = max([way * level, *(top for start, _, top in done if start < reach)])
-        done.append((x, reach, low + block.height + _BETWEEN))
-        placed.append(Placed(block, side * x, way * low, right, up))
+    for block, x in sorted(blocks, key=lambda pair: -side * pair[1]):
+        reach = side * x + block.width + _BETWEEN
+        low = max([way * level, *(top for start, top in done if start < reach)])
+        done.append((side * x, low + block.height + _BETWEEN))
+        placed.append(Placed(block, x, way * low, right, up))
     return placed
 
 
@@ -263,9 +261,29 @@ def distance_beside(left: Sequence[Box], right: Sequence[Box], gap: float) -> fl
 
 def stairs(blocks: Sequence[Block], level: float, *, up: bool) -> list[Placed]:
     """Two stairs beside each other: the left half of the blocks goes to the left."""
-    ordered = sorted(blocks, key=lambda block: block.target.real)
-    half = len(ordered) // 2
+    way = 1.0 if up else -1.0
+    ordered = sorted(blocks, key=lambda block: (block.target.real, -way * block.target.imag))
+    leaders = spread([block.target.real for block in ordered], _APART)
+    pairs = list(zip(ordered, leaders, strict=True))
+    half = len(pairs) // 2
     return [
-        *stair(ordered[:half], level, right=False, up=up),
-        *stair(ordered[half:], level, right=True, up=up),
+        *stair(pairs[:half], level, right=False, up=up),
+        *stair(pairs[half:], level, right=True, up=up),
     ]
+
+
+def spread(wanted: Sequence[float], apart: float) -> list[float]:
+    """Places near the wanted ones in their order, `apart` from each other."""
+    order = sorted(range(len(wanted)), key=lambda i: wanted[i])
+    blocks: list[list[float]] = []
+    for rank, i in enumerate(order):
+        blocks.append([wanted[i] - rank * apart, 1.0])
+        while len(blocks) > 1 and blocks[-1][0] < blocks[-2][0]:
+            mean, size = blocks.pop()
+            other, others = blocks.pop()
+            blocks.append([(mean * size + other * others) / (size + others), size + others])
+    level = [mean for mean, size in blocks for _ in range(int(size))]
+    places = [0.0] * len(wanted)
+    for rank, i in enumerate(order):
+        places[i] = level[rank] + rank * apart
+    return places

@@ -170,7 +170,7 @@ class EndPlan:
                         if all(abs(centre - other) > 1e-7 for other in places):
                             places.append(complex(centre))
         seams = {
-            round(0.5 * hole.diameter, 8)
+            round(0.5 * drilled_size(hole), 8)
             for group in self.shape.facts.holes
             for hole in group
             if is_seam(hole)

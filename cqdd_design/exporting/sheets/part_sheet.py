@@ -103,7 +103,7 @@ def plan_sheet(facts: PartFacts) -> Plan:
     section, end = SectionShape(facts), EndShape(facts)
     blocks = _table_blocks(facts)
     right = RIGHT - 2.0 - (blocks * (_BLOCK + 2.0) if blocks else 0.0)
-    room = Extent(LEFT + 2.0, title_top(_TITLE_ROWS) + 2.0, right, TOP - 2.0)
+    room = Extent(LEFT + 2.0, title_top(_TITLE_ROWS) + 1.0, right, TOP - 1.0)
     for scale in SCALES:
         cut = section.directions
         view = EndPlan(end, scale, cut) if end.needed else None
@@ -144,8 +144,8 @@ def notes(facts: PartFacts) -> list[str]:
     features = facts.part.features
     for feature in features:
         if isinstance(feature, Seat | Shoulder) and feature.datum:
-            what = "axis" if isinstance(feature, Seat) else "face"
-            said.append(f"Datum {feature.datum}: {what} of the {feature.name}.")
+            what = "axis of the " if isinstance(feature, Seat) else ""
+            said.append(f"Datum {feature.datum}: {what}{feature.name}.")
     said += [joint_note(joint) for joint in facts.joints]
     if facts.holes:
         said.append("X and Y of holes are theoretically exact; X points up in the view.")

@@ -17,7 +17,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from cqdd_design.exporting.sheets.blocks import Block, Box, Placed, Row, stair
+from cqdd_design.exporting.sheets.blocks import Block, Box, Placed, Row, spread, stair
 from cqdd_design.exporting.sheets.drawing import SMALL, TEXT, SheetDrawing
 from cqdd_design.exporting.sheets.lettering import short_number, text_width
 
@@ -154,7 +154,7 @@ def columns_of(
     for given, out in ((left, -1.0), (right, 1.0)):
         ordered = sorted(given, key=lambda d: (d.reach, d.begin))
         most = max((d.reach for d in ordered), default=0.0)
-        rows: list[Block] = []
+        rows: list[tuple[Block, float]] = []
         for place, size in enumerate(ordered):
             x = out * (half + _FIRST + _PITCH * place)
             wide = text_width(size.text, TEXT)
@@ -164,7 +164,7 @@ def columns_of(
             columns.append(Column(size, x, at, edge))
             if size.rows:
                 foot = complex(x - out * 2.6, size.middle - size.radius)
-                rows.append(Block(foot, size.rows))
+                rows.append((Block(foot, size.rows), foot.real))
         level = -max(reach, most) - (_DATUM if any(d.datum for d in ordered) else 3.0) - 2.0
         placed += stair(rows, level, right=out > 0.0, up=False)
     return Sizes(
@@ -225,20 +225,3 @@ class Lengths:
         for end in (min(ends), max(ends)):
             if abs(end - self.origin) > 1e-9:
                 sheet.line(shift + complex(self.origin, y), shift + complex(end, y))
-
-
-def spread(wanted: Sequence[float], apart: float) -> list[float]:
-    """Places near the wanted ones in their order, `apart` from each other."""
-    order = sorted(range(len(wanted)), key=lambda i: wanted[i])
-    blocks: list[list[float]] = []
-    for rank, i in enumerate(order):
-        blocks.append([wanted[i] - rank * apart, 1.0])
-        while len(blocks) > 1 and blocks[-1][0] < blocks[-2][0]:
-            mean, size = blocks.pop()
-            other, others = blocks.pop()
-            blocks.append([(mean * size + other * others) / (size + others), size + others])
-    level = [mean for mean, size in blocks for _ in range(int(size))]
-    places = [0.0] * len(wanted)
-    for rank, i in enumerate(order):
-        places[i] = level[rank] + rank * apart
-    return places
