@@ -17,6 +17,8 @@ from cqdd_design.gearbox.shaft_strength import Step, StepStress, step_stress
 from cqdd_design.geometry.contours import Circle, ComplexArray, FloatArray
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.shaft import disc_heights, knife_edges
+from cqdd_design.solids.features.kinds import Undercut
+from cqdd_design.solids.features.rotating import shaft_features
 from cqdd_design.solids.layers import Layer
 from cqdd_design.solids.layout import PackLayout, ShaftLayout
 from cqdd_design.solids.rotating import eccentric_shaft
@@ -90,8 +92,17 @@ def shaft_strength(machine: Machine, peak: PackLoads, duty: PackLoads) -> ShaftS
 
 
 def shaft_steps(pack: PackLayout, shaft: ShaftLayout) -> tuple[Step, ...]:
-    """Changes of section from the lower journal to the upper, and the seat of a loose cam."""
+    """Changes of section from the lower journal to the upper, and the seat of a loose cam.
+
+    An undercut leaves less than its cylinder, with its own fillet; where there is none, the fillet
+    is as large as the bearing's corner allows.
+    """
     layers = eccentric_shaft(pack, shaft).layers
+    reliefs = {
+        round(one.height, 9): one
+        for one in shaft_features(pack, shaft, None, 0.0)
+        if isinstance(one, Undercut)
+    }
     journal = 0.5 * shaft.support.bearing.bore_diameter
     last, found = len(layers) - 2, []
     for place, (below, above) in enumerate(pairwise(layers)):
@@ -99,14 +110,15 @@ def shaft_steps(pack: PackLayout, shaft: ShaftLayout) -> tuple[Step, ...]:
         at_seat = place in (0, last)
         seat = journal if at_seat else 0.5 * pack.cam.bearing.bore_diameter
         name = "shoulder of the lower bearing" if place == 0 else "shoulder of the upper bearing"
+        relief = reliefs.get(round(above.bottom, 9))
         found.append(
             Step(
                 name if at_seat else f"edge of an eccentric, {1e3 * above.bottom:.1f} mm up",
                 above.bottom,
-                _outside(thin).radius,
+                _outside(thin).radius - (relief.depth if relief else 0.0),
                 shaft.bore_radius,
                 _outside(thick).radius + float(np.hypot(*_outside(thick).centre)),
-                least_chamfer(2.0 * seat),
+                relief.radius if relief else least_chamfer(2.0 * seat),
             )
         )
     if pack.disc_count > 2:

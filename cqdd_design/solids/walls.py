@@ -8,7 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cqdd_design.geometry.contours import Circle, PlanarPart
+from cqdd_design.geometry.contours import Circle, FloatArray, PlanarPart
+from cqdd_design.solids.features.removal import threads
+from cqdd_design.solids.layers import Drilling, Layer
 from cqdd_design.solids.part import Part
 
 _CUT = ("disc", "ring")
@@ -38,11 +40,36 @@ def least_walls(parts: Sequence[Part]) -> tuple[Wall, ...]:
     for part in parts:
         if part.source != "make" or part.name.partition(" ")[0] in _CUT:
             continue
-        every = [wall for layer in part.shape.layers for wall in _walls(layer.shape)]
+        cut = threads(part.features)
+        every = [wall for layer in part.shape.layers for wall in _walls(_threaded(layer, cut))]
         if every:
             thickness, between = min(every)
             rows.append(Wall(part.name, between, thickness))
     return tuple(rows)
+
+
+def _threaded(layer: Layer, cut: Sequence[Drilling]) -> PlanarPart:
+    """A layer with its tapped holes as wide as their threads."""
+    middle, shape = 0.5 * (layer.bottom + layer.top), layer.shape
+    wide = {
+        _place(centre): thread.radius
+        for thread in cut
+        if thread.bottom < middle < thread.top
+        for centre in thread.centres
+    }
+    if not wide:
+        return shape
+    holes = tuple(
+        Circle(hole.centre, max(hole.radius, wide.get(_place(hole.centre), 0.0)))
+        if isinstance(hole, Circle)
+        else hole
+        for hole in shape.holes
+    )
+    return PlanarPart(shape.name, shape.outer, holes)
+
+
+def _place(centre: FloatArray) -> tuple[float, float]:
+    return round(float(centre[0]), 9), round(float(centre[1]), 9)
 
 
 def _walls(shape: PlanarPart) -> Iterator[tuple[float, str]]:

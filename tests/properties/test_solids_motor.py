@@ -88,7 +88,7 @@ def test_the_motor_is_the_catalogues() -> None:
     assert turning == pytest.approx(row.rotor_inertia, rel=1e-12)
     assert bell.shape.outside_radius == pytest.approx(0.5 * row.outer_diameter)
     # The bell weighs what is drawn of it.
-    assert bell.mass == pytest.approx(bell.shape.volume * 2810.0, rel=1e-3)
+    assert bell.mass == pytest.approx(bell.volume * 2810.0, rel=1e-3)
     assert stator.shape.inside_radius == pytest.approx(0.5 * row.bore_diameter)
     # Half the gap's width on either side of its diameter.
     gap = rotor.shape.inside_radius - stator.shape.outside_radius
