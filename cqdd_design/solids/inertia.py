@@ -309,7 +309,7 @@ def gearbox_inertia(
                 name=part.name,
                 material=part.material,
                 count=part.count,
-                volume=mesh_volume(part) if meshed else part.shape.volume,
+                volume=mesh_volume(part) if meshed else part.volume,
                 exact_volume=part.exact_volume,
                 properties=placed[0],
                 reflected=sum(_reflected(design, part, own, piece) for piece in part.instances),

@@ -94,7 +94,8 @@ def _round(circle: Circle) -> _Round:
 
 def _of_layer(layer: _Turned, every: Sequence[_Turned]) -> Iterator[Chamfer]:
     for at, inside in ((layer.outer, False), (layer.bore, True)):
-        if at is None or (inside and math.hypot(at.x, at.y) > _SAME):
+        # An eccentric's edges are only broken, as all others are: less would unbalance the crank.
+        if at is None or math.hypot(at.x, at.y) > _SAME:
             continue
         facings: tuple[Facing, ...] = ("up", "down")
         for facing in facings:
@@ -103,9 +104,7 @@ def _of_layer(layer: _Turned, every: Sequence[_Turned]) -> Iterator[Chamfer]:
                 height = layer.top if facing == "up" else layer.bottom
                 where = "bore" if inside else "edge"
                 name = f"{where} {2e3 * at.radius:.6g} at {1e3 * height:.6g}"
-                yield Chamfer(
-                    name, at.radius, height, inside, facing, width, centres=((at.x, at.y),)
-                )
+                yield Chamfer(name, at.radius, height, inside, facing, width)
 
 
 def _width(

@@ -6,12 +6,9 @@ import math
 
 from cqdd_design.catalog.bearings import least_chamfer
 from cqdd_design.solids.features import zones
-from cqdd_design.solids.features.kinds import Centre, Feature, Joint, Seat
+from cqdd_design.solids.features.kinds import Centre, Facing, Feature, Joint, Seat
 from cqdd_design.solids.features.making import relief, seat, shoulder
 from cqdd_design.solids.layout import MotorLayout, PackLayout, ShaftLayout
-
-_WITH_RINGS = ("ball", "crossed roller")
-"""Cam bearings whose inner ring sits on the lobe; needles roll on it, and it has no undercut."""
 
 
 def crank_offset(pack: PackLayout, disc: int) -> Centre:
@@ -33,8 +30,8 @@ def shaft_features(
     found = journal_features(shaft)
     lobes = min(pack.disc_count, 2)
     for disc in range(lobes):
-        facing_up = disc > 0
-        found += lobe_features(pack, disc, position, collar_below=facing_up, collar=lobes > 1)
+        beside: Facing | None = None if lobes < 2 else "up" if disc else "down"
+        found += lobe_features(pack, shaft, disc, position, collar=beside)
     if pack.disc_count > 2:
         core = seat(
             "seat of the eccentric cam", 2.0 * shaft.shoulder_radius, pack.cam_top(1),
@@ -73,29 +70,33 @@ def journal_features(shaft: ShaftLayout) -> list[Feature]:
 
 
 def lobe_features(
-    pack: PackLayout, disc: int, position: float, *, collar_below: bool, collar: bool
+    pack: PackLayout, shaft: ShaftLayout, disc: int, position: float, *, collar: Facing | None
 ) -> list[Feature]:
-    """A lobe, and its undercut at the collar beside it.
+    """A lobe, and the face of the collar beside it.
+
+    Its corner is a fillet: an undercut, on one side of it, would unbalance the crank.
 
     Parameters
     ----------
     position : float
         Diameter of the zone of its axis, m.
-    collar_below, collar : bool
-        Whether the collar is below it, or above; whether it has one at all.
+    collar : {"up", "down"} or None
+        The way the collar's face looks, if it has one.
     """
     bearing = pack.cam.bearing
     lobe = seat(
         f"lobe {disc + 1}", bearing.bore_diameter, pack.cam_bottom(disc), pack.cam_top(disc),
         zones.LOBE, ground=True, refers="AB", centre=crank_offset(pack, disc), position=position,
     )  # fmt: skip
-    if not collar or bearing.kind not in _WITH_RINGS:
+    if collar is None:
         return [lobe]
-    cut = relief(
-        f"undercut of lobe {disc + 1}", lobe, "up" if collar_below else "down",
-        least_chamfer(bearing.bore_diameter), length=lobe.top - lobe.bottom,
+    height = lobe.bottom if collar == "up" else lobe.top
+    inner = 0.5 * bearing.bore_diameter - pack.eccentricity
+    face = shoulder(
+        f"collar beside lobe {disc + 1}", height, inner, shaft.web_radius, collar, lobe,
+        fillet=least_chamfer(bearing.bore_diameter), refers="AB",
     )  # fmt: skip
-    return [lobe] if cut is None else [lobe, cut]
+    return [lobe, face]
 
 
 def _motor_end(shaft: ShaftLayout, motor: MotorLayout) -> list[Feature]:
@@ -122,7 +123,7 @@ def loose_cam_features(
         "bore", 2.0 * shaft.shoulder_radius, pack.cam_top(1), pack.cam_top(2), zones.CAM_BORE,
         inside=True, datum="A",
     )  # fmt: skip
-    lobe = lobe_features(pack, 2, position, collar_below=True, collar=True)
+    lobe = lobe_features(pack, shaft, 2, position, collar="up")
     return (bore, *lobe)
 
 
