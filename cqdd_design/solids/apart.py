@@ -15,7 +15,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
@@ -37,6 +37,8 @@ _TOUCH = 0.3
 """Areas of overlap below this are seats that touch, mm^2."""
 _GROWN = 0.05
 """By which a thread is wider than its drill at least, and less than a clearance hole's gap, mm."""
+_DOT = 1e-3
+"""Side of the square that tells whether the axis runs in material, mm."""
 _LEVEL = 1e-7
 """Heights closer than this are one, m."""
 Way = Literal["up", "down"]
@@ -149,6 +151,19 @@ def _next_unit(left: Sequence[_Thing]) -> tuple[list[_Thing], Way] | None:
     return best
 
 
+class _Flat(NamedTuple):
+    """A shape (mm), and between which radii about the axis its corners lie."""
+
+    material: CrossSection
+    inner: float
+    outer: float
+
+
+def _near(one: _Flat, other: _Flat) -> bool:
+    """Whether two shapes have radii in common."""
+    return one.inner < other.outer and other.inner < one.outer
+
+
 class _Thing:
     """A station where it stands, as polygons between heights."""
 
@@ -158,7 +173,7 @@ class _Thing:
         self._known: dict[tuple[int, Way, bool], bool] = {}
 
     @cached_property
-    def prisms(self) -> list[tuple[float, float, CrossSection]]:
+    def prisms(self) -> list[tuple[float, float, _Flat]]:
         """Bottom and top (m) and shape (mm) of its material."""
         from manifold3d import CrossSection, FillRule
 
@@ -168,7 +183,10 @@ class _Thing:
         for layers in zip(*pieces, strict=True):
             loops = [loop for layer in layers for loop in _loops(layer.shape)]
             shape = CrossSection(loops, FillRule.EvenOdd)
-            found.append((layers[0].bottom, layers[0].top, shape))
+            radii = np.hypot(*np.concatenate(loops).T)
+            hollow = (shape ^ CrossSection.square((_DOT, _DOT), True)).area() == 0.0
+            flat = _Flat(shape, float(radii.min()) if hollow else 0.0, float(radii.max()))
+            found.append((layers[0].bottom, layers[0].top, flat))
         return found
 
     @cached_property
@@ -199,9 +217,11 @@ class _Thing:
             return False
         far = min if self._head == "up" else max
         low, high, shank = far(self.prisms, key=lambda prism: prism[0])
-        grown = shank.offset(_GROWN)
+        grown = shank.material.offset(_GROWN)
         return any(
-            bottom < high - _LEVEL and top > low + _LEVEL and (grown ^ block).area() > _TOUCH
+            bottom < high - _LEVEL
+            and top > low + _LEVEL
+            and (grown ^ block.material).area() > _TOUCH
             for bottom, top, block in other.prisms
         )
 
@@ -239,7 +259,8 @@ class _Thing:
         free = _TOUCH + 1.01 * self._screwed(other)
         return any(
             (high > bottom + _LEVEL if way == "up" else low < top - _LEVEL)
-            and (shape ^ block).area() > free
+            and _near(shape, block)
+            and (shape.material ^ block.material).area() > free
             for bottom, top, shape in self.prisms
             for low, high, block in other.prisms
         )
