@@ -65,6 +65,9 @@ _ROWS = (
     ExportKind("glb", "solids.meshes:export_glb", "the machine for viewers", _SOLID, "makers"),
     ExportKind("svg", "sheets.svg:export_svg", "front views, true to scale", _PLAIN, "makers"),
     ExportKind(
+        "sheets", "sheets.sheet_files:export_sheets", "a drawing of every part", _SOLID, "makers"
+    ),
+    ExportKind(
         "print", "printing.package:export_print", "printed parts, and a coupon", _SOLID, "makers"
     ),
     ExportKind("bom", "solids.bom:export_bom", "bill of materials", _SOLID, "makers"),

@@ -55,6 +55,51 @@ class ScrewJoint:
         return max(left, 0.0) * GRIP_FRICTION / self.across
 
 
+@dataclass(frozen=True)
+class Tightened:
+    """Equal screws as they are tightened.
+
+    Attributes
+    ----------
+    place, screw : str
+        What they hold, and which they are, in words.
+    """
+
+    place: str
+    screw: str
+    count: int
+    clamping: Clamping
+
+
+def tightened_screws(machine: Machine) -> tuple[Tightened, ...]:
+    """Every screwed joint that is drawn, as it is put together; no load is worked out for it.
+
+    Raises
+    ------
+    GeometryError
+        When the machine cannot be laid out.
+    """
+    every = [_cover_screws(machine), _mounting_screws(machine), _output_screws(machine)]
+    every += [_pin_screws(machine), _column_screws(machine), _motor_cover_screws(machine)]
+    return tuple(one for one in every if one is not None)
+
+
+def tightening_torques(machine: Machine) -> dict[str, float]:
+    """Torque of every screw that holds a joint, N m, by the name of its part."""
+    screws = {
+        "cover screw": _cover_screws(machine),
+        "shoulder screw": _pin_screws(machine),
+        "column screw": _column_screws(machine),
+        "motor cover screw": _motor_cover_screws(machine),
+    }
+    return {name: one.clamping.torque for name, one in screws.items() if one is not None}
+
+
+def _loaded(screws: Tightened, across: float, along: float, cure: str | None = None) -> ScrewJoint:
+    joint = ScrewJoint(screws.place, screws.screw, screws.count, screws.clamping, across, along)
+    return joint if cure is None else replace(joint, cure=cure)
+
+
 def screw_joints(machine: Machine) -> tuple[ScrewJoint, ...]:
     """Every screwed joint that is drawn, but for the encoder's board, which holds nothing else.
 
@@ -65,38 +110,28 @@ def screw_joints(machine: Machine) -> tuple[ScrewJoint, ...]:
     GeometryError
         When the machine cannot be laid out.
     """
-    every = [_cover(machine), _mounting(machine), _output(machine)]
-    if machine.layout.carrier.pin.screw is not None:
-        every.append(_pins(machine))
-    if machine.layout.carrier.columns is not None:
-        every.append(_columns(machine))
-    if machine.layout.motor is not None:
-        every.append(_motor_cover(machine))
+    every = [
+        _cover(machine),
+        _mounting(machine),
+        _output(machine),
+        _unloaded(_pin_screws(machine)),
+        _columns(machine),
+        _unloaded(_motor_cover_screws(machine)),
+    ]
     return tuple(one for one in every if one is not None)
 
 
-def tightening_torques(machine: Machine) -> dict[str, float]:
-    """Torque of every screw that holds a joint, N m, by the name of its part."""
-    joints = {
-        "shoulder screw": _pins(machine),
-        "column screw": _columns(machine),
-        "motor cover screw": _motor_cover(machine),
-    }
-    found = {name: joint.clamping.torque for name, joint in joints.items() if joint is not None}
-    return {"cover screw": _cover_clamping(machine).torque, **found}
+def _unloaded(screws: Tightened | None) -> ScrewJoint | None:
+    return None if screws is None else _loaded(screws, 0.0, 0.0)
 
 
 def _cover(machine: Machine) -> ScrewJoint:
     """Between them cover and clamp hold the output bearing: what it carries parts them."""
-    layout = machine.layout
-    housing, loads = layout.housing, output_loads(machine, machine.peak_pack)
+    housing, loads = machine.layout.housing, output_loads(machine, machine.peak_pack)
     around = housing.screw_count * housing.bolt_circle_radius
     pulled = loads.axial / housing.screw_count + 2.0 * loads.moment / around
-    return ScrewJoint(
-        "cover and ring clamp on the housing",
-        housing.screw.designation,
-        housing.screw_count,
-        _cover_clamping(machine),
+    return _loaded(
+        _cover_screws(machine),
         float(loads.radial.max()) / housing.screw_count,
         float(pulled.max()),
         "an even number of output_pins on a larger circle, on two discs, pushes the carrier less "
@@ -104,19 +139,34 @@ def _cover(machine: Machine) -> ScrewJoint:
     )
 
 
-def _cover_clamping(machine: Machine) -> Clamping:
+def _cover_screws(machine: Machine) -> Tightened:
     layout, housing = machine.layout, machine.layout.housing
-    grip = housing.cover_flange_top - layout.pack.top
-    engaged = min(housing.screw.length - grip, layout.pack.top - housing.flange_bottom)
-    return _clamping(housing.screw, _housing_metal(machine), grip=grip, engaged=engaged, faces=2)
+    metal, grip = _housing_metal(machine), housing.cover_flange_top - layout.pack.top
+    screw = housing.screw
+    engaged = min(screw.length - grip, layout.pack.top - housing.flange_bottom)
+    return Tightened(
+        "cover and ring clamp on the housing",
+        screw.designation,
+        housing.screw_count,
+        _clamping(screw, metal, grip=grip, engaged=engaged, faces=2),
+    )
 
 
 def _mounting(machine: Machine) -> ScrewJoint:
     """Through the holes between these, into what the actuator is fixed to."""
-    layout, asked = machine.layout, machine.design.requirements
-    housing = layout.housing
+    housing, asked = machine.layout.housing, machine.design.requirements
     across, along = mounting.forces(asked, housing.screw_count, housing.bolt_circle_radius)
-    return ScrewJoint(
+    return _loaded(
+        _mounting_screws(machine),
+        across,
+        along,
+        "raise ring.outer_diameter, or let dowels of what it is fixed to carry it",
+    )
+
+
+def _mounting_screws(machine: Machine) -> Tightened:
+    housing = machine.layout.housing
+    return Tightened(
         "housing on its machine, by friction",
         f"M{1e3 * housing.mount_thread:g} of 12.9 in the mounting holes",
         housing.screw_count,
@@ -125,21 +175,26 @@ def _mounting(machine: Machine) -> ScrewJoint:
             housing.cover_flange_top - housing.flange_bottom,
             _housing_metal(machine),
         ),
-        across,
-        along,
-        "raise ring.outer_diameter, or let dowels of what it is fixed to carry it",
     )
 
 
 def _output(machine: Machine) -> ScrewJoint | None:
     """Dowels hold the torque; the bolts hold what tilts and pulls."""
     carrier, asked = machine.layout.carrier, machine.design.requirements
+    screws = _output_screws(machine)
+    if screws is None:
+        return None
+    tilting = 2.0 * (asked.external_moment or 0.0) / (OUTPUT_BOLTS * carrier.bolt_circle_radius)
+    return _loaded(screws, 0.0, (asked.external_axial or 0.0) / OUTPUT_BOLTS + tilting)
+
+
+def _output_screws(machine: Machine) -> Tightened | None:
+    carrier = machine.layout.carrier
     if not carrier.bolt_thread:
         return None
     metal, steel = _housing_metal(machine), find_material(SCREW_MATERIAL)
     size = carrier.bolt_thread
-    tilting = 2.0 * (asked.external_moment or 0.0) / (OUTPUT_BOLTS * carrier.bolt_circle_radius)
-    return ScrewJoint(
+    return Tightened(
         "output's face",
         f"M{1e3 * size:g} of 12.9, {1e3 * carrier.bolt_depth:.3g} mm deep",
         OUTPUT_BOLTS,
@@ -155,17 +210,15 @@ def _output(machine: Machine) -> ScrewJoint | None:
             engaged=carrier.bolt_depth,
             faces=1,
         ),
-        0.0,
-        (asked.external_axial or 0.0) / OUTPUT_BOLTS + tilting,
     )
 
 
-def _pins(machine: Machine) -> ScrewJoint | None:
+def _pin_screws(machine: Machine) -> Tightened | None:
     """The shoulder's end on its step in the plate; its seat holds the forces across."""
     pin, metal = machine.layout.carrier.pin, _housing_metal(machine)
     if pin.screw is None:
         return None
-    return ScrewJoint(
+    return Tightened(
         "output pins in the carrier plate",
         f"shoulder screws {pin.screw.thread}",
         machine.layout.carrier.pin_count,
@@ -180,20 +233,30 @@ def _pins(machine: Machine) -> ScrewJoint | None:
             engaged=pin.thread_length,
             faces=0,
         ),
-        0.0,
-        0.0,
     )
 
 
 def _columns(machine: Machine) -> ScrewJoint | None:
     """Half of the torque comes from the cap, which the columns' ends carry by friction."""
+    carrier, screws = machine.layout.carrier, _column_screws(machine)
+    if screws is None:
+        return None
+    half = 0.5 * machine.design.requirements.peak_torque
+    return _loaded(
+        screws,
+        half / (screws.count * carrier.pin_circle_radius),
+        0.0,
+        "raise carrier.column_diameter, whose screw grows with it",
+    )
+
+
+def _column_screws(machine: Machine) -> Tightened | None:
     carrier = machine.layout.carrier
     columns = carrier.columns
     if columns is None:
         return None
     metal, screw = _housing_metal(machine), columns.screw
-    half = 0.5 * machine.design.requirements.peak_torque
-    return ScrewJoint(
+    return Tightened(
         "columns between plate and cap",
         screw.designation,
         columns.count,
@@ -208,27 +271,22 @@ def _columns(machine: Machine) -> ScrewJoint | None:
             bearing_outer=min(screw.head_diameter, 2.0 * columns.radius),
             bearing_inner=2.0 * columns.bore_radius,
         ),
-        half / (columns.count * carrier.pin_circle_radius),
-        0.0,
-        "raise carrier.column_diameter, whose screw grows with it",
     )
 
 
-def _motor_cover(machine: Machine) -> ScrewJoint | None:
+def _motor_cover_screws(machine: Machine) -> Tightened | None:
     layout, metal = machine.layout, _housing_metal(machine)
     motor = layout.motor
     if motor is None:
         return None
     screw, grip = motor.cover_screw, motor.flange_top - layout.housing.flange_bottom
-    return ScrewJoint(
+    return Tightened(
         "motor's cover, which carries nothing",
         screw.designation,
         motor.ear_count,
         _clamping(
             screw, metal, grip=grip, engaged=min(screw.length - grip, motor.ear_height), faces=1
         ),
-        0.0,
-        0.0,
     )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from examples import examples
 from hypothesis import HealthCheck, given, settings
+from legible import assert_legible
 from lxml import etree
 from solids_designs import machines
 
@@ -21,10 +22,10 @@ from cqdd_design.exporting.edm.cut_facts import facts_of, zone_text
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.edm.seats import seats_of
 from cqdd_design.exporting.sheets.canvas import pdf_bytes
-from cqdd_design.exporting.sheets.cut_sheet import FRONT, SCALES, draw_sheet, sheet_scale
+from cqdd_design.exporting.sheets.cut_sheet import FRONT, draw_sheet, sheet_scale
 from cqdd_design.exporting.sheets.drawing import OUTLINE, THIN, SheetDrawing
-from cqdd_design.exporting.sheets.frame import BOTTOM, LEFT, RIGHT, TOP
 from cqdd_design.exporting.sheets.lettering import WIDTHS, fitting_height, printable, text_width
+from cqdd_design.exporting.sheets.title_block import SCALES
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
 
@@ -85,31 +86,6 @@ def test_discs_that_are_not_one_part_are_not_said_to_be(paper, tmp_path):
     assert "mark upper face" not in sheet
 
 
-def _apart(one, two):
-    """Whether two rectangles of text have a gap between them."""
-    for corners in (one, two):
-        for begin, end in ((0, 1), (1, 2)):
-            across = corners[end] - corners[begin]
-            sides = [[(z * across.conjugate()).real / abs(across) for z in c] for c in (one, two)]
-            if max(sides[0]) < min(sides[1]) + 0.1 or max(sides[1]) < min(sides[0]) + 0.1:
-                return True
-    return False
-
-
-def _assert_legible(canvas):
-    for number, label in enumerate(canvas.labels):
-        assert label.height >= 1.0, label
-        for corner in label.corners:
-            assert LEFT < corner.real < RIGHT, label
-            assert BOTTOM < corner.imag < TOP, label
-        for other in canvas.labels[:number]:
-            assert _apart(label.corners, other.corners), (label, other)
-    numbers = re.findall(
-        r"-?[\d.]+", " ".join(step for steps in canvas.strokes.values() for step in steps)
-    )
-    assert all(0.0 <= float(number) <= 420.0 for number in numbers)
-
-
 @pytest.mark.parametrize(
     "change",
     [
@@ -126,7 +102,7 @@ def _assert_legible(canvas):
 def test_text_of_a_sheet_is_apart_and_on_the_page(paper, change):
     design = paper.replacing(change)
     for flat in flat_parts(resolve(design)):
-        _assert_legible(draw_sheet(facts_of(flat, resolve(design))))
+        assert_legible(draw_sheet(facts_of(flat, resolve(design))))
 
 
 @pytest.mark.deep
@@ -139,7 +115,7 @@ def test_sheets_of_any_design_are_legible(machine):
     except CqddError:
         return
     for one in facts:
-        _assert_legible(draw_sheet(one))
+        assert_legible(draw_sheet(one))
         assert sheet_scale(one) in SCALES
 
 
@@ -152,21 +128,23 @@ def test_the_disc_sheet_shows_what_it_must(package):
     words = _words(package, "cqdd-10-disc.svg")
     for phrase in (
         "5 \u00d7 \u00d87.191 \u00b10.002",
-        "\u00d80.012",
+        "\u00d80.012 CZ",
+        "SIM1",
         "\u00d828 N7 (-0.007/-0.028)",
         "\u00d839",
         "9\u00b0",
         "R4.783",
         "8 +0/-0.02",
         "(\u00d860.188)",
-        "0.004",
+        "0.004 CZ",
         "0.005",
         "AISI 4140 Q&T 540C",
         "335 HB @538C",
         "2, 1 turned over",
         "mark upper face",
         "2 : 1",
-        "ISO 2768-fH, sizes in mm, edges broken 0.1 \u00d7 45\u00b0",
+        "ISO 8015, ISO 2768-fH, sizes in mm",
+        "outside -0.3, inside +0.3",
         "Cut 2, flip 1: disc 1 as drawn, disc 2 turned over about the X axis.",
     ):
         assert phrase in words, phrase
@@ -212,7 +190,13 @@ def test_the_face_is_marked_on_metal(paper, change, monkeypatch):
 
 def test_the_ring_sheet_shows_what_it_must(package):
     words = _words(package, "cqdd-10-ring.svg")
-    for phrase in ("\u00d872 n6 (+0.039/+0.020)", "\u00d864", "32.727\u00b0", "R5.002", "0.0089"):
+    for phrase in (
+        "\u00d872 n6 (+0.039/+0.020)",
+        "\u00d864",
+        "32.7273\u00b0",
+        "R5.002",
+        "0.0089 CZ",
+    ):
         assert phrase in words, phrase
 
 

@@ -35,12 +35,13 @@ from cqdd_design.report.machine_view import (
     hidden_line_views,
     viewer_data,
 )
-from cqdd_design.report.machine_view.aligned_section import cut_angles, cut_faces, section_figure
+from cqdd_design.report.machine_view.aligned_section import cut_faces, section_figure
 from cqdd_design.report.machine_view.camera import Camera, tinted
 from cqdd_design.report.machine_view.explode import take_apart
 from cqdd_design.report.machine_view.packing import machine_values, packed_model, packed_script
 from cqdd_design.report.machine_view.stills import exploded_figure
 from cqdd_design.solids.cad import MM
+from cqdd_design.solids.cut_plane import cut_angles
 from cqdd_design.solids.disassembly import disassembly_order
 from cqdd_design.solids.hidden_lines import chained
 from cqdd_design.solids.layers import Annulus, turned

@@ -29,11 +29,15 @@ from cqdd_design.exporting.edm.cut_facts import (
 )
 from cqdd_design.exporting.edm.flat_parts import reach_of
 from cqdd_design.exporting.edm.wire_path import segmented
+from cqdd_design.exporting.sheets.blocks import Row, Words
 from cqdd_design.exporting.sheets.canvas import Canvas, render
 from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SMALL, TEXT, SheetDrawing, new_sheet
-from cqdd_design.exporting.sheets.frame import HEIGHT, WIDTH, draw_frame
+from cqdd_design.exporting.sheets.frame import SIMULTANEOUS, draw_frame
 from cqdd_design.exporting.sheets.lettering import text_width
+from cqdd_design.exporting.sheets.title_block import HEIGHT, SCALES, WIDTH
+from cqdd_design.exporting.sheets.wording import circle_row
 from cqdd_design.geometry.contours import Circle, ComplexArray, FloatArray, as_complex
+from cqdd_design.solids.features.kinds import BoltCircle
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.seats import Seat
@@ -43,19 +47,22 @@ FRONT = complex(122.0, 174.0)
 SECTION = complex(246.0, 174.0)
 """Centre of the section."""
 MOST_REACH, MOST_THICKNESS = 72.5, 34.0
-SCALES = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02)
-"""ISO 5455."""
 
 _MM = 1e3
 
 
 def draw_sheet(facts: CutFacts) -> Canvas:
     """Draw the sheet of a part and render it."""
+    return render(draw_cut_sheet(facts).drawing, WIDTH, HEIGHT)
+
+
+def draw_cut_sheet(facts: CutFacts) -> SheetDrawing:
+    """Draw the sheet of a part."""
     sheet = new_sheet(sheet_scale(facts))
     _front_view(sheet, facts)
     _section(sheet, facts)
     draw_frame(sheet, facts)
-    return render(sheet.drawing, WIDTH, HEIGHT)
+    return sheet
 
 
 def sheet_scale(facts: CutFacts) -> float:
@@ -84,12 +91,9 @@ def _front_view(sheet: SheetDrawing, facts: CutFacts) -> None:
         sheet.text(end + side * 2.5 - 1.2 - 5.0j, "A", 3.5)
     rounds = _output_holes(facts)
     if rounds:
-        _holes(sheet, facts, rounds, reach)
+        _holes(sheet, facts, rounds)
         if flat.turned_over:
             _mark(sheet, facts, rounds)
-    else:
-        sheet.diameter(FRONT, factor * flat.reference_radius, 152.0, 0.35)
-        _spoke(sheet, 360.0 / facts.design.reducer.ring_tooth_count, reach)
     _profile_callout(sheet, facts)
     _concave_radius(sheet, facts, reach)
 
@@ -100,14 +104,13 @@ def _output_holes(facts: CutFacts) -> list[Circle]:
     return [hole for hole in holes if abs(complex(*hole.centre)) > hole.radius]
 
 
-def _holes(sheet: SheetDrawing, facts: CutFacts, holes: list[Circle], reach: float) -> None:
-    """Centre marks, size and position of the holes, their circle and their clocking."""
+def _holes(sheet: SheetDrawing, facts: CutFacts, holes: list[Circle]) -> None:
+    """Centre marks, size and position of the holes, and where they stand, in boxes."""
     factor, zones = _MM * sheet.scale, facts.zones
     for hole in holes:
         centre, arm = FRONT + factor * complex(*hole.centre), factor * hole.radius + 1.5
         along = cmath.exp(1j * cmath.phase(complex(*hole.centre)))
         sheet.line(centre - arm * along, centre + arm * along, AXIS)
-    angles = np.angle(as_complex([hole.centre for hole in holes]))
     output, columns = _by_use(facts, holes)
     elbow = complex(FRONT.real - 60.0, FRONT.imag + MOST_REACH + 20.0)
     for alike, toward, at in ((output, 125.0, elbow), (columns, 160.0, elbow - 15.0j)):
@@ -122,35 +125,25 @@ def _holes(sheet: SheetDrawing, facts: CutFacts, holes: list[Circle], reach: flo
         words = f"{len(alike)} \u00d7 \u00d8{words}"
         width = text_width(words, TEXT) + 3.0
         sheet.callout(target, at, words, -width)
-        sheet.tolerance(
-            at - width - 7.0j, "position", f"\u00d8{zone_text(zones.hole_position)}", ["A"]
-        )
-    sheet.diameter(FRONT, factor * facts.flat.reference_radius, _free_angle(angles), 0.3)
-    first = float(np.degrees(angles[0]))
-    if abs(math.remainder(first, 360.0)) > 1e-9:
-        _spoke(sheet, first, reach)
+        zone = f"\u00d8{zone_text(zones.hole_position)} CZ"
+        corner = at - max(width, 38.0)
+        _simultaneous(sheet, corner - 7.0j, "position", zone)
+        angles = tuple(places.tolist())
+        circle = BoltCircle("holes", facts.flat.reference_radius, angles)
+        _row(sheet, corner - 12.0j, circle_row(circle))
+
+
+def _row(sheet: SheetDrawing, corner: complex, cells: Row) -> None:
+    """Draw cells beside each other."""
+    for cell in cells:
+        cell.draw(sheet, corner)
+        corner += cell.size[0] + 1.6
 
 
 def _by_use(facts: CutFacts, holes: list[Circle]) -> tuple[list[Circle], list[Circle]]:
     """Output holes and those for columns, which follow them."""
     count = facts.design.reducer.output_pins.count
     return holes[:count], holes[count:]
-
-
-def _free_angle(angles: FloatArray) -> float:
-    """Direction (deg) from 100 to 170 across the part that keeps clear of holes and axes."""
-    tried = np.arange(100.0, 171.0)
-    holes = np.degrees(angles)[:, None]
-    # Across means both ways: holes opposite count as well.
-    to_holes = np.abs(np.mod(tried - holes + 90.0, 180.0) - 90.0).min(axis=0)
-    to_axes = np.minimum(tried - 90.0, 180.0 - tried)
-    return float(tried[np.minimum(to_holes, to_axes).argmax()])
-
-
-def _spoke(sheet: SheetDrawing, angle: float, reach: float) -> None:
-    """Dimension the direction of a first feature (deg) from the x axis, outside the view."""
-    sheet.line(FRONT, FRONT + cmath.rect(reach + 9.0, math.radians(angle)), AXIS)
-    sheet.angle(FRONT, reach + 4.5, min(0.0, angle), max(0.0, angle), 6.0)
 
 
 def _mark(sheet: SheetDrawing, facts: CutFacts, holes: list[Circle]) -> None:
@@ -182,8 +175,23 @@ def _profile_callout(sheet: SheetDrawing, facts: CutFacts) -> None:
     sheet.callout(FRONT + complex(spot), elbow, words, text_width(words, TEXT) + 3.0)
     sheet.circle(elbow, 1.2)
     frame = elbow - 7.0j
-    wide = sheet.tolerance(frame, "profile of a line", zone_text(zones.profile), ["A"])
+    zone = f"{zone_text(zones.profile)} CZ"
+    if _output_holes(facts):
+        wide = _simultaneous(sheet, frame, "profile of a line", zone)
+    else:
+        wide = sheet.tolerance(frame, "profile of a line", zone, ["A"])
+    if not _output_holes(facts):
+        teeth = facts.design.reducer.ring_tooth_count
+        angles = tuple(2.0 * math.pi * i / teeth for i in range(teeth))
+        on = BoltCircle("teeth", facts.flat.reference_radius, angles)
+        _row(sheet, frame - 5.0j, (Words("teeth"), *circle_row(on)))
     sheet.tolerance(frame + wide + 2.0, "perpendicularity", zone_text(WALL_SQUARENESS), ["B"])
+
+
+def _simultaneous(sheet: SheetDrawing, corner: complex, symbol: str, zone: str) -> float:
+    """Draw a frame of the one pattern that contour and holes are (ISO 5458); its width."""
+    wide = sheet.tolerance(corner, symbol, zone, ["A"])
+    return wide + 1.2 + sheet.text(corner + wide + 1.2 + 1.5j, SIMULTANEOUS, TEXT)
 
 
 def _concave_radius(sheet: SheetDrawing, facts: CutFacts, reach: float) -> None:

@@ -16,8 +16,8 @@ from cqdd_design.geometry.contours import Circle, Contour
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
 
-OUTLINE, THIN, AXIS = "OUTLINE", "THIN", "AXIS"
-_PENS = {OUTLINE: 50, THIN: 18, AXIS: 18}
+OUTLINE, FINE, THIN, AXIS, HIDDEN = "OUTLINE", "FINE", "THIN", "AXIS", "HIDDEN"
+_PENS = {OUTLINE: 50, FINE: 25, THIN: 18, AXIS: 18, HIDDEN: 18}
 """Layers and their pens, hundredths of a millimetre."""
 TEXT, SMALL = 2.5, 2.2
 """Cap heights, mm."""
@@ -27,9 +27,12 @@ _STYLED: dict[str, Any] = {"dimstyle": STYLE, "dxfattribs": {"layer": THIN}}
 CELL = 5.6
 """Height of a tolerance frame, mm."""
 
-_HATCH = 4.0
-"""Between hatching lines, mm along an edge."""
+_HATCH, _FACE_HATCH = 4.0, 2.2
+"""Between hatching lines, mm: along an edge, and across the lines."""
+_EIGHTH = cmath.exp(-0.25j * math.pi)
 _CENTRE_LINE = [10.0, 6.0, -1.5, 1.0, -1.5]
+_DASHED = [3.0, 2.0, -1.0]
+_LINETYPES = {AXIS: "CENTRE", HIDDEN: "DASHED"}
 
 
 def new_sheet(scale: float) -> SheetDrawing:
@@ -38,12 +41,11 @@ def new_sheet(scale: float) -> SheetDrawing:
 
     drawing = new("R2010", setup=False, units=4)
     drawing.linetypes.add("CENTRE", pattern=_CENTRE_LINE, description="centre line")
+    drawing.linetypes.add("DASHED", pattern=_DASHED, description="hidden line")
     # No font of the machine: dimensions reckon with a cap height a character.
     drawing.styles.add(STYLE, font="*monospace")
     for name, pen in _PENS.items():
-        drawing.layers.add(
-            name, lineweight=pen, linetype="CENTRE" if name == AXIS else "CONTINUOUS"
-        )
+        drawing.layers.add(name, lineweight=pen, linetype=_LINETYPES.get(name, "CONTINUOUS"))
     style = drawing.dimstyles.add(STYLE)
     settings = {
         **{"dimtxt": TEXT, "dimtxsty": STYLE, "dimtad": 1, "dimtih": 0, "dimtoh": 0},
@@ -85,13 +87,26 @@ class SheetDrawing:
         for one, two in zip(corners, [*corners[1:], corners[0]], strict=True):
             self.line(one, two)
 
+    def chain(self, points: Sequence[complex], layer: str = THIN, *, close: bool = False) -> None:
+        """Draw straight lines from point to point, and back to the first where closed."""
+        places = [_xy(point) for point in points]
+        self._space.add_lwpolyline(places, close=close, dxfattribs={"layer": layer})
+
     def circle(self, centre: complex, radius: float, layer: str = THIN) -> None:
         """Draw a circle."""
         self._space.add_circle(_xy(centre), radius, dxfattribs={"layer": layer})
 
-    def arc(self, centre: complex, radius: float, start: float, end: float) -> None:
-        """Draw a thin arc between two angles, deg."""
-        self._space.add_arc(_xy(centre), radius, start, end, dxfattribs={"layer": THIN})
+    def arc(
+        self, centre: complex, radius: float, start: float, end: float, layer: str = THIN
+    ) -> None:
+        """Draw an arc between two angles, deg."""
+        self._space.add_arc(_xy(centre), radius, start, end, dxfattribs={"layer": layer})
+
+    def dot(self, centre: complex) -> None:
+        """Draw a filled dot, the end of a leader within an outline."""
+        half = 0.45
+        corners = [centre + half * d for d in (-1 - 1j, 1 - 1j, -1 + 1j, 1 + 1j)]
+        self._space.add_solid([_xy(c) for c in corners], dxfattribs={"layer": THIN})
 
     def contour(self, contour: Contour, centre: complex) -> None:
         """Draw a contour of the part (m) about `centre` (mm of paper)."""
@@ -113,15 +128,43 @@ class SheetDrawing:
             begin, end = (corner + complex(width - p.real, p.imag) for p in (begin, end))
             self.line(begin, end)
 
+    def hatch_face(
+        self,
+        loops: Sequence[Sequence[complex]],
+        spacing: float = _FACE_HATCH,
+        *,
+        falling: bool = False,
+    ) -> None:
+        """Hatch what closed chains of lines bound, at 45 degrees, falling to the right if asked."""
+        mirror = -1.0 if falling else 1.0
+        turned = [[complex(p.real, mirror * p.imag) * _EIGHTH for p in loop] for loop in loops]
+        levels = [point.imag for loop in turned for point in loop]
+        first, last = math.ceil(min(levels) / spacing), math.floor(max(levels) / spacing)
+        for step in range(first, last + 1):
+            # A hair beside the grid: a corner on a hatching line is met once.
+            level = step * spacing + 1e-7
+            for one, two in _chords(turned, level):
+                begin, end = (complex(x, level) / _EIGHTH for x in (one, two))
+                self.line(
+                    complex(begin.real, mirror * begin.imag), complex(end.real, mirror * end.imag)
+                )
+
     def text(
-        self, place: complex, words: str, height: float = TEXT, room: float = math.inf
+        self,
+        place: complex,
+        words: str,
+        height: float = TEXT,
+        room: float = math.inf,
+        turn: float = 0.0,
     ) -> float:
-        """Write a line from its lower left corner, smaller where `room` asks; its width."""
+        """Write a line from its lower left corner, smaller where `room` asks; its width.
+
+        `turn` is the angle of its direction, deg.
+        """
         words = printable(words)
         size = fitting_height(words, height, room)
-        self._space.add_text(
-            words, height=size, dxfattribs={"layer": THIN, "insert": _xy(place), "style": STYLE}
-        )
+        where = {"layer": THIN, "insert": _xy(place), "style": STYLE, "rotation": turn}
+        self._space.add_text(words, height=size, dxfattribs=where)
         return text_width(words, size)
 
     def triangle(self, tip: complex, toward: complex) -> None:
@@ -139,30 +182,10 @@ class SheetDrawing:
             base=_xy(base), p1=_xy(one), p2=_xy(two), angle=angle, text=words, **_STYLED
         ).render()
 
-    def diameter(self, centre: complex, radius: float, angle: float, share: float) -> None:
-        """Dimension a circle across at `angle` (deg), the text at `share` of the radius."""
-        place = centre + cmath.rect(share * radius, math.radians(angle))
-        self._space.add_diameter_dim(
-            center=_xy(centre), radius=radius, angle=angle, location=_xy(place), **_STYLED
-        ).render()
-
     def radius(self, centre: complex, radius: float, angle: float, place: complex) -> None:
         """Dimension an arc at `angle` (deg) of it, the text at `place`, with a leader there."""
         self._space.add_radius_dim(
             center=_xy(centre), radius=radius, angle=angle, location=_xy(place), **_STYLED
-        ).render()
-
-    def angle(self, centre: complex, radius: float, start: float, end: float, out: float) -> None:
-        """Dimension the angle between two directions (deg) at `radius`, the text farther `out`."""
-        middle = math.radians(0.5 * (start + end))
-        self._space.add_angular_dim_cra(
-            center=_xy(centre),
-            radius=radius,
-            start_angle=start,
-            end_angle=end,
-            distance=0.0,
-            location=_xy(centre + cmath.rect(radius + out, middle)),
-            **_STYLED,
         ).render()
 
     def callout(self, target: complex, elbow: complex, words: str, width: float) -> None:
@@ -235,13 +258,52 @@ def _perpendicularity(sheet: SheetDrawing, at: complex) -> None:
     sheet.line(at - 1.6j, at + 1.8j)
 
 
+def _cylindricity(sheet: SheetDrawing, at: complex) -> None:
+    sheet.circle(at, 1.0)
+    for side in (-1.0, 1.0):
+        sheet.line(at + side * 1.25 - 0.7 - 1.9j, at + side * 1.25 + 0.7 + 1.9j)
+
+
+def _circular_run_out(sheet: SheetDrawing, at: complex) -> None:
+    _slanted_arrow(sheet, at)
+
+
+def _total_run_out(sheet: SheetDrawing, at: complex) -> None:
+    _slanted_arrow(sheet, at - 1.0)
+    _slanted_arrow(sheet, at + 1.0)
+    sheet.line(at - 2.3 - 1.8j, at - 0.3 - 1.8j)
+
+
+def _slanted_arrow(sheet: SheetDrawing, at: complex) -> None:
+    tip, foot = at + 1.3 + 1.8j, at - 1.3 - 1.8j
+    sheet.line(foot, tip)
+    along = (tip - foot) / abs(tip - foot)
+    for side in (1.0, -1.0):
+        sheet.line(tip, tip - 1.3 * along + 0.45j * side * along)
+
+
 _SYMBOLS: dict[str, Any] = {
     "position": _position,
     "profile of a line": _profile_of_a_line,
     "flatness": _flatness,
     "parallelism": _parallelism,
     "perpendicularity": _perpendicularity,
+    "cylindricity": _cylindricity,
+    "run-out": _circular_run_out,
+    "total run-out": _total_run_out,
 }
+
+
+def _chords(loops: Sequence[Sequence[complex]], level: float) -> list[tuple[float, float]]:
+    """Where a level line runs inside closed chains, between pairs of x."""
+    crossings = []
+    for loop in loops:
+        for one, two in zip(loop, [*loop[1:], loop[0]], strict=True):
+            if (one.imag > level) != (two.imag > level):
+                share = (level - one.imag) / (two.imag - one.imag)
+                crossings.append(one.real + share * (two.real - one.real))
+    crossings.sort()
+    return list(zip(crossings[::2], crossings[1::2], strict=True))
 
 
 def _xy(place: complex) -> tuple[float, float]:

@@ -6,26 +6,28 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.exporting.edm.cut_facts import CUT_FINISH, zone_text
 from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
-from cqdd_design.exporting.sheets.canvas import sheet_date
-from cqdd_design.exporting.sheets.drawing import OUTLINE, SMALL, SheetDrawing
-from cqdd_design.exporting.sheets.lettering import text_width
+from cqdd_design.exporting.sheets.drawing import SMALL, SheetDrawing
+from cqdd_design.exporting.sheets.title_block import (
+    INNER_EDGE,
+    LEFT,
+    OUTER_EDGE,
+    Field,
+    draw_border,
+    draw_notes,
+    draw_title_block,
+    title_top,
+)
 from cqdd_design.geometry.columns import has_columns
 from cqdd_design.geometry.contours import Circle
-from cqdd_design.version import __version__
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.cut_facts import CutFacts
 
-WIDTH, HEIGHT = 420.0, 297.0
-"""A3 lying, mm."""
-LEFT, BOTTOM, RIGHT, TOP = 20.0, 10.0, 410.0, 287.0
-"""Border by ISO 5457."""
-
+SIMULTANEOUS = "SIM1"
+"""Marks the zones of a disc that hold at once (ISO 5458): its lobes and its holes."""
 _MM = 1e3
-_TITLE = complex(230.0, BOTTOM)
-_TITLE_WIDTH, _ROW = 180.0, 8.0
 _NOTES = complex(308.0, 280.0)
-_NOTE_WIDTH, _NOTE_PITCH, _INDENT = 99.0, 3.9, 5.0
+_NOTE_WIDTH = 99.0
 _TABLE = complex(LEFT + 4.0, 78.0)
 _MOST_ROWS = 12
 _CUT_COLUMNS = {
@@ -38,32 +40,21 @@ _CUTS_WIDTH = 182.0
 
 def draw_frame(sheet: SheetDrawing, facts: CutFacts) -> None:
     """Draw everything on a sheet but the views."""
-    sheet.box(complex(LEFT, BOTTOM), RIGHT - LEFT, TOP - BOTTOM, OUTLINE)
+    draw_border(sheet)
     _title_block(sheet, facts)
-    _notes(sheet, facts)
+    # All must stay above the title block.
+    room = _NOTES.imag - title_top(4) - 6.0
+    draw_notes(sheet, _NOTES, notes(facts), width=_NOTE_WIDTH, height=room + 5.5)
     _cuts(sheet, facts)
 
 
 def _title_block(sheet: SheetDrawing, facts: CutFacts) -> None:
     flat, design = facts.flat, facts.design
-    scale = sheet.scale
-    ratio = f"{scale:g} : 1" if scale >= 1.0 else f"1 : {1.0 / scale:g}"
-    rows: list[list[tuple[str, str, float]]] = [
+    rows: list[list[Field]] = [
         [
-            ("made by", f"cqdd-design {__version__}", 40.0),
-            ("design", design.sha256[:16], 44.0),
-            ("date", sheet_date() or "-", 30.0),
-            ("scale", ratio, 22.0),
-            ("sheet", "1 / 1, A3", 22.0),
-            ("projection", "", 22.0),
-        ],
-        [
-            (
-                "general tolerances",
-                "ISO 2768-fH, sizes in mm, edges broken 0.1 \u00d7 45\u00b0",
-                92.0,
-            ),
-            ("surfaces", f"cut {CUT_FINISH}, ground where marked", 88.0),
+            ("tolerances", "ISO 8015, ISO 2768-fH, sizes in mm", 64.0),
+            ("edges ISO 13715", f"outside {OUTER_EDGE}, inside {INNER_EDGE}", 44.0),
+            ("surfaces", f"cut {CUT_FINISH}, ground where marked", 72.0),
         ],
         [
             ("thickness", f"{_MM * flat.thickness:g} mm", 40.0),
@@ -76,20 +67,8 @@ def _title_block(sheet: SheetDrawing, facts: CutFacts) -> None:
             ("heat treatment", facts.heat_treatment, 88.0),
         ],
     ]
-    for number, row in enumerate(rows):
-        x, y = _TITLE.real, _TITLE.imag + number * _ROW
-        for heading, words, width in row:
-            corner = complex(x, y)
-            sheet.box(corner, width, _ROW)
-            sheet.text(corner + 1.0 + 5.6j, heading, 1.5)
-            sheet.text(corner + 1.2 + 1.6j, words, 2.5, width - 2.4)
-            x += width
-    _projection_sign(sheet, complex(_TITLE.real + 169.0, _TITLE.imag + 2.9))
-    corner = _TITLE + 1j * len(rows) * _ROW
-    sheet.box(corner, _TITLE_WIDTH, 15.0)
-    sheet.text(corner + 2.0 + 8.6j, f"{design.name}-{flat.label}", 4.5, 176.0)
-    sheet.text(corner + 2.0 + 2.4j, f"{_title(facts)}; cut by wire EDM", 2.8, 176.0)
-    sheet.box(_TITLE, _TITLE_WIDTH, len(rows) * _ROW + 15.0, OUTLINE)
+    words = f"{_title(facts)}; cut by wire EDM"
+    draw_title_block(sheet, design, f"{design.name}-{flat.label}", words, rows)
 
 
 def _title(facts: CutFacts) -> str:
@@ -99,31 +78,6 @@ def _title(facts: CutFacts) -> str:
     columns = f", {reducer.carrier.column_count} for columns" if has_columns(reducer) else ""
     pins = reducer.output_pins.count
     return f"cycloidal disc of {reducer.ratio} lobes, {pins} output holes{columns}"
-
-
-def _projection_sign(sheet: SheetDrawing, centre: complex) -> None:
-    """First angle: the cone beside its view from the left."""
-    sheet.circle(centre + 5.0, 2.0)
-    sheet.circle(centre + 5.0, 1.1)
-    corners = [centre - 1.0 - 2.0j, centre - 1.0 + 2.0j, centre - 5.0 + 1.1j, centre - 5.0 - 1.1j]
-    sheet.polygon(corners)
-
-
-def _notes(sheet: SheetDrawing, facts: CutFacts) -> None:
-    lines: list[tuple[str, str]] = []
-    for place, note in enumerate(notes(facts), start=1):
-        first, *others = _wrapped(note, _NOTE_WIDTH - _INDENT)
-        lines += [(f"{place}", first), *(("", line) for line in others)]
-    sheet.text(_NOTES, "NOTES", 3.0)
-    # All must stay above the title block.
-    room = _NOTES.imag - (_TITLE.imag + 4.0 * _ROW + 15.0) - 6.0
-    pitch = min(_NOTE_PITCH, room / max(len(lines), 1))
-    size = min(SMALL, pitch * SMALL / _NOTE_PITCH)
-    for row, (number, line) in enumerate(lines):
-        at = _NOTES - 1j * (5.5 + row * pitch)
-        if number:
-            sheet.text(at, number, size)
-        sheet.text(at + _INDENT, line, size)
 
 
 def notes(facts: CutFacts) -> list[str]:
@@ -151,11 +105,22 @@ def notes(facts: CutFacts) -> list[str]:
     said += [
         f"Datum A: axis of {'the outside' if flat.label == 'ring' else 'the bore'}. Datum B: lower "
         "face, on the table of the machine.",
+        *_clocking(facts),
         "Cut all contours in one clamping, holes first, the outer contour last.",
         "Stress relieve before cutting. No recast layer on the contour after the last skim cut.",
         "Sizes in brackets are auxiliary.",
     ]
     return said
+
+
+def _clocking(facts: CutFacts) -> list[str]:
+    """What holds the holes in place round the axis, seen from the lobes."""
+    if facts.flat.label == "ring":
+        return []
+    return [
+        f"{SIMULTANEOUS}: zones of contour and holes hold at once (ISO 5458), so the holes are "
+        "clocked to the lobes.",
+    ]
 
 
 def _curve(facts: CutFacts) -> str:
@@ -173,18 +138,6 @@ def _curve(facts: CutFacts) -> str:
         f"{_MM * reducer.eccentricity:g} mm, {taken:g} mm taken off along the normal; the file "
         "rules."
     )
-
-
-def _wrapped(text: str, width: float) -> list[str]:
-    lines, line = [], ""
-    for word in text.split():
-        longer = f"{line} {word}".strip()
-        if line and text_width(longer, SMALL) > width:
-            lines.append(line)
-            line = word
-        else:
-            line = longer
-    return [*lines, line]
 
 
 def _cuts(sheet: SheetDrawing, facts: CutFacts) -> None:

@@ -18,7 +18,6 @@ import numpy as np
 
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
-from cqdd_design.geometry.kinematics import crank_meets_carrier
 from cqdd_design.report.ink.svg import Figure, Words, element, fixed, text
 from cqdd_design.report.machine_view.balloons import spread
 from cqdd_design.report.machine_view.camera import Camera, tinted
@@ -34,6 +33,7 @@ from cqdd_design.report.machine_view.paint import (
     titled,
 )
 from cqdd_design.solids.cad import MM, import_cadquery
+from cqdd_design.solids.cut_plane import cut_angles, is_hatched
 from cqdd_design.solids.hidden_lines import VisibleLines
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.poses import transform
@@ -67,26 +67,6 @@ class CutFace:
     station: Station
     loops: tuple[FloatArray, ...]
     area: float
-
-
-def cut_angles(design: Design, found: Sequence[Station]) -> tuple[float, float]:
-    """Directions of the right and the left half plane, rad; the first is the crank angle too."""
-    pins = [s for s in found if s.body.kind == "carrier" and s.off_axis]
-    first = _direction(pins[0].pieces[0].placement) if pins else 0.0
-    right = crank_meets_carrier(design.reducer.ratio, first)
-    fixed_rows = [s for s in found if s.body.kind == "housing" and s.off_axis and s.spans]
-    opposite = right + math.pi
-    if not fixed_rows:
-        return right, opposite
-    row = max(fixed_rows, key=lambda s: (s.outer, s.number))
-    angles = [_direction(piece.placement) for piece in row.pieces]
-    turns = [math.remainder(angle - opposite, 2.0 * math.pi) for angle in angles]
-    nearest = min(turns, key=lambda turn: (round(abs(turn), 9), turn))
-    return right, opposite + (nearest if abs(nearest) < 0.25 * math.pi else 0.0)
-
-
-def _direction(placement: FloatArray) -> float:
-    return math.atan2(float(placement[1, 3]), float(placement[0, 3]))
 
 
 def cut_faces(
@@ -207,21 +187,12 @@ def _reach(line: FloatArray, height: float, side: float) -> float:
     return float(np.maximum(side * below[crossing, 0], side * above[crossing, 0]).max())
 
 
-def _hatched(station: Station) -> bool:
-    """Whether drawing practice hatches a cut part: not bearings, shafts, pins and fasteners."""
-    part = station.part
-    if part.inner_body is not None or station.off_axis:
-        return False
-    slender = station.top - station.bottom > 2.0 * station.outer
-    return not (station.body.kind == "shaft" and slender)
-
-
 def _face(face: CutFace, sheet: Sheet) -> str:
     data = path_data(face.loops, sheet, closed=True)
     station = face.station
     fill = tinted(station.part.colour, 0.74)
     drawn = [element("path", d=data, fill=fill, fill_rule="evenodd", transform=SCALED)]
-    if _hatched(station):
+    if is_hatched(station):
         drawn.append(
             element(
                 "path",
@@ -250,7 +221,7 @@ def _bearing_mark(face: CutFace, sheet: Sheet) -> str:
 
 def _patterns(parts: Sequence[Part], faces: Sequence[CutFace]) -> str:
     """One hatching a part: neighbours in the list differ in direction and spacing."""
-    used = sorted({face.station.number for face in faces if _hatched(face.station)})
+    used = sorted({face.station.number for face in faces if is_hatched(face.station)})
     found = []
     for position, number in enumerate(used):
         spacing = (6.0, 6.0, 8.5, 8.5, 4.6, 4.6)[position % 6]

@@ -1,0 +1,140 @@
+"""What the assembly drawing says: parts, torques, adhesives, grease, and the order of assembly."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cqdd_design.catalog.lubricants import find_lubricant
+from cqdd_design.exporting.sheets.wording import joint_note
+from cqdd_design.machine.screws import tightened_screws
+from cqdd_design.solids.apart import Step, posed_layers, taken_apart, unit_name
+from cqdd_design.solids.features.kinds import Joint
+
+if TYPE_CHECKING:
+    from cqdd_design.geometry.contours import Contour
+    from cqdd_design.machine import Machine
+    from cqdd_design.solids.stations import Station
+
+GREASE_SHARE = 1.0 / 3.0
+"""Of the free space round the discs that is filled: 30 to 50 % by the makers of rolling bearings
+(SKF, Rolling bearings, chapter on lubrication), the lower end for what turns fast."""
+_RUN_OUT = "0.2"
+"""Circular run-out of class K (ISO 2768-2), mm."""
+_SIDES = {"up": "from the output side", "down": "from the motor side"}
+
+PARTS_HEAD = ("item", "qty", "part", "designation", "material", "g each")
+
+
+class AssemblyFacts:
+    """A machine on its assembly drawing."""
+
+    def __init__(self, machine: Machine) -> None:
+        self.machine = machine
+        self.design = machine.given
+        self.parts = machine.parts
+
+    @property
+    def number(self) -> str:
+        """Of the drawing, and the stem of its files."""
+        return f"{self.design.name}-assembly"
+
+    @property
+    def mass(self) -> float:
+        """Of all pieces as drawn, kg."""
+        return sum(part.mass * part.count for part in self.parts)
+
+    def parts_list(self) -> list[tuple[str, ...]]:
+        """A row a part, numbered as in the bill of materials."""
+        return [
+            (
+                str(item),
+                str(part.count),
+                part.name,
+                part.designation,
+                part.material,
+                f"{1e3 * part.mass:.4g}",
+            )
+            for item, part in enumerate(self.parts, start=1)
+        ]
+
+    def torques(self) -> list[tuple[str, ...]]:
+        """A row a screwed joint: place, screws, tightening torque."""
+        return [
+            (
+                one.place,
+                f"{one.count} \u00d7 {one.screw}",
+                f"{one.clamping.torque:.3g}",
+            )
+            for one in tightened_screws(self.machine)
+        ]
+
+    def notes(self) -> list[str]:
+        """Adhesives, grease and what to measure."""
+        said: list[str] = []
+        for part in self.parts:
+            for feature in part.features:
+                if isinstance(feature, Joint) and feature.kind != "screwed":
+                    said.append(f"{_capital(part.name)}: {joint_note(feature)}")
+        said.append(self._grease())
+        said.append(
+            f"Turned by hand, the output's face and seat run true to the housing within {_RUN_OUT} "
+            "mm (ISO 2768-K); the parts' own run-outs stand on their sheets."
+        )
+        said.append("Screws lightly oiled; torques by VDI 2230 for a torque wrench.")
+        return said
+
+    def _grease(self) -> str:
+        lubricant, _ = find_lubricant(self.design.reducer.friction.lubricant)
+        filled = GREASE_SHARE * self.free_space
+        return (
+            f"Fill the space round the discs with {lubricant.name}: {1e6 * filled:.2g} cm3, "
+            f"{1e3 * filled * lubricant.density:.2g} g, a third of what is free there."
+        )
+
+    @cached_property
+    def free_space(self) -> float:
+        """Within the ring, beside all that stands or turns in it, m^3."""
+        ring = next(part for part in self.parts if part.name == "ring")
+        bottom, top = ring.shape.bottom, ring.shape.top
+        hole = ring.shape.layers[0].shape.holes[0]
+        free, reach = hole.moments().area * (top - bottom), _reach(hole)
+        for part in self.parts:
+            for piece in part.instances:
+                for layer in posed_layers(part, piece.pose(self.machine.design)):
+                    height = min(layer.top, top) - max(layer.bottom, bottom)
+                    if height > 0.0 and _reach(layer.shape.outer) <= reach + 1e-6:
+                        free -= layer.shape.area() * height
+        return free
+
+    @cached_property
+    def _apart(self) -> tuple[tuple[Step, ...], bool]:
+        return taken_apart(self.machine.design, self.parts)
+
+    def order(self) -> list[str]:
+        """Steps in which the machine is put together; none where it was not found how."""
+        steps, whole = self._apart
+        if not whole:
+            return []
+        said: list[str] = []
+        for step in reversed(steps):
+            what = f"the {unit_name(step)}" if step.is_unit else _pieces(step.moved[0])
+            how = _SIDES[step.way] if said else "to begin with"
+            bench = f"{step.unit}: " if step.unit else ""
+            said.append(f"{bench}{what}, {how}")
+        return said
+
+
+def _pieces(station: Station) -> str:
+    count = len(station.pieces)
+    return f"{count} \u00d7 {station.part.name}" if count > 1 else station.name
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+def _reach(contour: Contour) -> float:
+    return float(np.hypot(*contour.sample(1e-5).T).max())

@@ -1,0 +1,219 @@
+"""The sheet of a made part: section, view along the axis, table of holes, notes, title block.
+
+::
+
+    +----------------------------------------------+
+    |   view along      section A-A         holes  |
+    |   the axis        with sizes          1.1 .. |
+    |                                       1.2 .. |
+    |   notes              +----- title block -----|
+    +----------------------+-----------------------+
+
+Views stand at the largest scale of ISO 5455 at which all that is said of them has room.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from cqdd_design.exporting.sheets.blocks import Extent, distance_beside
+from cqdd_design.exporting.sheets.drawing import SMALL, SheetDrawing, new_sheet
+from cqdd_design.exporting.sheets.end_plan import EndPlan, EndShape
+from cqdd_design.exporting.sheets.part_facts import GENERAL_SURFACE, GENERAL_TOLERANCES
+from cqdd_design.exporting.sheets.section_plan import SectionPlan, SectionShape
+from cqdd_design.exporting.sheets.title_block import (
+    BOTTOM,
+    INNER_EDGE,
+    LEFT,
+    OUTER_EDGE,
+    RIGHT,
+    SCALES,
+    TITLE,
+    TOP,
+    Field,
+    draw_border,
+    draw_notes,
+    draw_title_block,
+    title_top,
+)
+from cqdd_design.exporting.sheets.wording import joint_note
+
+if TYPE_CHECKING:
+    from cqdd_design.exporting.sheets.part_facts import PartFacts
+
+_BLOCK, _PITCH = 38.0, 4.0
+"""Width of a block of the table of holes, and its rows, mm."""
+_TITLE_ROWS = 4
+_BETWEEN = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Views at one scale and the room there is for them, mm."""
+
+    section: SectionPlan
+    end: EndPlan | None
+    room: Extent
+
+    @property
+    def scale(self) -> float:
+        """Of all views."""
+        return self.section.scale
+
+    @cached_property
+    def apart(self) -> float:
+        """From the axis of the view along it to the middle of the section, mm; signed."""
+        if self.end is None:
+            return 0.0
+        section, end = self.section.boxes, self.end.boxes
+        # First angle: what is seen from the right stands on the left.
+        if self.end.shape.from_above:
+            return distance_beside(end, section, _BETWEEN)
+        return -distance_beside(section, end, _BETWEEN)
+
+    @cached_property
+    def extent(self) -> Extent:
+        """Of all views, about the axis and the middle of the section, mm."""
+        boxes = list(self.section.boxes)
+        if self.end is not None:
+            shift = self.apart
+            boxes += [(a - shift, b, c - shift, d) for a, b, c, d in self.end.boxes]
+        return Extent.of(boxes)
+
+    @property
+    def fits(self) -> bool:
+        """Whether the views have room."""
+        return self.extent.width <= self.room.width and self.extent.height <= self.room.height
+
+    def places(self) -> tuple[complex, complex]:
+        """Middle of the section, and axis of the view along it, on the sheet."""
+        extent, room = self.extent, self.room
+        x = room.left - extent.left + 0.5 * (room.width - extent.width)
+        y = room.bottom - extent.bottom + 0.5 * (room.height - extent.height)
+        # Views move apart into what room is left.
+        spare = max(room.width - extent.width, 0.0) / 6.0
+        more = spare if self.apart > 0.0 else -spare if self.apart < 0.0 else 0.0
+        return complex(x + more, y), complex(x - self.apart - more, y)
+
+
+def plan_sheet(facts: PartFacts) -> Plan:
+    """Lay a part's views out at the largest scale that fits, or at the smallest there is."""
+    section, end = SectionShape(facts), EndShape(facts)
+    blocks = _table_blocks(facts)
+    right = RIGHT - 2.0 - (blocks * (_BLOCK + 2.0) if blocks else 0.0)
+    room = Extent(LEFT + 2.0, title_top(_TITLE_ROWS) + 1.0, right, TOP - 1.0)
+    for scale in SCALES:
+        cut = section.directions
+        view = EndPlan(end, scale, cut) if end.needed else None
+        plan = Plan(SectionPlan(section, scale), view, room)
+        if plan.fits:
+            break
+    return plan
+
+
+def draw_part(facts: PartFacts) -> SheetDrawing:
+    """Draw the sheet of a part."""
+    plan = plan_sheet(facts)
+    sheet = new_sheet(plan.scale)
+    draw_border(sheet)
+    section_at, end_at = plan.places()
+    plan.section.draw(sheet, section_at, "A-A" if plan.end else "")
+    if plan.end is not None:
+        plan.end.draw(sheet, end_at, "A")
+    _table_of_holes(sheet, facts)
+    corner = complex(LEFT + 4.0, title_top(_TITLE_ROWS) - 5.0)
+    draw_notes(
+        sheet,
+        corner,
+        notes(facts),
+        width=TITLE.real - corner.real - 4.0,
+        height=corner.imag - BOTTOM - 2.0,
+        columns=2,
+    )
+    _title(sheet, facts)
+    return sheet
+
+
+def notes(facts: PartFacts) -> list[str]:
+    """Notes of a sheet, each a sentence or two."""
+    from cqdd_design.solids.features.kinds import Seat, Shoulder
+
+    said = [f"{facts.part.designation[0].upper()}{facts.part.designation[1:]}."]
+    features = facts.part.features
+    for feature in features:
+        if isinstance(feature, Seat | Shoulder) and feature.datum:
+            what = "axis of the " if isinstance(feature, Seat) else ""
+            said.append(f"Datum {feature.datum}: {what}{feature.name}.")
+    said += [joint_note(joint) for joint in facts.joints]
+    if facts.holes:
+        said.append("X and Y of holes are theoretically exact; X points up in the view.")
+    said.append("Dimensions in boxes are theoretically exact (ISO 1101).")
+    said.append("Lengths run from the face marked with a circle.")
+    return said
+
+
+def _title(sheet: SheetDrawing, facts: PartFacts) -> None:
+    part, material = facts.part, facts.material
+    rows: list[list[Field]] = [
+        [
+            ("tolerances", GENERAL_TOLERANCES, 64.0),
+            ("edges ISO 13715", f"outside {OUTER_EDGE}, inside {INNER_EDGE}", 44.0),
+            ("surfaces", GENERAL_SURFACE, 72.0),
+        ],
+        [
+            ("part", part.name, 52.0),
+            ("quantity", str(part.count), 24.0),
+            ("mass of one", f"{1e3 * part.mass:.4g} g", 36.0),
+            ("hardness", material.hardness or "not specified", 68.0),
+        ],
+        [
+            ("material", part.material, 92.0),
+            ("treatment", material.drawing_note or "as delivered", 88.0),
+        ],
+    ]
+    words = f"{part.name}; {part.designation}"
+    draw_title_block(sheet, facts.design, facts.number, words, rows)
+
+
+def hole_places(facts: PartFacts) -> list[tuple[str, str, str]]:
+    """Number, X and Y (mm) of every hole."""
+    rows = []
+    for number, group in enumerate(facts.holes, start=1):
+        for place, (x, y) in enumerate(group[0].circle.centres, start=1):
+            rows.append((f"H{number}.{place}", _fixed(x), _fixed(y)))
+    return rows
+
+
+def _fixed(value: float) -> str:
+    return f"{round(1e3 * value, 4) + 0.0:.4f}"
+
+
+def _most_rows() -> int:
+    return int((TOP - 12.0 - title_top(_TITLE_ROWS)) / _PITCH) - 2
+
+
+def _table_blocks(facts: PartFacts) -> int:
+    return -(-len(hole_places(facts)) // _most_rows())
+
+
+def _table_of_holes(sheet: SheetDrawing, facts: PartFacts) -> None:
+    rows = hole_places(facts)
+    blocks = _table_blocks(facts)
+    if not blocks:
+        return
+    left = RIGHT - 2.0 - blocks * (_BLOCK + 2.0) + 2.0
+    sheet.text(complex(left, TOP - 6.0), "HOLES, mm", 3.0)
+    most = _most_rows()
+    for block in range(blocks):
+        corner = complex(left + block * (_BLOCK + 2.0), TOP - 8.0)
+        some = [("hole", "X", "Y"), *rows[block * most : (block + 1) * most]]
+        for place, row in enumerate(some, start=1):
+            level = corner - 1j * place * _PITCH
+            for x, words in zip((0.8, 11.0, 24.5), row, strict=True):
+                sheet.text(level + x + 0.9j, words, SMALL)
+            sheet.line(level, level + _BLOCK)
+        sheet.line(corner, corner + _BLOCK)
+        for x in (0.0, 10.2, 23.7, _BLOCK):
+            sheet.line(corner + x, corner + x - 1j * len(some) * _PITCH)

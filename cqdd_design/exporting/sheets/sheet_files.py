@@ -1,0 +1,78 @@
+"""Sheets of all made parts: PDF, SVG and DXF of each, and of the machine put together.
+
+::
+
+    <out>/sheets/<name>-disc.pdf             cut sheets of discs and ring
+                 <name>-eccentric-shaft.pdf  turned parts
+                 <name>-assembly.pdf         section with balloons, parts list, order of assembly
+                 ... and .svg and .dxf of each
+"""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING
+
+from cqdd_design.exporting.edm.cut_facts import facts_of
+from cqdd_design.exporting.edm.dxf import reproducible
+from cqdd_design.exporting.edm.flat_parts import flat_parts
+from cqdd_design.files import WrittenFile, write_atomically
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from cqdd_design.exporting.job import ExportJob
+    from cqdd_design.exporting.sheets.drawing import SheetDrawing
+
+FOLDER = "sheets"
+
+
+def export_sheets(job: ExportJob) -> tuple[WrittenFile, ...]:
+    """Write the sheets of a machine into ``sheets/``."""
+    files: list[WrittenFile] = []
+    for number, title, sheet in _sheets(job):
+        files += _written(job, number, title, sheet)
+    return tuple(files)
+
+
+def _sheets(job: ExportJob) -> Iterator[tuple[str, str, SheetDrawing]]:
+    """File name, title and drawing of every sheet, in the order of the parts."""
+    from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
+    from cqdd_design.exporting.sheets.assembly_sheet import draw_assembly
+    from cqdd_design.exporting.sheets.cut_sheet import draw_cut_sheet
+    from cqdd_design.exporting.sheets.part_facts import PartFacts
+    from cqdd_design.exporting.sheets.part_sheet import draw_part
+
+    flat = {one.label: one for one in flat_parts(job.machine)}
+    for part in job.parts:
+        if part.source != "make":
+            continue
+        label = part.name.replace(" ", "-")
+        if label in flat:
+            facts = facts_of(flat[label], job.machine, job.options)
+            yield f"{job.design.name}-{label}", "cut sheet", draw_cut_sheet(facts)
+        else:
+            made = PartFacts(part, job.design)
+            yield made.number, "sheet of the part", draw_part(made)
+    whole = AssemblyFacts(job.machine)
+    yield whole.number, "assembly", draw_assembly(whole)
+
+
+def _written(job: ExportJob, number: str, title: str, sheet: SheetDrawing) -> list[WrittenFile]:
+    from cqdd_design.exporting.sheets.canvas import pdf_bytes, render, svg_text
+    from cqdd_design.exporting.sheets.title_block import HEIGHT, WIDTH
+
+    with reproducible():
+        canvas = render(sheet.drawing, WIDTH, HEIGHT)
+        text = io.StringIO()
+        sheet.drawing.write(text)
+    named = f"{number}: {title}"
+    stem = job.folder / FOLDER / number
+    return [
+        write_atomically(stem.with_name(f"{number}.{ending}"), content, "sheets")
+        for ending, content in (
+            ("pdf", pdf_bytes(canvas, named)),
+            ("svg", svg_text(canvas, named)),
+            ("dxf", text.getvalue()),
+        )
+    ]

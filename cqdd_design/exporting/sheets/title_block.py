@@ -1,0 +1,141 @@
+"""Border and title block of every sheet (ISO 5457, ISO 7200), and signs that stand in it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from cqdd_design.exporting.sheets.canvas import sheet_date
+from cqdd_design.exporting.sheets.drawing import OUTLINE, SMALL, SheetDrawing
+from cqdd_design.exporting.sheets.lettering import text_width
+from cqdd_design.version import __version__
+
+if TYPE_CHECKING:
+    from cqdd_design.design import Design
+
+WIDTH, HEIGHT = 420.0, 297.0
+"""A3 lying, mm."""
+LEFT, BOTTOM, RIGHT, TOP = 20.0, 10.0, 410.0, 287.0
+"""Border by ISO 5457."""
+TITLE = complex(230.0, BOTTOM)
+"""Lower left corner of the title block, mm."""
+TITLE_WIDTH, ROW, HEAD = 180.0, 8.0, 15.0
+SCALES = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02)
+"""ISO 5455."""
+OUTER_EDGE, INNER_EDGE = "-0.3", "+0.3"
+"""Edges without an indication of their own (ISO 13715): outside ones lose 0.3 mm at most and carry
+no burr, inside ones keep 0.3 mm at most."""
+
+Field = tuple[str, str, float]
+"""Heading, words, width in mm."""
+
+
+def draw_border(sheet: SheetDrawing) -> None:
+    """Draw the border of the sheet."""
+    sheet.box(complex(LEFT, BOTTOM), RIGHT - LEFT, TOP - BOTTOM, OUTLINE)
+
+
+def title_top(rows: int) -> float:
+    """Upper edge of a title block of so many rows, mm."""
+    return TITLE.imag + rows * ROW + HEAD
+
+
+def draw_title_block(
+    sheet: SheetDrawing, design: Design, number: str, words: str, rows: Sequence[Sequence[Field]]
+) -> None:
+    """Draw the title block.
+
+    Parameters
+    ----------
+    number : str
+        Of the drawing: the stem of its files.
+    words : str
+        What it shows.
+    rows : sequence of rows of Field
+        From the bottom up, above the row of what every sheet says; each is 180 mm wide.
+    """
+    every = [_common(sheet, design), *rows]
+    for place, row in enumerate(every):
+        x, y = TITLE.real, TITLE.imag + place * ROW
+        for heading, said, width in row:
+            corner = complex(x, y)
+            sheet.box(corner, width, ROW)
+            sheet.text(corner + 1.0 + 5.6j, heading, 1.5)
+            sheet.text(corner + 1.2 + 1.6j, said, 2.5, width - 2.4)
+            x += width
+    _projection_sign(sheet, complex(TITLE.real + 169.0, TITLE.imag + 2.9))
+    corner = TITLE + 1j * len(every) * ROW
+    sheet.box(corner, TITLE_WIDTH, HEAD)
+    sheet.text(corner + 2.0 + 8.6j, number, 4.5, 176.0)
+    sheet.text(corner + 2.0 + 2.4j, words, 2.8, 176.0)
+    sheet.box(TITLE, TITLE_WIDTH, len(every) * ROW + HEAD, OUTLINE)
+
+
+def _common(sheet: SheetDrawing, design: Design) -> list[Field]:
+    scale = sheet.scale
+    ratio = f"{scale:g} : 1" if scale >= 1.0 else f"1 : {1.0 / scale:g}"
+    return [
+        ("made by", f"cqdd-design {__version__}", 40.0),
+        ("revision (of the design)", design.sha256[:12], 44.0),
+        ("date", sheet_date() or "-", 30.0),
+        ("scale", ratio, 22.0),
+        ("sheet", "1 / 1, A3", 22.0),
+        ("projection", "", 22.0),
+    ]
+
+
+def _projection_sign(sheet: SheetDrawing, centre: complex) -> None:
+    """First angle: the cone beside its view from the left."""
+    sheet.circle(centre + 5.0, 2.0)
+    sheet.circle(centre + 5.0, 1.1)
+    corners = [centre - 1.0 - 2.0j, centre - 1.0 + 2.0j, centre - 5.0 + 1.1j, centre - 5.0 - 1.1j]
+    sheet.polygon(corners)
+
+
+def draw_notes(
+    sheet: SheetDrawing,
+    corner: complex,
+    notes: Sequence[str],
+    *,
+    width: float,
+    height: float,
+    columns: int = 1,
+    title: str = "NOTES",
+) -> None:
+    """Write numbered notes from their upper left corner, smaller where there is little room."""
+    indent, pitch = 5.0, 3.9
+    wide = width / columns - (4.0 if columns > 1 else 0.0)
+    size, lines = SMALL, _lines(notes, wide - indent, SMALL)
+    while len(lines) * pitch * size / SMALL > columns * (height - 5.5) and size > 1.5:
+        size *= 0.95
+        lines = _lines(notes, wide - indent, size)
+    pitch *= size / SMALL
+    rows = -(-len(lines) // columns)
+    sheet.text(corner, title, 3.0)
+    for place, (number, line) in enumerate(lines):
+        column, row = divmod(place, rows)
+        at = corner + column * width / columns - 1j * (5.5 + row * pitch)
+        if number:
+            sheet.text(at, number, size)
+        sheet.text(at + indent, line, size)
+
+
+def _lines(notes: Sequence[str], width: float, size: float) -> list[tuple[str, str]]:
+    lines: list[tuple[str, str]] = []
+    for place, note in enumerate(notes, start=1):
+        first, *others = wrapped(note, width, size)
+        lines += [(f"{place}", first), *(("", line) for line in others)]
+    return lines
+
+
+def wrapped(text: str, width: float, size: float = SMALL) -> list[str]:
+    """Lines of a text that are no wider than `width`, mm."""
+    lines, line = [], ""
+    for word in text.split():
+        longer = f"{line} {word}".strip()
+        if line and text_width(longer, size) > width:
+            lines.append(line)
+            line = word
+        else:
+            line = longer
+    return [*lines, line]

@@ -1,0 +1,271 @@
+"""How the machine comes apart, tried: every step moves something along the axis past all the rest.
+
+A piece that moves sweeps the prism under its shape; it can leave where that prism meets no material
+of what is still in place. Screws leave on the side of their heads, and what they are screwed into
+waits for them; nuts leave along their threads. Where no single thing can move, a unit does: one
+thing with all that it pushes before it, such as the carrier with discs and shaft, which is put
+together on the bench (Wilson and Latombe 1994, blocking graphs). Put together is the same
+backwards.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+
+from cqdd_design.geometry.contours import FloatArray, PlanarPart
+from cqdd_design.solids.disassembly import disassembly_order
+from cqdd_design.solids.features.kinds import AxialThread
+from cqdd_design.solids.layers import Layer
+from cqdd_design.solids.stations import Station, stations
+
+if TYPE_CHECKING:
+    from manifold3d import CrossSection
+
+    from cqdd_design.design import Design
+    from cqdd_design.solids.part import Part
+
+_SAG = 2e-7
+"""Of the polygons that stand for contours, m."""
+_TOUCH = 0.3
+"""Areas of overlap below this are seats that touch, mm^2."""
+_GROWN = 0.05
+"""By which a thread is wider than its drill at least, and less than a clearance hole's gap, mm."""
+_DOT = 1e-3
+"""Side of the square that tells whether the axis runs in material, mm."""
+_LEVEL = 1e-7
+"""Heights closer than this are one, m."""
+Way = Literal["up", "down"]
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """Something that leaves along the axis.
+
+    Attributes
+    ----------
+    moved : tuple of Station
+        One, or all of a unit.
+    way : {"up", "down"}
+        ``up`` is towards the output.
+    unit : str
+        Name of the unit that it is taken from on the bench, or nothing.
+    """
+
+    moved: tuple[Station, ...]
+    way: Way
+    unit: str = ""
+
+    @property
+    def is_unit(self) -> bool:
+        """Whether several parts move as one."""
+        return len(self.moved) > 1
+
+
+def posed_layers(part: Part, pose: FloatArray) -> list[Layer]:
+    """Layers of a piece where it stands, m; poses turn about the axis or turn a piece over."""
+    turn = math.atan2(float(pose[1, 0]), float(pose[0, 0]))
+    over, lift = bool(pose[2, 2] < 0.0), float(pose[2, 3])
+    found = []
+    for layer in part.shape.layers:
+        shape: PlanarPart = layer.shape.transformed(turn, pose[:2, 3], mirror=over)
+        low, high = (-layer.top, -layer.bottom) if over else (layer.bottom, layer.top)
+        found.append(Layer(shape, low + lift, high + lift))
+    return found
+
+
+def taken_apart(design: Design, parts: Sequence[Part]) -> tuple[tuple[Step, ...], bool]:
+    """Steps in which a machine comes apart, and whether all of it does.
+
+    Returns
+    -------
+    steps : tuple of Step
+        In their order; those of a unit on the bench follow the step in which it left.
+    whole : bool
+        Whether nothing was left that could not move.
+    """
+    found = stations(parts)
+    order = disassembly_order(found)
+    middle = len(order) / 2.0
+    outward = sorted(range(len(order)), key=lambda place: -abs(place - middle))
+    things = [_Thing(design, found[order[place]]) for place in outward]
+    return _take(things, "")
+
+
+def unit_name(step: Step) -> str:
+    """Name of the unit that leaves in a step: that of its largest part."""
+    largest = max(step.moved, key=lambda one: one.part.shape.volume)
+    return f"unit of the {largest.name}"
+
+
+def _take(things: list[_Thing], unit: str) -> tuple[tuple[Step, ...], bool]:
+    left, steps = list(things), []
+    while len(left) > 1:
+        one = _next(left)
+        if one is not None:
+            thing, way = one
+            left.remove(thing)
+            steps.append(Step((thing.station,), way, unit))
+            continue
+        split = _next_unit(left)
+        if split is None:
+            return tuple(steps), False
+        group, way = split
+        left = [thing for thing in left if thing not in group]
+        steps.append(Step(tuple(thing.station for thing in group), way, unit))
+        inner, whole = _take(group, unit_name(steps[-1]))
+        steps += inner
+        if not whole:
+            return tuple(steps), False
+    steps += [Step((thing.station,), "up", unit) for thing in left]
+    return tuple(steps), True
+
+
+def _next(left: Sequence[_Thing]) -> tuple[_Thing, Way] | None:
+    for thing in left:
+        for way in thing.ways:
+            if all(thing.passes(other, way) for other in left if other is not thing):
+                return thing, way
+    return None
+
+
+def _next_unit(left: Sequence[_Thing]) -> tuple[list[_Thing], Way] | None:
+    """The fewest things that leave together: one, all that it pushes before it, and so on."""
+    ways: tuple[Way, Way] = ("up", "down")
+    best: tuple[list[_Thing], Way] | None = None
+    for thing, way in itertools.product(left, ways):
+        group, fresh = [thing], [thing]
+        while fresh:
+            mover = fresh.pop()
+            pushed = [o for o in left if o not in group and not mover.passes(o, way, free=True)]
+            group += pushed
+            fresh += pushed
+        if len(group) < len(left) and (best is None or len(group) < len(best[0])):
+            best = group, way
+    return best
+
+
+class _Flat(NamedTuple):
+    """A shape (mm), and between which radii about the axis its corners lie."""
+
+    material: CrossSection
+    inner: float
+    outer: float
+
+
+def _near(one: _Flat, other: _Flat) -> bool:
+    """Whether two shapes have radii in common."""
+    return one.inner < other.outer and other.inner < one.outer
+
+
+class _Thing:
+    """A station where it stands, as polygons between heights."""
+
+    def __init__(self, design: Design, station: Station) -> None:
+        self.station = station
+        self._design = design
+        self._known: dict[tuple[int, Way, bool], bool] = {}
+
+    @cached_property
+    def prisms(self) -> list[tuple[float, float, _Flat]]:
+        """Bottom and top (m) and shape (mm) of its material."""
+        from manifold3d import CrossSection, FillRule
+
+        part = self.station.part
+        pieces = [posed_layers(part, p.pose(self._design)) for p in self.station.pieces]
+        found = []
+        for layers in zip(*pieces, strict=True):
+            loops = [loop for layer in layers for loop in _loops(layer.shape)]
+            shape = CrossSection(loops, FillRule.EvenOdd)
+            radii = np.hypot(*np.concatenate(loops).T)
+            hollow = (shape ^ CrossSection.square((_DOT, _DOT), True)).area() == 0.0
+            flat = _Flat(shape, float(radii.min()) if hollow else 0.0, float(radii.max()))
+            found.append((layers[0].bottom, layers[0].top, flat))
+        return found
+
+    @cached_property
+    def is_screw(self) -> bool:
+        """Whether it is a fastener with a head."""
+        return self.station.off_axis and self._head is not None
+
+    @cached_property
+    def _head(self) -> Way | None:
+        part = self.station.part
+        layers = sorted(part.shape.layers, key=lambda layer: layer.bottom)
+        ends = [float(np.hypot(*one.shape.outer.sample(1e-5).T).max()) for one in layers]
+        if len(layers) < 2 or abs(ends[0] - ends[-1]) < 1e-6 or part.source != "buy":
+            return None
+        up = (ends[-1] > ends[0]) == (self.station.pieces[0].placement[2, 2] > 0.0)
+        return "up" if up else "down"
+
+    @property
+    def ways(self) -> tuple[Way, ...]:
+        """In which it may leave."""
+        if self._head is not None and self.station.off_axis:
+            return (self._head,)
+        return ("up", "down")
+
+    def holds(self, other: _Thing) -> bool:
+        """Whether a screw sits in another thing by its thread, which no clearance hole is near."""
+        if not self.is_screw:
+            return False
+        far = min if self._head == "up" else max
+        low, high, shank = far(self.prisms, key=lambda prism: prism[0])
+        grown = shank.material.offset(_GROWN)
+        return any(
+            bottom < high - _LEVEL
+            and top > low + _LEVEL
+            and (grown ^ block.material).area() > _TOUCH
+            for bottom, top, block in other.prisms
+        )
+
+    def passes(self, other: _Thing, way: Way, *, free: bool = False) -> bool:
+        """Whether it can leave past another thing that stays.
+
+        `free`: of a unit, of which a screw may sit in nothing that stays.
+        """
+        key = (id(other), way, free)
+        if key not in self._known:
+            if self.is_screw and self.holds(other):
+                self._known[key] = not free
+            elif other.is_screw and other.holds(self):
+                self._known[key] = False
+            else:
+                self._known[key] = not self._meets(other, way)
+        return self._known[key]
+
+    @cached_property
+    def _threads(self) -> dict[str, AxialThread]:
+        features = self.station.part.features
+        return {one.designation: one for one in features if isinstance(one, AxialThread)}
+
+    def _screwed(self, other: _Thing) -> float:
+        """Area of the ring in which the threads of a nut and its bolt overlap, mm^2."""
+        shared = self._threads.keys() & other._threads.keys()
+        if not shared:
+            return 0.0
+        pair = [thing._threads[name] for name in sorted(shared) for thing in (self, other)]
+        core, outside = min(t.core for t in pair), max(t.thread for t in pair)
+        return 0.25e6 * math.pi * (outside**2 - core**2)
+
+    def _meets(self, other: _Thing, way: Way) -> bool:
+        """Whether what it sweeps on its way meets another thing's material."""
+        free = _TOUCH + 1.01 * self._screwed(other)
+        return any(
+            (high > bottom + _LEVEL if way == "up" else low < top - _LEVEL)
+            and _near(shape, block)
+            and (shape.material ^ block.material).area() > free
+            for bottom, top, shape in self.prisms
+            for low, high, block in other.prisms
+        )
+
+
+def _loops(shape: PlanarPart) -> Iterable[FloatArray]:
+    for contour in (shape.outer, *shape.holes):
+        yield contour.sample(_SAG) * 1e3

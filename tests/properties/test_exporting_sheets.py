@@ -1,0 +1,294 @@
+"""Sheets of made parts: all that the features say is on them, and it can be read."""
+
+from __future__ import annotations
+
+import math
+import re
+import subprocess
+from xml.etree import ElementTree
+
+import ezdxf
+import numpy as np
+import pytest
+from legible import assert_legible, faults
+
+from cqdd_design.design import load_design
+from cqdd_design.errors import CatalogError
+from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
+from cqdd_design.exporting.sheets.assembly_sheet import draw_assembly
+from cqdd_design.exporting.sheets.canvas import render, svg_text
+from cqdd_design.exporting.sheets.drawing import OUTLINE, new_sheet
+from cqdd_design.exporting.sheets.part_facts import PartFacts
+from cqdd_design.exporting.sheets.part_sheet import draw_part, plan_sheet
+from cqdd_design.exporting.sheets.title_block import HEIGHT, SCALES, WIDTH
+from cqdd_design.machine import resolve
+from cqdd_design.roads.export import export
+from cqdd_design.solids.features.kinds import (
+    AxialThread,
+    Chamfer,
+    ClearanceHole,
+    Counterbore,
+    FittedHole,
+    Groove,
+    PlainHole,
+    Seat,
+    Shoulder,
+    TappedHole,
+    Undercut,
+)
+
+MM = 1e3
+NUMBER = r"(\d+(?:\.\d+)?)"
+COLUMNS = {
+    "reducer.carrier.joint": "columns",
+    "reducer.carrier.column_count": 5,
+    "reducer.carrier.column_diameter": "6 mm",
+}
+NEAR = 5.1e-5
+"""Half of the last figure that a sheet writes, mm."""
+
+
+@pytest.fixture(scope="module")
+def machine(paper_design_file):
+    return resolve(load_design(paper_design_file))
+
+
+def turned_parts(machine):
+    return [p for p in machine.parts if p.source == "make" and p.exact_section is None]
+
+
+def drawn(part, machine):
+    return render(draw_part(PartFacts(part, machine.given)).drawing, WIDTH, HEIGHT)
+
+
+def texts_of(svg):
+    root = ElementTree.fromstring(svg)
+    return [node.text for node in root.iter("{http://www.w3.org/2000/svg}text")]
+
+
+def near(one, two):
+    return abs(float(one) - two) < NEAR
+
+
+def has_fit(texts, feature):
+    """Diameter, zone and both limits as one text."""
+    try:
+        limits = feature.limits
+    except CatalogError:
+        return any(t.endswith(f" {feature.zone}") for t in texts)
+    pattern = re.compile(rf"\u00d8{NUMBER} (\w+) \(([+-]?[\d.]+)/([+-]?[\d.]+)\)")
+    return any(
+        near(found[1], MM * feature.diameter)
+        and found[2] == feature.zone
+        and near(found[3], MM * limits.upper)
+        and near(found[4], MM * limits.lower)
+        for text in texts
+        for found in pattern.finditer(text)
+    )
+
+
+def has_frame(texts, value, datums, lead=""):
+    """A tolerance and its datums, in this order, one text each."""
+    for i, text in enumerate(texts):
+        found = re.fullmatch(rf"{lead}{NUMBER}", text)
+        if found and near(found[1], MM * value) and texts[i + 1 : i + 1 + len(datums)] == [*datums]:
+            return True
+    return False
+
+
+def has_text(texts, pattern, *values):
+    """A text of this pattern whose numbers are these values, m."""
+    return any(
+        all(near(found, MM * value) for found, value in zip(match.groups(), values, strict=True))
+        for text in texts
+        for match in re.finditer(pattern, text)
+    )
+
+
+def has_roughness(texts, value):
+    return any(
+        abs(float(m[1]) - 1e6 * value) < 1e-3
+        for t in texts
+        for m in re.finditer(rf"Ra {NUMBER}", t)
+    )
+
+
+def check_hole(texts, hole):
+    count = hole.circle.count
+    lead = rf"(?:^|\s){count} \u00d7 " if count > 1 else ""
+    if isinstance(hole, TappedHole):
+        name = re.escape(f"{hole.designation}-{hole.tolerance}")
+        if hole.through:
+            assert has_text(texts, rf"{lead}{name}, \u00d8{NUMBER} through", hole.drill)
+        else:
+            deep = rf"{lead}{name} \u00d7 {NUMBER}/\u00d8{NUMBER} \u00d7 {NUMBER}"
+            assert has_text(texts, deep, hole.thread_depth, hole.drill, hole.drill_depth)
+        if hole.countersink:
+            assert has_text(texts, rf"countersunk \u00d8{NUMBER} \u00d7 90", hole.countersink)
+    elif isinstance(hole, ClearanceHole):
+        assert has_text(texts, rf"{lead}\u00d8{NUMBER} for M", hole.diameter)
+    elif isinstance(hole, Counterbore):
+        deep = rf"{lead}counterbore \u00d8{NUMBER} \u00d7 {NUMBER}"
+        assert has_text(texts, deep, hole.diameter, hole.depth)
+    elif isinstance(hole, FittedHole):
+        assert has_fit(texts, hole)
+        assert has_roughness(texts, hole.roughness)
+    else:
+        assert isinstance(hole, PlainHole)
+        assert has_text(texts, rf"{lead}\u00d8{NUMBER}", hole.diameter)
+    if getattr(hole, "position", 0.0):
+        assert has_frame(texts, hole.position, hole.refers, "\u00d8")
+    assert has_text(texts, rf"^\u00d8{NUMBER}$", 2.0 * hole.circle.radius)
+    for x, y in hole.circle.centres:
+        assert any(
+            re.fullmatch(r"H\d+\.\d+", a) and near(b, MM * x) and near(c, MM * y)
+            for a, b, c in zip(texts, texts[1:], texts[2:], strict=False)
+            if re.fullmatch(r"-?[\d.]+", b) and re.fullmatch(r"-?[\d.]+", c)
+        )
+
+
+def check_part(part, texts):
+    """Every feature's sizes and tolerances are on the sheet, with the feature's values."""
+    features = part.features
+    faces = [f for f in features if isinstance(f, Shoulder)]
+    origin = next((f.height for f in faces if f.datum), part.shape.bottom)
+    chamfers: dict[tuple[float, float], int] = {}
+    for feature in features:
+        if isinstance(feature, Seat):
+            assert has_fit(texts, feature), feature
+            assert has_roughness(texts, feature.roughness)
+            assert has_frame(texts, feature.cylindricity, "")
+            if feature.position:
+                assert has_frame(texts, feature.position, feature.refers, "\u00d8"), feature
+                assert has_text(texts, rf"^{NUMBER}$", math.hypot(*feature.centre))
+            elif feature.refers:
+                assert has_frame(texts, feature.run_out, feature.refers), feature
+            for end in (feature.bottom, feature.top):
+                assert has_text(texts, r"^(-?[\d.]+)$", end - origin), feature
+        elif isinstance(feature, Shoulder):
+            assert has_roughness(texts, feature.roughness)
+            assert has_text(texts, r"^(-?[\d.]+)$", feature.height - origin), feature
+            if feature.refers:
+                assert has_frame(texts, feature.run_out, feature.refers), feature
+        elif isinstance(feature, Chamfer):
+            key = (round(feature.width, 9), round(math.degrees(feature.angle), 6))
+            chamfers[key] = chamfers.get(key, 0) + len(feature.centres)
+        elif isinstance(feature, Undercut):
+            pattern = rf"DIN 509 - E {NUMBER} \u00d7 {NUMBER}"
+            assert has_text(texts, pattern, feature.radius, feature.depth)
+        elif isinstance(feature, Groove):
+            pattern = rf"{feature.standard}: \u00d8{NUMBER} \u00d7 {NUMBER}, R{NUMBER}"
+            size = feature.top - feature.bottom
+            assert has_text(texts, pattern, feature.diameter, size, feature.fillet)
+        elif isinstance(feature, AxialThread):
+            name = feature.designation.replace(" x ", " \u00d7 ")
+            assert f"{name}-{feature.tolerance}" in texts
+        elif hasattr(feature, "circle"):
+            check_hole(texts, feature)
+        if getattr(feature, "datum", ""):
+            assert any(t.startswith(f"Datum {feature.datum}: ") for t in texts)
+    for (width, angle), count in chamfers.items():
+        many = f"{count} \u00d7 " if count > 1 else ""
+        assert f"{many}{MM * width:.4g} \u00d7 {angle:g}\u00b0" in texts, chamfers
+
+
+def check_title(part, texts):
+    assert part.name in texts
+    assert part.material in texts
+    assert str(part.count) in texts
+    assert any(
+        near(t[:-2], 0.0) or float(t[:-2]) > 0.0 for t in texts if re.fullmatch(r"[\d.]+ g", t)
+    )
+    mass = [float(t[:-2]) for t in texts if re.fullmatch(r"[\d.]+ g", t)]
+    assert any(math.isclose(m, MM * part.mass, rel_tol=1e-3) for m in mass)
+    assert "ISO 8015, ISO 2768-mK, sizes in mm" in texts
+
+
+def test_what_features_say_is_on_the_sheets_of_plate_and_shaft(machine):
+    names = {"carrier plate", "eccentric shaft"}
+    parts = [part for part in turned_parts(machine) if part.name in names]
+    assert len(parts) == 2
+    for part in parts:
+        canvas = drawn(part, machine)
+        texts = texts_of(svg_text(canvas, part.name))
+        check_part(part, texts)
+        check_title(part, texts)
+        assert_legible(canvas)
+        assert plan_sheet(PartFacts(part, machine.given)).scale in SCALES
+
+
+def test_a_wrong_value_would_be_seen(machine):
+    part = next(part for part in turned_parts(machine) if part.name == "carrier plate")
+    texts = texts_of(svg_text(drawn(part, machine), ""))
+    for written, instead in (
+        ("\u00d822 H7 (+0.021/0)", "\u00d822 H7 (+0.021/-0.001)"),
+        ("\u00d80.018", "\u00d80.019"),
+        ("19.2599", "19.2598"),
+        ("\u00d839", "\u00d839.1"),
+    ):
+        assert written in texts
+        with pytest.raises(AssertionError):
+            check_part(part, [instead if text == written else text for text in texts])
+
+
+def test_text_on_text_and_on_thick_lines_is_found():
+    sheet = new_sheet(1.0)
+    sheet.text(100.0 + 100.0j, "alone")
+    sheet.text(50.0 + 200.0j, "thin is fine")
+    sheet.line(40.0 + 201.0j, 90.0 + 201.0j)
+    assert not faults(render(sheet.drawing, WIDTH, HEIGHT))
+    sheet.circle(112.0 + 101.0j, 8.0, OUTLINE)
+    sheet.text(51.0 + 201.0j, "on it")
+    found = faults(render(sheet.drawing, WIDTH, HEIGHT))
+    assert [text.split(":")[0] for text in found] == ["crossed", "on each other"]
+
+
+@pytest.fixture(scope="module")
+def sheets(machine, tmp_path_factory):
+    design = machine.given
+    return {f.path.name: f.path for f in export(design, "sheets", tmp_path_factory.mktemp("s"))}
+
+
+@pytest.mark.deep
+def test_every_made_part_has_three_files_that_open(sheets, machine):
+    names = [f"cqdd-10-{p.name.replace(' ', '-')}" for p in machine.parts if p.source == "make"]
+    names.append("cqdd-10-assembly")
+    assert sorted(sheets) == sorted(f"{n}.{end}" for n in names for end in ("pdf", "svg", "dxf"))
+    for name in names:
+        audit = ezdxf.readfile(sheets[f"{name}.dxf"]).audit()
+        assert not audit.errors, name
+        assert not audit.fixes, name
+        shown = ["pdftoppm", "-r", "20", "-png", "-singlefile", str(sheets[f"{name}.pdf"])]
+        result = subprocess.run(shown, capture_output=True, check=True)
+        assert result.stdout.startswith(b"\x89PNG")
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("cqdd-10", {}),
+        ("reference-s", {}),
+        ("printed-13", {}),
+        ("cqdd-10", {"reducer.disc_count": 3, "reducer.ring_type": "pinwheel"}),
+        ("cqdd-10", COLUMNS),
+    ],
+)
+def test_every_feature_of_every_part_is_on_its_sheet(name, change, paper_design_file):
+    design = load_design(paper_design_file.with_name(f"{name}.toml")).replacing(change)
+    machine = resolve(design)
+    for part in turned_parts(machine):
+        canvas = drawn(part, machine)
+        texts = texts_of(svg_text(canvas, part.name))
+        check_part(part, texts)
+        check_title(part, texts)
+        assert_legible(canvas)
+    assembly = AssemblyFacts(machine)
+    canvas = render(draw_assembly(assembly).drawing, WIDTH, HEIGHT)
+    assert_legible(canvas)
+    texts = texts_of(svg_text(canvas, "assembly"))
+    for item, part in enumerate(machine.parts, start=1):
+        assert str(item) in texts
+        assert part.name in texts
+    assert len(assembly.order()) >= len(machine.parts)
+    assert 0.0 < assembly.free_space < np.pi * machine.layout.pack.ring_radius**2 * 0.1
