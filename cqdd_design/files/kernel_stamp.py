@@ -95,4 +95,4 @@ def _plain(value: Any) -> str:
     if hasattr(value, "py_func"):
         return f"{value.py_func.__qualname__} {_plain(getattr(value, 'targetoptions', None))}"
     told = f"{getattr(value, '__module__', '')}.{getattr(value, '__qualname__', type(value))}"
-    return f"{told} {getattr(value, 'part_options', '')}"
+    return f"{told} {_plain(getattr(value, 'part_options', None))}"
