@@ -48,12 +48,15 @@ def import_cadquery() -> Any:
     return cadquery
 
 
-def build_solid(name: str, shape: Stack, cuts: Sequence[Revolved] = ()) -> Solid:
+def build_solid(
+    name: str, shape: Stack, cuts: Sequence[Revolved] = (), *, merged: bool = True
+) -> Solid:
     """The solid of a stack of layers without what is turned or drilled off it, in mm.
 
     Every layer is a prism over a face whose edges are the very lines and arcs of its contours;
     layers are fused and faces that continue each other are merged where the kernel can. Bodies of
-    revolution are then cut away, with true cones and tori.
+    revolution are then cut away, with true cones and tori. Where they are not to be `merged`, faces
+    keep the seams between layers.
 
     Raises
     ------
@@ -68,7 +71,7 @@ def build_solid(name: str, shape: Stack, cuts: Sequence[Revolved] = ()) -> Solid
     tools = [tool for cut in cuts for tool in _revolved(cut)]
     exact = (shape.volume - math.fsum(cut.volume for cut in cuts)) * MM**3
     # Merging faces now and then loses some; the solid with its seams is sound then.
-    for whole in (fused.clean, lambda: fused):
+    for whole in (fused.clean, lambda: fused) if merged else (lambda: fused,):
         found = whole().cut(*tools) if tools else whole()
         solids = found.Solids()
         sound = len(solids) == 1 and solids[0].isValid()

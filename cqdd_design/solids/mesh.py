@@ -94,9 +94,10 @@ def facets(part: Part, quality: Quality = FINE) -> Facets:
         When CadQuery is not usable.
     """
     slack = 10.0 * quality.deflection + 1e-5
-    # The fast mesher leaves gaps on rare faces; the slow one then has its turn.
-    for mesher in ("delabella", "watson"):
-        found = _facets(part, quality, mesher)
+    # The fast mesher leaves gaps on rare faces; the slow one then has its turn, and faces as they
+    # were before the kernel merged them.
+    for mesher, seamed in (("delabella", False), ("watson", False), ("delabella", True)):
+        found = _facets(part, quality, mesher, seamed=seamed)
         joined = _joined(found)
         off = abs(joined.volume / (part.volume * MM**3) - 1.0)
         if _is_closed(joined.triangles) and off < slack:
@@ -151,12 +152,12 @@ def _is_closed(triangles: IntArray) -> bool:
     return bool((np.diff(forward) > 0).all() and (forward == backward).all())
 
 
-def _facets(part: Part, quality: Quality, mesher: str) -> Facets:
+def _facets(part: Part, quality: Quality, mesher: str, *, seamed: bool) -> Facets:
     from OCP.BRep import BRep_Tool
     from OCP.TopLoc import TopLoc_Location
 
     # A copy, so that the facets of one quality never reach another or a STEP file.
-    solid = part.faceted_solid.copy()
+    solid = (part.seamed_solid if seamed else part.faceted_solid).copy()
     _mesh_in_place(solid.wrapped, quality, mesher, part.shape.outside_radius * MM)
     vertices: list[tuple[float, float, float]] = []
     blocks: list[IntArray] = []

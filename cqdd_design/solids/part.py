@@ -166,6 +166,13 @@ class Part:
         return build_solid(self.name, self.shape, self.cuts)
 
     @cached_property
+    def seamed_solid(self) -> Solid:
+        """The solid to take meshes of where merging faces left one that no mesher closes, in mm."""
+        from cqdd_design.solids.cad import build_solid
+
+        return build_solid(self.name, self.shape, [c.chorded for c in self.cuts], merged=False)
+
+    @cached_property
     def faceted_solid(self) -> Solid:
         """The solid to take meshes of: that with chords for its smallest arcs, in mm."""
         from cqdd_design.solids.cad import build_solid
