@@ -271,6 +271,24 @@ def test_shoulders_stand_beside_their_seats() -> None:
         assert min(abs(one.height - end) for end in height) < SAME, (part.name, one.name)
 
 
+@pytest.mark.parametrize("name", CHANGES)
+def test_every_datum_that_is_referred_to_is_set_on_its_part(name: str) -> None:
+    """A frame that names a datum which is nowhere cannot be inspected."""
+    seen = 0
+    for part in known_parts(name):
+        if part.source != "make":
+            continue
+        letters = {letter for f in part.features for letter in getattr(f, "datum", "")}
+        if part.name == "ring":
+            # Cut sheets have their lower face as B.
+            letters.add("B")
+        for feature in part.features:
+            asked = set(getattr(feature, "refers", ""))
+            seen += len(asked)
+            assert asked <= letters, (part.name, feature)
+    assert seen > 10
+
+
 def test_tapped_holes_are_drilled_for_their_tap() -> None:
     for part, one in all_features(TappedHole):
         assert isinstance(one, TappedHole)

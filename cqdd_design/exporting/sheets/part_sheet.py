@@ -138,13 +138,13 @@ def draw_part(facts: PartFacts) -> SheetDrawing:
 
 def notes(facts: PartFacts) -> list[str]:
     """Notes of a sheet, each a sentence or two."""
-    from cqdd_design.solids.features.kinds import Seat, Shoulder
+    from cqdd_design.solids.features.kinds import AxialThread, Seat, Shoulder
 
     said = [f"{facts.part.designation[0].upper()}{facts.part.designation[1:]}."]
     features = facts.part.features
     for feature in features:
-        if isinstance(feature, Seat | Shoulder) and feature.datum:
-            what = "axis of the " if isinstance(feature, Seat) else ""
+        if isinstance(feature, AxialThread | Seat | Shoulder) and feature.datum:
+            what = "" if isinstance(feature, Shoulder) else "axis of the "
             said.append(f"Datum {feature.datum}: {what}{feature.name}.")
     said += [joint_note(joint) for joint in facts.joints]
     if facts.holes:

@@ -216,11 +216,10 @@ class SectionPlan:
         found: list[tuple[Diameter, tuple[float, float]]] = []
 
         def add(radius: float, centre: complex, span: tuple[float, float], text: str,
-                seat: Seat | None = None) -> None:  # fmt: skip
+                seat: Seat | None = None, datum: str = "") -> None:  # fmt: skip
             low, high = (self.factor * (end - self.middle) for end in span)
             off = (centre * cmath.exp(-1j * self.shape.directions[0])).real
             rows = seat_rows(seat) if seat else ()
-            datum = seat.datum if seat else ""
             size = Diameter(self.factor * radius, self.factor * off, low, high, text, rows, datum)
             found.append((size, span))
 
@@ -230,9 +229,11 @@ class SectionPlan:
             )
             if isinstance(feature, Seat) and span:
                 centre = complex(*feature.centre)
-                add(0.5 * feature.diameter, centre, span, seat_text(feature), feature)
+                add(
+                    0.5 * feature.diameter, centre, span, seat_text(feature), feature, feature.datum
+                )
             elif isinstance(feature, AxialThread) and span:
-                add(0.5 * feature.thread, 0j, span, thread_text(feature))
+                add(0.5 * feature.thread, 0j, span, thread_text(feature), datum=feature.datum)
         for body in self.shape.bodies:
             if not spoken_for(body, features):
                 words = f"{DIA}{mm(2.0 * body.radius)}"

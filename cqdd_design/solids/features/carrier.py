@@ -126,6 +126,7 @@ def nut_features(carrier: CarrierLayout) -> tuple[Feature, ...]:
         AxialThread(
             "thread", thread.diameter, thread.pitch, _axial(thread.diameter, thread.pitch),
             THREAD_CLASS, inside=True, bottom=bottom, top=top, core=thread.core_diameter,
+            datum="A",
         ),
         shoulder("face on the output bearing", bottom, carrier.nut_radius,
                  carrier.output.shoulder_radius, "down", None, datum="B", refers="A"),
@@ -223,6 +224,9 @@ def cap_features(carrier: CarrierLayout, gap: float, pin_position: float) -> tup
     """
     circle, columns = pin_circle(carrier), carrier.columns
     found: list[Feature] = [
+        # The pins alone centre the cap: its holes stand to each other and to its face.
+        shoulder("face on the discs", -gap, carrier.cap_inner, carrier.cap_outer, "up", None,
+                 datum="B", refers=""),
         fitted(
             "bonded pin seats" if carrier.bonded_in_cap else "pin holes",
             carrier.pin.nominal_diameter, zones.PIN_HOLE, circle,

@@ -29,11 +29,13 @@ def screw_circle(housing: HousingLayout) -> BoltCircle:
     return BoltCircle.even("cover screws", housing.screw_count, housing.bolt_circle_radius)
 
 
-def _mounting(housing: HousingLayout, bottom: float, top: float) -> ClearanceHole:
+def _mounting(
+    housing: HousingLayout, bottom: float, top: float, refers: str = "A"
+) -> ClearanceHole:
     """The holes by which the actuator is fixed, between the screws."""
     first = math.pi / housing.screw_count
     circle = BoltCircle.even("mounting", housing.screw_count, housing.bolt_circle_radius, first)
-    return clearance("mounting holes", housing.mount_thread, bottom, top, circle)
+    return clearance("mounting holes", housing.mount_thread, bottom, top, circle, refers=refers)
 
 
 def housing_features(layout: Layout) -> tuple[Feature, ...]:
@@ -135,7 +137,8 @@ def clamp_features(layout: Layout) -> tuple[Feature, ...]:
     return (
         clearance("holes of the cover's screws", housing.screw.thread, bottom, top,
                   screw_circle(housing), refers="B"),
-        _mounting(housing, bottom, top),
+        # Nothing centres the clamp but its screws: its holes stand to each other and to its face.
+        _mounting(housing, bottom, top, refers="B"),
         shoulder("face on the ring", bottom, max(pack.ledge_radius, housing.clamp_inner),
                  housing.flange_radius, "down", None, datum="B", refers=""),
         shoulder("face under the output bearing", top, housing.clamp_inner,

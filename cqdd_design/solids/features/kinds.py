@@ -259,6 +259,8 @@ class AxialThread:
         Between which the thread is full, m.
     core : float
         Diameter of the turned or bored blank: the nominal one outside, D_1 inside, m.
+    datum : str
+        Letter that its axis sets up; see the module.
     """
 
     name: str
@@ -270,6 +272,7 @@ class AxialThread:
     bottom: float
     top: float
     core: float
+    datum: str = ""
 
 
 @dataclass(frozen=True)

@@ -136,6 +136,7 @@ def tapped(
     depth: float,
     room: float,
     countersunk: bool = True,
+    refers: str = "A",
 ) -> TappedHole:
     """Tapped holes with their drill: right through where the room ends within the tap's lead.
 
@@ -166,6 +167,7 @@ def tapped(
         countersink=thread.diameter if countersunk else 0.0,
         circle=circle,
         position=screw_position(thread.diameter),
+        refers=refers,
     )
 
 

@@ -77,10 +77,10 @@ def cover_features(motor: MotorLayout, flange_bottom: float, unit: float) -> tup
     return (
         tapped("threads of the board's screws", small, metric(small), board_circle(motor),
                mouth=motor.board_bottom, facing="up", depth=_board_thread(motor),
-               room=motor.board_bottom - dish_bottom(motor, unit)),
+               room=motor.board_bottom - dish_bottom(motor, unit), refers="B"),
         tapped("threads of the cover's screws", large, metric(large), ear_circle(motor),
                mouth=flange_bottom, facing="up", depth=motor.ear_height, room=motor.ear_height,
-               countersunk=False),
+               countersunk=False, refers="B"),
         shoulder("face on the housing", flange_bottom, motor.cover_inner, motor.cover_outer, "up",
                  None, datum="B", refers=""),
     )  # fmt: skip

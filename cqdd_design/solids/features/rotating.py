@@ -70,7 +70,13 @@ def journal_features(shaft: ShaftLayout) -> list[Feature]:
 
 
 def lobe_features(
-    pack: PackLayout, shaft: ShaftLayout, disc: int, position: float, *, collar: Facing | None
+    pack: PackLayout,
+    shaft: ShaftLayout,
+    disc: int,
+    position: float,
+    *,
+    collar: Facing | None,
+    refers: str = "AB",
 ) -> list[Feature]:
     """A lobe, and the face of the collar beside it.
 
@@ -82,11 +88,13 @@ def lobe_features(
         Diameter of the zone of its axis, m.
     collar : {"up", "down"} or None
         The way the collar's face looks, if it has one.
+    refers : str
+        Letters of the datums of the part that has it.
     """
     bearing = pack.cam.bearing
     lobe = seat(
         f"lobe {disc + 1}", bearing.bore_diameter, pack.cam_bottom(disc), pack.cam_top(disc),
-        zones.LOBE, ground=True, refers="AB", centre=crank_offset(pack, disc), position=position,
+        zones.LOBE, ground=True, refers=refers, centre=crank_offset(pack, disc), position=position,
     )  # fmt: skip
     if collar is None:
         return [lobe]
@@ -94,7 +102,7 @@ def lobe_features(
     inner = 0.5 * bearing.bore_diameter - pack.eccentricity
     face = shoulder(
         f"collar beside lobe {disc + 1}", height, inner, shaft.web_radius, collar, lobe,
-        fillet=least_chamfer(bearing.bore_diameter), refers="AB",
+        fillet=least_chamfer(bearing.bore_diameter), refers=refers,
     )  # fmt: skip
     return [lobe, face]
 
@@ -123,7 +131,7 @@ def loose_cam_features(
         "bore", 2.0 * shaft.shoulder_radius, pack.cam_top(1), pack.cam_top(2), zones.CAM_BORE,
         inside=True, datum="A",
     )  # fmt: skip
-    lobe = lobe_features(pack, shaft, 2, position, collar="up")
+    lobe = lobe_features(pack, shaft, 2, position, collar="up", refers="A")
     return (bore, *lobe)
 
 
