@@ -122,6 +122,7 @@ def preload_at_yield(thread: Thread, strength: float, friction: float = FRICTION
     --------
     Table A1 of VDI 2230 has 29.6 kN for M10, 8.8, at 0.12:
 
+    >>> from cqdd_design.catalog.threads import coarse_thread
     >>> round(preload_at_yield(coarse_thread(10e-3), 0.9 * 640e6) / 1e3, 1)
     29.6
     """

@@ -26,7 +26,7 @@ def report(
     target: Annotated[
         Path | None, option("FILE", "Where to; default reports/NAME.html or NAME.pdf.", "--out")
     ] = None,
-    form: Annotated[
+    format: Annotated[
         str, option("html|pdf", "The page, or its print by a browser (Chromium).", "--format")
     ] = "html",
     seed: BenchSeed = None,
@@ -41,7 +41,7 @@ def report(
     from cqdd_design.cli.tables import headline_table
     from cqdd_design.roads.report import REPORT_STAGES, report_form, write_report
 
-    chosen = report_form(form)
+    chosen = report_form(format)
     loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)
     out.compile_ahead(simulation=True)
     written = write_report(

@@ -41,6 +41,7 @@ _ASKED: Mapping[str, Any] = MappingProxyType(
         "mass": "1.5 kg",
         "reflected_inertia": "0.08 kg*m^2",
         "backlash": "6 arcmin",
+        "shrinkage": 0.003,
         "lost_motion": "4 arcmin",
         "stiffness": "8000 N*m/rad",
         "efficiency": 0.75,
@@ -170,7 +171,8 @@ def design_template() -> str:
         "",
     ]
     given = {key for key in design.dotted_keys() if key not in assumed}
-    return "\n".join([*lines, *_tables(Design, design.to_mapping(), given)]) + "\n"
+    lines += [*_tables(Design, design.to_mapping(), given), *_optional_tables(Design)]
+    return "\n".join(lines) + "\n"
 
 
 def _tables(
@@ -188,6 +190,27 @@ def _tables(
         yield from _tables(kind, values[key], given, below)
 
 
+def _optional_tables(model: type[BaseModel]) -> Iterator[str]:
+    """Lines of tables that a file has or has not, all behind a #; their keys are set in."""
+    for key, kind in _optional_models(model).items():
+        yield from ("", f"# [{key}]   # {(kind.__doc__ or '').splitlines()[0]}")
+        for line in _lines(kind, dump(kind()), set()):
+            yield line.replace("# ", "#   ", 1)
+
+
+def _optional_models(model: type[BaseModel]) -> dict[str, type[BaseModel]]:
+    """Tables that may be left out, but for those of `_TABLES`, which fit a line."""
+    return {
+        key: one
+        for key, field in model.model_fields.items()
+        for one in get_args(field.annotation)
+        if key not in _TABLES
+        and type(None) in get_args(field.annotation)
+        and isinstance(one, type)
+        and issubclass(one, BaseModel)
+    }
+
+
 def _models(model: type[BaseModel]) -> dict[str, type[BaseModel]]:
     return {
         key: field.annotation
@@ -200,7 +223,7 @@ def _lines(model: type[BaseModel], values: Mapping[str, Any], given: set[str]) -
     """A line for every key, but for those of a motor's data, which have a template of their own."""
     for attribute, field in model.model_fields.items():
         key = field.alias or attribute
-        if key in _models(model):
+        if key in _models(model) or key in _optional_models(model):
             continue
         if issubclass(model, MotorData) and key in MotorData.model_fields and key != "name":
             continue

@@ -56,7 +56,8 @@ def _style(body: str) -> Iterator[str]:
     """The report's rules for what a figure holds, its colours in place of their names."""
     used = {name for names in re.findall(r'class="([^"]*)"', body) for name in names.split()}
     css = "".join((_TEMPLATES / name).read_text(encoding="utf-8") for name in _SHEETS)
-    colours = dict(re.findall(r"(--[\w-]+): (#\w+);", css))
+    # The first of each name: those of dark looks follow.
+    colours = dict(reversed(re.findall(r"(--[\w-]+): (#\w+);", css)))
     for selectors, rule in re.findall(r"([^{}]+)\{([^{}]*)\}", css + _OWN):
         ones = re.sub(r"/\*.*?\*/", "", selectors).strip().split(", ")
         wanted = [one for one in ones if one == "svg text" or _styles(one, used)]

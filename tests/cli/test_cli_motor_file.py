@@ -76,7 +76,8 @@ def test_the_bill_names_the_motor_of_the_file(cqdd, tmp_path, paper_design_file,
     )
     assert done.code == 0, done.err
     (text,) = [path.read_text() for path in out.iterdir()]
-    assert "rewound, stator" in text
+    assert ",rewound,bonded" in text.replace(chr(34), "")
+    assert "rewound, ring of magnets" in text
     assert "motor.toml" in text
     assert "RO100 KV55, stator" not in text
 

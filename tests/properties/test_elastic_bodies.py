@@ -729,7 +729,6 @@ from cqdd_design.gearbox.bodies.mesh import mesh
 from cqdd_design.gearbox.bodies.model import Body
 from cqdd_design.gearbox.bodies.point_load import Plate
 
-PER_LOBE = GRIDS[0].per_lobe
 cache.folder = lambda: Path(sys.argv[1])
 for k in range(200):
     plate = Plate(1.0, 0.3, float(k % 3 + 1))

@@ -160,7 +160,8 @@ def test_a_longer_hub_weighs_more_and_turns_with_the_shaft(machine: Machine) -> 
     stub = 0.5 * machine.seats[0].bearing.bore_diameter
     added = small.hub_bottom - motor.hub_bottom
     metal = 2810.0 * math.pi * (motor.hub_radius**2 - stub**2) * added
-    assert long["rotor bell"].mass - short["rotor bell"].mass == pytest.approx(metal)
+    # But for the chamfers of a hub that stands out: 0.3 %.
+    assert long["rotor bell"].mass - short["rotor bell"].mass == pytest.approx(metal, rel=5e-3)
 
 
 def test_the_line_of_the_bond_follows_torque_and_heat(machine: Machine) -> None:

@@ -181,7 +181,7 @@ def test_the_readme_says_what_was_done_and_what_is_left(design, machine, every):
     assert text.isascii()
     assert "Scaled by 1.00301 for a shrinkage of 0.3 %, holes drawn +0 um" in text
     assert "nothing measured yet" in text
-    assert "14 x M4, 8 mm deep: heat-set insert M4 x 4 in holes of 5.6 mm" in text
+    assert "8 x M4, 8.5 mm deep: heat-set insert M4 x 8.1 in holes of 5.6 mm" in text
     assert "BELOW 0.84 mm" in text
     assert "it keeps strength and shape up to 110 degc" in text.lower()
     assert "bores and pins of 5, 19, 21 mm" in text

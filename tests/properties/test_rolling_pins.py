@@ -312,7 +312,7 @@ def test_sleeves_and_cages_are_drawn_weighed_and_listed() -> None:
     rows = csv.DictReader(io.StringIO(bom_csv(bill_of_materials(machine, machine.parts))))
     listed = {row["part"]: row for row in rows}
     assert listed["pin needle cage"]["make_or_buy"] == "buy"
-    assert listed["pin needle cage"]["designation"] == "needle cage K4x7x7"
+    assert listed["pin needle cage"]["designation"] == "K4x7x7"
     assert listed["pin sleeve"]["designation"] == "ground sleeve 7 x 8 x 8 mm"
 
 

@@ -318,7 +318,7 @@ def test_rollers_and_pins_are_drawn_weighed_and_listed() -> None:
     assert pin.shape.outside_radius == pytest.approx(2e-3)
     rows = csv.DictReader(io.StringIO(bom_csv(bill_of_materials(machine, machine.parts))))
     listed = {row["part"]: (row["make_or_buy"], row["designation"]) for row in rows}
-    assert listed["ring needle cage"] == ("buy", "needle cage K4x7x7")
+    assert listed["ring needle cage"] == ("buy", "K4x7x7")
     assert listed["ring roller"] == ("make", "ground roller 7 x 8 x 8 mm")
     assert listed["ring pin"] == ("make", "ground pin 4 x 21.5 mm")
 
