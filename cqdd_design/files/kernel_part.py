@@ -4,6 +4,9 @@ numba makes machine code of every compiled function by itself, of all that it ca
 six calls deep so is optimised six times, though only the outermost is ever run: most of a minute
 for one of ours. A part waits: its instructions are optimised once, where they end. Called from
 Python a part is plain Python, slow and the same.
+
+That takes steps that numba keeps for itself (:mod:`.kernel_unfinished`); with versions that they
+were not tried with parts are compiled numba's usual way, to the same numbers in twice the time.
 """
 
 from __future__ import annotations
@@ -11,62 +14,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from numba import _dynfunc  # type: ignore[attr-defined]
-from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import CompilerBase, DefaultPassBuilder
-from numba.core.compiler_machinery import register_pass
-from numba.core.typed_passes import NativeLowering
+import numba
 from numba.extending import register_jitable
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
-
-class _Unfinished(JITCodeLibrary):
-    """Instructions that are linked into a kernel, neither optimised nor made machine code here."""
-
-    def _optimize_final_module(self) -> None:
-        """Left to the kernel."""
-
-    def _finalize_final_module(self) -> None:
-        self._finalize_dynamic_globals()  # type: ignore[no-untyped-call]
-        self._finalized = True
-
-
-@register_pass(mutates_CFG=True, analysis_only=False)  # type: ignore[no-untyped-call]
-class _PartLowering(NativeLowering):
-    """Lowering into an unfinished library; what stands for the part in Python is never called."""
-
-    _name = "part_lowering"
-
-    def run_pass(self, state: Any) -> bool:
-        """Lower one part; see :class:`numba.core.typed_passes.BaseNativeLowering`."""
-        library = _Unfinished(state.targetctx.codegen(), state.func_id.func_qualname)  # type: ignore[no-untyped-call]
-        state.library = library
-        state.flags.no_compile = True
-        super().run_pass(state)  # type: ignore[no-untyped-call]
-        lowered = state["cr"]
-        described = lowered.fndesc
-        name = described.qualname.rpartition(".")[2]
-        stand_in = _dynfunc.make_function(
-            described.lookup_module(), name, f"part {name}", 0, lowered.env, (library,)
-        )
-        state.targetctx.insert_user_function(stand_in, described, [library])
-        state["cr"] = lowered._replace(cfunc=stand_in)
-        return True
-
-
-class _PartCompiler(CompilerBase):
-    """numba's own passes, with lowering that leaves the rest to the kernel."""
-
-    def define_pipelines(self) -> list[Any]:
-        """The pipelines, as numba asks for them."""
-        passes = DefaultPassBuilder.define_nopython_pipeline(self.state)  # type: ignore[no-untyped-call]
-        passes.passes = [
-            (_PartLowering if one is NativeLowering else one, why) for one, why in passes.passes
-        ]
-        passes._finalized = False
-        passes.finalize()
-        return [passes]
+_TRIED = ("0.68.",)
+"""Beginnings of the versions of numba whose inner steps are known."""
 
 
 def part(**options: Any) -> Callable[[_Function], _Function]:
@@ -74,12 +28,11 @@ def part(**options: Any) -> Callable[[_Function], _Function]:
 
     Division is numpy's, as in all kernels here.
     """
-    chosen = {
-        "error_model": "numpy",
-        "no_cfunc_wrapper": True,
-        "pipeline_class": _PartCompiler,
-        **options,
-    }
+    chosen = {"error_model": "numpy", **options}
+    if numba.__version__.startswith(_TRIED):
+        from cqdd_design.files.kernel_unfinished import PartCompiler
+
+        chosen |= {"no_cfunc_wrapper": True, "pipeline_class": PartCompiler}
 
     def decorate(function: _Function) -> _Function:
         registered: _Function = register_jitable(**chosen)(function)

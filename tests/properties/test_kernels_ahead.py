@@ -4,13 +4,15 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numba
+import numpy as np
 import pytest
 from actuator_samples import paper_actuator
 
 from cqdd_design.actuator.scenario import Scenario
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.design import load_design
-from cqdd_design.files.kernel_part import part
+from cqdd_design.files import kernel_part
 from cqdd_design.machine import resolve
 from cqdd_design.machine.contact_analysis import analyse_contact
 from cqdd_design.roads.kernels import GEARBOX, SIMULATION, missing, signature
@@ -36,11 +38,35 @@ def test_what_is_compiled_ahead_is_what_commands_call() -> None:
 
 
 def test_a_part_is_plain_python_to_python() -> None:
-    @part(forceinline=True)
+    @kernel_part.part(forceinline=True)
     def twice(x: float) -> float:
         return 2.0 * x
 
     assert twice(3.0) == 6.0
+
+
+@pytest.mark.parametrize("versions", [("0.", "1."), ("none",)], ids=["waiting", "numba's way"])
+def test_a_kernel_runs_its_parts_whatever_numba_does_with_them(versions, monkeypatch) -> None:
+    monkeypatch.setattr(kernel_part, "_TRIED", versions)
+
+    @kernel_part.part(forceinline=True)
+    def ratio(x: float, y: float) -> float:
+        return x / y
+
+    @kernel_part.part()
+    def summed(values: np.ndarray, y: float) -> float:
+        total = 0.0
+        for one in values:
+            total += ratio(one, y)
+        return total
+
+    @numba.njit(error_model="numpy")
+    def kernel(values: np.ndarray, y: float) -> float:
+        return 3.0 * summed(values, y)
+
+    values = np.array([1.0, 2.0, 4.0])
+    assert kernel(values, 2.0) == 10.5 == 3.0 * summed(values, 2.0)
+    assert kernel(values, 0.0) == np.inf
 
 
 @pytest.mark.deep
