@@ -64,7 +64,10 @@ def test_pieces_stand_where_the_mechanism_puts_them(tmp_path: Path) -> None:
             child = found[piece.name]
             pose = piece.pose(design, angle)
             centre = child.obj.moved(child.loc).Center().toTuple()
-            wanted = (pose[:3, :3] @ part.shape.mass_properties(1.0).centre + pose[:3, 3]) * 1e3
+            drawn = part.shape.mass_properties(1.0)
+            for cut in part.cuts:
+                drawn = drawn + cut.mass_properties(-1.0)
+            wanted = (pose[:3, :3] @ drawn.centre + pose[:3, 3]) * 1e3
             assert np.abs(np.array(centre) - wanted).max() < 1e-6, piece.name
 
 

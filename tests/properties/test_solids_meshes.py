@@ -130,8 +130,10 @@ def test_display_meshes_are_closed_and_small() -> None:
         assert mesh.volume == pytest.approx(part.volume * 1e9, rel=2e-3)
         raw = facets(part, DISPLAY)
         assert len(raw.vertices) > len(mesh.vertices)  # no smoothing across edges
-        assert len(raw.triangles) == len(mesh.triangles)
-    assert count < 100_000
+        # Welding drops slivers without area.
+        assert 0 <= len(raw.triangles) - len(mesh.triangles) < 2e-3 * len(raw.triangles)
+    # Chamfers, undercuts and drills are a tenth of them.
+    assert count < 120_000
 
 
 @pytest.mark.parametrize(
