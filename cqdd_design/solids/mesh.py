@@ -232,7 +232,7 @@ _ROUGHLY = 1.6
 def surface_slack(part: Part, quality: Quality = FINE) -> float:
     """How far the mesh of a part may lie off its surface, m.
 
-    The kernel keeps to a deflection but roughly: beside the half grooves of ring and housing half as
-    much again was met, at a coarse deflection and at one of a sixteenth.
+    The kernel keeps to a deflection but roughly: beside the half grooves of ring and housing half
+    as much again was met, at a coarse deflection and at one of a sixteenth.
     """
     return _ROUGHLY * quality.deflection * part.shape.outside_radius
