@@ -36,7 +36,7 @@ from cqdd_design.exporting.sheets.frame import SIMULTANEOUS, draw_frame
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.title_block import HEIGHT, SCALES, WIDTH
 from cqdd_design.exporting.sheets.wording import circle_row
-from cqdd_design.geometry.contours import Circle, ComplexArray, FloatArray, as_complex
+from cqdd_design.geometry.contours import Circle, as_complex
 from cqdd_design.solids.features.kinds import BoltCircle
 
 if TYPE_CHECKING:
@@ -112,8 +112,8 @@ def _holes(sheet: SheetDrawing, facts: CutFacts, holes: list[Circle]) -> None:
         along = cmath.exp(1j * cmath.phase(complex(*hole.centre)))
         sheet.line(centre - arm * along, centre + arm * along, AXIS)
     output, columns = _by_use(facts, holes)
-    elbow = complex(FRONT.real - 60.0, FRONT.imag + MOST_REACH + 20.0)
-    for alike, toward, at in ((output, 125.0, elbow), (columns, 160.0, elbow - 15.0j)):
+    elbow = complex(FRONT.real - 52.0, FRONT.imag + MOST_REACH + 20.0)
+    for alike, toward, at in ((output, 125.0, elbow), (columns, 160.0, elbow - 24.0j)):
         if not alike:
             continue
         places = np.angle(as_complex([hole.centre for hole in alike]))
@@ -123,10 +123,11 @@ def _holes(sheet: SheetDrawing, facts: CutFacts, holes: list[Circle]) -> None:
         target = centre + factor * hole.radius * (at - centre) / abs(at - centre)
         words = f"{2.0 * _MM * hole.radius:.4g} \u00b1{zone_text(zones.hole_diameter)}"
         words = f"{len(alike)} \u00d7 \u00d8{words}"
-        width = text_width(words, TEXT) + 3.0
+        # The shelf is as long as the frames under it, so that the leader runs past them.
+        width = max(text_width(words, TEXT) + 3.0, 46.0)
         sheet.callout(target, at, words, -width)
         zone = f"\u00d8{zone_text(zones.hole_position)} CZ"
-        corner = at - max(width, 38.0)
+        corner = at - width
         _simultaneous(sheet, corner - 7.0j, "position", zone)
         angles = tuple(places.tolist())
         circle = BoltCircle("holes", facts.flat.reference_radius, angles)
@@ -170,7 +171,7 @@ def _profile_callout(sheet: SheetDrawing, facts: CutFacts) -> None:
     """Tolerance of the fitted contour, all round, and the squareness of its walls."""
     points = as_complex(facts.flat.fitted.sample(1e-4)) * _MM * sheet.scale
     spot = points[np.abs(np.angle(points * np.exp(-1j * math.radians(52.0)))).argmin()]
-    elbow = complex(FRONT.real + 46.0, FRONT.imag + MOST_REACH + 20.0)
+    elbow = complex(FRONT.real + 38.0, FRONT.imag + MOST_REACH + 20.0)
     words, zones = "exact curve, all round", facts.zones
     sheet.callout(FRONT + complex(spot), elbow, words, text_width(words, TEXT) + 3.0)
     sheet.circle(elbow, 1.2)
@@ -195,9 +196,12 @@ def _simultaneous(sheet: SheetDrawing, corner: complex, symbol: str, zone: str) 
 
 
 def _concave_radius(sheet: SheetDrawing, facts: CutFacts, reach: float) -> None:
-    """Dimension the tightest arc that the wire must follow, in the lower right of the view."""
-    flat, factor = facts.flat, _MM * sheet.scale
-    outer = flat.fitted is flat.shape.outer
+    """Dimension the tightest arc that the wire must follow, in the lower right of the view.
+
+    It is read from the side of its centre, where nothing else stands: past the lobes of a disc,
+    within the opening of a ring.
+    """
+    outer = facts.flat.fitted is facts.flat.shape.outer
     contour = segmented(facts.flat.fitted)
     arcs = contour.arcs()
     concave = (contour.bulges < 0.0) == outer
@@ -205,32 +209,14 @@ def _concave_radius(sheet: SheetDrawing, facts: CutFacts, reach: float) -> None:
     if not concave.any():
         return
     middle = as_complex(contour.evaluate(np.array([0.5]))[0][:, 0])
-    along = (middle - as_complex(arcs.centres)) / arcs.radii
-    # Read from beyond the wall: within the disc, outside the ring.
-    out = 8.5 if outer else reach + 9.0 - factor * np.abs(middle)
-    places = factor * middle + out * along
-    least = arcs.radii[concave].min() * (1.0 + 1e-6)
-    off = np.degrees(np.abs(np.angle(middle * np.exp(1j * math.radians(50.0)))))
-    crowding = _crowding(facts, places, factor) + off / 10.0
-    chosen = int(np.where(concave & (arcs.radii <= least), crowding, np.inf).argmin())
-    wall, ray = factor * complex(middle[chosen]), complex(along[chosen])
-    place = complex(places[chosen])
-    sheet.line(FRONT + wall, FRONT + place - 6.0 * ray)
-    sheet.radius(
-        FRONT + factor * complex(*arcs.centres[chosen]),
-        factor * float(arcs.radii[chosen]),
-        math.degrees(cmath.phase(ray)),
-        FRONT + place,
-    )
-
-
-def _crowding(facts: CutFacts, places: ComplexArray, factor: float) -> FloatArray:
-    """How far each of `places` (mm of paper) is short of 8 mm from every output hole."""
-    short = np.zeros(len(places))
-    for hole in _output_holes(facts):
-        clear = np.abs(places - factor * complex(*hole.centre)) - factor * hole.radius
-        short = np.maximum(short, 8.0 - clear)
-    return short
+    tightest = concave & (arcs.radii <= arcs.radii[concave].min() * (1.0 + 1e-6))
+    off = np.abs(np.angle(middle * np.exp(1j * math.radians(50.0))))
+    chosen = int(np.where(tightest, off, np.inf).argmin())
+    wall = _MM * sheet.scale * complex(middle[chosen])
+    elbow = wall * ((reach + 9.0) / abs(wall) if outer else 0.35)
+    words = f"R{_MM * float(arcs.radii[chosen]):.4g}"
+    width = text_width(words, TEXT) + 3.0
+    sheet.callout(FRONT + wall, FRONT + elbow, words, width if outer else -width)
 
 
 def _section(sheet: SheetDrawing, facts: CutFacts) -> None:

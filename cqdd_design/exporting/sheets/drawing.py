@@ -182,12 +182,6 @@ class SheetDrawing:
             base=_xy(base), p1=_xy(one), p2=_xy(two), angle=angle, text=words, **_STYLED
         ).render()
 
-    def radius(self, centre: complex, radius: float, angle: float, place: complex) -> None:
-        """Dimension an arc at `angle` (deg) of it, the text at `place`, with a leader there."""
-        self._space.add_radius_dim(
-            center=_xy(centre), radius=radius, angle=angle, location=_xy(place), **_STYLED
-        ).render()
-
     def callout(self, target: complex, elbow: complex, words: str, width: float) -> None:
         """Point at something from a shelf of `width` (to the left where negative) under text."""
         self.triangle(target, target - elbow)
