@@ -41,7 +41,7 @@ from cqdd_design.machine.thermal_parts import (
 )
 from cqdd_design.results import Check
 
-_GAP_ANGLES = 90
+_GAP_ANGLES = 41
 _TIMES = 48
 _LEAST_TIME, _SETTLED = 5.0, 6.0
 """First time of a history, s, and its last over the slowest time constant."""

@@ -343,6 +343,7 @@ def settled(
     rival: tuple[bool, float] | None,
     known: Mapping[str, float] | None,
     near: Points | None,
+    rounds: int = _ROUNDS,
 ) -> tuple[Found | None, bool]:
     """The loop of `agreed`, and whether it was left to a rival that is lighter.
 
@@ -351,6 +352,8 @@ def settled(
     near : Points or None
         Where to begin instead of at the strongest point, which then is begun at too where that
         leads to nothing.
+    rounds : int
+        At most.
     """
     search = Search.of(hunt.frame(space, {}), hunt.tables)
     most = search.most_reserve() if near is None else near
@@ -359,7 +362,7 @@ def settled(
         return None, False
     needs: dict[str, float] = dict(known or {})
     starts, best = most, None
-    for turn in range(_ROUNDS):
+    for turn in range(rounds):
         frame = hunt.frame(space, needs)
         evaluator = Evaluator.of(frame, hunt.tables, search.space.pin_counts)
         now = replace(search, evaluator=evaluator)
@@ -374,7 +377,7 @@ def settled(
             sized = now.lightest(starts)
         if sized is None:
             # What was needed at the last design may be too much: half way back.
-            if not needs or turn >= _ROUNDS - 1:
+            if not needs or turn >= rounds - 1:
                 break
             needs = {one: math.sqrt(value) for one, value in needs.items()}
             continue

@@ -20,6 +20,9 @@ _NO_STEP = 1e-3
 _TEETH = (1.6, 2.5)
 """Ring teeth over those of a point, with which a search near it begins too: thick ones take less
 wall, so that holes and bearing have more room."""
+_ROUNDS = 4
+"""Of closed forms against the equilibrium: beside a design that both agree on they agree at once,
+or not at all."""
 _MAY_WIN = 1.1
 """Objective over the best so far, up to which finer steps may make a design the best."""
 
@@ -68,16 +71,17 @@ def _finer(hunt: Hunt, best: Found, least: float) -> Found:
     return best
 
 
-def _in_ring(hunt: Hunt, beside: Found, ring: float, rival: Found) -> tuple[Found | None, bool]:
-    """The best design in a ring of a diameter, m, near another; or whether a rival is lighter.
+def _in_ring(hunt: Hunt, beside: Found, ring: float, other: Found) -> tuple[Found | None, bool]:
+    """The best design in a ring of a diameter, m, beside one; or whether another is lighter.
 
-    What it weighs by closed forms is good to the needs of the other.
+    What it weighs by closed forms is good to the needs of the one beside.
     """
-    unrated, score = rival.worth
+    unrated, score = other.worth
     space = beside.space._replace(ring_limit=ring)
     near = _with_other_teeth(beside.point)
     try:
-        return settled(hunt, space, (unrated, _MAY_WIN * score), beside.needs, near)
+        rival = unrated, _MAY_WIN * score
+        return settled(hunt, space, rival, beside.needs, near, _ROUNDS)
     except InfeasibleError:
         return None, False
 
