@@ -20,6 +20,7 @@ from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.sweep import contact_sweep, perfect_angles
 from cqdd_design.gearbox.heat.expansion import PartTemperatures
 from cqdd_design.gearbox.heat.network import Heat
+from cqdd_design.gearbox.losses.swept import SWEEP_ANGLES
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.cooling import cooled_network, two_nodes
 from cqdd_design.machine.duty_heat import DutyCase, DutyHeat, duty_cases, duty_heat
@@ -78,7 +79,7 @@ def lost_at(machine: Machine, at: np.ndarray) -> np.ndarray:
     sweep = contact_sweep(
         warm.contact,
         torque,
-        perfect_angles(warm.contact, 120),
+        perfect_angles(warm.contact, SWEEP_ANGLES),
         friction=ContactFriction.of(warm.contact, "drive", speed),
     )
     work, drag = warm.friction.coulomb_work(sweep), warm.friction.drag(speed)
