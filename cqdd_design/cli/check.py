@@ -36,7 +36,7 @@ def check(
     duty_columns: DutyColumnNames = None,
 ) -> int:
     """The verdict: every requirement and check of a design (exit code 4 unless it is yes)."""
-    from cqdd_design.cli.tables import binding, checks_table, headline_table
+    from cqdd_design.cli.tables import binding, checks_table, costs_told, headline_table
     from cqdd_design.roads.check import CHECK_STAGES
     from cqdd_design.roads.check import check as judged
     from cqdd_design.verdict.judge import sentence
@@ -46,6 +46,7 @@ def check(
     found = judged(
         loaded,
         read_specimen(out, loaded),
+        source=design,
         assembly_angles=angles if assembly else None,
         told=out.stages(CHECK_STAGES),
         progress=out.counting("crank angles"),
@@ -54,7 +55,7 @@ def check(
     out.say(checks_table(found.lines), "")
     if motion is not None:
         out.say(*_clearances(motion), "")
-    out.say(headline_table(verdict), "", binding(verdict), "")
+    out.say(headline_table(verdict), "", binding(verdict), "", *costs_told(found.costs))
     out.say(sentence(loaded.name, found.lines))
     out.warn(*verdict.warnings)
     out.document(found.to_dict(), design=loaded, checks=found.lines)

@@ -22,7 +22,15 @@ from cqdd_design.cli.options import (
 )
 from cqdd_design.cli.requirement_options import stated, with_requirements
 from cqdd_design.cli.session import Output
-from cqdd_design.cli.tables import WIDTH, binding, checks_table, headline_table, number, table
+from cqdd_design.cli.tables import (
+    WIDTH,
+    binding,
+    checks_table,
+    costs_told,
+    headline_table,
+    number,
+    table,
+)
 
 if TYPE_CHECKING:
     from cqdd_design.roads.size import Road
@@ -151,7 +159,7 @@ def _lines(road: Road, *, verbose: bool) -> list[str]:
     assumed = [key.split(".")[1] for key in design.assumed if key.startswith("requirements.")]
     assumed = [key for key in assumed if key not in road.chosen]
     asked = design.to_mapping()["requirements"]
-    motor = "by what the motor can do"
+    motor = "by what motor and gearbox can do"
     defaults = [[f"  {key}", str(asked[key]), motor] for key in asked if key in road.derived]
     defaults += [[f"  {key}", str(asked[key]), ""] for key in assumed]
     rejected = [[f"  {reason}", f"{count:,}"] for reason, count in sizing.rejected.items() if count]
@@ -171,15 +179,6 @@ def _lines(road: Road, *, verbose: bool) -> list[str]:
         ),
         "",
     ]
-
-
-def _costs(sizing: SizingResult) -> list[str]:
-    """What more would cost, near the design."""
-    told = [one.told for one in sizing.costs]
-    if not told:
-        return []
-    words = "what more would cost, near this design: " + "; ".join(told)
-    return [textwrap.fill(words, WIDTH, subsequent_indent="  "), ""]
 
 
 def _motors(choice: MotorChoice) -> list[str]:
@@ -213,7 +212,7 @@ def _judged(road: Road, judged: Verdict, *, verbose: bool) -> list[str]:
         "",
         binding(judged),
         "",
-        *_costs(road.sizing),
+        *costs_told([one.told for one in road.sizing.costs]),
         judged.sentence,
         *_next(road),
     ]

@@ -115,6 +115,14 @@ def headline_table(judged: Verdict) -> str:
     return figures + "\n" + told([(", ".join(names), basis) for basis, names in bases.items()])
 
 
+def costs_told(costs: Sequence[str]) -> list[str]:
+    """What more would cost near a design, and an empty line; nothing where no search told."""
+    if not costs:
+        return []
+    words = "what more would cost, near this design: " + "; ".join(costs)
+    return [textwrap.fill(words, WIDTH, subsequent_indent="  "), ""]
+
+
 def binding(judged: Verdict) -> str:
     """What limits a design, and what to change: what is not met, or else the closest lines."""
     short = [line for line in judged.limits if line.status != "pass"]

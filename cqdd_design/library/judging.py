@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from cqdd_design.library.calls import road, si_value, whole
-from cqdd_design.library.inputs import DesignLike, design_of
+from cqdd_design.library.inputs import DesignLike, design_of, source_of
 from cqdd_design.library.results import Result, Row, check_rows
 
 if TYPE_CHECKING:
@@ -110,7 +110,12 @@ def check(
 
     whole("angles", angles, 1, 100_000)
     loaded = design_of(design)
-    found = judge(loaded, assembly_angles=angles if assembly else None, told=progress or silent)
+    found = judge(
+        loaded,
+        source=source_of(design),
+        assembly_angles=angles if assembly else None,
+        told=progress or silent,
+    )
     return Checked(loaded, found.verdict.warnings, found)
 
 

@@ -63,7 +63,7 @@ def build_report(results: ReportInput) -> str:
     str
         HTML, to be written as UTF-8.
     """
-    judged = verdict(results.verdict)
+    judged = verdict(results.verdict, results.costs)
     shown = [chapter for chapter in _chapters(results) if chapter.values is not None]
     context: Values = {
         "design": results.design,

@@ -51,6 +51,8 @@ class ReportInput:
         Sentences on what could not be computed.
     sizing : SizingResult or None
         Where the design has been found by a search in the same run.
+    costs : tuple of str
+        What more would cost, where a search told.
     files : tuple of WrittenFile
         Written in the same run.
     target : Path or None
@@ -81,6 +83,7 @@ class ReportInput:
     bodies: Bodies | None = None
     notes: tuple[str, ...] = ()
     sizing: SizingResult | None = None
+    costs: tuple[str, ...] = ()
     files: tuple[WrittenFile, ...] = ()
     target: Path | None = None
     contact: ContactAnalysis | None = None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
@@ -12,6 +13,7 @@ from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.checks.guide import check_guide
 from cqdd_design.results import Check
+from cqdd_design.roads.sized_file import kept_costs
 from cqdd_design.roads.telling import Progress, silent
 from cqdd_design.verdict import Verdict, judge
 from cqdd_design.verdict.judge import Meets, meets
@@ -34,11 +36,14 @@ class Judgement:
         Of the verdict, and of the solids where they were turned.
     motion : AssemblyMotion or None
         What a revolution of the output showed, where it was asked for.
+    costs : tuple of str
+        What more would cost, where `size` noted it in the design's file.
     """
 
     verdict: Verdict
     lines: tuple[Check, ...]
     motion: AssemblyMotion | None = None
+    costs: tuple[str, ...] = ()
 
     @property
     def meets(self) -> Meets:
@@ -49,7 +54,12 @@ class Judgement:
         """The JSON form (``results`` of ``check``)."""
         told = self.verdict.to_dict() | {"meets": self.meets}
         seen = {} if self.motion is None else {"assembly": self.motion.to_dict()}
-        return {"verdict": told, "retention": self._retention, **seen}
+        return {
+            "verdict": told,
+            "retention": self._retention,
+            "costs": list(self.costs),
+            **seen,
+        }
 
     @property
     def _retention(self) -> list[dict[str, object]]:
@@ -65,6 +75,7 @@ def check(
     design: Design,
     specimen: Specimen = AS_DRAWN,
     *,
+    source: Path | None = None,
     assembly_angles: int | None = None,
     told: Progress = silent,
     progress: Callable[[int, int], None] | None = None,
@@ -75,6 +86,8 @@ def check(
     ----------
     specimen : Specimen
         Whose motor is judged.
+    source : Path, optional
+        The design's file, in which `size` may have noted what more would cost.
     assembly_angles : int, optional
         Crank angles at which all solids are looked at for collisions; default not at all.
     told : callable
@@ -89,8 +102,9 @@ def check(
     """
     machine = specimen.machine(design)
     verdict = judge(machine, specimen, progress=told)
+    told_costs = () if source is None else kept_costs(source, design)
     if assembly_angles is None:
-        return Judgement(verdict, verdict.lines)
+        return Judgement(verdict, verdict.lines, costs=told_costs)
     from cqdd_design.solids.clearances import assembly_motion, output_revolution
 
     motion = assembly_motion(
@@ -99,7 +113,8 @@ def check(
         output_revolution(machine.design, assembly_angles),
         progress=progress,
     )
-    return Judgement(verdict, (*verdict.lines, assembly_check(motion)), motion)
+    lines = (*verdict.lines, assembly_check(motion))
+    return Judgement(verdict, lines, motion, told_costs)
 
 
 def assembly_check(motion: AssemblyMotion) -> Check:

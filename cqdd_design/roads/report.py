@@ -21,6 +21,7 @@ from cqdd_design.report import ReportInput, build_report, read_comments
 from cqdd_design.report.machine_view.apart import start_drawing
 from cqdd_design.report.printing import printed_page, printing_browser
 from cqdd_design.roads.bench import measured_actuator
+from cqdd_design.roads.sized_file import kept_costs
 from cqdd_design.roads.telling import Progress, provenance, silent
 from cqdd_design.sizing import SizingResult
 from cqdd_design.sizing.comparison import compare_with_planetary, cycloid_limits
@@ -80,7 +81,7 @@ def write_report(
     specimen : Specimen
         Which actuator is meant.
     source : Path, optional
-        The design's file, whose comments tell where values come from.
+        The design's file, whose comments tell where values come from and what more would cost.
     sizing : SizingResult, optional
         Where the design has been found in the same run.
     files : tuple of WrittenFile
@@ -147,6 +148,7 @@ def write_report(
         notes=(*own_motor, *specimen.remarks, *notes, *unsolved, *judged.warnings),
         verdict=judged,
         sizing=sizing,
+        costs=() if source is None else kept_costs(source, design),
         files=files,
         # A print leads nowhere.
         target=target if browser is None else None,

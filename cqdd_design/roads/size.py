@@ -2,31 +2,27 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from cqdd_design.actuator.specimen import Specimen
 from cqdd_design.catalog.motors import Motor
-from cqdd_design.design import Design, Requirements, save_design
+from cqdd_design.design import Design, Requirements
 from cqdd_design.design.motor import MotorFile
 from cqdd_design.design.motor_row import row_over
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting import export
-from cqdd_design.files import WrittenFile, atomic_path, describe_file, refuse_overwrite
+from cqdd_design.files import WrittenFile, refuse_overwrite
 from cqdd_design.machine import resolve
 from cqdd_design.results import Check
+from cqdd_design.roads.sized_file import refuse_edited, refuse_judged, write_fresh
 from cqdd_design.roads.telling import Progress, silent
 from cqdd_design.sizing import SizingResult, size
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.motors import MotorChoice, size_with_any
 from cqdd_design.sizing.verified import size_to_verdict
 from cqdd_design.verdict import Verdict, judge
-
-_SCREENED = "# No verdict has seen this design: closed forms alone chose it, see `check`.\n"
-"""First line of what the screen alone writes."""
-_STAMP = "# `size` replaces this file only while the lines above have this sha256: "
 
 
 @dataclass(frozen=True)
@@ -132,9 +128,9 @@ def size_and_write(
     if path is not None:
         refuse_overwrite(target, force=force)
     elif not force:
-        _refuse_edited(target)
+        refuse_edited(target)
         if quick:
-            _refuse_judged(target)
+            refuse_judged(target)
     road = size_design(
         requirements,
         target,
@@ -147,7 +143,10 @@ def size_and_write(
         progress=progress,
     )
     design, specimen = road.design, Specimen()
-    files: tuple[WrittenFile, ...] = (_write_fresh(target, road),)
+    written_design = write_fresh(
+        target, design, _origins(road), road.sizing.costs, judged=road.verdict is not None
+    )
+    files: tuple[WrittenFile, ...] = (written_design,)
     if kinds:
         machine = specimen.machine(design)
         files += export(machine, kinds, specimen=specimen, progress=progress)
@@ -297,52 +296,6 @@ def _duty_from(design: Design, folder: Path) -> Design:
         place = Path(named).absolute()
     log = design.requirements.duty_log
     return design.replacing({"requirements.duty_file": place.as_posix()}).with_duty_log(log)
-
-
-def _refuse_edited(path: Path) -> None:
-    """Raise where a file of this name holds work that is not `size`'s own."""
-    try:
-        above, stamp, told = path.read_bytes().rpartition(_STAMP.encode())
-    except FileNotFoundError:
-        return
-    except OSError as error:
-        raise UsageError(f"cannot read {path}: {error.strerror}.") from error
-    if not stamp or told.strip() != _digest(above).encode():
-        raise UsageError(
-            f"{path} has been edited since `size` wrote it; add --force to replace it, or choose "
-            "another place with --out."
-        )
-
-
-def _refuse_judged(path: Path) -> None:
-    """Raise where a file of this name holds a design that the whole search has judged."""
-    if path.exists() and not path.read_bytes().startswith(_SCREENED.encode()):
-        raise UsageError(
-            f"{path} was written by a search to the verdict, and the screen alone would replace it "
-            "by a design that nothing has judged; choose another place with --out, or add --force."
-        )
-
-
-def _digest(content: bytes) -> str:
-    return hashlib.sha256(content).hexdigest()
-
-
-def _write_fresh(path: Path, road: Road) -> WrittenFile:
-    """Write a design file anew, with its stamp: a former one leaves no comments behind."""
-    with atomic_path(path) as temporary:
-        temporary.unlink()
-        save_design(temporary, road.design, comments=_origins(road))
-        told = _SCREENED if road.verdict is None else ""
-        content = told.encode() + temporary.read_bytes() + _costs(road.sizing).encode()
-        temporary.write_bytes(content + f"{_STAMP}{_digest(content)}\n".encode())
-    return describe_file(path, "design")
-
-
-def _costs(sizing: SizingResult) -> str:
-    """Remarks on what more would cost, which only a search can tell; empty where it was not."""
-    if not sizing.costs:
-        return ""
-    return "".join(["# What more would cost:\n", *(f"# - {one.told}\n" for one in sizing.costs)])
 
 
 #: Reducer keys that sizing takes over from the requirements.

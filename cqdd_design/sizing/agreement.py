@@ -286,7 +286,7 @@ def strongest(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> Strongest
     """
     best: Strongest | None = None
     # Torques that nobody stated are lowered instead.
-    rounds = 1 if "peak_torque" in hunt.requirements.derived else _STRONG_ROUNDS
+    rounds = 1 if "peak_torque" in hunt.requirements.derived and not hunt.extra else _STRONG_ROUNDS
     for _ in range(rounds):
         now = _strongest(hunt, space, needs)
         if now is None or (best is not None and now.reserve(hunt) <= best.reserve(hunt)):

@@ -6,9 +6,11 @@ import tomllib
 
 import pytest
 
-from cqdd_design.design import load_design
+from cqdd_design.design import Requirements, load_design
 from cqdd_design.design.requirements import LEAST_RATIO, MOST_RATIO
-from cqdd_design.roads.size import _STAMP
+from cqdd_design.roads.sized_file import STAMP, kept_costs, write_fresh
+from cqdd_design.sizing import size
+from cqdd_design.sizing.result import Cost
 
 
 @pytest.mark.deep
@@ -26,7 +28,7 @@ def test_the_first_command_of_a_newcomer(cqdd, tmp_path):
     }
     for path in written:
         assert f"wrote {path}" in done.out
-    assert "by what the motor can do" in done.out
+    assert "by what motor and gearbox can do" in done.out
     assert "candidates" in done.out
     # What was asked for already is no next step.
     assert done.out.partition("next:\n")[2].splitlines()[0] == (
@@ -52,6 +54,10 @@ def test_the_first_command_of_a_newcomer(cqdd, tmp_path):
     assert 'continuous_speed = "300 rpm" # assumed' in text
     # What the search alone can tell goes with the design.
     assert re.search(r"# What more would cost:\n# - 10 % more peak torque .+\n", text)
+    costs = check.document["results"]["costs"]
+    assert len(costs) == 4
+    assert costs[0].startswith("10 % more peak torque ")
+    assert all(one in page for one in costs)
 
 
 QUICK = ("size", "--quick", "--ratio", "10")
@@ -128,7 +134,7 @@ def test_the_screen_alone_says_that_it_is_no_verdict(cqdd, tmp_path):
     first, rest = own.read_text().split("\n", 1)
     assert first.startswith("# No verdict has seen this design")
     body = rest.rpartition("# `size`")[0]
-    own.write_text(body + _STAMP + hashlib.sha256(body.encode()).hexdigest() + "\n")
+    own.write_text(body + STAMP + hashlib.sha256(body.encode()).hexdigest() + "\n")
     judged = own.read_bytes()
     done = cqdd("size", "--quick", "--ratio", "10")
     assert done.code == 2
@@ -401,3 +407,17 @@ def test_help_names_the_ratios_that_requirements_take(cqdd):
     """The help is shown without the models of the design, so it cannot read them."""
     told = " ".join(cqdd("size", "--help").out.split())
     assert f"a whole number from {LEAST_RATIO} to {MOST_RATIO}." in told
+
+
+def test_costs_are_told_of_the_design_they_were_found_for(tmp_path):
+    """Not of a file that was edited since, nor of its design with other requirements."""
+    path = tmp_path / "sized.toml"
+    design = size(Requirements(ratio=10, peak_torque="30 N*m")).design
+    noted = (Cost("life", "twice the life", 2000.0, 3e-3),)
+    write_fresh(path, design, {}, noted, judged=True)
+    own = load_design(path)
+    assert kept_costs(path, own) == ("twice the life +3 g",)
+    assert kept_costs(path, own.replacing({"requirements.life": "2 h"})) == ()
+    path.write_text(path.read_text().replace("# - twice", "# - thrice"))
+    assert kept_costs(path, own) == ()
+    assert kept_costs(tmp_path / "none.toml", own) == ()

@@ -25,8 +25,8 @@ decade over three decades. Straight lines between them are then good to 0.3 %.""
 _SPARED = 0.05
 """Share up to which a sweep without an equilibrium is left out."""
 SWEEP_ANGLES = 41
-"""Crank angles of each of its sweeps over a period: a prime, which no count of teeth or pins shares.
-Losses are then within 0.02 % of those at 240."""
+"""Crank angles of each of its sweeps over a period, a prime that no count of teeth or pins shares:
+losses are within 0.02 % of those at 240."""
 _EVERY = 6
 """Torques between those at which friction without films is solved too: its ratio to that with them
 hardly changes."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from cqdd_design.catalog.paper import PIN_TORQUE, PINS_TORQUE
 from cqdd_design.design import Design
 from cqdd_design.gearbox import GearboxAnalysis
@@ -20,10 +22,11 @@ _BADGES: dict[Meets, tuple[Status, str]] = {
 }
 
 
-def verdict(judged: Verdict) -> Values:
+def verdict(judged: Verdict, costs: Sequence[str]) -> Values:
     """What a reader must know first: the answer, seven figures, and what is in the way of a yes.
 
-    Where nothing is, what comes closest to its limit.
+    Where nothing is, what comes closest to its limit. In the end what more would cost, where a
+    search told.
     """
     asked, limits = judged.evidence.machine.design.requirements, judged.limits
     status, badge = _BADGES[judged.meets]
@@ -42,6 +45,7 @@ def verdict(judged: Verdict) -> Values:
         "rows": tuple(check_row(line) for line in limits if line.status != "pass"),
         "closest": tuple(check_row(line) for line in closest if line.status == "pass"),
         "filled": sizes,
+        "costs": tuple(costs),
         "least": margin,
     }
 
