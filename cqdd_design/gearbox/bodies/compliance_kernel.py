@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from cqdd_design.files.kernel_arrays import put_rows
 from cqdd_design.files.kernel_cache import numba
 from cqdd_design.files.kernel_part import part
 
@@ -170,7 +171,7 @@ def add_bearing(
             given[i, loads + 1] = root[i] * radial[station, 1]
         _solve_lower(flexible, given, size, loads + 2)
         s_xx, s_xy, s_yy = 0.0, 0.0, 0.0
-        left[:, :] = way
+        put_rows(left, way)
         for i in range(size):
             x, y = given[i, loads], given[i, loads + 1]
             s_xx, s_xy, s_yy = s_xx + x * x, s_xy + x * y, s_yy + y * y

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from cqdd_design.files.kernel_arrays import put, put_rows
 from cqdd_design.files.kernel_part import part
 from cqdd_design.gearbox.contact.compliant_kernel import (
     assemble,
@@ -147,8 +148,8 @@ def solve_yielding(
     pull, size = load.pull, u.size
     discs, count = approach.shape
     find_pushes(contacts, rubbing, work)
-    trial[:] = u
-    trial_approach[:] = approach
+    put(trial, u)
+    put_rows(trial_approach, approach)
     before, share, halved, iteration = np.inf, 1.0, 0, 0
     while True:
         largest = press(contacts, springs, pull, compliance, trial, trial_approach, forces, work)
@@ -205,9 +206,8 @@ def _from_held(contacts: Contacts, springs: Springs, start: Any, u: Any, approac
     """Motions and approaches of the state `start` (3 + 3 D,) of held plates and rigid bodies."""
     rows, gaps, coefficient = contacts.rows, contacts.gaps, contacts.coefficient
     teeth, series = springs.teeth, springs.pin_series
-    u[:3] = start[:3]
-    u[3] = start[2]
-    u[4:] = start[3:]
+    put(u, start[:3])
+    put(u[3:], start[2:])
     discs, count = gaps.shape
     for d in range(discs):
         i = 3 + 3 * d
@@ -248,15 +248,15 @@ def _raise(
             rubs = Rubbing(share * rubbing.share, rubbing.disc_arm, rubbing.carrier_arm)
         else:
             some = _some(compliance, springs.pin_series, share)
-        u[:] = known
-        approach[:] = known_approach
+        put(u, known)
+        put_rows(approach, known_approach)
         status, used, torsional = solve_yielding(
             contacts, springs, load, rubs, some, u, approach, forces, work, held
         )
         steps += used
         if status == CONVERGED:
-            known[:] = u
-            known_approach[:] = approach
+            put(known, u)
+            put_rows(known_approach, approach)
             reached = share
             continue
         rise *= 0.5

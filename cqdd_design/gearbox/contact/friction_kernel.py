@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from cqdd_design.files.kernel_arrays import greatest
 from cqdd_design.files.kernel_part import part
 from cqdd_design.gearbox.contact.equilibrium_kernel import (
     CONVERGED,
@@ -274,7 +275,7 @@ def solve_rubbed(
     largest = evaluate_rubbed(contacts, springs, load.pull, rubbing, state, forces, scratch)
     most = _STEPS if held == RIDGES[0] else _HELD_STEPS
     for iteration in range(most):
-        residual = np.abs(gradient).max()
+        residual = greatest(gradient)
         square = np.sum(gradient * gradient)
         if not math.isfinite(square):
             break

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from cqdd_design.files.kernel_arrays import greatest, greatest_of_rows, put
 from cqdd_design.files.kernel_cache import numba
 from cqdd_design.files.kernel_part import part
 from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, NOT_CONVERGED
@@ -48,7 +49,7 @@ def _raise(
     while reached < 1.0:
         share = min(reached + rise, 1.0)
         some = already + share * (rubbing.share - already)
-        state[:] = start
+        put(state, start)
         status, used, torsional = solve_rubbed(
             contacts,
             springs,
@@ -61,7 +62,7 @@ def _raise(
         )
         steps += used
         if status == CONVERGED:
-            start[:] = state
+            put(start, state)
             reached = share
             continue
         rise *= 0.5
@@ -88,7 +89,7 @@ def solve_raised(
     A disc that hangs slack there (`loaded` is False) is left smooth at first, since what it must do
     is get out of the way; it rubs only where it is pinched in the end.
     """
-    state[:] = smooth
+    put(state, smooth)
     none = np.zeros_like(rubbing.share)
     some = rubbing.share.copy()
     for d in range(some.shape[0]):
@@ -103,8 +104,8 @@ def solve_raised(
     left = 0.0
     for d in range(some.shape[0]):
         if not loaded[d]:
-            left = max(left, np.abs(forces.contact[d]).max())
-    if left <= _SLACK * np.abs(forces.contact).max():
+            left = max(left, greatest(forces.contact[d]))
+    if left <= _SLACK * greatest_of_rows(forces.contact):
         return status, steps, torsional
     status, used, torsional = _raise(
         contacts, springs, load, rubbing, some, state, forces, scratch, held
@@ -154,9 +155,9 @@ def rub_sweep(
             predict(states[a - 1], states[max(a - 2, 0)], turns[a], a, states[a])
             status, used, left = solve_rubbed(here, springs, load, rubs, states[a], forces, scratch)
         if status != CONVERGED:
-            enough = _SLACK * np.abs(smooth.force[a]).max()
+            enough = _SLACK * greatest_of_rows(smooth.force[a])
             for d in range(discs):
-                loaded[d] = np.abs(smooth.force[a, d]).max() > enough
+                loaded[d] = greatest(smooth.force[a, d]) > enough
         for held in RIDGES:
             if status == CONVERGED:
                 break

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from cqdd_design.files.kernel_arrays import put
 from cqdd_design.files.kernel_cache import numba
 from cqdd_design.files.kernel_part import part
 from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, new_work, solve_state
@@ -166,7 +167,7 @@ def backlash_sweep(
                 # Two states that lead to each other: linearise between them.
                 for i in range(size):
                     state[i] = 0.5 * (state[i] + origin[i])
-            origin[:] = state
+            put(origin, state)
             _true_gaps(parts, a, state, rows, gaps)
             contacts = Contacts(rows, gaps, ones, parts.offset[a], parts.half_play)
             # A firmer push first: it finds which contacts matter in fewer steps.
@@ -193,7 +194,7 @@ def backlash_sweep(
         # over gaps and overlaps, and rigid parts have the same forces without the overlaps.
         found.ends[b] = (state[2] - squares / push) / length
         found.preload[b] = overlap
-        found.poses[b] = state
+        put(found.poses[b], state)
         for i in range(size):
             last[i] = state[i] - starts[a, i]
     return -1

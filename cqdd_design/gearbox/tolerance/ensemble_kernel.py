@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from cqdd_design.files.kernel_arrays import put, put_rows
 from cqdd_design.files.kernel_cache import numba
 from cqdd_design.gearbox.contact.compliant_kernel import yielding_work
 from cqdd_design.gearbox.contact.compliant_newton_kernel import (
@@ -129,7 +130,7 @@ def _follow(
                 here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0]
             )
         if status != CONVERGED:
-            smooth[:] = base[a]
+            put(smooth, base[a])
             status, _, _ = solve_near(here, springs, load, smooth, forces, held_work)
             if status != CONVERGED:
                 return int(a)
@@ -294,8 +295,8 @@ def _loaded(
     half = Load(0.5 * start.torque / length, load.scale_stiffness)
     eased = _room(some.size, discs, contacts)
     base = np.empty((count, 3 + 3 * discs))
-    base[:, :3] = whole.states[:, :3]
-    base[:, 3:] = whole.states[:, 4:]
+    put_rows(base, whole.states[:, :3])
+    put_rows(base[:, 3:], whole.states[:, 4:])
     stopped = _follow(
         nominal,
         found,
