@@ -54,7 +54,7 @@ def tolerance(
     parts_at = parse_option("--temperature", temperature, TEMPERATURE)
     loaded = load_design(design)
     if scheduler is None:
-        out.compile_ahead()
+        out.compile_ahead(ensembles=True)
     result = drawn(
         loaded,
         samples=samples,

@@ -22,6 +22,7 @@ _SPRINGS = ("Springs", "i", "i", "i", "f", "f", "f1", "f", "f", "f")
 _LOAD = ("Load", "f", "f")
 _RUBBING = ("Rubbing", "f3", "f3", "f3")
 _SWEEP = ("SweepResult", "f2", "f3", "f3", "f1", "i1")
+_COMPLIANCE = ("Compliance", "f2", "f1", "f", "f4")
 
 
 class Kernel(NamedTuple):
@@ -29,17 +30,19 @@ class Kernel(NamedTuple):
 
     Attributes
     ----------
-    module, name, values : str
-        Where it stands, what it is called, and where the named tuples it takes stand.
+    module, name : str
+        Where it stands, and what it is called.
     arguments : tuple
-        ``f3`` is a C-contiguous array of three axes of float64, ``i1`` one axis of int64, without
-        a number they are scalars; a tuple is a named tuple of such.
+        ``f3`` is a C-contiguous array of three axes of float64, ``i1`` one axis of int64, ``b1``
+        of truths, without a number they are scalars; a tuple is a named tuple of such.
+    values : tuple of str
+        Where the named tuples it takes stand.
     """
 
     module: str
     name: str
     arguments: tuple[Any, ...]
-    values: str = "gearbox.contact.kernel_values"
+    values: tuple[str, ...] = ("gearbox.contact.kernel_values",)
 
     def compiled(self) -> Any:
         """The kernel itself."""
@@ -50,7 +53,7 @@ GEARBOX = (
     Kernel(
         "gearbox.contact.compliant_sweep_kernel",
         "yield_sweep",
-        (_CONTACTS, _SPRINGS, _LOAD, _RUBBING, ("Compliance", "f2", "f1", "f", "f4"), "f1", "f2",
+        (_CONTACTS, _SPRINGS, _LOAD, _RUBBING, _COMPLIANCE, "f1", "f2",
          ("YieldingResult", "f2", "f3", "f3", "f3", "f1", "i1")),
     ),
     Kernel(
@@ -87,18 +90,36 @@ SIMULATION = (
         "run_sets",
         ("f2", "f3", ("Signals", *("f2",) * 5), ("Steps", "f", "i", "i"),
          ("Traces", *("f2",) * 14), ("Ledger", *("f1",) * 12), "i", "i"),
-        "actuator.columns",
+        ("actuator.columns",),
     ),
 )  # fmt: skip
 """What steps an actuator through time."""
+_DRAWN = (
+    ("Nominal", "f4", "f3", "f3", "f4", "f3", "f3", "f3", "f2", "f2", "f1", "f1", "f3", "i", "f",
+     "f", "f"),
+    _SPRINGS,
+    _LOAD,
+    ("Start", "b1", "f2", "f3", "f"),
+    ("Shared", _RUBBING, _RUBBING, _COMPLIANCE, _COMPLIANCE, ("Worn", "f3", "f3", "f")),
+    ("GearboxErrors", "f2", "f1", "f3", "f3", "f2", "f2", "f1", "f2", "f1"),
+    "f1",
+)  # fmt: skip
+_DRAWN_VALUES = "gearbox.contact.kernel_values", "gearbox.contact.part_errors"
+ENSEMBLES = (
+    Kernel("gearbox.tolerance.ensemble_kernel", "solve_gearbox", _DRAWN, _DRAWN_VALUES),
+    Kernel("gearbox.tolerance.ensemble_kernel", "solve_greatest", _DRAWN, _DRAWN_VALUES),
+)
+"""What works toleranced gearboxes."""
 
 
 def signature(kernel: Kernel) -> tuple[Any, ...]:
     """The numba types of a kernel's arguments."""
     import numba
 
-    scalars = {"f": numba.float64, "i": numba.int64}
-    known = vars(importlib.import_module(f"cqdd_design.{kernel.values}"))
+    scalars = {"f": numba.float64, "i": numba.int64, "b": numba.boolean}
+    known: dict[str, Any] = {}
+    for module in kernel.values:
+        known |= vars(importlib.import_module(f"cqdd_design.{module}"))
 
     def typed(one: Any) -> Any:
         if isinstance(one, tuple):
@@ -110,14 +131,21 @@ def signature(kernel: Kernel) -> tuple[Any, ...]:
     return tuple(typed(one) for one in kernel.arguments)
 
 
-def missing(*, simulation: bool = False) -> list[Kernel]:
-    """Kernels that no earlier run has left compiled."""
-    wanted = (GEARBOX[0], *SIMULATION, *GEARBOX[1:]) if simulation else GEARBOX
+def missing(*, simulation: bool = False, ensembles: bool = False) -> list[Kernel]:
+    """Kernels that no earlier run has left compiled, the longest to compile first."""
+    wanted = (
+        *(ENSEMBLES if ensembles else ()),
+        GEARBOX[0],
+        *(SIMULATION if simulation else ()),
+        *GEARBOX[1:],
+    )
     return [kernel for kernel in wanted if not in_cache(kernel.compiled())]
 
 
 def compile_kernels(kernels: list[Kernel], tell: Callable[[int, int], None]) -> None:
-    """Compile kernels into the cache, as many at a time as there are processors.
+    """Compile kernels into the cache, those of a module together, as many as there are processors.
+
+    Kernels of one module call the same parts, which one process compiles once.
 
     Parameters
     ----------
@@ -125,26 +153,25 @@ def compile_kernels(kernels: list[Kernel], tell: Callable[[int, int], None]) -> 
         Called with how many are done and how many there are, at the start and as each ends. One
         that fails is not told: the command compiles it itself and says why.
     """
-    left, done = list(kernels), 0
-    running: list[subprocess.Popen[bytes]] = []
+    left: list[list[str]] = []
+    for module in dict.fromkeys(kernel.module for kernel in kernels):
+        left.append([kernel.name for kernel in kernels if kernel.module == module])
+    done, running = 0, dict[subprocess.Popen[bytes], int]()
     tell(0, len(kernels))
     try:
         while left or running:
             while left and len(running) < (os.cpu_count() or 1):
-                one = left.pop(0)
-                running.append(
-                    subprocess.Popen(
-                        [sys.executable, "-c", _WORK, one.name],
-                        stdin=subprocess.DEVNULL,
-                        stdout=subprocess.DEVNULL,
-                        stderr=subprocess.DEVNULL,
-                    )
+                names = left.pop(0)
+                process = subprocess.Popen(
+                    [sys.executable, "-c", _WORK, *names],
+                    stdin=subprocess.DEVNULL,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL,
                 )
+                running[process] = len(names)
             time.sleep(0.05)
-            ended = [process for process in running if process.poll() is not None]
-            running = [process for process in running if process not in ended]
-            for _ in ended:
-                done += 1
+            for process in [one for one in running if one.poll() is not None]:
+                done += running.pop(process)
                 tell(done, len(kernels))
     finally:
         for process in running:
@@ -152,10 +179,11 @@ def compile_kernels(kernels: list[Kernel], tell: Callable[[int, int], None]) -> 
             process.wait()
 
 
-_WORK = f"import sys; from {__name__} import compile_one; compile_one(sys.argv[1])"
+_WORK = f"import sys; from {__name__} import compile_named; compile_named(sys.argv[1:])"
 
 
-def compile_one(name: str) -> None:
-    """Compile the kernel of this name into the cache."""
-    kernel = next(one for one in (*GEARBOX, *SIMULATION) if one.name == name)
-    kernel.compiled().compile(signature(kernel))
+def compile_named(names: list[str]) -> None:
+    """Compile the kernels of these names into the cache."""
+    for kernel in (*GEARBOX, *SIMULATION, *ENSEMBLES):
+        if kernel.name in names:
+            kernel.compiled().compile(signature(kernel))

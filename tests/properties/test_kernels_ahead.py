@@ -13,9 +13,11 @@ from cqdd_design.actuator.scenario import Scenario
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.design import load_design
 from cqdd_design.files import kernel_part
+from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
+from cqdd_design.gearbox.tolerance.evaluate import LOADS, OUTPUTS
 from cqdd_design.machine import resolve
 from cqdd_design.machine.contact_analysis import analyse_contact
-from cqdd_design.roads.kernels import GEARBOX, SIMULATION, missing, signature
+from cqdd_design.roads.kernels import ENSEMBLES, GEARBOX, SIMULATION, missing, signature
 
 PAPER = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
 
@@ -23,18 +25,21 @@ AHEAD = """
 from cqdd_design.roads.kernels import GEARBOX, compile_kernels, missing
 told = []
 before = missing()
-compile_kernels([GEARBOX[-1]], lambda *done: told.append(done))
+compile_kernels([*GEARBOX[-2:]], lambda *done: told.append(done))
 after = missing()
 print(len(before), [one.name for one in before if one not in after], told)
 """
 
 
 def test_what_is_compiled_ahead_is_what_commands_call() -> None:
-    analyse_contact(resolve(load_design(PAPER)), angles=44)
+    design = load_design(PAPER)
+    analyse_contact(resolve(design), angles=44)
     simulate([paper_actuator()], Scenario(), 1e-3, 1e-5)
-    for kernel in (*GEARBOX, *SIMULATION):
+    for outputs in (OUTPUTS, LOADS):
+        run_ensemble(make_ensemble(design, angles=44, outputs=outputs), 2)
+    for kernel in (*GEARBOX, *SIMULATION, *ENSEMBLES):
         assert signature(kernel) in kernel.compiled().signatures, kernel.name
-    assert missing(simulation=True) == []
+    assert missing(simulation=True, ensembles=True) == []
 
 
 def test_a_part_is_plain_python_to_python() -> None:
@@ -75,4 +80,4 @@ def test_processes_fill_the_cache_of_a_new_installation(tmp_path, monkeypatch) -
     done = subprocess.run(
         [sys.executable, "-c", AHEAD], capture_output=True, text=True, check=True, timeout=300
     )
-    assert done.stdout.strip() == f"{len(GEARBOX)} ['add_contacts'] [(0, 1), (1, 1)]"
+    assert done.stdout.strip() == f"{len(GEARBOX)} ['add_bearing', 'add_contacts'] [(0, 2), (2, 2)]"

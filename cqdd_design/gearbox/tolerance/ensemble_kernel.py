@@ -13,6 +13,7 @@ import numpy as np
 
 from cqdd_design.files.kernel_arrays import put, put_rows
 from cqdd_design.files.kernel_cache import numba
+from cqdd_design.files.kernel_part import part
 from cqdd_design.gearbox.contact.compliant_kernel import yielding_work
 from cqdd_design.gearbox.contact.compliant_newton_kernel import (
     RIDGES,
@@ -52,7 +53,7 @@ _NEXT_TO_NOTHING = 1e-3
 """Load of a gearbox without load, over the torque: what hangs loose then has its place."""
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _slope(
     nominal: Nominal,
     found: Toleranced,
@@ -91,7 +92,7 @@ def _slope(
     return slope
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _follow(
     nominal: Nominal,
     found: Toleranced,
@@ -144,7 +145,7 @@ def _follow(
     return -1
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _turns(nominal: Nominal, chosen: Any) -> Any:
     """Crank angle since the chosen angle before, rad."""
     turns = np.zeros(chosen.size)
@@ -153,7 +154,7 @@ def _turns(nominal: Nominal, chosen: Any) -> Any:
     return turns
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _room(count: int, discs: int, contacts: int) -> YieldingResult:
     return YieldingResult(
         np.empty((count, 4 + 3 * discs)),
@@ -165,7 +166,7 @@ def _room(count: int, discs: int, contacts: int) -> YieldingResult:
     )
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _crank_torques(
     nominal: Nominal,
     found: Toleranced,
@@ -191,7 +192,7 @@ def _crank_torques(
     return torques
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _rigid_parts(nominal: Nominal, found: Toleranced, errors: GearboxErrors) -> RigidParts:
     """One gearbox with its errors as the backlash sees it."""
     count, discs, contacts = found.gaps.shape
@@ -225,7 +226,7 @@ def _rigid_parts(nominal: Nominal, found: Toleranced, errors: GearboxErrors) -> 
     )
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _greatest(
     nominal: Nominal,
     found: Toleranced,
@@ -267,7 +268,7 @@ def _greatest(
     return -1
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _loaded(
     nominal: Nominal,
     found: Toleranced,
@@ -316,7 +317,7 @@ def _loaded(
     return -1
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _unloaded(
     nominal: Nominal,
     found: Toleranced,
@@ -352,7 +353,7 @@ def _unloaded(
     return -1
 
 
-@numba.njit(cache=True, error_model="numpy")
+@part()
 def _with_errors(nominal: Nominal, errors: GearboxErrors) -> Toleranced:
     """What the errors of one gearbox make of the perfect one."""
     count, discs, contacts = nominal.gaps.shape
