@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from dataclasses import dataclass
 from typing import Literal
 
@@ -120,3 +121,24 @@ def least_chamfer(bore: float) -> float:
     [0.15, 0.2, 0.3]
     """
     return next((chamfer for below, chamfer in _CHAMFERS if bore < below - 1e-9), _CHAMFER)
+
+
+def width_tolerance(bore: float) -> float:
+    """By how much a ring may be narrower than nominal, m; it is never wider.
+
+    ISO 492:2014, table 2: deviation of a single inner ring width, class Normal; the outer ring's is
+    the same. Crossed-roller bearings are held to less.
+
+    Examples
+    --------
+    >>> [round(1e6 * width_tolerance(one)) for one in (10e-3, 60e-3, 0.1)]
+    [120, 150, 200]
+    """
+    return next(most for up_to, most in _WIDTHS if bore <= up_to + 1e-12)
+
+
+_WIDTHS = (
+    (2.5e-3, 40e-6), (50e-3, 120e-6), (80e-3, 150e-6), (120e-3, 200e-6), (180e-3, 250e-6),
+    (250e-3, 300e-6), (315e-3, 350e-6), (400e-3, 400e-6), (500e-3, 450e-6), (math.inf, 500e-6),
+)  # fmt: skip
+"""Bores up to which a width tolerance holds, both in m."""

@@ -121,3 +121,24 @@ def fit_limits(zone: str, diameter: float) -> FitLimits:
     raise CatalogError(
         f"zone {zone} is tabulated for diameters up to {most:g} mm, not {diameter * 1e3:g} mm."
     )
+
+
+def general_tolerance(length: float) -> float:
+    """To either side of a length without a tolerance of its own, m: class m of ISO 2768-1.
+
+    Examples
+    --------
+    >>> [round(1e3 * general_tolerance(one), 1) for one in (2e-3, 8e-3, 40e-3, 0.2)]
+    [0.1, 0.2, 0.3, 0.5]
+    """
+    return next(width for up_to, width in _GENERAL if abs(length) <= up_to + 1e-12)
+
+
+_GENERAL = (
+    (6e-3, 0.1e-3),
+    (30e-3, 0.2e-3),
+    (120e-3, 0.3e-3),
+    (0.4, 0.5e-3),
+    (float("inf"), 0.8e-3),
+)
+"""Lengths up to which a general tolerance holds, both in m."""

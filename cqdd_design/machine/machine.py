@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from cqdd_design.gearbox.pack_loads import PackLoads
     from cqdd_design.machine.capacity import LoadedContacts
     from cqdd_design.results import MassProperties
+    from cqdd_design.solids.axial import AxialStack
     from cqdd_design.solids.inertia import GearboxInertia
     from cqdd_design.solids.retention import Retained
 
@@ -165,6 +166,13 @@ class Machine:
         from cqdd_design.solids.retention import retention
 
         return retention(self.parts, self.layout)
+
+    @cached_property
+    def axial_stacks(self) -> tuple[AxialStack, ...]:
+        """Tolerance stacks of the axial plays; GeometryError as `parts`."""
+        from cqdd_design.solids.axial import axial_stacks
+
+        return axial_stacks(self.parts, self.layout)
 
     @cached_property
     def inertia(self) -> GearboxInertia:

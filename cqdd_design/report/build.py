@@ -14,6 +14,7 @@ from cqdd_design.report.drawings.half_section import half_section
 from cqdd_design.report.drawings.outlines import Outlines
 from cqdd_design.report.drawings.turning_mesh import mesh_data, mesh_figure, mesh_readout
 from cqdd_design.report.drawings.wire_edm import edm_view
+from cqdd_design.report.gearbox.axial import axial_view
 from cqdd_design.report.gearbox.contact import contact_view
 from cqdd_design.report.gearbox.life import life_view
 from cqdd_design.report.gearbox.load_charts import load_charts
@@ -158,6 +159,7 @@ def _chapters(results: ReportInput) -> list[_Chapter]:
             if found.temperatures is None
             else {"temperatures": temperatures_view(found.temperatures)},
         ),
+        chapter("axial", "Axial play", axial_view(results.machine, found.temperatures)),
         of_contact("life", "Life", lambda found: life_view(found.life)),
         chapter(
             "tolerances",

@@ -58,6 +58,7 @@ class Judgement:
             "verdict": told,
             "retention": self._retention,
             "costs": list(self.costs),
+            "axial_play": self._axial_play,
             **seen,
         }
 
@@ -69,6 +70,15 @@ class Judgement:
         except DesignError:
             return []
         return [row.to_dict() for row in table]
+
+    @property
+    def _axial_play(self) -> list[dict[str, object]]:
+        """The stacks of axial play; empty where nothing can be laid out."""
+        try:
+            stacks = self.verdict.evidence.machine.axial_stacks
+        except DesignError:
+            return []
+        return [one.to_dict() for one in stacks]
 
 
 def check(

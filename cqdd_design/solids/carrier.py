@@ -33,7 +33,7 @@ def carrier_plate(carrier: CarrierLayout, shaft: ShaftLayout, features: Sequence
     """The output plate, turned, with the holes of its features."""
     output = carrier.output
     support = shaft.support
-    seat_top = carrier.plate_bottom + support.bearing.width
+    seat_top = carrier.shaft_seat_top
     seat, way = 0.5 * support.bearing.outer_diameter, support.lip_radius
     outside = [
         (carrier.plate_bottom, carrier.bearing_bottom, carrier.shoulder_radius),

@@ -12,6 +12,7 @@ from cqdd_design.geometry.columns import column_offsets, has_columns
 from cqdd_design.solids.dowel_rules import flange_dowels
 from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, PackLayout
 from cqdd_design.solids.selection import ChosenBearing, OutputPin, cap_screw, thread_size
+from cqdd_design.solids.shims import output_shims, shaft_shims
 
 _ENGAGEMENT = 1.3
 """Least length of a column's screw in the plate, in threads."""
@@ -119,12 +120,14 @@ def lay_out_carrier(
         )
     bearing_bottom = pack.top + clamp
     bearing_top = bearing_bottom + output.bearing.width
+    shims = shaft_shims(support)
+    shaft_seat_top = bottom + support.bearing.width + shims.room
     nut_top = bearing_top + max(3.0 * unit, 0.05 * output.bearing.bore_diameter)
     plate_top = max(
         nut_top + unit,
         bottom + register + pin.thread_length + 0.5 * unit,
         (columns.thread_top if columns else bottom) + 0.5 * unit,
-        bottom + support.bearing.width + 1.5 * unit,
+        shaft_seat_top + 1.5 * unit,
     )
     threads = max(diameter, columns.screw.thread if columns else 0.0)
     room = circle - 0.5 * threads - 0.5 * support.bearing.outer_diameter
@@ -135,7 +138,7 @@ def lay_out_carrier(
         bolt = 0.0
     # Beside the shaft's bearing where a wall stays, else above it.
     beside_seat = 0.5 * (room - bolt) >= 0.8 * unit
-    bolt_room = plate_top - bottom - (0.0 if beside_seat else support.bearing.width)
+    bolt_room = plate_top - (bottom if beside_seat else shaft_seat_top)
     depth = bolt_room - (unit if beside_seat else 0.5 * unit)
     return CarrierLayout(
         joint=joint,
@@ -168,6 +171,9 @@ def lay_out_carrier(
         flange_dowels=flange_dowels(
             design, bolt_circle, bolt, min(0.7 * room, room - 1.6 * unit), depth, unit
         ),
+        shaft_seat_top=shaft_seat_top,
+        shaft_shim=shims,
+        output_shim=output_shims(output),
     )
 
 

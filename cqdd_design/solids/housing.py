@@ -76,11 +76,12 @@ def output_cover(layout: Layout, features: Sequence[Feature]) -> Stack:
     seat = 0.5 * carrier.output.bearing.outer_diameter
     bottom = carrier.bearing_bottom
     flange = housing.cover_flange_top
-    levels = sorted({bottom, flange, carrier.bearing_top, max(housing.cover_top, flange)})
+    top = carrier.output_seat_top
+    levels = sorted({bottom, flange, top, max(housing.cover_top, flange)})
     rings = []
     for low, high in pairwise(levels):
         middle = 0.5 * (low + high)
         outside = housing.flange_radius if middle < flange else housing.cover_hub_radius
-        inside = seat if middle < carrier.bearing_top else carrier.output.lip_radius
+        inside = seat if middle < top else carrier.output.lip_radius
         rings.append(Annulus(low, high, inside, outside))
     return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], drillings(features))

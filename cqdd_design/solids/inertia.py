@@ -70,12 +70,13 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "carrier column",
             "column screw",
             "bearing nut",
+            "shaft shim",
             "shoulder screw",
             "dowel pin",
             "pin sleeve",
             "pin needle cage",
         ),
-        "housing": ("housing", "ring clamp", "output cover"),
+        "housing": ("housing", "ring clamp", "output cover", "output shim"),
         "fasteners": (),
     }
 )

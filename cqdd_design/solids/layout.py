@@ -177,6 +177,34 @@ class FlangeDowels:
 
 
 @dataclass(frozen=True)
+class ShimLayout:
+    """Shim rings beside the outer ring of a bearing, which set its axial play; m.
+
+    Attributes
+    ----------
+    designation : str
+        Of one ring without its thickness.
+    inner, outer : float
+        Radii.
+    pack : float
+        Thickness of the rings as drawn, with nominal lengths.
+    play : float
+        Beside them as drawn: the middle of what a pack to the next step leaves.
+    """
+
+    designation: str
+    inner: float
+    outer: float
+    pack: float
+    play: float
+
+    @property
+    def room(self) -> float:
+        """Between the bearing and the face that the rings lie on."""
+        return self.pack + self.play
+
+
+@dataclass(frozen=True)
 class CarrierLayout:
     """Carrier plate, cap, nut, pins and output bearing, m.
 
@@ -207,6 +235,10 @@ class CarrierLayout:
         thick the plate is there.
     flange_dowels : FlangeDowels
         Between these.
+    shaft_seat_top : float
+        Height of the plate's face over the shaft's upper bearing and its shims.
+    shaft_shim, output_shim : ShimLayout
+        Over the shaft's upper bearing, and over the output bearing.
     """
 
     joint: CarrierJoint
@@ -236,6 +268,14 @@ class CarrierLayout:
     bolt_depth: float
     bolt_room: float
     flange_dowels: FlangeDowels
+    shaft_seat_top: float
+    shaft_shim: ShimLayout
+    output_shim: ShimLayout
+
+    @property
+    def output_seat_top(self) -> float:
+        """Height of the cover's lip over the output bearing and its shims."""
+        return self.bearing_top + self.output_shim.room
 
     @property
     def bonded_in_cap(self) -> bool:

@@ -18,7 +18,7 @@ from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray, Moments
 from cqdd_design.results import MassProperties
 from cqdd_design.solids.features.edges import edges
-from cqdd_design.solids.features.kinds import Feature, FittedHole, Seat
+from cqdd_design.solids.features.kinds import Feature, FittedHole, Seat, Shoulder
 from cqdd_design.solids.features.removal import cuts
 from cqdd_design.solids.features.revolved import Revolved
 from cqdd_design.solids.layers import Stack, prism_properties
@@ -112,6 +112,12 @@ class Part:
     def fits(self) -> tuple[Seat | FittedHole, ...]:
         """Features with a tolerance zone."""
         return tuple(one for one in self.stated if isinstance(one, Seat | FittedHole))
+
+    @property
+    def length_origin(self) -> float:
+        """Height from which its sheet's lengths run: a datum face, or its lower end, m."""
+        faces = (one for one in self.stated if isinstance(one, Shoulder) and one.datum)
+        return next((one.height for one in faces), self.shape.bottom)
 
     @cached_property
     def cuts(self) -> tuple[Revolved, ...]:

@@ -41,7 +41,7 @@ from cqdd_design.solids.features.rotating import (
     sleeve_features,
 )
 from cqdd_design.solids.layers import Stack, prism
-from cqdd_design.solids.layout import Layout, PackLayout
+from cqdd_design.solids.layout import Layout, PackLayout, ShimLayout
 from cqdd_design.solids.motor_parts import dowel_part, motor_parts
 from cqdd_design.solids.motor_shapes import (
     with_dowel_grooves,
@@ -53,6 +53,7 @@ from cqdd_design.solids.mounting import SCREW_MATERIAL
 from cqdd_design.solids.part import Colour, Instance, Part, around, on_axis, placed
 from cqdd_design.solids.poses import CARRIER, HOUSING, SHAFT, Body, transform
 from cqdd_design.solids.selection import ChosenBearing
+from cqdd_design.solids.shims import SHIM_MATERIAL
 
 NUT_MATERIAL = "AISI 4140 Q&T 540C"
 
@@ -255,7 +256,19 @@ def _carrier_parts(design: Design, layout: Layout) -> list[Part]:
         steel, centres = design.reducer.output_pins.material, _pin_positions(layout)
         parts += _runner_parts("pin", "sleeve", runner, steel, layout.pack, CARRIER, centres)
     seat = on_axis("output bearing", HOUSING, carrier.bearing_bottom)
-    return [*parts, _bearing_part("output bearing", carrier.output, seat, CARRIER)]
+    return [
+        *parts,
+        _bearing_part("output bearing", carrier.output, seat, CARRIER),
+        _shims("shaft shim", carrier.shaft_shim, CARRIER, carrier.shaft_seat_top),
+        _shims("output shim", carrier.output_shim, HOUSING, carrier.output_seat_top),
+    ]
+
+
+def _shims(name: str, shim: ShimLayout, body: Body, top: float) -> Part:
+    """A pack of shims under the face at a height, m; the play lies between it and its bearing."""
+    shape = rotating.sleeve(2.0 * shim.inner, 2.0 * shim.outer, shim.pack)
+    pieces = on_axis(name, body, top - shim.pack)
+    return Part(name, shape, SHIM_MATERIAL, _BEARING, "buy", shim.designation, pieces)
 
 
 def _column_parts(layout: Layout) -> list[Part]:

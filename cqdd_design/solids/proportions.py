@@ -309,7 +309,7 @@ def _housing(
         clamp_inner=min(carrier.output.lip_radius, _most_clamp_radius(pack)),
         cover_flange_top=cover_flange_top,
         cover_hub_radius=hub,
-        cover_top=carrier.bearing_top + lip,
+        cover_top=carrier.output_seat_top + lip,
         boss_radius=boss,
         floor_top=floor_top,
         bottom=bottom,

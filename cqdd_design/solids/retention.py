@@ -48,6 +48,8 @@ _FASTENED = (
     ("encoder magnet", "eccentric shaft", "bond in its pocket"),
     ("eccentric cam", "eccentric shaft", "press fit p6"),
     ("cam bearing", "disc", "press fit N7"),
+    ("shaft shim", "carrier plate", "in its seat under the shoulder"),
+    ("output shim", "output cover", "in its seat under the lip"),
     ("bearing nut", "carrier plate", "its thread"),
     ("shoulder screw", "carrier plate", "its thread"),
     ("dowel pin", "carrier plate", "bond in its seat"),
@@ -146,11 +148,26 @@ def _fastened(every: Sequence[Station], layout: Layout) -> tuple[list[int], list
             if not _is_called(one, part):
                 continue
             for j, base in enumerate(every):
-                if _is_called(base, other) and (part != "cam bearing" or base.body == one.body):
+                if _is_called(base, other) and _are_mates(one, base):
                     ways[i] = f"{base.name}, {how}"
                     mine, its = groups[i], groups[j]
                     groups = [its if group == mine else group for group in groups]
     return groups, ways
+
+
+def _are_mates(one: Station, base: Station) -> bool:
+    """Whether a station is fastened to just this one of its kind.
+
+    Shims are where they lie against their face: a bearing that pushes them meets that face.
+    """
+    if one.part.name == "cam bearing":
+        return base.body == one.body
+    if one.part.name.endswith("shim"):
+        return any(
+            abs(its.bottom - one.top) < _TOUCHING and its.inner < one.outer < its.outer + _TOUCHING
+            for its in base.spans
+        )
+    return True
 
 
 def _is_called(station: Station, name: str) -> bool:

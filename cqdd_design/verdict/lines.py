@@ -52,7 +52,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         *shaft_lines(machine),
         *joint_lines(machine, evidence.temperatures),
         *screw_lines(machine),
-        *retention_lines(machine),
+        *retention_lines(machine, evidence.temperatures),
         *_rubbing(machine),
     )
     lines += evidence.stress_checks or _missing(_BODIES, evidence.stress_missing)

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from cqdd_design.catalog.bearings import least_chamfer
-from cqdd_design.errors import CatalogError, GeometryError
+from cqdd_design.errors import CatalogError, DesignError, GeometryError
 from cqdd_design.gearbox.checks.allowables import LEAST_WALL_BETWEEN_HOLES, SHOULDER_SHARE
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.machine import Machine
+from cqdd_design.machine.temperatures import MachineTemperatures
+from cqdd_design.machine.thermal_parts import by_node
 from cqdd_design.results import Check
+from cqdd_design.solids.axial import AxialStack
 from cqdd_design.solids.retention import Retained, Stop
 from cqdd_design.solids.walls import Wall, least_walls
 
-_LINES = ("RETENTION-HELD", "RETENTION-SHOULDER", "RETENTION-WALL")
+_LINES = ("RETENTION-HELD", "RETENTION-SHOULDER", "RETENTION-AXIAL-PLAY", "RETENTION-WALL")
 _CURES = {
     "carrier cap": "set carrier.joint to 'clamped' or 'columns', or give the pins room for heads "
     "(fewer or thinner output_pins, or another circle_radius)",
@@ -19,15 +22,22 @@ _CURES = {
 }
 
 
-def retention_lines(machine: Machine) -> tuple[Check, ...]:
-    """Whether every part is held both ways, shoulders reach bearings, and holes have walls."""
+def retention_lines(machine: Machine, warm: MachineTemperatures | None = None) -> tuple[Check, ...]:
+    """Whether parts are held both ways and with play, shoulders reach bearings, holes have walls.
+
+    Parameters
+    ----------
+    warm : MachineTemperatures or None
+        Where they are not known, axial play is judged as drawn, and not known where that is enough.
+    """
     try:
-        table = machine.retention
+        table, stacks = machine.retention, machine.axial_stacks
     except (CatalogError, GeometryError) as error:
         return tuple(
             build_check(one, None, None, error.message, "see why it is not known") for one in _LINES
         )
-    return (_held(table), _shoulder(table), _wall(least_walls(machine.parts)))
+    walls = least_walls(machine.parts)
+    return (_held(table), _shoulder(table), _play(machine, stacks, warm), _wall(walls))
 
 
 def _held(table: tuple[Retained, ...]) -> Check:
@@ -68,6 +78,58 @@ def _shoulder(table: tuple[Retained, ...]) -> Check:
         f"{1e3 * least_chamfer(row.bore):.3g} mm",
         "a cam bearing with a larger bore, or less eccentricity, leaves higher shoulders",
     )
+
+
+def axial_growth(stack: AxialStack, warm: MachineTemperatures) -> tuple[float, float]:
+    """What the coldest start and settled temperatures add to the room of a stack, m.
+
+    Raises
+    ------
+    DesignError
+        When the thermal expansion of a part is not known.
+    """
+    settled = by_node(warm.reached)
+    coldest = dict.fromkeys(settled, warm.machine.design.environment.coldest)
+    return stack.growth(coldest), stack.growth(settled)
+
+
+def _play(
+    machine: Machine, stacks: tuple[AxialStack, ...], warm: MachineTemperatures | None
+) -> Check:
+    missing, grown = "temperatures are not known", dict.fromkeys(stacks, 0.0)
+    if warm is not None:
+        try:
+            grown = {one: min(0.0, *axial_growth(one, warm)) for one in stacks}
+            missing = ""
+        except DesignError as error:
+            missing = error.message
+    left = {one: one.reserve + grown[one] for one in stacks}
+    least = min(stacks, key=left.__getitem__)
+    told = f"{least.name}: room {_mm(least.worst[0])} to {_mm(least.worst[1])} mm"
+    if least.shims is not None and least.kit is not None:
+        told += f", packs of {least.shims.designation} leave"
+    else:
+        told += ", which is the play:"
+    told += f" {_mm(least.play[0])} to {_mm(least.play[1])} mm, heat takes {_mm(-grown[least])} mm"
+    known = not missing or left[least] < 0.0
+    lacking = _mm(max(-left[least], 0.0))
+    spacing = machine.design.reducer.disc_spacing + max(-left[least], 0.0)
+    cure = (
+        f"raise disc_spacing to {_mm(spacing)} mm, for lengths take {lacking} mm too much"
+        if least.kit is None
+        else f"a housing.material that grows as steel does, or less heat; {lacking} mm are lacking"
+    )
+    return build_check(
+        "RETENTION-AXIAL-PLAY",
+        1e3 * left[least] if known else None,
+        0.0,
+        told if not missing else f"{told}; {missing}",
+        cure,
+    )
+
+
+def _mm(value: float) -> str:
+    return f"{1e3 * value:.3g}"
 
 
 def _wall(walls: tuple[Wall, ...]) -> Check:

@@ -164,10 +164,14 @@ def check_part(part, texts):
             elif feature.refers:
                 assert has_frame(texts, feature.run_out, feature.refers), feature
             for end in (feature.bottom, feature.top):
-                assert has_text(texts, r"^(-?[\d.]+)$", end - origin), feature
+                assert has_text(texts, r"^(-?[\d.]+)(?: .*)?$", end - origin), feature
         elif isinstance(feature, Shoulder):
             assert has_roughness(texts, feature.roughness)
-            assert has_text(texts, r"^(-?[\d.]+)$", feature.height - origin), feature
+            if feature.along:
+                pattern = rf"^(-?[\d.]+) \u00b1{NUMBER}$"
+                assert has_text(texts, pattern, feature.height - origin, feature.along), feature
+            else:
+                assert has_text(texts, r"^(-?[\d.]+)$", feature.height - origin), feature
             if feature.refers:
                 assert has_frame(texts, feature.run_out, feature.refers), feature
         elif isinstance(feature, Chamfer):

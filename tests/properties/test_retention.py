@@ -46,7 +46,9 @@ def test_the_committed_designs_hold_every_part(name: str) -> None:
     assert {row.name for row in held.retention if row.free} == set()
     # Of plastic, the threads of the motor's cover stand nearer to its bore than can be printed.
     wall = "warn" if name == "printed-13" else "pass"
-    assert [line.status for line in retention_lines(held)] == ["pass", "pass", wall]
+    # How warm parts get is not asked here, so that axial play is not known.
+    statuses = [line.status for line in retention_lines(held)]
+    assert statuses == ["pass", "pass", "unknown", wall]
 
 
 def test_stops_and_plays_are_those_of_the_layout(machine: Machine) -> None:
@@ -57,10 +59,12 @@ def test_stops_and_plays_are_those_of_the_layout(machine: Machine) -> None:
     assert shaft.down.by == "shaft bearing, housing end"
     journal = 0.5 * machine.seats[0].bearing.bore_diameter
     assert shaft.down.face == pytest.approx(machine.layout.shaft.shoulder_radius - journal)
-    assert (rows["output bearing"].up.by, rows["output bearing"].down.by) == (
-        "output cover",
-        "ring clamp",
-    )
+    output, shims = rows["output bearing"], machine.layout.carrier.output_shim
+    assert (output.up.by, output.down.by) == ("output shim", "ring clamp")
+    assert output.up.play == pytest.approx(shims.play)
+    upper = rows["shaft bearing, output end"]
+    assert upper.up.by == "shaft shim"
+    assert upper.up.play == pytest.approx(machine.layout.carrier.shaft_shim.play)
     assert rows["carrier plate"].up.by == rows["carrier plate"].down.by == "output bearing"
     assert (rows["ring"].up.by, rows["ring"].down.by) == ("ring clamp", "housing")
     assert rows["disc 1"].down.by == "carrier cap"
@@ -146,7 +150,7 @@ def test_a_cap_on_loose_dowels_falls_off() -> None:
         for joint in ("clamped", "hinged")
     )
     assert hinged.layout.carrier.pin.screw is None
-    assert [line.status for line in retention_lines(held)] == ["pass"] * 3
+    assert [line.status for line in retention_lines(held)] == ["pass", "pass", "unknown", "pass"]
     line = retention_lines(hinged)[0]
     assert line.status == "fail"
     assert "carrier cap downward" in line.substituted
@@ -193,13 +197,13 @@ def test_walls_are_measured_between_circles(machine: Machine) -> None:
 
 
 def test_thin_walls_are_warned_of(machine: Machine) -> None:
-    line = retention_lines(machine)[2]
+    line = retention_lines(machine)[-1]
     assert line.status == "pass"
     layout = machine.layout
     near = replace(layout.housing, bolt_circle_radius=layout.housing.flange_radius - 2.4e-3)
     weak, changed = machine.changed({}), replace(layout, housing=near)
     vars(weak).update(layout=changed, parts=build_parts(machine.design, changed))
-    thin = retention_lines(weak)[2]
+    thin = retention_lines(weak)[-1]
     assert thin.status == "warn"
     # M4 through a hole of 4.5 mm.
     assert thin.value == pytest.approx(0.15)

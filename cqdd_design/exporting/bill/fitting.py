@@ -29,12 +29,30 @@ def fitting_notes(machine: Machine) -> dict[str, str]:
     carrier = layout.carrier
     if carrier.bonded_in_cap and carrier.pin.screw is not None:
         notes["shoulder screw"] += f"; seat in the cap bonded with {ROTOR_COMPOUND.name}"
+    notes |= _shims(machine)
     if layout.dowels.radius:
         notes["ring dowel"] = (
             "slid in with the ring in its seat, half in its grooves and half in the housing's; "
             "the clamp keeps them"
         )
     return {name: note for name, note in notes.items() if name in parts}
+
+
+def _shims(machine: Machine) -> dict[str, str]:
+    """How packs of shims are chosen, by the stacks of their bearings."""
+    notes = {}
+    for stack in machine.axial_stacks:
+        if stack.shims is None or stack.kit is None:
+            continue
+        name = "shaft shim" if stack.shims is machine.layout.carrier.shaft_shim else "output shim"
+        least, most = (_MM * value for value in stack.play)
+        room = " to ".join(f"{_MM * value:.2f}" for value in stack.worst)
+        notes[name] = (
+            f"{stack.kit.told}: measure the room, {room} mm, and take the thickest pack that "
+            f"leaves {least:.2f} mm: the play is then {least:.2f} to {most:.2f} mm; drawn "
+            f"{_MM * stack.shims.pack:g} mm"
+        )
+    return notes
 
 
 def _bearings(machine: Machine, parts: dict[str, Part]) -> dict[str, str]:

@@ -15,6 +15,7 @@ from cqdd_design.catalog.encoders import encoder_magnets, encoder_sensors
 from cqdd_design.catalog.lubricants import lubricants
 from cqdd_design.catalog.motors import motors
 from cqdd_design.catalog.screws import shoulder_screws
+from cqdd_design.catalog.shims import shim_rings
 from cqdd_design.exporting.bill.substitutes import ordered_as
 from cqdd_design.solids.selection import cap_screw, cap_screw_lengths, thread_sizes
 
@@ -36,6 +37,7 @@ def catalogue_designations() -> frozenset[str]:
             *shoulders,
             *(one.designation for one in dowels()),
             *(ordered_as(row) for row in bearings().values()),
+            *(one.designation for one in shim_rings()),
             *motors(),
             *lubricants(),
             *(one.name for one in encoder_sensors()),

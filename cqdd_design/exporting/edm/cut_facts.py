@@ -28,8 +28,6 @@ GROUND_FLATNESS = 5e-6
 """Faces of a plate from an everyday surface grinder, m."""
 GROUND_PARALLELISM = 10e-6
 """Both faces of a plate from an everyday surface grinder, m."""
-THICKNESS_TOLERANCE = 20e-6
-"""Below nominal, m: discs and ring must not grow into the gaps beside them."""
 WALL_SQUARENESS = 5e-6
 """Of the cut walls to the lower face, m: what is left of taper after skim cuts."""
 CUT_FINISH, FACE_FINISH = "Ra 0.4", "Ra 0.8"

@@ -25,6 +25,7 @@ _RUN_OUT = "0.2"
 """Circular run-out of class K (ISO 2768-2), mm."""
 _SIDES = {"up": "from the output side", "down": "from the motor side"}
 
+PLAY_HEAD = ("axial play", "room, mm", "r.s.s., mm", "shims, mm", "play, mm")
 PARTS_HEAD = ("item", "qty", "part", "designation", "material", "g each")
 
 
@@ -69,6 +70,19 @@ class AssemblyFacts:
                 f"{one.clamping.torque:.3g}",
             )
             for one in tightened_screws(self.machine)
+        ]
+
+    def plays(self) -> list[tuple[str, ...]]:
+        """A row a stack: what moves, its room at worst and likely limits, packs, play left."""
+        return [
+            (
+                one.name,
+                _span(one.worst),
+                _span(one.likely),
+                "none" if one.packs is None else _span(one.packs),
+                _span(one.play),
+            )
+            for one in self.machine.axial_stacks
         ]
 
     def notes(self) -> list[str]:
@@ -125,6 +139,10 @@ class AssemblyFacts:
             bench = f"{step.unit}: " if step.unit else ""
             said.append(f"{bench}{what}, {how}")
         return said
+
+
+def _span(pair: tuple[float, float]) -> str:
+    return " to ".join(f"{1e3 * value:.2f}" for value in pair)
 
 
 def _pieces(station: Station) -> str:

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from cqdd_design.exporting.sheets.assembly_facts import PARTS_HEAD
+from cqdd_design.exporting.sheets.assembly_facts import PARTS_HEAD, PLAY_HEAD
 from cqdd_design.exporting.sheets.assembly_view import AssemblyView
 from cqdd_design.exporting.sheets.drawing import SMALL, SheetDrawing, new_sheet
 from cqdd_design.exporting.sheets.title_block import (
@@ -45,6 +45,7 @@ _AROUND = 18.0
 """Taken by balloons above and below, mm."""
 _PARTS = (8.0, 7.0, 36.0, 67.0, 46.0, 12.5)
 _TORQUES = (70.0, 84.0, 24.0)
+_PLAYS = (64.0, 29.0, 29.0, 27.0, 29.0)
 _PITCH = 4.0
 
 
@@ -67,10 +68,13 @@ def draw_assembly(facts: AssemblyFacts) -> SheetDrawing:
     corner = complex(TITLE.real + 1.0, TOP - 3.0)
     rows = [PARTS_HEAD, *facts.parts_list()]
     torques = [("screwed joint", "screws", "torque, N m"), *facts.torques()]
+    plays = [PLAY_HEAD, *facts.plays()]
     lower = title_top(_ROWS) + 42.0
-    pitch = min(_PITCH, (corner.imag - lower - 10.0) / (len(rows) + len(torques) + 4))
+    lines = len(rows) + len(torques) + len(plays) + 6
+    pitch = min(_PITCH, (corner.imag - lower - 10.0) / lines)
     corner = table(sheet, corner, "PARTS", _PARTS, rows, pitch)
     corner = table(sheet, corner - 3.0j, "SCREWS", _TORQUES, torques, pitch)
+    corner = table(sheet, corner - 3.0j, "AXIAL PLAY", _PLAYS, plays, pitch)
     room = corner.imag - 5.0 - title_top(_ROWS) - 2.0
     said = [*facts.notes(), *_unnumbered(facts, view)]
     draw_notes(sheet, corner - 5.0j, said, width=RIGHT - corner.real - 2.0, height=room, columns=2)

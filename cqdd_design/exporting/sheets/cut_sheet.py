@@ -22,7 +22,6 @@ from cqdd_design.exporting.edm.cut_facts import (
     FACE_FINISH,
     GROUND_FLATNESS,
     GROUND_PARALLELISM,
-    THICKNESS_TOLERANCE,
     WALL_SQUARENESS,
     CutFacts,
     zone_text,
@@ -37,6 +36,7 @@ from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.title_block import HEIGHT, SCALES, WIDTH
 from cqdd_design.exporting.sheets.wording import circle_row
 from cqdd_design.geometry.contours import Circle, as_complex
+from cqdd_design.solids.features.flat import THICKNESS_TOLERANCE
 from cqdd_design.solids.features.kinds import BoltCircle
 
 if TYPE_CHECKING:

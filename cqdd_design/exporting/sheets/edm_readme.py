@@ -11,7 +11,6 @@ from cqdd_design.exporting.edm.cut_facts import (
     FACE_FINISH,
     GROUND_FLATNESS,
     GROUND_PARALLELISM,
-    THICKNESS_TOLERANCE,
     WALL_SQUARENESS,
     zone_text,
 )
@@ -24,6 +23,7 @@ from cqdd_design.exporting.edm.passes import (
 )
 from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
 from cqdd_design.geometry.columns import has_columns
+from cqdd_design.solids.features.flat import THICKNESS_TOLERANCE
 from cqdd_design.version import __version__
 
 if TYPE_CHECKING:

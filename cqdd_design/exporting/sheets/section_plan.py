@@ -129,12 +129,6 @@ class SectionShape:
         )
 
     @cached_property
-    def origin(self) -> float:
-        """Height from which lengths run: a face that is a datum, or the lower end, m."""
-        faces = [f for f in self.facts.part.features if isinstance(f, Shoulder) and f.datum]
-        return faces[0].height if faces else self.facts.part.shape.bottom
-
-    @cached_property
     def heights(self) -> tuple[tuple[float, float], ...]:
         """Heights of faces, and the radius at which each is reached from below the section, m."""
         features = self.facts.part.features
@@ -257,11 +251,18 @@ class SectionPlan:
     @cached_property
     def lengths(self) -> Lengths:
         """Lengths from the datum face."""
+        part = self.shape.facts.part
+        start = part.length_origin
+        faces = [f for f in part.features if isinstance(f, Shoulder) and f.along]
+
+        def limits(height: float) -> float:
+            return next((_MM * f.along for f in faces if abs(f.height - height) < 1e-7), 0.0)
+
         marks = tuple(
-            (self.factor * (h - self.middle), _MM * (h - self.shape.origin))
+            (self.factor * (h - self.middle), _MM * (h - start), limits(h))
             for h, _ in self.shape.heights
         )
-        origin = self.factor * (self.shape.origin - self.middle)
+        origin = self.factor * (start - self.middle)
         return Lengths(marks, origin, -self.reach - 9.0)
 
     @cached_property

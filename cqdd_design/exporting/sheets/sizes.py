@@ -178,35 +178,39 @@ def columns_of(
 
 @dataclass(frozen=True)
 class Lengths:
-    """Running lengths under a section: places along it (mm of paper) with their values (mm)."""
+    """Running lengths under a section: places along it (mm of paper), values and tolerances (mm).
 
-    marks: tuple[tuple[float, float], ...]
+    A tolerance of 0 is the general one.
+    """
+
+    marks: tuple[tuple[float, float, float], ...]
     origin: float
     level: float
 
     @property
     def depth(self) -> float:
         """Of the room they take below their line, mm."""
-        widest = max((text_width(self._words(v), SMALL) for _, v in self.marks), default=0.0)
+        widest = max((text_width(self._words(v, t), SMALL) for _, v, t in self.marks), default=0.0)
         return 9.0 + widest
 
     @property
     def width(self) -> float:
         """Of the row of values, mm."""
-        places = spread([x for x, _ in self.marks], _ROW)
+        places = spread([x for x, _, _ in self.marks], _ROW)
         return 2.0 * max(map(abs, places), default=0.0) + _ROW
 
     @staticmethod
-    def _words(value: float) -> str:
-        return short_number(value, 4)
+    def _words(value: float, either: float) -> str:
+        said = short_number(value, 4)
+        return f"{said} \u00b1{short_number(either, 4)}" if either else said
 
     def draw(self, sheet: SheetDrawing, shift: complex, bottoms: Sequence[float]) -> None:
         """Draw extension lines from the part, the line with its origin, and the values."""
         y = self.level
-        rising = sorted(x for x, _ in self.marks)
-        places = spread([x for x, _ in self.marks], _ROW)
+        rising = sorted(x for x, _, _ in self.marks)
+        places = spread([x for x, _, _ in self.marks], _ROW)
         at = sorted(zip(self.marks, places, bottoms, strict=True))
-        for (x, value), place, bottom in at:
+        for (x, value, either), place, bottom in at:
             sheet.line(shift + complex(x, bottom - 0.8), shift + complex(x, y - 1.2))
             if abs(x - self.origin) < 1e-9:
                 sheet.circle(shift + complex(x, y), 1.2)
@@ -216,12 +220,12 @@ class Lengths:
             else:
                 sheet.triangle(shift + complex(x, y), complex(x - self.origin, 0.0))
             sheet.line(shift + complex(x, y - 1.2), shift + complex(place, y - 4.5))
-            words = self._words(value)
+            words = self._words(value, either)
             wide = text_width(words, SMALL)
             sheet.text(
                 shift + complex(place + 0.5 * SMALL, y - 5.4 - wide), words, SMALL, turn=90.0
             )
-        ends = [x for x, _ in self.marks]
+        ends = [x for x, _, _ in self.marks]
         for end in (min(ends), max(ends)):
             if abs(end - self.origin) > 1e-9:
                 sheet.line(shift + complex(self.origin, y), shift + complex(end, y))

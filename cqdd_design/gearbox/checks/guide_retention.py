@@ -26,6 +26,18 @@ ROWS = (
         f"ISO 15, ISO 582 (chamfers); {HOUSE}",
     ),
     CheckGuide(
+        "RETENTION-AXIAL-PLAY",
+        "Least axial play that shims and lengths leave",
+        "mm",
+        "min",
+        "play of shaft, output bearing and discs, lengths of the parts at their worst limits, "
+        "shims chosen from their set, from the coldest start to settled temperatures >= 0; "
+        "negative too where the thickest pack falls short",
+        "Bearings that are pressed along the axis run hot and fail; play that no shim takes up "
+        "lets shaft and output knock.",
+        "the parts as drawn, cqdd_design.solids.axial; ISO 492, ISO 2768-1, DIN 988",
+    ),
+    CheckGuide(
         "RETENTION-WALL",
         "Thinnest wall of made parts between holes, and to their rims",
         "mm",

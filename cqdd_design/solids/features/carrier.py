@@ -23,6 +23,7 @@ from cqdd_design.solids.features.kinds import (
     Joint,
 )
 from cqdd_design.solids.features.making import (
+    BEARING_FACE,
     THREAD_CLASS,
     clearance,
     fitted,
@@ -78,7 +79,7 @@ def _plate_seats(carrier: CarrierLayout, shaft: ShaftLayout) -> list[Feature]:
         "seat of the output bearing", output.bore_diameter,
         carrier.bearing_bottom, carrier.bearing_top - groove.width, zones.JOURNAL, datum="A",
     )  # fmt: skip
-    seat_top = carrier.plate_bottom + support.width
+    seat_top = carrier.shaft_seat_top
     bore = seat(
         "seat of the shaft bearing", support.outer_diameter,
         carrier.plate_bottom, seat_top, zones.HOUSED, inside=True, refers="A",
@@ -95,7 +96,7 @@ def _plate_seats(carrier: CarrierLayout, shaft: ShaftLayout) -> list[Feature]:
         shoulder(
             "shoulder of the shaft bearing", seat_top,
             shaft.support.lip_radius, 0.5 * support.outer_diameter, "down", bore,
-            fillet=least_chamfer(support.bore_diameter), refers="AB",
+            fillet=least_chamfer(support.bore_diameter), refers="AB", along=BEARING_FACE,
         ),
         AxialThread(
             "thread of the nut", thread, groove.pitch, _axial(thread, groove.pitch), "6g",

@@ -14,6 +14,8 @@ from cqdd_design.solids.layout import DowelLayout, PackLayout
 
 SIGMAS = 6.0
 """Diameter of the zone of an axis over the standard deviation of its place."""
+THICKNESS_TOLERANCE = 20e-6
+"""Of discs and ring below nominal, m: they must not grow into the gaps beside them."""
 
 
 def disc_features(design: Design, pack: PackLayout, disc: int) -> tuple[Feature, ...]:

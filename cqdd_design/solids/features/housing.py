@@ -15,7 +15,15 @@ from cqdd_design.solids.features.kinds import (
     Joint,
     PlainHole,
 )
-from cqdd_design.solids.features.making import clearance, fitted, metric, seat, shoulder, tapped
+from cqdd_design.solids.features.making import (
+    BEARING_FACE,
+    clearance,
+    fitted,
+    metric,
+    seat,
+    shoulder,
+    tapped,
+)
 from cqdd_design.solids.layout import DowelLayout, HousingLayout, Layout, MotorLayout, PackLayout
 
 _SEAM_POSITION = 20e-6
@@ -59,7 +67,8 @@ def housing_features(layout: Layout) -> tuple[Feature, ...]:
         bore,
         shoulder("shoulder of the shaft bearing", seat_bottom, support.lip_radius,
                  0.5 * support.bearing.outer_diameter, "up", bore,
-                 fillet=least_chamfer(support.bearing.bore_diameter), refers="A"),
+                 fillet=least_chamfer(support.bearing.bore_diameter), refers="A",
+                 along=BEARING_FACE),
         tapped("threads of the cover's screws", thread, metric(thread), screw_circle(housing),
                mouth=pack.top, facing="up", depth=deep, room=deep),
         _mounting(housing, housing.flange_bottom, pack.top),
@@ -142,7 +151,7 @@ def clamp_features(layout: Layout) -> tuple[Feature, ...]:
         shoulder("face on the ring", bottom, max(pack.ledge_radius, housing.clamp_inner),
                  housing.flange_radius, "down", None, datum="B", refers=""),
         shoulder("face under the output bearing", top, housing.clamp_inner,
-                 0.5 * output.outer_diameter, "up", None, refers="B"),
+                 0.5 * output.outer_diameter, "up", None, refers="B", along=BEARING_FACE),
         *_ring_pin_seats(pack, bottom + pack.relief, downward=False),
     )  # fmt: skip
 
@@ -151,15 +160,16 @@ def cover_features(layout: Layout) -> tuple[Feature, ...]:
     """Of the cover that carries the output bearing."""
     housing, carrier = layout.housing, layout.carrier
     output, bottom = carrier.output.bearing, carrier.bearing_bottom
+    top = carrier.output_seat_top
     bore = seat(
-        "seat of the output bearing", output.outer_diameter, bottom, carrier.bearing_top,
+        "seat of the output bearing", output.outer_diameter, bottom, top,
         zones.HOUSED, inside=True, datum="A",
     )  # fmt: skip
     return (
         bore,
-        shoulder("lip over the output bearing", carrier.bearing_top, carrier.output.lip_radius,
+        shoulder("lip over the output bearing", top, carrier.output.lip_radius,
                  0.5 * output.outer_diameter, "down", bore,
-                 fillet=least_chamfer(output.bore_diameter)),
+                 fillet=least_chamfer(output.bore_diameter), along=BEARING_FACE),
         shoulder("face on the ring clamp", bottom, 0.5 * output.outer_diameter,
                  housing.flange_radius, "down", bore, datum="B"),
         clearance("holes of the cover's screws", housing.screw.thread, bottom,

@@ -128,6 +128,8 @@ class Shoulder:
         Largest radius that is allowed in the corner with its seat, m; 0 where an undercut ends it.
     datum, refers : str
         Letters; see the module.
+    along : float
+        Of its height, to either side, m; 0 where the general tolerance holds.
     """
 
     name: str
@@ -140,6 +142,7 @@ class Shoulder:
     fillet: float = 0.0
     datum: str = ""
     refers: str = ""
+    along: float = 0.0
 
 
 @dataclass(frozen=True)

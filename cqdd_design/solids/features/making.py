@@ -34,6 +34,9 @@ POINT_ANGLE = math.radians(118.0)
 """Of twist drills (DIN 1412)."""
 TURNED, FINE, GROUND, GENERAL = 1.6e-6, 0.8e-6, 0.4e-6, 3.2e-6
 """Ra of turned seats, of fine turned ones, of ground ones, and of what is to general limits, m."""
+BEARING_FACE = 50e-6
+"""Of the heights of faces between which bearings stand, to either side, m: what a lathe holds;
+shims make up for the sum."""
 THREAD_CLASS = "6H"
 _RUN_OUT_TURNS = 3.0
 """Drilled beyond the full thread, in pitches: what a tap's lead of 2 to 3 threads leaves (DIN 2197
@@ -87,11 +90,20 @@ def shoulder(
     fillet: float = 0.0,
     datum: str = "",
     refers: str = "A",
+    along: float = 0.0,
 ) -> Shoulder:
-    """The face beside a seat, one grade truer than it; as beside H7 where there is none."""
+    """The face beside a seat, one grade truer than it; as beside H7 where there is none.
+
+    Parameters
+    ----------
+    along : float
+        Tolerance of its height, to either side, m; 0 where the general one holds.
+    """
     grade, rough = (7, TURNED) if seat is None else (grade_of(seat.zone), seat.roughness)
     run_out = standard_tolerance(grade - 1, 2.0 * outer)
-    return Shoulder(name, height, inner, outer, facing, rough, run_out, fillet, datum, refers)
+    return Shoulder(
+        name, height, inner, outer, facing, rough, run_out, fillet, datum, refers, along
+    )
 
 
 def metric(thread: Thread) -> str:

@@ -7,7 +7,7 @@ import math
 from cqdd_design.catalog.bearings import least_chamfer
 from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.kinds import Centre, Facing, Feature, Joint, Seat
-from cqdd_design.solids.features.making import relief, seat, shoulder
+from cqdd_design.solids.features.making import BEARING_FACE, relief, seat, shoulder
 from cqdd_design.solids.layout import MotorLayout, PackLayout, ShaftLayout
 
 
@@ -58,9 +58,9 @@ def journal_features(shaft: ShaftLayout) -> list[Feature]:
     reach = min(bearing.width, lower.top - lower.bottom)
     ends = (
         shoulder("lower shoulder", shaft.lower_seat_top, 0.5 * bore, shaft.shoulder_radius, "down",
-                 lower, refers="AB"),
+                 lower, refers="AB", along=BEARING_FACE),
         shoulder("upper shoulder", shaft.upper_seat_bottom, 0.5 * bore, shaft.shoulder_radius, "up",
-                 upper, refers="AB"),
+                 upper, refers="AB", along=BEARING_FACE),
     )  # fmt: skip
     reliefs = (
         relief("undercut of the lower journal", lower, "down", corner, length=reach),
@@ -102,7 +102,7 @@ def lobe_features(
     inner = 0.5 * bearing.bore_diameter - pack.eccentricity
     face = shoulder(
         f"collar beside lobe {disc + 1}", height, inner, shaft.web_radius, collar, lobe,
-        fillet=least_chamfer(bearing.bore_diameter), refers=refers,
+        fillet=least_chamfer(bearing.bore_diameter), refers=refers, along=BEARING_FACE,
     )  # fmt: skip
     return [lobe, face]
 

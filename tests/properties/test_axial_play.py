@@ -1,0 +1,146 @@
+"""Axial play: stacks are those of the parts as drawn, and what no shim can set is seen."""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+import math
+from pathlib import Path
+
+import pytest
+
+from cqdd_design.catalog.materials import find_material
+from cqdd_design.design import load_design
+from cqdd_design.exporting.bill.fitting import fitting_notes
+from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
+from cqdd_design.exporting.solids.bom import bill_of_materials
+from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.thermal_parts import NODES
+from cqdd_design.solids.axial import AxialStack
+from cqdd_design.solids.shims import OUTPUT_SET, SHAFT_SET
+from cqdd_design.verdict.retention_lines import retention_lines
+
+DESIGNS = Path(__file__).resolve().parents[2] / "designs"
+COLUMNS = {
+    "reducer.carrier.joint": "columns",
+    "reducer.carrier.column_count": 5,
+    "reducer.carrier.column_diameter": "6 mm",
+}
+CASES = [
+    ("cqdd-10", {}),
+    ("cqdd-10", COLUMNS),
+    ("cqdd-10", {"reducer.disc_count": 1}),
+    ("cqdd-10", {"reducer.disc_count": 3}),
+    ("reference-s", {}),
+    ("printed-13", {}),
+]
+
+
+@pytest.fixture(scope="module")
+def machine() -> Machine:
+    return resolve(load_design(DESIGNS / "cqdd-10.toml"))
+
+
+def drawn_room(machine: Machine, shim: str, bearing: str) -> float:
+    """Between a bearing's upper face and the face over its shims, from the pieces as placed."""
+    parts = {part.name: part for part in machine.parts}
+    top = float(parts[shim].instances[0].placement[2, 3]) + parts[shim].shape.top
+    piece = parts[bearing].instances[-1]
+    return top - float(piece.placement[2, 3]) - parts[bearing].shape.top
+
+
+@pytest.mark.parametrize(("name", "change"), CASES)
+def test_stacks_add_up_to_what_is_drawn(name: str, change: dict[str, object]) -> None:
+    """Sizes of the features along the loop, added up, are the gap between the placed pieces."""
+    machine = resolve(load_design(DESIGNS / f"{name}.toml").replacing(change))
+    shaft, output, discs = machine.axial_stacks
+    assert shaft.nominal == pytest.approx(drawn_room(machine, "shaft shim", "shaft bearing"))
+    assert output.nominal == pytest.approx(drawn_room(machine, "output shim", "output bearing"))
+    assert discs.nominal == pytest.approx(2.0 * machine.layout.pack.gap)
+    for stack, kit in ((shaft, SHAFT_SET), (output, OUTPUT_SET)):
+        assert stack.shims is not None
+        assert stack.nominal == pytest.approx(stack.shims.room)
+        assert kit.least_play < stack.shims.play < kit.most_play
+        assert stack.reserve == pytest.approx(kit.least_play)
+    carrier, support = machine.layout.carrier, machine.layout.shaft.support
+    # A shim bears on the outer ring and touches nothing that turns against it.
+    assert carrier.shaft_shim.inner > support.shoulder_radius
+    assert carrier.shaft_shim.inner <= support.lip_radius + 1e-9
+    assert {row.name for row in machine.retention if row.free} == set()
+
+
+def test_worst_play_is_that_of_every_pair_of_limits(machine: Machine) -> None:
+    for stack in machine.axial_stacks:
+        corners = itertools.product(*((one.lower, one.upper) for one in stack.lengths))
+        rooms = [stack.nominal + sum(corner) for corner in corners]
+        assert stack.worst == pytest.approx((min(rooms), max(rooms)))
+        variance = sum(((one.upper - one.lower) / 6.0) ** 2 for one in stack.lengths)
+        low, high = stack.likely
+        assert high - low == pytest.approx(6.0 * math.sqrt(variance))
+        assert stack.worst[0] <= low < high <= stack.worst[1]
+        if stack.kit is None:
+            continue
+        # Packs in steps, from every room a shop may measure.
+        for room in rooms:
+            pack = math.floor(round((room - stack.kit.least_play) * 1e4, 6)) * 1e-4
+            assert 0.0 <= pack <= stack.kit.most + 1e-9
+            assert stack.play[0] - 1e-9 <= room - pack <= stack.play[1] + 1e-9
+
+
+def test_heat_opens_the_housing_and_a_warm_shaft_fills_it(machine: Machine) -> None:
+    shaft = machine.axial_stacks[0]
+    at = dict.fromkeys(NODES, 20.0)
+    assert shaft.growth(at) == 0.0
+    alpha = {name: find_material(name).expansion or 0.0 for name in ("7075-T6", shaft_steel(shaft))}
+    # Floor of the housing and clamp, 9 mm of it, against 17.5 mm of shaft and two bearings.
+    warm = shaft.growth(at | {"housing": 60.0})
+    assert warm == pytest.approx(alpha["7075-T6"] * 9e-3 * 40.0)
+    bearing = find_material("AISI 52100 / 100Cr6 hardened").expansion or 0.0
+    full = shaft.growth(at | {"shaft": 60.0})
+    assert full == pytest.approx(-40.0 * (alpha[shaft_steel(shaft)] * 17.5e-3 + bearing * 12e-3))
+
+
+def shaft_steel(stack: AxialStack) -> str:
+    return next(one.material for one in stack.lengths if one.part == "eccentric shaft")
+
+
+def test_what_no_pack_can_set_fails(machine: Machine) -> None:
+    shaft = machine.axial_stacks[0]
+
+    def other(lower: float, upper: float) -> AxialStack:
+        first = dataclasses.replace(shaft.lengths[0], lower=1e-3 * lower, upper=1e-3 * upper)
+        return dataclasses.replace(shaft, lengths=(first, *shaft.lengths[1:]))
+
+    assert other(-0.05, 0.05).reserve == pytest.approx(SHAFT_SET.least_play)
+    # Room of 0.6 less 0.22 and 0.38 mm is no play; 0.6 with 0.44 and 0.38 is 0.17 too much.
+    assert other(-0.38, 0.05).reserve == pytest.approx(0.0, abs=1e-9)
+    assert other(-0.40, 0.05).reserve == pytest.approx(-0.02e-3)
+    assert other(-0.05, 0.21).reserve == pytest.approx(SHAFT_SET.least_play)
+    assert other(-0.05, 0.38).reserve == pytest.approx(-0.17e-3)
+
+
+def test_discs_without_spacing_have_no_play() -> None:
+    design = load_design(DESIGNS / "cqdd-10.toml")
+    tight = resolve(design.replacing({"reducer.disc_spacing": "0.1 mm"}))
+    line = next(one for one in retention_lines(tight) if one.id == "RETENTION-AXIAL-PLAY")
+    assert line.status == "fail"
+    assert line.value == pytest.approx(-0.2)
+    assert "raise disc_spacing to 0.3 mm" in line.remedy
+    held = resolve(design.replacing({"reducer.disc_spacing": "0.3 mm"}))
+    assert min(one.reserve for one in held.axial_stacks) > 0.0
+
+
+def test_bill_and_sheet_tell_the_shims(machine: Machine) -> None:
+    rows = {row.part: row for row in bill_of_materials(machine, machine.parts)}
+    assert rows["shaft shim"].designation == "DIN 988 - 16 x 22"
+    assert rows["shaft shim"].fitting.startswith("one each of 0.1, 0.2, 0.3, 0.5 mm")
+    assert "play is then 0.05 to 0.15 mm" in rows["shaft shim"].fitting
+    assert "play is then 0.02 to 0.12 mm" in fitting_notes(machine)["output shim"]
+    plays = AssemblyFacts(machine).plays()
+    assert plays[0] == (
+        "eccentric shaft in its bearings",
+        "0.33 to 1.09",
+        "0.55 to 0.87",
+        "0.18 to 0.94",
+        "0.05 to 0.15",
+    )
