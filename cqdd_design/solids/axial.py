@@ -17,7 +17,8 @@ from cqdd_design.catalog.fits import general_tolerance
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.errors import DesignError
 from cqdd_design.solids.features.flat import THICKNESS_TOLERANCE
-from cqdd_design.solids.features.kinds import FittedHole, Shoulder
+from cqdd_design.solids.features.holes import FittedHole
+from cqdd_design.solids.features.kinds import Shoulder
 from cqdd_design.solids.features.making import BEARING_FACE
 from cqdd_design.solids.layout import Layout, ShimLayout
 from cqdd_design.solids.part import Part

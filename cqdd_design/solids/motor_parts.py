@@ -17,8 +17,9 @@ from cqdd_design.design import Design
 from cqdd_design.results import MassProperties
 from cqdd_design.solids import motor_shapes
 from cqdd_design.solids.carrier import cap_screw_shape
+from cqdd_design.solids.features.holes import BoltCircle
 from cqdd_design.solids.features.housing import ear_circle
-from cqdd_design.solids.features.kinds import BoltCircle, Feature
+from cqdd_design.solids.features.kinds import Feature
 from cqdd_design.solids.features.motor import (
     bell_features,
     board_circle,

@@ -12,7 +12,8 @@ import numpy as np
 
 from cqdd_design.geometry.contours import ArcContour, Circle, PlanarPart
 from cqdd_design.geometry.grooves import grooved_circle
-from cqdd_design.solids.features.kinds import Feature, FittedHole
+from cqdd_design.solids.features.holes import FittedHole
+from cqdd_design.solids.features.kinds import Feature
 from cqdd_design.solids.features.motor import dish_bottom
 from cqdd_design.solids.features.removal import drillings
 from cqdd_design.solids.layers import (

@@ -18,7 +18,8 @@ from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray, Moments
 from cqdd_design.results import MassProperties
 from cqdd_design.solids.features.edges import edges
-from cqdd_design.solids.features.kinds import Feature, FittedHole, Seat, Shoulder
+from cqdd_design.solids.features.holes import FittedHole
+from cqdd_design.solids.features.kinds import Feature, Seat, Shoulder
 from cqdd_design.solids.features.removal import cuts
 from cqdd_design.solids.features.revolved import Revolved
 from cqdd_design.solids.layers import Stack, prism_properties

@@ -26,6 +26,7 @@ from cqdd_design.solids.counterweights import balance_weights
 from cqdd_design.solids.features import carrier as carrier_features
 from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.flat import SIGMAS, disc_features, ring_features
+from cqdd_design.solids.features.holes import FittedHole
 from cqdd_design.solids.features.housing import (
     clamp_features,
     cover_features,
@@ -33,7 +34,7 @@ from cqdd_design.solids.features.housing import (
     ring_dowel_holes,
     screw_circle,
 )
-from cqdd_design.solids.features.kinds import AxialThread, Feature, FittedHole
+from cqdd_design.solids.features.kinds import AxialThread, Feature
 from cqdd_design.solids.features.rotating import (
     loose_cam_features,
     pin_features,

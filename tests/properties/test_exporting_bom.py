@@ -14,7 +14,7 @@ import pytest
 from cqdd_design.catalog import bearings, find_material, find_motor
 from cqdd_design.design import load_design
 from cqdd_design.errors import UsageError
-from cqdd_design.exporting.bill.consumables import bonds, free_space
+from cqdd_design.exporting.bill.consumables import bonds
 from cqdd_design.exporting.bill.known import catalogue_designations
 from cqdd_design.exporting.bill.prices import prices_asked_for, read_prices
 from cqdd_design.exporting.bill.substitutes import equal_bearings, longer_screw, ordered_as
@@ -27,6 +27,7 @@ from cqdd_design.exporting.solids.bom import (
     total_rows,
 )
 from cqdd_design.machine import resolve
+from cqdd_design.machine.grease import grease_fill
 from cqdd_design.machine.screws import screw_joints
 from cqdd_design.roads.export import export
 
@@ -201,9 +202,10 @@ def test_grease_and_compound_are_of_the_space_there_is(paper, rows):
     discs = 2 * (parts["disc"].shape.volume + parts["cam bearing"].shape.volume)
     pins = 5 * math.pi / 4 * 3.975e-3**2 * height
     lobes = 2 * math.pi * 7.5e-3**2 * 7e-3
-    assert math.isclose(free_space(machine), bore - discs - pins - lobes, rel_tol=0.06)
+    fill = grease_fill(machine)
+    assert math.isclose(fill.free, bore - discs - pins - lobes, rel_tol=0.06)
     (grease,) = (row for row in rows if row["part"] == "lubricant")
-    assert grease["fitting"].startswith(f"about {free_space(machine) / 3 * 0.9e6:.2g} g")
+    assert grease["fitting"].startswith(f"about {fill.free / 3 * 0.9e6:.2g} g")
     (bell,) = (one for one in bonds(machine) if one.place == "bell on the shaft")
     assert math.isclose(bell.gap, 0.5 * (20.5e-6 - 8e-6), rel_tol=0.2) or bell.gap == 20e-6
 

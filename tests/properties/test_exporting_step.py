@@ -17,7 +17,7 @@ from cqdd_design.exporting.job import ExportJob
 from cqdd_design.exporting.solids import step
 from cqdd_design.exporting.solids.step import export_step, file_label, write_part_step, write_step
 from cqdd_design.machine import resolve
-from cqdd_design.solids.features.kinds import TappedHole
+from cqdd_design.solids.features.holes import TappedHole
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("cadquery") is None, reason="cadquery is not installed"

@@ -19,15 +19,14 @@ from cqdd_design.design import Design
 from cqdd_design.errors import CatalogError, GeometryError
 from cqdd_design.geometry.contours import Circle, Contour
 from cqdd_design.solids.features.edges import edges
+from cqdd_design.solids.features.holes import FittedHole, TappedHole
 from cqdd_design.solids.features.kinds import (
     AxialThread,
     Chamfer,
-    FittedHole,
     Groove,
     Joint,
     Seat,
     Shoulder,
-    TappedHole,
     Undercut,
 )
 from cqdd_design.solids.features.making import point_length

@@ -8,21 +8,18 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.fits import fit_limits
-from cqdd_design.catalog.lubricants import find_lubricant
 from cqdd_design.errors import CatalogError
 from cqdd_design.exporting.bill.substitutes import other_lubricants
+from cqdd_design.machine.grease import grease_fill
 
 if TYPE_CHECKING:
     from cqdd_design.machine import Machine
 
-_FILL = 1.0 / 3.0
-"""Share of the free space round discs and pins that grease fills: bearings are filled to between 30
-and 50 % (SKF 2013, Rolling bearings, initial grease fill), slow gears by no more."""
 _WASTE = 2.0
 """What is spread over what stays in the gap."""
 _LEAST_GAP = 20e-6
 """Mean radial gap of a bond whose fit is tighter, m."""
-_MM3, _ML = 1e9, 1e6
+_ML = 1e6
 
 
 @dataclass(frozen=True)
@@ -99,27 +96,6 @@ def _gap(hole: str, shaft: str, diameter: float) -> float:
     return max(0.5 * mean, _LEAST_GAP)
 
 
-def free_space(machine: Machine) -> float:
-    """Space inside the ring beside discs, cam bearings, pins and what turns on them, m^3."""
-    height = machine.layout.pack.top
-    free = 0.0
-    for part in machine.parts:
-        solid = sum(
-            layer.shape.area() * max(min(layer.top + z, height) - max(layer.bottom + z, 0.0), 0.0)
-            for piece in part.instances
-            for layer in part.shape.layers
-            for z in (0.0 if part.name.startswith("disc") else float(piece.placement[2, 3]),)
-        )
-        if part.name == "ring":
-            whole = math.pi * machine.layout.pack.ring_radius**2 * height
-            free += whole - solid
-        elif part.name.startswith(("disc", "cam bearing", "pin ", "ring pin", "ring roller")) or (
-            part.name in ("shoulder screw", "dowel pin", "carrier column", "eccentric shaft")
-        ):
-            free -= solid
-    return max(free, 0.0)
-
-
 def consumables(machine: Machine) -> tuple[Consumable, ...]:
     """Compound and lubricant of a machine."""
     places = bonds(machine)
@@ -136,16 +112,15 @@ def consumables(machine: Machine) -> tuple[Consumable, ...]:
                 ROTOR_COMPOUND.source,
             )
         )
-    lubricant, _ = find_lubricant(machine.design.reducer.friction.lubricant)
-    volume = _FILL * free_space(machine)
+    fill = grease_fill(machine)
     found.append(
         Consumable(
             "lubricant",
-            lubricant.name,
-            f"about {1e3 * volume * lubricant.density:.2g} g ({_ML * volume:.2g} ml), a third of "
-            "the free space inside the ring: on teeth, lobes and pins, and in open bearings",
-            "; ".join(other_lubricants(lubricant.name)),
-            lubricant.source,
+            fill.lubricant.name,
+            f"about {1e3 * fill.mass:.2g} g ({_ML * fill.volume:.2g} ml), a third of the free "
+            "space inside the ring: on teeth, lobes and pins, and in open bearings",
+            "; ".join(other_lubricants(fill.lubricant.name)),
+            fill.lubricant.source,
         )
     )
     return tuple(found)

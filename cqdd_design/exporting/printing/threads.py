@@ -14,7 +14,7 @@ import numpy as np
 
 from cqdd_design.catalog.printing import Insert, insert_for
 from cqdd_design.geometry.contours import Circle, Contour, PlanarPart
-from cqdd_design.solids.features.kinds import TappedHole
+from cqdd_design.solids.features.holes import TappedHole
 from cqdd_design.solids.layers import Layer, Stack
 
 if TYPE_CHECKING:

@@ -5,22 +5,16 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from cqdd_design.catalog.lubricants import find_lubricant
 from cqdd_design.exporting.sheets.wording import joint_note
+from cqdd_design.machine.grease import grease_fill
 from cqdd_design.machine.screws import tightened_screws
-from cqdd_design.solids.apart import Step, posed_layers, taken_apart, unit_name
+from cqdd_design.solids.apart import Step, taken_apart, unit_name
 from cqdd_design.solids.features.kinds import Joint
 
 if TYPE_CHECKING:
-    from cqdd_design.geometry.contours import Contour
     from cqdd_design.machine import Machine
     from cqdd_design.solids.stations import Station
 
-GREASE_SHARE = 1.0 / 3.0
-"""Of the free space round the discs that is filled: 30 to 50 % by the makers of rolling bearings
-(SKF, Rolling bearings, chapter on lubrication), the lower end for what turns fast."""
 _RUN_OUT = "0.2"
 """Circular run-out of class K (ISO 2768-2), mm."""
 _SIDES = {"up": "from the output side", "down": "from the motor side"}
@@ -101,27 +95,11 @@ class AssemblyFacts:
         return said
 
     def _grease(self) -> str:
-        lubricant, _ = find_lubricant(self.design.reducer.friction.lubricant)
-        filled = GREASE_SHARE * self.free_space
+        fill = grease_fill(self.machine)
         return (
-            f"Fill the space round the discs with {lubricant.name}: {1e6 * filled:.2g} cm3, "
-            f"{1e3 * filled * lubricant.density:.2g} g, a third of what is free there."
+            f"Fill the space round the discs with {fill.lubricant.name}: {1e6 * fill.volume:.2g} "
+            f"cm3, {1e3 * fill.mass:.2g} g, a third of what is free there."
         )
-
-    @cached_property
-    def free_space(self) -> float:
-        """Within the ring, beside all that stands or turns in it, m^3."""
-        ring = next(part for part in self.parts if part.name == "ring")
-        bottom, top = ring.shape.bottom, ring.shape.top
-        hole = ring.shape.layers[0].shape.holes[0]
-        free, reach = hole.moments().area * (top - bottom), _reach(hole)
-        for part in self.parts:
-            for piece in part.instances:
-                for layer in posed_layers(part, piece.pose(self.machine.design)):
-                    height = min(layer.top, top) - max(layer.bottom, bottom)
-                    if height > 0.0 and _reach(layer.shape.outer) <= reach + 1e-6:
-                        free -= layer.shape.area() * height
-        return free
 
     @cached_property
     def _apart(self) -> tuple[tuple[Step, ...], bool]:
@@ -152,7 +130,3 @@ def _pieces(station: Station) -> str:
 
 def _capital(text: str) -> str:
     return text[:1].upper() + text[1:]
-
-
-def _reach(contour: Contour) -> float:
-    return float(np.hypot(*contour.sample(1e-5).T).max())

@@ -15,31 +15,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from cqdd_design.exporting.sheets import title_block as block
 from cqdd_design.exporting.sheets.assembly_facts import PARTS_HEAD, PLAY_HEAD
 from cqdd_design.exporting.sheets.assembly_view import AssemblyView
 from cqdd_design.exporting.sheets.drawing import SMALL, SheetDrawing, new_sheet
-from cqdd_design.exporting.sheets.title_block import (
-    BOTTOM,
-    LEFT,
-    RIGHT,
-    SCALES,
-    TITLE,
-    TOP,
-    Field,
-    draw_border,
-    draw_notes,
-    draw_title_block,
-    title_top,
-    wrapped,
-)
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 
 _ROWS = 2
-_ORDER = title_top(_ROWS) + 25.0
+_ORDER = block.title_top(_ROWS) + 25.0
 """Upper edge of the order of assembly, mm."""
-_ROOM = (LEFT + 4.0, _ORDER + 4.0, TITLE.real - 4.0, TOP - 4.0)
+_ROOM = (block.LEFT + 4.0, _ORDER + 4.0, block.TITLE.real - 4.0, block.TOP - 4.0)
 """Of the section with its balloons, mm."""
 _AROUND = 18.0
 """Taken by balloons above and below, mm."""
@@ -57,27 +44,29 @@ def draw_assembly(facts: AssemblyFacts) -> SheetDrawing:
     scale = next(
         (
             one
-            for one in SCALES
+            for one in block.SCALES
             if one * long + 16.0 <= right - left and one * wide + 2.0 * _AROUND <= top - bottom
         ),
-        SCALES[-1],
+        block.SCALES[-1],
     )
     sheet = new_sheet(scale)
-    draw_border(sheet)
+    block.draw_border(sheet)
     view.draw(sheet, complex(0.5 * (left + right), 0.5 * (bottom + top)))
-    corner = complex(TITLE.real + 1.0, TOP - 3.0)
+    corner = complex(block.TITLE.real + 1.0, block.TOP - 3.0)
     rows = [PARTS_HEAD, *facts.parts_list()]
     torques = [("screwed joint", "screws", "torque, N m"), *facts.torques()]
     plays = [PLAY_HEAD, *facts.plays()]
-    lower = title_top(_ROWS) + 42.0
+    lower = block.title_top(_ROWS) + 42.0
     lines = len(rows) + len(torques) + len(plays) + 6
     pitch = min(_PITCH, (corner.imag - lower - 10.0) / lines)
     corner = table(sheet, corner, "PARTS", _PARTS, rows, pitch)
     corner = table(sheet, corner - 3.0j, "SCREWS", _TORQUES, torques, pitch)
     corner = table(sheet, corner - 3.0j, "AXIAL PLAY", _PLAYS, plays, pitch)
-    room = corner.imag - 5.0 - title_top(_ROWS) - 2.0
+    room = corner.imag - 5.0 - block.title_top(_ROWS) - 2.0
     said = [*facts.notes(), *_unnumbered(facts, view)]
-    draw_notes(sheet, corner - 5.0j, said, width=RIGHT - corner.real - 2.0, height=room, columns=2)
+    block.draw_notes(
+        sheet, corner - 5.0j, said, width=block.RIGHT - corner.real - 2.0, height=room, columns=2
+    )
     _order(sheet, facts)
     _title(sheet, facts)
     return sheet
@@ -107,7 +96,8 @@ def table(
     level = top
     for row in rows:
         cells = [
-            wrapped(words, width - 1.6, size) for words, width in zip(row, widths, strict=True)
+            block.wrapped(words, width - 1.6, size)
+            for words, width in zip(row, widths, strict=True)
         ]
         x = 0.0
         for lines, width in zip(cells, widths, strict=True):
@@ -126,24 +116,24 @@ def table(
 
 def _order(sheet: SheetDrawing, facts: AssemblyFacts) -> None:
     steps = facts.order()
-    corner = complex(LEFT + 4.0, _ORDER)
+    corner = complex(block.LEFT + 4.0, _ORDER)
     said = steps or ["no order was found in which every part reaches its place"]
-    draw_notes(
+    block.draw_notes(
         sheet,
         corner,
         said,
-        width=TITLE.real - corner.real - 3.0,
-        height=corner.imag - BOTTOM - 2.0,
+        width=block.TITLE.real - corner.real - 3.0,
+        height=corner.imag - block.BOTTOM - 2.0,
         columns=3,
         title="ORDER OF ASSEMBLY",
     )
 
 
 def _title(sheet: SheetDrawing, facts: AssemblyFacts) -> None:
-    rows: list[list[Field]] = [
+    rows: list[list[block.Field]] = [
         [
             ("tolerances", "ISO 8015; those of the parts on their sheets", 92.0),
             ("mass", f"{facts.mass:.4g} kg, motor as drawn", 88.0),
         ],
     ]
-    draw_title_block(sheet, facts.design, facts.number, "actuator, assembly", rows)
+    block.draw_title_block(sheet, facts.design, facts.number, "actuator, assembly", rows)

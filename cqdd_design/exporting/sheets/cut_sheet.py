@@ -37,7 +37,7 @@ from cqdd_design.exporting.sheets.title_block import HEIGHT, SCALES, WIDTH
 from cqdd_design.exporting.sheets.wording import circle_row
 from cqdd_design.geometry.contours import Circle, as_complex
 from cqdd_design.solids.features.flat import THICKNESS_TOLERANCE
-from cqdd_design.solids.features.kinds import BoltCircle
+from cqdd_design.solids.features.holes import BoltCircle
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.edm.seats import Seat

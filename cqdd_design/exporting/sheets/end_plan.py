@@ -21,15 +21,15 @@ from cqdd_design.exporting.sheets.profile import slots
 from cqdd_design.exporting.sheets.wording import DIA, circle_row, degrees, hole_rows, mm
 from cqdd_design.geometry.contours import ArcContour, as_complex
 from cqdd_design.solids.end_view import Arc, visible_edges
-from cqdd_design.solids.features.kinds import (
+from cqdd_design.solids.features.holes import (
     ClearanceHole,
     Counterbore,
     FittedHole,
     Hole,
     PlainHole,
-    Seat,
     TappedHole,
 )
+from cqdd_design.solids.features.kinds import Seat
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.sheets.part_facts import PartFacts

@@ -10,16 +10,15 @@ from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.exporting.sheets.profile import outside
 from cqdd_design.exporting.sheets.wording import holes_by_circle
 from cqdd_design.geometry.contours import Circle, Contour
-from cqdd_design.solids.features.kinds import (
-    Chamfer,
+from cqdd_design.solids.features.holes import (
     ClearanceHole,
     Counterbore,
     FittedHole,
     Hole,
-    Joint,
     PlainHole,
     TappedHole,
 )
+from cqdd_design.solids.features.kinds import Chamfer, Joint
 from cqdd_design.solids.layers import Stack, reshaped
 
 if TYPE_CHECKING:

@@ -35,15 +35,8 @@ from cqdd_design.exporting.sheets.wording import (
     undercut_text,
 )
 from cqdd_design.solids.axial_view import Line, Rectangle, cut_rectangles, lines_behind
-from cqdd_design.solids.features.kinds import (
-    AxialThread,
-    Chamfer,
-    Groove,
-    Seat,
-    Shoulder,
-    TappedHole,
-    Undercut,
-)
+from cqdd_design.solids.features.holes import TappedHole
+from cqdd_design.solids.features.kinds import AxialThread, Chamfer, Groove, Seat, Shoulder, Undercut
 from cqdd_design.solids.slabs import stack_slabs
 
 if TYPE_CHECKING:

@@ -9,20 +9,22 @@ from typing import TYPE_CHECKING
 from cqdd_design.errors import CatalogError
 from cqdd_design.exporting.sheets.blocks import Boxed, Cell, DatumMark, Frame, Row, Surface, Words
 from cqdd_design.exporting.sheets.lettering import short_number
-from cqdd_design.solids.features.kinds import (
-    AxialThread,
+from cqdd_design.solids.features.holes import (
     BoltCircle,
-    Chamfer,
     ClearanceHole,
     Counterbore,
     FittedHole,
-    Groove,
     Hole,
-    Joint,
     PlainHole,
+    TappedHole,
+)
+from cqdd_design.solids.features.kinds import (
+    AxialThread,
+    Chamfer,
+    Groove,
+    Joint,
     Seat,
     Shoulder,
-    TappedHole,
     Undercut,
 )
 
@@ -166,7 +168,7 @@ def hole_rows(hole: Hole) -> tuple[Row, ...]:
         deep = "through" if hole.through else f"{BY} {mm(hole.top - hole.bottom)} deep"
         rows.append((Words(f"{lead}{size} {deep}"),))
         if hole.seam:
-            rows.append((Words("reamed across the seam with its mate in place"),))
+            rows.append((Words("half grooves, milled or cut by wire; its mate has the others"),))
     else:
         rows.append((Words(f"{lead}{DIA}{mm(hole.diameter)}"),))
     frame: list[Cell] = []

@@ -15,7 +15,8 @@ from cqdd_design.report.ink.numbers import decimals, millimetres, significant, w
 from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Figure, Words, line, rectangle, text
 from cqdd_design.report.judgement.check_rows import printed
-from cqdd_design.solids.features.kinds import FittedHole, Seat
+from cqdd_design.solids.features.holes import FittedHole
+from cqdd_design.solids.features.kinds import Seat
 from cqdd_design.solids.inertia import ROTOR_PARTS, ROTOR_SCOPE, GearboxInertia, PartInertia
 
 Row = tuple[str, ...]

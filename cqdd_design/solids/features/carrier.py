@@ -13,15 +13,8 @@ from cqdd_design.catalog.threads import (
     thread_named,
 )
 from cqdd_design.solids.features import zones
-from cqdd_design.solids.features.kinds import (
-    AxialThread,
-    BoltCircle,
-    Counterbore,
-    Facing,
-    Feature,
-    Groove,
-    Joint,
-)
+from cqdd_design.solids.features.holes import BoltCircle, Counterbore, Facing
+from cqdd_design.solids.features.kinds import AxialThread, Feature, Groove, Joint
 from cqdd_design.solids.features.making import (
     BEARING_FACE,
     THREAD_CLASS,

@@ -12,7 +12,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from cqdd_design.geometry.contours import Circle
-from cqdd_design.solids.features.kinds import Chamfer, Facing
+from cqdd_design.solids.features.holes import Facing
+from cqdd_design.solids.features.kinds import Chamfer
 from cqdd_design.solids.layers import Layer, Stack
 
 _SERIES = (1.0e-3, 0.8e-3, 0.5e-3, 0.3e-3, 0.2e-3, 0.1e-3)

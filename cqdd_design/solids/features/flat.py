@@ -7,8 +7,9 @@ import math
 from cqdd_design.design import Design
 from cqdd_design.geometry.disc import hole_centres, hole_diameter
 from cqdd_design.solids.features import zones
+from cqdd_design.solids.features.holes import BoltCircle, CutHole
 from cqdd_design.solids.features.housing import ring_dowel_holes
-from cqdd_design.solids.features.kinds import BoltCircle, CutHole, CutProfile, Feature
+from cqdd_design.solids.features.kinds import CutProfile, Feature
 from cqdd_design.solids.features.making import seat
 from cqdd_design.solids.layout import DowelLayout, PackLayout
 

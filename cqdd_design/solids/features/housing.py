@@ -7,14 +7,8 @@ import math
 from cqdd_design.catalog.bearings import least_chamfer
 from cqdd_design.catalog.threads import coarse_thread
 from cqdd_design.solids.features import zones
-from cqdd_design.solids.features.kinds import (
-    BoltCircle,
-    ClearanceHole,
-    Feature,
-    FittedHole,
-    Joint,
-    PlainHole,
-)
+from cqdd_design.solids.features.holes import BoltCircle, ClearanceHole, FittedHole, PlainHole
+from cqdd_design.solids.features.kinds import Feature, Joint
 from cqdd_design.solids.features.making import (
     BEARING_FACE,
     clearance,
@@ -27,7 +21,7 @@ from cqdd_design.solids.features.making import (
 from cqdd_design.solids.layout import DowelLayout, HousingLayout, Layout, MotorLayout, PackLayout
 
 _SEAM_POSITION = 20e-6
-"""Of dowels drilled and reamed in one with the ring in its seat, m."""
+"""Of the half grooves of the ring's dowels, in ring and housing, m."""
 _RING_PIN_POSITION = 10e-6
 """Of the ends of a ring's pins, which gear with the discs, m."""
 

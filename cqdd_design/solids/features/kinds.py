@@ -18,42 +18,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from cqdd_design.catalog.fits import FitLimits, fit_limits
-from cqdd_design.solids.features.holes import (
-    BoltCircle,
-    Centre,
-    ClearanceHole,
-    Counterbore,
-    CutHole,
-    Facing,
-    FittedHole,
-    Hole,
-    PlainHole,
-    TappedHole,
-)
-
-__all__ = [
-    "ON_AXIS",
-    "AxialThread",
-    "BoltCircle",
-    "Centre",
-    "Chamfer",
-    "ClearanceHole",
-    "Counterbore",
-    "CutHole",
-    "CutProfile",
-    "Facing",
-    "Feature",
-    "FittedHole",
-    "Groove",
-    "Hole",
-    "Joint",
-    "PlainHole",
-    "Seat",
-    "Shoulder",
-    "TappedHole",
-    "Undercut",
-    "fit_label",
-]
+from cqdd_design.solids.features.holes import Centre, Facing, FittedHole, Hole
 
 ON_AXIS: Centre = (0.0, 0.0)
 

@@ -17,18 +17,15 @@ from cqdd_design.catalog.fits import standard_tolerance
 from cqdd_design.catalog.threads import Thread, tap_drill, thread_size_of
 from cqdd_design.catalog.undercuts import undercut_for
 from cqdd_design.errors import CatalogError
-from cqdd_design.solids.features.kinds import (
-    ON_AXIS,
+from cqdd_design.solids.features.holes import (
     BoltCircle,
     Centre,
     ClearanceHole,
     Facing,
     FittedHole,
-    Seat,
-    Shoulder,
     TappedHole,
-    Undercut,
 )
+from cqdd_design.solids.features.kinds import ON_AXIS, Seat, Shoulder, Undercut
 
 POINT_ANGLE = math.radians(118.0)
 """Of twist drills (DIN 1412)."""

@@ -6,8 +6,9 @@ import math
 
 from cqdd_design.catalog.threads import coarse_thread
 from cqdd_design.solids.features import zones
+from cqdd_design.solids.features.holes import BoltCircle, PlainHole
 from cqdd_design.solids.features.housing import ear_circle
-from cqdd_design.solids.features.kinds import BoltCircle, Feature, Joint, PlainHole
+from cqdd_design.solids.features.kinds import Feature, Joint
 from cqdd_design.solids.features.making import clearance, metric, seat, shoulder, tapped
 from cqdd_design.solids.layout import MotorLayout
 

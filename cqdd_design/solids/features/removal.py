@@ -11,17 +11,19 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from cqdd_design.solids.features.holes import (
+    ClearanceHole,
+    Counterbore,
+    FittedHole,
+    PlainHole,
+    TappedHole,
+)
 from cqdd_design.solids.features.kinds import (
     ON_AXIS,
     AxialThread,
     Chamfer,
-    ClearanceHole,
-    Counterbore,
     Feature,
-    FittedHole,
     Groove,
-    PlainHole,
-    TappedHole,
     Undercut,
 )
 from cqdd_design.solids.features.making import point_length

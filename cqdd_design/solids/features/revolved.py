@@ -24,7 +24,8 @@ import numpy as np
 
 from cqdd_design.geometry.contours import gauss_rule
 from cqdd_design.results import MassProperties
-from cqdd_design.solids.features.kinds import ON_AXIS, Centre
+from cqdd_design.solids.features.holes import Centre
+from cqdd_design.solids.features.kinds import ON_AXIS
 
 Point: TypeAlias = tuple[float, float]
 

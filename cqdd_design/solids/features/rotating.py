@@ -6,7 +6,8 @@ import math
 
 from cqdd_design.catalog.bearings import least_chamfer
 from cqdd_design.solids.features import zones
-from cqdd_design.solids.features.kinds import Centre, Facing, Feature, Joint, Seat
+from cqdd_design.solids.features.holes import Centre, Facing
+from cqdd_design.solids.features.kinds import Feature, Joint, Seat
 from cqdd_design.solids.features.making import BEARING_FACE, relief, seat, shoulder
 from cqdd_design.solids.layout import MotorLayout, PackLayout, ShaftLayout
 
