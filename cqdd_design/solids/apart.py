@@ -266,6 +266,13 @@ class _Thing:
         )
 
 
+def material_of(shape: PlanarPart) -> CrossSection:
+    """A shape as polygons, mm."""
+    from manifold3d import CrossSection, FillRule
+
+    return CrossSection(list(_loops(shape)), FillRule.EvenOdd)
+
+
 def _loops(shape: PlanarPart) -> Iterable[FloatArray]:
     for contour in (shape.outer, *shape.holes):
         yield contour.sample(_SAG) * 1e3

@@ -10,6 +10,7 @@ from cqdd_design.machine.grease import grease_fill
 from cqdd_design.machine.screws import tightened_screws
 from cqdd_design.solids.apart import Step, taken_apart, unit_name
 from cqdd_design.solids.features.kinds import Joint
+from cqdd_design.solids.tool_access import reaches
 
 if TYPE_CHECKING:
     from cqdd_design.machine import Machine
@@ -111,11 +112,14 @@ class AssemblyFacts:
         if not whole:
             return []
         said: list[str] = []
+        keys = {one.screw: one.size for one in reaches(self.machine.design, steps)}
         for step in reversed(steps):
             what = f"the {unit_name(step)}" if step.is_unit else _pieces(step.moved[0])
             how = _SIDES[step.way] if said else "to begin with"
             bench = f"{step.unit}: " if step.unit else ""
-            said.append(f"{bench}{what}, {how}")
+            size = keys.get(step.moved[0].part.name)
+            key = "" if size is None or step.is_unit else f", key {1e3 * size:.3g}"
+            said.append(f"{bench}{what}, {how}{key}")
         return said
 
 
