@@ -14,6 +14,7 @@ from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.checks.guide import check_guide
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.machine import Machine
+from cqdd_design.machine.sealing import sealing
 from cqdd_design.results import Check
 from cqdd_design.roads.sized_file import kept_costs
 from cqdd_design.roads.telling import Progress, silent
@@ -61,6 +62,7 @@ class Judgement:
             "retention": self._retention,
             "costs": list(self.costs),
             "axial_play": self._axial_play,
+            "sealing": self._sealing,
             **seen,
         }
 
@@ -72,6 +74,14 @@ class Judgement:
         except DesignError:
             return []
         return [row.to_dict() for row in table]
+
+    @property
+    def _sealing(self) -> str | None:
+        """What is sealed; None where nothing can be laid out."""
+        try:
+            return sealing(self.verdict.evidence.machine)
+        except DesignError:
+            return None
 
     @property
     def _axial_play(self) -> list[dict[str, object]]:

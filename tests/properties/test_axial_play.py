@@ -15,6 +15,7 @@ from cqdd_design.exporting.bill.fitting import fitting_notes
 from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.sealing import sealing
 from cqdd_design.machine.thermal_parts import NODES
 from cqdd_design.solids.axial import AxialStack
 from cqdd_design.solids.shims import OUTPUT_SET, SHAFT_SET
@@ -128,6 +129,16 @@ def test_discs_without_spacing_have_no_play() -> None:
     assert "raise disc_spacing to 0.3 mm" in line.remedy
     held = resolve(design.replacing({"reducer.disc_spacing": "0.3 mm"}))
     assert min(one.reserve for one in held.axial_stacks) > 0.0
+
+
+def test_what_is_not_sealed_is_said(machine: Machine) -> None:
+    """Between a nut of 54.8 mm and a lip of 61.2 mm are 3.2 mm."""
+    assert "Not sealed: the 3.2 mm between nut and cover" in sealing(machine)
+    assert fitting_notes(machine)["output bearing"].endswith("open, not sealed")
+    assert sealing(machine) in AssemblyFacts(machine).notes()
+    closed = machine.changed({"reducer.friction.seals": "contact"})
+    assert sealing(closed).startswith("Sealed by its bearings alone")
+    assert "contact seals" in fitting_notes(closed)["shaft bearing"]
 
 
 def test_bill_and_sheet_tell_the_shims(machine: Machine) -> None:

@@ -17,7 +17,12 @@ from cqdd_design.errors import UsageError
 from cqdd_design.exporting.bill.consumables import bonds
 from cqdd_design.exporting.bill.known import catalogue_designations
 from cqdd_design.exporting.bill.prices import prices_asked_for, read_prices
-from cqdd_design.exporting.bill.substitutes import equal_bearings, longer_screw, ordered_as
+from cqdd_design.exporting.bill.substitutes import (
+    equal_bearings,
+    longer_screw,
+    ordered_as,
+    passes,
+)
 from cqdd_design.exporting.options import ExportOptions
 from cqdd_design.exporting.solids.bom import (
     TOTAL,
@@ -177,6 +182,16 @@ def test_substitutes_of_bearings_are_no_smaller_and_no_weaker(rows):
         "ball bearing 15 x 28 x 7 mm of any maker, C 4.3 kN and C0 2.25 kN or more"
     )
     assert ordered_as(bearings()["needle cage K15x19x10"]) == "K15x19x10"
+
+
+def test_a_substitute_that_fails_a_check_is_not_offered(paper_design_file):
+    machine = resolve(load_design(paper_design_file.with_name("reference-s.toml")))
+    key = "reducer.cam_bearing.designation"
+    assert passes(machine, {key: "16003"})
+    # The same bore in thinner series bears too little.
+    assert not passes(machine, {key: "6803"})
+    assert not passes(machine, {key: "6903"})
+    assert passes(machine, {"reducer.friction.lubricant": "NLGI 2 grease"})
 
 
 def test_a_longer_screw_is_named_where_it_ends_in_its_thread(paper):

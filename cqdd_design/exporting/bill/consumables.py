@@ -119,7 +119,7 @@ def consumables(machine: Machine) -> tuple[Consumable, ...]:
             fill.lubricant.name,
             f"about {1e3 * fill.mass:.2g} g ({_ML * fill.volume:.2g} ml), a third of the free "
             "space inside the ring: on teeth, lobes and pins, and in open bearings",
-            "; ".join(other_lubricants(fill.lubricant.name)),
+            "; ".join(other_lubricants(machine)),
             fill.lubricant.source,
         )
     )

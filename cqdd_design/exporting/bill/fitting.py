@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.machine.screws import tightening_torques
+from cqdd_design.machine.sealing import bearing_seals
 
 if TYPE_CHECKING:
     from cqdd_design.machine import Machine
@@ -30,6 +31,8 @@ def fitting_notes(machine: Machine) -> dict[str, str]:
     if carrier.bonded_in_cap and carrier.pin.screw is not None:
         notes["shoulder screw"] += f"; seat in the cap bonded with {ROTOR_COMPOUND.name}"
     notes |= _shims(machine)
+    for name in ("shaft bearing", "output bearing"):
+        notes[name] += f"; {bearing_seals(machine)}"
     if layout.dowels.radius:
         notes["ring dowel"] = (
             "slid in with the ring in its seat, half in its grooves and half in the housing's; "

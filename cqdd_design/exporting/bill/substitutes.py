@@ -1,17 +1,21 @@
 """Bought parts that may stand in for those of the bill and pass the same checks.
 
 Checks and layout read of a bearing its sizes and ratings, of a screw its thread, length and class:
-what is equal in these, or no weaker, changes no line of the verdict. A designation of an older
-standard for the same part counts too.
+what is equal in these, or no weaker, changes no line of the verdict. Bearings and lubricants that
+are so chosen are put in the machine and run through its closed-form checks all the same; one with
+which a line fails that passes without it is not offered. A designation of an older standard for the
+same part counts too.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 from cqdd_design.catalog.bearings import Bearing, bearings
 from cqdd_design.catalog.encoders import magnets_of, sensors_with
 from cqdd_design.catalog.lubricants import find_lubricant, lubricants
+from cqdd_design.errors import DesignError
 from cqdd_design.solids.selection import CapScrew, cap_screw_lengths
 
 if TYPE_CHECKING:
@@ -20,6 +24,11 @@ if TYPE_CHECKING:
 
 _SAME = 1e-6
 """Difference of sizes that counts as rounding, m."""
+_KEYS = {
+    "cam bearing": "reducer.cam_bearing.designation",
+    "output bearing": "reducer.carrier_bearing.designation",
+}
+"""Parts that a design may name, with its key."""
 _OLDER_STANDARDS = (
     ("ISO 4762 ", "DIN 912 "),
     ("ISO 8734 ", "DIN 6325 "),
@@ -38,7 +47,12 @@ def substitutes(machine: Machine, part: Part) -> tuple[str, ...]:
     ]
     row = bearings().get(named)
     if row is not None:
-        found += [ordered_as(other) for other in equal_bearings(row)]
+        key = _KEYS.get(part.name)
+        found += [
+            ordered_as(other)
+            for other in equal_bearings(row)
+            if key is None or passes(machine, {key: other.designation})
+        ]
         found += equal_makes(row)
     if part.name == "encoder board":
         bits = machine.design.drive.encoder_bits
@@ -51,6 +65,18 @@ def substitutes(machine: Machine, part: Part) -> tuple[str, ...]:
     if longer is not None:
         found.append(longer.designation)
     return tuple(found)
+
+
+def passes(machine: Machine, change: Mapping[str, Any]) -> bool:
+    """Whether a machine with a change fails no closed-form check that it passes as it is."""
+    from cqdd_design.machine import resolve
+
+    try:
+        other = resolve(machine.given.replacing(change)).analysis.checks
+    except DesignError:
+        return False
+    before = {one.id for one in machine.analysis.checks if one.status == "fail"}
+    return {one.id for one in other if one.status == "fail"} <= before
 
 
 def ordered_as(row: Bearing) -> str:
@@ -124,9 +150,9 @@ def longer_screw(machine: Machine, part: str) -> CapScrew | None:
     return CapScrew(screw.thread, length, screw.head_diameter, screw.head_height, screw.socket)
 
 
-def other_lubricants(name: str) -> tuple[str, ...]:
-    """Lubricants of the catalogue that are no thinner, rub no more and bear what this one bears."""
-    own, _ = find_lubricant(name)
+def other_lubricants(machine: Machine) -> tuple[str, ...]:
+    """Lubricants of the catalogue that are no thinner, rub no more and bear what its own bears."""
+    own, _ = find_lubricant(machine.design.reducer.friction.lubricant)
     return tuple(
         one.name
         for one in lubricants().values()
@@ -137,6 +163,7 @@ def other_lubricants(name: str) -> tuple[str, ...]:
         and one.film_friction <= own.film_friction
         and one.coldest <= own.coldest
         and one.hottest >= own.hottest
+        and passes(machine, {"reducer.friction.lubricant": one.name})
     )
 
 

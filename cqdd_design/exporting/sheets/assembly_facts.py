@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from cqdd_design.exporting.sheets.wording import joint_note
 from cqdd_design.machine.grease import grease_fill
 from cqdd_design.machine.screws import tightened_screws
+from cqdd_design.machine.sealing import sealing
 from cqdd_design.solids.apart import Step, taken_apart, unit_name
 from cqdd_design.solids.features.kinds import Joint
 from cqdd_design.solids.tool_access import reaches
@@ -88,6 +89,7 @@ class AssemblyFacts:
                 if isinstance(feature, Joint) and feature.kind != "screwed":
                     said.append(f"{_capital(part.name)}: {joint_note(feature)}")
         said.append(self._grease())
+        said.append(sealing(self.machine))
         said.append(
             f"Turned by hand, the output's face and seat run true to the housing within {_RUN_OUT} "
             "mm (ISO 2768-K); the parts' own run-outs stand on their sheets."
