@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 MM = 1e3
 """Millimetres in a metre: the solids' unit."""
 _VOLUME_TOLERANCE = 1e-6
+_AREA_TOLERANCE = 1e-6
 _DECIMALS = 10
 """Of coordinates in mm: a tenth of a picometre."""
 _DIGITS = 15
@@ -71,7 +72,7 @@ def build_solid(
     tools = [tool for cut in cuts for tool in _revolved(cut)]
     exact = (shape.volume - math.fsum(cut.volume for cut in cuts)) * MM**3
     # Merging faces now and then loses some; the solid with its seams is sound then.
-    for whole in (fused.clean, lambda: fused) if merged else (lambda: fused,):
+    for whole in (lambda: _merged(fused), lambda: fused) if merged else (lambda: fused,):
         found = whole().cut(*tools) if tools else whole()
         solids = found.Solids()
         sound = len(solids) == 1 and solids[0].isValid()
@@ -85,6 +86,17 @@ def build_solid(
         )
     solid: Solid = cadquery.Solid(solids[0].wrapped)
     return solid
+
+
+def _merged(fused: Solid) -> Solid:
+    """A solid with faces that continue each other as one, or as it was where that spoils a face.
+
+    Merging moves no surface. On a bore with grooves all round it the kernel once lost the grooves'
+    mouths: a face as large as the whole bore, which later cuts leave valid and no mesher closes.
+    """
+    found: Solid = fused.clean()
+    areas = [math.fsum(face.Area() for face in one.Faces()) for one in (fused, found)]
+    return found if math.isclose(*areas, rel_tol=_AREA_TOLERANCE) else fused
 
 
 def _prism(layer: Layer) -> Solid:

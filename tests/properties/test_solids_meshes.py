@@ -5,13 +5,16 @@ from __future__ import annotations
 import dataclasses
 import importlib.util
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from solids_designs import known_design, known_parts, part_named
 
+from cqdd_design.design import load_design
 from cqdd_design.geometry.cycloid import CycloidDisc
 from cqdd_design.geometry.disc import profile_moments
+from cqdd_design.machine import resolve
 from cqdd_design.solids.clearances import assembly_motion
 from cqdd_design.solids.features.revolved import Revolved
 from cqdd_design.solids.interference import overlap_of, posed_manifold
@@ -32,6 +35,7 @@ pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("cadquery") is None, reason="cadquery is not installed"
 )
 
+DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 # Shapes that differ in kind from those of the paper's machine.
 OTHERS = [
     ("three discs", "disc 2"),
@@ -247,3 +251,22 @@ def test_pieces_of_the_assembly_stand_where_they_are_posed() -> None:
             centre = child.obj.moved(child.loc).Center()  # type: ignore[union-attr]
             assert np.abs(np.array(centre.toTuple()) - wanted).max() < 1e-3
     assert len(placed) == sum(part.count for part in parts)
+
+
+def test_merging_faces_moves_no_surface() -> None:
+    """The seat of the ring in this housing, with grooves all round, once lost their mouths."""
+    machine = resolve(load_design(DESIGNS / "reference-s.toml"))
+    housing = part_named(machine.parts, "housing")
+    pack, dowels = machine.layout.pack, machine.layout.dowels
+    seat = math.fsum(
+        face.Area()
+        for face in housing.solid.Faces()
+        if face.geomType() == "CYLINDER"
+        and math.isclose(face._geomAdaptor().Cylinder().Radius(), 1e3 * pack.ring_radius)
+        and abs(face.Center().z) < 1e3 * pack.top
+    )
+    mouth = 2.0 * math.asin(0.5 * dowels.radius / pack.ring_radius) * 2.0 * pack.ring_radius
+    grooves = len(dowels.angles) * mouth * (pack.top - dowels.bottom)
+    whole = 2.0 * math.pi * pack.ring_radius * pack.top
+    assert seat == pytest.approx(1e6 * (whole - grooves), rel=0.02)
+    assert len(facets(housing, DISPLAY).triangles) > 1000
