@@ -19,7 +19,7 @@ from cqdd_design.solids.features.revolved import Revolved
 from cqdd_design.solids.layers import Layer, Stack
 
 if TYPE_CHECKING:
-    from cadquery import Face, Location, Solid, Wire
+    from cadquery import Face, Location, Shape, Solid, Wire
 
 MM = 1e3
 """Millimetres in a metre: the solids' unit."""
@@ -72,8 +72,9 @@ def build_solid(
     tools = [tool for cut in cuts for tool in _revolved(cut)]
     exact = (shape.volume - math.fsum(cut.volume for cut in cuts)) * MM**3
     # Merging faces now and then loses some; the solid with its seams is sound then.
-    for whole in (lambda: _merged(fused), lambda: fused) if merged else (lambda: fused,):
-        found = whole().cut(*tools) if tools else whole()
+    tries: list[Shape] = [_merged(fused), fused] if merged else [fused]
+    for whole in tries:
+        found = whole.cut(*tools) if tools else whole
         solids = found.Solids()
         sound = len(solids) == 1 and solids[0].isValid()
         if sound and math.isclose(solids[0].Volume(), exact, rel_tol=_VOLUME_TOLERANCE):
@@ -88,13 +89,13 @@ def build_solid(
     return solid
 
 
-def _merged(fused: Solid) -> Solid:
+def _merged(fused: Shape) -> Shape:
     """A solid with faces that continue each other as one, or as it was where that spoils a face.
 
     Merging moves no surface. On a bore with grooves all round it the kernel once lost the grooves'
     mouths: a face as large as the whole bore, which later cuts leave valid and no mesher closes.
     """
-    found: Solid = fused.clean()
+    found: Shape = fused.clean()
     areas = [math.fsum(face.Area() for face in one.Faces()) for one in (fused, found)]
     return found if math.isclose(*areas, rel_tol=_AREA_TOLERANCE) else fused
 

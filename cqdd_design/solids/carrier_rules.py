@@ -34,12 +34,12 @@ def counterbore_radius(pin: OutputPin, unit: float) -> float:
     return 0.5 * pin.head_diameter + 0.25 * unit
 
 
-def column_head_radius(reducer: Reducer, unit: float) -> float:
+def column_head_radius(reducer: Reducer) -> float:
     """Radius of the recess in the cap for the head of a column's screw, m; 0 without columns."""
     if not has_columns(reducer):
         return 0.0
     thread = column_screw(reducer.carrier.column_diameter).thread
-    return 0.5 * cap_screw(thread, 0.0).head_diameter + 0.25 * unit
+    return 0.5 * cap_screw(thread, 0.0).counterbore[0]
 
 
 def reach_beside_circle(reducer: Reducer) -> float:
@@ -80,7 +80,7 @@ def lay_out_carrier(
     wall = pin_wall(diameter, unit)
     both, joint = pins.support == "both", design.reducer.carrier.joint
     counterbore = counterbore_radius(pin, unit)
-    beside = column_head_radius(design.reducer, unit)
+    beside = column_head_radius(design.reducer)
     most_outer = pack.inner_radius - 0.4 * unit
     # A catalogue head may be too large for a dense pin circle; ground dowels always fit.
     apart = 2.0 * circle * math.sin(math.pi / pins.count)
@@ -105,7 +105,7 @@ def lay_out_carrier(
     columns = None
     if beside:
         columns = _lay_out_columns(design.reducer, pack, cap_bottom, beside, unit)
-        cap_bottom = columns.seat - columns.screw.head_height
+        cap_bottom = columns.seat - columns.screw.counterbore[1]
     lowest = min(cap_bottom, shoulder_bottom - pin.head_height)
 
     clamp = max(2.5 * unit, pack.gap + 1.5 * unit)
@@ -183,9 +183,9 @@ def _lay_out_columns(
     """Columns in a cap whose lower face is at `cap_bottom` (m) for the pins' sake, or lower."""
     diameter = reducer.carrier.column_diameter
     size = column_screw(diameter)
-    head = cap_screw(size.thread, 0.0).head_height
+    deep = cap_screw(size.thread, 0.0).counterbore[1]
     under_head = max(unit, 0.8 * size.thread)
-    seat = min(cap_bottom + head, -pack.gap - under_head)
+    seat = min(cap_bottom + deep, -pack.gap - under_head)
     grip = pack.top + pack.gap - seat
     return ColumnLayout(
         count=reducer.carrier.column_count,

@@ -35,6 +35,13 @@ _CAP_SCREWS = {
     12.0: (18.0, 12.0, 10.0),
     16.0: (24.0, 16.0, 14.0),
 }
+# Counterbores for these heads, mm (DIN 974-1, series 1, H13).
+_COUNTERBORES = {
+    1.6: 3.5, 2.0: 4.4, 2.5: 5.5, 3.0: 6.5, 4.0: 8.0, 5.0: 10.0, 6.0: 11.0, 8.0: 15.0, 10.0: 18.0,
+    12.0: 20.0, 16.0: 26.0,
+}  # fmt: skip
+# By how much they are deeper than a head, up to a thread, mm (DIN 974-1).
+_BELOW_FACE = ((1.4, 0.2), (6.0, 0.4), (20.0, 0.6))
 _CAP_SCREW_LENGTHS = (
     *(2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70, 80, 90, 100),
     *range(110, 161, 10),
@@ -279,6 +286,19 @@ class CapScrew:
     def designation(self) -> str:
         """Such as ``ISO 4762 M3 x 12 - 12.9``."""
         return f"ISO 4762 M{self.thread * 1e3:g} x {self.length * 1e3:g} - 12.9"
+
+    @property
+    def counterbore(self) -> tuple[float, float]:
+        """Diameter and depth of the counterbore for its head (DIN 974-1, series 1), m.
+
+        Examples
+        --------
+        >>> [round(1e3 * one, 1) for one in cap_screw(3e-3, 10e-3).counterbore]
+        [6.5, 3.4]
+        """
+        size = round(self.thread * 1e3, 3)
+        below = next(depth for most, depth in _BELOW_FACE if size <= most)
+        return _COUNTERBORES[size] * 1e-3, self.head_height + below * 1e-3
 
     @property
     def is_sold(self) -> bool:

@@ -18,6 +18,7 @@ from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.sealing import sealing
 from cqdd_design.machine.thermal_parts import NODES
 from cqdd_design.solids.axial import AxialStack
+from cqdd_design.solids.features.holes import Counterbore
 from cqdd_design.solids.shims import OUTPUT_SET, SHAFT_SET
 from cqdd_design.verdict.retention_lines import retention_lines
 
@@ -129,6 +130,17 @@ def test_discs_without_spacing_have_no_play() -> None:
     assert "raise disc_spacing to 0.3 mm" in line.remedy
     held = resolve(design.replacing({"reducer.disc_spacing": "0.3 mm"}))
     assert min(one.reserve for one in held.axial_stacks) > 0.0
+
+
+def test_counterbores_of_columns_are_those_of_din_974() -> None:
+    """M3 heads, 3 mm high: 6.5 mm wide and 3.4 mm deep at least, as features of the cap."""
+    machine = resolve(load_design(DESIGNS / "cqdd-10.toml").replacing(COLUMNS))
+    cap = next(part for part in machine.parts if part.name == "carrier cap")
+    name = "counterbores of the columns' screws"
+    found = next(one for one in cap.features if one.name == name)
+    assert isinstance(found, Counterbore)
+    assert found.diameter == pytest.approx(6.5e-3)
+    assert found.depth >= 3.4e-3 - 1e-9
 
 
 def test_what_is_not_sealed_is_said(machine: Machine) -> None:
