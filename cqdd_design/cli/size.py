@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cqdd_design.cli.completion import motors
+from cqdd_design.cli.fitting import WIDTH
 from cqdd_design.cli.options import (
     Duty,
     DutyColumnNames,
@@ -23,10 +24,10 @@ from cqdd_design.cli.options import (
 from cqdd_design.cli.requirement_options import stated, with_requirements
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import (
-    WIDTH,
     binding,
     checks_table,
     costs_told,
+    folded,
     headline_table,
     number,
     table,
@@ -199,8 +200,10 @@ def _screened(road: Road) -> list[str]:
     return [
         checks_table(road.sizing.checks),
         "",
-        f"{road.design.name}: no verdict, but the screen by closed forms; {goal.binding} binds, "
-        f"{number(goal.torque_reserve)} times the torque is its limit. See `check`.",
+        *folded(
+            f"{road.design.name}: no verdict, but the screen by closed forms; {goal.binding} "
+            f"binds, {number(goal.torque_reserve)} times the torque is its limit. See `check`."
+        ),
     ]
 
 

@@ -29,7 +29,7 @@ def test_catalog_without_a_name_lists_the_catalogues(cqdd):
 def test_catalog_shows_a_row(cqdd, words):
     done = cqdd("catalog", *words)
     assert done.code == 0
-    assert re.search(r"static_rating_N +2250\n", done.out)
+    assert re.search(r"static rating +2250 N\n", done.out)
     assert "KOYO" in done.out
 
 
