@@ -138,7 +138,7 @@ def size(
         quick=quick,
         goal=objective.value,
         force=force,
-        progress=out.note,
+        progress=out.rounds(),
     )
     judged = road.verdict
     out.say(*_lines(road, verbose=verbose))
