@@ -6,7 +6,7 @@ import os
 import re
 import shutil
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -73,7 +73,7 @@ def examine(folder: Path) -> list[Finding]:
     return [
         _python(),
         _ourselves(),
-        *(_package(wanted) for wanted in _wanted()),
+        *(_package(wanted) for wanted in _each_once(_wanted())),
         *(_library(name, package) for name, package in SYSTEM_LIBRARIES.items()),
         _browser(),
         *(_writable(folder / name) for name in ("designs", "exports", "reports")),
@@ -169,6 +169,21 @@ def _wanted() -> Iterator[_Wanted]:
         extra = re.search(r"extra\s*==\s*['\"]([\w-]+)['\"]", marker)
         if name:
             yield _Wanted(name[0], least[1] if least else "0", extra[1] if extra else "")
+
+
+def _each_once(wanted: Iterable[_Wanted]) -> list[_Wanted]:
+    """Every package once, with the highest version asked for; needed is needed, whatever else asks.
+
+    An extra that holds another's packages repeats them in the metadata, and so does the project.
+    """
+    kept: dict[str, _Wanted] = {}
+    for one in wanted:
+        other = kept.get(one.distribution, one)
+        least = max(one.least, other.least, key=_numbers)
+        # The main road needs what no extra names.
+        extra = other.extra if one.extra else ""
+        kept[one.distribution] = _Wanted(one.distribution, least, extra)
+    return list(kept.values())
 
 
 def _package(wanted: _Wanted) -> Finding:

@@ -24,7 +24,7 @@ def catalog(
             metavar="[[list|show] NAME]",
             help="A catalogue to list (materials, motors, bearings, screws, fits, "
             "lubricants, finishes, rubbing) or a row to show; without a name, what there is.",
-            shell_complete=catalogued,
+            autocompletion=catalogued,
         ),
     ] = None,
 ) -> None:

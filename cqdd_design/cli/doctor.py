@@ -16,9 +16,9 @@ def doctor(out: Output) -> int:
     findings = examine(Path())
     missing = [finding for finding in findings if finding.state == "missing"]
     out.say(table([[f.state, f.name, f.detail] for f in findings]))
-    for finding in missing:
-        out.warn(f"{finding.name}: {finding.detail}")
     out.say("", f"{len(missing)} missing" if missing else "everything needed is here")
+    if out.as_json:  # people have read it in the table
+        out.warn(*(f"{finding.name}: {finding.detail}" for finding in missing))
     out.document(
         {
             "findings": [{"name": f.name, "state": f.state, "detail": f.detail} for f in findings],

@@ -18,7 +18,7 @@ def explain(
     check: Annotated[
         str | None,
         typer.Argument(
-            metavar="CHECK", help="Id of a check; without it, all ids.", shell_complete=checks
+            metavar="CHECK", help="Id of a check; without it, all ids.", autocompletion=checks
         ),
     ] = None,
 ) -> None:

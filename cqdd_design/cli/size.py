@@ -67,7 +67,7 @@ def size(
         option(
             "NAME",
             "Default CubeMars RO100 KV55; any: the first that fits of all.",
-            shell_complete=motors,
+            autocompletion=motors,
         ),
     ] = None,
     motor_file: OwnMotor = None,
