@@ -64,7 +64,7 @@ def examine(folder: Path) -> list[Finding]:
     Parameters
     ----------
     folder : Path
-        Where commands would write ``designs``, ``exports`` and ``reports``.
+        What the folders of outputs would stand in.
 
     Returns
     -------
@@ -76,7 +76,7 @@ def examine(folder: Path) -> list[Finding]:
         *(_package(wanted) for wanted in _each_once(_wanted())),
         *(_library(name, package) for name, package in SYSTEM_LIBRARIES.items()),
         _browser(),
-        *(_writable(folder / name) for name in ("designs", "exports", "reports")),
+        *(_writable(folder / name) for name in OUTPUTS),
     ]
 
 
@@ -100,6 +100,28 @@ def source_date() -> datetime | None:
             f"number of seconds since 1970, from 0 to {_LAST_SECOND}, or not be set."
         )
     return datetime.fromtimestamp(int(told), UTC)
+
+
+PROJECT = "CQDD_DESIGN_PROJECT"
+"""Environment variable of the project's folder; `cqdd-design --project` sets it."""
+OUTPUTS = {
+    "designs": "designs that `size` writes",
+    "exports": "files for makers and simulators, recordings, data and networks",
+    "reports": "reports, as HTML or PDF",
+}
+"""Folders that commands write into where they are told no other, and what comes there."""
+
+
+def project_folder() -> Path:
+    """What the folders of outputs stand in: ``CQDD_DESIGN_PROJECT``, or the current folder."""
+    return Path(os.environ.get(PROJECT, ""))
+
+
+def output_folder(name: str) -> Path:
+    """One of `OUTPUTS` in the project's folder."""
+    if name not in OUTPUTS:
+        raise ValueError(f"{name} is none of {', '.join(OUTPUTS)}")
+    return project_folder() / name
 
 
 def cache_folder() -> Path:

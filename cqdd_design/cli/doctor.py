@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import table
 from cqdd_design.errors import DependencyError
@@ -11,9 +9,9 @@ from cqdd_design.errors import DependencyError
 
 def doctor(out: Output) -> int:
     """Look for everything the package needs; exit code 5 when something is missing."""
-    from cqdd_design.environment import examine
+    from cqdd_design.environment import examine, project_folder
 
-    findings = examine(Path())
+    findings = examine(project_folder())
     missing = [finding for finding in findings if finding.state == "missing"]
     out.say(table([[f.state, f.name, f.detail] for f in findings]))
     out.say("", f"{len(missing)} missing" if missing else "everything needed is here")
