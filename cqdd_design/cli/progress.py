@@ -91,7 +91,7 @@ def duration(seconds: float) -> str:
     Examples
     --------
     >>> duration(7.3), duration(200.0), duration(4000.0)
-    ('8 s', '3 min 20 s', '1 h 7 min')
+    ('8 s', '3 min 20 s', '1 h 6 min')
     """
     whole = max(1, -int(-seconds // 1))
     if whole < 60:

@@ -235,7 +235,7 @@ def _next(road: Road) -> list[str]:
 _CHOICE_HEAD = (
     "design",
     "mass g",
-    "kg*mm2",
+    "kg*mm^2",
     "reserve",
     "R",
     "e",
