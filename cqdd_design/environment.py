@@ -6,7 +6,7 @@ import os
 import re
 import shutil
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -64,7 +64,7 @@ def examine(folder: Path) -> list[Finding]:
     Parameters
     ----------
     folder : Path
-        Where commands would write ``designs``, ``exports`` and ``reports``.
+        What the folders of outputs would stand in.
 
     Returns
     -------
@@ -73,10 +73,10 @@ def examine(folder: Path) -> list[Finding]:
     return [
         _python(),
         _ourselves(),
-        *(_package(wanted) for wanted in _wanted()),
+        *(_package(wanted) for wanted in _each_once(_wanted())),
         *(_library(name, package) for name, package in SYSTEM_LIBRARIES.items()),
         _browser(),
-        *(_writable(folder / name) for name in ("designs", "exports", "reports")),
+        *(_writable(folder / name) for name in OUTPUTS),
     ]
 
 
@@ -100,6 +100,28 @@ def source_date() -> datetime | None:
             f"number of seconds since 1970, from 0 to {_LAST_SECOND}, or not be set."
         )
     return datetime.fromtimestamp(int(told), UTC)
+
+
+PROJECT = "CQDD_DESIGN_PROJECT"
+"""Environment variable of the project's folder; `cqdd-design --project` sets it."""
+OUTPUTS = {
+    "designs": "designs that `size` writes",
+    "exports": "files for makers and simulators, recordings, data and networks",
+    "reports": "reports, as HTML or PDF",
+}
+"""Folders that commands write into where they are told no other, and what comes there."""
+
+
+def project_folder() -> Path:
+    """What the folders of outputs stand in: ``CQDD_DESIGN_PROJECT``, or the current folder."""
+    return Path(os.environ.get(PROJECT, ""))
+
+
+def output_folder(name: str) -> Path:
+    """One of `OUTPUTS` in the project's folder."""
+    if name not in OUTPUTS:
+        raise ValueError(f"{name} is none of {', '.join(OUTPUTS)}")
+    return project_folder() / name
 
 
 def cache_folder() -> Path:
@@ -169,6 +191,21 @@ def _wanted() -> Iterator[_Wanted]:
         extra = re.search(r"extra\s*==\s*['\"]([\w-]+)['\"]", marker)
         if name:
             yield _Wanted(name[0], least[1] if least else "0", extra[1] if extra else "")
+
+
+def _each_once(wanted: Iterable[_Wanted]) -> list[_Wanted]:
+    """Every package once, with the highest version asked for; needed is needed, whatever else asks.
+
+    An extra that holds another's packages repeats them in the metadata, and so does the project.
+    """
+    kept: dict[str, _Wanted] = {}
+    for one in wanted:
+        other = kept.get(one.distribution, one)
+        least = max(one.least, other.least, key=_numbers)
+        # The main road needs what no extra names.
+        extra = other.extra if one.extra else ""
+        kept[one.distribution] = _Wanted(one.distribution, least, extra)
+    return list(kept.values())
 
 
 def _package(wanted: _Wanted) -> Finding:

@@ -161,7 +161,7 @@ def _calibrated() -> str:
             f"| {off} | {row.relation} |"
         )
     factors = ", ".join(
-        f"`{name}` {UNKNOWNS[name].told(value)}"
+        f"`{name}` {UNKNOWNS[name].told(value).replace('*', '·')}"
         + (" (at an end of its range)" if name in found.at_an_end else "")
         for name, value in found.factors.items()
     )

@@ -360,7 +360,10 @@ def paper_table() -> str:
             if value is not None and is_near(row.unit, value, row.measured):
                 names.append(f"`{row.name}`")
     alone, by_films = (", ".join(names) or "none" for names in near)
-    fitted = (f"`{name}` {UNKNOWNS[name].told(value)}" for name, value in found.factors.items())
+    fitted = (
+        f"`{name}` {UNKNOWNS[name].told(value).replace('*', '·')}"
+        for name, value in found.factors.items()
+    )
     told = (
         f"Without any fit within 20 % (efficiency: 5 points), given rows apart: {alone}. "
         f"By films: {by_films}. With the fit, of rows that it predicts: "

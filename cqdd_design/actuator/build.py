@@ -97,7 +97,7 @@ def actuator_parameters(
     )
     for name in ("motor_coulomb", "output_coulomb", "load_forward", "load_backward"):
         origins[f"friction.{name}"] = (
-            f"computed: losses of the gearbox at {torque:g} N m, and its backdrive torque"
+            f"computed: losses of the gearbox at {torque:g} N*m, and its backdrive torque"
         )
     speed = design.requirements.input_speed
     for name in ("motor_viscous", "output_viscous"):
@@ -181,7 +181,7 @@ def _motor(row: Motor, inertia: GearboxInertia, origins: dict[str, str]) -> Moto
     if pairs is None:
         pairs = POLE_PAIRS
         origins["motor.pole_pairs"] = "assumed"
-    origins["motor.reference_temperature"] = "assumed: the catalogue's values hold at 25 deg C"
+    origins["motor.reference_temperature"] = "assumed: the catalogue's values hold at 25 degC"
     for key, value in (("rated_torque", row.rated_torque), ("peak_torque", row.peak_torque)):
         origins[f"motor.{key}"] = row.origin(key) if value else "missing"
     return MotorParameters(

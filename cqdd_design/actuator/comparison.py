@@ -55,8 +55,8 @@ class ComparedActuator:
         if printed is None or abs(printed - self.torque_density) <= _ROUNDING * 10.0**-digits:
             return ""
         return (
-            f"{self.name}: {self.peak_torque:g} N m / {self.mass:g} kg is "
-            f"{self.torque_density:.2f} N m/kg, printed {printed:g}"
+            f"{self.name}: {self.peak_torque:g} N*m / {self.mass:g} kg is "
+            f"{self.torque_density:.2f} N*m/kg, printed {printed:g}"
         )
 
     def to_dict(self) -> dict[str, object]:

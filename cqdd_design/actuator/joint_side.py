@@ -288,7 +288,7 @@ def _carried(parameters: ActuatorParameters, torque: float) -> FloatArray:
         if np.min(tangent) <= _LEAST_SLOPE or not np.all(np.isfinite(missing)):
             raise DesignError(
                 f"gear.error_cosine and its kin turn the output back while the crank goes on at "
-                f"{abs(torque):g} N m, so it has no torque ripple to export; lower them, or the "
+                f"{abs(torque):g} N*m, so it has no torque ripple to export; lower them, or the "
                 "torque."
             )
         found = found + missing / tangent

@@ -197,7 +197,7 @@ class ThermalParameters:
         if not (self.ambient < self.derating_begins <= self.most):
             raise DesignError(
                 f"thermal.ambient {self.ambient:g}, derating_begins {self.derating_begins:g} and "
-                f"most {self.most:g} deg C must rise in this order; 25, 100 and 120 do."
+                f"most {self.most:g} degC must rise in this order; 25, 100 and 120 do."
             )
 
 

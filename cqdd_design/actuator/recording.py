@@ -259,8 +259,8 @@ class Recording:
         hottest = float(np.max(run.winding_temperature))
         if hottest > first.thermal.derating_begins:
             told.append(
-                f"the winding reaches {hottest:.4g} deg C; the drive lowers its current from "
-                f"{first.thermal.derating_begins:g} deg C on."
+                f"the winding reaches {hottest:.4g} degC; the drive lowers its current from "
+                f"{first.thermal.derating_begins:g} degC on."
             )
         return tuple(told)
 

@@ -73,9 +73,8 @@ _OF_DESIGNS = {"stated", "stated_in", "based_on"}
 
 #: The columns of a listing, after the name; showing a row gives all of its columns.
 COLUMNS = {
-    "materials": ("yield_strength_MPa", "ultimate_strength_MPa", "hardness", "source"),
+    "materials": ("yield_strength_MPa", "ultimate_strength_MPa", "hardness"),
     "motors": (
-        "torque_at",
         "peak_torque_Nm",
         "rated_torque_Nm",
         "speed",
@@ -90,7 +89,6 @@ COLUMNS = {
         "width_mm",
         "dynamic_rating_N",
         "static_rating_N",
-        "source",
     ),
     "screws": ("thread", "shoulder_diameter_mm", "head_diameter_mm", "standard_lengths"),
     "fits": ("lower_um", "upper_um", "source"),

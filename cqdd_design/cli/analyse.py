@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -19,15 +19,7 @@ from cqdd_design.cli.options import (
     quantity_option,
 )
 from cqdd_design.cli.session import Output, read_design
-from cqdd_design.cli.tables import number, table
 from cqdd_design.library.inputs import under_duty
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from cqdd_design.actuator.shock import Shock
-    from cqdd_design.gearbox import GearboxAnalysis
-    from cqdd_design.roads.analyse import Analysis
 
 
 class ContactLaw(StrEnum):
@@ -74,6 +66,7 @@ def analyse(
     duty_columns: DutyColumnNames = None,
 ) -> None:
     """Loads, contact equilibrium, precision, losses, life, stress of discs and ring, and shock."""
+    from cqdd_design.cli.analysis_text import analysis_lines
     from cqdd_design.roads.analyse import analyse as analysed
     from cqdd_design.units import SPEED, TEMPERATURE, TORQUE
     from cqdd_design.verdict.judge import sentence
@@ -92,93 +85,7 @@ def analyse(
         friction=friction.value,
         temperature=parts_at,
     )
-    results, checks = found.to_dict(), found.checks
-    lines = [*_at_lines(found), *_lines(found.gearbox, results), *_shock_lines(found.shocks)]
-    out.say(*lines, "", f"{sentence(loaded.name, checks)} (`check` draws toleranced ones too)")
+    out.say(*analysis_lines(found), "")
+    out.say(sentence(loaded.name, found.checks), "(`check` draws toleranced gearboxes too)")
     out.warn(*found.warnings)
-    out.document(results, design=found.machine.given, checks=checks)
-
-
-def _lines(analysis: GearboxAnalysis, results: dict[str, object]) -> list[str]:
-    lines = []
-    titles = {
-        "geometry": "geometry",
-        "rigid": f"rigid loads at {number(analysis.rigid.torque)} N*m",
-        "output_pins": "output pins",
-        "bearings": "cam bearing",
-        "balance": "balance",
-        "duty": "duty over time, at the output and at the motor",
-        "contact": "contact equilibrium",
-        "precision": "precision",
-        "losses": "losses",
-        "film": "films at the ring teeth and output pins",
-        "wear": "wear over the required life",
-        "life": "life",
-        "bending": "shaft and tilt, bounded",
-        "bodies": "discs and ring under these forces",
-        "temperatures_degC": "temperatures at which parts settle",
-        "heat": "heat, and clearances at these temperatures",
-    }
-    for key, title in titles.items():
-        values = results[key]
-        if values is None:
-            continue
-        assert isinstance(values, dict)
-        flat = values["cam"] if key == "bearings" else values
-        rows = [[f"  {name}", _shown(value)] for name, value in _single(flat).items()]
-        lines += [title, table(rows), ""]
-    return lines[:-1]
-
-
-def _at_lines(found: Analysis) -> list[str]:
-    """Which sections stand for which torque."""
-    from cqdd_design.cli.tables import told
-    from cqdd_design.roads.analyse import ASKED
-
-    groups: dict[str, list[str]] = {}
-    for section, load in found.at.items():
-        groups.setdefault(load, []).append(section)
-    asked = "" if found.asked_torque is None else f" (--torque {number(found.asked_torque)} N*m)"
-    return [
-        "which torque",
-        told(
-            [
-                (f"{load}{asked if load == ASKED else ''}", ", ".join(names))
-                for load, names in groups.items()
-            ]
-        ),
-        "",
-    ]
-
-
-def _shock_lines(shocks: Mapping[str, Shock]) -> list[str]:
-    from cqdd_design.actuator.shock import METHODS
-    from cqdd_design.cli.tables import told
-
-    lines = []
-    for name, one in shocks.items():
-        head = (
-            f"into a rigid stop from {number(one.speed)} rad/s ({name} speed), "
-            f"{number(one.energy)} J"
-        )
-        lines += ["", head, told([(METHODS[key], stop.told) for key, stop in one.stops.items()])]
-    return lines
-
-
-def _single(values: dict[str, object]) -> dict[str, object]:
-    """What fits on one line each: curves and tables are in the JSON and in the report."""
-    found: dict[str, object] = {}
-    for name, value in values.items():
-        if isinstance(value, dict):
-            found |= {f"{name}.{inner}": v for inner, v in _single(value).items()}
-        elif not isinstance(value, list):
-            found[name] = value
-        elif value and len(value) <= 3 and all(isinstance(item, float) for item in value):
-            found[name] = ", ".join(number(item) for item in value)
-    return found
-
-
-def _shown(value: object) -> str:
-    if isinstance(value, float):
-        return number(value)
-    return "-" if value is None else str(value)
+    out.document(found.to_dict(), design=found.machine.given, checks=found.checks)

@@ -145,4 +145,7 @@ def _comparison(actuators: Sequence[ComparedActuator]) -> list[str]:
     ]
     head = ["actuator", "gearing", "ratio", "peak N*m", "kg", "N*m/kg", "efficiency %"]
     remarks = [one.remark for one in actuators if one.remark]
-    return [table(rows, head=head, right=(2, 3, 4, 5, 6)), *remarks]
+    return [
+        table(rows, head=head, right=(2, 3, 4, 5, 6)),
+        *(line for one in remarks for line in folded(one)),
+    ]

@@ -19,6 +19,7 @@ from cqdd_design.cli.options import (
 )
 from cqdd_design.cli.session import Output, read_design, read_specimen
 from cqdd_design.cli.tables import number, table
+from cqdd_design.environment import output_folder
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.bench.calibrate import Calibration
@@ -81,7 +82,7 @@ def calibrate(
         rig_stiffness=parse_positive("--rig-stiffness", rig_stiffness, STIFFNESS_GAIN),
         progress=out.stages(3),
     )
-    target = path or Path("exports") / f"{loaded.name}-calibration.json"
+    target = path or output_folder("exports") / f"{loaded.name}-calibration.json"
     file = write_calibration(found, loaded.sha256, target)
     out.say(*_lines(found))
     out.wrote([file])

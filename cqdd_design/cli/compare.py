@@ -6,6 +6,7 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
+from cqdd_design.cli.fitting import WIDTH
 from cqdd_design.cli.options import (
     DesignFile,
     NamedMotor,
@@ -16,7 +17,7 @@ from cqdd_design.cli.options import (
     quantity_option,
 )
 from cqdd_design.cli.session import Output, read_design
-from cqdd_design.cli.tables import WIDTH, number, table
+from cqdd_design.cli.tables import folded, number, table
 
 if TYPE_CHECKING:
     from cqdd_design.planetary.compare import PlanetaryComparison
@@ -105,14 +106,11 @@ def compare(
 def _lines(found: PlanetaryComparison) -> list[str]:
     results = found.to_dict()["planetary"]
     assert isinstance(results, dict)
-    head = ["planets", "fits", "assembles", "mesh", "load"]
-    head += ["sigma_H MPa", "S_H", "sigma_F MPa", "S_F"]
+    head = ["planets", "mesh", "load", "sigma_H MPa", "S_H", "sigma_F MPa", "S_F"]
     rows = [
         [
             str(row["planets"]),
-            "yes" if row["fits"] else "no",
-            "yes" if row["assembles"] else "no",
-            row["mesh"],
+            row["mesh"].replace("_", " and "),
             row["load"],
             *(number(row[key]) for key in ("sigma_H_MPa", "S_H", "sigma_F_MPa", "S_F")),
         ]
@@ -129,13 +127,15 @@ def _lines(found: PlanetaryComparison) -> list[str]:
         for name, value, usual in found.gears.settings.rows()
     ]
     return [
-        f"compound planetary, {results['material']}: ratio {number(results['ratio'], 6)}, "
-        f"centre distance {number(results['centre_distance_mm'])} mm",
+        *folded(
+            f"compound planetary, {results['material']}: ratio {number(results['ratio'], 6)}, "
+            f"centre distance {number(results['centre_distance_mm'])} mm"
+        ),
         f"profile shifts {found.gears.shifts_text}; tip diameter of the ring "
         f"{number(results['ring_tip_diameter_mm'], 5)} mm",
-        f"at most {found.planets_that_fit} planets fit; these assemble: {assembling}",
+        *folded(f"at most {found.planets_that_fit} planets fit; these assemble: {assembling}"),
         "",
-        table(rows, head=head, right=(0, 5, 6, 7, 8)),
+        table(rows, head=head, right=(0, 3, 4, 5, 6)),
         "",
         "rated with:",
         table(settings, head=["setting", "value", ""], right=()),

@@ -27,7 +27,20 @@ _CATALOGUES = {
 }
 
 
-def designs(_context: Any, _parameter: Any, incomplete: str) -> list[str]:
+class _Offered(str):
+    """A name that begins as typed, but for its case and its escaped blanks.
+
+    Typer leaves out whatever does not begin with the very letters typed.
+    """
+
+    __slots__ = ()
+
+    def startswith(self, *_: Any) -> bool:
+        """What is offered was chosen already."""
+        return True
+
+
+def designs(incomplete: str) -> list[str]:
     """Design files and folders that begin so."""
     head, slash, begun = incomplete.rpartition("/")
     folder = Path(head + slash) if slash else Path()
@@ -44,13 +57,13 @@ def designs(_context: Any, _parameter: Any, incomplete: str) -> list[str]:
     return found
 
 
-def _starting(names: Callable[[], Iterable[str]]) -> Callable[[Any, Any, str], list[str]]:
-    def complete(_context: Any, _parameter: Any, incomplete: str) -> list[str]:
+def _starting(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
+    def complete(incomplete: str) -> list[str]:
         begun = incomplete.casefold()
         found = [name for name in names() if name.casefold().startswith(begun)]
         # zsh and fish quote what they insert; bash puts it on the line as it is.
         bash = os.environ.get(_ASKED_BY, "").endswith("_bash")
-        return [name.replace(" ", "\\ ") for name in found] if bash else found
+        return [_Offered(name.replace(" ", "\\ ") if bash else name) for name in found]
 
     return complete
 

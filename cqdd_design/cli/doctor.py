@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import table
 from cqdd_design.errors import DependencyError
@@ -11,14 +9,14 @@ from cqdd_design.errors import DependencyError
 
 def doctor(out: Output) -> int:
     """Look for everything the package needs; exit code 5 when something is missing."""
-    from cqdd_design.environment import examine
+    from cqdd_design.environment import examine, project_folder
 
-    findings = examine(Path())
+    findings = examine(project_folder())
     missing = [finding for finding in findings if finding.state == "missing"]
     out.say(table([[f.state, f.name, f.detail] for f in findings]))
-    for finding in missing:
-        out.warn(f"{finding.name}: {finding.detail}")
     out.say("", f"{len(missing)} missing" if missing else "everything needed is here")
+    if out.as_json:  # people have read it in the table
+        out.warn(*(f"{finding.name}: {finding.detail}" for finding in missing))
     out.document(
         {
             "findings": [{"name": f.name, "state": f.state, "detail": f.detail} for f in findings],

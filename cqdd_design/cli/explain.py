@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from cqdd_design.cli.completion import checks
+from cqdd_design.cli.fitting import WIDTH
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import table
 
@@ -17,7 +18,7 @@ def explain(
     check: Annotated[
         str | None,
         typer.Argument(
-            metavar="CHECK", help="Id of a check; without it, all ids.", shell_complete=checks
+            metavar="CHECK", help="Id of a check; without it, all ids.", autocompletion=checks
         ),
     ] = None,
 ) -> None:
@@ -43,4 +44,6 @@ def explain(
 
 
 def _paragraph(title: str, text: str) -> str:
-    return textwrap.fill(text, width=88, initial_indent=f"{title:<10}", subsequent_indent=" " * 10)
+    return textwrap.fill(
+        text, width=WIDTH, initial_indent=f"{title:<10}", subsequent_indent=" " * 10
+    )

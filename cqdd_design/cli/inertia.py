@@ -57,7 +57,7 @@ def _lines(found: InertiaAndBalance) -> list[str]:
         ]
         for part in found.bodies.inertia.parts
     ]
-    head = ["part", "pieces", "g each", "mm3 mesh", "mm3 exact", "at input kg*mm2", "material"]
+    head = ["part", "pieces", "g each", "mm^3 mesh", "mm^3 exact", "at input kg*mm^2", "material"]
     balance = [
         [
             f"{count} disc" + ("s" if count > 1 else ""),
@@ -68,14 +68,14 @@ def _lines(found: InertiaAndBalance) -> list[str]:
         ]
         for count, one in found.bodies.balance.items()
     ]
-    balance_head = ["balance", "static g*mm", "couple g*mm2", "force N", "moment N*m"]
+    balance_head = ["balance", "static g*mm", "couple g*mm^2", "force N", "moment N*m"]
     total = found.bodies.inertia
     inertias = total.group_inertias
     groups = [
         [name, number(1e3 * mass), _known(inertias[name], 1e6)]
         for name, mass in total.group_masses.items()
     ]
-    group_head = ["group", "g", "at input kg*mm2"]
+    group_head = ["group", "g", "at input kg*mm^2"]
     rotor = _known(total.rotor_inertia, 1e6)
     return [
         table(parts, head=head, right=(1, 2, 3, 4, 5)),
@@ -84,9 +84,9 @@ def _lines(found: InertiaAndBalance) -> list[str]:
         "",
         f"total mass                 {_known(total.whole_mass)} kg",
         f"torque density             {_known(found.torque_density)} N*m/kg",
-        f"rotor of {total.motor.name}, {ROTOR_SCOPE}: {rotor} kg*mm2",
-        f"reflected to the input     {_known(total.reflected_input, 1e6)} kg*mm2",
-        f"reflected to the output    {_known(total.reflected_output)} kg*m2",
+        f"rotor of {total.motor.name}, {ROTOR_SCOPE}: {rotor} kg*mm^2",
+        f"reflected to the input     {_known(total.reflected_input, 1e6)} kg*mm^2",
+        f"reflected to the output    {_known(total.reflected_output)} kg*m^2",
         "",
         told(
             [

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -37,7 +39,7 @@ from cqdd_design.cli import (
 )
 from cqdd_design.cli.colour import ERROR, with_coloured_start
 from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, command, print_result
-from cqdd_design.environment import missing_dependency
+from cqdd_design.environment import PROJECT, missing_dependency
 from cqdd_design.errors import CqddError, UsageError, printable
 from cqdd_design.version import __version__
 
@@ -103,8 +105,36 @@ def _show_version(wanted: bool) -> None:
         raise typer.Exit
 
 
+def _set_project(folder: Path | None) -> None:
+    """For this process, and for those that it starts."""
+    if folder is not None:
+        os.environ[PROJECT] = str(folder)
+
+
+def _show_places(wanted: bool) -> None:
+    if wanted:
+        from cqdd_design.cli.places import places
+
+        print_result(places())
+        raise typer.Exit
+
+
 @app.callback()
 def _root(
+    project: Annotated[
+        Path | None,
+        typer.Option(
+            "--project",
+            metavar="DIR",
+            callback=_set_project,
+            is_eager=True,
+            help="Folder of designs/, exports/ and reports/; default CQDD_DESIGN_PROJECT, or here.",
+        ),
+    ] = None,
+    where: Annotated[
+        bool,
+        typer.Option("--where", callback=_show_places, help="Show where everything is written."),
+    ] = False,
     version: Annotated[
         bool,
         typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version."),

@@ -9,6 +9,7 @@ import typer
 
 from cqdd_design.cli.options import Force, option
 from cqdd_design.cli.session import Output
+from cqdd_design.environment import project_folder
 from cqdd_design.errors import UsageError
 
 
@@ -45,7 +46,7 @@ def new(
     else:
         assert example is not None
         name, text, says = f"{example}.toml", templates.example_text(example), "an example design"
-    path = Path(name) if target is None else target
+    path = project_folder() / name if target is None else target
     refuse_overwrite(path, force=force)
     written = write_atomically(path, text, "template" if example is None else "design")
     out.wrote([written])

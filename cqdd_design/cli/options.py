@@ -33,7 +33,7 @@ def count_option(text: str, least: int = 1) -> Any:
 
 DesignFile = Annotated[
     Path,
-    typer.Argument(metavar="DESIGN", help="Design file (TOML).", shell_complete=completion.designs),
+    typer.Argument(metavar="DESIGN", help="Design file (TOML).", autocompletion=completion.designs),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Replace files that exist.")]
 Calibrated = Annotated[
@@ -46,7 +46,7 @@ NamedMotor = Annotated[
         "NAME",
         "Motor of the catalogue, instead of all that the design's [motor] says of one.",
         "--motor",
-        shell_complete=completion.motors,
+        autocompletion=completion.motors,
     ),
 ]
 OwnMotor = Annotated[

@@ -17,7 +17,9 @@ from typing import TYPE_CHECKING, Annotated, Any, TextIO
 
 import typer
 
+from cqdd_design.cli import interruption
 from cqdd_design.cli.colour import WARNING, coloured, is_coloured, with_coloured_start
+from cqdd_design.cli.progress import Bar
 from cqdd_design.environment import source_date
 from cqdd_design.errors import UsageError, printable
 
@@ -123,13 +125,13 @@ class Output:
         self.as_json = as_json
         self.quiet = quiet
         self.warnings: list[str] = []
-        self._bar_shown = False
+        self._bar: Bar | None = None
         standard_output()
 
     def say(self, *lines: str) -> None:
         """Print a part of the result for people."""
         if not (self.as_json or self.quiet):
-            self.end_progress()
+            self.end_progress(done=True)
             text = "\n".join(lines)
             print_result(coloured(text) if is_coloured(standard_output()) else text)
 
@@ -153,60 +155,68 @@ class Output:
         kernels = missing(simulation=simulation, ensembles=ensembles)
         if kernels:
             self.note("compiling on this first use, once; the next run starts at once")
-            tell = self.stages(len(kernels))
-
-            def progress(done: int, total: int) -> None:
-                if done:
-                    tell(f"{done} of {total} kernels compiled")
-
-            compile_kernels(kernels, progress)
-            self.end_progress()
+            compile_kernels(kernels, self.counting("kernels compiled", alike=False))
+            self.end_progress(done=True)
+            self._bar = None
 
     def stages(self, total: int) -> Callable[[str], None]:
         """A function that tells, on stderr, which of about `total` stages of work begins.
 
-        A bar on a terminal, wiped at the end; elsewhere one line a stage.
+        A bar on a terminal; elsewhere one line a stage.
         """
         numbers = itertools.count(1)
 
         def tell(text: str) -> None:
-            if self.quiet:
-                return
             number = min(next(numbers), total)
-            if not sys.stderr.isatty():
+            if (bar := self._on_terminal()) is not None:
+                bar.stage(number, total, text)
+            else:
                 self.note(f"[{number}/{total}] {text}")
-                return
-            done = round(20 * (number - 1) / total)
-            bar = "#" * done + "." * (20 - done)
-            sys.stderr.write(f"\r\x1b[K[{bar}] {number}/{total} {text}")
-            sys.stderr.flush()
-            self._bar_shown = True
 
         return tell
 
-    def counting(self, noun: str) -> Callable[[int, int], None]:
-        """Progress of many equal things: a bar on a terminal; elsewhere about ten lines in all."""
-        tell: list[Callable[[str], None]] = []
+    def counting(self, noun: str, *, alike: bool = True) -> Callable[[int, int], None]:
+        """Progress of many things: a bar on a terminal; elsewhere about ten lines in all.
+
+        Of things that take alike long, a terminal shows the time left.
+        """
         told = [0]
 
         def progress(done: int, total: int) -> None:
-            if not tell:
-                tell.append(self.stages(_LINES_WITHOUT_TERMINAL))
             tenth = _LINES_WITHOUT_TERMINAL * done // total
-            if sys.stderr.isatty() or tenth > told[0]:
-                while told[0] < tenth - 1:
-                    told[0] += 1
+            if (bar := self._on_terminal()) is not None:
+                bar.counted(done, total, noun, alike=alike)
+            elif tenth > told[0]:
                 told[0] = tenth
-                tell[0](f"{done} of {total} {noun}")
+                self.note(f"[{tenth}/{_LINES_WITHOUT_TERMINAL}] {done} of {total} {noun}")
 
         return progress
 
-    def end_progress(self) -> None:
-        """Wipe the progress bar, if one is shown."""
-        if self._bar_shown:
-            sys.stderr.write("\r\x1b[K")
-            sys.stderr.flush()
-            self._bar_shown = False
+    def rounds(self) -> Callable[[str], None]:
+        """A function that tells what a search does, of which nobody knows how long it takes."""
+
+        def tell(text: str) -> None:
+            if (bar := self._on_terminal()) is not None:
+                bar.round(text)
+            else:
+                self.note(text)
+
+        return tell
+
+    def _on_terminal(self) -> Bar | None:
+        """The bar, where stderr is a terminal and asked to say something."""
+        if self._bar is None and not self.quiet and sys.stderr.isatty():
+            self._bar = Bar(sys.stderr)
+        return self._bar
+
+    def end_progress(self, *, done: bool = False) -> None:
+        """End the bar, if one is shown: full where work is done, else wiped."""
+        if self._bar is None:
+            return
+        if done and interruption.exit_code() is None:
+            self._bar.finish()
+        else:
+            self._bar.wipe()
 
     def wrote(self, files: Iterable[WrittenFile]) -> None:
         """Tell which files were written."""
@@ -226,7 +236,7 @@ class Output:
             return
         from cqdd_design.library.envelope import result_document
 
-        self.end_progress()
+        self.end_progress(done=True)
         text = result_document(
             self.command,
             results,

@@ -193,7 +193,7 @@ _ROWS = (
     ("output_speed_rad_per_s_rms", "output speed, r.m.s.", "rad/s"),
     ("current_A_peak", "current, peak", "A"),
     ("current_A_rms", "current, r.m.s.", "A"),
-    ("winding_temperature_degC_peak", "winding, hottest", "deg C"),
+    ("winding_temperature_degC_peak", "winding, hottest", "degC"),
     ("electrical_J", "energy from the drive", "J"),
     ("external_J", "energy from outside", "J"),
     ("dissipated_J", "energy dissipated", "J"),

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cqdd_design.cli.completion import motors
+from cqdd_design.cli.fitting import WIDTH
 from cqdd_design.cli.options import (
     Duty,
     DutyColumnNames,
@@ -23,10 +24,10 @@ from cqdd_design.cli.options import (
 from cqdd_design.cli.requirement_options import stated, with_requirements
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.tables import (
-    WIDTH,
     binding,
     checks_table,
     costs_told,
+    folded,
     headline_table,
     number,
     table,
@@ -66,7 +67,7 @@ def size(
         option(
             "NAME",
             "Default CubeMars RO100 KV55; any: the first that fits of all.",
-            shell_complete=motors,
+            autocompletion=motors,
         ),
     ] = None,
     motor_file: OwnMotor = None,
@@ -137,7 +138,7 @@ def size(
         quick=quick,
         goal=objective.value,
         force=force,
-        progress=out.note,
+        progress=out.rounds(),
     )
     judged = road.verdict
     out.say(*_lines(road, verbose=verbose))
@@ -199,8 +200,10 @@ def _screened(road: Road) -> list[str]:
     return [
         checks_table(road.sizing.checks),
         "",
-        f"{road.design.name}: no verdict, but the screen by closed forms; {goal.binding} binds, "
-        f"{number(goal.torque_reserve)} times the torque is its limit. See `check`.",
+        *folded(
+            f"{road.design.name}: no verdict, but the screen by closed forms; {goal.binding} "
+            f"binds, {number(goal.torque_reserve)} times the torque is its limit. See `check`."
+        ),
     ]
 
 
@@ -232,7 +235,7 @@ def _next(road: Road) -> list[str]:
 _CHOICE_HEAD = (
     "design",
     "mass g",
-    "kg*mm2",
+    "kg*mm^2",
     "reserve",
     "R",
     "e",

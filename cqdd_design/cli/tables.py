@@ -6,15 +6,11 @@ import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from cqdd_design.cli.fitting import INDENT, WIDTH, Columns, folded_columns, wrapped
+
 if TYPE_CHECKING:
     from cqdd_design.results import Check
     from cqdd_design.verdict import Verdict
-
-
-WIDTH = 80
-"""Of a line, as far as what is told can be broken."""
-_LEAST_WIDTH = 16
-"""Of a last column that is folded."""
 
 
 def table(
@@ -22,7 +18,8 @@ def table(
 ) -> str:
     """Columns as wide as their longest cell, two blanks apart; no trailing blanks.
 
-    Words of the last column are folded where lines would be longer than 80.
+    Where lines would be longer than 80, titles and words are folded; where that does not help,
+    the other columns stand below the first, and else each row is told by itself.
 
     Parameters
     ----------
@@ -33,32 +30,77 @@ def table(
     right : sequence of int
         Columns aligned to the right.
     """
-    every = [list(head)] if head is not None else []
-    every += [list(row) for row in rows]
-    if not every:
+    if not rows:
         return ""
-    widths = [max(len(row[i]) for row in every) for i in range(len(every[0]))]
-    left = WIDTH - sum(width + 2 for width in widths[:-1])
-    if len(widths) > 1 and _LEAST_WIDTH <= left < widths[-1] and len(widths) - 1 not in right:
-        every = [piece for row in every for piece in _row_folded(row, left)]
-        widths[-1] = max(len(row[-1]) for row in every)
-    if head is not None:
-        every.insert(1, ["-" * width for width in widths])
-    lines = []
-    for row in every:
-        cells = [
-            cell.rjust(width) if i in right else cell.ljust(width)
-            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ]
-        lines.append("  ".join(cells).rstrip())
-    return "\n".join(lines)
+    columns = folded_columns(rows, head, right)
+    if columns is not None:
+        return "\n".join(_lines(columns, right))
+    return "\n".join(_below_names(rows, head, right))
 
 
-def _row_folded(row: list[str], width: int) -> list[list[str]]:
-    """A row, and the rows below it that go on with its last cell."""
-    pieces = textwrap.wrap(row[-1], width, break_long_words=False, break_on_hyphens=False) or [""]
-    blanks = [""] * (len(row) - 1)
-    return [[*(row[:-1] if place == 0 else blanks), one] for place, one in enumerate(pieces)]
+def _lines(columns: Columns, right: Sequence[int]) -> list[str]:
+    body = [line for row in columns.rows for line in row]
+    return [_line(cells, columns.widths, right) for cells in [*_titles(columns), *body]]
+
+
+def _titles(columns: Columns) -> list[list[str]]:
+    """The titles with a line under them; nothing without titles."""
+    line = ["-" * width for width in columns.widths]
+    return [*columns.head, line] if columns.head else []
+
+
+def _below_names(
+    rows: Sequence[Sequence[str]], head: Sequence[str] | None, right: Sequence[int]
+) -> list[str]:
+    """Each name on a line of its own, the other columns aligned below it; titles stand once."""
+    others = [row[1:] for row in rows]
+    moved = [place - 1 for place in right]
+    columns = folded_columns(others, head and head[1:], moved, WIDTH - INDENT)
+    if columns is None:
+        return [line for row in rows for line in _by_itself(row, head)]
+
+    def below(cells: Sequence[str]) -> str:
+        return " " * INDENT + _line(cells, columns.widths, moved)
+
+    lines = [head[0]] if head else []
+    lines += [below(cells) for cells in _titles(columns)]
+    for row, pieces in zip(rows, columns.rows, strict=True):
+        lines += [row[0], *(below(cells) for cells in pieces)]
+    return lines
+
+
+def _by_itself(row: Sequence[str], head: Sequence[str] | None) -> list[str]:
+    """A row that no columns fit: its name, and below it the other cells with their titles."""
+    titles = head[1:] if head is not None else [""] * (len(row) - 1)
+    cells = [f"{title} {cell}".strip() for title, cell in zip(titles, row[1:], strict=True)]
+    indent = " " * INDENT
+    return [row[0], *wrapped("; ".join(cells), WIDTH, indent, indent)]
+
+
+def _line(cells: Sequence[str], widths: Sequence[int], right: Sequence[int]) -> str:
+    told = (
+        cell.rjust(width) if place in right else cell.ljust(width)
+        for place, (cell, width) in enumerate(zip(cells, widths, strict=True))
+    )
+    return "  ".join(told).rstrip()
+
+
+def listing(rows: Sequence[Sequence[str]], *, head: Sequence[str]) -> str:
+    """A table whose columns of numbers are found and aligned to the right; "-" is no value."""
+    right = [
+        place
+        for place in range(1, len(head))
+        if all(_is_number(row[place]) for row in rows) and any(row[place] != "-" for row in rows)
+    ]
+    return table(rows, head=head, right=right)
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return cell == "-"
+    return True
 
 
 def number(value: float, digits: int = 4) -> str:

@@ -12,7 +12,8 @@ from cqdd_design.cli.options import (
     quantity_option,
 )
 from cqdd_design.cli.session import INTERRUPTED_WITH_RESULTS, Output
-from cqdd_design.cli.tables import number, table
+from cqdd_design.cli.tables import folded, number, table
+from cqdd_design.terms import term
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
@@ -82,13 +83,19 @@ def _lines(result: ToleranceResult) -> list[str]:
     # A reserve is short below 1, everything else beyond its limit.
     known = {name: number(limit) for name, limit in limits.items()} | {"pressure_reserve": "1"}
     rows = [
-        [f"  {name}", *(number(values[column]) for column in columns), known.get(name, "")]
+        [
+            f"  {', '.join(part for part in term(name) if part)}",
+            *(number(values[column]) for column in columns),
+            known.get(name, ""),
+        ]
         for name, values in shown.items()
     ]
     lines = [
-        f"{len(result.values)} gearboxes over one output turn at "
-        f"{number(result.ensemble.torque)} N*m, {result.solves:,} equilibria with friction in "
-        f"{result.seconds:.1f} s",
+        *folded(
+            f"{len(result.values)} gearboxes over one output turn at "
+            f"{number(result.ensemble.torque)} N*m, {result.solves:,} equilibria with friction in "
+            f"{result.seconds:.1f} s; p5 to p99: of 5 to 99 % of the gearboxes, at most"
+        ),
         "",
         table(rows, head=("", *columns, "limit"), right=tuple(range(1, len(columns) + 2))),
     ]
@@ -98,11 +105,13 @@ def _lines(result: ToleranceResult) -> list[str]:
     for name in statistics:
         leaders = result.ranking(name)[:_RANKED]
         shares = ", ".join(f"{group} {max(total, 0.0):.0%}" for group, _, total in leaders)
-        ranked.append([f"  {name}", shares])
+        ranked.append([f"  {term(name).words}", shares])
     return [
         *lines,
         "",
-        "which tolerance it comes from (share of the variance, interactions included, so shares "
-        "may add up to more than 100 %):",
+        *folded(
+            "which tolerance it comes from (share of the variance, interactions included, so "
+            "shares may add up to more than 100 %):"
+        ),
         table(ranked),
     ]

@@ -9,6 +9,7 @@ import typer
 
 from cqdd_design.cli.options import Force, option
 from cqdd_design.cli.session import Output
+from cqdd_design.environment import output_folder
 from cqdd_design.exporting.estimators.kinds import KINDS
 from cqdd_design.exporting.kinds import read_kinds
 
@@ -33,7 +34,7 @@ def export_network(
     written = export_artefact(
         artefact,
         kinds,
-        folder or Path("exports") / model.stem,
+        folder or output_folder("exports") / model.stem,
         model.stem,
         force=force or folder is None,
     )

@@ -11,6 +11,7 @@ import typer
 from cqdd_design.cli.options import Force, option, parse_option, parse_positive, quantity_option
 from cqdd_design.cli.session import Output
 from cqdd_design.cli.torque_generate import folder_line, summary_lines
+from cqdd_design.environment import output_folder
 from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
@@ -95,7 +96,7 @@ def import_log(
         torque_limit=parse_positive("--torque-limit", torque_limit, TORQUE),
         cut=parse_positive("--cut", cut, TIME),
     )
-    target = folder or Path("exports") / "torque-logs"
+    target = folder or output_folder("exports") / "torque-logs"
     files = write_data(data, target, force=force or folder is None)
     for gap in found.gaps:
         out.warn(

@@ -21,6 +21,7 @@ from cqdd_design.cli.options import (
 from cqdd_design.cli.session import Output, read_design
 from cqdd_design.cli.tables import number, table
 from cqdd_design.cli.torque_actuator import data_actuator
+from cqdd_design.environment import output_folder
 from cqdd_design.errors import UsageError
 
 if TYPE_CHECKING:
@@ -135,7 +136,7 @@ def train(
     )
     dt = parse_positive("--sample-time", sample_time, TIME)
     require_torch()
-    place = target or Path("exports") / f"{chosen.name}-seed-{seed}.npz"
+    place = target or output_folder("exports") / f"{chosen.name}-seed-{seed}.npz"
     kept = place.with_suffix(".checkpoint.npz")
     if target is not None:
         refuse_overwrite(place, force=force)

@@ -15,6 +15,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cqdd_design.environment import output_folder
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting.kinds import KINDS, read_kinds, stages
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
@@ -38,7 +39,7 @@ __all__ = [
 
 def default_folder(design: Design) -> Path:
     """Where `export` writes when no folder is named: ``exports/<design name>``."""
-    return Path("exports") / design.name
+    return output_folder("exports") / design.name
 
 
 def export(

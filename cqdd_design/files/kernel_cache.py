@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import functools
 import logging
+from pathlib import Path
 from typing import Any
 
 import numba
@@ -16,7 +17,7 @@ from numba.core.caching import FunctionCache
 
 from cqdd_design.files.kernel_stamp import kernel_stamp
 
-__all__ = ["kept_signatures", "numba"]
+__all__ = ["cache_place", "kept_signatures", "numba"]
 
 _log = logging.getLogger("cqdd_design")
 
@@ -58,6 +59,11 @@ def _stamp(cache: Any) -> None:
     """Keep a kernel as long as all that is in it stays; asked when all of its module is there."""
     if not isinstance(cache._cache_file._source_stamp, str):
         cache._cache_file._source_stamp = kernel_stamp(cache._py_func)
+
+
+def cache_place(cache: Any) -> Path:
+    """The folder that a kernel's cache is written into."""
+    return Path(cache.cache_path)
 
 
 def kept_signatures(cache: Any) -> list[Any]:

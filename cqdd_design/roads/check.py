@@ -166,7 +166,7 @@ def assembly_check(motion: AssemblyMotion) -> Check:
     if motion.collisions:
         worst = motion.collisions[0]
         found = (
-            f"{worst.first} and {worst.second} share {worst.volume * 1e9:.3g} mm3 at "
+            f"{worst.first} and {worst.second} share {worst.volume * 1e9:.3g} mm^3 at "
             f"{math.degrees(worst.crank_angle):.4g} deg"
         )
         remedy = f"Give {worst.first} and {worst.second} {worst.thickness * 1e6:.3g} um more room."

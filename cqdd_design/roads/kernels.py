@@ -13,6 +13,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from cqdd_design.gearbox.compiled import in_cache
@@ -140,6 +141,13 @@ def missing(*, simulation: bool = False, ensembles: bool = False) -> list[Kernel
         *GEARBOX[1:],
     )
     return [kernel for kernel in wanted if not in_cache(kernel.compiled())]
+
+
+def kernel_folder() -> Path:
+    """Where a compiled kernel is kept; the others are beside their code, or all there."""
+    from cqdd_design.files.kernel_cache import cache_place
+
+    return cache_place(GEARBOX[0].compiled()._cache)
 
 
 def compile_kernels(kernels: list[Kernel], tell: Callable[[int, int], None]) -> None:

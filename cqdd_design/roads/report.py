@@ -10,6 +10,7 @@ from cqdd_design.actuator.shock import shocks
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.catalog.paper import is_papers_actuator
 from cqdd_design.design import Design
+from cqdd_design.environment import output_folder
 from cqdd_design.errors import ContactError, UsageError, shown
 from cqdd_design.files import WrittenFile, refuse_overwrite, write_atomically
 from cqdd_design.gearbox.checks.allowables import YIELD_SAMPLES
@@ -108,7 +109,7 @@ def write_report(
         A print is asked for and no browser is found, or it prints nothing.
     """
     browser = printing_browser() if form == "pdf" else None
-    target = path or Path("reports") / f"{design.name}.{form}"
+    target = path or output_folder("reports") / f"{design.name}.{form}"
     refuse_overwrite(target, force=force or path is None)
     progress("analysing loads and the planetary")
     machine = specimen.machine(design)

@@ -19,6 +19,7 @@ from cqdd_design.actuator.scenario import Scenario
 from cqdd_design.actuator.simulate import simulate as run
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
+from cqdd_design.environment import output_folder
 from cqdd_design.errors import DesignError, UsageError
 from cqdd_design.files import WrittenFile, refuse_overwrite, write_with
 from cqdd_design.version import __version__
@@ -121,7 +122,7 @@ def write_simulation(
         For Parquet without pyarrow.
     """
     kind = simulation_kind(path, force=force)
-    target = path or Path("exports") / f"{recording.parameters[0].name}-simulation.npz"
+    target = path or output_folder("exports") / f"{recording.parameters[0].name}-simulation.npz"
     writer = write_parquet if kind == "parquet" else write_npz
     return write_with(target, kind, lambda place: writer(place, recording))
 

@@ -11,6 +11,7 @@ from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design, Requirements
 from cqdd_design.design.motor import MotorFile
 from cqdd_design.design.motor_row import row_over
+from cqdd_design.environment import output_folder
 from cqdd_design.errors import UsageError
 from cqdd_design.exporting import export
 from cqdd_design.files import WrittenFile, refuse_overwrite
@@ -168,7 +169,7 @@ def size_and_write(
 
 def default_path(requirements: Requirements) -> Path:
     """Where `size` writes a design that nobody gave a place: ``designs/sized-N.toml``."""
-    return Path("designs") / f"sized-{requirements.ratio}.toml"
+    return output_folder("designs") / f"sized-{requirements.ratio}.toml"
 
 
 def size_design(

@@ -10,6 +10,7 @@ from typing import Any
 from cqdd_design.actuator.recording import require_pyarrow
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
+from cqdd_design.environment import output_folder
 from cqdd_design.files import WrittenFile, refuse_overwrite
 from cqdd_design.roads.telling import silent
 from cqdd_design.torque.data.episodes import write_data
@@ -78,7 +79,7 @@ def generate(
     data, warnings = run(
         specimen.machine(design), request, specimen=specimen, tell=tell, progress=progress
     )
-    target = folder or Path("exports") / f"{design.name}-torque"
+    target = folder or output_folder("exports") / f"{design.name}-torque"
     files = write_data(data, target, force=force or folder is None)
     facts = describe(data)
     if facts["episodes_infeasible"] or facts["episodes_saturated"]:

@@ -170,6 +170,11 @@ class StageWork(NamedTuple):
         )
         passes = shapes.relief_passes_wire(frame, ring.rows(sound_rings[first]))
         possible[sound_rings] = passes[place]
+        # Nor is there a shape of sizes beyond the limits: at K1 of 1 the flank has no normal.
+        e = np.where(possible, e, self.grid.throw)
+        r = np.where(possible, r, self.grid.tooth)
+        R = np.where(possible, R, frame.outer_radius)
+        ring = shapes.RingSizes(R, e, r)
         hole = pins.play_radius + e
         circle = shapes.largest_pin_circle(frame, ring, hole, pins.offset)
         circle = np.floor(circle / RADIUS_STEP) * RADIUS_STEP

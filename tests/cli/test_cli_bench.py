@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from terminal_lines import too_wide
 
 from cqdd_design.cli.main import run
 
@@ -167,5 +168,4 @@ def test_like_names_of_unlike_figures_are_told_apart(cqdd, paper_design_file):
     assert float(rows["continuous_torque"]) != float(verdict.split()[3])
     words = " ".join(done.out.split())
     assert "continuous_torque is of a standing output, the continuous torque above is held" in words
-    sentences = [line for line in done.out.splitlines() if "  " not in line.strip()]
-    assert max(map(len, sentences)) <= 80
+    assert too_wide(done.out) == []

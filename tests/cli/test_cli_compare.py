@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from terminal_lines import too_wide
 
 from cqdd_design.errors import UsageError
 from cqdd_design.planetary.profile_shift import ProfileShifts
@@ -70,6 +71,7 @@ def test_a_settings_file_is_read_and_options_go_before_it(cqdd, tmp_path):
 
 def test_defaults_are_printed(cqdd):
     stdout = cqdd("compare", DESIGN).out
+    assert too_wide(stdout) == []
     for name in SETTINGS:
         assert f"{name} " in stdout, name
     assert "profile shifts 0.3, -0.3, 0, 0; tip diameter of the ring 68.222 mm" in stdout

@@ -39,7 +39,7 @@ def offered(tmp_path):
             "_TYPER_COMPLETE_ARGS": line,
         }
         done = subprocess.run(
-            [sys.executable, "-c", ASK],
+            [sys.executable, "-W", "error::DeprecationWarning", "-c", ASK],
             env=environment, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=60,
         )  # fmt: skip
         assert "Error" not in done.stderr, done.stderr
@@ -65,6 +65,6 @@ def test_zsh_is_offered_names_as_they_are(offered) -> None:
 def test_names_are_those_of_catalogue_and_guide(monkeypatch) -> None:
     monkeypatch.delenv("_CQDD_DESIGN_COMPLETE", raising=False)
     assert tuple(CHECK_GUIDE) == CHECKS
-    assert completion.motors(None, None, "") == list(catalog.motors())
+    assert completion.motors("") == list(catalog.motors())
     for name in (*catalog.materials(), *catalog.motors()):
-        assert name in completion.catalogued(None, None, name)
+        assert name in completion.catalogued(name)

@@ -11,6 +11,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from terminal_lines import too_wide
 
 from cqdd_design.design import load_design
 from cqdd_design.geometry import kinematics
@@ -44,6 +45,8 @@ def shown_before():
 def test_every_command_shown_runs(page, cqdd, tmp_path, shown_before):
     """In the order of the page, from a folder with the repository's designs and the page's files.
 
+    What they tell fits a terminal of 80 columns.
+
     A block of TOML or CSV that begins with a file's name is that file. A command of the paper's
     design that another page has shown before, and of which no file is read later, is not run again.
     """
@@ -63,6 +66,7 @@ def test_every_command_shown_runs(page, cqdd, tmp_path, shown_before):
         # The paper's design is a no, whatever motor or duty; what `size` writes is a yes.
         wanted = 4 if arguments[:2] == ["check", "designs/cqdd-10.toml"] else 0
         assert done.code == wanted, f"{command}\n{done.err}"
+        assert "--json" in arguments or too_wide(done.out) == [], command
 
 
 def test_pages_show_commands_only_in_console_blocks():

@@ -29,7 +29,7 @@ def test_catalog_without_a_name_lists_the_catalogues(cqdd):
 def test_catalog_shows_a_row(cqdd, words):
     done = cqdd("catalog", *words)
     assert done.code == 0
-    assert re.search(r"static_rating_N +2250\n", done.out)
+    assert re.search(r"static rating +2250 N\n", done.out)
     assert "KOYO" in done.out
 
 
@@ -156,6 +156,27 @@ def test_doctor_finds_what_is_installed(cqdd):
     assert found["browser"]["state"] in {"ok", "optional"}
 
 
+def test_doctor_says_each_thing_once(cqdd):
+    """Extras repeat each other's packages; people get one line a thing, and no echo on stderr."""
+    done = cqdd("doctor", "--json")
+    names = [row["name"] for row in done.document["results"]["findings"]]
+    assert len(names) == len(set(names)) > 20
+    told = cqdd("doctor")
+    assert told.err == ""
+    shown = [
+        re.split(r"  +", line)[1] for line in told.out.splitlines() if re.match(r"\w+  ", line)
+    ]
+    assert sorted(shown) == sorted(names)
+
+
+def test_doctor_takes_the_strictest_of_several_wishes():
+    from cqdd_design.environment import _each_once, _Wanted
+
+    wishes = [_Wanted("a", "1.9", "torque"), _Wanted("a", "1.10", ""), _Wanted("b", "2", "dev")]
+    assert _each_once(wishes) == [_Wanted("a", "1.10", ""), _Wanted("b", "2", "dev")]
+    assert _each_once(reversed(wishes))[1] == _Wanted("a", "1.10", "")
+
+
 def test_doctor_names_what_is_missing(monkeypatch, tmp_path):
     from cqdd_design import environment
 
@@ -180,7 +201,7 @@ def test_doctor_ends_with_5_when_something_is_missing(monkeypatch, capsys):
         as_json = False
 
         def say(self, *lines): ...
-        def warn(self, sentence): ...
+        def warn(self, *sentences): ...
         def document(self, results): ...
 
     missing = environment.Finding("libGL.so.1", "missing", "run apt-get")

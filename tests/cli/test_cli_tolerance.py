@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from terminal_lines import too_wide
 
 DESIGN = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"
 OUTPUTS = (
@@ -62,7 +63,8 @@ def test_the_same_seed_gives_the_same_and_another_another(cqdd) -> None:
 def test_people_get_a_table_and_a_ranking(cqdd) -> None:
     done = cqdd("tolerance", str(DESIGN), "--samples", "128", "--angles", "44")
     assert done.code == 0
-    assert "backlash_arcmin" in done.out
+    assert too_wide(done.out) == []
+    assert "backlash, arcmin" in done.out
     assert "p95" in done.out
     assert "which tolerance it comes from" in done.out
     assert "of 128" not in done.out

@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 
 import pytest
+from terminal_lines import too_wide
 
 from cqdd_design.design import Requirements, save_design
 from cqdd_design.sizing import size
@@ -115,6 +116,7 @@ def test_every_command_says_the_same_of_designs_nobody_chose(cqdd, tmp_path, see
 def test_a_no_ends_in_exit_code_four_with_what_would_change_it(cqdd, paper_design_file):
     done = cqdd("check", paper_design_file)
     assert done.code == 4
+    assert too_wide(done.out) == []
     assert "what is not met, and what would change that:" in done.out
     limits = cqdd("check", paper_design_file, "--json").document["results"]["verdict"]["limits"]
     failing = [one for one in limits if one["status"] == "fail"]

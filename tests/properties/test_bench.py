@@ -216,7 +216,7 @@ def test_position_bandwidth_stays_below_what_saturation_allows(
     limits = (found.details["limit_by_speed_Hz"], found.details["limit_by_torque_Hz"])
     assert found.value <= 1.05 * min(limits)
     assert found.relation == "not comparable"
-    assert "60 N m s/rad at 24 V" in found.protocol
+    assert "60 N*m*s/rad at 24 V" in found.protocol
 
 
 def test_efficiency_without_friction_is_the_motors(actuator: ActuatorParameters) -> None:

@@ -190,7 +190,7 @@ def test_no_ripple_without_torque_or_harmonics() -> None:
 def test_an_error_that_turns_the_output_back_is_refused() -> None:
     p = paper_actuator()
     gear = dataclasses.replace(p.gear, error_cosine=np.array([0.0, 0.0, 0.2, 0.0, 0.0]))
-    with pytest.raises(DesignError, match=r"gear\.error_cosine .* at 5 N m"):
+    with pytest.raises(DesignError, match=r"gear\.error_cosine .* at 5 N\*m"):
         model_text(MjcfActuator(dataclasses.replace(p, gear=gear), "a"))
 
 

@@ -273,7 +273,7 @@ def test_limits_that_bind_are_told():
     assert any("supply of 48 V binds" in text for text in fast.warnings)
     hot = Start(winding_temperature=115.0, housing_temperature=90.0)
     warm = recorded(Scenario(LOCKED.command, LOCKED.load, hot), 0.05)
-    assert any("the winding reaches 115 deg C" in text for text in warm.warnings)
+    assert any("the winding reaches 115 degC" in text for text in warm.warnings)
     whirl = recorded(Scenario(Command("open"), Load.driven(Constant(60.0))), 0.05)
     assert any("finest ripple" in text for text in whirl.warnings)
 

@@ -168,6 +168,30 @@ def test_a_points_reserve_is_that_of_its_analysed_design(
     assert wrong == []
 
 
+@pytest.mark.parametrize("spare", [-1, 0, 7])
+def test_points_beyond_every_limit_have_numbers_and_no_reserve(spare):
+    """Eccentricities past K1 = 1, where the flank crosses itself and 1 - K1 has no root."""
+    frame = search_frame(Requirements(ratio=10))
+    evaluator = Evaluator.of(frame, stage_tables(10), [12])
+    R = 1e3 * shapes.largest_pitch_for_wall(frame, column(0.0), column(0.0))[0]
+    throws = np.arange(-2, round(2.0 * R / 11 * 1e-3 / evaluator.grid.throw))
+    steps = np.column_stack([throws, np.full(len(throws), 60), np.full(len(throws), spare)])
+    pins = Pins.of(frame, np.full(len(throws), 12), np.zeros(len(throws), dtype=int))
+    with np.errstate(divide="raise", invalid="raise"):
+        points = evaluator.evaluate(
+            steps, np.full((len(throws), 1), 90), pins, np.full(len(throws), 1.0)
+        )
+    for values in (points.mass, points.reflected_inertia, points.reserve, points.pin_circle):
+        assert np.isfinite(values).all()
+    sized = np.maximum(throws, 1) * evaluator.grid.throw
+    assert (sized * 11 / points.pitch_radius)[points.reserve > 0.0].max(initial=0.0) < 0.86
+    assert (points.reserve > 0.0).any() == (spare >= 0)
+    beyond = sized > R * 1e-3 / 11
+    assert beyond.sum() > 100
+    assert not points.reserve[beyond].any()
+    assert np.isinf(points.objective[beyond]).all()
+
+
 def test_the_mass_is_that_of_the_parts():
     """Discs and ring from the exact contours; bearings from the catalogue; pins and eccentrics."""
     evaluator, points = points_near(10, (160, 80, 3, 90), 12, 0)

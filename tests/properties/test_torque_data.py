@@ -150,7 +150,7 @@ def test_a_torque_need_above_the_limit_is_named(gearbox):
     inertia = 2.28 * 0.6**2 + bar * (0.65**2 / 3.0 + 0.04**2 / 12.0) + gearbox.reflected_inertia
     moment = (2.28 * 0.6 + bar * 0.65 / 2.0) * 9.80665
     most = 1.5 * inertia * (2.0 * math.pi * 1.3) ** 2 + moment * math.sin(1.5)
-    assert told == f"torque {most:.3g} N m above the drive's limit of {told.split()[-3]} N m"
+    assert told == f"torque {most:.3g} N*m above the drive's limit of {told.split()[-2]} N*m"
 
 
 def test_a_speed_beyond_what_the_free_actuator_reaches_is_named(gearbox):

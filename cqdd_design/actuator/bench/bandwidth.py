@@ -117,7 +117,7 @@ def torque_bandwidth(
         missing = (
             f"the coherence of the torque with the chirp falls below {COHERENT:g} at {sure:.3g} "
             f"Hz, where the gain is still {there:.3g} of that at low frequencies; play and "
-            f"friction make the rest, so no -3 dB can be read with {amplitude:g} N m"
+            f"friction make the rest, so no -3 dB can be read with {amplitude:g} N*m"
         )
     elif not np.any(gain[above] < DOWN * low):
         missing = f"the gain has not fallen by 3 dB up to {frequency[-1]:.3g} Hz"
@@ -125,9 +125,9 @@ def torque_bandwidth(
         "torque_bandwidth",
         math.nan if missing else edge,
         "predicted",
-        f"Output held by a rig of {held.sensor_stiffness:.3g} N m/rad "
+        f"Output held by a rig of {held.sensor_stiffness:.3g} N*m/rad "
         f"({given if rig_stiffness is None else 'as given'}), torque chirp of "
-        f"{amplitude:g} N m from {first:g} to {last:g} Hz in {chirping:g} s, rising and falling in "
+        f"{amplitude:g} N*m from {first:g} to {last:g} Hz in {chirping:g} s, rising and falling in "
         "both senses, H1 over these and twelfths of an octave, -3 dB below the mean under "
         f"{_LOW:g} Hz, read only where the coherence is {COHERENT:g} or more up to there.",
         details={
@@ -224,8 +224,8 @@ def position_bandwidth(
         crossing(frequencies, gain / gain[0], DOWN),
         "not comparable",
         f"Stepped sine of {amplitude_deg:g} deg amplitude, impedance control with "
-        f"{parameters.drive.position_gain:g} N m/rad and {parameters.drive.velocity_gain:g} "
-        f"N m s/rad at {voltage:g} V, output free; gain of the fundamental, -3 dB. The paper gives "
+        f"{parameters.drive.position_gain:g} N*m/rad and {parameters.drive.velocity_gain:g} "
+        f"N*m*s/rad at {voltage:g} V, output free; gain of the fundamental, -3 dB. The paper gives "
         "no gains.",
         details={
             "limit_by_speed_Hz": by_speed,

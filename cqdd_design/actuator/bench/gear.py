@@ -176,7 +176,7 @@ def backdrive_static(parameters: ActuatorParameters, positions: int = 12) -> Met
         "backdrive_static",
         float(values.mean()),
         "predicted",
-        f"Phases open, output torque ramped at {slope:.3g} N m/s until the motor turns faster than "
+        f"Phases open, output torque ramped at {slope:.3g} N*m/s until the motor turns faster than "
         f"{_MOVING:g} rad/s of output{', out of its well of cogging' if well else ''}, at "
         f"{positions} places in both senses.",
         spread=float(values.std(ddof=1)) if values.size > 1 else None,
@@ -224,7 +224,7 @@ def torque_ripple(
     shown = others[0] if others else own
     protocol = (
         f"Output at {speed:g} rad/s, {_current(parameters):.3g} A in the motor for about "
-        f"{parameters.gear.error_torque:g} N m: half of the peak-to-peak torque "
+        f"{parameters.gear.error_torque:g} N*m: half of the peak-to-peak torque "
         "over each turn of the motor, mean over a turn of the output"
     )
     strongest = np.argsort(shown.amplitudes)[::-1][:5]

@@ -163,7 +163,7 @@ def continuous_torque(parameters: ActuatorParameters) -> Metric:
         float(torques.mean()),
         "predicted",
         "Output held still at the current whose heat the two-node network carries off at the "
-        f"winding's limit of {thermal.most:g} deg C in {thermal.ambient:g} deg C.",
+        f"winding's limit of {thermal.most:g} degC in {thermal.ambient:g} degC.",
         spread=float(torques.std(ddof=1)),
         details={"current_A": current},
         trace={
@@ -301,7 +301,7 @@ def efficiency_peak(
         f"On {supply:g} V, steady grid of {points} speeds up to {top * RPM:.0f} rpm and {points} "
         f"currents up to {most:.3g} A in both senses, as far as the supply drives them, and finer "
         "around the best: mean mechanical over mean electrical power at the motor's terminals, the "
-        f"inverse where it generates; winding at {motor.reference_temperature:g} deg C.",
+        f"inverse where it generates; winding at {motor.reference_temperature:g} degC.",
         details=details,
         trace={
             "speed [rpm]": grid.speed[grid.reached] * RPM,

@@ -103,7 +103,7 @@ def _torque_scale(parameters: ActuatorParameters) -> float:
     return (min(most, motor.peak_torque) if math.isfinite(motor.peak_torque) else most) / 3.0
 
 
-_OVER_SPEED, _OVER_ANGLE = "N m s/rad", "N m/rad"
+_OVER_SPEED, _OVER_ANGLE = "N*m*s/rad", "N*m/rad"
 RIG = "rig_stiffness"
 _HELD = 0.9
 """Of the friction under load that would hold any torque."""
@@ -115,9 +115,9 @@ UNKNOWNS: Mapping[str, Unknown] = MappingProxyType(
     {
         "thermal_resistance": Unknown("thermal", _BOTH_RESISTANCES, "continuous_torque", 0.1, 10.0),
         "motor_cogging": Unknown(
-            "motor", ("cogging_amplitude",), "backdrive_static", 5e-5, 0.05, "N m"
+            "motor", ("cogging_amplitude",), "backdrive_static", 5e-5, 0.05, "N*m"
         ),
-        "motor_coulomb": Unknown("motor", ("coulomb",), "backdrive_dynamic", 1e-4, 0.1, "N m"),
+        "motor_coulomb": Unknown("motor", ("coulomb",), "backdrive_dynamic", 1e-4, 0.1, "N*m"),
         "motor_viscous": Unknown("motor", ("viscous",), "", 1e-4, 0.2, _OVER_SPEED),
         "friction_load": Unknown("friction", _LOAD, "efficiency_peak", 0.1, 3.0),
         "current_loop": Unknown("drive", ("current_bandwidth",), "torque_bandwidth", 0.01, 100.0),

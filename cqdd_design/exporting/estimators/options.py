@@ -191,6 +191,6 @@ def require_close(
     worst = float(np.max(np.abs(np.asarray(found, np.float64).ravel() - wanted)))
     if not worst <= 10.0 * TOLERANCE * scale:
         raise ReadBackError(
-            f"{path} reads back {worst:.2e} N m away from {artefact.name}; this is a fault of the "
+            f"{path} reads back {worst:.2e} N*m away from {artefact.name}; this is a fault of the "
             "export."
         )

@@ -140,12 +140,10 @@ def prose(text: str) -> str:
 
     Examples
     --------
-    >>> prose("at 2.19e+04 N m/rad and -3 dB, 120 deg C")
+    >>> prose("at 2.19e+04 N*m/rad and -3 dB, 120 degC")
     'at 21\u202f900 N·m/rad and \u22123 dB, 120 °C'
     """
     text = re.sub(r"\b\d+(?:\.\d+)?e[+-]\d+\b", lambda found: significant(float(found[0]), 3), text)
-    for plain, sign in (("deg C", "°C"), ("N m s/", "N·m·s/"), ("N m", "N·m")):
-        text = text.replace(plain, sign)
     return printed(text)
 
 

@@ -9,25 +9,15 @@ import numpy as np
 
 from cqdd_design.report.ink.bars import bar_chart, histogram
 from cqdd_design.report.ink.charts import Curve, Level, line_chart
-from cqdd_design.report.ink.numbers import significant, with_unit
+from cqdd_design.report.ink.numbers import pretty_unit, significant, with_unit
 from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Figure, Words
+from cqdd_design.terms import term
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.tolerance.clearance import ClearancePoint
     from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
 
-_NAMES = {
-    "backlash_arcmin": ("backlash", "arcmin"),
-    "transmission_error_pp_arcmin": ("transmission error, peak to peak", "arcmin"),
-    "ring_force_max_N": ("greatest ring force", "N"),
-    "stiffness_Nm_per_arcmin": ("stiffness", "N\u00b7m/arcmin"),
-    "torque_ripple_pp_Nm": ("torque ripple, peak to peak", "N\u00b7m"),
-    "ring_pressure_max_MPa": ("greatest pressure at the ring", "MPa"),
-    "cam_bearing_load_max_N": ("greatest cam bearing load", "N"),
-    "preload_force_max_N": ("greatest contact force without load", "N"),
-    "unloaded_torque_Nm": ("torque to turn it without load", "N\u00b7m"),
-}
 _SHOWN = ("backlash_arcmin", "torque_ripple_pp_Nm", "ring_pressure_max_MPa")
 _STATISTICS = ("mean", "std", "p5", "p50", "p95", "p99")
 
@@ -43,7 +33,7 @@ def tolerance_view(result: ToleranceResult, clearances: Sequence[ClearancePoint]
     limits = result.limits
     rows = tuple(
         (
-            ", ".join(_NAMES[name]),
+            ", ".join(_named(name)),
             *(significant(told[key]) for key in _STATISTICS),
             significant(limits[name]) if name in limits else "",
         )
@@ -63,6 +53,12 @@ def tolerance_view(result: ToleranceResult, clearances: Sequence[ClearancePoint]
         "clearances": [_clearance_row(point) for point in clearances],
         "clearance_figures": tuple(_clearance_figures(clearances)),
     }
+
+
+def _named(key: str) -> tuple[str, str]:
+    """An output in words, and its unit as printed."""
+    words, unit = term(key)
+    return words, pretty_unit(unit)
 
 
 def _clearance_row(point: ClearancePoint) -> tuple[str, ...]:
@@ -131,7 +127,7 @@ def _clearance_figures(points: Sequence[ClearancePoint]) -> Iterator[Figure]:
 
 def _histogram(result: ToleranceResult, name: str) -> Figure:
     statistics, count = result.statistics(), len(result.values)
-    told, (words, unit) = statistics[name], _NAMES[name]
+    told, (words, unit) = statistics[name], _named(name)
     return histogram(
         Words(
             f"histogram-{name.split('_')[0]}",
@@ -149,7 +145,7 @@ def _histogram(result: ToleranceResult, name: str) -> Figure:
 
 
 def _ranking(result: ToleranceResult, name: str) -> Figure:
-    words = _NAMES[name][0]
+    words = term(name).words
     ranked = [
         (group.replace("_", " "), first, max(total, 0.0))
         for group, first, total in result.ranking(name)

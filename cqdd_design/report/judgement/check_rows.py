@@ -105,6 +105,7 @@ def printed(text: str) -> str:
         text = text.replace(plain, sign)
     text = re.sub(r"(?<![^\s(])-(?=\d)", MINUS, text)
     text = re.sub(r"\b1e(\d)\b", lambda found: "10" + superscript(int(found[1])), text)
+    text = re.sub(r"(?<=\d) degC\b", " °C", text)
     text = re.sub(r"(?<=\d) deg\b", "°", text)
     text = re.sub(r"\^3\b", "³", re.sub(r"\^2\b", "²", text))
     return re.sub(r"(?<=\d) um\b", " µm", text)

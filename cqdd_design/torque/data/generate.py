@@ -171,8 +171,8 @@ def generate(
     infeasible = {name: causes for name, causes in infeasible.items() if causes}
     if found["winding_degC"] > own.thermal.derating_begins:
         warnings.append(
-            f"the winding reaches {found['winding_degC']:.4g} deg C; the drive lowers its current "
-            f"from {own.thermal.derating_begins:g} deg C on."
+            f"the winding reaches {found['winding_degC']:.4g} degC; the drive lowers its current "
+            f"from {own.thermal.derating_begins:g} degC on."
         )
     drive, limit = own.drive, own.torque_limit
     facts: dict[str, Any] = {

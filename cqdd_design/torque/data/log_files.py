@@ -82,11 +82,11 @@ class LogMap:
         if "torque" not in self.columns and self.current_to_torque is None:
             raise UsageError(
                 "a log with current and without torque needs --current-to-torque, the joint's "
-                "torque over the current in N m/A (ratio times torque constant, signed)."
+                "torque over the current in N*m/A (ratio times torque constant, signed)."
             )
         constant = self.current_to_torque
         if constant is not None and not (math.isfinite(constant) and constant != 0.0):
-            raise UsageError(f"a torque over current of {constant:g} N m/A must not be 0.")
+            raise UsageError(f"a torque over current of {constant:g} N*m/A must not be 0.")
         for name in self.units:
             if QUANTITIES[name] is None:
                 raise UsageError(f"'{name}' is a flag, 0 or 1, without a unit.")
@@ -134,7 +134,7 @@ def read_map(path: Path, over: Mapping[str, Mapping[str, Any]] | None = None) ->
     if constant is not None and (
         isinstance(constant, bool) or not isinstance(constant, int | float)
     ):
-        raise UsageError(f"{path}: current_to_torque must be a number in N m/A.")
+        raise UsageError(f"{path}: current_to_torque must be a number in N*m/A.")
     for table in ("columns", "units"):
         for name, value in content.get(table, {}).items():
             if not isinstance(value, str):

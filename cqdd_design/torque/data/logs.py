@@ -109,7 +109,7 @@ def import_logs(
     if cut is not None and not cut >= LEAST_SECONDS:
         raise UsageError(f"pieces of {cut:g} s are shorter than {LEAST_SECONDS:g} s.")
     if torque_limit is not None and not (math.isfinite(torque_limit) and torque_limit > 0.0):
-        raise UsageError(f"a torque limit of {torque_limit:g} N m must be above 0.")
+        raise UsageError(f"a torque limit of {torque_limit:g} N*m must be above 0.")
     stems = [_safe(path.stem) for path in paths]
     twice = sorted({stem for stem in stems if stems.count(stem) > 1})
     if twice:

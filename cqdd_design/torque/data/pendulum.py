@@ -171,7 +171,7 @@ def shortfalls(configuration: Configuration, parameters: ActuatorParameters) -> 
     if speed > top:
         found.append(f"speed {speed:.3g} rad/s above the no-load speed of {top:.3g} rad/s")
     if most > limit:
-        found.append(f"torque {most:.3g} N m above the drive's limit of {limit:.3g} N m")
+        found.append(f"torque {most:.3g} N*m above the drive's limit of {limit:.3g} N*m")
     return tuple(found)
 
 

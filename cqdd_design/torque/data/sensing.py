@@ -123,9 +123,9 @@ class SensorChain:
         if not (math.isfinite(self.rate) and self.rate > 0.0):
             raise UsageError(f"a sample rate of {self.rate:g} Hz must be above 0; 200 is usual.")
         if not (math.isfinite(self.torque_noise) and self.torque_noise >= 0.0):
-            raise UsageError(f"a torque noise of {self.torque_noise:g} N m must be 0 or more.")
+            raise UsageError(f"a torque noise of {self.torque_noise:g} N*m must be 0 or more.")
         if not math.isfinite(self.torque_bias):
-            raise UsageError(f"a torque bias of {self.torque_bias:g} N m must be finite.")
+            raise UsageError(f"a torque bias of {self.torque_bias:g} N*m must be finite.")
         if not (math.isfinite(self.torque_lag) and self.torque_lag > 0.0):
             raise UsageError(f"a torque sensor's corner of {self.torque_lag:g} Hz must be above 0.")
 

@@ -138,7 +138,7 @@ class EpochResult:
     def line(self) -> str:
         """For a log."""
         return (
-            f"epoch {self.epoch} of {self.epochs}: RMSE {self.training_rmse:.3f} N m in training, "
+            f"epoch {self.epoch} of {self.epochs}: RMSE {self.training_rmse:.3f} N*m in training, "
             f"{self.validation_rmse:.3f} in validation (best {self.best_rmse:.3f}), "
             f"{self.seconds:.1f} s"
         )
