@@ -12,6 +12,8 @@
 * ``measured.md``: measurements of hardware beside predictions, between its markers; what is read
   off records is left as it is where there are none (``../shared/data/measured``).
 * ``assumptions.md``: every allowable, between its markers.
+* ``cite.md``: CITATION.cff as BibTeX, between its markers.
+* ``gallery.md`` and ``images/gallery-*.svg``: designs with their verdict (`gallery.py` sizes them).
 """
 
 from __future__ import annotations
@@ -23,10 +25,12 @@ import io
 import json
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from functools import cache
+from functools import cache, partial
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
+
+import gallery
 
 DOCS = Path(__file__).resolve().parent
 BEGIN, END = "<!-- help: written by docs/build.py -->", "<!-- end of help -->"
@@ -312,6 +316,36 @@ def assumptions_page() -> str:
     return _with_tables("assumptions.md", {"allowables": _allowables})
 
 
+def _citations() -> str:
+    """What CITATION.cff says, as BibTeX."""
+    import yaml
+
+    told = yaml.safe_load((DOCS.parent / "CITATION.cff").read_text(encoding="utf-8"))
+    (paper,) = told["references"]
+    names = " and ".join(one["family-names"] for one in paper["authors"])
+    title = " ".join(paper["title"].split())
+    number = paper["identifiers"][0]["value"].removeprefix("arXiv:")
+    (author,) = told["authors"]
+    return "\n".join(
+        [
+            "```bibtex",
+            f"@software{{cqdd_design, title = {{{told['title']}}},",
+            f"  author = {{{{{author['name']}}}}},",
+            f"  version = {{{told['version']}}}, license = {{{told['license']}}}}}",
+            "",
+            f"@misc{{cqdd_paper, title = {{{title}}},",
+            f"  author = {{{names}}}, year = {{{paper['year']}}},",
+            f"  eprint = {{{number}}}, archivePrefix = {{arXiv}}, url = {{{paper['url']}}}}}",
+            "```",
+        ]
+    )
+
+
+def cite_page() -> str:
+    """cite.md with the citation as BibTeX."""
+    return _with_tables("cite.md", {"citation": _citations})
+
+
 def _with_tables(page_name: str, tables: Mapping[str, Callable[[], str]]) -> str:
     """A page with what stands between its markers made anew."""
     page = (DOCS / page_name).read_text(encoding="utf-8")
@@ -381,9 +415,13 @@ PAGES = {
     "images/contact-error.svg": lambda: _figure("contact", "error"),
     "images/actuator-scheme.svg": lambda: _figure("actuator", "scheme"),
     "images/actuator-position.svg": lambda: _figure("actuator", "position"),
+    "images/tutorial-gait.svg": lambda: _figure("tutorial", "gait"),
     "images/measured-loops.svg": _measured_loops,
     "measured.md": measured_page,
     "assumptions.md": assumptions_page,
+    "cite.md": cite_page,
+    "gallery.md": gallery.page,
+    **{f"images/gallery-{one.name}.svg": partial(gallery.picture, one) for one in gallery.DESIGNS},
 }
 
 

@@ -38,8 +38,15 @@ def shown_before():
 @pytest.mark.deep
 @pytest.mark.parametrize(
     "page",
-    # The commands of torque-estimation.md need torch; test_cli_torque_docs.py runs them.
-    [p for p in PAGES if console_commands(p) and p.name != "torque-estimation.md"],
+    # The commands of torque-estimation.md need torch; test_cli_torque_docs.py runs them, and
+    # test_site.py those of the tutorials, which build on each other.
+    [
+        p
+        for p in PAGES
+        if console_commands(p)
+        and p.name != "torque-estimation.md"
+        and not p.name.startswith("tutorial-")
+    ],
     ids=lambda page: page.name,
 )
 def test_every_command_shown_runs(page, cqdd, tmp_path, shown_before):
@@ -129,7 +136,8 @@ def test_no_validation_shows_a_figure_above_its_bound():
         assert float(met) <= float(bound), (name, line)
 
 
-def test_clearances_said_to_be_doubled_are():
+def test_clearances_said_to_be_doubled_are(monkeypatch):
+    monkeypatch.syspath_prepend(REPOSITORY / "docs")
     spec = importlib.util.spec_from_file_location("build", REPOSITORY / "docs" / "build.py")
     build = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(build)
@@ -178,7 +186,7 @@ def test_constraints_pin_every_dependency():
     )
     pinned = {re.sub(r"[-_.]+", "-", name).lower() for name in pins}
     extras = project["optional-dependencies"]
-    needed = [*project["dependencies"], *extras["dev"], *extras["torque"]]
+    needed = [*project["dependencies"], *extras["dev"], *extras["docs"], *extras["torque"]]
     for requirement in needed:
         assert re.match(r"[\w-]+", requirement)[0].lower() in pinned, requirement
 
@@ -233,8 +241,14 @@ def test_links_between_pages_lead_somewhere():
 
 @pytest.mark.parametrize(
     "page",
-    # Those of the library take long or build on each other; test_library_docs.py runs them.
-    [p for p in PAGES if blocks(p, "python") and p.name not in ("README.md", "library.md")],
+    # Those of the library take long or build on each other; test_library_docs.py runs them, and
+    # test_site.py that of the tutorial.
+    [
+        p
+        for p in PAGES
+        if blocks(p, "python")
+        and p.name not in ("README.md", "library.md", "tutorial-simulator.md")
+    ],
     ids=lambda page: page.name,
 )
 def test_python_shown_runs(page):

@@ -1,0 +1,96 @@
+"""What the site needs of Sphinx beyond its own.
+
+* Equations as MathML, which browsers draw without a script, screen readers read, and the report has
+  too. The converter is docutils' own, so that no package more is needed.
+* Pages whose text stands elsewhere in the repository, and links that lead out of `docs/`.
+* Contents whose captions have a level.
+* Files of the gallery's designs, where `tools/site.py` has exported them.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING, Any
+
+from docutils import nodes
+from docutils.utils.math.latex2mathml import tex2mathml
+from pygments.lexers.special import TextLexer
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+    from sphinx.writers.html5 import HTML5Translator
+
+DOCS = Path(__file__).resolve().parent
+ELSEWHERE = {
+    "changelog": "CHANGELOG.md",
+    "contributing": "CONTRIBUTING.md",
+    "notebooks": "examples/README.md",
+}
+"""Pages to the file of the repository that has their text."""
+EXPORTED = DOCS / "gallery" / "files"
+
+_LINK = re.compile(r"\]\((?!https?://|#)([^)#\s]+)(#[^)\s]*)?\)")
+
+
+def inline(writer: HTML5Translator, node: nodes.math) -> None:
+    """A formula within a line."""
+    writer.body.append(str(tex2mathml(node.astext())))
+    raise nodes.SkipNode
+
+
+def block(writer: HTML5Translator, node: nodes.math_block) -> None:
+    """A formula of its own, in a box that scrolls where the screen is narrower."""
+    drawn = tex2mathml(node.astext(), as_block=True)
+    writer.body.append(f'<div class="equation">{drawn}</div>\n')
+    raise nodes.SkipNode
+
+
+def _left(_: HTML5Translator, __: nodes.Element) -> None:
+    """Never reached: entering has written the whole formula."""
+
+
+def page_source(_: Sphinx, name: str, text: list[str]) -> None:
+    """The text of a page as the site has it."""
+    top = DOCS.parent
+    place = ELSEWHERE.get(name)
+    if place:
+        text[0] = (top / place).read_text(encoding="utf-8")
+    home = (top / place).parent if place else DOCS
+    pages = {(top / file).resolve(): f"{page}.md" for page, file in ELSEWHERE.items()}
+
+    def led(found: re.Match[str]) -> str:
+        """Target as seen from `docs/`; a text that has a page of its own is that page."""
+        target = (home / found[1]).resolve()
+        seen = pages.get(target) or PurePosixPath(os.path.relpath(target, DOCS)).as_posix()
+        return f"]({seen}{found[2] or ''})"
+
+    text[0] = _LINK.sub(led, text[0])
+    if name == "gallery":
+        text[0] = re.sub(r"\[design file\]\([./\w]+/([\w-]+)\.toml\)", _with_files, text[0])
+
+
+def _with_files(found: re.Match[str]) -> str:
+    """A link to a design file, and links to what was exported of it."""
+    files = sorted((EXPORTED / found[1]).glob("*"))
+    links = [f"[{one.name}](gallery/files/{found[1]}/{one.name})" for one in files]
+    return ", ".join([found[0], *links])
+
+
+def captions(_: Sphinx, __: str, ___: str, context: dict[str, Any], ____: object) -> None:
+    """Captions of the contents are headings for a screen reader, which asks of which level."""
+    tree = context.get("furo_navigation_tree", "")
+    context["furo_navigation_tree"] = tree.replace(
+        'role="heading"', 'role="heading" aria-level="2"'
+    )
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Register with Sphinx."""
+    app.add_html_math_renderer("mathml", (inline, _left), (block, _left))
+    app.add_lexer("csv", TextLexer)
+    app.connect("source-read", page_source)
+    # After the theme has drawn its tree.
+    app.connect("html-page-context", captions, priority=900)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

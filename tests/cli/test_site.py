@@ -1,0 +1,152 @@
+"""The site builds without a warning, leads nowhere wrong and is readable; its tutorials run."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+from page_readers import axe_source, read
+
+from cqdd_design.design import load_design
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+DOCS = REPOSITORY / "docs"
+TUTORIALS = ("first-gearbox", "gait-to-knee", "simulator", "edm-shop", "printed")
+READ = ("index", "theory", "gallery", "cli", "api", "tutorial-gait-to-knee", "faq")
+"""Pages that are opened: one of every kind."""
+
+#: Furo takes its looks from the body, and the readers tell them to the root.
+_LOOKS = """<script>new MutationObserver(function () {
+  document.body.dataset.theme = document.documentElement.dataset.look;
+}).observe(document.documentElement, { attributes: true });</script>"""
+
+
+@pytest.fixture(scope="module")
+def checker() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("site_tool", REPOSITORY / "tools" / "site.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Built and checked as `python tools/site.py` does it."""
+    pytest.importorskip("sphinx", reason="the extra `docs` is not installed")
+    folder = tmp_path_factory.mktemp("site") / "site"
+    done = subprocess.run(
+        [sys.executable, REPOSITORY / "tools" / "site.py", folder],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder
+
+
+@pytest.mark.deep
+def test_every_page_and_every_file_of_the_gallery_is_there(site: Path) -> None:
+    for page in DOCS.glob("*.md"):
+        assert (site / f"{page.stem}.html").is_file(), page.name
+    gallery = (site / "gallery.html").read_text(encoding="utf-8")
+    designs = re.findall(r"(?m)^## ", (DOCS / "gallery.md").read_text(encoding="utf-8"))
+    assert len(designs) >= 8
+    for kind in (r"-ring\.dxf", r"-bom\.csv", r"\.toml"):
+        assert len(set(re.findall(rf'href="(_downloads/[^"]+{kind})"', gallery))) == len(designs)
+    # Three discs of nine lobes are three different ones.
+    discs = {
+        re.sub(r"-disc.*", "", one) for one in re.findall(r"/([\w-]+-disc[\w-]*)\.dxf", gallery)
+    }
+    assert len(discs) == len(designs)
+    # Equations are drawn by the browser itself, and the changelog is that of the repository.
+    assert "<mfrac>" in (site / "theory.html").read_text(encoding="utf-8")
+    assert "Keep a Changelog" in (site / "changelog.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("page", READ)
+def test_a_page_is_for_every_reader(page: str, site: Path, tmp_path: Path) -> None:
+    """No text under 11 px, nothing wider than the screen, nothing serious by axe."""
+    here = tmp_path / "site"
+    shutil.copytree(site, here)
+    text = (here / f"{page}.html").read_text(encoding="utf-8")
+    found = read(text.replace("</body>", f"{_LOOKS}</body>"), here, axe=axe_source())
+    for screen, seen in found.items():
+        _legible(screen, seen)
+
+
+def _legible(screen: str, seen: dict[str, Any]) -> None:
+    assert seen["small"] == [], screen
+    assert seen["overflow"] <= 0, screen
+    serious = [v for v in seen.get("violations", ()) if v["impact"] in {"serious", "critical"}]
+    assert serious == [], screen
+
+
+def test_the_checker_sees_what_is_wrong(checker: ModuleType, tmp_path: Path) -> None:
+    (tmp_path / "good.html").write_text('<h1 id="here">x</h1><a href="#here">x</a>')
+    assert list(checker.faults(tmp_path)) == []
+    (tmp_path / "bad.html").write_text(
+        '<a href="gone.html">x</a><a href="good.html#there">x</a><img src="none.png">'
+        '<script src="https://example.org/x.js"></script><a href="https://example.org">x</a>'
+    )
+    (tmp_path / "bad.css").write_text("@import url(https://example.org/font.css);")
+    found = sorted(checker.faults(tmp_path))
+    assert [one.split(" ")[-1] for one in found] == ["https:", "there", "there", "anchor", "https"]
+
+
+def test_what_the_site_is_built_with_is_in_the_extra() -> None:
+    project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    wanted = {re.match(r"[\w-]+", one)[0] for one in project["optional-dependencies"]["docs"]}
+    assert wanted == {"furo", "myst-parser", "sphinx", "sphinx-copybutton"}
+
+
+def _blocks(page: Path, language: str) -> list[str]:
+    text = page.read_text(encoding="utf-8")
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, flags=re.MULTILINE | re.DOTALL)
+
+
+@pytest.mark.deep
+def test_tutorials_run_one_after_the_other(cqdd: Any, tmp_path: Path) -> None:
+    """As a reader with nothing but the installed package follows them, in one empty folder."""
+    assert {path.stem for path in DOCS.glob("tutorial-*.md")} == {
+        f"tutorial-{t}" for t in TUTORIALS
+    }
+    for name in TUTORIALS:
+        page = DOCS / f"tutorial-{name}.md"
+        for table in _blocks(page, "csv"):
+            (tmp_path / re.match(r"# ([\w-]+\.csv)", table)[1]).write_text(table, encoding="utf-8")
+        for line in "".join(_blocks(page, "console")).splitlines():
+            program, *arguments = shlex.split(line.removeprefix("$ "))
+            assert program == "cqdd-design"
+            done = cqdd(*arguments, timeout=600)
+            wanted = 4 if arguments == ["check", "printed-13.toml"] else 0
+            assert done.code == wanted, f"{line}\n{done.err}"
+        for code in _blocks(page, "python"):
+            run = subprocess.run(
+                [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True
+            )
+            assert run.returncode == 0, run.stderr
+            # Half of the voltage of 48 V turns the joint of ten to one at half its no-load speed.
+            speed = float(re.search(r"([\d.]+) rad/s", run.stdout)[1])
+            assert 12.0 < speed < 14.5
+    # Every file that the pages name was written, and the printer's errors are a design's.
+    for name in ("reports/sized-10.html", "exports/sized-10/sized-10-disc.dxf"):
+        assert (tmp_path / name).is_file()
+    for name in ("disc.dxf", "ring.pdf", "ring.svg", "disc.nc"):
+        assert (tmp_path / "exports" / "sized-10" / "edm" / f"sized-10-{name}").is_file()
+    assert (tmp_path / "exports/printed-13/print/printed-13-coupon.3mf").is_file()
+    (printing,) = _blocks(DOCS / "tutorial-printed.md", "toml")
+    design = tmp_path / "printed-13.toml"
+    design.write_text(f"{design.read_text('utf-8')}\n{printing}", encoding="utf-8")
+    assert load_design(design).printing.hole_error == pytest.approx(-120e-6)
