@@ -140,10 +140,9 @@ def page() -> str:
     """gallery.md."""
     answers = [(one, one.judged().meets) for one in DESIGNS]
     rows = "\n".join(
-        f"| [{one.name}](#{_anchor(one.title)}) | {one.judged().design.reducer.ratio} "
+        f"| [{one.name}](#{_anchor(one.title)}) | {meets} | {one.judged().design.reducer.ratio} "
         f"| {1e3 * one.judged().design.reducer.ring.outer_diameter:g} mm "
-        f"| {one.judged().design.reducer.disc_count} | {one.judged().design.motor.name} "
-        f"| {meets} |"
+        f"| {one.judged().design.reducer.disc_count} | {one.judged().design.motor.name} |"
         for one, meets in answers
     )
     head = (
@@ -151,7 +150,7 @@ def page() -> str:
         "Designs to begin from, each judged by `cqdd-design check` when this page is built. Those "
         "that fail are here for what they teach. Every picture is the front view at crank angle 0, "
         "from the contours that are cut.\n\n"
-        "| design | ratio | ring | discs | motor | meets its requirements |\n"
+        "| design | meets all | ratio | ring | discs | motor |\n"
         "|---|---|---|---|---|---|\n"
     )
     return head + rows + "\n\n" + "\n".join(_entry(one) for one in DESIGNS)

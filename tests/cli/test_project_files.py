@@ -138,7 +138,12 @@ def test_what_is_named_exists(text):
 def test_no_page_for_people_names_a_private_place():
     for text in [*TEXTS, WORKFLOW, REPOSITORY / "CITATION.cff", REPOSITORY / "pyproject.toml"]:
         hosts = re.findall(r"https?://([\w.-]+)", text.read_text(encoding="utf-8"))
-        assert set(hosts) <= {"arxiv.org", "keepachangelog.com", "semver.org"}, text.name
+        assert set(hosts) <= {
+            "arxiv.org",
+            "keepachangelog.com",
+            "scientific-python.org",
+            "semver.org",
+        }, text.name
 
 
 def test_the_sample_report_is_one_light_file():
@@ -147,3 +152,24 @@ def test_the_sample_report_is_one_light_file():
     assert len(sample) < 2_000_000
     for chapter in ("machine", "contact", "tolerances", "bench", "bom", "downloads", "planetary"):
         assert f'id="{chapter}"'.encode() in sample
+
+
+def test_the_recipe_of_conda_forge_asks_for_what_the_package_asks_for(project):
+    recipe = yaml.safe_load((REPOSITORY / "recipe" / "recipe.yaml").read_text(encoding="utf-8"))
+    context = recipe["context"]
+    assert recipe["schema_version"] == 1
+    assert recipe["package"]["name"] == project["name"]
+    assert context["version"] == cqdd_design.__version__
+    assert f">={context['python_min']}" == project["requires-python"]
+    run = [one.replace(" ", "") for one in recipe["requirements"]["run"]]
+    assert run[0] == "python>=${{python_min}}"
+    assert run[1:] == project["dependencies"]
+    build = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))
+    assert set(build["build-system"]["requires"]) <= {
+        one.replace(" ", "") for one in recipe["requirements"]["host"]
+    }
+    (point,) = recipe["build"]["python"]["entry_points"]
+    assert dict([point.split(" = ")]) == project["scripts"]
+    assert recipe["about"]["license"] == project["license"]
+    assert recipe["about"]["license_file"] == project["license-files"]
+    assert recipe["about"]["summary"] == project["description"]

@@ -101,8 +101,14 @@ def test_the_checker_sees_what_is_wrong(checker: ModuleType, tmp_path: Path) -> 
         '<script src="https://example.org/x.js"></script><a href="https://example.org">x</a>'
     )
     (tmp_path / "bad.css").write_text("@import url(https://example.org/font.css);")
-    found = sorted(checker.faults(tmp_path))
-    assert [one.split(" ")[-1] for one in found] == ["https:", "there", "there", "anchor", "https"]
+    found = {one.removeprefix("bad.html").lstrip(": ") for one in checker.faults(tmp_path)}
+    assert found == {
+        "gone.html is not there",
+        "good.html#there has no such anchor",
+        "none.png is not there",
+        "loads https://example.org/x.js",
+        "bad.css loads from elsewhere: https:",
+    }
 
 
 def test_what_the_site_is_built_with_is_in_the_extra() -> None:
