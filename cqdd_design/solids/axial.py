@@ -241,8 +241,7 @@ def _discs(named: Mapping[str, Part], layout: Layout) -> Iterator[Length]:
     """Between cap and plate, less the discs with their cam bearings and the collars between."""
     pack = layout.pack
     yield from _plate_to_cap(named, layout)
-    ends = [named.get("disc") or named[f"disc {one}"] for one in (1, pack.disc_count)]
-    material = ends[0].material
+    material = (named.get("disc") or named["disc 1"]).material
     if pack.disc_count == 1:
         yield Length("disc", "thickness", -pack.disc_thickness, 0.0, THICKNESS_TOLERANCE, material,
                      "disc")  # fmt: skip

@@ -19,8 +19,7 @@ from cqdd_design.design import load_design
 from cqdd_design.errors import CqddError, UsageError
 from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting.edm.cut_facts import facts_of, zone_text
-from cqdd_design.exporting.edm.flat_parts import flat_parts
-from cqdd_design.exporting.edm.seats import seats_of
+from cqdd_design.exporting.edm.flat_parts import flat_parts, seats_of
 from cqdd_design.exporting.sheets.canvas import pdf_bytes
 from cqdd_design.exporting.sheets.cut_sheet import FRONT, draw_sheet, sheet_scale
 from cqdd_design.exporting.sheets.drawing import OUTLINE, THIN, SheetDrawing

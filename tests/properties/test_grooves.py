@@ -14,13 +14,12 @@ from cqdd_design.design import load_design
 from cqdd_design.errors import GeometryError, ReadBackError
 from cqdd_design.exporting.edm.begin import begun, tab_of
 from cqdd_design.exporting.edm.exact_curves import grooved_curve
-from cqdd_design.exporting.edm.flat_parts import flat_parts
+from cqdd_design.exporting.edm.flat_parts import flat_parts, seats_of
 from cqdd_design.exporting.edm.gcode import program
 from cqdd_design.exporting.edm.gcode_check import check_program
 from cqdd_design.exporting.edm.loops import Loop, fit_of
 from cqdd_design.exporting.edm.passes import wire_passes
 from cqdd_design.exporting.edm.readback import read_back
-from cqdd_design.exporting.edm.seats import seats_of
 from cqdd_design.geometry.contours import as_complex
 from cqdd_design.geometry.grooves import edge_radius, groove_half_angle, grooved_circle
 from cqdd_design.machine import resolve

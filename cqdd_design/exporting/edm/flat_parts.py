@@ -14,9 +14,7 @@ import numpy as np
 from cqdd_design.errors import DesignError
 from cqdd_design.exporting.edm.exact_curves import disc_curve, grooved_curve, ring_curve
 from cqdd_design.exporting.edm.loops import ExactCurve
-from cqdd_design.exporting.edm.seats import (
-    seat,
-)
+from cqdd_design.exporting.edm.seats import Seat, seat
 from cqdd_design.geometry.contours import ArcContour, Contour, PlanarPart
 from cqdd_design.geometry.disc import disc_contour
 from cqdd_design.geometry.grooves import grooved_circle
@@ -204,6 +202,12 @@ def _ring(machine: Machine) -> FlatPart:
         # No machine fits around this ring; it can still be cut and quoted.
         return flat
     return _grooved(flat, dowels, 0.5 * outside) if dowels.radius > 0.0 else flat
+
+
+def seats_of(flat: FlatPart) -> tuple[Seat, ...]:
+    """Seats of a flat part, those whose size the table of its zone knows."""
+    found = (seat(contour, diameter, zone) for contour, diameter, zone in flat.seat_zones)
+    return tuple(one for one in found if one is not None)
 
 
 def _grooved(flat: FlatPart, dowels: DowelLayout, radius: float) -> FlatPart:

@@ -33,7 +33,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.exporting.edm.begin import begun, tab_of
 from cqdd_design.exporting.edm.dxf import contour_fit
-from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts
+from cqdd_design.exporting.edm.flat_parts import FlatPart, flat_parts, seats_of
 from cqdd_design.exporting.edm.gcode_check import check_program
 from cqdd_design.exporting.edm.passes import (
     WirePass,
@@ -42,7 +42,7 @@ from cqdd_design.exporting.edm.passes import (
     minutes,
     wire_passes,
 )
-from cqdd_design.exporting.edm.seats import Seat, seats_of
+from cqdd_design.exporting.edm.seats import Seat
 from cqdd_design.exporting.edm.wire_path import (
     OpenChain,
     WirePath,

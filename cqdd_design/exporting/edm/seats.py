@@ -9,14 +9,9 @@ Files hold nominal contours. The wire is shifted to bring a seat to the middle o
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.fits import FitLimits, fit_limits
 from cqdd_design.errors import CatalogError
-
-if TYPE_CHECKING:
-    from cqdd_design.exporting.edm.flat_parts import FlatPart
-
 
 _MM = 1e3
 
@@ -54,12 +49,6 @@ class Seat:
         """As on a drawing: ``28 N7 (-0.007/-0.028)``, in mm."""
         upper, lower = _MM * self.limits.upper, _MM * self.limits.lower
         return f"{_MM * self.diameter:.6g} {self.limits.zone} ({upper:+.4g}/{lower:+.4g})"
-
-
-def seats_of(flat: FlatPart) -> tuple[Seat, ...]:
-    """Seats of a flat part, those whose size the table of its zone knows."""
-    found = (seat(contour, diameter, zone) for contour, diameter, zone in flat.seat_zones)
-    return tuple(one for one in found if one is not None)
 
 
 def seat(contour: int, diameter: float, zone: str) -> Seat | None:

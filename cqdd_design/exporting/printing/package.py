@@ -10,22 +10,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from cqdd_design.catalog.printing import PrintedMaterial, printed_materials
+from cqdd_design.catalog.printing import printed_materials
 from cqdd_design.errors import DesignError
-from cqdd_design.exporting.printing.compensate import Compensation, compensated, compensation
+from cqdd_design.exporting.printing.compensate import compensated, compensation
 from cqdd_design.exporting.printing.coupon import Coupon, coupon
+from cqdd_design.exporting.printing.printed_part import PrintedPart
 from cqdd_design.exporting.printing.readme import readme_text
-from cqdd_design.exporting.printing.threads import ThreadedHoles, with_inserts
+from cqdd_design.exporting.printing.threads import with_inserts
 from cqdd_design.exporting.solids.meshes import write_3mf, write_stl
 from cqdd_design.exporting.solids.step import file_label, write_part_step
 from cqdd_design.files import WrittenFile, write_atomically
 from cqdd_design.solids.part import on_axis
 from cqdd_design.solids.poses import HOUSING
-from cqdd_design.solids.walls import Wall, least_walls
+from cqdd_design.solids.walls import least_walls
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.job import ExportJob
@@ -33,31 +34,6 @@ if TYPE_CHECKING:
     from cqdd_design.solids.part import Part
 
 FOLDER = "print"
-
-
-@dataclass(frozen=True, eq=False)
-class PrintedPart:
-    """A part of plastic.
-
-    Attributes
-    ----------
-    drawn, made : Part
-        As it should become, and as its file has it.
-    by : Compensation
-        What lies between them.
-    material : PrintedMaterial
-    threads : tuple of ThreadedHoles
-        And what goes into them.
-    wall : Wall or None
-        The thinnest between its holes, inserts' among them; None where it has no round holes.
-    """
-
-    drawn: Part
-    made: Part
-    by: Compensation
-    material: PrintedMaterial
-    threads: tuple[ThreadedHoles, ...]
-    wall: Wall | None
 
 
 def export_print(job: ExportJob) -> tuple[WrittenFile, ...]:

@@ -13,7 +13,7 @@ from cqdd_design.version import __version__
 if TYPE_CHECKING:
     from cqdd_design.design import Design
     from cqdd_design.exporting.printing.coupon import Coupon
-    from cqdd_design.exporting.printing.package import PrintedPart
+    from cqdd_design.exporting.printing.printed_part import PrintedPart
 
 _MM, _UM = 1e3, 1e6
 _WIDTH = 78
