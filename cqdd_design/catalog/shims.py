@@ -54,7 +54,7 @@ def shim_ring(least_inner: float, most_inner: float, outer: float) -> ShimRing |
     --------
     >>> shim_ring(14e-3, 20e-3, 22e-3).inner
     0.016
-    >>> shim_ring(52e-3, 60e-3, 65e-3) is None
+    >>> shim_ring(53e-3, 60e-3, 65e-3) is None
     True
     """
     fitting = [

@@ -234,7 +234,7 @@ def test_file_brings_the_factors_back(actuator: ActuatorParameters, tmp_path: Pa
         ),
         (
             HEAD + '"unknowns": {"motor_coulomb": {"value": 100, "unit": "mN m"}}}',
-            "it must be 'N m'",
+            r"it must be 'N\*m'",
         ),
         (
             HEAD + '"unknowns": {"friction_load": {"factor": 0}}}',

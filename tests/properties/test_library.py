@@ -260,7 +260,7 @@ def test_a_notebook_shows_the_reports_own_figures(analysed):
     shown = analysed._repr_html_()
     page = html.unescape(re.search(r'srcdoc="([^"]*)"', shown)[1])
     assert page.count("<h1>cqdd-10</h1>") == 1
-    for figure in verdict(analysed.verdict)["figures"]:
+    for figure in verdict(analysed.verdict, ())["figures"]:
         assert f'<td>{figure["title"]}</td><td class="number">{figure["value"]}</td>' in page
     assert 'id="front-view-svg"' in page
     assert '<section id="contact"' in page

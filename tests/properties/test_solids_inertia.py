@@ -94,7 +94,14 @@ def test_sums_and_signs() -> None:
         sum(row.count * row.properties.mass for row in found.parts)
     )
     still = {"ring", "ring dowel", "housing", "ring clamp", "output cover", "cover screw"}
-    still |= {"motor stator", "motor cover", "motor cover screw", "encoder board", "encoder screw"}
+    still |= {
+        "output shim",
+        "motor stator",
+        "motor cover",
+        "motor cover screw",
+        "encoder board",
+        "encoder screw",
+    }
     assert {row.name for row in found.parts if row.reflected == 0.0} == still
     # Two opposed discs and a round shaft: what moves has its centre of mass on the axis.
     moving = MassProperties(0.0)

@@ -55,7 +55,8 @@ def read_calibration(path: Path, design_sha256: str) -> tuple[Fit, str]:
         # An int of 400 digits is a number in JSON, but compares with the greatest float.
         if not isinstance(factor, float | int) or not 0.0 < factor <= sys.float_info.max:
             raise UsageError(f"{path}: the {what} of {name} must be a number above 0.")
-        if unit and entry.get("unit") != unit:
+        # Earlier files have "N m" for what is "N*m".
+        if unit and str(entry.get("unit")).replace(" ", "*") != unit:
             raise UsageError(
                 f"{path}: the unit of {name} is {shown(entry.get('unit'))}; it must be '{unit}'."
             )

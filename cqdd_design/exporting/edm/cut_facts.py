@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.catalog import find_material
 from cqdd_design.exporting.edm.dxf import contour_fit
+from cqdd_design.exporting.edm.flat_parts import seats_of
 from cqdd_design.exporting.edm.loops import LoopFit
 from cqdd_design.exporting.edm.passes import WirePass, blank_side, contour_times, wire_passes
 from cqdd_design.exporting.edm.seats import Seat
@@ -21,7 +22,7 @@ from cqdd_design.exporting.options import DEFAULTS, ExportOptions
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
-    from cqdd_design.exporting.edm.flat_parts import FlatPart, seats_of
+    from cqdd_design.exporting.edm.flat_parts import FlatPart
     from cqdd_design.machine import Machine
 
 GROUND_FLATNESS = 5e-6

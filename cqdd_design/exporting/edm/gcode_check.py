@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cqdd_design.errors import ReadBackError
+from cqdd_design.exporting.edm.flat_parts import seats_of
 from cqdd_design.exporting.edm.loops import ComplexArray, FloatArray, Loop, fit_of
 from cqdd_design.exporting.edm.passes import wire_passes
 from cqdd_design.exporting.edm.readback import refuse_misfit
@@ -19,7 +20,7 @@ from cqdd_design.geometry.contours import Circle, Contour
 
 if TYPE_CHECKING:
     from cqdd_design.design.actuator import Edm
-    from cqdd_design.exporting.edm.flat_parts import FlatPart, seats_of
+    from cqdd_design.exporting.edm.flat_parts import FlatPart
 
 _BENDS = 1e-3
 """Bulges of an arc forward and backward agree within this."""
