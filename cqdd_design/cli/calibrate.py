@@ -18,7 +18,7 @@ from cqdd_design.cli.options import (
     parse_positive,
 )
 from cqdd_design.cli.session import Output, read_design, read_specimen
-from cqdd_design.cli.tables import number, table
+from cqdd_design.cli.tables import folded, number, table
 from cqdd_design.environment import output_folder
 
 if TYPE_CHECKING:
@@ -122,7 +122,9 @@ def _lines(found: Calibration) -> list[str]:
         "",
         table(fitted, head=["unknown", "is", "within", ""]),
         "",
-        f"{len(good)} of {len(found.predicted)} predicted rows are within 20 % (efficiency: "
-        f"5 points): {', '.join(good) or 'none'}.",
+        *folded(
+            f"{len(good)} of {len(found.predicted)} predicted rows are within 20 % (efficiency: "
+            f"5 points): {', '.join(good) or 'none'}."
+        ),
     ]
     return lines

@@ -63,7 +63,7 @@ def check(
 
 
 def _clearances(motion: AssemblyMotion) -> list[str]:
-    from cqdd_design.cli.tables import number, table
+    from cqdd_design.cli.tables import folded, number, table
 
     rows = [
         [one.first, one.second, number(one.gap * 1e6), number(math.degrees(one.crank_angle))]
@@ -71,8 +71,10 @@ def _clearances(motion: AssemblyMotion) -> list[str]:
     ]
     head = ["comes near", "what", "least gap um", "at crank deg"]
     return [
-        f"{motion.angles} crank angles over one revolution of the output, "
-        f"{motion.pairs:,} pairs of solids: {len(motion.collisions)} collisions",
+        *folded(
+            f"{motion.angles} crank angles over one revolution of the output, "
+            f"{motion.pairs:,} pairs of solids: {len(motion.collisions)} collisions"
+        ),
         "",
         table(rows, head=head, right=(2, 3)),
     ]

@@ -19,7 +19,7 @@ from cqdd_design.cli.options import (
     quantity_option,
 )
 from cqdd_design.cli.session import Output, read_design, read_specimen
-from cqdd_design.cli.tables import number, table
+from cqdd_design.cli.tables import folded, number, table
 from cqdd_design.library.scenario_words import COMMANDS, FRICTION, LOADS, SIGNALS, Choices
 
 if TYPE_CHECKING:
@@ -213,9 +213,11 @@ def _lines(result: Recording) -> list[str]:
     count = len(result.simulation.time)
     drawn = f"{len(result.seeds)} drawn from the tolerances" if result.seeds else "perfect parts"
     return [
-        f"{result.options['--load']} load, {result.options['--command']} command, {drawn}: "
-        f"{count} records at {number(result.rate)} Hz, steps of "
-        f"{number(1e6 * result.simulation.step)} us",
+        *folded(
+            f"{result.options['--load']} load, {result.options['--command']} command, {drawn}: "
+            f"{count} records at {number(result.rate)} Hz, steps of "
+            f"{number(1e6 * result.simulation.step)} us"
+        ),
         "",
         table(rows, head=head, right=tuple(range(1, len(head) - 1))),
         "",

@@ -191,7 +191,8 @@ def _motors(choice: MotorChoice) -> list[str]:
         if one.value is not None:
             value = f"{number(one.value)} {one.unit}"
         rows.append([f"  {name}", value, tried.get(name) or one.why or "only screened"])
-    return [*choice.sentences, table(rows), ""]
+    sentences = [line for one in choice.sentences for line in folded(one)]
+    return [*sentences, table(rows), ""]
 
 
 def _screened(road: Road) -> list[str]:

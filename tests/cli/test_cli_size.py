@@ -28,7 +28,7 @@ def test_the_first_command_of_a_newcomer(cqdd, tmp_path):
     }
     for path in written:
         assert f"wrote {path}" in done.out
-    assert "by what motor and gearbox can do" in done.out
+    assert "by what motor and gearbox can do" in " ".join(done.out.split())
     assert "candidates" in done.out
     # What was asked for already is no next step.
     assert done.out.partition("next:\n")[2].splitlines()[0] == (
