@@ -16,11 +16,12 @@ from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.sealing import sealing
+from cqdd_design.machine.temperatures import machine_temperatures
 from cqdd_design.machine.thermal_parts import NODES
 from cqdd_design.solids.axial import AxialStack
 from cqdd_design.solids.features.holes import Counterbore
 from cqdd_design.solids.shims import OUTPUT_SET, SHAFT_SET
-from cqdd_design.verdict.retention_lines import retention_lines
+from cqdd_design.verdict.retention_lines import axial_growth, retention_lines
 
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 COLUMNS = {
@@ -130,6 +131,19 @@ def test_discs_without_spacing_have_no_play() -> None:
     assert "raise disc_spacing to 0.3 mm" in line.remedy
     held = resolve(design.replacing({"reducer.disc_spacing": "0.3 mm"}))
     assert min(one.reserve for one in held.axial_stacks) > 0.0
+
+
+def test_heat_and_cold_take_from_the_play_that_is_judged(machine: Machine) -> None:
+    """In the cold a housing of aluminium is shorter than the steel in it."""
+    warm = machine_temperatures(machine)
+    line = next(one for one in retention_lines(machine, warm) if one.id == "RETENTION-AXIAL-PLAY")
+    least = min(machine.axial_stacks, key=lambda one: one.reserve)
+    cold, hot = axial_growth(least, warm)
+    taken = min(cold, hot)
+    assert -50e-6 < taken < -1e-6
+    assert line.value is not None
+    assert line.value <= 1e3 * (least.reserve + taken) + 1e-9
+    assert line.value < 1e3 * least.reserve
 
 
 def test_counterbores_of_columns_are_those_of_din_974() -> None:
