@@ -6,6 +6,7 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
+from functools import cache
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from pydantic import BaseModel, PrivateAttr, ValidationError, model_validator
@@ -176,8 +177,9 @@ class Design(FrozenModel):
         if design.motor.data or design.motor.based_on:
             # Whoever gives a motor's data asks for that motor.
             given.add("motor.name")
+        below = tuple(f"{key}." for key in given)
         design._assumed = tuple(
-            key for key in design.dotted_keys() if key not in given and not _below(key, given)
+            key for key in design.dotted_keys() if key not in given and not key.startswith(below)
         )
         return design
 
@@ -241,7 +243,7 @@ class Design(FrozenModel):
 
     def dotted_keys(self) -> tuple[str, ...]:
         """All dotted keys of the resolved design, in file order."""
-        return tuple(_leaves(self.to_mapping()))
+        return tuple(_leaves_of(self))
 
     def to_mapping(self) -> dict[str, Any]:
         """The design as nested tables with unit strings, every key present that has a value."""
@@ -332,9 +334,8 @@ def supply_taken_over(design: Design) -> dict[str, str]:
 def dump(model: BaseModel) -> dict[str, Any]:
     """A model as nested tables with unit strings."""
     result: dict[str, Any] = {}
-    for attribute, field in type(model).model_fields.items():
-        value, name = getattr(model, attribute), field.alias or attribute
-        dimension = field_dimension(field)
+    for attribute, name, dimension in _told_fields(type(model)):
+        value = getattr(model, attribute)
         if value is None:  # not asked for, and TOML has no word for it
             continue
         if isinstance(value, BaseModel):
@@ -349,6 +350,15 @@ def dump(model: BaseModel) -> dict[str, Any]:
     return result
 
 
+@cache
+def _told_fields(model: type[BaseModel]) -> tuple[tuple[str, str, Dimension | None], ...]:
+    """Attribute, name in a file and dimension of every field of a model."""
+    return tuple(
+        (attribute, field.alias or attribute, field_dimension(field))
+        for attribute, field in model.model_fields.items()
+    )
+
+
 def field_dimension(field: FieldInfo) -> Dimension | None:
     """The dimension of a quantity field, optional or not, or None for other fields."""
     optional = [args for args in map(get_args, get_args(field.annotation)) if args]
@@ -358,16 +368,22 @@ def field_dimension(field: FieldInfo) -> Dimension | None:
     return None
 
 
+def _leaves_of(model: BaseModel, prefix: str = "") -> Iterator[str]:
+    """Those of `dump`, without the values."""
+    for attribute, name, _ in _told_fields(type(model)):
+        value = getattr(model, attribute)
+        if isinstance(value, BaseModel):
+            yield from _leaves_of(value, f"{prefix}{name}.")
+        elif value is not None and value != ():
+            yield f"{prefix}{name}"
+
+
 def _leaves(data: Mapping[str, Any], prefix: str = "") -> Iterator[str]:
     for key, value in data.items():
         if isinstance(value, Mapping):
             yield from _leaves(value, f"{prefix}{key}.")
         else:
             yield f"{prefix}{key}"
-
-
-def _below(key: str, given: set[str]) -> bool:
-    return any(key.startswith(f"{other}.") for other in given)
 
 
 def _delete(mapping: dict[str, Any], key: str) -> None:

@@ -16,7 +16,7 @@ of the arcs, not of a polygon.
 from __future__ import annotations
 
 import math
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -74,13 +74,17 @@ class Moments:
     yy: float
     xy: float
 
+    @property
+    def _values(self) -> tuple[float, ...]:
+        return self.area, self.x, self.y, self.xx, self.yy, self.xy
+
     def __add__(self, other: Moments) -> Moments:
         """Both regions together."""
-        return Moments(*(a + b for a, b in zip(astuple(self), astuple(other), strict=True)))
+        return Moments(*(a + b for a, b in zip(self._values, other._values, strict=True)))
 
     def __sub__(self, other: Moments) -> Moments:
         """Return the region without the other."""
-        return Moments(*(a - b for a, b in zip(astuple(self), astuple(other), strict=True)))
+        return Moments(*(a - b for a, b in zip(self._values, other._values, strict=True)))
 
     @property
     def centroid(self) -> FloatArray:

@@ -22,6 +22,7 @@ from cqdd_design.sizing.exact import exact_checks, shortfalls
 from cqdd_design.sizing.finish import design_of, finish, torque_reserve
 from cqdd_design.sizing.frame import USUAL_FIT, Fit, Frame, Goal, search_frame
 from cqdd_design.sizing.points import Evaluator, Points
+from cqdd_design.sizing.refine import Starts
 from cqdd_design.sizing.result import SizedDesign
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.stage_tables import StageTables
@@ -160,8 +161,8 @@ class Hunt:
     tried: set[Goal] = field(default_factory=set)
     solved: list[tuple[Machine, tuple[Check, ...]]] = field(default_factory=list)
 
-    def held_against(self, design: Design) -> tuple[Machine, tuple[Check, ...]]:
-        """The machine of a design, and its load lines by the equilibrium.
+    def held_against(self, machine: Machine) -> tuple[Machine, tuple[Check, ...]]:
+        """The machine of its design that is known, and its load lines by the equilibrium.
 
         Raises
         ------
@@ -169,9 +170,8 @@ class Hunt:
             When it has none.
         """
         for one in self.solved:
-            if one[0].given == design:
+            if one[0].given == machine.given:
                 return one
-        machine = resolve(design, self.motor)
         found = machine, exact_checks(machine)
         self.solved[_SOLVED:] = []
         self.solved.insert(0, found)
@@ -304,7 +304,9 @@ def _strongest(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> Stronges
     if point is None:
         return None
     try:
-        machine, checks = hunt.held_against(design_of(search.evaluator, point, 0))
+        machine, checks = hunt.held_against(
+            resolve(design_of(search.evaluator, point, 0), search.frame.motor)
+        )
         return Strongest(search, point, machine, checks)
     except (ContactError, DesignError):
         return None
@@ -361,20 +363,24 @@ def settled(
     if most is None:
         return None, False
     needs: dict[str, float] = dict(known or {})
-    starts, best = most, None
+    begin, best = search.beginning(most), None
+    seen: list[Machine] = []
     for turn in range(rounds):
         frame = hunt.frame(space, needs)
         evaluator = Evaluator.of(frame, hunt.tables, search.space.pin_counts)
         now = replace(search, evaluator=evaluator)
-        sized = now.lightest(starts)
+        sized, reached = now.lightest_from(begin)
         if sized is None and not strongest:
             strongest = True
             more = search.most_reserve()
             if more is None:
                 return best, False
-            most = most.joined(more)
-            starts = starts.joined(more)
-            sized = now.lightest(starts)
+            sized, others = now.lightest_from(Starts.at(more, 1.0))
+            reached = reached.joined(others)
+        elif sized is None and turn > 0:
+            sized, reached = now.lightest_from(search.beginning(reached.different()))
+        # The next turn's needs are others: it goes on from where this one has come.
+        begin = Starts.at(reached.different(), 1.0)
         if sized is None:
             # What was needed at the last design may be too much: half way back.
             if not needs or turn >= rounds - 1:
@@ -388,7 +394,7 @@ def settled(
             # lacked, far heavier.
             return None, True
         try:
-            machine, exact = hunt.held_against(design.design)
+            machine, exact = hunt.held_against(design.machine)
         except (ContactError, DesignError):
             needs = {one: 1.5 * needs.get(one, 1.0) for one in (RING, _PINS, _CAM)}
             continue
@@ -402,8 +408,11 @@ def settled(
             for one, value in short.items()
         }
         still = all(abs(after[one] / needs.get(one, 1.0) - 1.0) < _SETTLED for one in after)
-        needs, starts = after, point.joined(most)
-        if still and best is not None:
+        needs = after
+        # Between designs that it has been at already the loop would go on for ever.
+        again = any(one is machine for one in seen)
+        seen.append(machine)
+        if best is not None and (still or again):
             break
     return best, False
 

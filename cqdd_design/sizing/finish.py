@@ -34,7 +34,8 @@ def finish(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> 
     """
     try:
         design = design_of(evaluator, points, row, suffix)
-        analysis = resolve(design, evaluator.frame.motor).analysis
+        machine = resolve(design, evaluator.frame.motor)
+        analysis = machine.analysis
     except DesignError:
         return None
     checks, warnings = analysis.checks, analysis.warnings
@@ -59,7 +60,7 @@ def finish(evaluator: Evaluator, points: Points, row: int, suffix: str = "") -> 
         binding=least[1],
         least_margin=margin,
     )
-    return SizedDesign(design, checks, warnings, objective)
+    return SizedDesign(design, checks, warnings, objective, machine)
 
 
 def is_load(check: Check) -> bool:

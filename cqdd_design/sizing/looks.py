@@ -7,6 +7,7 @@ more reserve.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from cqdd_design.machine import Machine
 from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import cooler, what_it_can
-from cqdd_design.sizing.agreement import Found, Hunt
+from cqdd_design.sizing.agreement import FITS, Found, Hunt
 from cqdd_design.sizing.bearable import weaker
 from cqdd_design.sizing.exact import exact_checks
 from cqdd_design.sizing.finish import torque_reserve
@@ -30,6 +31,69 @@ _LESS = 0.9
 """Share of both torques that is tried next where a gearbox has no equilibrium."""
 _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
+
+
+_LOOKS = 12
+"""At one design before the search is repeated."""
+
+
+class NothingWiderError(Exception):
+    """More clearance is asked for than is tried."""
+
+
+def learn(hunt: Hunt, found: Found) -> bool:
+    """Look at a design until it asks for nothing more; whether the search has to be repeated.
+
+    Torques and clearances that a look asks for are given to the very design, and looked at again:
+    what they have to be hardly hangs on the sizes that a repeated search would change.
+
+    Raises
+    ------
+    NothingWiderError
+    """
+    machine = found.sized.machine
+    for turn in range(_LOOKS):
+        can, step = look(hunt, replace(machine, stiff=True))
+        if can is None and step is None:
+            step = closer_look(hunt, found, machine)
+        if can is None and step is None:
+            return turn > 0
+        take(hunt, can, step)
+        if step == 0.0:
+            # Reserve, which other sizes alone bring.
+            break
+        machine = machine.changed(_asked(hunt))
+    return True
+
+
+def take(hunt: Hunt, can: Requirements | None, step: float | None) -> None:
+    """What `look` and `read_spread` say, as what the hunt is for from now on.
+
+    Raises
+    ------
+    NothingWiderError
+    """
+    if can is not None:
+        hunt.lowered |= can.continuous_torque < hunt.requirements.continuous_torque
+        hunt.requirements = can
+    elif step:
+        least = hunt.fit.hole_clearance + step
+        fits = (one for one in FITS if one.hole_clearance >= least)
+        fit = next(fits, None)
+        if fit is None:
+            raise NothingWiderError
+        hunt.fit = fit
+
+
+def _asked(hunt: Hunt) -> dict[str, float]:
+    """Keys of a design that the hunt has learnt."""
+    asked, fit = hunt.requirements, hunt.fit
+    return {
+        "requirements.peak_torque": asked.peak_torque,
+        "requirements.continuous_torque": asked.continuous_torque,
+        "reducer.modification.equidistant": fit.equidistant,
+        "reducer.output_pins.hole_clearance": fit.hole_clearance,
+    }
 
 
 def look(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, float | None]:

@@ -72,6 +72,11 @@ class Points(Columns):
         """M."""
         return int(self.reserve.size)
 
+    def different(self) -> Points:
+        """Each point once."""
+        places = np.column_stack([self.steps, self.pin_count, self.pin_size])
+        return self.rows(np.sort(np.unique(places, axis=0, return_index=True)[1]))
+
     def replaced(self, which: IntArray, others: Points) -> Points:
         """These points with others in some places."""
         changed = {name: column.copy() for name, column in vars(self).items()}

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, fields, replace
 
 from cqdd_design.design import Design
 from cqdd_design.errors import UsageError
+from cqdd_design.machine import Machine, resolve
 from cqdd_design.results import Check
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.masses import SCOPE
@@ -76,12 +77,15 @@ class SizedDesign:
         Of the finished design; none fails.
     warnings : tuple of str
         What could not be checked, or is not known, and why.
+    machine : Machine
+        The design made concrete.
     """
 
     design: Design
     checks: tuple[Check, ...]
     warnings: tuple[str, ...]
     objective: Objective
+    machine: Machine = field(compare=False, repr=False)
 
     def to_dict(self) -> dict[str, object]:
         """The JSON form: the sizes that differ between alternatives, and the objective."""
@@ -192,6 +196,7 @@ class SizingResult(SizedDesign):
         own = {one.name: getattr(self, one.name) for one in fields(SizedDesign)}
         # Its name alone would be that of the file which the picked one takes.
         own["design"] = self.design.replacing({"name": f"{self.design.name}-a"})
+        own["machine"] = resolve(own["design"], self.machine.motor)
         first = SizedDesign(**own)
         others = tuple(one for one in self.alternatives if one is not picked)
         return replace(self, **vars(picked), alternatives=(first, *others), costs=())

@@ -87,11 +87,24 @@ class Search:
             Whether to begin at many places and to try other pins at what they lead to, which takes
             ten times as long.
         """
+        begin = self.beginning(starts, wanted, wide=wide)
+        return self.lightest_from(begin, wanted, suffix, wide=wide)[0]
+
+    def beginning(self, starts: Points, wanted: float = 1.0, *, wide: bool = False) -> Starts:
+        """Where `lightest` begins: at these points, and at the best survivors of the screen."""
         begin = Starts.at(starts, wanted)
         for picks in self._picks(wanted, wide=wide):
             if picks.count:
                 begin = Starts.of(self.evaluator, picks, wanted).joined(begin)
+        return begin
+
+    def lightest_from(
+        self, begin: Starts, wanted: float = 1.0, suffix: str = "", *, wide: bool = False
+    ) -> tuple[tuple[SizedDesign, Points] | None, Points]:
+        """As `lightest` finds it from these starts alone, and the points that all of them reach."""
+        reached: Points | None = None
         for aim in _AIMS:
+            begin = begin if reached is None else Starts.at(reached, wanted)
             reached = climb(self.evaluator, begin.wanting(aim * wanted))
             if wide:
                 reached = reached.joined(self._with_other_pins(reached, aim * wanted))
@@ -101,9 +114,9 @@ class Search:
             point = reached.rows(_preferred(reached.rows(ready), ready))
             design = finish(self.evaluator, point, 0, suffix)
             if design is not None:
-                return design, point
-            begin = Starts.at(reached, wanted)
-        return None
+                return (design, point), reached
+        assert reached is not None
+        return None, reached
 
     def _picks(self, wanted: float, *, wide: bool) -> Iterator[Picks]:
         """Where to begin."""

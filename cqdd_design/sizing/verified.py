@@ -12,13 +12,21 @@ from dataclasses import dataclass, replace
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
-from cqdd_design.machine import Machine, resolve
 from cqdd_design.sizing.able import cooler, first_guess
 from cqdd_design.sizing.agreement import FITS, Found, Hunt, Progress, agreed, lightest
 from cqdd_design.sizing.bearable import or_weaker
 from cqdd_design.sizing.costs import costs
-from cqdd_design.sizing.frame import Fit, Goal
-from cqdd_design.sizing.looks import HOT, clearance_needed, closer_look, look, read_spread
+from cqdd_design.sizing.frame import Goal
+from cqdd_design.sizing.looks import (
+    HOT,
+    NothingWiderError,
+    clearance_needed,
+    closer_look,
+    learn,
+    look,
+    read_spread,
+    take,
+)
 from cqdd_design.sizing.refusals import TRIALS, nothing, refused, unsettled
 from cqdd_design.sizing.result import SizingResult
 from cqdd_design.sizing.shafts import BOND, SHAFT, stronger_shaft
@@ -101,14 +109,15 @@ def size_to_verdict(
         found = None if found is None else _with_rated_bearing(hunt, found)
         if found is None:
             break
-        machine = resolve(found.sized.design, motor)
-        can, step = look(hunt, replace(machine, stiff=True))
-        if can is None and step is None:
-            step = closer_look(hunt, found, machine)
-        if can is None and step is None:
+        try:
+            if learn(hunt, found):
+                found = _again(hunt, found)
+                continue
             # A smaller ring leaves shaft and joints less room, at which no look was taken: where it
             # ends in a no, the design it came from is judged.
-            for tried, own in (*_in_smaller_rings(hunt, found), (found, machine)):
+            can, step = None, None
+            for tried in (*_in_smaller_rings(hunt, found), found):
+                own = tried.sized.machine
                 can, step = look(hunt, own)
                 if can is None and step is None:
                     progress(f"judging {tried.sized.design.name} by the whole verdict")
@@ -123,15 +132,9 @@ def size_to_verdict(
                 step = _next_step(hunt, found, last)
                 if step is None:
                     break
-        fit: Fit | None = found.space.fit
-        if can is not None:
-            hunt.lowered |= can.continuous_torque < hunt.requirements.continuous_torque
-            hunt.requirements = can
-        elif step is not None:
-            fit = _wider(found.space.fit, step)
-        if fit is None:
+            take(hunt, can, step)
+        except NothingWiderError:
             break
-        hunt.fit = fit
         found = _again(hunt, found)
     if last is not None:
         raise refused(last)
@@ -199,23 +202,14 @@ def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:
     )
 
 
-def _wider(fit: Fit, step: float) -> Fit | None:
-    """The closest fit with so much more clearance of the holes, m; None beyond the widest.
-
-    The same where the step is 0.
-    """
-    least = fit.hole_clearance + step
-    return next((one for one in FITS if one.hole_clearance >= least), None)
-
-
-def _in_smaller_rings(hunt: Hunt, found: Found) -> Iterator[tuple[Found, Machine]]:
+def _in_smaller_rings(hunt: Hunt, found: Found) -> Iterator[Found]:
     """The best design in a smaller ring of which the looks say as much, if there is one."""
     extra = dict(hunt.extra)
     for other in in_smaller_rings(hunt, found)[:_SMALLER]:
-        small = resolve(other.sized.design, hunt.motor)
+        small = other.sized.machine
         rigid = look(hunt, replace(small, stiff=True))
         if rigid == (None, None) and closer_look(hunt, other, small) is None:
-            yield other, small
+            yield other
             return
         hunt.extra = extra
 
