@@ -1,6 +1,7 @@
 """What more of a requirement would cost: the same search once more, near a design that was found.
 
-By closed forms with the reserve that the contact equilibrium and part errors took at the design.
+By closed forms with the reserve that the contact equilibrium and part errors took at the design,
+and by the equilibrium itself and a look at part errors where they find more for less.
 """
 
 from __future__ import annotations
@@ -8,7 +9,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from cqdd_design.errors import InfeasibleError
-from cqdd_design.sizing.agreement import Found, Hunt, Space
+from cqdd_design.sizing.agreement import Found, Hunt, Space, settled
+from cqdd_design.sizing.looks import closer_look
 from cqdd_design.sizing.points import Evaluator
 from cqdd_design.sizing.result import Cost
 
@@ -43,4 +45,12 @@ def _more_mass(hunt: Hunt, found: Found, space: Space, changed: dict[str, float]
     near = replace(found.search, evaluator=evaluator).lightest(found.point)
     if near is None:
         return None
-    return near[0].objective.mass - found.sized.objective.mass
+    own = found.sized.objective.mass
+    if near[0].objective.mass >= own:
+        return near[0].objective.mass - own
+    # More that costs less is more than closed forms can say: equilibrium and part errors decide.
+    own_hunt = replace(hunt, requirements=asked, extra=dict(hunt.extra))
+    borne, _ = settled(own_hunt, space, None, found.needs, found.point)
+    if borne is None or closer_look(own_hunt, borne, borne.sized.machine) is not None:
+        return None
+    return borne.sized.objective.mass - own

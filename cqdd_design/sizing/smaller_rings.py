@@ -15,6 +15,9 @@ from cqdd_design.sizing.points import Points
 
 _RING_STEP, _FINER_STEPS = 0.04, (0.02, 0.01, 0.005)
 """By how much of its diameter the next ring is smaller, and the finer steps from there."""
+_GAP = 2
+"""Rings in a row in which nothing is borne out, after which none that is smaller is tried: a ring
+may be too small for one cam bearing and too large for the next."""
 _NO_STEP = 1e-3
 """By how much, as a share, a ring has to be larger than one that brought nothing."""
 _TEETH = (1.6, 2.5)
@@ -41,18 +44,28 @@ def in_smaller_rings(hunt: Hunt, best: Found) -> list[Found]:
     """
     least = least_ring(best.search.frame.motor)
     ladder, ring = [best], best.sized.design.reducer.ring.outer_diameter
-    while ring > least:
+    missed = 0
+    while ring > least and missed < _GAP:
         ring = max((1.0 - _RING_STEP) * ring, least)
         found, heavier = _in_ring(hunt, ladder[-1], ring, min(ladder, key=_worth))
+        missed = 0 if found is not None or heavier else missed + 1
         if found is not None:
             ladder.append(found)
-        elif not heavier:
-            break
     ends = [one for one, below in pairwise(ladder) if one.worth < below.worth] + ladder[-1:]
-    for start in sorted(ends, key=_worth):
-        if start.sized.objective.score <= _MAY_WIN * min(ladder, key=_worth).sized.objective.score:
-            ladder.append(_finer(hunt, start, least))
+    lightest = min(ladder, key=_worth).sized.objective.score
+    others = [one for one in ends if one.sized.objective.score <= _MAY_WIN * lightest]
+    # Beside the first too: part errors may ask more of the others than they have.
+    for start in (*(one for one in others if one is not best), best):
+        ladder.append(_finer(hunt, start, least))
     return sorted((one for one in ladder if one.worth < best.worth), key=_worth)
+
+
+def beside(hunt: Hunt, found: Found) -> Found | None:
+    """The best design in the same ring with what the hunt has learnt since, if there is one."""
+    try:
+        return settled(hunt, found.space, None, found.needs, found.point, _ROUNDS)[0]
+    except InfeasibleError:
+        return None
 
 
 def _finer(hunt: Hunt, best: Found, least: float) -> Found:

@@ -30,14 +30,14 @@ from cqdd_design.sizing.looks import (
 from cqdd_design.sizing.refusals import TRIALS, nothing, refused, unsettled
 from cqdd_design.sizing.result import SizingResult
 from cqdd_design.sizing.shafts import BOND, SHAFT, stronger_shaft
-from cqdd_design.sizing.smaller_rings import in_smaller_rings
+from cqdd_design.sizing.smaller_rings import beside, in_smaller_rings
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.verdict import Verdict, judge
 
 _CLOSER, _CLOSER_PINS = 0.96, 6
 """Of a pin circle without a rated carrier bearing, and how often one is tried."""
-_SMALLER = 3
-"""Designs in smaller rings that are looked at."""
+_SMALLER, _RESERVES = 6, 3
+"""Designs in smaller rings that are looked at, and how often with another reserve."""
 _BY_FRICTION = {"EFFICIENCY", "MOTOR-PEAK", "MOTOR-CONTINUOUS", "THERMAL-RISE"}
 _NEEDLES_BRING = 0.8
 """Least margin of these lines from which needles under the output pins are tried."""
@@ -205,13 +205,23 @@ def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:
 def _in_smaller_rings(hunt: Hunt, found: Found) -> Iterator[Found]:
     """The best design in a smaller ring of which the looks say as much, if there is one."""
     extra = dict(hunt.extra)
-    for other in in_smaller_rings(hunt, found)[:_SMALLER]:
-        small = other.sized.machine
-        rigid = look(hunt, replace(small, stiff=True))
-        if rigid == (None, None) and closer_look(hunt, other, small) is None:
-            yield other
-            return
-        hunt.extra = extra
+    for candidate in in_smaller_rings(hunt, found)[:_SMALLER]:
+        other: Found | None = candidate
+        for _ in range(_RESERVES):
+            if other is None or look(hunt, replace(other.sized.machine, stiff=True)) != (
+                None,
+                None,
+            ):
+                break
+            step = closer_look(hunt, other, other.sized.machine)
+            if step is None:
+                yield other
+                return
+            if step > 0.0:
+                break
+            # Another cam bearing takes another reserve, which may fit into the same ring.
+            other = beside(hunt, other)
+        hunt.extra = dict(extra)
 
 
 def _next_step(hunt: Hunt, found: Found, judged: Verdict) -> float | None:
