@@ -88,37 +88,26 @@ class EdgeTractions:
         foundation : array (Q,), optional
             Springs to the ground in both directions, N/m^2, whose forces count as tractions.
         """
-        starts = [0, *(np.flatnonzero(np.diff(loop)) + 1).tolist(), len(loop)]
-        pieces, series = [], []
-        for start, stop in pairwise(starts):
-            cuts = np.linspace(start, stop, max(round((stop - start) / _POINTS), 1) + 1)
-            ends = cuts.astype(int).tolist()
-            for begin, end in pairwise(ends):
-                points = slice(begin, end)
-                z, n = point[points], normal[points]
-                springs = None if foundation is None else foundation[points]
-                middle = 0.5 * (z.real.min() + z.real.max() + 1j * (z.imag.min() + z.imag.max()))
-                radius = float(np.abs(z - middle).max())
-                near = _nearest(places, middle) < _AFAR * radius
-                if springs is not None and springs.any():
-                    near[:] = True
-                close = places.some(np.flatnonzero(near))
-                by_near = traction(z, n, close)
-                if springs is not None and springs.any():
-                    by_near -= springs[:, None] * displacement(z, close, plate)
-                far = np.repeat(~near, 2)
-                share = np.zeros((4 * _TERMS, len(far)))
-                share[:, far] = _series(places.some(np.flatnonzero(~near)), middle, radius)
-                pieces.append(
-                    Piece(
-                        points,
-                        np.flatnonzero(near),
-                        by_near.reshape(2 * len(z), -1),
-                        _shapes((z - middle) / radius, n),
-                    )
-                )
-                series.append(share)
-        return cls(tuple(pieces), np.stack(series))
+        cuts = _cuts(loop)
+        series = np.zeros((len(cuts), 4 * _TERMS, 2 * len(places)))
+        pieces = []
+        for points, share in zip(cuts, series, strict=True):
+            z, n = point[points], normal[points]
+            springs = None if foundation is None else foundation[points]
+            middle = 0.5 * (z.real.min() + z.real.max() + 1j * (z.imag.min() + z.imag.max()))
+            radius = float(np.abs(z - middle).max())
+            near = _nearest(places, middle) < _AFAR * radius
+            if springs is not None and springs.any():
+                near[:] = True
+            close, far = places.some(np.flatnonzero(near)), places.some(np.flatnonzero(~near))
+            by_near = traction(z, n, close)
+            if springs is not None and springs.any():
+                by_near -= springs[:, None] * displacement(z, close, plate)
+            share[:, np.repeat(~near, 2)] = _series(far, middle, radius)
+            shapes = _shapes((z - middle) / radius, n)
+            by_near = by_near.reshape(len(shapes), 2 * len(close))
+            pieces.append(Piece(points, np.flatnonzero(near), by_near, shapes))
+        return cls(tuple(pieces), series)
 
     def work(self, moved: FloatArray, begin: int, end: int) -> FloatArray:
         """Work of the loads from `begin` to `end`, of whole places, on motions (2 Q, M).
@@ -142,8 +131,8 @@ class EdgeTractions:
         found += share.T @ met.reshape(rows, each)
         return found
 
-    def forces(self, weighed: Any, loads: IntArray) -> FloatArray:
-        """Forces (U, M) at unknowns by some loads, rising, of whole places.
+    def add_forces(self, found: FloatArray, weighed: Any, loads: IntArray) -> None:
+        """Add the forces at unknowns by some loads, rising, of whole places, to `found` (U, M).
 
         Parameters
         ----------
@@ -151,7 +140,6 @@ class EdgeTractions:
             Motions at the edges' points by unknowns, times the points' weights.
         """
         rows = np.arange(weighed.shape[0]).reshape(2, -1)
-        found = np.zeros((weighed.shape[1], len(loads)))
         for piece, share in zip(self.pieces, self.series, strict=True):
             own = weighed[rows[:, piece.points].ravel()]
             unknowns = np.unique(own.indices)
@@ -162,7 +150,16 @@ class EdgeTractions:
             where = np.searchsorted(loads, close[asked])
             force[:, where] += motions @ piece.by_near[:, asked]
             found[unknowns] += force
-        return found
+
+
+def _cuts(loop: IntArray) -> list[slice]:
+    """Pieces of edges, each of one loop."""
+    cuts: list[slice] = []
+    for start, stop in pairwise([0, *(np.flatnonzero(np.diff(loop)) + 1).tolist(), len(loop)]):
+        parts = max(round((stop - start) / _POINTS), 1)
+        ends = np.linspace(start, stop, parts + 1).astype(int).tolist()
+        cuts += [slice(begin, end) for begin, end in pairwise(ends)]
+    return cuts
 
 
 def _loads(places: IntArray) -> IntArray:
@@ -182,7 +179,7 @@ def _series(places: Places, middle: complex, radius: float) -> FloatArray:
 
     def about(point: ComplexArray) -> ComplexArray:
         away = (np.repeat(point, 2) - middle) / radius
-        inverse = -(away ** -(k + 1.0))
+        inverse = -np.cumprod(np.broadcast_to(1.0 / away, (_TERMS, len(away))), axis=0)
         slope = -(k + 1.0) * inverse / away
         return np.stack([force * inverse, np.conj(force) * inverse - force * np.conj(away) * slope])
 

@@ -163,14 +163,15 @@ def influence(
         shares = _evened(shares, moving[where].T @ smooth, sharp_work)
     share = shares[:, columns]
     forces = (weighed[where].T @ smooth) @ share
-    forces[:, : len(sharp)] += left.forces(weighed, sharp)
+    left.add_forces(forces[:, : len(sharp)], weighed, sharp)
     # L_i (s_j + w_j)
     with threadpool_limits(limits=1, user_api="blas"):
         # Fronts are small: threads would wait for each other, ten times as long on a busy machine.
         found = body.factors(held, springs).solve(forces, edges.unknowns)
     if loads.with_reactions:
         # How it turns as a whole hangs on what is held, and quadratic sides read a strain in it.
-        found -= motions @ np.linalg.solve(motions.T @ motions, motions.T @ found)
+        for part in np.array_split(found, _BLOCKS, axis=1):
+            part -= motions @ np.linalg.solve(motions.T @ motions, motions.T @ part)
     # Some places at a time: what all of them do at all edges would fill memory, not cache.
     blocks = list(pairwise((2 * np.linspace(0, len(chosen), _BLOCKS + 1).astype(int)).tolist()))
     matrix = np.empty((total, len(columns)))
