@@ -15,7 +15,7 @@ from cqdd_design.geometry.contours import ComplexArray, FloatArray, gauss_rule
 
 EDGE_POINTS = 10
 """Of quadrature, on a side; with 5 the two halves of an influence matrix differ by 1e-6."""
-_SMOOTH_POINTS = 5
+_SMOOTH_POINTS = 6
 """On a side of a loop without point loads, whose fields are smooth there."""
 
 

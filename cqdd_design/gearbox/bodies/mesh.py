@@ -238,11 +238,12 @@ def _fill(
         corner = vertices[triangles]
         middle = corner.mean(axis=0)
         area = _area(corner)
-        weight = np.zeros(len(vertices))
-        total = np.zeros(len(vertices), dtype=complex)
-        for row in triangles:
-            np.add.at(weight, row, area)
-            np.add.at(total, row, area * middle)
+        about = triangles.ravel()
+        weight, along, up = (
+            np.bincount(about, np.tile(each, 3), len(vertices))
+            for each in (area, area * middle.real, area * middle.imag)
+        )
+        total = along + 1j * up
         there = weight[first] > 0.0
         inner = np.where(there, total[first] / np.where(there, weight[first], 1.0), inner)
         vertices = np.concatenate([edge, (sectors * inner).ravel()])
