@@ -60,8 +60,8 @@ class EdgeTractions:
     Attributes
     ----------
     pieces : tuple of Piece
-    series : array (pieces, 4 terms, loads)
-        Share of every load in a piece's shapes; 0 where it is near.
+    series : array (pieces times 4 terms, loads)
+        Share of every load in the shapes, piece by piece; 0 where it is near.
     """
 
     pieces: tuple[Piece, ...]
@@ -89,9 +89,9 @@ class EdgeTractions:
             Springs to the ground in both directions, N/m^2, whose forces count as tractions.
         """
         cuts = _cuts(loop)
-        series = np.zeros((len(cuts), 4 * _TERMS, 2 * len(places)))
+        series = np.zeros((len(cuts) * 4 * _TERMS, 2 * len(places)))
         pieces = []
-        for points, share in zip(cuts, series, strict=True):
+        for points, share in zip(cuts, _by_piece(series), strict=True):
             z, n = point[points], normal[points]
             springs = None if foundation is None else foundation[points]
             middle = 0.5 * (z.real.min() + z.real.max() + 1j * (z.imag.min() + z.imag.max()))
@@ -119,16 +119,14 @@ class EdgeTractions:
         each = moved.shape[1]
         both = moved.reshape(2, len(moved) // 2, each)
         found = np.zeros((end - begin, each))
-        met = np.empty((*self.series.shape[:2], each))
-        for piece, shared in zip(self.pieces, met, strict=True):
+        met = np.empty((len(self.series), each))
+        for piece, shared in zip(self.pieces, _by_piece(met), strict=True):
             own = both[:, piece.points].reshape(len(piece.shapes), each)
             np.matmul(piece.shapes.T, own, out=shared)
             first, last = np.searchsorted(piece.near, (begin // 2, end // 2))
             close = _loads(piece.near[first:last]) - begin
             found[close] += piece.by_near[:, 2 * first : 2 * last].T @ own
-        rows = self.series.shape[0] * self.series.shape[1]
-        share = self.series[:, :, begin:end].reshape(rows, end - begin)
-        found += share.T @ met.reshape(rows, each)
+        found += self.series[:, begin:end].T @ met
         return found
 
     def add_forces(self, found: FloatArray, weighed: Any, loads: IntArray) -> None:
@@ -140,15 +138,16 @@ class EdgeTractions:
             Motions at the edges' points by unknowns, times the points' weights.
         """
         rows = np.arange(weighed.shape[0]).reshape(2, -1)
-        for piece, share in zip(self.pieces, self.series, strict=True):
+        asked = loads if len(loads) < self.series.shape[1] else slice(None)
+        for piece, share in zip(self.pieces, _by_piece(self.series), strict=True):
             own = weighed[rows[:, piece.points].ravel()]
             unknowns = np.unique(own.indices)
             motions = own[:, unknowns].toarray().T
-            force = (motions @ piece.shapes) @ share[:, loads]
+            force = (motions @ piece.shapes) @ share[:, asked]
             close = _loads(piece.near)
-            asked = np.isin(close, loads)
-            where = np.searchsorted(loads, close[asked])
-            force[:, where] += motions @ piece.by_near[:, asked]
+            there = np.isin(close, loads)
+            where = np.searchsorted(loads, close[there])
+            force[:, where] += motions @ piece.by_near[:, there]
             found[unknowns] += force
 
 
@@ -160,6 +159,11 @@ def _cuts(loop: IntArray) -> list[slice]:
         ends = np.linspace(start, stop, parts + 1).astype(int).tolist()
         cuts += [slice(begin, end) for begin, end in pairwise(ends)]
     return cuts
+
+
+def _by_piece(rows: FloatArray) -> FloatArray:
+    """Rows of all pieces' shapes, (pieces, 4 terms, ...)."""
+    return rows.reshape(len(rows) // (4 * _TERMS), 4 * _TERMS, rows.shape[1])
 
 
 def _loads(places: IntArray) -> IntArray:
