@@ -82,7 +82,7 @@ PHRASES = {
     "L10h": "basic rating life L10",
     "set_L10h": "basic rating life L10 together",
     "L10h_at_greatest_load": "life L10 at the greatest load",
-    "L10h_of_check": "life L10 at the rigid law's load",
+    "L10h_of_rigid_law": "life L10 at the rigid law's load",
     "friction_tooth": "friction coefficient of teeth",
     "friction_pin": "friction coefficient of pins",
     "backdrives": "can be driven from the output",
@@ -127,7 +127,7 @@ PHRASES = {
 }
 _TIMES = {"hours": "h", "required_hours": "h", "L10h": "h"} | {
     f"{before}L10h{after}": "h"
-    for before, after in (("set_", ""), ("", "_at_greatest_load"), ("", "_of_check"))
+    for before, after in (("set_", ""), ("", "_at_greatest_load"), ("", "_of_rigid_law"))
 }
 _ENDINGS = {"_max": "greatest {}", "_min": "least {}", "_pp": "{}, peak to peak"}
 _ESTIMATES = {"_low": ", at least", "_high": ", at most"}

@@ -125,6 +125,7 @@ class BearingResult:
         return {
             "designation": self.bearing.designation,
             "kind": self.bearing.kind,
+            "model": "rigid law",
             "load_peak_N": self.peak_load,
             "load_continuous_N": self.continuous_load,
             "speed_rad_per_s": self.speed,

@@ -434,7 +434,7 @@ def test_the_check_of_the_bearing_stands_beside() -> None:
 
     design = load_design(PAPER)
     result = life(design, ContactModel.from_design(design))
-    assert result.cam.hours_of_check == resolve(design).analysis.cam_bearing.life_hours
+    assert result.cam.hours_of_rigid_law == resolve(design).analysis.cam_bearing.life_hours
     assert result.cam.speed == pytest.approx(1.1 * design.requirements.input_speed)
 
 

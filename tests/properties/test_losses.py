@@ -420,6 +420,24 @@ def test_a_gearbox_that_holds_any_torque_says_so() -> None:
     assert found.to_dict()["backdrive_static_Nm"] is None
 
 
+@pytest.mark.parametrize("mu", [0.05, 0.15, 0.25, 0.3, 0.35])
+def test_it_gives_power_back_exactly_where_it_does_not_lock(mu: float) -> None:
+    """Beside what its forces leave at the crank: a locked one cannot turn it against any drag."""
+    coefficients = (("reducer.friction.tooth", mu), ("reducer.friction.pin", mu))
+    model = rigid_model_of(coefficients)
+    found = model.at(SPEED, 40.0)
+    assert ((found.efficiency_backward or 0.0) > 0.0) is found.backdrives
+    contact = ContactModel.from_design(PAPER.replacing(dict(coefficients)))
+    sweep = contact_sweep(contact, 40.0, friction=ContactFriction("backdrive", mu, mu))
+    left = float(sweep.crank_torque.mean())
+    assert (sweep.efficiency > 0.0) == (left > 0.0)
+    if left <= 0.0:
+        assert found.backdrives is False
+    if found.backdrives:
+        assert left > 0.0
+        assert (found.efficiency_backward or 0.0) < sweep.efficiency
+
+
 def test_the_torque_that_just_backdrives_is_the_border() -> None:
     border = model_of().backdrive().dynamic_torque or 0.0
     assert model_of().at(0.0, 1.01 * border).backdrives is True

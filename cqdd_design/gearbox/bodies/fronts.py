@@ -20,6 +20,8 @@ from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 _PER_WEDGE = 40
 """Fewest triangles a wedge: fewer make more shares, more make larger blocks."""
+_AT_ONCE = 256
+"""Loads that are solved together: all of a large body would want memory anew, and no cache."""
 _QUIET = 1
 """Merges before edges are eliminated: what lies off them is best gone in smaller pieces."""
 
@@ -67,17 +69,20 @@ class Factors:
         Those that are held stay at zero, whatever loads them.
         """
         rows = self.kept[unknowns]
-        free = rows >= 0
-        moved = np.zeros((int(self.kept.max()) + 1, loads.shape[1]))
-        moved[rows[free]] = loads[free]
-        for front in self.fronts:
-            moved[front.border] -= front.across @ moved[front.own]
-        for front in reversed(self.fronts):
-            own = front.inverse @ moved[front.own]
-            own -= front.across.T @ moved[front.border]
-            moved[front.own] = own
+        free = np.flatnonzero(rows >= 0)
+        rows = rows[free]
         found = np.zeros(loads.shape)
-        found[free] = moved[rows[free]]
+        for first in range(0, loads.shape[1], _AT_ONCE):
+            some = slice(first, first + _AT_ONCE)
+            moved = np.zeros((int(self.kept.max()) + 1, loads[:, some].shape[1]))
+            moved[rows] = loads[free, some]
+            for front in self.fronts:
+                moved[front.border] -= front.across @ moved[front.own]
+            for front in reversed(self.fronts):
+                own = front.inverse @ moved[front.own]
+                own -= front.across.T @ moved[front.border]
+                moved[front.own] = own
+            found[free, some] = moved[rows]
         return found
 
 

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from cqdd_design.gearbox.bodies.edge_tractions import EdgeTractions
 from cqdd_design.gearbox.bodies.elements import EDGE_POINTS, Edges, Elements, side_points
 from cqdd_design.gearbox.bodies.loops import Loop
 from cqdd_design.gearbox.bodies.point_load import (
@@ -29,14 +30,13 @@ from cqdd_design.gearbox.bodies.point_load import (
     Plate,
     displacement,
     displacement_of,
-    traction,
 )
 from cqdd_design.geometry.contours import ComplexArray, FloatArray, gauss_rule
 
 _GRADED = 3
 """Power by which points of quadrature crowd towards a point load on a side or beside it."""
 _GRADED_POINTS = 24
-_BLOCKS = 4
+_BLOCKS = 8
 """In so many the point loads are taken. Where all are solved, what two blocks do to each other is
 found once, and the other way is that by reciprocity; 1 finds both."""
 _NEAR = 1.0
@@ -147,13 +147,10 @@ def influence(
     chosen = places.some(sharp[::2] // 2)
     # R_i with its sign, per length; then L_j as nodal forces.
     counted = -np.array([loop.weight for loop in loops])[edges.loop]
-    left = traction(edges.point, counted * edges.normal, places)
-    springs = None
-    if foundation is not None:
-        on = np.flatnonzero(foundation)
-        springs = edges.weight * foundation
-        left[:, on] -= foundation[on, None] * displacement(edges.point[on], places, plate)
-    left = left.reshape(2 * len(edges.point), count)
+    left = EdgeTractions.of(
+        edges.point, counted * edges.normal, edges.loop, places, plate, foundation
+    )
+    springs = None if foundation is None else edges.weight * foundation
     weight = np.tile(edges.weight, 2)
     weighed = edges.trace[:, edges.unknowns].multiply(weight[:, None]).tocsr()
     where = np.concatenate([loads.where, loads.where + len(edges.point)])
@@ -162,18 +159,19 @@ def influence(
     if loads.with_reactions:
         motions = body.rigid_motions()[edges.unknowns]
         moving = weighed @ motions
-        sharp_work = np.pad(moving.T @ left, ((0, 0), (0, total - count)))
+        sharp_work = np.pad(left.work(moving, 0, count).T, ((0, 0), (0, total - count)))
         shares = _evened(shares, moving[where].T @ smooth, sharp_work)
     share = shares[:, columns]
     forces = (weighed[where].T @ smooth) @ share
-    forces[:, : len(sharp)] += weighed.T @ (left if len(sharp) == count else left[:, sharp])
+    left.add_forces(forces[:, : len(sharp)], weighed, sharp)
     # L_i (s_j + w_j)
     with threadpool_limits(limits=1, user_api="blas"):
         # Fronts are small: threads would wait for each other, ten times as long on a busy machine.
         found = body.factors(held, springs).solve(forces, edges.unknowns)
     if loads.with_reactions:
         # How it turns as a whole hangs on what is held, and quadratic sides read a strain in it.
-        found -= motions @ np.linalg.solve(motions.T @ motions, motions.T @ found)
+        for part in np.array_split(found, _BLOCKS, axis=1):
+            part -= motions @ np.linalg.solve(motions.T @ motions, motions.T @ part)
     # Some places at a time: what all of them do at all edges would fill memory, not cache.
     blocks = list(pairwise((2 * np.linspace(0, len(chosen), _BLOCKS + 1).astype(int)).tolist()))
     matrix = np.empty((total, len(columns)))
@@ -184,8 +182,8 @@ def influence(
         moved[:, : end - begin] += _integrated(body, loops, some, plate)
         matrix[:, begin:stop] = shares.T @ (smooth.T @ moved[where])
         rows = end if len(sharp) == count else count
-        matrix[:rows, begin:stop] += left[:, :rows].T @ moved
-        matrix[rows:count, end:stop] += left[:, rows:].T @ moved[:, end - begin :]
+        matrix[:rows, begin:stop] += left.work(moved, 0, rows)
+        matrix[rows:count, end:stop] += left.work(moved[:, end - begin :], rows, count)
     # p_j(s_i)
     met = displacement(edges.point[loads.where], places, plate).reshape(len(where), count)
     matrix[:count] += ((weight[where, None] * smooth).T @ met).T @ share

@@ -238,11 +238,12 @@ def _fill(
         corner = vertices[triangles]
         middle = corner.mean(axis=0)
         area = _area(corner)
-        weight = np.zeros(len(vertices))
-        total = np.zeros(len(vertices), dtype=complex)
-        for row in triangles:
-            np.add.at(weight, row, area)
-            np.add.at(total, row, area * middle)
+        about = triangles.ravel()
+        weight, along, up = (
+            np.bincount(about, np.tile(each, 3), len(vertices))
+            for each in (area, area * middle.real, area * middle.imag)
+        )
+        total = along + 1j * up
         there = weight[first] > 0.0
         inner = np.where(there, total[first] / np.where(there, weight[first], 1.0), inner)
         vertices = np.concatenate([edge, (sectors * inner).ravel()])
@@ -351,13 +352,12 @@ def _refuse_broken(
         if triangles.size
         else 0.0
     )
-    pairs = np.sort(np.concatenate([triangles[[k, (k + 1) % 3]].T for k in range(3)]), axis=1)
-    found, count = np.unique(pairs, axis=0, return_counts=True)
-    single = {tuple(pair) for pair in found[count == 1].tolist()}
-    wanted = {tuple(pair) for pair in np.sort(bounds, axis=1).tolist()}
-    there = {tuple(pair) for pair in found.tolist()}
-    complete = {tuple(pair) for pair in np.sort(sides, axis=1).tolist()} <= there
-    if least < _LEAST_ANGLE or single != wanted or not complete:
+    number = np.array([len(vertices), 1])
+    pairs = np.concatenate([triangles[[k, (k + 1) % 3]].T for k in range(3)])
+    there, count = np.unique(np.sort(pairs, axis=1) @ number, return_counts=True)
+    around, complete = (np.sort(one, axis=1) @ number for one in (bounds, sides))
+    closed = np.array_equal(there[count == 1], np.sort(around)) and np.isin(complete, there).all()
+    if least < _LEAST_ANGLE or not closed:
         raise GeometryError(
             f"{what} cannot be meshed as an elastic body: its thinnest material is too thin beside "
             "what is round it; widen the ligament between its edges."

@@ -33,8 +33,8 @@ class CamLife:
         L10h of all of them together.
     hours_at_greatest : float or None
         At the greatest load of the duty as if it stood still at it.
-    hours_of_check : float or None
-        By the check: rigid law, greatest load at the continuous torque, input speed.
+    hours_of_rigid_law : float or None
+        By the closed form: rigid law, greatest load at the continuous torque, input speed.
     """
 
     designation: str
@@ -43,7 +43,7 @@ class CamLife:
     hours: tuple[float | None, ...] | None
     set_hours: float | None
     hours_at_greatest: float | None
-    hours_of_check: float | None
+    hours_of_rigid_law: float | None
 
     def to_dict(self) -> dict[str, object]:
         """Return the JSON form."""
@@ -54,7 +54,7 @@ class CamLife:
             "L10h": None if self.hours is None else list(self.hours),
             "set_L10h": self.set_hours,
             "L10h_at_greatest_load": self.hours_at_greatest,
-            "L10h_of_check": self.hours_of_check,
+            "L10h_of_rigid_law": self.hours_of_rigid_law,
         }
 
 
@@ -104,7 +104,7 @@ def cam_life(
     loads: FloatArray,
     shares: FloatArray,
     speeds: FloatArray,
-    hours_of_check: float | None,
+    hours_of_rigid_law: float | None,
 ) -> CamLife:
     """Rate one bearing per disc on a spectrum, given as to `equivalent_load`, speeds in rad/s."""
     element = rolling_element(bearing)
@@ -133,5 +133,5 @@ def cam_life(
         hours=hours,
         set_hours=together,
         hours_at_greatest=greatest,
-        hours_of_check=hours_of_check,
+        hours_of_rigid_law=hours_of_rigid_law,
     )
