@@ -217,13 +217,13 @@ def _grooved(flat: FlatPart, dowels: DowelLayout, radius: float) -> FlatPart:
     their own zone.
     """
     angles, size = dowels.angles, 2.0 * dowels.radius
-    outside, groove = seat(0, 2.0 * radius, zones.RING_OUTSIDE), seat(1, size, zones.PIN_HOLE)
+    outside, groove = seat(0, 2.0 * radius, zones.RING_OUTSIDE), seat(1, size, zones.SEAM_GROOVE)
     finished = size if groove is None else groove.middle
     drawn = 0.5 * finished + (0.0 if outside is None else outside.shift)
     shape = PlanarPart(flat.shape.name, grooved_circle(radius, angles, drawn), flat.shape.holes)
     places = ", ".join(f"{math.degrees(angle):.4f}".rstrip("0").rstrip(".") for angle in angles)
     told = (
-        f"{len(angles)} HALF GROOVES DIA {1e3 * size:g} {zones.PIN_HOLE} FOR DOWELS, CENTRES ON "
+        f"{len(angles)} HALF GROOVES DIA {1e3 * size:g} {zones.SEAM_GROOVE} FOR DOWELS, CENTRES ON "
         f"THE OUTSIDE AT {places} DEG, DRAWN DIA {2e3 * drawn:.4f}"
     )
     if outside is not None:
