@@ -145,7 +145,7 @@ def designed(row: Row, folder: Path) -> Design:
         disc_count=row.discs,
         peak_torque=f"{8.0 * scale**3 * math.sqrt(row.discs):.4g} N*m",
         continuous_torque=f"{2.0 * scale**3 * math.sqrt(row.discs):.4g} N*m",
-        input_speed="1286 rpm",
+        input_speed=f"{1200.0 / max(scale, 1.0):.4g} rpm",
     )
     if row.kind == "solid":
         return sized.design

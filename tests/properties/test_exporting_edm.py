@@ -304,6 +304,7 @@ def test_half_grooves_of_the_ring_are_cut_with_it(paper, package):
     _, ring = (facts_of(flat, resolve(paper)) for flat in flat_parts(resolve(paper)))
     (said,) = (one for one in ring.remarks if "half grooves" in one)
     assert said.startswith("8 half grooves dia 1.5 D8 for dowels")
+    assert "327.2727 deg, each within dia 0.01 of its place, drawn" in said
     (seat,) = ring.seats
     # 72 n6 is +20 to +39 um, 1.5 D8 is +20 to +34 um.
     assert seat.shift == pytest.approx(0.25 * 59e-6)

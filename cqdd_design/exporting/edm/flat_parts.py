@@ -22,6 +22,7 @@ from cqdd_design.geometry.ring import pocket_radius, ring_contour
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.solids.clocking import DiscGroup, disc_groups
 from cqdd_design.solids.features import zones
+from cqdd_design.solids.features.housing import SEAM_POSITION
 from cqdd_design.solids.selection import output_pin
 
 if TYPE_CHECKING:
@@ -224,7 +225,8 @@ def _grooved(flat: FlatPart, dowels: DowelLayout, radius: float) -> FlatPart:
     places = ", ".join(f"{math.degrees(angle):.4f}".rstrip("0").rstrip(".") for angle in angles)
     told = (
         f"{len(angles)} HALF GROOVES DIA {1e3 * size:g} {zones.SEAM_GROOVE} FOR DOWELS, CENTRES ON "
-        f"THE OUTSIDE AT {places} DEG, DRAWN DIA {2e3 * drawn:.4f}"
+        f"THE OUTSIDE AT {places} DEG, EACH WITHIN DIA {1e3 * SEAM_POSITION:g} OF ITS PLACE, DRAWN "
+        f"DIA {2e3 * drawn:.4f}"
     )
     if outside is not None:
         told += f": THE SHIFT OF THE OUTSIDE CUTS THEM TO DIA {1e3 * finished:.4f}"
