@@ -98,8 +98,8 @@ class CutFacts:
 
     @property
     def hardness(self) -> str:
-        """As the catalogue gives it."""
-        return find_material(self.flat.material).hardness or "not specified"
+        """As a drawing asks for it."""
+        return find_material(self.flat.material).drawn_hardness
 
     @property
     def heat_treatment(self) -> str:

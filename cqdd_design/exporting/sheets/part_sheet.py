@@ -166,7 +166,7 @@ def _title(sheet: SheetDrawing, facts: PartFacts) -> None:
             ("part", part.name, 52.0),
             ("quantity", str(part.count), 24.0),
             ("mass of one", f"{1e3 * part.mass:.4g} g", 36.0),
-            ("hardness", material.hardness or "not specified", 68.0),
+            ("hardness", material.drawn_hardness, 68.0),
         ],
         [
             ("material", part.material, 92.0),
