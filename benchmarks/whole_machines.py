@@ -244,7 +244,7 @@ def found_in(machine: Machine, angles: int) -> Iterator[str]:
     for line in retention_lines(machine):
         # Axial play knows no temperatures here: what is not known is left to the verdict.
         if line.status == "fail":
-            yield f"{line.id}: {line.substituted}"
+            yield f"{line.id}: {line.substituted}; {line.remedy}"
     sums = sum(part.mass * part.count for part in parts)
     whole_mass = machine.inertia.total.mass
     if abs(whole_mass / sums - 1.0) > 1e-9:
