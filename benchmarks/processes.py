@@ -78,7 +78,7 @@ class Timing:
 
 def our_commands() -> list[Command]:
     """Return the commands of this package that have a goal."""
-    kinds = "dxf,edm,gcode,step,stl,3mf,glb,svg,bom"
+    kinds = "dxf,edm,gcode,step,stl,3mf,glb,svg,sheets,bom,mjcf,urdf,card,bam"
 
     def ours(name: str, line: str, limit: float, *extra: str) -> Command:
         shown = line.replace(str(DESIGN), "designs/cqdd-10.toml")
@@ -92,7 +92,8 @@ def our_commands() -> list[Command]:
         ours("help", "--help", 0.2),
         ours("size", "size --quick --ratio 10", 2.0, "--json"),
         ours("dxf", f"export {DESIGN} --to dxf", 1.0),
-        ours("full", f"export {DESIGN} --to {kinds}", 10.0),
+        ours("wire", f"export {DESIGN} --to edm,gcode", 3.0),
+        ours("full", f"export {DESIGN} --to {kinds}", 25.0),
         ours("report", f"report {DESIGN}", 30.0),
     ]
 

@@ -32,7 +32,7 @@ from cqdd_design.sizing.finish import finish
 from cqdd_design.sizing.points import Evaluator, Points
 from cqdd_design.sizing.ring_stages import Pins
 from cqdd_design.sizing.search import Search
-from cqdd_design.sizing.smaller_rings import in_smaller_rings, least_ring
+from cqdd_design.sizing.smaller_rings import in_smaller_rings
 from cqdd_design.sizing.stage_tables import stage_tables
 
 TIMES = 100.0
@@ -90,7 +90,7 @@ def by_chance(requirements: Requirements, seconds: float, seed: int) -> tuple[fl
         about = place is not None and draw.random() < _ABOUT
         search = place[0] if about and place else tried[draw.integers(len(tried))]
         points = _points(search, draw, place[1] if about and place else None)
-        fits = points.outer_radius >= 0.5 * least_ring(search.frame.motor)
+        fits = points.outer_radius >= search.frame.least_outer_radius
         light = np.flatnonzero(fits & (points.reserve >= 1.0) & (points.mass < best))
         for row in light[np.argsort(points.mass[light])][:4]:
             seen += 1

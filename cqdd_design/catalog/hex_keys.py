@@ -20,12 +20,15 @@ class HexKey:
         Across flats.
     long_arm : float
         Of the standard series; long and extra long keys reach further.
+    short_arm : float
+        To the outside of the long one.
     source : str
         Where the row comes from.
     """
 
     size: float = column("s_mm", 1e-3)
     long_arm: float = column("long_arm_mm", 1e-3)
+    short_arm: float = column("short_arm_mm", 1e-3)
     source: str = column("source")
 
 

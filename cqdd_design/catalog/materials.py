@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import re
 from dataclasses import dataclass
 from typing import Literal
@@ -89,9 +90,40 @@ class Material:
         return _least_hardness(self.hardness, "HB")
 
     @property
+    def drawn_hardness(self) -> str:
+        """As a drawing asks for it.
+
+        A range or a least value as printed. What is tempered to one value gets a band above it:
+        strengths of the same row are counted on, so that less will not do. What comes as it is
+        delivered is only told.
+
+        Examples
+        --------
+        >>> find_material("AISI 4140 Q&T 540C").drawn_hardness
+        '335 to 370 HB'
+        >>> find_material("7075-T6").drawn_hardness
+        'about 150 HB'
+        """
+        text = re.sub(r"\(.*?\)|@\S+|~", "", self.hardness).strip()
+        if not text:
+            return "not specified"
+        if found := re.fullmatch(r"(\d+)-(\d+) (.*)", text):
+            return f"{found[1]} to {found[2]} {found[3]}"
+        if found := re.fullmatch(r"(\d+) (\w+) min", text):
+            return f"at least {found[1]} {found[2]}"
+        value, _, scale = text.partition(" ")
+        if "tempered" in self.treatment or "tempered" in self.drawing_note:
+            return f"{value} to {math.ceil(_BAND * int(value) / 5.0) * 5} {scale}"
+        return f"about {text}"
+
+    @property
     def rockwell_hardness(self) -> float | None:
         """HRC, the least of a printed range; None when hardness is unknown or not in HRC."""
         return _least_hardness(self.hardness, "HRC")
+
+
+_BAND = 1.1
+"""Highest over least hardness that a drawing asks for where the catalogue has one value."""
 
 
 def _least_hardness(text: str, scale: str) -> float | None:

@@ -167,11 +167,16 @@ def support_loads(machine: Machine, loads: PackLoads) -> FloatArray:
     return np.abs(loads.on_shaft @ np.column_stack(shares))
 
 
-def output_loads(machine: Machine, loads: PackLoads) -> OutputLoad:
+def output_loads(machine: Machine, loads: PackLoads, external: float = 1.0) -> OutputLoad:
     """What the bearing between carrier and housing holds, (C, A).
 
     Of the pins and of the shaft's upper bearing, which sits in the carrier, and of the external
     loads that the requirements state, whose direction is not known: they add up.
+
+    Parameters
+    ----------
+    external : float
+        Share of the external loads that counts.
 
     Raises
     ------
@@ -186,7 +191,7 @@ def output_loads(machine: Machine, loads: PackLoads) -> OutputLoad:
     across = np.abs(loads.on_carrier.sum(axis=2) + held)
     tilting = np.abs(loads.on_carrier @ (at - middle) + held * (edges[1] - middle))
     return OutputLoad(
-        radial=across + (asked.external_radial or 0.0),
-        axial=np.full(across.shape, asked.external_axial or 0.0),
-        moment=tilting + (asked.external_moment or 0.0),
+        radial=across + external * (asked.external_radial or 0.0),
+        axial=np.full(across.shape, external * (asked.external_axial or 0.0)),
+        moment=tilting + external * (asked.external_moment or 0.0),
     )

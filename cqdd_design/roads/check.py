@@ -12,8 +12,6 @@ from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.checks.guide import check_guide
-from cqdd_design.gearbox.checks.state import build_check
-from cqdd_design.machine import Machine
 from cqdd_design.machine.sealing import sealing
 from cqdd_design.results import Check
 from cqdd_design.roads.sized_file import kept_costs
@@ -135,28 +133,8 @@ def check(
         output_revolution(machine.design, assembly_angles),
         progress=progress,
     )
-    lines = (*verdict.lines, assembly_check(motion), access_check(machine))
+    lines = (*verdict.lines, assembly_check(motion))
     return Judgement(verdict, lines, motion, told_costs)
-
-
-def access_check(machine: Machine) -> Check:
-    """The check ``SCREW-TOOL-ACCESS`` of the order of assembly."""
-    from cqdd_design.solids.tool_access import tool_access
-
-    found, whole = tool_access(machine.design, machine.parts)
-    lacking = [one for one in found if not one.reaches]
-    told = "; ".join(one.told for one in lacking or found)
-    if not whole:
-        told = f"there is no order in which every part reaches its place; {told}"
-    return build_check(
-        "SCREW-TOOL-ACCESS",
-        float(len(lacking) + (not whole)),
-        0.0,
-        told,
-        f"move the {lacking[0].screw}s out from under the {lacking[0].blocked_by[0]}"
-        if lacking and lacking[0].blocked_by
-        else "take a longer key than the standard's, or a wider opening",
-    )
 
 
 def assembly_check(motion: AssemblyMotion) -> Check:

@@ -23,7 +23,7 @@ from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.allowables import Allowable
 from cqdd_design.gearbox.pin_beam import PinEnd
 from cqdd_design.geometry import kinematics
-from cqdd_design.geometry.scale import largest_ring
+from cqdd_design.geometry.scale import largest_ring, smallest_ring
 from cqdd_design.sizing.bought_parts import (
     BearingTable,
     PinSize,
@@ -193,6 +193,12 @@ class Frame:
         most = min(asked, self.ring_limit)
         most = most if bore is None else min(most, largest_ring(bore))
         return round(math.floor(0.5 * most / _RING_STEP + 1e-6) * _RING_STEP, 9)
+
+    @property
+    def least_outer_radius(self) -> float:
+        """Of the smallest ring round which a tube fills the motor's bore, m; 0 without a bore."""
+        bore = self.motor.bore_diameter
+        return 0.0 if bore is None else 0.5 * smallest_ring(bore)
 
     def bearing_table(self) -> BearingTable:
         """The cam bearings as arrays."""

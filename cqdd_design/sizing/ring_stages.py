@@ -227,6 +227,7 @@ class _Facts(NamedTuple):
     disc_count: int
     clocking: float
     outer_radius: float
+    least_outer_radius: float
     smaller_rings: bool
     equidistant: float
     radial: float
@@ -242,6 +243,7 @@ class _Facts(NamedTuple):
             frame.disc_count,
             frame.clocking,
             frame.outer_radius,
+            frame.least_outer_radius,
             frame.smaller_rings,
             frame.equidistant,
             frame.radial,

@@ -169,11 +169,12 @@ def largest_pitch_for_wall(
 def outer_radius(frame: Frame, ring: RingSizes) -> FloatArray:
     """Of the smallest ring with the least wall outside a solid ring's relief, m.
 
-    On the grid of `RADIUS_STEP`, and within what the requirements allow.
+    On the grid of `RADIUS_STEP`, large enough for the motor to be drawn round it, and within what
+    the requirements allow.
     """
     if not frame.smaller_rings:
         return np.full(ring.pitch_radius.shape, frame.outer_radius)
-    least = ring.root_radius(frame) + allowables.RING_WALL
+    least = np.maximum(ring.root_radius(frame) + allowables.RING_WALL, frame.least_outer_radius)
     return np.minimum(np.ceil(least / RADIUS_STEP - 1e-6) * RADIUS_STEP, frame.outer_radius)
 
 

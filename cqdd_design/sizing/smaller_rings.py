@@ -7,9 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from cqdd_design.catalog.motors import Motor
 from cqdd_design.errors import InfeasibleError
-from cqdd_design.geometry.scale import smallest_ring
 from cqdd_design.sizing.agreement import Found, Hunt, settled
 from cqdd_design.sizing.points import Points
 
@@ -30,11 +28,6 @@ _MAY_WIN = 1.1
 """Objective over the best so far, up to which finer steps may make a design the best."""
 
 
-def least_ring(motor: Motor) -> float:
-    """Diameter, m, below which no ring is tried: round a smaller one no tube fills the bore."""
-    return 0.0 if motor.bore_diameter is None else smallest_ring(motor.bore_diameter)
-
-
 def in_smaller_rings(hunt: Hunt, best: Found) -> list[Found]:
     """Better designs in smaller rings, the best first.
 
@@ -42,7 +35,7 @@ def in_smaller_rings(hunt: Hunt, best: Found) -> list[Found]:
     to where its discs need a wider bearing, so that there is more than one least mass. Then from
     each of them that may win in finer steps.
     """
-    least = least_ring(best.search.frame.motor)
+    least = 2.0 * best.search.frame.least_outer_radius
     ladder, ring = [best], best.sized.design.reducer.ring.outer_diameter
     missed = 0
     while ring > least and missed < _GAP:

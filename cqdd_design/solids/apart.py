@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from cqdd_design.design import Design
     from cqdd_design.solids.part import Part
 
-_SAG = 2e-7
+_SAG = 5e-7
 """Of the polygons that stand for contours, m."""
 _TOUCH = 0.3
 """Areas of overlap below this are seats that touch, mm^2."""
@@ -39,6 +39,8 @@ _GROWN = 0.05
 """By which a thread is wider than its drill at least, and less than a clearance hole's gap, mm."""
 _DOT = 1e-3
 """Side of the square that tells whether the axis runs in material, mm."""
+_EDGE = 1e-4
+"""Radii that overlap by less touch, mm."""
 _LEVEL = 1e-7
 """Heights closer than this are one, m."""
 Way = Literal["up", "down"]
@@ -152,16 +154,25 @@ def _next_unit(left: Sequence[_Thing]) -> tuple[list[_Thing], Way] | None:
 
 
 class _Flat(NamedTuple):
-    """A shape (mm), and between which radii about the axis its corners lie."""
+    """A shape (mm), between which radii about the axis its corners lie, and the box about it."""
 
     material: CrossSection
     inner: float
     outer: float
+    box: tuple[float, float, float, float]
+
+    def grown(self, by: float) -> _Flat:
+        """The shape with this much (mm) more all round."""
+        material = self.material.offset(by)
+        return _Flat(material, self.inner - by, self.outer + by, material.bounds())
 
 
 def _near(one: _Flat, other: _Flat) -> bool:
-    """Whether two shapes have radii in common."""
-    return one.inner < other.outer and other.inner < one.outer
+    """Whether two shapes may have more than an edge in common."""
+    if one.inner > other.outer - _EDGE or other.inner > one.outer - _EDGE:
+        return False
+    (a, b, c, d), (e, f, g, h) = one.box, other.box
+    return a < g and e < c and b < h and f < d
 
 
 class _Thing:
@@ -171,6 +182,8 @@ class _Thing:
         self.station = station
         self._design = design
         self._known: dict[tuple[int, Way, bool], bool] = {}
+        self._shared: dict[tuple[int, int, int], float] = {}
+        self._held: dict[int, bool] = {}
 
     @cached_property
     def prisms(self) -> list[tuple[float, float, _Flat]]:
@@ -185,7 +198,8 @@ class _Thing:
             shape = CrossSection(loops, FillRule.EvenOdd)
             radii = np.hypot(*np.concatenate(loops).T)
             hollow = (shape ^ CrossSection.square((_DOT, _DOT), True)).area() == 0.0
-            flat = _Flat(shape, float(radii.min()) if hollow else 0.0, float(radii.max()))
+            inner = float(radii.min()) if hollow else 0.0
+            flat = _Flat(shape, inner, float(radii.max()), shape.bounds())
             found.append((layers[0].bottom, layers[0].top, flat))
         return found
 
@@ -215,15 +229,27 @@ class _Thing:
         """Whether a screw sits in another thing by its thread, which no clearance hole is near."""
         if not self.is_screw:
             return False
-        far = min if self._head == "up" else max
-        low, high, shank = far(self.prisms, key=lambda prism: prism[0])
-        grown = shank.material.offset(_GROWN)
+        known = self._held.get(id(other))
+        if known is None:
+            known = self._held[id(other)] = self._is_screwed_into(other)
+        return known
+
+    def _is_screwed_into(self, other: _Thing) -> bool:
+        low, high, thread = self._thread
         return any(
             bottom < high - _LEVEL
             and top > low + _LEVEL
-            and (grown ^ block.material).area() > _TOUCH
+            and _near(thread, block)
+            and (thread.material ^ block.material).area() > _TOUCH
             for bottom, top, block in other.prisms
         )
+
+    @cached_property
+    def _thread(self) -> tuple[float, float, _Flat]:
+        """The end of a screw's shank, as wide as its thread."""
+        far = min if self._head == "up" else max
+        low, high, shank = far(self.prisms, key=lambda prism: prism[0])
+        return low, high, shank.grown(_GROWN)
 
     def passes(self, other: _Thing, way: Way, *, free: bool = False) -> bool:
         """Whether it can leave past another thing that stays.
@@ -259,20 +285,28 @@ class _Thing:
         free = _TOUCH + 1.01 * self._screwed(other)
         return any(
             (high > bottom + _LEVEL if way == "up" else low < top - _LEVEL)
-            and _near(shape, block)
-            and (shape.material ^ block.material).area() > free
-            for bottom, top, shape in self.prisms
-            for low, high, block in other.prisms
+            and self._area(i, other, j) > free
+            for i, (bottom, top, _) in enumerate(self.prisms)
+            for j, (low, high, _) in enumerate(other.prisms)
         )
 
+    def _area(self, own: int, other: _Thing, its: int) -> float:
+        """Area that a shape and one of another thing have in common, mm^2."""
+        key = (own, id(other), its)
+        if key not in self._shared:
+            one, two = self.prisms[own][2], other.prisms[its][2]
+            shared = (one.material ^ two.material).area() if _near(one, two) else 0.0
+            self._shared[key] = other._shared[its, id(self), own] = shared
+        return self._shared[key]
 
-def material_of(shape: PlanarPart) -> CrossSection:
-    """A shape as polygons, mm."""
+
+def material_of(shape: PlanarPart, sag: float) -> CrossSection:
+    """A shape as polygons that stay within a sag (m) of it, mm."""
     from manifold3d import CrossSection, FillRule
 
-    return CrossSection(list(_loops(shape)), FillRule.EvenOdd)
+    return CrossSection(list(_loops(shape, sag)), FillRule.EvenOdd)
 
 
-def _loops(shape: PlanarPart) -> Iterable[FloatArray]:
+def _loops(shape: PlanarPart, sag: float = _SAG) -> Iterable[FloatArray]:
     for contour in (shape.outer, *shape.holes):
-        yield contour.sample(_SAG) * 1e3
+        yield contour.sample(sag) * 1e3

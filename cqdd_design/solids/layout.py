@@ -68,6 +68,8 @@ class PackLayout:
     inner_radius : float
         Inner radius of housing and clamp beyond the relief; where they hold ring pins, they reach
         in over the discs.
+    most_clamp_radius : float
+        Largest bore of the ring clamp that still holds ring and pins.
     held_pins : HeldPins or None
         Of a ring with rollers.
     ring_radius : float
@@ -85,6 +87,7 @@ class PackLayout:
     ledge_radius: float
     relief: float
     inner_radius: float
+    most_clamp_radius: float
     held_pins: HeldPins | None
     ring_radius: float
 

@@ -162,7 +162,8 @@ def _screws(name: str, screw: CapScrew, material: str, circle: BoltCircle, heigh
     """Cap screws of the housing on a circle, their heads on a height, m."""
     pieces = around(name, HOUSING, np.array(circle.centres), height)
     shape = cap_screw_shape(screw)
-    return Part(name, shape, material, _SCREW, "buy", screw.designation, pieces)
+    how = screw.designation
+    return Part(name, shape, material, _SCREW, "buy", how, pieces, catalogue_mass=screw.mass)
 
 
 def dowel_part(layout: Layout) -> list[Part]:

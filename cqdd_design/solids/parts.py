@@ -299,6 +299,7 @@ def _column_parts(layout: Layout) -> list[Part]:
             "buy",
             columns.screw.designation,
             placed("column screw", CARRIER, *heads_down),
+            catalogue_mass=columns.screw.mass,
         ),
     ]
 
@@ -413,12 +414,12 @@ def _housing_parts(design: Design, layout: Layout) -> list[Part]:
     places = np.array(screw_circle(housing).centres)
     screws = around("cover screw", HOUSING, places, housing.cover_flange_top)
     screw = carrier_shapes.cap_screw_shape(housing.screw)
-    how = housing.screw.designation
+    how, mass = housing.screw.designation, housing.screw.mass
     return [
         made("housing", _housing_shape(layout, body), _HOUSING, body),
         made("ring clamp", housing_shapes.ring_clamp(layout, clamp), _COVER, clamp),
         made("output cover", housing_shapes.output_cover(layout, cover), _HOUSING, cover),
-        Part("cover screw", screw, SCREW_MATERIAL, _SCREW, "buy", how, screws),
+        Part("cover screw", screw, SCREW_MATERIAL, _SCREW, "buy", how, screws, catalogue_mass=mass),
     ]
 
 

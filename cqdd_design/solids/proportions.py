@@ -161,10 +161,14 @@ def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:
         seat, held = ring_root_radius(design), _held_pins(design, unit)
         relief = reducer.disc_spacing or relief
     ledge = min(seat + 0.15 * unit, 0.5 * (seat + ring_radius))
+    # On three quarters of the ring's wall, and on pins that stand in its pockets.
+    clamp = ring_radius - 0.25 * (ring_radius - ledge)
     inner = ledge
     if held is not None:
         wall = max(unit, 0.25 * held.diameter)
-        inner = held.circle_radius - 0.5 * held.diameter - wall
+        inner = clamp = held.circle_radius - 0.5 * held.diameter - wall
+    elif reducer.ring_type == "pinwheel":
+        clamp = min(clamp, reducer.ring_pitch_radius + 0.25 * reducer.ring_pin_diameter)
     return PackLayout(
         disc_thickness=reducer.disc_thickness,
         pitch=reducer.disc_thickness + reducer.disc_spacing,
@@ -177,6 +181,7 @@ def _pack(design: Design, cam_bearing: Bearing, unit: float) -> PackLayout:
         ledge_radius=ledge,
         relief=relief,
         inner_radius=inner,
+        most_clamp_radius=clamp,
         held_pins=held,
         ring_radius=ring_radius,
     )
@@ -231,19 +236,9 @@ def _refuse_no_shaft(pack: PackLayout) -> None:
         )
 
 
-def _most_clamp_radius(pack: PackLayout) -> float:
-    """Largest bore of the ring clamp that still presses on three quarters of the ring's wall.
-
-    Where it holds pins of the ring, one that leaves a wall inside them.
-    """
-    if pack.held_pins is not None:
-        return pack.inner_radius
-    return pack.ring_radius - 0.25 * (pack.ring_radius - pack.ledge_radius)
-
-
 def _most_shoulder_radius(pack: PackLayout, unit: float) -> float:
     """Room for the shoulder of the carrier plate inside the ring clamp, m."""
-    return _most_clamp_radius(pack) - 0.3 * unit
+    return pack.most_clamp_radius - 0.3 * unit
 
 
 def _within(least: float, value: float, most: float) -> float:
@@ -306,7 +301,7 @@ def _housing(
         screw=screw,
         screw_count=count,
         mount_thread=mount,
-        clamp_inner=min(carrier.output.lip_radius, _most_clamp_radius(pack)),
+        clamp_inner=min(carrier.output.lip_radius, pack.most_clamp_radius),
         cover_flange_top=cover_flange_top,
         cover_hub_radius=hub,
         cover_top=carrier.output_seat_top + lip,

@@ -25,7 +25,7 @@ _TOUCHING = 1e-6
 _LEAST_FACE = 0.05e-3
 """Width of a face that stops anything, m."""
 _MOST_PLAY = 1.0
-"""Of parts, in units of the layout; what rolls on pins may float farther."""
+"""Of parts, in units of the layout, or the discs' spacing; what rolls on pins may float farther."""
 _EDGE = 0.05e-3
 """Distance from edges at which points are looked at, m."""
 _RADII, _ANGLES = 3, 24
@@ -115,7 +115,8 @@ def retention(parts: Sequence[Part], layout: Layout) -> tuple[Retained, ...]:
     """What holds every station of a machine along its axis, upward and downward."""
     every = stations(parts)
     groups, ways = _fastened(every, layout)
-    most = _MOST_PLAY * layout.unit
+    # Discs float in the spacing that the design states, however small the machine.
+    most = max(_MOST_PLAY * layout.unit, layout.pack.gap + _TOUCHING)
     told: list[list[Stop]] = [[] for _ in every]
     for upward in (True, False):
         stops = [dict(_stops(i, every, upward=upward, most=most)) for i in range(len(every))]

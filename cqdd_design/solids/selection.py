@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from cqdd_design.catalog.bearings import BEARING_MATERIAL, Bearing, bearings
+from cqdd_design.catalog.cap_screws import cap_screw_mass
 from cqdd_design.catalog.screws import ShoulderScrew, find_shoulder_screw, mean_pin_diameter
 from cqdd_design.errors import CatalogError, GeometryError
 
@@ -299,6 +300,11 @@ class CapScrew:
         size = round(self.thread * 1e3, 3)
         below = next(depth for most, depth in _BELOW_FACE if size <= most)
         return _COUNTERBORES[size] * 1e-3, self.head_height + below * 1e-3
+
+    @property
+    def mass(self) -> float | None:
+        """As its chart has it, kg; None where it has no such size."""
+        return cap_screw_mass(self.thread, self.length)
 
     @property
     def is_sold(self) -> bool:

@@ -1,8 +1,9 @@
-"""Whether a straight key reaches the socket of every screw as the machine is put together.
+"""Whether a key reaches the socket of every screw as the machine is put together.
 
 At its step of the order of assembly (see `apart`) a screw is in place and what comes later is not.
 The long arm of a key stands in the socket along the screw's axis: it has to pass what is there, and
-to stand out of what is near by as far as a hand needs.
+to stand out of what is near by as far as a hand needs. Where it does not, the short arm stands in
+the socket, and the long one turns by a sixth of a turn above what is near by.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cqdd_design.catalog.hex_keys import hex_key
-from cqdd_design.geometry.contours import ArcContour
+from cqdd_design.catalog.hex_keys import HexKey, hex_key
+from cqdd_design.geometry.contours import ArcContour, FloatArray
 from cqdd_design.solids.apart import Step, material_of, posed_layers, taken_apart, unit_name
 from cqdd_design.solids.layers import Layer
 from cqdd_design.solids.part import Part
@@ -31,8 +32,14 @@ GRIP = 20e-3
 _HAND = 10e-3
 """Radius about a key within which what stands there keeps the hand out, m."""
 _CORNERS = 6
+_SWING = math.pi / 3.0
+"""By which a key turns before it is put into the hexagon anew, rad."""
+_DIRECTIONS = 24
+"""In which the swing of a bent key is tried to begin."""
 _TOUCH = 0.01
 """Areas of overlap below this are rounding, mm^2."""
+_SAG = 5e-6
+"""Of the polygons that stand for contours, m."""
 _LEVEL = 1e-7
 
 
@@ -50,17 +57,20 @@ class ToolReach:
         Parts in the way of the key.
     spare : float
         Of its long arm beyond what stands near by and what a hand needs, m.
+    bent : bool
+        Whether it reaches with its short arm alone.
     """
 
     screw: str
     size: float
     blocked_by: tuple[str, ...]
     spare: float
+    bent: bool = False
 
     @property
     def reaches(self) -> bool:
         """Whether the screw can be turned."""
-        return not self.blocked_by and self.spare >= 0.0
+        return not self.blocked_by and (self.bent or self.spare >= 0.0)
 
     @property
     def told(self) -> str:
@@ -68,6 +78,8 @@ class ToolReach:
         key = f"key {1e3 * self.size:.3g} mm of the {self.screw}"
         if self.blocked_by:
             return f"{key} is blocked by the {', the '.join(self.blocked_by)}"
+        if self.bent:
+            return f"{key} turns by its long arm"
         return f"{key} stands out {1e3 * (self.spare + GRIP):.3g} mm"
 
 
@@ -131,20 +143,54 @@ def _reach(design: Design, step: Step, socket: _Socket, there: Iterable[Station]
     key, up = hex_key(socket.size), step.way == "up"
     arm, hand = (_circles(socket.axes, radius) for radius in (socket.size / math.sqrt(3.0), _HAND))
     blocked: dict[str, None] = {}
-    deepest = 0.0
+    deepest, under, high = 0.0, key.short_arm - key.size, []
     for station in there:
         for piece in station.pieces:
             for layer in posed_layers(station.part, piece.pose(design)):
                 beyond = layer.top - socket.floor if up else socket.floor - layer.bottom
                 if beyond <= _LEVEL:
                     continue
-                flat = material_of(layer.shape)
+                flat = material_of(layer.shape, _SAG)
                 if (flat ^ arm).area() > _TOUCH:
                     blocked[station.part.name] = None
                 elif beyond > deepest and (flat ^ hand).area() > _TOUCH:
                     deepest = beyond
+                if beyond > under:
+                    high.append(flat)
     spare = key.long_arm - deepest - GRIP
-    return ToolReach(step.moved[0].part.name, socket.size, tuple(blocked), spare)
+    bent = not blocked and spare < 0.0 and _swings(key, socket.axes, high)
+    return ToolReach(step.moved[0].part.name, socket.size, tuple(blocked), spare, bent)
+
+
+def _swings(key: HexKey, axes: Iterable[tuple[float, float]], high: Sequence[CrossSection]) -> bool:
+    """Whether the long arm, above all that is lower, turns far enough about every axis.
+
+    Parameters
+    ----------
+    high : sequence of CrossSection
+        What stands as high as the arm, mm.
+    """
+    from manifold3d import CrossSection, OpType
+
+    everything = CrossSection.batch_boolean(list(high), OpType.Add)
+    aside = 0.5 * key.size / key.long_arm
+    edge = np.linspace(-aside, _SWING + aside, 9)
+    fan = np.vstack(
+        [[0.0, 0.0], 1e3 * key.long_arm * np.column_stack([np.cos(edge), np.sin(edge)])]
+    )
+    return all(
+        any(
+            (CrossSection([_turned(fan, turn) + at]) ^ everything).area() <= _TOUCH
+            for turn in np.arange(_DIRECTIONS) * 2.0 * math.pi / _DIRECTIONS
+        )
+        for at in 1e3 * np.array(list(axes))
+    )
+
+
+def _turned(points: FloatArray, angle: float) -> FloatArray:
+    """Points (n, 2) turned about the origin."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.asarray(points @ np.array([[c, s], [-s, c]]))
 
 
 def _circles(axes: Iterable[tuple[float, float]], radius: float) -> CrossSection:

@@ -1,4 +1,4 @@
-"""Lines of the screwed joints: slip, preload, threads."""
+"""Lines of the screwed joints: slip, preload, threads, keys."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.machine.screws import ScrewJoint, screw_joints
 from cqdd_design.results import Check
+from cqdd_design.solids.tool_access import tool_access
 
 _MEGA = 1e6
 _ENDLESS = 1e3
@@ -19,6 +20,10 @@ _LINES = ("SCREW-SLIP", "SCREW-PRELOAD", "SCREW-THREAD")
 
 def screw_lines(machine: Machine) -> tuple[Check, ...]:
     """Every screwed joint at the peak torque and the external loads of the requirements."""
+    return (*_loaded(machine), _tools(machine))
+
+
+def _loaded(machine: Machine) -> tuple[Check, ...]:
     try:
         every = screw_joints(machine)
     except (CatalogError, ContactError, GeometryError) as error:
@@ -83,4 +88,25 @@ def _thread(every: tuple[ScrewJoint, ...]) -> Check:
         THREAD_SAFETY,
         told,
         f"{worst.place}: take a housing.material of known strength",
+    )
+
+
+def _tools(machine: Machine) -> Check:
+    """Whether keys reach the screws in the order in which the machine is put together."""
+    try:
+        found, whole = tool_access(machine.design, machine.parts)
+    except (CatalogError, GeometryError) as error:
+        return build_check("SCREW-TOOL-ACCESS", None, 0.0, error.message, "see why there is none")
+    lacking = [one for one in found if not one.reaches]
+    told = "; ".join(one.told for one in lacking or found)
+    if not whole:
+        told = f"there is no order in which every part reaches its place; {told}"
+    return build_check(
+        "SCREW-TOOL-ACCESS",
+        float(len(lacking) + (not whole)),
+        0.0,
+        told,
+        f"move the {lacking[0].screw}s out from under the {lacking[0].blocked_by[0]}"
+        if lacking and lacking[0].blocked_by
+        else "take a longer key than the standard's, or a wider opening",
     )

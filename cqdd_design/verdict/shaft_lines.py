@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -15,9 +16,10 @@ from cqdd_design.gearbox.checks.equilibrium import DUTY_MODEL, ENDLESS
 from cqdd_design.gearbox.checks.remedies import lower_torque
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.life.cam import equivalent_load, set_life
-from cqdd_design.gearbox.output_bearing import dynamic_load, static_load
+from cqdd_design.gearbox.output_bearing import OutputLoad, dynamic_load, static_load
 from cqdd_design.gearbox.pack_loads import PackLoads
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.machine.carrier_bearing import bearing_for_loads
 from cqdd_design.machine.shaft_strength import (
@@ -30,6 +32,10 @@ from cqdd_design.results import Check
 _MEGA = 1e6
 _WIDER = "leave room for larger support bearings (a cam bearing with a larger bore)"
 _LIGHTER = "lower the torque or the external loads"
+_EXTERNAL = (("external_moment", "N*m"), ("external_axial", "N"), ("external_radial", "N"))
+"""Requirements of the output, and the units that they are told in."""
+_HALVINGS = 20
+"""Of the share of external loads that a bearing bears."""
 
 
 def shaft_lines(machine: Machine) -> tuple[Check, ...]:
@@ -121,22 +127,44 @@ def _support_life(machine: Machine, duty: PackLoads) -> Check:
 def _output(machine: Machine, peak: PackLoads, duty: PackLoads) -> tuple[Check, Check]:
     """Static safety and life, and another bearing where this one has too little of either."""
 
-    def both(remedy: str) -> tuple[Check, Check]:
-        return _output_static(machine, peak, remedy), _output_life(machine, duty, remedy)
+    def both(remedy: str, external: float = 1.0) -> tuple[Check, Check]:
+        return (
+            _output_static(machine, output_loads(machine, peak, external), remedy),
+            _output_life(machine, output_loads(machine, duty, external), remedy),
+        )
 
-    lines = both(_LIGHTER)
-    if all(line.status == "pass" for line in lines):
-        return lines
+    def passes(external: float) -> bool:
+        return all(line.status == "pass" for line in both("", external))
+
+    if passes(1.0):
+        return both(_LIGHTER)
+    ways = [_less_from_outside(machine, passes) or _LIGHTER]
     other = bearing_for_loads(machine)
-    if other is None or not other.bears or other.bearing == machine.seats[1].bearing:
-        return lines
-    named = f"set carrier_bearing.designation to '{other.bearing.designation}'"
-    return both(f"{named}, or {_LIGHTER}")
+    if other is not None and other.bears and other.bearing != machine.seats[1].bearing:
+        ways.insert(0, f"set carrier_bearing.designation to '{other.bearing.designation}'")
+    return both(", or ".join(ways))
 
 
-def _output_static(machine: Machine, peak: PackLoads, remedy: str) -> Check:
+def _less_from_outside(machine: Machine, passes: Callable[[float], bool]) -> str:
+    """External loads that the bearing bears, in words; nothing where it bears none, or has none."""
+    asked = machine.design.requirements
+    stated = {key: (getattr(asked, key), unit) for key, unit in _EXTERNAL if getattr(asked, key)}
+    if not stated or not passes(0.0):
+        return ""
+    low, high = 0.0, 1.0
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if passes(middle) else (low, middle)
+    if not low:
+        return ""
+    told = (
+        f"{key} to {rounded_down(low * value):g} {unit}" for key, (value, unit) in stated.items()
+    )
+    return f"lower {' and '.join(told)}"
+
+
+def _output_static(machine: Machine, load: OutputLoad, remedy: str) -> Check:
     asked, row = machine.design.requirements, machine.seats[1].bearing
-    load = output_loads(machine, peak)
     most = float(static_load(row, load).max())
     words = (
         f"{load.radial.max():.0f} N across, {load.axial.max():.0f} N along, "
@@ -156,8 +184,8 @@ def _output_static(machine: Machine, peak: PackLoads, remedy: str) -> Check:
     )
 
 
-def _output_life(machine: Machine, duty: PackLoads, remedy: str) -> Check:
-    row, load = machine.seats[1].bearing, output_loads(machine, duty)
+def _output_life(machine: Machine, load: OutputLoad, remedy: str) -> Check:
+    row = machine.seats[1].bearing
     known = row if row.static_rating is not None else None
     loads = dynamic_load(row, load)[..., None]
     return _life("OUTPUT-LIFE", machine, known, loads, np.ones(1), remedy)

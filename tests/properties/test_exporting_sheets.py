@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import subprocess
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import ezdxf
@@ -14,10 +15,12 @@ from legible import assert_legible, faults
 
 from cqdd_design.design import load_design
 from cqdd_design.errors import CatalogError
+from cqdd_design.exporting.sheets import part_sheet
 from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 from cqdd_design.exporting.sheets.assembly_sheet import draw_assembly
 from cqdd_design.exporting.sheets.canvas import render, svg_text
-from cqdd_design.exporting.sheets.drawing import OUTLINE, new_sheet
+from cqdd_design.exporting.sheets.drawing import OUTLINE, SMALL, new_sheet
+from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.part_facts import PartFacts
 from cqdd_design.exporting.sheets.part_sheet import draw_part, plan_sheet
 from cqdd_design.exporting.sheets.title_block import HEIGHT, SCALES, WIDTH
@@ -25,6 +28,7 @@ from cqdd_design.machine import resolve
 from cqdd_design.machine.grease import grease_fill
 from cqdd_design.roads.export import export
 from cqdd_design.solids.features.holes import (
+    BoltCircle,
     ClearanceHole,
     Counterbore,
     FittedHole,
@@ -229,6 +233,15 @@ def test_a_wrong_value_would_be_seen(machine):
         assert written in texts
         with pytest.raises(AssertionError):
             check_part(part, [instead if text == written else text for text in texts])
+
+
+@pytest.mark.parametrize("radius", [0.05, 0.123, 1.5])
+def test_the_table_of_holes_is_as_wide_as_its_numbers(radius):
+    facts = SimpleNamespace(holes=[[SimpleNamespace(circle=BoltCircle.even("x", 7, radius))]])
+    *begins, end = part_sheet._columns(facts)
+    for row in part_sheet.hole_places(facts):
+        for word, begin, stop in zip(row, begins, [*begins[1:], end], strict=True):
+            assert 0.8 + text_width(word, SMALL) < stop - begin - 0.4, word
 
 
 def test_text_on_text_and_on_thick_lines_is_found():

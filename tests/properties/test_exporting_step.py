@@ -151,6 +151,40 @@ def test_ap242_says_so_and_the_next_file_does_not(tmp_path: Path) -> None:
     assert texts[2] == texts[0]
 
 
+def test_ap242_carries_the_sizes_that_a_drawing_gives_a_zone(tmp_path: Path) -> None:
+    """Read back as product and manufacturing information, of a solid that is whole."""
+    from OCP.STEPCAFControl import STEPCAFControl_Reader
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDF import TDF_LabelSequence
+    from OCP.TDocStd import TDocStd_Document
+    from OCP.XCAFDoc import XCAFDoc_Dimension, XCAFDoc_DocumentTool
+
+    plate = part_named(known_parts("paper"), "carrier plate")
+    path = tmp_path / "plate.step"
+    write_part_step(known_design("paper"), plate, path, "AP242")
+    reader, document = STEPCAFControl_Reader(), TDocStd_Document(TCollection_ExtendedString("x"))
+    reader.SetGDTMode(True)
+    reader.ReadFile(str(path))
+    assert reader.Transfer(document)
+    tool = XCAFDoc_DocumentTool.DimTolTool_s(document.Main())
+    labels = TDF_LabelSequence()
+    tool.GetDimensionLabels(labels)
+    read = []
+    for i in range(1, labels.Length() + 1):
+        faces = TDF_LabelSequence()
+        tool.GetRefShapeLabel_s(labels.Value(i), faces, TDF_LabelSequence())
+        size = XCAFDoc_Dimension.Set_s(labels.Value(i)).GetObject()
+        values = size.GetValue(), size.GetLowerTolValue(), size.GetUpperTolValue()
+        read.append((*(round(value, 6) for value in values), faces.Length()))
+    # 50 k6, 22 H7; 4 H7 of the five seats of pins and of two dowels, each with its faces.
+    assert sorted(read) == [
+        (4.0, 0.0, 0.012, 2),
+        (4.0, 0.0, 0.012, 5),
+        (22.0, 0.0, 0.021, 1),
+        (50.0, 0.002, 0.018, 1),
+    ]
+
+
 def test_a_file_that_lost_a_solid_is_not_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -526,7 +526,6 @@ def test_guide_and_checks_speak_of_the_same_things() -> None:
     # Needle cages alone have raceways, motors without data and weights without a place a line
     # that says so; solids are turned, stress and temperatures found, only when asked to.
     rare = {"BEARING-RACEWAY", "ASSEMBLY-CLEAR", "MOTOR-DATA", "BALANCE-WEIGHTS"}
-    rare |= {"SCREW-TOOL-ACCESS"}
     # Nor are gearboxes drawn; these lines are the verdict's.
     rare |= {"CONTACT-REACH", "DUTY-ENVELOPE", "YIELD", "PIN-RUBBING"}
     rare |= {row.id for row in (*guide_shaft.ROWS, *guide_joints.ROWS, *guide_retention.ROWS)}

@@ -10,6 +10,8 @@ from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from cqdd_design.catalog.dowels import dowels
+from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.design import load_design
 from cqdd_design.errors import GeometryError, ReadBackError
 from cqdd_design.exporting.edm.begin import begun, tab_of
@@ -24,6 +26,8 @@ from cqdd_design.geometry.contours import as_complex
 from cqdd_design.geometry.grooves import edge_radius, groove_half_angle, grooved_circle
 from cqdd_design.machine import resolve
 from cqdd_design.roads.export import export
+from cqdd_design.solids.features import zones
+from cqdd_design.solids.features.holes import FittedHole
 
 
 @pytest.fixture(scope="module")
@@ -34,6 +38,22 @@ def paper(paper_design_file):
 @pytest.fixture(scope="module")
 def pinwheel(paper):
     return paper.replacing({"reducer.ring_type": "pinwheel"})
+
+
+def test_a_dowel_goes_in_wherever_halves_that_are_cut_apart_meet(paper):
+    """Two half discs that are shifted along their seam leave room for the circle less the shift."""
+    parts = {part.name: part for part in resolve(paper).parts}
+    (ring,), (housing,) = (
+        [one for one in parts[name].features if isinstance(one, FittedHole) and one.seam]
+        for name in ("ring", "housing")
+    )
+    missed = 0.5 * (ring.position + housing.position)
+    sizes = {one.diameter for one in dowels()}
+    assert len(sizes) == 11
+    for size in sizes:
+        groove, dowel = fit_limits(ring.zone, size), fit_limits(zones.DOWEL, size)
+        assert groove.lower - dowel.upper >= missed > 0.0, size
+    assert housing.zone == ring.zone
 
 
 @given(st.floats(10e-3, 0.1), st.integers(3, 12), st.floats(0.4e-3, 1.5e-3), st.floats(-3.0, 3.0))
@@ -77,8 +97,8 @@ def test_grooves_stand_where_the_dowels_of_the_machine_are(paper):
     for angle in dowels.angles:
         centre = 36e-3 * np.exp(1j * angle)
         away = np.abs(as_complex(ring.shape.outer.sample(1e-6)) - centre).min()
-        # The wire is shifted by the seat's: what is left is the middle of 1.5 H7.
-        assert away - seat.shift == pytest.approx(0.5 * 1.505e-3, abs=2e-7)
+        # The wire is shifted by the seat's: what is left is the middle of 1.5 D8.
+        assert away - seat.shift == pytest.approx(0.5 * 1.527e-3, abs=2e-7)
     (solid,) = (part for part in machine.parts if part.name == "ring")
     assert all(layer.shape.outer.length() > 2.0 * math.pi * 36e-3 for layer in solid.shape.layers)
 

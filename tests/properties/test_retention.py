@@ -157,6 +157,50 @@ def test_a_cap_on_loose_dowels_falls_off() -> None:
     assert "clamped" in line.remedy
 
 
+def test_discs_of_a_small_machine_are_held_by_the_spacing_that_is_stated() -> None:
+    """A unit is 0.496 mm at a ring of 35.7 mm, and the spacing 0.5 mm."""
+    reducer = {
+        "ratio": 36,
+        "ring_pitch_radius": "14.9 mm",
+        "eccentricity": "0.2052 mm",
+        "ring_pin_diameter": "0.7 mm",
+        "disc_count": 3,
+        "disc_thickness": "3 mm",
+        "disc_spacing": "0.5 mm",
+        "output_pins": {"count": 9, "diameter": "4 mm", "circle_radius": "10.35 mm"},
+        "cam_bearing": {"designation": "SKF 618/5"},
+        "ring": {"outer_diameter": "35.7 mm"},
+    }
+    held = resolve(Design.from_mapping({"reducer": reducer}))
+    assert held.layout.unit < 0.5e-3
+    rows = {row.name: row for row in held.retention}
+    assert free_in(rows) == set()
+    assert rows["disc 1"].down.play == pytest.approx(0.5e-3)
+
+
+def test_the_clamp_reaches_over_the_pins_of_a_ring_with_much_wall() -> None:
+    """Thin pins deep in a thick wall: a clamp on the wall alone would let them out."""
+    reducer = {
+        "ratio": 32,
+        "ring_pitch_radius": "20 mm",
+        "eccentricity": "0.309 mm",
+        "ring_pin_diameter": "1 mm",
+        "ring_type": "pinwheel",
+        "disc_count": 3,
+        "disc_thickness": "3 mm",
+        "output_pins": {"count": 14, "diameter": "4 mm", "circle_radius": "14.95 mm"},
+        "cam_bearing": {"designation": "6700"},
+        "ring": {"outer_diameter": "46.3 mm"},
+    }
+    held = resolve(Design.from_mapping({"reducer": reducer}))
+    (pins,) = (row for row in held.retention if row.name == "ring pin")
+    assert pins.up.by == "ring clamp"
+    assert pins.down.by == "housing"
+    # Both by the same face, from the ledge that clears the lobes to the pin's far side.
+    assert pins.up.face == pytest.approx(20.5e-3 - held.layout.pack.ledge_radius)
+    assert pins.down.face == pytest.approx(pins.up.face)
+
+
 def test_a_low_shoulder_does_not_reach_past_the_chamfer(machine: Machine) -> None:
     layout = machine.layout
     journal = 0.5 * machine.seats[0].bearing.bore_diameter

@@ -215,6 +215,13 @@ def test_lines_follow_shaft_and_loads(machine: Machine) -> None:
     heavy = {line.id: line for line in shaft_lines(hung)}
     assert heavy["OUTPUT-STATIC"].status == "fail"
     assert heavy["OUTPUT-LIFE"].compared[0] < by_id["OUTPUT-LIFE"].compared[0]
+    # What the remedy names works, and a little more does not.
+    named = re.search(r"lower external_moment to ([\d.]+) N\*m", heavy["OUTPUT-STATIC"].remedy)
+    assert named is not None
+    for share, both in ((1.0, True), (1.02, False)):
+        eased = hung.changed({"requirements.external_moment": f"{share * float(named[1])} N*m"})
+        lines = {line.id: line.status for line in shaft_lines(eased)}
+        assert (lines["OUTPUT-STATIC"] == lines["OUTPUT-LIFE"] == "pass") is both
     assert heavy["SHAFT-STRENGTH"].value == by_id["SHAFT-STRENGTH"].value
     # Twice the life does not change what a bearing lasts.
     longer = machine.changed({"requirements.life": "20000 h"})

@@ -13,6 +13,7 @@ from cqdd_design.geometry.scale import largest_ring, millimetre_unit, smallest_r
 from cqdd_design.sizing.agreement import MATERIALS, Hunt, Space, agreed
 from cqdd_design.sizing.costs import costs
 from cqdd_design.sizing.frame import USUAL_FIT, search_frame
+from cqdd_design.sizing.size import size
 from cqdd_design.sizing.smaller_rings import in_smaller_rings
 from cqdd_design.sizing.stage_tables import stage_tables
 
@@ -49,6 +50,21 @@ def test_a_search_takes_no_larger_ring_than_the_bore_does():
     frame = search_frame(requirements_from_mapping(ASKED), small)
     assert 2.0 * frame.outer_radius == pytest.approx(largest_ring(50e-3), abs=1e-5)
     assert 2.0 * frame.outer_radius <= largest_ring(50e-3)
+
+
+def test_the_screen_takes_no_ring_too_small_to_draw_the_motor_round():
+    """Where little torque is asked, the closed forms alone would end far below the bore."""
+    asked = requirements_from_mapping(
+        {
+            "ratio": 23,
+            "peak_torque": "10 N*m",
+            "continuous_torque": "2 N*m",
+            "outer_diameter": "70 mm",
+        }
+    )
+    motor = find_motor("CubeMars RO100 Lite KV55")
+    ring = size(asked, motor=motor).design.reducer.ring.outer_diameter
+    assert smallest_ring(motor.bore_diameter) <= ring < smallest_ring(motor.bore_diameter) + 1e-3
 
 
 def test_a_smaller_ring_is_taken_where_it_is_lighter(found):

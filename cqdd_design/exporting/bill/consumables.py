@@ -11,6 +11,7 @@ from cqdd_design.catalog.fits import fit_limits
 from cqdd_design.errors import CatalogError
 from cqdd_design.exporting.bill.substitutes import other_lubricants
 from cqdd_design.machine.grease import grease_fill
+from cqdd_design.solids.features import zones
 
 if TYPE_CHECKING:
     from cqdd_design.machine import Machine
@@ -83,6 +84,11 @@ def bonds(machine: Machine) -> tuple[Bond, ...]:
         found.append(
             Bond("pins in the plate", pin, depth, _gap("H7", "f9", pin), carrier.pin_count)
         )
+    dowels = layout.dowels
+    if dowels.radius:
+        size = 2.0 * dowels.radius
+        gap = _gap(zones.SEAM_GROOVE, zones.DOWEL, size)
+        found.append(Bond("ring dowels", size, dowels.bearing_length, gap, len(dowels.angles)))
     return tuple(found)
 
 

@@ -9,6 +9,7 @@ from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.machine.screws import tightening_torques
 from cqdd_design.machine.sealing import bearing_seals
+from cqdd_design.solids.features import zones
 
 if TYPE_CHECKING:
     from cqdd_design.machine import Machine
@@ -35,8 +36,9 @@ def fitting_notes(machine: Machine) -> dict[str, str]:
         notes[name] += f"; {bearing_seals(machine)}"
     if layout.dowels.radius:
         notes["ring dowel"] = (
-            "slid in with the ring in its seat, half in its grooves and half in the housing's; "
-            "the clamp keeps them"
+            "slid in with the ring in its seat, half in its grooves and half in the housing's, "
+            f"with {ROTOR_COMPOUND.name}, which takes the play of {zones.DOWEL} in "
+            f"{zones.SEAM_GROOVE}; the clamp keeps them"
         )
     return {name: note for name, note in notes.items() if name in parts}
 

@@ -98,8 +98,8 @@ class CutFacts:
 
     @property
     def hardness(self) -> str:
-        """As the catalogue gives it."""
-        return find_material(self.flat.material).hardness or "not specified"
+        """As a drawing asks for it."""
+        return find_material(self.flat.material).drawn_hardness
 
     @property
     def heat_treatment(self) -> str:
@@ -111,7 +111,9 @@ class CutFacts:
         """Remarks of the part, which are in capitals, as sentences."""
         said = (remark.capitalize().replace(" x axis", " X axis") for remark in self.flat.remarks)
         # Zones of holes are capitals, whatever the sentence.
-        return tuple(re.sub(r"\bh(\d+)\b", r"H\1", one) + "." for one in said)
+        return tuple(
+            re.sub(r"\b[dh]\d+\b", lambda zone: zone[0].upper(), one) + "." for one in said
+        )
 
     @property
     def seat_by_contour(self) -> dict[int, Seat]:

@@ -22,6 +22,7 @@ from cqdd_design.geometry.ring import pocket_radius, ring_contour
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.solids.clocking import DiscGroup, disc_groups
 from cqdd_design.solids.features import zones
+from cqdd_design.solids.features.housing import SEAM_POSITION
 from cqdd_design.solids.selection import output_pin
 
 if TYPE_CHECKING:
@@ -217,14 +218,15 @@ def _grooved(flat: FlatPart, dowels: DowelLayout, radius: float) -> FlatPart:
     their own zone.
     """
     angles, size = dowels.angles, 2.0 * dowels.radius
-    outside, groove = seat(0, 2.0 * radius, zones.RING_OUTSIDE), seat(1, size, zones.PIN_HOLE)
+    outside, groove = seat(0, 2.0 * radius, zones.RING_OUTSIDE), seat(1, size, zones.SEAM_GROOVE)
     finished = size if groove is None else groove.middle
     drawn = 0.5 * finished + (0.0 if outside is None else outside.shift)
     shape = PlanarPart(flat.shape.name, grooved_circle(radius, angles, drawn), flat.shape.holes)
     places = ", ".join(f"{math.degrees(angle):.4f}".rstrip("0").rstrip(".") for angle in angles)
     told = (
-        f"{len(angles)} HALF GROOVES DIA {1e3 * size:g} {zones.PIN_HOLE} FOR DOWELS, CENTRES ON "
-        f"THE OUTSIDE AT {places} DEG, DRAWN DIA {2e3 * drawn:.4f}"
+        f"{len(angles)} HALF GROOVES DIA {1e3 * size:g} {zones.SEAM_GROOVE} FOR DOWELS, CENTRES ON "
+        f"THE OUTSIDE AT {places} DEG, EACH WITHIN DIA {1e3 * SEAM_POSITION:g} OF ITS PLACE, DRAWN "
+        f"DIA {2e3 * drawn:.4f}"
     )
     if outside is not None:
         told += f": THE SHIFT OF THE OUTSIDE CUTS THEM TO DIA {1e3 * finished:.4f}"

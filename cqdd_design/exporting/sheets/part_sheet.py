@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING
 from cqdd_design.exporting.sheets.blocks import Extent, distance_beside
 from cqdd_design.exporting.sheets.drawing import SMALL, SheetDrawing, new_sheet
 from cqdd_design.exporting.sheets.end_plan import EndPlan, EndShape
+from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.part_facts import GENERAL_SURFACE, GENERAL_TOLERANCES
 from cqdd_design.exporting.sheets.section_plan import SectionPlan, SectionShape
 from cqdd_design.exporting.sheets.title_block import (
@@ -43,7 +44,7 @@ from cqdd_design.exporting.sheets.wording import joint_note
 if TYPE_CHECKING:
     from cqdd_design.exporting.sheets.part_facts import PartFacts
 
-_BLOCK, _PITCH = 38.0, 4.0
+_HOLE, _PLACE, _PITCH = 10.2, 13.5, 4.0
 """Width of a block of the table of holes, and its rows, mm."""
 _TITLE_ROWS = 4
 _BETWEEN = 4.0
@@ -102,7 +103,7 @@ def plan_sheet(facts: PartFacts) -> Plan:
     """Lay a part's views out at the largest scale that fits, or at the smallest there is."""
     section, end = SectionShape(facts), EndShape(facts)
     blocks = _table_blocks(facts)
-    right = RIGHT - 2.0 - (blocks * (_BLOCK + 2.0) if blocks else 0.0)
+    right = RIGHT - 2.0 - (blocks * (_columns(facts)[-1] + 2.0) if blocks else 0.0)
     room = Extent(LEFT + 2.0, title_top(_TITLE_ROWS) + 1.0, right, TOP - 1.0)
     for scale in SCALES:
         cut = section.directions
@@ -166,7 +167,7 @@ def _title(sheet: SheetDrawing, facts: PartFacts) -> None:
             ("part", part.name, 52.0),
             ("quantity", str(part.count), 24.0),
             ("mass of one", f"{1e3 * part.mass:.4g} g", 36.0),
-            ("hardness", material.hardness or "not specified", 68.0),
+            ("hardness", material.drawn_hardness, 68.0),
         ],
         [
             ("material", part.material, 92.0),
@@ -198,22 +199,30 @@ def _table_blocks(facts: PartFacts) -> int:
     return -(-len(hole_places(facts)) // _most_rows())
 
 
+def _columns(facts: PartFacts) -> tuple[float, float, float, float]:
+    """Where the columns of the table of holes begin, and where the last one ends, mm."""
+    widest = max((text_width(word, SMALL) for _, *both in hole_places(facts) for word in both))
+    place = max(_PLACE, widest + 1.4)
+    return 0.0, _HOLE, _HOLE + place, _HOLE + 2.0 * place + 0.8
+
+
 def _table_of_holes(sheet: SheetDrawing, facts: PartFacts) -> None:
     rows = hole_places(facts)
     blocks = _table_blocks(facts)
     if not blocks:
         return
-    left = RIGHT - 2.0 - blocks * (_BLOCK + 2.0) + 2.0
+    *columns, wide = _columns(facts)
+    left = RIGHT - blocks * (wide + 2.0)
     sheet.text(complex(left, TOP - 6.0), "HOLES, mm", 3.0)
     most = _most_rows()
     for block in range(blocks):
-        corner = complex(left + block * (_BLOCK + 2.0), TOP - 8.0)
+        corner = complex(left + block * (wide + 2.0), TOP - 8.0)
         some = [("hole", "X", "Y"), *rows[block * most : (block + 1) * most]]
         for place, row in enumerate(some, start=1):
             level = corner - 1j * place * _PITCH
-            for x, words in zip((0.8, 11.0, 24.5), row, strict=True):
-                sheet.text(level + x + 0.9j, words, SMALL)
-            sheet.line(level, level + _BLOCK)
-        sheet.line(corner, corner + _BLOCK)
-        for x in (0.0, 10.2, 23.7, _BLOCK):
+            for x, words in zip(columns, row, strict=True):
+                sheet.text(level + x + 0.8 + 0.9j, words, SMALL)
+            sheet.line(level, level + wide)
+        sheet.line(corner, corner + wide)
+        for x in (*columns, wide):
             sheet.line(corner + x, corner + x - 1j * len(some) * _PITCH)

@@ -30,12 +30,12 @@ FOLDER = "sheets"
 def export_sheets(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write the sheets of a machine into ``sheets/``."""
     files: list[WrittenFile] = []
-    for number, title, sheet in _sheets(job):
+    for number, title, sheet in sheets_of(job):
         files += _written(job, number, title, sheet)
     return tuple(files)
 
 
-def _sheets(job: ExportJob) -> Iterator[tuple[str, str, SheetDrawing]]:
+def sheets_of(job: ExportJob) -> Iterator[tuple[str, str, SheetDrawing]]:
     """File name, title and drawing of every sheet, in the order of the parts."""
     from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
     from cqdd_design.exporting.sheets.assembly_sheet import draw_assembly

@@ -127,16 +127,6 @@ ROWS = (
         "intersection of the solids' meshes at every crank angle (`check --assembly`)",
     ),
     CheckGuide(
-        "SCREW-TOOL-ACCESS",
-        "Screws that no straight key turns as the machine is put together",
-        "",
-        "max",
-        "steps of the order of assembly at which the long arm of the screws' key meets a part that "
-        "is in place, or does not stand out 20 mm of what is within 10 mm of it = 0",
-        "A screw that cannot be tightened at its step holds nothing.",
-        "the parts as drawn, cqdd_design.solids.tool_access; ISO 2936 (`check --assembly`)",
-    ),
-    CheckGuide(
         "CONTACT-REACH",
         "Torque up to which the gearbox has an equilibrium",
         "N*m",

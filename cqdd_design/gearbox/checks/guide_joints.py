@@ -86,4 +86,16 @@ ROWS = (
         "Aluminium and plastic strip before the screw breaks where too few turns engage.",
         f"{_VDI}, section 5.5.5",
     ),
+    CheckGuide(
+        "SCREW-TOOL-ACCESS",
+        "Screws that no key turns as the machine is put together",
+        "",
+        "max",
+        "steps of the order of assembly at which a part in place is in the way of the screws' key, "
+        "and neither does its long arm stand out 20 mm of what is within 10 mm of it nor, above "
+        "what is lower, turn by 60 deg with the short arm in the socket; and 1 where there is no "
+        "order = 0",
+        "A screw that cannot be tightened at its step holds nothing.",
+        "the parts as drawn, cqdd_design.solids.tool_access; ISO 2936",
+    ),
 )

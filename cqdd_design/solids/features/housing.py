@@ -20,8 +20,9 @@ from cqdd_design.solids.features.making import (
 )
 from cqdd_design.solids.layout import DowelLayout, HousingLayout, Layout, MotorLayout, PackLayout
 
-_SEAM_POSITION = 20e-6
-"""Of the half grooves of the ring's dowels, in ring and housing, m."""
+SEAM_POSITION = 10e-6
+"""Of the half grooves of the ring's dowels, in ring and housing, m: where both lie at the ends of
+their zones they miss each other by as much, which `zones.SEAM_GROOVE` leaves round a dowel."""
 _RING_PIN_POSITION = 10e-6
 """Of the ends of a ring's pins, which gear with the discs, m."""
 
@@ -113,8 +114,8 @@ def ring_dowel_holes(
         return ()
     circle = BoltCircle("ring dowels", pack.ring_radius, dowels.angles)
     return (
-        fitted("holes of the ring dowels", 2.0 * dowels.radius, zones.PIN_HOLE, circle,
-               bottom=bottom, top=pack.top, facing="up", position=_SEAM_POSITION,
+        fitted("holes of the ring dowels", 2.0 * dowels.radius, zones.SEAM_GROOVE, circle,
+               bottom=bottom, top=pack.top, facing="up", position=SEAM_POSITION,
                seam=True, refers="AB"),
     )  # fmt: skip
 

@@ -7,6 +7,9 @@ located without play that matters: n6 in H7 for the ring, which its clamp then h
 f9 shoulders of the screws. A retaining compound fills what H7 leaves there where a pin is to sit
 stiffly: in a cap whose joint is clamped, and in the plate where a dowel has no thread. The bell's
 bore is F7 over the k6 of the shaft, a slip fit of a few hundredths at most that the compound fills.
+So does D8 round the m6 dowels of the ring, whose halves are cut apart: where ring and housing miss
+each other by the zones of their grooves, a dowel still goes in by hand, and the compound takes the
+play that would let the ring turn.
 """
 
 from __future__ import annotations
@@ -18,6 +21,8 @@ JOURNAL, HOUSED = "k6", "H7"
 RING_OUTSIDE, RING_SEAT = "n6", "H7"
 PIN, PIN_HOLE = "f9", "H7"
 """Output pins and their seats; dowels and what they sit in."""
+DOWEL, SEAM_GROOVE = "m6", "D8"
+"""Ground dowels, and the half grooves of the ring's, in ring and housing."""
 REGISTER = "h7"
 """Under the stator."""
 BELL_BORE, MAGNETS, MAGNET_POCKET = "F7", "H7", "H9"
