@@ -6,6 +6,7 @@ import hashlib
 import json
 import math
 import os
+import pickle
 import shutil
 import signal
 import socket
@@ -127,6 +128,36 @@ def pytest_sessionstart(session: pytest.Session) -> None:
         done += [one.wait() == 0 for one in started]
     if kept and all(done):
         (kept / "kernels").touch()
+
+
+#: What passing tests recorded, by folder and file, in the order of the file; None where one failed.
+_recorded: dict[str, list[tuple[str, Any]] | None] = {}
+
+
+def pytest_runtest_logreport(report: pytest.TestReport) -> None:
+    """Collect it; of workers too."""
+    parts = Path(report.nodeid.partition("::")[0]).parts
+    if len(parts) < 3 or parts[0] != "tests":
+        return
+    file = "/".join(parts[1:])
+    rows = _recorded.setdefault(file, [])
+    if report.failed:
+        _recorded[file] = None
+    elif rows is not None and report.when == "call":
+        rows += report.user_properties
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Leave what whole files recorded to docs/build.py, which would run them again for it."""
+    chosen, config = session.config.option, session.config
+    whole = not chosen.keyword and not any("::" in one for one in config.args)
+    if hasattr(config, "workerinput") or not whole or session.shouldstop or session.shouldfail:
+        return
+    if chosen.markexpr == "not deep":
+        known = {file: rows for file, rows in _recorded.items() if rows is not None}
+        place = Path(os.environ["CQDD_TEST_RUNS"]) / "recorded.pickle"
+        before = pickle.loads(place.read_bytes()) if place.exists() else {}
+        place.write_bytes(pickle.dumps(before | known))
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -95,7 +95,7 @@ def _lines(result: BenchResult) -> list[str]:
         row = [
             metric.name,
             "-" if metric.known is None else number(metric.value),
-            "" if metric.spread is None else number(metric.spread),
+            "" if metric.spread is None else number(metric.spread, 2),
             metric.unit,
         ]
         paper = result.paper(metric.name)

@@ -6,7 +6,7 @@ Numbers are never folded, and no word is cut: an address longer than a line stay
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 WIDTH = 80
@@ -57,7 +57,7 @@ def folded_columns(
     """
     natural = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     least = [
-        most if i in right else min(most, max(_least(i), _longest_word(row[i] for row in rows)))
+        most if i in right else min(most, max(_least(i), _longest_word(rows, i)))
         for i, most in enumerate(natural)
     ]
     titles = list(head) if head is not None else [""] * len(natural)
@@ -122,9 +122,10 @@ def _width_in(title: str, lines: int) -> int:
     return len(title)
 
 
-def _longest_word(cells: Iterable[str]) -> int:
-    """Of what a column holds, with the indent of lines that go on."""
-    return max((len(word) + 2 for cell in cells for word in cell.split()), default=0)
+def _longest_word(rows: Sequence[Sequence[str]], place: int) -> int:
+    """Of what a column holds; in names with the indent of lines that go on."""
+    longest = max((len(word) for row in rows for word in row[place].split()), default=0)
+    return longest if place else longest + 2
 
 
 def wrapped(text: str, width: int, first: str, after: str) -> list[str]:

@@ -111,11 +111,11 @@ def _set_project(folder: Path | None) -> None:
         os.environ[PROJECT] = str(folder)
 
 
-def _show_places(wanted: bool) -> None:
+def _show_places(context: typer.Context, wanted: bool) -> None:
     if wanted:
-        from cqdd_design.cli.places import places
+        from cqdd_design.cli.places import places, places_document
 
-        print_result(places())
+        print_result(places_document() if context.params.get("json") else places())
         raise typer.Exit
 
 
@@ -135,12 +135,17 @@ def _root(
         bool,
         typer.Option("--where", callback=_show_places, help="Show where everything is written."),
     ] = False,
+    json: Annotated[
+        bool,
+        typer.Option("--json", is_eager=True, help="With --where: print one JSON document."),
+    ] = False,
     version: Annotated[
         bool,
         typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version."),
     ] = False,
 ) -> None:
-    pass
+    if json:
+        raise UsageError("--json before a command belongs to --where; write it after the command.")
 
 
 def run(arguments: Sequence[str]) -> int:

@@ -1,19 +1,23 @@
 """Kernels compiled side by side, before a command needs them: once, on the first use.
 
-Each goes into numba's cache from a process of its own, as many at a time as there are processors;
-the command then reads them from there. What arguments a kernel takes stands here, since a process
-that compiles has none.
+As many processes as there are processors put them into numba's cache, each one kernel after the
+other: what kernels have in common one process compiles once. The command then reads them from
+there. What arguments a kernel takes stands here, since a process that compiles has none.
 """
 
 from __future__ import annotations
 
+import gc
 import importlib
 import os
 import subprocess
 import sys
-import time
+from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
+from queue import SimpleQueue
+from threading import Thread
 from typing import Any, NamedTuple
 
 from cqdd_design.gearbox.compiled import in_cache
@@ -136,9 +140,9 @@ def missing(*, simulation: bool = False, ensembles: bool = False) -> list[Kernel
     """Kernels that no earlier run has left compiled, the longest to compile first."""
     wanted = (
         *(ENSEMBLES if ensembles else ()),
-        GEARBOX[0],
+        *GEARBOX[:2],
         *(SIMULATION if simulation else ()),
-        *GEARBOX[1:],
+        *GEARBOX[2:],
     )
     return [kernel for kernel in wanted if not in_cache(kernel.compiled())]
 
@@ -151,9 +155,7 @@ def kernel_folder() -> Path:
 
 
 def compile_kernels(kernels: list[Kernel], tell: Callable[[int, int], None]) -> None:
-    """Compile kernels into the cache, those of a module together, as many as there are processors.
-
-    Kernels of one module call the same parts, which one process compiles once.
+    """Compile kernels into the cache, those of a module together.
 
     Parameters
     ----------
@@ -161,37 +163,64 @@ def compile_kernels(kernels: list[Kernel], tell: Callable[[int, int], None]) -> 
         Called with how many are done and how many there are, at the start and as each ends. One
         that fails is not told: the command compiles it itself and says why.
     """
-    left: list[list[str]] = []
-    for module in dict.fromkeys(kernel.module for kernel in kernels):
-        left.append([kernel.name for kernel in kernels if kernel.module == module])
-    done, running = 0, dict[subprocess.Popen[bytes], int]()
-    tell(0, len(kernels))
+    modules = dict.fromkeys(kernel.module for kernel in kernels)
+    left = deque([one.name for one in kernels if one.module == module] for module in modules)
+    workers = [_started() for _ in range(min(len(left), os.cpu_count() or 1))]
+    ended: SimpleQueue[int] = SimpleQueue()
+    done = 0
+    tell(done, len(kernels))
+    threads = [Thread(target=_feed, args=(one, left, ended), daemon=True) for one in workers]
     try:
-        while left or running:
-            while left and len(running) < (os.cpu_count() or 1):
-                names = left.pop(0)
-                process = subprocess.Popen(
-                    [sys.executable, "-c", _WORK, *names],
-                    stdin=subprocess.DEVNULL,
-                    stdout=subprocess.DEVNULL,
-                    stderr=subprocess.DEVNULL,
-                )
-                running[process] = len(names)
-            time.sleep(0.05)
-            for process in [one for one in running if one.poll() is not None]:
-                done += running.pop(process)
+        for thread in threads:
+            thread.start()
+        for _ in workers:
+            while count := ended.get():
+                done += count
                 tell(done, len(kernels))
     finally:
-        for process in running:
-            process.kill()
-            process.wait()
+        for worker in workers:
+            worker.kill()
+        for worker in workers:
+            worker.communicate()
 
 
-_WORK = f"import sys; from {__name__} import compile_named; compile_named(sys.argv[1:])"
+def _started() -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, "-c", _WORK],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
 
 
-def compile_named(names: list[str]) -> None:
-    """Compile the kernels of these names into the cache."""
-    for kernel in (*GEARBOX, *SIMULATION, *ENSEMBLES):
-        if kernel.name in names:
-            kernel.compiled().compile(signature(kernel))
+def _feed(worker: subprocess.Popen[str], left: deque[list[str]], ended: SimpleQueue[int]) -> None:
+    """Give a worker names until none are left or it has died; tell how many at a time, then 0."""
+    assert worker.stdin is not None
+    assert worker.stdout is not None
+    with suppress(IndexError, OSError, ValueError):
+        while worker.poll() is None:
+            names = left.popleft()
+            print(*names, file=worker.stdin, flush=True)
+            worker.stdout.readline()
+            ended.put(len(names))
+    ended.put(0)
+
+
+_WORK = f"from {__name__} import compile_asked; compile_asked()"
+
+
+def compile_asked() -> None:
+    """Compile the kernels whose names come in, a line at a time, and answer each line."""
+    # A compiler makes millions of small things and next to no rubbish: a tenth of its time was
+    # the collector's.
+    gc.disable()
+    # What libraries print goes elsewhere than the answers.
+    with os.fdopen(os.dup(1), "w") as answers:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        for line in sys.stdin:
+            names = line.split()
+            for kernel in (*GEARBOX, *SIMULATION, *ENSEMBLES):
+                if kernel.name in names:
+                    kernel.compiled().compile(signature(kernel))
+            print(file=answers, flush=True)

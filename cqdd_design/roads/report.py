@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, nullcontext
 from pathlib import Path
 from typing import Literal, NamedTuple, get_args
 
-from cqdd_design.actuator.shock import shocks
+from cqdd_design.actuator.bench import BenchResult
+from cqdd_design.actuator.parameters import ActuatorParameters
+from cqdd_design.actuator.shock import Shock, shocks
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.catalog.paper import is_papers_actuator
 from cqdd_design.design import Design
@@ -18,6 +22,8 @@ from cqdd_design.gearbox.tolerance.clearance import ClearancePoint, clearance_st
 from cqdd_design.machine import Machine
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
 from cqdd_design.machine.weighing import weigh_if_possible
+from cqdd_design.planetary.compare import PlanetaryComparison
+from cqdd_design.planetary.cycloid import CycloidLimit
 from cqdd_design.report import ReportInput, build_report, read_comments
 from cqdd_design.report.machine_view.apart import start_drawing
 from cqdd_design.report.printing import printed_page, printing_browser
@@ -27,6 +33,7 @@ from cqdd_design.roads.telling import Progress, provenance, silent
 from cqdd_design.sizing import SizingResult
 from cqdd_design.sizing.comparison import compare_with_planetary, cycloid_limits
 from cqdd_design.verdict import Verdict, judge
+from cqdd_design.verdict.drawn import Drawn
 
 ReportForm = Literal["html", "pdf"]
 
@@ -117,23 +124,16 @@ def write_report(
     analysis = machine.analysis
     bodies, notes = weigh_if_possible(machine)
     with closing(start_drawing(machine)) if bodies else nullcontext() as drawing:
-        judged = verdict or judge(
-            machine, specimen, samples=samples, sensitivity=True, progress=progress
-        )
-        drawn = judged.evidence.drawn
-        progress("solving the contact equilibrium")
-        contact, unsolved = _contact(machine)
-        clearances: tuple[ClearancePoint, ...] = ()
-        if drawn is not None:
-            angles = drawn.continuous.ensemble.angles
-            fitting = max(
-                _CLEARANCE_SAMPLES * _REPORT_ANGLES // max(angles, _REPORT_ANGLES),
-                _LEAST_CLEARANCE_SAMPLES,
+        # Gearboxes are drawn in compiled code, beside which the rest has another core.
+        with ThreadPoolExecutor(1) as pool:
+            rest = pool.submit(_beside, machine, specimen)
+            judged = verdict or judge(
+                machine, specimen, samples=samples, sensitivity=True, progress=progress
             )
-            clearances = clearance_study(machine.design, fitting, angles)
-        progress("measuring the actuator on the test bench")
-        measured, unmeasured = measured_actuator(machine, specimen)
-        stops = {} if measured is None else shocks(machine, specimen)[0]
+            progress("trying other clearances")
+            clearances = _clearances(machine, judged.evidence.drawn)
+            progress("measuring the actuator on the test bench")
+            beside = rest.result()
         progress("drawing the machine")
         pictures = None if drawing is None else drawing.fetch()
     if isinstance(pictures, str):
@@ -141,30 +141,66 @@ def write_report(
     results = ReportInput(
         machine=machine,
         gearbox=analysis,
-        planetary=compare_with_planetary(machine) if is_papers_actuator(design) else None,
-        limits=cycloid_limits(machine),
+        planetary=beside.planetary,
+        limits=beside.limits,
         provenance=provenance(design),
         comments={} if source is None else read_comments(source),
         bodies=bodies,
-        notes=(*own_motor, *specimen.remarks, *notes, *unsolved, *judged.warnings),
+        notes=(*own_motor, *specimen.remarks, *notes, *beside.unsolved, *judged.warnings),
         verdict=judged,
         sizing=sizing,
         costs=() if source is None else kept_costs(source, design),
         files=files,
         # A print leads nowhere.
         target=target if browser is None else None,
-        contact=contact,
+        contact=beside.contact,
         clearances=clearances,
         pictures=pictures,
-        bench=measured,
-        bench_missing=unmeasured,
-        shocks=stops,
+        bench=beside.bench,
+        bench_missing=beside.bench_missing,
+        shocks=beside.shocks,
     )
     progress("writing the report")
     page = build_report(results)
     content = page if browser is None else printed_page(page, browser)
     file = write_atomically(target, content, "report")
     return WrittenReport(file, judged)
+
+
+class _Beside(NamedTuple):
+    """What a report tells that no verdict rests on; see `ReportInput`."""
+
+    contact: ContactAnalysis | None
+    unsolved: tuple[str, ...]
+    bench: tuple[ActuatorParameters, BenchResult] | None
+    bench_missing: str
+    shocks: Mapping[str, Shock]
+    planetary: PlanetaryComparison | None
+    limits: tuple[CycloidLimit, ...]
+
+
+def _beside(machine: Machine, specimen: Specimen) -> _Beside:
+    contact, unsolved = _contact(machine)
+    bench, missing = measured_actuator(machine, specimen)
+    papers = is_papers_actuator(machine.given)
+    return _Beside(
+        contact=contact,
+        unsolved=unsolved,
+        bench=bench,
+        bench_missing=missing,
+        shocks={} if bench is None else shocks(machine, specimen)[0],
+        planetary=compare_with_planetary(machine) if papers else None,
+        limits=cycloid_limits(machine),
+    )
+
+
+def _clearances(machine: Machine, drawn: Drawn | None) -> tuple[ClearancePoint, ...]:
+    """What other clearances would make of a machine whose gearboxes can be drawn."""
+    if drawn is None:
+        return ()
+    angles = drawn.continuous.ensemble.angles
+    fitting = _CLEARANCE_SAMPLES * _REPORT_ANGLES // max(angles, _REPORT_ANGLES)
+    return clearance_study(machine.design, max(fitting, _LEAST_CLEARANCE_SAMPLES), angles)
 
 
 def _contact(machine: Machine) -> tuple[ContactAnalysis | None, tuple[str, ...]]:

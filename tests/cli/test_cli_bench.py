@@ -164,9 +164,9 @@ def test_like_names_of_unlike_figures_are_told_apart(cqdd, paper_design_file):
     """Its continuous torque is of a standing output, that of the verdict for ever at speed."""
     done = cqdd("bench", paper_design_file)
     lines = done.out.splitlines()
-    standing = lines[lines.index("continuous_torque") + 1]
+    standing = next(line for line in lines if line.startswith("continuous_torque "))
     verdict = next(line for line in lines if " continuous torque " in line)
-    assert float(standing.split()[0]) != float(verdict.split()[3])
+    assert float(standing.split()[1]) != float(verdict.split()[3])
     words = " ".join(done.out.split())
     assert "continuous_torque is of a standing output, the continuous torque above is held" in words
     assert too_wide(done.out) == []

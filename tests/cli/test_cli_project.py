@@ -52,6 +52,26 @@ def test_where_tells_every_folder(cqdd, tmp_path):
     assert list(tmp_path.iterdir()) == [], "to tell is not to make"
 
 
+def test_where_tells_a_program_too(cqdd, tmp_path):
+    before, after = ["--json", "--where"], ["--where", "--json"]
+    told = [
+        {
+            one["name"]: one["folder"]
+            for one in cqdd("--project", "knee", *words).document["results"]["places"]
+        }
+        for words in (before, after)
+    ]
+    assert told[0] == told[1]
+    assert {name: told[0][name] for name in environment.OUTPUTS} == {
+        name: str(tmp_path / "knee" / name) for name in environment.OUTPUTS
+    }
+    assert set(told[0]) == {*environment.OUTPUTS, "kept results", "kernels"}
+    # Before a command it would ask for nothing.
+    done = cqdd("--json", "catalog", "motors")
+    assert done.code == 2
+    assert "write it after the command" in done.document["error"]["message"]
+
+
 def test_default_places_stand_once():
     """A folder's name joined by hand would not follow the project."""
     for path in PACKAGE.rglob("*.py"):

@@ -143,3 +143,15 @@ def test_the_report_says_what_the_command_says():
         words, unit = term(name)
         assert unit, name
         assert _named(name) == (words, pretty_unit(unit))
+
+
+def test_heads_of_the_reports_tables_begin_alike():
+    """With a capital, a figure or nothing; a unit alone stays as it is."""
+    small = []
+    for path in sorted((PACKAGE / "report" / "templates").glob("*.html")):
+        text = path.read_text(encoding="utf-8")
+        heads = re.findall(r"<th(?![^>]*colspan)[^>]*>([^<{]+)</th>", text)
+        for row in re.findall(r"\btable\(\[([^\]]*)\]", text):
+            heads += [name.lstrip("#~") for name in re.findall(r'"([^"]*)"', row)]
+        small += [(path.name, head) for head in heads if head[:1].islower()]
+    assert small == []

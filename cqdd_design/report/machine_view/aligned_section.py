@@ -47,6 +47,8 @@ _MARGIN = 16.0
 _SIDE = 216.0
 """Room for names on either side, px."""
 _LINE = 21.0
+_ENDS = np.s_[:-1], np.s_[1:]
+"""Of a chain's segments."""
 _SPECK = 0.02
 """Cut faces below this are grazed, not cut, mm^2."""
 _FRONT = Camera(np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0]), np.array([0.0, -1.0, 0.0]))
@@ -163,28 +165,22 @@ def _ground(lines: Sequence[FloatArray], faces: Sequence[CutFace], sheet: Sheet)
     """A pale ground under everything that has material in front of it or behind it."""
     from manifold3d import CrossSection, FillRule, OpType
 
+    chains = [*lines, *(loop for face in faces for loop in face.loops)]
+    below, above = (np.concatenate([chain[ends] for chain in chains]) for ends in _ENDS)
+    farthest = {side: np.maximum(side * below[:, 0], side * above[:, 0]) for side in (-1.0, 1.0)}
     strips = []
-    points = [line for line in (*lines, *(loop for face in faces for loop in face.loops))]
-    levels = np.unique(np.round(np.concatenate(points)[:, 1], 2))
+    levels = np.unique(np.round(np.concatenate(chains)[:, 1], 2))
     for low, high in pairwise(levels.tolist()):
         middle = 0.5 * (low + high)
-        for side in (-1.0, 1.0):
-            reach = max((_reach(line, middle, side) for line in points), default=0.0)
+        crossing = (below[:, 1] - middle) * (above[:, 1] - middle) <= 0.0
+        for side, far in farthest.items():
+            reach = float(far[crossing].max(initial=0.0))
             if reach > 0.0:
                 strip = np.array([[0.0, low], [side * reach, low], [side * reach, high], [0, high]])
                 strips.append(CrossSection([strip], FillRule.NonZero))
     ground = CrossSection.batch_boolean(strips, OpType.Add)
     data = path_data([np.asarray(loop) for loop in ground.to_polygons()], sheet, closed=True)
     return element("path", d=data, fill="#eef1f4", fill_rule="evenodd", transform=SCALED)
-
-
-def _reach(line: FloatArray, height: float, side: float) -> float:
-    """Farthest that a chain reaches from the axis at a height, mm; 0 where it does not cross."""
-    below, above = line[:-1], line[1:]
-    crossing = (below[:, 1] - height) * (above[:, 1] - height) <= 0.0
-    if not crossing.any():
-        return 0.0
-    return float(np.maximum(side * below[crossing, 0], side * above[crossing, 0]).max())
 
 
 def _face(face: CutFace, sheet: Sheet) -> str:
