@@ -156,6 +156,9 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
     if chosen.markexpr == "not deep":
         known = {file: rows for file, rows in _recorded.items() if rows is not None}
         place = Path(os.environ["CQDD_TEST_RUNS"]) / "recorded.pickle"
+        # An earlier run of the same process may have taken its folder away.
+        if not place.parent.is_dir():
+            return
         before = pickle.loads(place.read_bytes()) if place.exists() else {}
         place.write_bytes(pickle.dumps(before | known))
 

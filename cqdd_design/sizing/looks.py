@@ -44,8 +44,9 @@ class NothingWiderError(Exception):
 def learn(hunt: Hunt, found: Found) -> bool:
     """Look at a design until it asks for nothing more; whether the search has to be repeated.
 
-    Torques and clearances that a look asks for are given to the very design, and looked at again:
-    what they have to be hardly hangs on the sizes that a repeated search would change.
+    Torques and clearances that motor and heat ask for are given to the very design, and looked at
+    again: what they have to be hardly hangs on the sizes that a repeated search would change. What
+    part errors ask for does.
 
     Raises
     ------
@@ -56,12 +57,9 @@ def learn(hunt: Hunt, found: Found) -> bool:
         can, step = look(hunt, replace(machine, stiff=True))
         if can is None and step is None:
             step = closer_look(hunt, found, machine)
-        if can is None and step is None:
-            return turn > 0
+            take(hunt, None, step)
+            return turn > 0 or step is not None
         take(hunt, can, step)
-        if step == 0.0:
-            # Reserve, which other sizes alone bring.
-            break
         machine = machine.changed(_asked(hunt))
     return True
 

@@ -17,7 +17,7 @@ _GAP = 2
 """Rings in a row in which nothing is borne out, after which none that is smaller is tried: a ring
 may be too small for one cam bearing and too large for the next."""
 _NO_STEP = 1e-3
-"""By how much, as a share, a ring has to be larger than one that brought nothing."""
+"""By how much, as a share, a ring has to differ from those that have been tried."""
 _TEETH = (1.6, 2.5)
 """Ring teeth over those of a point, with which a search near it begins too: thick ones take less
 wall, so that holes and bearing have more room."""
@@ -37,9 +37,11 @@ def in_smaller_rings(hunt: Hunt, best: Found) -> list[Found]:
     """
     least = 2.0 * best.search.frame.least_outer_radius
     ladder, ring = [best], best.sized.design.reducer.ring.outer_diameter
+    tried: list[float] = []
     missed = 0
     while ring > least and missed < _GAP:
         ring = max((1.0 - _RING_STEP) * ring, least)
+        tried.append(ring)
         found, heavier = _in_ring(hunt, ladder[-1], ring, min(ladder, key=_worth))
         missed = 0 if found is not None or heavier else missed + 1
         if found is not None:
@@ -49,7 +51,7 @@ def in_smaller_rings(hunt: Hunt, best: Found) -> list[Found]:
     others = [one for one in ends if one.sized.objective.score <= _MAY_WIN * lightest]
     # Beside the first too: part errors may ask more of the others than they have.
     for start in (*(one for one in others if one is not best), best):
-        ladder.append(_finer(hunt, start, least))
+        ladder.append(_finer(hunt, start, least, tried))
     return sorted((one for one in ladder if one.worth < best.worth), key=_worth)
 
 
@@ -61,17 +63,24 @@ def beside(hunt: Hunt, found: Found) -> Found | None:
         return None
 
 
-def _finer(hunt: Hunt, best: Found, least: float) -> Found:
-    """The last design in smaller and smaller rings that is better than the one before."""
-    too_small = 0.0
+def _finer(hunt: Hunt, best: Found, least: float, tried: list[float]) -> Found:
+    """The last design in smaller and smaller rings that is better than the one before.
+
+    Parameters
+    ----------
+    least : float
+        Diameter, m, below which no ring is tried.
+    tried : list of float
+        Diameters, m, that have been; those that are tried here are added.
+    """
     for step in _FINER_STEPS:
         while (now := best.sized.design.reducer.ring.outer_diameter) > least:
             ring = max((1.0 - step) * now, least)
-            if ring < too_small * (1.0 + _NO_STEP):
+            if any(abs(ring - one) < _NO_STEP * one for one in tried):
                 break
+            tried.append(ring)
             found, _ = _in_ring(hunt, best, ring, best)
             if found is None or found.worth >= best.worth:
-                too_small = ring
                 break
             best = found
     return best
