@@ -30,12 +30,9 @@ _TOLD = 3
 def lacking(motor: Motor) -> tuple[str, ...]:
     """What a bare motor's row lacks of what the verdict needs, in words; empty where nothing.
 
-    The lines of the motor want its figures and those of heat its sizes. Drag that is not known
-    counts as none in the verdict of a motor that was named; among many it would make the motor
-    that nobody measured the best.
+    The lines of the motor want its figures and those of heat its sizes.
     """
-    drag = ("drag",) if motor.lacks_drag else ()
-    return tuple(dict.fromkeys((*missing_figures(motor), *undrawn_sizes(motor), *drag)))
+    return tuple(dict.fromkeys((*missing_figures(motor), *undrawn_sizes(motor))))
 
 
 @dataclass(frozen=True)

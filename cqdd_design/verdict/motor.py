@@ -27,12 +27,14 @@ _FIGURES = (
     ("line_resistance", "resistance"),
     ("torque_constant", "torque constant"),
 )
+DRAG_MISSING = "drag"
 GIVE = "give them in the design's [motor] table or with --motor-file, or name a motor that has them"
 
 
 def missing_figures(motor: Motor) -> tuple[str, ...]:
     """What the catalogue, or a file instead, does not say of a motor."""
-    return tuple(words for key, words in _FIGURES if getattr(motor, key) is None)
+    missing = tuple(words for key, words in _FIGURES if getattr(motor, key) is None)
+    return (*missing, DRAG_MISSING) if motor.lacks_drag else missing
 
 
 def motor_lines(
@@ -83,7 +85,10 @@ def _data(motor: Motor) -> tuple[Check, ...]:
     if not missing:
         return ()
     told = f"not known of '{motor.name}': {', '.join(missing)}"
-    return (build_check("MOTOR-DATA", None, float(len(_FIGURES)), told, GIVE, model=MODEL),)
+    if DRAG_MISSING in missing:
+        told += "; without its own drag, which counts as 0, lines of heat and speed say too much"
+    count = float(len(_FIGURES) + 1)
+    return (build_check("MOTOR-DATA", None, count, told, GIVE, model=MODEL),)
 
 
 def _peak(demand: Demand, motor: Motor, asked: Requirements) -> Check:

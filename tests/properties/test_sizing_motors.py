@@ -60,9 +60,9 @@ def ranks(requirements: Requirements, *rows: Motor):
 def test_a_motor_is_left_out_with_the_figures_that_its_row_lacks():
     assert lacking(STANDARD) == lacking(LITE) == ()
     assert lacking(find_motor("CubeMars RO80 KV105")) == (
+        "drag",
         "length of the stack",
         "depth of the slots",
-        "drag",
     )
     bare = replace(STANDARD, peak_torque=None, speed_constant=None, torque_constant_printed=None)
     assert lacking(bare) == ("peak torque", "torque constant")

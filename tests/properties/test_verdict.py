@@ -14,6 +14,7 @@ from shared_outputs import paper_input
 from cqdd_design.actuator.build import actuator_parameters
 from cqdd_design.actuator.operating import held_torque, needed
 from cqdd_design.actuator.specimen import AS_DRAWN
+from cqdd_design.catalog.motors import DRAG
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.checks.equilibrium import ENDLESS
 from cqdd_design.gearbox.checks.guide_row import GEOMETRY
@@ -154,6 +155,16 @@ def test_the_first_figure_is_the_weaker_of_motor_and_gearbox(judged: Verdict) ->
     assert figure.value <= motor
     ring = lines["CONTACT-RING-PEAK"]
     assert (figure.value < 50.0) == (motor < 50.0 or not ring.satisfied)
+
+
+def test_drag_that_nobody_measured_never_passes(machine: Machine) -> None:
+    """Stated as nothing it is known."""
+    free = replace(machine.motor, **dict.fromkeys(DRAG))
+    lines = by_id(motor_lines(replace(machine, motor=free), None, ""))
+    assert lines["MOTOR-DATA"].status == "unknown"
+    assert "drag, which counts as 0" in lines["MOTOR-DATA"].substituted
+    stated = replace(free, **dict.fromkeys(DRAG, 0.0))
+    assert "MOTOR-DATA" not in by_id(motor_lines(replace(machine, motor=stated), None, ""))
 
 
 @pytest.mark.parametrize("key", ["peak_torque", "bore_diameter", "rotor_inertia"])

@@ -112,7 +112,8 @@ ROWS = (
         "Motor data that the lines need",
         "",
         "min",
-        "known figures of: peak torque, stator bore, rotor inertia, resistance, torque constant",
+        "known figures of: peak torque, stator bore, rotor inertia, resistance, torque constant, "
+        "drag",
         "What is not known cannot be judged: without these figures nothing says that the motor "
         "is enough. Shown only where one is missing.",
         "motor catalogue",
