@@ -166,7 +166,8 @@ def conductances(machine: Machine, layout: Layout, motor: MotorLayout) -> Conduc
             joints.seat_conductance(pack.ring_radius, pack.top),
             annulus_conductance(
                 _known(design.reducer.ring_material, "conductivity"),
-                design.reducer.ring_pitch_radius,
+                # Thick teeth have their centres outside the roots, or even outside the ring.
+                min(design.reducer.ring_pitch_radius, pack.ledge_radius),
                 pack.ring_radius,
                 pack.top,
             ),

@@ -262,7 +262,8 @@ def test_any_motor_ends_in_a_verdict_that_is_yes(cqdd):
     done = cqdd("size", "--ratio", "10", *LOADS, *slow, "--motor", "any")
     assert done.code == 0, done.err
     told = "is the first by the screen's order whose verdict is yes: 1 tried by the whole verdict"
-    assert f"'CubeMars RO100 Lite KV55' {told}, 1 only screened." in done.out
+    folded = " ".join(done.out.split())
+    assert f"'CubeMars RO100 Lite KV55' {told}, 1 only screened." in folded
     assert cqdd("check", "designs/sized-10.toml").code == 0
 
 

@@ -31,7 +31,7 @@ from cqdd_design.machine.temperatures import (
     judged_temperatures,
     machine_temperatures,
 )
-from cqdd_design.machine.thermal_parts import NODES, node_values
+from cqdd_design.machine.thermal_parts import NODES, machine_network, node_values
 
 W, H = NODES.index("winding"), NODES.index("housing")
 
@@ -56,6 +56,34 @@ def test_all_heat_leaves_to_the_air(found: MachineTemperatures) -> None:
         ).total,
         rel=1e-12,
     )
+
+
+def test_teeth_thicker_than_the_ring_conduct_through_its_wall(machine: Machine) -> None:
+    """Their centres lie on the outside of the ring, or beyond it."""
+    changes = {
+        "requirements.ratio": 8,
+        "reducer.ratio": 8,
+        "reducer.eccentricity": 1.72e-3,
+        "reducer.ring_pin_diameter": 14.1e-3,
+        "reducer.disc_thickness": 8.9e-3,
+        "reducer.cam_bearing.designation": "needle cage K8x11x8",
+        "reducer.output_pins.count": 8,
+        "reducer.output_pins.diameter": 5e-3,
+        "reducer.output_pins.circle_radius": 14.8e-3,
+        "reducer.output_pins.hole_clearance": 40e-6,
+        "reducer.ring.outer_diameter": 55.5e-3,
+    }
+    values = []
+    for radius in (27.7e-3, 27.75e-3, 27.8e-3):
+        thick = resolve(
+            machine.design.replacing(changes | {"reducer.ring_pitch_radius": radius}),
+            machine.motor,
+        )
+        network = machine_network(thick)
+        values.append(network.conductance[NODES.index("housing"), NODES.index("ring")])
+    assert np.all(np.isfinite(values))
+    assert min(values) > 0.0
+    assert max(values) < 1.05 * min(values)
 
 
 SHARES = {
