@@ -24,15 +24,15 @@ import importlib
 import io
 import json
 import os
-import pickle
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from functools import cache, partial
+from functools import partial
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
 import gallery
+from recorded import records, rows_of
 
 DOCS = Path(__file__).resolve().parent
 BEGIN, END = "<!-- help: written by docs/build.py -->", "<!-- end of help -->"
@@ -80,79 +80,18 @@ def _kinds(command: str) -> str:
     return "".join(["| kind | what is written |\n|---|---|\n", *rows, "\n"]) if rows else ""
 
 
-class _Records:
-    """Pytest plugin: collects what tests recorded about their comparisons, with file and name."""
-
-    def __init__(self) -> None:
-        self.rows: list[tuple[str, str, tuple[Any, ...]]] = []
-
-    def pytest_runtest_logreport(self, report: object) -> None:
-        if getattr(report, "when", "") == "call":
-            file = Path(getattr(report, "nodeid", "").partition("::")[0]).name
-            properties = getattr(report, "user_properties", [])
-            self.rows += [(file, name, tuple(value)) for name, value in properties]
-
-
-@cache
-def _run(test: str) -> list[tuple[str, str, tuple[Any, ...]]]:
-    """What the tests of a file or folder recorded; several pages ask for some.
-
-    A run of the daily tests of this very tree, in which they passed, has left it in the folder that
-    CQDD_TEST_RUNS names; else they are run.
-    """
-    before = _recorded_before(test)
-    if before is not None:
-        return before
-    import pytest
-
-    seen = _Records()
-    quiet = io.StringIO()
-    place = str(DOCS.parent / "tests" / test)
-    with contextlib.redirect_stdout(quiet):
-        code = pytest.main([place, "-q", "-p", "no:cacheprovider", "-p", "no:xdist"], [seen])
-    if code != 0:
-        raise SystemExit(f"{test} does not pass:\n{quiet.getvalue()}")
-    return seen.rows
-
-
-def _recorded_before(test: str) -> list[tuple[str, str, tuple[Any, ...]]] | None:
-    """The same from an earlier run; None where it has not all files."""
-    place = Path(os.environ.get("CQDD_TEST_RUNS", "")) / "recorded.pickle"
-    if not os.environ.get("CQDD_TEST_RUNS") or not place.is_file():
-        return None
-    known = pickle.loads(place.read_bytes())
-    tests = DOCS.parent / "tests"
-    folder = tests / test
-    files = sorted(folder.glob("test_*.py")) if folder.is_dir() else [folder]
-    names = [file.relative_to(tests).as_posix() for file in files]
-    if not all(name in known for name in names):
-        return None
-    return [(Path(name).name, said, tuple(value)) for name in names for said, value in known[name]]
-
-
-def _records(name: str, *tests: str) -> list[tuple[Any, ...]]:
-    """What the tests of some files recorded under a name, from a run of them."""
-    found = []
-    for test in tests:
-        folder, _, file = test.rpartition("/")
-        # A page has all of tests/published, which is run once for those that have some of it.
-        rows = _run(folder if folder == "published" else test)
-        found += [value for of, said, value in rows if of == file and said == name]
-    return found
-
-
 def validation_page() -> str:
     """The page of validation tables, from a run of tests/published."""
     from validation import page
 
     folder = DOCS.parent / "tests" / "published"
-    records = [value for _, name, value in _run("published") if name == "published"]
+    records = [value for _, name, value in rows_of("published") if name == "published"]
     return page(records, folder / "data" / "published_examples.csv")
 
 
 def _recorded(*names: str) -> str:
     """Table of what the tests of some files recorded, from a run of them."""
-    found = _records("validation", *names)
+    found = records("validation", *names)
     rows = [f"| {what} | {against} | {met} | {bound} |" for what, against, met, bound in found]
     return "\n".join(["| quantity | against | worst met | bound |", "|---|---|---|---|", *rows])
 
@@ -381,7 +320,7 @@ def _with_tables(page_name: str, tables: Mapping[str, Callable[[], str]]) -> str
 
 def _published(group: str) -> list[Any]:
     """What a run of tests/published computed for the rows of a group."""
-    rows = _records(
+    rows = records(
         "published", "published/test_losses_published.py", "published/test_film_published.py"
     )
     return [row for row in rows if row[0]["group"] == group]

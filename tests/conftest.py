@@ -148,7 +148,7 @@ def pytest_runtest_logreport(report: pytest.TestReport) -> None:
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    """Leave what whole files recorded to docs/build.py, which would run them again for it."""
+    """Leave what whole files recorded to docs/recorded.py, which would run them again for it."""
     chosen, config = session.config.option, session.config
     whole = not chosen.keyword and not any("::" in one for one in config.args)
     if hasattr(config, "workerinput") or not whole or session.shouldstop or session.shouldfail:

@@ -55,7 +55,7 @@ def in_smaller_rings(hunt: Hunt, best: Found) -> list[Found]:
     return sorted((one for one in ladder if one.worth < best.worth), key=_worth)
 
 
-def beside(hunt: Hunt, found: Found) -> Found | None:
+def in_its_ring(hunt: Hunt, found: Found) -> Found | None:
     """The best design in the same ring with what the hunt has learnt since, if there is one."""
     try:
         return settled(hunt, found.space, None, found.needs, found.point, _ROUNDS)[0]

@@ -30,7 +30,7 @@ from cqdd_design.sizing.looks import (
 from cqdd_design.sizing.refusals import TRIALS, nothing, refused, unsettled
 from cqdd_design.sizing.result import SizingResult
 from cqdd_design.sizing.shafts import BOND, SHAFT, stronger_shaft
-from cqdd_design.sizing.smaller_rings import beside, in_smaller_rings
+from cqdd_design.sizing.smaller_rings import in_its_ring, in_smaller_rings
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.verdict import Verdict, judge
 
@@ -216,11 +216,13 @@ def _in_smaller_rings(hunt: Hunt, found: Found) -> Iterator[Found]:
             step = closer_look(hunt, other, other.sized.machine)
             if step is None:
                 yield other
+                # Not the one after all: what its bearing takes is nothing to the others.
+                hunt.extra = extra
                 return
             if step > 0.0:
                 break
             # Another cam bearing takes another reserve, which may fit into the same ring.
-            other = beside(hunt, other)
+            other = in_its_ring(hunt, other)
         hunt.extra = dict(extra)
 
 

@@ -98,7 +98,11 @@ window.addEventListener("load", function () {
     return mesh();
   }
   var found = { figures: figures(), overflow: document.documentElement.scrollWidth -
-    document.documentElement.clientWidth, outside: [] };
+    document.documentElement.clientWidth, outside: [], bars: 0, hiddenBars: 0 };
+  document.querySelectorAll(".margin-bar rect").forEach(function (bar) {
+    found.bars += 1;
+    if (getComputedStyle(bar).display !== "inline") { found.hiddenBars += 1; }
+  });
   document.querySelectorAll("a[href^='#']").forEach(function (link) {
     if (!document.getElementById(link.getAttribute("href").slice(1))) {
       found.outside.push(link.getAttribute("href"));

@@ -127,21 +127,19 @@ def test_generated_pages_are_up_to_date():
 def test_pages_take_what_whole_files_of_an_earlier_run_recorded(monkeypatch, tmp_path):
     """And nothing where one of the folder's files failed or did not run."""
     monkeypatch.syspath_prepend(REPOSITORY / "docs")
-    spec = importlib.util.spec_from_file_location("build", REPOSITORY / "docs" / "build.py")
-    build = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(build)
+    recorded = importlib.import_module("recorded")
     files = sorted((REPOSITORY / "tests" / "published").glob("test_*.py"))
     told = {f"published/{file.name}": [("published", (file.stem, 1.5))] for file in files}
     monkeypatch.setenv("CQDD_TEST_RUNS", str(tmp_path))
-    assert build._recorded_before("published") is None
+    assert recorded.recorded_before("published") is None
     (tmp_path / "recorded.pickle").write_bytes(pickle.dumps(told))
-    rows = build._recorded_before("published")
+    rows = recorded.recorded_before("published")
     assert rows == [(file.name, "published", (file.stem, 1.5)) for file in files]
-    assert build._recorded_before("properties/test_contact_validation.py") is None
+    assert recorded.recorded_before("properties/test_contact_validation.py") is None
     del told[f"published/{files[3].name}"]
     (tmp_path / "recorded.pickle").write_bytes(pickle.dumps(told))
-    assert build._recorded_before("published") is None
-    one = build._recorded_before(f"published/{files[0].name}")
+    assert recorded.recorded_before("published") is None
+    one = recorded.recorded_before(f"published/{files[0].name}")
     assert one == [(files[0].name, "published", (files[0].stem, 1.5))]
 
 

@@ -118,6 +118,11 @@ def test_every_figure_is_drawn(seen: dict[str, Any]) -> None:
         assert figure["labelled"], f"{name} points at a label that is missing"
 
 
+def test_bars_of_the_margins_are_shown(seen: dict[str, Any]) -> None:
+    assert seen["bars"] > 40
+    assert seen["hiddenBars"] == 0
+
+
 def test_labels_stand_clear_of_each_other(seen: dict[str, Any]) -> None:
     for figure in seen["figures"]:
         assert overlapping(figure) == [], figure["id"]
