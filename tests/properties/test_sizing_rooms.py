@@ -125,6 +125,10 @@ def test_more_costs_what_a_search_for_more_finds():
     closed = found.sized.objective.mass + more
     assert closed == pytest.approx(whole.sized.objective.mass, rel=0.05)
     assert told["peak_torque"].to_dict()["mass_g"] == pytest.approx(1e3 * more)
+    # Beside a design that is heavier than it has to be, more costs nothing, and no less.
+    heavy = replace(found.sized.objective, mass=2.0 * found.sized.objective.mass)
+    spare = replace(found, sized=replace(found.sized, objective=heavy))
+    assert [one.mass for one in costs(own, spare)][:3] == [0.0, 0.0, 0.0]
     # Its pins are the strongest that go into so small a ring.
     assert told["outer_diameter"].mass is None
     assert math.isfinite(told["life"].mass)

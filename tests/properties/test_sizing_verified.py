@@ -39,7 +39,13 @@ from cqdd_design.sizing.bearable import or_weaker, weaker
 from cqdd_design.sizing.exact import exact_checks, shortfalls
 from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.frame import Fit, search_frame
-from cqdd_design.sizing.looks import clearance_needed, read_spread
+from cqdd_design.sizing.looks import (
+    NothingWiderError,
+    clearance_needed,
+    learn,
+    read_spread,
+    take,
+)
 from cqdd_design.sizing.refusals import unsettled
 from cqdd_design.sizing.reserves import ring_reserves
 from cqdd_design.sizing.shafts import stronger_shaft
@@ -282,6 +288,54 @@ def test_less_is_asked_of_a_shaft_where_a_wider_bore_would_take_more(
     stronger_shaft(firm, light, short)
     assert firm.least_bore > bore
     assert firm.requirements.peak_torque == peak
+
+
+def test_what_looks_ask_for_is_what_the_hunt_is_for() -> None:
+    hunt = hunt_of_what_is_assumed()
+    asked = hunt.requirements
+    take(hunt, None, 0.0)
+    assert hunt.fit == FITS[0]
+    take(hunt, None, 1e-6)
+    assert hunt.fit == FITS[1]
+    take(hunt, None, 1.01 * (FITS[2].hole_clearance - FITS[1].hole_clearance))
+    assert hunt.fit == FITS[3]
+    with pytest.raises(NothingWiderError):
+        take(hunt, None, FITS[-1].hole_clearance)
+    take(hunt, asked.model_copy(update={"continuous_torque": 1.1 * asked.continuous_torque}), None)
+    assert not hunt.lowered
+    take(hunt, asked, None)
+    assert hunt.lowered
+    assert hunt.requirements == asked
+
+
+def test_a_design_is_looked_at_with_what_it_was_found_to_ask_for(
+    monkeypatch: pytest.MonkeyPatch, light: Found
+) -> None:
+    hunt = hunt_of_what_is_assumed()
+    less = hunt.requirements.model_copy(update={"peak_torque": 33.0, "continuous_torque": 3.0})
+    answers: list[Any] = [(less, None), (None, 1e-6), (None, None)]
+    seen: list[Machine] = []
+
+    def look(_: Hunt, own: Machine) -> Any:
+        seen.append(own)
+        return answers.pop(0)
+
+    monkeypatch.setattr("cqdd_design.sizing.looks.look", look)
+    monkeypatch.setattr("cqdd_design.sizing.looks.closer_look", lambda *_: None)
+    assert learn(hunt, light)
+    torques = [one.design.requirements.peak_torque for one in seen]
+    assert torques == [light.sized.design.requirements.peak_torque, 33.0, 33.0]
+    assert seen[2].design.requirements.continuous_torque == 3.0
+    fits = [one.design.reducer.output_pins.hole_clearance for one in seen]
+    assert fits == [FITS[0].hole_clearance, FITS[0].hole_clearance, FITS[1].hole_clearance]
+    assert seen[2].design.reducer.modification.equidistant == FITS[1].equidistant
+    assert all(one.stiff for one in seen)
+    # Nothing asked for, nothing to repeat; and what part errors ask for is another search.
+    answers.append((None, None))
+    assert not learn(hunt, light)
+    answers.append((None, None))
+    monkeypatch.setattr("cqdd_design.sizing.looks.closer_look", lambda *_: 0.0)
+    assert learn(hunt, light)
 
 
 @pytest.mark.deep
