@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.sizing.able import CONTINUOUS, PEAK
-from cqdd_design.sizing.agreement import FITS, RING, Found, Hunt, lightest, spaces
+from cqdd_design.sizing.agreement import RING
+from cqdd_design.sizing.hunt import FITS, Found, Hunt, spaces
 from cqdd_design.sizing.infeasible import SizingInfeasibleError, no_design
+from cqdd_design.sizing.kinds import lightest
 from cqdd_design.sizing.search import Search
 from cqdd_design.verdict import Verdict
 
@@ -28,12 +30,12 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
         return closed
     torque = asked.peak_torque if closed is None else closed.most_torque or 0.0
     carried = _carried(hunt, torque)
-    errors = "and with what part errors take, " if hunt.extra else ""
+    errors = "and with what part errors take, " if hunt.has_extra else ""
     text = (
         f"{asked.peak_torque:g} N*m at ratio {asked.ratio}, {asked.continuous_torque:g} N*m of it "
         f"for ever, do not fit: by the contact equilibrium, {errors}"
     )
-    ways = ["state closer [tolerances] in a design"] if hunt.extra else []
+    ways = ["state closer [tolerances] in a design"] if hunt.has_extra else []
     if carried is None:
         text += "far less is carried in this space"
         ways.insert(0, "lower both torques")
@@ -49,7 +51,10 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
     remedy = ", or ".join(ways)
     return SizingInfeasibleError(
         f"{text}. {remedy[0].upper()}{remedy[1:]}.",
-        binding=(*(("YIELD",) if hunt.extra else ()), *((RING,) if not closed else closed.binding)),
+        binding=(
+            *(("YIELD",) if hunt.has_extra else ()),
+            *((RING,) if not closed else closed.binding),
+        ),
         most_torque=carried,
         outer_diameter_needed=ring,
         length_needed=length,
