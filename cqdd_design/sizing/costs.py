@@ -13,8 +13,8 @@ from cqdd_design.errors import InfeasibleError
 from cqdd_design.sizing.agreement import settled
 from cqdd_design.sizing.hunt import Found, Hunt, Space
 from cqdd_design.sizing.looks import closer_look
+from cqdd_design.sizing.points import Evaluator
 from cqdd_design.sizing.result import Cost
-from cqdd_design.sizing.search import Search
 
 _MORE, _TWICE, _LESS_ROOM = 1.1, 2.0, 0.95
 _WIDER = 1.04
@@ -58,10 +58,11 @@ def _more_mass(
     """By closed forms; what asks for more takes no less."""
     asked = hunt.requirements.model_copy(update=dict(changed))
     try:
-        search = Search.of(replace(hunt, requirements=asked).frame(space, found.needs), hunt.tables)
+        frame = replace(hunt, requirements=asked).frame(space, found.needs)
     except InfeasibleError:
         return None
-    near = search.lightest(found.point)
+    evaluator = Evaluator.of(frame, hunt.tables, found.search.space.pin_counts)
+    near = replace(found.search, evaluator=evaluator).lightest(found.point)
     if near is None:
         return None
     return max(near[0].objective.mass - found.sized.objective.mass, 0.0)
