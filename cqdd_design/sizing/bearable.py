@@ -103,6 +103,21 @@ def bearable(hunt: Hunt, near: Found | None) -> tuple[float, float]:
     return max(first, other, key=math.prod)
 
 
+def both_bearable(hunt: Hunt) -> float:
+    """About what share of both torques, stated or not, the strongest design bears."""
+    for share in _SHARES:
+        found = _strongest(replace(hunt, requirements=times(hunt.requirements, share)), None)
+        if found is not None:
+            return share * min(found)
+    return _SHARES[-1]
+
+
+def times(requirements: Requirements, share: float) -> Requirements:
+    """The requirements with a share of both torques, stated or not."""
+    changed = {key: share * getattr(requirements, key) for key in (PEAK, CONTINUOUS)}
+    return requirements.model_copy(update=changed)
+
+
 def _strongest(hunt: Hunt, near: Found | None) -> tuple[float, float] | None:
     """Reserves of both torques with whichever of the strong cam bearings bears most.
 

@@ -135,7 +135,13 @@ def closer_look(hunt: Hunt, found: Found, machine: Machine) -> float | None:
     """What a few gearboxes ask for: see `read_spread`."""
     hunt.say(f"looking at toleranced gearboxes of {found.sized.design.name}")
     try:
-        drawn = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False)
+        drawn = drawn_gearboxes(
+            machine,
+            _TRIAL_SAMPLES,
+            sensitivity=False,
+            # Wider holes make discs no softer that anyone would see.
+            bodies=found.sized.design,
+        )
     except ContactError:
         return _LEAST_STEP
     return read_spread(hunt, machine, drawn, exact_checks(machine))

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.design import Design
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
@@ -31,7 +32,9 @@ class Drawn(NamedTuple):
     """The greatest loads alone."""
 
 
-def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Drawn:
+def drawn_gearboxes(
+    machine: Machine, samples: int, *, sensitivity: bool, bodies: Design | None = None
+) -> Drawn:
     """Toleranced gearboxes at the continuous and at the peak torque.
 
     Parameters
@@ -40,6 +43,8 @@ def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Dra
         Gearboxes.
     sensitivity : bool
         Whether to rank the tolerances too, at the continuous torque, which takes twice as many.
+    bodies : Design, optional
+        Whose discs and ring yield, for a look at one with other clearances; default its own.
 
     Raises
     ------
@@ -50,12 +55,14 @@ def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Dra
     peak = machine.design.requirements.peak_torque
     # Greatest loads alone need the fewest angles.
     fewest = PER_TOOTH[1] * ratio * (ratio + 1)
-    at_peak = make_ensemble(machine.design, angles=fewest, torque=peak, outputs=LOADS)
+    at_peak = make_ensemble(
+        machine.design, angles=fewest, torque=peak, outputs=LOADS, bodies=bodies
+    )
     peaks = run_ensemble(at_peak, samples, mapper=work_remembered, sensitivity=False)
     # Last, so that what discs and ring yield at all its angles is at hand for other clearances.
     found = Drawn(
         run_ensemble(
-            make_ensemble(machine.design),
+            make_ensemble(machine.design, bodies=bodies),
             samples,
             mapper=work_remembered,
             sensitivity=sensitivity,
