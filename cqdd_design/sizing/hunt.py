@@ -7,6 +7,9 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
@@ -38,7 +41,7 @@ NEEDLE_PINS = "AISI 52100 / 100Cr6 hardened"
 """Of output pins that needles run on, where none is asked for."""
 DISC_COUNTS = (2, 3)
 """Likewise of discs: those that balance."""
-_LIKELY = 0.93
+_LIKELY = 0.96
 """Of a reserve that part errors ask for with other cam bearings: they differ by so much."""
 _SOLVED = 15
 """Designs that are kept with their equilibria, but for the last."""
@@ -156,13 +159,19 @@ class Hunt:
         Whether output pins that are tried are on needles.
     tried : set of Goal
         Goals that were taken to meet something that is asked for.
+    yielding : tuple of array, optional
+        Outputs of gearboxes whose discs and ring yield over those of rigid ones, at the continuous
+        and at the peak torque, of the first design that was looked at.
     solved : list
         The last designs that were held against the equilibrium, for searches that come back.
     known : dict of Space to Found
         The best with each cam bearing as it was found last, in a ring of any size and for the
         closest fit: where to begin when asked again.
     answered : dict of Space to tuple
-        What was asked of a cam bearing in a space, and the best that was found for it.
+        What was fixed and asked for part errors of a cam bearing in a space, and the best that was
+        found for it, if anything was.
+    too_weak : dict
+        Peak torque, N m, beyond which shafts are hopeless, by disc count and cam bearing's bore.
     """
 
     requirements: Requirements
@@ -180,9 +189,13 @@ class Hunt:
     most_pin_circle: float = math.inf
     pins: tuple[bool, ...] = (False,)
     tried: set[Goal] = field(default_factory=set)
+    yielding: tuple[NDArray[np.float64], ...] | None = None
     solved: list[tuple[Machine, tuple[Check, ...]]] = field(default_factory=list)
     known: dict[Space, Found] = field(default_factory=dict)
-    answered: dict[Space, tuple[tuple[object, ...], Found]] = field(default_factory=dict)
+    answered: dict[Space, tuple[object, Mapping[str, float], Found | None]] = field(
+        default_factory=dict
+    )
+    too_weak: dict[tuple[int, float], float] = field(default_factory=dict)
 
     def held_against(self, machine: Machine) -> tuple[Machine, tuple[Check, ...]]:
         """The machine of its design that is known, and its load lines by the equilibrium.
@@ -199,6 +212,11 @@ class Hunt:
         self.solved[_SOLVED:] = []
         self.solved.insert(0, found)
         return found
+
+    @property
+    def fixed(self) -> tuple[object, ...]:
+        """What is asked of every design but for part errors."""
+        return self.requirements, self.goal, self.most_pin_circle, self.least_bore
 
     @property
     def has_extra(self) -> bool:

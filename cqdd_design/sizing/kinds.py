@@ -73,7 +73,7 @@ def lightest(hunt: Hunt) -> Found | None:
     best = next(iter(ranked(hunt)), None)
     if PEAK in hunt.requirements.derived:
         # Torques that nobody stated are lowered instead.
-        return best
+        return None if best is None or _is_hopeless(best) else best
     if (best is None or best.weak) and hunt.extra_of:
         # What is known of others may be too much for those that are not known.
         hunt.trusting = True
@@ -89,7 +89,9 @@ def promising(hunt: Hunt) -> Found | None:
     that will do.
     """
     best = next(iter(ranked(hunt, thorough=False)), None)
-    return tightest(hunt) if best is None and PEAK not in hunt.requirements.derived else best
+    if PEAK in hunt.requirements.derived:
+        return None if best is None or _is_hopeless(best) else best
+    return tightest(hunt) if best is None else best
 
 
 def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
@@ -109,27 +111,28 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
     found: list[Found] = []
     best: Found | None = None
     anew: set[Space] = set()
-    weakest: dict[int, float] = {}
     while kinds:
         # What is of the weaker material asks for more clearance than the best will.
         kind = min(kinds, key=lambda one: (not thorough and one.space.is_soft, one.objective))
         kinds.remove(kind)
         if best is not None and kind.objective > _SLACK * best.worth[1]:
             break
-        count, place = kind.space.disc_count, kind.space.anywhere
-        if kind.bore <= weakest.get(count, 0.0):
+        place = kind.space.anywhere
+        if _is_too_weak(hunt, kind):
             continue
-        one = _known(hunt, kind) or _in_rings(hunt, kind, best, thorough=thorough)
+        known, one = _answered(hunt, kind)
+        if not known:
+            one = _in_rings(hunt, kind, best, thorough=thorough)
+            if thorough:
+                hunt.answered[kind.space] = hunt.fixed, hunt.extra_for(kind.space.cam), one
         if one is None:
             continue
         found.append(one)
         if one.weak:
-            if any(not line.known or line.margin < _HOPELESS for line in one.weak):
-                weakest[count] = max(kind.bore, weakest.get(count, 0.0))
+            if _is_hopeless(one):
+                hunt.too_weak[kind.space.disc_count, kind.bore] = _bears(hunt, one)
             continue
         hunt.known[_key(kind.space)] = one
-        if thorough:
-            hunt.answered[kind.space] = _asked(hunt, kind), one
         if not one.worth[0] and (best is None or one.worth < best.worth):
             best = one
             if not thorough:
@@ -144,16 +147,40 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
     return sorted(found, key=lambda one: one.worth)
 
 
-def _known(hunt: Hunt, kind: _Kind) -> Found | None:
-    """The best of a kind, where nothing that is asked of it has changed since it was found."""
-    asked, found = hunt.answered.get(kind.space, (None, None))
-    return found if asked == _asked(hunt, kind) else None
+def _is_hopeless(found: Found) -> bool:
+    """Whether a design's shaft is so weak that nothing near by will do."""
+    return any(not line.known or line.margin < _HOPELESS for line in found.weak)
 
 
-def _asked(hunt: Hunt, kind: _Kind) -> tuple[object, ...]:
-    """All that is asked of designs of a kind."""
-    extra = tuple(sorted(hunt.extra_for(kind.space.cam).items()))
-    return hunt.requirements, hunt.goal, hunt.most_pin_circle, extra
+def _bears(hunt: Hunt, found: Found) -> float:
+    """Peak torque beyond which a weak design's shaft is hopeless, N m; 0 where none would do."""
+    if not all(line.known for line in found.weak):
+        return 0.0
+    margin = min(line.margin for line in found.weak)
+    return hunt.requirements.peak_torque * margin / _HOPELESS
+
+
+def _is_too_weak(hunt: Hunt, kind: _Kind) -> bool:
+    """Whether a bearing as wide at least was found to leave a hopeless shaft."""
+    peak = hunt.requirements.peak_torque
+    return any(
+        count == kind.space.disc_count and kind.bore <= bore and peak > most
+        for (count, bore), most in hunt.too_weak.items()
+    )
+
+
+def _answered(hunt: Hunt, kind: _Kind) -> tuple[bool, Found | None]:
+    """Whether a kind's best is known from before, and that: what is asked of it has not changed.
+
+    Where nothing was found, nothing will be for more.
+    """
+    fixed, extra, found = hunt.answered.get(kind.space, (None, {}, None))
+    if fixed != hunt.fixed:
+        return False, None
+    now = hunt.extra_for(kind.space.cam)
+    if found is not None:
+        return extra == now, found
+    return all(now.get(one, 1.0) >= less for one, less in extra.items()), None
 
 
 def _key(space: Space) -> Space:

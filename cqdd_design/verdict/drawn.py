@@ -10,7 +10,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.design import Design
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
@@ -33,7 +32,7 @@ class Drawn(NamedTuple):
 
 
 def drawn_gearboxes(
-    machine: Machine, samples: int, *, sensitivity: bool, bodies: Design | None = None
+    machine: Machine, samples: int, *, sensitivity: bool, rigid: bool = False
 ) -> Drawn:
     """Toleranced gearboxes at the continuous and at the peak torque.
 
@@ -43,8 +42,8 @@ def drawn_gearboxes(
         Gearboxes.
     sensitivity : bool
         Whether to rank the tolerances too, at the continuous torque, which takes twice as many.
-    bodies : Design, optional
-        Whose discs and ring yield, for a look at one with other clearances; default its own.
+    rigid : bool
+        Whether discs and ring do not yield, for a look that has to be quick.
 
     Raises
     ------
@@ -55,14 +54,12 @@ def drawn_gearboxes(
     peak = machine.design.requirements.peak_torque
     # Greatest loads alone need the fewest angles.
     fewest = PER_TOOTH[1] * ratio * (ratio + 1)
-    at_peak = make_ensemble(
-        machine.design, angles=fewest, torque=peak, outputs=LOADS, bodies=bodies
-    )
+    at_peak = make_ensemble(machine.design, angles=fewest, torque=peak, outputs=LOADS, rigid=rigid)
     peaks = run_ensemble(at_peak, samples, mapper=work_remembered, sensitivity=False)
     # Last, so that what discs and ring yield at all its angles is at hand for other clearances.
     found = Drawn(
         run_ensemble(
-            make_ensemble(machine.design, bodies=bodies),
+            make_ensemble(machine.design, rigid=rigid),
             samples,
             mapper=work_remembered,
             sensitivity=sensitivity,
