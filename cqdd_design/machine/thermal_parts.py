@@ -31,7 +31,8 @@ from cqdd_design.gearbox.heat.surfaces import Surface, annulus_conductance
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.machine.machine import Machine
 from cqdd_design.solids.inertia import GROUPS
-from cqdd_design.solids.layout import Layout, MotorLayout
+from cqdd_design.solids.layout import Layout
+from cqdd_design.solids.motor_layout import MotorLayout
 from cqdd_design.solids.selection import ChosenBearing
 
 Node = Literal["winding", "stator", "rotor", "cover", "housing", "ring", "disc", "shaft", "carrier"]

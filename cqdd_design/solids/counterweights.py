@@ -19,7 +19,8 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.contours import ArcContour, FloatArray, PlanarPart, as_points
 from cqdd_design.results import MassProperties
 from cqdd_design.solids.layers import prism
-from cqdd_design.solids.layout import Layout, MotorLayout
+from cqdd_design.solids.layout import Layout
+from cqdd_design.solids.motor_layout import MotorLayout
 from cqdd_design.solids.part import Colour, Part, on_axis
 from cqdd_design.solids.poses import SHAFT, body_pose
 

@@ -28,7 +28,8 @@ from cqdd_design.solids.features.motor import (
 )
 from cqdd_design.solids.inertia import BELL, ROTOR
 from cqdd_design.solids.layers import Stack
-from cqdd_design.solids.layout import Layout, MotorLayout
+from cqdd_design.solids.layout import Layout
+from cqdd_design.solids.motor_layout import MotorLayout
 from cqdd_design.solids.motor_rules import bell_material
 from cqdd_design.solids.part import Colour, Part, Source, around, on_axis, placed
 from cqdd_design.solids.poses import HOUSING, SHAFT, transform

@@ -21,7 +21,8 @@ from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, SAFETY, length_needed
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.geometry.scale import MOST_TUBE_WALL, largest_ring
-from cqdd_design.solids.layout import MotorLayout
+from cqdd_design.solids.motor_layout import MotorLayout
+from cqdd_design.solids.registers import spigot_depth
 from cqdd_design.solids.selection import cap_screw, thread_size
 
 if TYPE_CHECKING:
@@ -199,6 +200,11 @@ def lay_out_motor(
     head = cap_screw(thread, 0.0).head_diameter
     ear_height = 2.0 * thread
     flange = min(3.0 * unit, pack.top - housing.flange_bottom)
+    # Over the bell, whose ring ends a unit and a half below the flange.
+    spigot = min(spigot_depth(unit), 0.8 * unit)
+    spigot_inner = inner - unit
+    if housing.flange_radius > spigot_inner:
+        spigot = 0.0
     cable_room = inner - 0.5 * unit - housing.flange_radius - 0.5 * unit
     return MotorLayout(
         stack_inner=0.5 * (motor.bore_diameter or 0.0),
@@ -229,6 +235,8 @@ def lay_out_motor(
         cover_outer=inner + wall,
         cover_floor=web_bottom - unit - room,
         cover_wall=wall,
+        spigot=spigot,
+        spigot_inner=spigot_inner,
         ear_count=6,
         ear_radius=0.5 * head + 0.8 * unit,
         ear_circle=circle,

@@ -27,7 +27,8 @@ from cqdd_design.solids.layers import (
     scalloped_circle,
     turned,
 )
-from cqdd_design.solids.layout import DowelLayout, Layout, MotorLayout
+from cqdd_design.solids.layout import DowelLayout, Layout
+from cqdd_design.solids.motor_layout import MotorLayout
 
 _SENSOR_SIDE = 3.0e-3
 
@@ -72,6 +73,8 @@ def with_motor_flange(
 ) -> Stack:
     """The housing with lip and skirt for the stator, and its flange grown over the motor.
 
+    A rim under the flange centres the motor's cover.
+
     The features' holes outside the flange are in its ears and between them.
     """
     housing = layout.housing
@@ -85,6 +88,10 @@ def with_motor_flange(
             (circle(housing.register_radius - 2.5 * layout.unit),),
         )
         layers.append(Layer(tube, motor.stack_bottom, housing.bottom))
+    if motor.spigot:
+        rim = PlanarPart("spigot", circle(motor.cover_inner), (circle(motor.spigot_inner),))
+        bottom = housing.flange_bottom - motor.spigot
+        layers.append(Layer(rim, bottom, housing.flange_bottom))
     grown = reshaped(
         Stack(tuple(layers)),
         motor.stack_top,

@@ -107,7 +107,9 @@ class Part:
     def features(self) -> tuple[Feature, ...]:
         """All that it is made of: what is stated, and chamfers on the edges that turning leaves."""
         turned = self.source == "make" and self.exact_section is None
-        return (*self.stated, *edges(self.shape)) if turned else self.stated
+        if not turned:
+            return self.stated
+        return *self.stated, *edges(self.shape, [f for f in self.stated if isinstance(f, Seat)])
 
     @property
     def fits(self) -> tuple[Seat | FittedHole, ...]:

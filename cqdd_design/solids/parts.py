@@ -427,6 +427,7 @@ def _housing_shape(layout: Layout, features: Sequence[Feature]) -> Stack:
     shape = housing_shapes.housing_body(layout, features)
     if layout.motor is not None:
         shape = with_motor_flange(shape, layout, layout.motor, features)
-    for holes in ring_dowel_holes(layout.pack, layout.dowels, layout.dowels.bottom):
+    dowels, top = layout.dowels, layout.housing.face
+    for holes in ring_dowel_holes(layout.pack, dowels, dowels.bottom, top):
         shape = with_dowel_grooves(shape, layout.pack.ring_radius, holes)
     return shape

@@ -27,12 +27,13 @@ from cqdd_design.solids.layout import (
     HeldPins,
     HousingLayout,
     Layout,
-    MotorLayout,
     PackLayout,
     ShaftLayout,
 )
+from cqdd_design.solids.motor_layout import MotorLayout
 from cqdd_design.solids.motor_rules import bell_torque, lay_out_motor, register_radius
 from cqdd_design.solids.mounting import cover_thread, mounting_thread
+from cqdd_design.solids.registers import output_seal, shaft_seal, spigot_depth
 from cqdd_design.solids.selection import (
     ChosenBearing,
     OutputPin,
@@ -46,6 +47,8 @@ from cqdd_design.solids.selection import (
     thread_size,
 )
 
+_LEAST_FLOOR = 1.5
+"""Thickness of the housing's floor under the shaft's bearing, units."""
 _LEAST_CORE_SHARE = 0.2
 """Least core of the eccentric shaft as a share of the cam bearing's bore radius."""
 
@@ -257,12 +260,15 @@ def _housing(
     """Housing, and the height of the lower support bearing's upper face."""
     count = 6 if design.reducer.ring.outer_diameter < 50e-3 else 8
     thread = cover_thread(design, thread_size(3.0 * unit), count, 5.5 * unit)
+    spigot = spigot_depth(unit)
+    face, cover_bottom = pack.top + spigot, carrier.bearing_bottom - spigot
     lip = max(2.0 * unit, 0.3 * thread)
     hub = 0.5 * carrier.output.bearing.outer_diameter + 2.5 * unit
     head = cap_screw(thread, 0.0).head_diameter
     cover_flange_top = carrier.bearing_bottom + max(
         3.0 * unit, min(thread, carrier.output.bearing.width)
     )
+    # Threads begin below the clamp's spigot: a long grip loses less of its preload.
     grip = cover_flange_top - pack.top
     screw = cap_screw(thread, grip + 1.3 * thread)
     flange_bottom = pack.top - max(screw.length - grip, 1.3 * thread) - 0.5 * unit
@@ -291,7 +297,9 @@ def _housing(
     nested = inside >= boss + 0.5 * unit
     floor_top = carrier.lowest - 0.8 * unit
     seat_top = -pack.gap if nested else floor_top
-    bottom = min(floor_top - 2.5 * unit, seat_top - support.bearing.width - unit)
+    seat_bottom = seat_top - support.bearing.width
+    bottom = min(floor_top - 2.5 * unit, seat_bottom - _LEAST_FLOOR * unit)
+    cover_top = carrier.output_seat_top + lip
     layout = HousingLayout(
         register_radius=register,
         seated_motor=motor is not None,
@@ -301,13 +309,18 @@ def _housing(
         screw=screw,
         screw_count=count,
         mount_thread=mount,
+        face=face,
+        spigot=spigot,
         clamp_inner=min(carrier.output.lip_radius, pack.most_clamp_radius),
+        cover_bottom=cover_bottom,
         cover_flange_top=cover_flange_top,
         cover_hub_radius=hub,
-        cover_top=carrier.output_seat_top + lip,
+        cover_top=cover_top,
         boss_radius=boss,
         floor_top=floor_top,
         bottom=bottom,
+        output_seal=output_seal(carrier, max(cover_top, cover_flange_top), unit),
+        shaft_seal=shaft_seal(support, bottom, seat_bottom, unit),
     )
     return layout, seat_top
 

@@ -28,6 +28,8 @@ _MOST_PLAY = 1.0
 """Of parts, in units of the layout, or the discs' spacing; what rolls on pins may float farther."""
 _EDGE = 0.05e-3
 """Distance from edges at which points are looked at, m."""
+_SAG = 5e-6
+"""Of the polygons that stand for grooved bores, m."""
 _RADII, _ANGLES = 3, 24
 """Of these points in a piece beside the axis."""
 _ROLLING = ("sleeve", "roller", "needle")
@@ -234,13 +236,28 @@ def _material(span: Span, station: Station, points: ComplexArray) -> np.ndarray:
 
 
 def _inside(shape: PlanarPart, points: ComplexArray) -> np.ndarray:
-    """Which points are in a shape; outlines that are no circles count as round about the axis."""
+    """Which points are in a shape; outlines that are no circles count as round about the axis.
+
+    Bores with grooves do not: what stands in a groove passes.
+    """
     inner, outer = ring_of(shape)
     found = np.asarray((np.abs(points) < outer) & (np.abs(points) > inner))
     for hole in shape.holes:
         if isinstance(hole, Circle):
             found &= np.abs(points - complex(*hole.centre)) > hole.radius
+        elif found.any():
+            found &= ~_enclosed(hole.sample(_SAG) @ np.array([1.0, 1.0j]), points)
     return found
+
+
+def _enclosed(corners: ComplexArray, points: ComplexArray) -> np.ndarray:
+    """Which points a closed polygon goes round: crossings of a ray along x."""
+    begin, end = corners[:, None], np.roll(corners, -1)[:, None]
+    at = points.ravel()
+    spans = (begin.imag > at.imag) != (end.imag > at.imag)
+    rise = np.where(spans, end.imag - begin.imag, 1.0)
+    cross = begin.real + (at.imag - begin.imag) / rise * (end.real - begin.real)
+    return np.asarray((spans & (at.real < cross)).sum(axis=0) % 2 == 1).reshape(points.shape)
 
 
 def _may_touch(one: Station, other: Station) -> bool:

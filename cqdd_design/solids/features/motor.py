@@ -10,7 +10,8 @@ from cqdd_design.solids.features.holes import BoltCircle, PlainHole
 from cqdd_design.solids.features.housing import ear_circle
 from cqdd_design.solids.features.kinds import Feature, Joint
 from cqdd_design.solids.features.making import clearance, metric, seat, shoulder, tapped
-from cqdd_design.solids.layout import MotorLayout
+from cqdd_design.solids.motor_layout import MotorLayout
+from cqdd_design.solids.registers import LEAD_IN
 
 _LIGHTENING, _BOARD_SCREWS = 6, 3
 _BOARD_GAP = 0.4e-3
@@ -75,13 +76,22 @@ def _board_thread(motor: MotorLayout) -> float:
 def cover_features(motor: MotorLayout, flange_bottom: float, unit: float) -> tuple[Feature, ...]:
     """Of the can over the bell."""
     small, large = coarse_thread(motor.board_screw.thread), coarse_thread(motor.cover_screw.thread)
+    bores, to = [], "B"
+    if motor.spigot:
+        to = "BA"
+        bores.append(
+            seat("bore on the flange's spigot", 2.0 * motor.cover_inner,
+                 flange_bottom - motor.spigot, flange_bottom, zones.CAN_BORE, inside=True,
+                 datum="A", lead_in=LEAD_IN)
+        )  # fmt: skip
     return (
+        *bores,
         tapped("threads of the board's screws", small, metric(small), board_circle(motor),
                mouth=motor.board_bottom, facing="up", depth=_board_thread(motor),
-               room=motor.board_bottom - dish_bottom(motor, unit), refers="B"),
+               room=motor.board_bottom - dish_bottom(motor, unit), refers=to),
         tapped("threads of the cover's screws", large, metric(large), ear_circle(motor),
                mouth=flange_bottom, facing="up", depth=motor.ear_height, room=motor.ear_height,
-               countersunk=False, refers="B"),
+               countersunk=False, refers=to),
         shoulder("face on the housing", flange_bottom, motor.cover_inner, motor.cover_outer, "up",
                  None, datum="B", refers=""),
     )  # fmt: skip

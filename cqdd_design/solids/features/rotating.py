@@ -9,7 +9,8 @@ from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.holes import Centre, Facing
 from cqdd_design.solids.features.kinds import Feature, Joint, Seat
 from cqdd_design.solids.features.making import BEARING_FACE, relief, seat, shoulder
-from cqdd_design.solids.layout import MotorLayout, PackLayout, ShaftLayout
+from cqdd_design.solids.layout import PackLayout, ShaftLayout
+from cqdd_design.solids.motor_layout import MotorLayout
 
 
 def crank_offset(pack: PackLayout, disc: int) -> Centre:
