@@ -243,3 +243,12 @@ def test_the_printed_design_is_exported_whole(design, tmp_path):
     assert len(names) == 8 * 3 + 2 + 1
     assert {"printed-13-coupon.step", "printed-13-coupon.3mf"} <= names
     assert all(math.isfinite(one.bytes) and one.bytes > 1000 for one in files)
+
+
+def test_a_machine_of_metal_is_refused_before_anything_is_begun(paper_design_file, tmp_path):
+    """Not after the files of another kind are written: their solids take seconds."""
+    told = []
+    with pytest.raises(DesignError, match="no part is of a plastic to be printed or moulded"):
+        export(load_design(paper_design_file), "step,print", tmp_path / "out", progress=told.append)
+    assert told == []
+    assert not (tmp_path / "out").exists()

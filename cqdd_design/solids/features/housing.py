@@ -14,7 +14,7 @@ from cqdd_design.solids.features.holes import (
     FittedHole,
     PlainHole,
 )
-from cqdd_design.solids.features.kinds import Feature, Joint, Seat
+from cqdd_design.solids.features.kinds import Feature, Joint, SealFace
 from cqdd_design.solids.features.making import (
     BEARING_FACE,
     clearance,
@@ -100,7 +100,7 @@ _RING_CORNER = 0.2e-3
 """Largest corner radius in the ring's seat: the ring is cut by wire, its edges are broken less."""
 
 
-def _seal_bore(seal: GapSeal, name: str) -> Seat:
+def _seal_bore(seal: GapSeal, name: str) -> SealFace:
     return seal_face(name, 2.0 * seal.outer, seal.bottom, seal.top, zones.SEAL_OUTSIDE, inside=True)
 
 

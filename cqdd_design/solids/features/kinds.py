@@ -78,6 +78,11 @@ class Seat:
 
 
 @dataclass(frozen=True)
+class SealFace(Seat):
+    """A cylinder of a gap seal: nothing sits on it, it only runs true."""
+
+
+@dataclass(frozen=True)
 class Shoulder:
     """A flat ring face against which another part sits.
 

@@ -25,7 +25,7 @@ from cqdd_design.solids.features.holes import (
     FittedHole,
     TappedHole,
 )
-from cqdd_design.solids.features.kinds import ON_AXIS, Seat, Shoulder, Undercut
+from cqdd_design.solids.features.kinds import ON_AXIS, SealFace, Seat, Shoulder, Undercut
 
 POINT_ANGLE = math.radians(118.0)
 """Of twist drills (DIN 1412)."""
@@ -81,9 +81,9 @@ def seat(
 
 def seal_face(
     name: str, diameter: float, bottom: float, top: float, zone: str, *, inside: bool = False
-) -> Seat:
+) -> SealFace:
     """A cylinder of a gap seal: a fifth of the narrowest gap of run-out, form by its zone."""
-    return Seat(
+    return SealFace(
         name, diameter, bottom, top, inside, zone, TURNED, ground=False,
         run_out=_SEAL_RUN_OUT, cylindricity=0.0, refers="A",
     )  # fmt: skip
