@@ -275,17 +275,16 @@ def _column_screws(machine: Machine) -> Tightened | None:
 
 
 def _motor_cover_screws(machine: Machine) -> Tightened | None:
-    layout, metal = machine.layout, _housing_metal(machine)
-    motor = layout.motor
+    motor, metal = machine.layout.motor_end, _housing_metal(machine)
     if motor is None:
         return None
-    screw, grip = motor.cover_screw, motor.flange_top - layout.housing.flange_bottom
+    screw, grip = motor.cover_screw, motor.cover_grip
     return Tightened(
         "motor's cover, which carries nothing",
         screw.designation,
         motor.ear_count,
         _clamping(
-            screw, metal, grip=grip, engaged=min(screw.length - grip, motor.ear_height), faces=1
+            screw, metal, grip=grip, engaged=min(screw.length - grip, motor.cover_engaged), faces=1
         ),
     )
 

@@ -70,8 +70,9 @@ def balance_weights(
     """
     motor = layout.motor
     if motor is None:
+        why = layout.motor_missing or f"{layout.motor_row.name} is an inrunner, which has none"
         raise GeometryError(
-            f"balance.counterweights sit on the motor's bell, and {layout.motor_missing}; choose "
+            f"balance.counterweights sit on the motor's bell, and {why}; choose "
             "another motor.name, or set balance.counterweights = false."
         )
     height = _HEIGHT * layout.unit

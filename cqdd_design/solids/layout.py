@@ -27,7 +27,7 @@ from dataclasses import dataclass
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design.reducer import CarrierJoint
-from cqdd_design.solids.motor_layout import MotorLayout
+from cqdd_design.solids.motor_layout import InrunnerLayout, MotorEnd, MotorLayout
 from cqdd_design.solids.selection import CapScrew, ChosenBearing, OutputPin
 
 
@@ -393,7 +393,8 @@ class DowelLayout:
 class Layout:
     """All of the above for one design; `unit` is a millimetre at its scale, m.
 
-    `motor` is None where the motor, `motor_row`, cannot be drawn, and `motor_missing` says why.
+    `motor` is an outrunner and `inrunner` one behind the gearbox; both are None where the motor,
+    `motor_row`, cannot be drawn, and `motor_missing` says why.
     """
 
     unit: float
@@ -403,5 +404,11 @@ class Layout:
     housing: HousingLayout
     dowels: DowelLayout
     motor: MotorLayout | None
+    inrunner: InrunnerLayout | None
     motor_row: Motor
     motor_missing: str
+
+    @property
+    def motor_end(self) -> MotorEnd | None:
+        """The motor, of whichever kind it is."""
+        return self.motor or self.inrunner

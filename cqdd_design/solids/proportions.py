@@ -22,6 +22,7 @@ from cqdd_design.solids.carrier_rules import (
     reach_beside_circle,
 )
 from cqdd_design.solids.dowel_rules import ring_dowels
+from cqdd_design.solids.inrunner_rules import lay_out_inrunner, misfit
 from cqdd_design.solids.layout import (
     CarrierLayout,
     HeldPins,
@@ -30,8 +31,13 @@ from cqdd_design.solids.layout import (
     PackLayout,
     ShaftLayout,
 )
-from cqdd_design.solids.motor_layout import MotorLayout
-from cqdd_design.solids.motor_rules import bell_torque, lay_out_motor, register_radius
+from cqdd_design.solids.motor_layout import MotorEnd
+from cqdd_design.solids.motor_rules import (
+    bell_torque,
+    is_inrunner,
+    lay_out_motor,
+    register_radius,
+)
 from cqdd_design.solids.mounting import cover_thread, mounting_thread
 from cqdd_design.solids.registers import output_seal, shaft_seal, spigot_depth
 from cqdd_design.solids.selection import (
@@ -76,19 +82,25 @@ def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
     )
     register, row, missing = register_radius(motor, pack, unit)
     housing, seat_top = _housing(design, pack, carrier, support, unit, register, row)
-    drawn = None
+    drawn, inside = None, None
     if row is not None:
         weights = design.reducer.balance.counterweights
         torque = bell_torque(design, row)
         drawn = lay_out_motor(row, pack, housing, support, unit, torque, weights=weights)
+    elif is_inrunner(motor) and not missing:
+        missing = misfit(motor, support, unit)
+        if not missing:
+            torque = bell_torque(design, motor)
+            inside = lay_out_inrunner(motor, housing, support, unit, torque)
     return Layout(
         unit=unit,
         pack=pack,
-        shaft=_shaft(pack, support, core, housing, seat_top, unit, drawn),
+        shaft=_shaft(pack, support, core, housing, seat_top, unit, drawn or inside),
         carrier=carrier,
         housing=housing,
         dowels=ring_dowels(design, pack, housing, unit),
         motor=drawn,
+        inrunner=inside,
         motor_row=motor,
         motor_missing=missing,
     )
@@ -332,7 +344,7 @@ def _shaft(
     housing: HousingLayout,
     seat_top: float,
     unit: float,
-    motor: MotorLayout | None,
+    motor: MotorEnd | None,
 ) -> ShaftLayout:
     journal = support.bearing.bore_diameter
     cam_bore = 0.5 * pack.cam.bearing.bore_diameter

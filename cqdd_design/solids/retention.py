@@ -39,13 +39,10 @@ _FASTENED = (
     ("ring clamp", "housing", "cover screws"),
     ("output cover", "housing", "cover screws"),
     ("cover screw", "housing", "its thread"),
-    ("motor stator", "housing", "bond on the register"),
     ("motor cover", "housing", "its screws"),
     ("motor cover screw", "motor cover", "its thread"),
     ("encoder board", "motor cover", "its screws"),
     ("encoder screw", "motor cover", "its thread"),
-    ("rotor bell", "eccentric shaft", "bond on the stub"),
-    ("motor rotor", "rotor bell", "bond in the bell"),
     *((weight, "rotor bell", "bond on the bell") for weight in WEIGHTS),
     ("encoder magnet", "eccentric shaft", "bond in its pocket"),
     ("eccentric cam", "eccentric shaft", "press fit p6"),
@@ -58,6 +55,17 @@ _FASTENED = (
     ("column screw", "carrier plate", "its thread"),
 )
 """Part, what it is fastened to, and how."""
+_OUTRUNNER = (
+    ("motor stator", "housing", "bond on the register"),
+    ("rotor bell", "eccentric shaft", "bond on the stub"),
+    ("motor rotor", "rotor bell", "bond in the bell"),
+)
+_INRUNNER = (
+    ("motor stator", "motor cover", "bond in its seat"),
+    ("rotor hub", "eccentric shaft", "bond on the stub"),
+    ("motor rotor", "rotor hub", "bond on the hub"),
+)
+"""What holds a motor, of either kind."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +147,7 @@ def _bore(station: Station) -> float:
 def _fastened(every: Sequence[Station], layout: Layout) -> tuple[list[int], list[str]]:
     """The group of every station, and how it is fastened in it."""
     groups, ways = list(range(len(every))), [""] * len(every)
-    pairs = list(_FASTENED)
+    pairs = [*_FASTENED, *(_OUTRUNNER if layout.inrunner is None else _INRUNNER)]
     carrier = layout.carrier
     if carrier.bonded_in_cap:
         pin = "dowel pin" if carrier.pin.screw is None else "shoulder screw"

@@ -15,9 +15,9 @@ from cqdd_design.exporting.bill.fitting import fitting_notes
 from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.heat_nodes import NODES
 from cqdd_design.machine.sealing import sealing
 from cqdd_design.machine.temperatures import machine_temperatures
-from cqdd_design.machine.thermal_parts import NODES
 from cqdd_design.solids.axial import AxialStack
 from cqdd_design.solids.features.holes import Counterbore
 from cqdd_design.solids.shims import OUTPUT_SET, SHAFT_SET

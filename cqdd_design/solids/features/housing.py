@@ -32,7 +32,7 @@ from cqdd_design.solids.layout import (
     Layout,
     PackLayout,
 )
-from cqdd_design.solids.motor_layout import MotorLayout
+from cqdd_design.solids.motor_layout import MotorEnd, MotorLayout
 from cqdd_design.solids.registers import LEAD_IN
 
 SEAM_POSITION = 10e-6
@@ -132,8 +132,8 @@ def _motor_flange(housing: HousingLayout, motor: MotorLayout) -> list[Feature]:
     return found
 
 
-def ear_circle(motor: MotorLayout) -> BoltCircle:
-    """Of the ears' screws, on flange and cover."""
+def ear_circle(motor: MotorEnd) -> BoltCircle:
+    """Of the ears' screws, on housing and cover."""
     return BoltCircle("motor cover screws", motor.ear_circle, tuple(motor.ear_angles.tolist()))
 
 
