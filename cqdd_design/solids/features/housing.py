@@ -138,16 +138,22 @@ def ear_circle(motor: MotorEnd) -> BoltCircle:
 
 
 def ring_dowel_holes(
-    pack: PackLayout, dowels: DowelLayout, bottom: float, top: float
+    pack: PackLayout, dowels: DowelLayout, bottom: float, top: float, refers: str = "AB"
 ) -> tuple[FittedHole, ...]:
-    """Of the dowels between ring and housing, of which each has one half, between heights (m)."""
+    """Of the dowels between ring and housing, of which each has one half, between heights (m).
+
+    Parameters
+    ----------
+    refers : str
+        Letters of the datums; the ring has but its outside.
+    """
     if not dowels.radius:
         return ()
     circle = BoltCircle("ring dowels", pack.ring_radius, dowels.angles)
     return (
         fitted("holes of the ring dowels", 2.0 * dowels.radius, zones.SEAM_GROOVE, circle,
                bottom=bottom, top=top, facing="up", position=SEAM_POSITION,
-               seam=True, refers="AB"),
+               seam=True, refers=refers),
     )  # fmt: skip
 
 
