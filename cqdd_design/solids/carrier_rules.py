@@ -12,7 +12,13 @@ from cqdd_design.geometry.columns import column_offsets, has_columns
 from cqdd_design.solids.dowel_rules import flange_dowels
 from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, PackLayout
 from cqdd_design.solids.registers import NUT_SLOTS, spigot_depth
-from cqdd_design.solids.selection import ChosenBearing, OutputPin, cap_screw, thread_size
+from cqdd_design.solids.selection import (
+    ChosenBearing,
+    OutputPin,
+    cap_screw,
+    counterbore_of,
+    thread_size,
+)
 from cqdd_design.solids.shims import output_shims, shaft_shims
 
 _ENGAGEMENT = 1.3
@@ -30,11 +36,11 @@ def pin_wall(diameter: float, unit: float) -> float:
     return max(unit, 0.375 * diameter)
 
 
-def counterbore_radius(pin: OutputPin, unit: float) -> float:
+def counterbore_radius(pin: OutputPin) -> float:
     """Radius of the counterbore for a pin's head, m; that of the pin for a dowel."""
     if pin.screw is None:
         return 0.5 * pin.nominal_diameter
-    return 0.5 * pin.head_diameter + 0.25 * unit
+    return 0.5 * counterbore_of(pin.head_diameter)
 
 
 def column_head_radius(reducer: Reducer) -> float:
@@ -82,7 +88,7 @@ def lay_out_carrier(
     circle, diameter = pins.circle_radius, pins.diameter
     wall = pin_wall(diameter, unit)
     both, joint = pins.support == "both", design.reducer.carrier.joint
-    counterbore = counterbore_radius(pin, unit)
+    counterbore = counterbore_radius(pin)
     beside = column_head_radius(design.reducer)
     most_outer = pack.inner_radius - 0.4 * unit
     # A catalogue head may be too large for a dense pin circle; ground dowels always fit.

@@ -141,7 +141,7 @@ def _seats(
 ) -> tuple[ChosenBearing, ChosenBearing]:
     pins = design.reducer.output_pins
     circle, radius = pins.circle_radius, reach_beside_circle(design.reducer)
-    heads = max(counterbore_radius(pin, unit), column_head_radius(design.reducer), radius)
+    heads = max(counterbore_radius(pin), column_head_radius(design.reducer), radius)
     support = support_bearing(
         2.0 * core,
         max(0.4e-3, 0.16 * core),

@@ -11,6 +11,7 @@ from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 from cqdd_design.geometry.contours import Circle
 from cqdd_design.machine import resolve
 from cqdd_design.machine.centring import centring, most_off_centre
+from cqdd_design.solids.features.holes import Counterbore
 from cqdd_design.solids.features.kinds import Chamfer, Seat
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.registers import LEAD_IN
@@ -118,3 +119,12 @@ def test_how_far_the_output_stands_off_is_told() -> None:
     assert most_off_centre(machine) == pytest.approx(0.5 * (49e-6 + 49e-6 + 6.5e-6))
     assert "by 0.05 mm at most" in centring(machine)
     assert centring(machine) in AssemblyFacts(machine).notes()
+
+
+def test_counterbores_of_shoulder_screws_are_those_of_din_974() -> None:
+    """Heads of 7 mm are those of M4 cap screws, for which DIN 974-1 has 8 mm."""
+    cap = part_named(known_parts("paper"), "carrier cap")
+    (found,) = (one for one in cap.features if isinstance(one, Counterbore))
+    assert found.diameter == pytest.approx(8e-3)
+    screw = part_named(known_parts("paper"), "shoulder screw")
+    assert 2.0 * screw.shape.outside_radius == pytest.approx(7e-3)
