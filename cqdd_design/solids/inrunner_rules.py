@@ -88,7 +88,8 @@ def lay_out_inrunner(
     outside = stack_outer + wall
     grip = max(2.0 * unit, thread)
     screw = cap_screw(thread, grip + 1.2 * thread)
-    flange = min(screw.length - grip, housing.flange_bottom - joint)
+    # Stiff enough to hold the stator out on it.
+    flange = min(max(screw.length - grip, 2.5 * unit), housing.flange_bottom - joint)
     floor = min(stack_bottom - coil - 0.8 * unit, lip_bottom - unit)
     encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit)
     # The shaft reaches as far as its encoder, whose board lies in a dish below the floor.

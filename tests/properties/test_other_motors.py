@@ -19,12 +19,13 @@ from cqdd_design.exporting.sheets.title_block import HEIGHT, WIDTH
 from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.machine import resolve
 from cqdd_design.machine.heat_nodes import NODES
+from cqdd_design.machine.screws import screw_joints
 from cqdd_design.machine.thermal_parts import machine_network
 from cqdd_design.roads.export import left_out
 from cqdd_design.solids.apart import taken_apart
 from cqdd_design.solids.clearances import assembly_motion, output_revolution
 from cqdd_design.solids.mesh import DISPLAY
-from cqdd_design.solids.motor_rules import drawn_motor, undrawn_sizes
+from cqdd_design.solids.motor_rules import bell_torque, drawn_motor, undrawn_sizes
 from cqdd_design.solids.tool_access import reaches
 from cqdd_design.verdict.joint_lines import joint_lines
 
@@ -218,3 +219,17 @@ def test_temperatures_of_an_inrunner_ask_for_its_slots(paper):
     assert least < area < 8.0 * math.pi * body.flange_radius * (body.cover_top - can.board_bottom)
     laplacian = np.diag(network.conductance.sum(axis=1)) - network.conductance
     assert np.linalg.matrix_rank(laplacian) == len(NODES) - 1
+
+
+def test_screws_of_the_cover_hold_the_stators_torque(paper):
+    """Six of them on a circle: the motor's peak torque, which an outrunner's cover never feels."""
+    machine = inrunner(paper, DRAWN[0])
+    joints = {one.place: one for one in screw_joints(machine)}
+    cover = joints["motor's cover, which carries the stator"]
+    radius = machine.layout.inrunner.ear_circle
+    assert cover.across * cover.count * radius == pytest.approx(
+        bell_torque(machine.design, machine.motor)
+    )
+    assert 1.2 < cover.slip_safety < math.inf
+    outside = {one.place: one for one in screw_joints(resolve(paper))}
+    assert outside["motor's cover, which carries nothing"].across == 0.0
