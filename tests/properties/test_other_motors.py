@@ -154,6 +154,12 @@ def test_an_inrunner_is_held_and_goes_together(paper, name):
     assert ways["motor rotor"] == ("rotor hub, bond on the hub",) * 2
     steps, whole = taken_apart(machine.design, machine.parts)
     assert whole
+    # What is bonded on the bench comes with what it is bonded in.
+    said = AssemblyFacts(machine).order()
+    for bonded, unit in (("motor rotor", "rotor hub"), ("motor stator", "motor cover")):
+        assert any(one.startswith(f"unit of the {unit}: {bonded},") for one in said)
+        assert not any(one.startswith(f"{bonded},") for one in said)
+        assert f"the unit of the {unit}, from the motor side" in said
     assert all(key.reaches for key in reaches(machine.design, steps))
 
 
