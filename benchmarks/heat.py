@@ -23,7 +23,8 @@ from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.heat.network import Heat
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.duty_heat import duty_cases, duty_heat
-from cqdd_design.machine.thermal_parts import NODES, machine_network
+from cqdd_design.machine.heat_nodes import NODES
+from cqdd_design.machine.thermal_parts import machine_network
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 PEER = REPOSITORY / "benchmarks" / "cycloidgen_heat.py"

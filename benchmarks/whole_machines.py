@@ -1,11 +1,11 @@
 """Sized machines of every kind: nothing left out, nothing in the way, all of it held and drawn.
 
-    python benchmarks/whole_machines.py [--rows 66] [--first 1] [--angles 7]
+    python benchmarks/whole_machines.py [--rows 75] [--first 1] [--angles 7]
 
 Every row is a requirement: a ratio of 6 to 40, one to three discs, and one of ten outrunners whose
-rings are 45 to 150 mm. It is sized by the screen (`quick`), and its ring is then made solid,
-conjugate or of pins. Where this is refused the row is the sentence. Otherwise the machine is
-resolved, and looked at
+rings are 45 to 150 mm; the last nine have an inrunner behind rings of 52 to 95 mm. It is sized by
+the screen (`quick`), and its ring is then made solid, conjugate or of pins. Where this is refused
+the row is the sentence. Otherwise the machine is resolved, and looked at
 
 - for parts that are left out: the motor's, and those of what the design asks for;
 - for solids that run into each other through a revolution of the output;
@@ -62,8 +62,12 @@ RINGS = (45.0, 52.0, 60.0, 72.0, 70.0, 82.0, 95.0, 110.0, 130.0, 150.0)
 """Largest ring of every motor, mm; the two of 72 and 70 mm are of the catalogue."""
 CATALOGUE = {72.0: LIKE, 70.0: "CubeMars RO100 Lite KV55"}
 KINDS = ("solid", "conjugate", "pinwheel")
+OUTRUNNER_ROWS = 66
+INRUNNERS = ("CubeMars RI100 KV105", "CubeMars RI80 V2.0 KV75")
+BEHIND = (52.0, 72.0, 95.0)
+"""Rings before these, mm."""
 MOTOR_PARTS = {
-    "motor stator", "motor rotor", "rotor bell", "motor cover", "encoder magnet", "encoder board",
+    "motor stator", "motor rotor", "motor cover", "encoder magnet", "encoder board",
 }  # fmt: skip
 
 
@@ -75,6 +79,8 @@ class Row:
     ----------
     ring : float
         Largest diameter, mm.
+    inrunner : str
+        Of the catalogue, that stands behind the gearbox; empty where an outrunner is round it.
     """
 
     number: int
@@ -82,6 +88,7 @@ class Row:
     ring: float
     discs: int
     kind: str
+    inrunner: str = ""
 
     def __str__(self) -> str:
         """In the columns of the table."""
@@ -91,8 +98,16 @@ class Row:
 
 
 def rows(count: int) -> Iterator[Row]:
-    """Rows in which every motor meets every kind of ring and number of discs."""
-    for i in range(count):
+    """Rows in which every outrunner meets every kind of ring and number of discs; inrunners."""
+    yield from _with_outrunners(count)
+    for i in range(OUTRUNNER_ROWS, count):
+        ratio, number = 6 + (i * 13) % 35, i - OUTRUNNER_ROWS
+        ring, motor = BEHIND[number % 3], INRUNNERS[number % 2]
+        yield Row(i + 1, ratio, ring, 1 + number % 3, KINDS[(number // 3) % 3], motor)
+
+
+def _with_outrunners(count: int) -> Iterator[Row]:
+    for i in range(min(count, OUTRUNNER_ROWS)):
         yield Row(
             i + 1,
             6 + (i * 13) % 35,
@@ -133,7 +148,7 @@ def motor_file(ring: float, folder: Path) -> Path:
 
 def designed(row: Row, folder: Path) -> Design:
     """The design of a row; CqddError where it is refused."""
-    known = CATALOGUE.get(row.ring)
+    known = row.inrunner or CATALOGUE.get(row.ring)
     scale = row.ring / 72.0
     sized = cq.size(
         row.ratio,
@@ -184,10 +199,18 @@ def _with_parts(design: Design) -> Machine:
 def left_out(machine: Machine) -> Iterator[str]:
     """Parts that are missing."""
     names = {part.name for part in machine.parts}
-    if machine.layout.motor is None:
+    if machine.layout.motor_end is None:
         yield f"left out: the motor, {machine.layout.motor_missing}"
         return
-    wanted = MOTOR_PARTS | {"housing", "ring", "eccentric shaft", "carrier plate", "output cover"}
+    carried = "rotor hub" if machine.layout.inrunner else "rotor bell"
+    wanted = MOTOR_PARTS | {
+        carried,
+        "housing",
+        "ring",
+        "eccentric shaft",
+        "carrier plate",
+        "output cover",
+    }
     reducer = machine.design.reducer
     if reducer.output_pins.support == "both":
         wanted |= {"carrier cap"}
@@ -270,7 +293,7 @@ def looked_at(row: Row, angles: int, folder: Path) -> tuple[str, list[str]]:
 def main() -> None:
     """Read the arguments and print a row for every requirement."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--rows", type=int, default=66, help="how many")
+    parser.add_argument("--rows", type=int, default=75, help="how many")
     parser.add_argument("--first", type=int, default=1, help="number of the first that is done")
     parser.add_argument("--angles", type=int, default=7, help="of the crank, looked at")
     options = parser.parse_args()

@@ -28,7 +28,7 @@ from cqdd_design.errors import DesignError, GeometryError
 from cqdd_design.machine import Machine
 from cqdd_design.machine.cooling import cooled_network, two_nodes
 from cqdd_design.machine.thermal_parts import COPPER_HEAT, WINDING_SHARE
-from cqdd_design.solids.inertia import GROUPS, ROTOR_SCOPE, GearboxInertia
+from cqdd_design.solids.inertia import GROUPS, GearboxInertia, rotor_scope
 
 ELECTRICAL_TIME = 1e-3
 """L/R where the catalogue has no inductance, s: common for large flat motors."""
@@ -226,10 +226,10 @@ def _drag_origin(row: Motor, key: str) -> str:
 def _rotor_inertia(row: Motor, inertia: GearboxInertia, origins: dict[str, str]) -> float:
     drawn = inertia.rotor_drawn
     if row.rotor_inertia is not None:
-        origins["motor.rotor_inertia"] = f"{row.origin('rotor_inertia')}, {ROTOR_SCOPE}"
+        origins["motor.rotor_inertia"] = f"{row.origin('rotor_inertia')}, {rotor_scope(row)}"
         return row.rotor_inertia
     if drawn > 0.0:
-        origins["motor.rotor_inertia"] = f"computed: solids of the rotor, {ROTOR_SCOPE}"
+        origins["motor.rotor_inertia"] = f"computed: solids of the rotor, {rotor_scope(row)}"
         return drawn
     if row.mass is None or row.outer_diameter is None:
         raise DesignError(

@@ -24,6 +24,7 @@ _UNITS = {
     "ultimate_strength": ("MPa", 1e-6),
     "fatigue_strength": ("MPa", 1e-6),
     "pulsating_strength": ("MPa", 1e-6),
+    "creep_modulus": ("GPa", 1e-9),
     "contact_allowable": ("MPa", 1e-6),
     "density": ("kg_m3", 1.0),
     "expansion": ("um_mK", 1e6),

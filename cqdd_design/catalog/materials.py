@@ -55,6 +55,11 @@ class Material:
         Temperature up to which parts of it keep strength and shape, deg C.
     thermal_source : str
         Where these five come from.
+    creep_modulus : float or None
+        Of a plastic: stress over strain after 1000 h in tension at 23 deg C, Pa (ISO 899-1); None
+        where no source has been read. Moulded bars say nothing of printed ones.
+    creep_source : str
+        Where it comes from.
     """
 
     name: str = column("name")
@@ -78,6 +83,8 @@ class Material:
     emissivity: float | None = column("emissivity")
     service_limit: float | None = column("service_C")
     thermal_source: str = column("thermal_source")
+    creep_modulus: float | None = column("creep_GPa", 1e9)
+    creep_source: str = column("creep_source")
 
     @property
     def is_plastic(self) -> bool:

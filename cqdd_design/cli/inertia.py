@@ -43,7 +43,7 @@ def inertia(
 
 
 def _lines(found: InertiaAndBalance) -> list[str]:
-    from cqdd_design.solids.inertia import ROTOR_SCOPE
+    from cqdd_design.solids.inertia import rotor_scope
 
     parts = [
         [
@@ -84,7 +84,7 @@ def _lines(found: InertiaAndBalance) -> list[str]:
         "",
         f"total mass                 {_known(total.whole_mass)} kg",
         f"torque density             {_known(found.torque_density)} N*m/kg",
-        f"rotor of {total.motor.name}, {ROTOR_SCOPE}: {rotor} kg*mm^2",
+        f"rotor of {total.motor.name}, {rotor_scope(total.motor)}: {rotor} kg*mm^2",
         f"reflected to the input     {_known(total.reflected_input, 1e6)} kg*mm^2",
         f"reflected to the output    {_known(total.reflected_output)} kg*m^2",
         "",

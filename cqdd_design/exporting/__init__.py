@@ -97,6 +97,8 @@ def export(
     wanted, design = read_kinds(kinds), machine.given
     target = default_folder(design) if folder is None else folder
     tell = progress if progress is not None else _silent
+    for kind in wanted:
+        KINDS[kind].refuse(machine)
     made = _missing(target)
     placed: list[WrittenFile] = []
     try:

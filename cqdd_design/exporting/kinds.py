@@ -9,9 +9,12 @@ import importlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from cqdd_design.errors import UsageError, did_you_mean
+
+if TYPE_CHECKING:
+    from cqdd_design.machine import Machine
 
 
 @dataclass(frozen=True)
@@ -34,8 +37,7 @@ class Kind:
 
     def load(self) -> Any:
         """Import the function that writes it, which nothing does before it is asked for."""
-        module, _, function = self.writer.partition(":")
-        return getattr(importlib.import_module(f"cqdd_design.exporting.{module}"), function)
+        return _function(self.writer)
 
 
 @dataclass(frozen=True)
@@ -48,10 +50,24 @@ class ExportKind(Kind):
         Whether it is made of the machine's solids.
     reader : {"makers", "simulators"}
         Whom it is for.
+    refusal : str
+        As `writer`: the function raises for machines that have no such files, before any file of
+        any kind is written; empty where every machine has some.
     """
 
     needs_solids: bool
     reader: Literal["makers", "simulators"]
+    refusal: str = ""
+
+    def refuse(self, machine: Machine) -> None:
+        """Raise the DesignError of a machine that has no such files."""
+        if self.refusal:
+            _function(self.refusal)(machine)
+
+
+def _function(name: str) -> Any:
+    module, _, function = name.partition(":")
+    return getattr(importlib.import_module(f"cqdd_design.exporting.{module}"), function)
 
 
 _SOLID, _PLAIN = True, False
@@ -68,7 +84,12 @@ _ROWS = (
         "sheets", "sheets.sheet_files:export_sheets", "a drawing of every part", _SOLID, "makers"
     ),
     ExportKind(
-        "print", "printing.package:export_print", "printed parts, and a coupon", _SOLID, "makers"
+        "print",
+        "printing.package:export_print",
+        "printed parts, and a coupon",
+        _SOLID,
+        "makers",
+        refusal="printing.package:refuse_metal",
     ),
     ExportKind("bom", "solids.bom:export_bom", "bill of materials", _SOLID, "makers"),
     ExportKind("mjcf", "simulators.mjcf:export_mjcf", "model for MuJoCo", _PLAIN, "simulators"),

@@ -11,8 +11,9 @@ from typing import NamedTuple
 from cqdd_design.catalog.motors import WINDING_MOST
 from cqdd_design.gearbox.heat.network import Heat, ThermalNetwork
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.machine.heat_nodes import NODES, node_values
 from cqdd_design.machine.machine import Machine
-from cqdd_design.machine.thermal_parts import NODES, machine_network, node_values, scaled
+from cqdd_design.machine.thermal_parts import machine_network, scaled
 
 _MOST_FACTOR = 1e3
 _HALVINGS = 60

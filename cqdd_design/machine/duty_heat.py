@@ -25,8 +25,8 @@ from cqdd_design.gearbox.heat.network import Heat
 from cqdd_design.gearbox.losses.machine import SOURCES
 from cqdd_design.gearbox.losses.model import LossModel
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.machine.heat_nodes import Node, node_values
 from cqdd_design.machine.machine import Machine
-from cqdd_design.machine.thermal_parts import Node, node_values
 
 _SHARES: dict[str, dict[Node, float]] = {
     "ring_teeth": {"ring": 0.5, "disc": 0.5},

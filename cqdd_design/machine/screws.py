@@ -12,6 +12,7 @@ from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.shaft_strength import output_loads
 from cqdd_design.solids import mounting
 from cqdd_design.solids.features.carrier import OUTPUT_BOLTS
+from cqdd_design.solids.motor_rules import bell_torque
 from cqdd_design.solids.mounting import SCREW_MATERIAL
 from cqdd_design.solids.selection import CapScrew
 
@@ -116,7 +117,7 @@ def screw_joints(machine: Machine) -> tuple[ScrewJoint, ...]:
         _output(machine),
         _unloaded(_pin_screws(machine)),
         _columns(machine),
-        _unloaded(_motor_cover_screws(machine)),
+        _motor_cover(machine),
     ]
     return tuple(one for one in every if one is not None)
 
@@ -274,18 +275,27 @@ def _column_screws(machine: Machine) -> Tightened | None:
     )
 
 
+def _motor_cover(machine: Machine) -> ScrewJoint | None:
+    """The stator of an inrunner turns back on its cover; over an outrunner it carries nothing."""
+    screws, inrunner = _motor_cover_screws(machine), machine.layout.inrunner
+    if screws is None or inrunner is None:
+        return _unloaded(screws)
+    torque = bell_torque(machine.design, machine.layout.motor_row)
+    return _loaded(screws, torque / (screws.count * inrunner.ear_circle), 0.0)
+
+
 def _motor_cover_screws(machine: Machine) -> Tightened | None:
-    layout, metal = machine.layout, _housing_metal(machine)
-    motor = layout.motor
+    motor, metal = machine.layout.motor_end, _housing_metal(machine)
     if motor is None:
         return None
-    screw, grip = motor.cover_screw, motor.flange_top - layout.housing.flange_bottom
+    screw, grip = motor.cover_screw, motor.cover_grip
+    carried = "nothing" if machine.layout.inrunner is None else "the stator"
     return Tightened(
-        "motor's cover, which carries nothing",
+        f"motor's cover, which carries {carried}",
         screw.designation,
         motor.ear_count,
         _clamping(
-            screw, metal, grip=grip, engaged=min(screw.length - grip, motor.ear_height), faces=1
+            screw, metal, grip=grip, engaged=min(screw.length - grip, motor.cover_engaged), faces=1
         ),
     )
 

@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from cqdd_design.machine.machine import Machine
 
-
-def output_gap(machine: Machine) -> float:
-    """Radial gap between bearing nut and cover's lip, m.
-
-    Raises
-    ------
-    GeometryError
-        When the machine cannot be laid out.
-    """
-    output = machine.layout.carrier.output
-    return output.lip_radius - output.shoulder_radius
+if TYPE_CHECKING:
+    from cqdd_design.solids.layout import GapSeal
 
 
 def bearing_seals(machine: Machine) -> str:
@@ -25,15 +18,30 @@ def bearing_seals(machine: Machine) -> str:
 
 
 def sealing(machine: Machine) -> str:
-    """A sentence on what is sealed; GeometryError as :func:`output_gap`."""
-    gap = f"{1e3 * output_gap(machine):.2g} mm between nut and cover"
+    """What is sealed and how, in two sentences.
+
+    Raises
+    ------
+    GeometryError
+        When the machine cannot be laid out.
+    """
+    housing = machine.layout.housing
+    gaps = (
+        f"a gap of {_told(housing.output_seal)} between bearing nut and cover, and one of "
+        f"{_told(housing.shaft_seal)} between shaft and housing"
+    )
     if machine.design.reducer.friction.seals == "contact":
         return (
-            "Sealed by its bearings alone: shaft and output bearings have contact seals on both "
-            f"sides, whose drag is counted. The {gap} and the flanges' faces have no seal."
+            "Sealed by its bearings: shaft and output bearings have contact seals on both sides, "
+            f"whose drag is counted; outside them stand gap seals without friction, {gaps}. The "
+            "flanges' faces have no seal."
         )
     return (
-        f"Not sealed: the {gap} on the output side and the shaft's bearing on the motor side are "
-        "open, and nothing keeps dust and water out or grease in. Sealed bearings "
-        "(reducer.friction.seals) are the only seal there is."
+        f"Gap seals, without friction: {gaps}, keep grease in and coarse dust out. Nothing keeps "
+        "fine dust and water out: sealed bearings (reducer.friction.seals) would, and the "
+        "flanges' faces have no seal."
     )
+
+
+def _told(seal: GapSeal) -> str:
+    return f"{1e3 * seal.gap:.2g} mm, {1e3 * seal.length:.2g} mm long,"

@@ -18,8 +18,8 @@ from cqdd_design.gearbox.heat.expansion import HOTTEST, PartTemperatures
 from cqdd_design.gearbox.heat.network import ThermalNetwork
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.machine.duty_heat import DutyHeat
+from cqdd_design.machine.heat_nodes import NODES, Node, by_node
 from cqdd_design.machine.machine import Machine
-from cqdd_design.machine.thermal_parts import NODES, Node, by_node
 
 _GEARBOX: tuple[Node, ...] = ("ring", "disc", "shaft", "carrier")
 _ROUNDS, _STILL, _NEARLY_STILL = 60, 1e-6, 1e-2

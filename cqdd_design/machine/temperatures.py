@@ -26,6 +26,7 @@ from cqdd_design.gearbox.precision.backlash import Backlash, backlash
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.machine.cooling import cooled_network, two_nodes
 from cqdd_design.machine.duty_heat import DutyHeat, duty_cases, duty_heat, logged_heat
+from cqdd_design.machine.heat_nodes import NODES, Node, by_node
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.settling import (
     gearbox_parts,
@@ -33,11 +34,6 @@ from cqdd_design.machine.settling import (
     magnets_at,
     settle,
     within_reach,
-)
-from cqdd_design.machine.thermal_parts import (
-    NODES,
-    Node,
-    by_node,
 )
 from cqdd_design.results import Check
 

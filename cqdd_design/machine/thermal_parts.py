@@ -15,9 +15,7 @@ with its axis level: nothing carries heat into a robot's limb.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 
@@ -29,27 +27,22 @@ from cqdd_design.gearbox.heat import joints
 from cqdd_design.gearbox.heat.network import ThermalNetwork
 from cqdd_design.gearbox.heat.surfaces import Surface, annulus_conductance
 from cqdd_design.geometry.contours import FloatArray
+from cqdd_design.machine.heat_nodes import (
+    AIR,
+    LEAST_AIR_GAP,
+    NODES,
+    SLOTS_PER_PAIR,
+    Node,
+    known,
+    series,
+)
+from cqdd_design.machine.inrunner_heat import inrunner_pairs, inrunner_surfaces
 from cqdd_design.machine.machine import Machine
 from cqdd_design.solids.inertia import GROUPS
-from cqdd_design.solids.layout import Layout, MotorLayout
+from cqdd_design.solids.layout import Layout
+from cqdd_design.solids.motor_layout import MotorLayout
 from cqdd_design.solids.selection import ChosenBearing
 
-Node = Literal["winding", "stator", "rotor", "cover", "housing", "ring", "disc", "shaft", "carrier"]
-
-NODES: tuple[Node, ...] = (
-    "winding",
-    "stator",
-    "rotor",
-    "cover",
-    "housing",
-    "ring",
-    "disc",
-    "shaft",
-    "carrier",
-)
-
-SLOTS_PER_PAIR = 12.0 / 7.0
-"""Slots over pole pairs of a motor whose slots are not known: 36 to 42 poles."""
 WINDING_SHARE, COPPER_HEAT = 0.15, 385.0
 """Copper's share of a motor's mass; its specific heat, J/(kg K)."""
 
@@ -58,6 +51,7 @@ _OWNERS: dict[str, Node] = {
     "motor rotor": "rotor",
     "motor cover": "cover",
     "rotor bell": "rotor",
+    "rotor hub": "rotor",
     "ring": "ring",
     "ring pin": "ring",
     "ring roller": "ring",
@@ -74,9 +68,6 @@ _SIDES: dict[str, tuple[Node, Node]] = {
     "shaft bearing": ("housing", "shaft"),
 }
 _ANGLES = 24
-_AIR = 0.028
-"""Conductivity of warm air in narrow gaps, W/(m K): they are too narrow for it to circulate."""
-_LEAST_AIR_GAP = 0.2e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,9 +98,9 @@ def machine_network(machine: Machine) -> ThermalNetwork:
         When its motor cannot be drawn, or a material's thermal figures are not known.
     """
     layout = machine.layout
-    if layout.motor is None:
+    if layout.motor_end is None:
         raise DesignError(f"no thermal network: {layout.motor_missing}")
-    found = conductances(machine, layout, layout.motor)
+    found = conductances(machine, layout)
     return ThermalNetwork(
         names=NODES,
         capacity=capacities(machine),
@@ -141,7 +132,7 @@ def capacities(machine: Machine) -> FloatArray:
             copper = WINDING_SHARE * (machine.motor.mass or mass)
             heat["winding"] += copper * COPPER_HEAT
             mass = max(mass - copper, 0.0)
-        own = mass * _known(part.material, "specific_heat")
+        own = mass * known(part.material, "specific_heat")
         if part.name in _SIDES:
             for node in _SIDES[part.name]:
                 heat[node] += 0.5 * own
@@ -152,27 +143,36 @@ def capacities(machine: Machine) -> FloatArray:
     return np.array([heat[node] for node in NODES])
 
 
-def conductances(machine: Machine, layout: Layout, motor: MotorLayout) -> Conductances:
-    """Between the nodes, and surfaces in the air."""
+def conductances(machine: Machine, layout: Layout) -> Conductances:
+    """Between the nodes, and surfaces in the air; a layout without a motor has none of these."""
     design, pack = machine.design, layout.pack
-    metal = _known(design.housing.material, "conductivity")
+    metal = known(design.housing.material, "conductivity")
+    housing = find_material(design.housing.material)
+    about: dict[tuple[Node, Node], float] = {}
+    surfaces: tuple[Surface, ...] = ()
+    if layout.motor is not None:
+        about = _motor_pairs(machine, layout.motor, layout.unit, metal)
+        about["housing", "cover"] = _to_cover(layout, layout.motor, metal)
+        surfaces = _surfaces(layout, layout.motor, housing)
+    elif layout.inrunner is not None:
+        about = inrunner_pairs(machine, layout, layout.inrunner, metal)
+        surfaces = inrunner_surfaces(layout, layout.inrunner, housing)
     shaft = layout.shaft
     turn = 1.0 + 1.0 / design.reducer.ratio
     speed = design.requirements.held_speed
     ring, disc, pins = _grease(machine, layout)
     pairs: dict[tuple[Node, Node], float] = {
-        **_motor_pairs(machine, motor, layout.unit, metal),
-        ("housing", "ring"): _series(
+        **about,
+        ("housing", "ring"): series(
             joints.seat_conductance(pack.ring_radius, pack.top),
             annulus_conductance(
-                _known(design.reducer.ring_material, "conductivity"),
+                known(design.reducer.ring_material, "conductivity"),
                 # Thick teeth have their centres outside the roots, or even outside the ring.
                 min(design.reducer.ring_pitch_radius, pack.ledge_radius),
                 pack.ring_radius,
                 pack.top,
             ),
         ),
-        ("housing", "cover"): _to_cover(layout, motor, metal),
         ("ring", "disc"): ring,
         ("disc", "carrier"): disc + pins,
         ("disc", "shaft"): pack.disc_count * _bearing(pack.cam, speed * turn),
@@ -180,7 +180,7 @@ def conductances(machine: Machine, layout: Layout, motor: MotorLayout) -> Conduc
         ("shaft", "carrier"): _bearing(shaft.support, speed * turn),
         ("housing", "carrier"): _bearing(layout.carrier.output, speed / design.reducer.ratio),
     }
-    return Conductances(pairs, _surfaces(layout, motor, find_material(design.housing.material)))
+    return Conductances(pairs, surfaces)
 
 
 def _motor_pairs(
@@ -194,18 +194,18 @@ def _motor_pairs(
         motor.stack_outer - motor.slot_radius,
         0.5 * (motor.stack_outer + motor.slot_radius),
     )
-    iron = _known("Electrical steel M400-50A", "conductivity")
-    gap = 2.0 * math.pi * motor.rotor_inner * length * _AIR
-    gap /= max(motor.rotor_inner - motor.stack_outer, _LEAST_AIR_GAP)
+    iron = known("Electrical steel M400-50A", "conductivity")
+    gap = 2.0 * math.pi * motor.rotor_inner * length * AIR
+    gap /= max(motor.rotor_inner - motor.stack_outer, LEAST_AIR_GAP)
     web = motor.web_top - motor.web_bottom
     side = motor.ring_top - motor.web_bottom
     around = 2.0 * math.pi * motor.bell_radius * side / (motor.cover_inner - motor.bell_radius)
     below = (
-        math.pi * motor.bell_radius**2 / max(motor.web_bottom - motor.cover_floor, _LEAST_AIR_GAP)
+        math.pi * motor.bell_radius**2 / max(motor.web_bottom - motor.cover_floor, LEAST_AIR_GAP)
     )
     return {
         ("winding", "stator"): joints.winding_conductance(slots, depth, middle, length),
-        ("stator", "housing"): _series(
+        ("stator", "housing"): series(
             annulus_conductance(iron, motor.stack_inner, motor.slot_radius, length),
             joints.seat_conductance(motor.stack_inner, length),
         ),
@@ -213,7 +213,7 @@ def _motor_pairs(
         ("rotor", "shaft"): annulus_conductance(
             metal, motor.hub_radius, motor.rotor_inner, max(web, 0.5 * unit)
         ),
-        ("rotor", "cover"): _AIR * (around + below),
+        ("rotor", "cover"): AIR * (around + below),
     }
 
 
@@ -223,7 +223,7 @@ def _to_cover(layout: Layout, motor: MotorLayout, metal: float) -> float:
     tube = math.pi * (housing.register_radius**2 - pack.ring_radius**2)
     wall = math.pi * (motor.cover_outer**2 - motor.cover_inner**2)
     flange = max(motor.flange_top - housing.flange_bottom, layout.unit)
-    return _series(
+    return series(
         metal * tube / max(0.5 * housing.flange_bottom, 0.5 * layout.unit),
         annulus_conductance(metal, housing.register_radius, motor.cover_outer, flange),
         metal * wall / (0.5 * (housing.flange_bottom - motor.cover_floor)),
@@ -241,7 +241,7 @@ def _grease(machine: Machine, layout: Layout) -> tuple[float, float, float]:
     at_pins = joints.film_conductance(
         states.gaps[:, :, teeth:], model.pin_equivalent_radius, model.pin_contact_radius, length
     )
-    pin = _known(machine.design.reducer.output_pins.material, "conductivity")
+    pin = known(machine.design.reducer.output_pins.material, "conductivity")
     section = math.pi * model.pin_contact_radius**2
     ends = 2 if layout.carrier.cap else 1
     along = ends * model.pin_count * pin * section / (0.5 * pack.top)
@@ -249,14 +249,14 @@ def _grease(machine: Machine, layout: Layout) -> tuple[float, float, float]:
     return (
         float(at_teeth.sum(axis=(1, 2)).mean()),
         ends * face,
-        _series(float(at_pins.sum(axis=(1, 2)).mean()), along),
+        series(float(at_pins.sum(axis=(1, 2)).mean()), along),
     )
 
 
 def _surfaces(layout: Layout, motor: MotorLayout, metal: Material) -> tuple[Surface, ...]:
     """Outside of the housing from motor cover to output cover, and the carrier's own face."""
     housing, carrier = layout.housing, layout.carrier
-    shine = _known(metal.name, "emissivity")
+    shine = known(metal.name, "emissivity")
     radius = max(motor.cover_outer, housing.flange_radius)
     bottom = motor.cover_floor - motor.cover_wall
     length = max(housing.cover_flange_top, layout.pack.top) - bottom
@@ -276,34 +276,3 @@ def _bearing(seat: ChosenBearing, speed: float) -> float:
     if seat.source == "bush":
         return joints.bush_conductance(0.5 * row.bore_diameter, row.width)
     return joints.bearing_conductance(0.5 * (row.bore_diameter + row.outer_diameter), speed)
-
-
-def _series(*conductance: float) -> float:
-    return 1.0 / sum(1.0 / one for one in conductance)
-
-
-def _known(name: str, what: Literal["conductivity", "specific_heat", "emissivity"]) -> float:
-    """A thermal figure of a material.
-
-    Raises
-    ------
-    DesignError
-        Where the catalogue has none.
-    """
-    value = getattr(find_material(name), what)
-    if value is None:
-        raise DesignError(
-            f"no thermal network: the catalogue has no {what.replace('_', ' ')} of '{name}'; name "
-            "a material that has one."
-        )
-    return float(value)
-
-
-def node_values(values: dict[Node, float]) -> FloatArray:
-    """Figures by node, zero where there is none, (N,)."""
-    return np.array([values.get(node, 0.0) for node in NODES])
-
-
-def by_node(values: Iterable[float]) -> dict[str, float]:
-    """Figures of all nodes by name."""
-    return {node: float(value) for node, value in zip(NODES, values, strict=True)}

@@ -12,6 +12,7 @@ from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.checks.guide import check_guide
+from cqdd_design.machine.centring import centring
 from cqdd_design.machine.sealing import sealing
 from cqdd_design.results import Check
 from cqdd_design.roads.sized_file import kept_costs
@@ -20,6 +21,7 @@ from cqdd_design.verdict import Verdict, judge
 from cqdd_design.verdict.judge import Meets, meets
 
 if TYPE_CHECKING:
+    from cqdd_design.machine import Machine
     from cqdd_design.solids.clearances import AssemblyMotion
 
 #: How often `check` tells what begins.
@@ -60,7 +62,8 @@ class Judgement:
             "retention": self._retention,
             "costs": list(self.costs),
             "axial_play": self._axial_play,
-            "sealing": self._sealing,
+            "sealing": self._told(sealing),
+            "centring": self._told(centring),
             **seen,
         }
 
@@ -73,11 +76,10 @@ class Judgement:
             return []
         return [row.to_dict() for row in table]
 
-    @property
-    def _sealing(self) -> str | None:
-        """What is sealed; None where nothing can be laid out."""
+    def _told(self, what: Callable[[Machine], str]) -> str | None:
+        """A sentence on the machine as drawn; None where nothing can be laid out."""
         try:
-            return sealing(self.verdict.evidence.machine)
+            return what(self.verdict.evidence.machine)
         except DesignError:
             return None
 

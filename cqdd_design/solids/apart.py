@@ -4,8 +4,9 @@ A piece that moves sweeps the prism under its shape; it can leave where that pri
 of what is still in place. Screws leave on the side of their heads, and what they are screwed into
 waits for them; nuts leave along their threads. Where no single thing can move, a unit does: one
 thing with all that it pushes before it, such as the carrier with discs and shaft, which is put
-together on the bench (Wilson and Latombe 1994, blocking graphs). Put together is the same
-backwards.
+together on the bench (Wilson and Latombe 1994, blocking graphs). What is bonded into a part that
+comes in later, as magnets into their bell, leaves with it and is a unit too. Put together is the
+same backwards.
 """
 
 from __future__ import annotations
@@ -15,13 +16,13 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray, PlanarPart
 from cqdd_design.solids.disassembly import disassembly_order
-from cqdd_design.solids.features.kinds import AxialThread
+from cqdd_design.solids.features.kinds import AxialThread, Joint
 from cqdd_design.solids.layers import Layer
 from cqdd_design.solids.stations import Station, stations
 
@@ -97,31 +98,44 @@ def taken_apart(design: Design, parts: Sequence[Part]) -> tuple[tuple[Step, ...]
     middle = len(order) / 2.0
     outward = sorted(range(len(order)), key=lambda place: -abs(place - middle))
     things = [_Thing(design, found[order[place]]) for place in outward]
-    return _take(things, "")
+    return _take(things, "", _bonds(things))
+
+
+def _bonds(things: Sequence[_Thing]) -> _Bonds:
+    """Rotor and stator of a motor with what carries them, if that is not the housing itself."""
+    bonds: _Bonds = {}
+    for host in things:
+        for joint in host.station.part.features:
+            if not isinstance(joint, Joint) or joint.kind != "bonded":
+                continue
+            for guest in things:
+                name = guest.station.part.name
+                bought = name == joint.to and name.startswith("motor ")
+                if bought and host.station.part.name != "housing":
+                    bonds[id(host)], bonds[id(guest)] = guest, host
+    return bonds
 
 
 def unit_name(step: Step) -> str:
-    """Name of the unit that leaves in a step: that of its largest part."""
-    largest = max(step.moved, key=lambda one: one.part.shape.volume)
+    """Name of the unit that leaves in a step: that of its largest part, made ones first."""
+    largest = max(step.moved, key=lambda one: (one.part.source == "make", one.part.shape.volume))
     return f"unit of the {largest.name}"
 
 
-def _take(things: list[_Thing], unit: str) -> tuple[tuple[Step, ...], bool]:
-    left, steps = list(things), []
+def _take(things: list[_Thing], unit: str, bonds: _Bonds) -> tuple[tuple[Step, ...], bool]:
+    left = list(things)
+    steps: list[Step] = []
     while len(left) > 1:
-        one = _next(left)
-        if one is not None:
-            thing, way = one
-            left.remove(thing)
-            steps.append(Step((thing.station,), way, unit))
-            continue
-        split = _next_unit(left)
+        split = _next(left, bonds) or _next_unit(left, bonds)
         if split is None:
             return tuple(steps), False
         group, way = split
         left = [thing for thing in left if thing not in group]
         steps.append(Step(tuple(thing.station for thing in group), way, unit))
-        inner, whole = _take(group, unit_name(steps[-1]))
+        if len(group) == 1:
+            continue
+        # On the bench bonds come after what they hold is in its place.
+        inner, whole = _take(group, unit_name(steps[-1]), {})
         steps += inner
         if not whole:
             return tuple(steps), False
@@ -129,23 +143,35 @@ def _take(things: list[_Thing], unit: str) -> tuple[tuple[Step, ...], bool]:
     return tuple(steps), True
 
 
-def _next(left: Sequence[_Thing]) -> tuple[_Thing, Way] | None:
+def _next(left: Sequence[_Thing], bonds: _Bonds) -> tuple[list[_Thing], Way] | None:
     for thing in left:
+        group = _bonded([thing], left, bonds)
+        if len(group) == len(left):
+            continue
+        staying = [other for other in left if other not in group]
         for way in thing.ways:
-            if all(thing.passes(other, way) for other in left if other is not thing):
-                return thing, way
+            if all(one.passes(other, way) for one in group for other in staying):
+                return group, way
     return None
 
 
-def _next_unit(left: Sequence[_Thing]) -> tuple[list[_Thing], Way] | None:
+def _bonded(group: list[_Thing], left: Sequence[_Thing], bonds: _Bonds) -> list[_Thing]:
+    """Things with what is bonded to them."""
+    mates = [bonds[id(one)] for one in group if id(one) in bonds]
+    return group + [one for one in mates if one in left and one not in group]
+
+
+def _next_unit(left: Sequence[_Thing], bonds: _Bonds) -> tuple[list[_Thing], Way] | None:
     """The fewest things that leave together: one, all that it pushes before it, and so on."""
     ways: tuple[Way, Way] = ("up", "down")
     best: tuple[list[_Thing], Way] | None = None
     for thing, way in itertools.product(left, ways):
-        group, fresh = [thing], [thing]
+        group = _bonded([thing], left, bonds)
+        fresh = list(group)
         while fresh:
             mover = fresh.pop()
             pushed = [o for o in left if o not in group and not mover.passes(o, way, free=True)]
+            pushed = [o for o in _bonded(pushed, left, bonds) if o not in group]
             group += pushed
             fresh += pushed
         if len(group) < len(left) and (best is None or len(group) < len(best[0])):
@@ -298,6 +324,10 @@ class _Thing:
             shared = (one.material ^ two.material).area() if _near(one, two) else 0.0
             self._shared[key] = other._shared[its, id(self), own] = shared
         return self._shared[key]
+
+
+_Bonds: TypeAlias = dict[int, _Thing]
+"""By the id of a thing, the other that is bonded to it."""
 
 
 def material_of(shape: PlanarPart, sag: float) -> CrossSection:

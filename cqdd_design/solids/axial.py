@@ -181,6 +181,7 @@ def axial_stacks(parts: Sequence[Part], layout: Layout) -> tuple[AxialStack, ...
     shaft = tuple(_shaft(named, layout))
     output = (
         _between(named["output cover"], "lip over the output bearing", "face on the ring clamp"),
+        _between(named["ring clamp"], "face under the cover", "face under the output bearing"),
         _width("output bearing", carrier.output, "carrier"),
     )
     found = [

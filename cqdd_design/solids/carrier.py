@@ -19,7 +19,6 @@ from cqdd_design.solids.layers import (
     hexagon,
     notched_circle,
     pierced,
-    prism,
     turned,
 )
 from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, ShaftLayout
@@ -60,12 +59,21 @@ def column_shape(columns: ColumnLayout, bottom: float, top: float) -> Stack:
 
 
 def bearing_nut(carrier: CarrierLayout, core: float) -> Stack:
-    """The slotted nut that holds the output bearing on the plate, bored to a diameter (m)."""
+    """The nut that holds the output bearing on the plate, bored to a diameter (m).
+
+    Its slots open upward, so that it is round where the cover's lip stands about it.
+    """
     radius = carrier.output.shoulder_radius
     width = radius - carrier.nut_radius
     outer = notched_circle(radius, _NUT_SLOTS, 1.5 * width, 0.45 * width)
-    shape = PlanarPart("nut", outer, (circle(0.5 * core),))
-    return prism(shape, carrier.bearing_top, carrier.nut_top)
+    bore = (circle(0.5 * core),)
+    slotted = carrier.nut_slots_bottom
+    return Stack(
+        (
+            Layer(PlanarPart("nut", circle(radius), bore), carrier.bearing_top, slotted),
+            Layer(PlanarPart("slotted nut", outer, bore), slotted, carrier.nut_top),
+        )
+    )
 
 
 def pin_shape(carrier: CarrierLayout) -> Stack:

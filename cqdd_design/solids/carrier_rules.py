@@ -11,13 +11,22 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.columns import column_offsets, has_columns
 from cqdd_design.solids.dowel_rules import flange_dowels
 from cqdd_design.solids.layout import CarrierLayout, ColumnLayout, PackLayout
-from cqdd_design.solids.selection import ChosenBearing, OutputPin, cap_screw, thread_size
+from cqdd_design.solids.registers import NUT_SLOTS, spigot_depth
+from cqdd_design.solids.selection import (
+    ChosenBearing,
+    OutputPin,
+    cap_screw,
+    counterbore_of,
+    thread_size,
+)
 from cqdd_design.solids.shims import output_shims, shaft_shims
 
 _ENGAGEMENT = 1.3
 """Least length of a column's screw in the plate, in threads."""
 _BETWEEN_HEADS = 0.4e-3
 """Least wall between recesses for heads, m."""
+_CLAMP_RIM = 0.8
+"""Least thickness of the ring clamp between housing and cover, units."""
 CLAMPED_SEAT = 1.0
 """Least length of a pin's seat in the cap that holds its slope, in diameters."""
 
@@ -27,11 +36,11 @@ def pin_wall(diameter: float, unit: float) -> float:
     return max(unit, 0.375 * diameter)
 
 
-def counterbore_radius(pin: OutputPin, unit: float) -> float:
+def counterbore_radius(pin: OutputPin) -> float:
     """Radius of the counterbore for a pin's head, m; that of the pin for a dowel."""
     if pin.screw is None:
         return 0.5 * pin.nominal_diameter
-    return 0.5 * pin.head_diameter + 0.25 * unit
+    return 0.5 * counterbore_of(pin.head_diameter)
 
 
 def column_head_radius(reducer: Reducer) -> float:
@@ -79,7 +88,7 @@ def lay_out_carrier(
     circle, diameter = pins.circle_radius, pins.diameter
     wall = pin_wall(diameter, unit)
     both, joint = pins.support == "both", design.reducer.carrier.joint
-    counterbore = counterbore_radius(pin, unit)
+    counterbore = counterbore_radius(pin)
     beside = column_head_radius(design.reducer)
     most_outer = pack.inner_radius - 0.4 * unit
     # A catalogue head may be too large for a dense pin circle; ground dowels always fit.
@@ -108,7 +117,7 @@ def lay_out_carrier(
         cap_bottom = columns.seat - columns.screw.counterbore[1]
     lowest = min(cap_bottom, shoulder_bottom - pin.head_height)
 
-    clamp = max(2.5 * unit, pack.gap + 1.5 * unit)
+    clamp = max(2.5 * unit, pack.gap + 1.5 * unit, 2.0 * spigot_depth(unit) + _CLAMP_RIM * unit)
     if pack.held_pins is not None:
         clamp = max(clamp, pack.relief + pack.held_pins.depth + 0.8 * unit)
     shoulder = min(output.shoulder_radius, most_shoulder)
@@ -164,6 +173,7 @@ def lay_out_carrier(
         nut_top=nut_top,
         plate_top=plate_top,
         nut_radius=0.5 * output.bearing.bore_diameter - 0.25 * unit,
+        nut_slots_bottom=nut_top - NUT_SLOTS * (nut_top - bearing_top),
         bolt_thread=bolt,
         bolt_circle_radius=bolt_circle,
         bolt_depth=min(2.0 * bolt, depth),

@@ -19,7 +19,8 @@ from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.contours import ArcContour, FloatArray, PlanarPart, as_points
 from cqdd_design.results import MassProperties
 from cqdd_design.solids.layers import prism
-from cqdd_design.solids.layout import Layout, MotorLayout
+from cqdd_design.solids.layout import Layout
+from cqdd_design.solids.motor_layout import MotorLayout
 from cqdd_design.solids.part import Colour, Part, on_axis
 from cqdd_design.solids.poses import SHAFT, body_pose
 
@@ -69,8 +70,9 @@ def balance_weights(
     """
     motor = layout.motor
     if motor is None:
+        why = layout.motor_missing or f"{layout.motor_row.name} is an inrunner, which has none"
         raise GeometryError(
-            f"balance.counterweights sit on the motor's bell, and {layout.motor_missing}; choose "
+            f"balance.counterweights sit on the motor's bell, and {why}; choose "
             "another motor.name, or set balance.counterweights = false."
         )
     height = _HEIGHT * layout.unit

@@ -4,9 +4,9 @@ The tube takes the ring from the output side; the clamp, held by the cover's scr
 a ledge and carries the output bearing::
 
         ___  _______________
-       |   ||  cover        |__ lip
+       |   ||  cover        |_____ lip   about the bearing's nut
        |___||___[ bearing ]
-       |__ ring clamp ___|          relieved over the discs
+       |__ ring clamp ___|          spigots on both sides; relieved over the discs
        |   |     ring    |
        |___|             |
         | |______________|          ledge, clear of the orbiting lobes
@@ -33,11 +33,12 @@ def housing_body(layout: Layout, features: Sequence[Feature]) -> Stack:
     seat_top = layout.shaft.lower_seat_top
     seat_bottom = seat_top - support.bearing.width
     flange = housing.flange_bottom
+    seal = housing.shaft_seal
     levels = sorted(
         {
-            *(housing.bottom, housing.floor_top, seat_bottom, seat_top),
+            *(housing.bottom, seal.top, housing.floor_top, seat_bottom, seat_top),
             *((-pack.relief,) if pack.held_pins is not None else ()),
-            *(0.0, flange, pack.top),
+            *(0.0, flange, housing.face),
         }
     )
     rings = []
@@ -45,7 +46,8 @@ def housing_body(layout: Layout, features: Sequence[Feature]) -> Stack:
         middle = 0.5 * (bottom + top)
         outside = housing.flange_radius if middle > flange else housing.register_radius
         seat = 0.5 * support.bearing.outer_diameter
-        bore = seat if middle > seat_bottom else support.lip_radius
+        lip = support.lip_radius if middle > seal.top else seal.outer
+        bore = seat if middle > seat_bottom else lip
         if middle < housing.floor_top:
             rings.append(Annulus(bottom, top, bore, outside))
             continue
@@ -59,29 +61,43 @@ def housing_body(layout: Layout, features: Sequence[Feature]) -> Stack:
 
 
 def ring_clamp(layout: Layout, features: Sequence[Feature]) -> Stack:
-    """The plate between flange and cover that clamps the ring and carries the output bearing."""
-    housing, pack = layout.housing, layout.pack
-    bottom, top = pack.top, layout.carrier.bearing_bottom
+    """The plate between flange and cover that clamps the ring and carries the output bearing.
+
+    Its spigots centre it in the housing, and the cover on it.
+    """
+    housing, pack, carrier = layout.housing, layout.pack, layout.carrier
+    bottom, top = pack.top, carrier.bearing_bottom
     relief = bottom + pack.relief
-    rings = [
-        Annulus(bottom, relief, max(pack.ledge_radius, housing.clamp_inner), housing.flange_radius),
-        Annulus(relief, top, housing.clamp_inner, housing.flange_radius),
-    ]
-    return turned(rings, drillings(features))
+    rings = []
+    for low, high in pairwise(sorted({bottom, relief, housing.face, housing.cover_bottom, top})):
+        middle = 0.5 * (low + high)
+        outside = housing.flange_radius
+        if middle < housing.face:
+            outside = pack.ring_radius
+        elif middle > housing.cover_bottom:
+            outside = 0.5 * carrier.output.bearing.outer_diameter
+        relieved = max(pack.ledge_radius, housing.clamp_inner)
+        rings.append(Annulus(low, high, relieved if middle < relief else housing.clamp_inner,
+                             outside))  # fmt: skip
+    return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], drillings(features))
 
 
 def output_cover(layout: Layout, features: Sequence[Feature]) -> Stack:
-    """The cover: seat of the output bearing, open below, and a lip that holds its outer ring."""
+    """The cover: seat of the output bearing, open below, and a lip that holds its outer ring.
+
+    Within, the lip reaches in to the bearing's nut.
+    """
     housing, carrier = layout.housing, layout.carrier
     seat = 0.5 * carrier.output.bearing.outer_diameter
-    bottom = carrier.bearing_bottom
+    bottom, seal = housing.cover_bottom, housing.output_seal
     flange = housing.cover_flange_top
     top = carrier.output_seat_top
-    levels = sorted({bottom, flange, top, max(housing.cover_top, flange)})
+    levels = sorted({bottom, flange, top, seal.bottom, seal.top})
     rings = []
     for low, high in pairwise(levels):
         middle = 0.5 * (low + high)
         outside = housing.flange_radius if middle < flange else housing.cover_hub_radius
-        inside = seat if middle < top else carrier.output.lip_radius
+        lip = carrier.output.lip_radius if middle < seal.bottom else seal.outer
+        inside = seat if middle < top else lip
         rings.append(Annulus(low, high, inside, outside))
     return turned([ring for ring in rings if ring.top - ring.bottom > 1e-9], drillings(features))

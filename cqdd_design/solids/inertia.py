@@ -26,17 +26,22 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.results import MassProperties
 from cqdd_design.solids import counterweights
 from cqdd_design.solids.mesh import mass_properties, mesh_volume
-from cqdd_design.solids.motor_rules import drawn_motor
+from cqdd_design.solids.motor_rules import drawn_motor, is_inrunner
 from cqdd_design.solids.part import Instance, Part
 from cqdd_design.solids.poses import Body
 
 MassSource = Callable[[Part], MassProperties]
 
-ROTOR, BELL = "motor rotor", "rotor bell"
+ROTOR, BELL, HUB = "motor rotor", "rotor bell", "rotor hub"
 ROTOR_PARTS = (ROTOR, BELL)
 """The rotor of an outrunner: magnets, and the cup that carries them. A catalogue's inertia and mass
 of a motor count both, so both stand for it together and neither comes on top."""
-ROTOR_SCOPE = "its bell included"
+
+
+def rotor_scope(motor: Motor) -> str:
+    """What a catalogue's inertia of a rotor counts beside its magnets, in words."""
+    return "without the hub that carries it" if is_inrunner(motor) else "its bell included"
+
 
 GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
@@ -60,6 +65,7 @@ GROUPS: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "shaft and bearings": (
             "eccentric shaft",
             "eccentric cam",
+            HUB,
             "cam bearing",
             "shaft bearing",
             "output bearing",
@@ -176,7 +182,7 @@ class GearboxInertia:
     @property
     def mass_scope(self) -> str:
         """What `mass` counts, in words."""
-        motor = f"{self.motor.name} {self._by('mass')}, stator and rotor, {ROTOR_SCOPE}"
+        motor = f"{self.motor.name} {self._by('mass')}, stator and rotor, {rotor_scope(self.motor)}"
         if not self.motor_missing:
             return (
                 f"gearbox, housing, cover and encoder as drawn, and {motor}, "
@@ -196,15 +202,18 @@ class GearboxInertia:
     @property
     def crank_scope(self) -> str:
         """What `gearbox_reflected` counts, in words."""
+        if is_inrunner(self.motor):
+            return "gearbox as drawn, with the rotor's hub and without the motor's rotor"
         return "gearbox as drawn, without the motor's rotor and its bell"
 
     @property
     def inertia_scope(self) -> str:
         """What `reflected_input` counts, in words."""
+        scope = f"{rotor_scope(self.motor)}, and gearbox as drawn"
         if self.rotor_inertia is not None:
-            return f"rotor {self._by('rotor_inertia')}, {ROTOR_SCOPE}, and gearbox as drawn"
+            return f"rotor {self._by('rotor_inertia')}, {scope}"
         if self.rotor_drawn > 0.0:
-            return f"rotor, {ROTOR_SCOPE}, and gearbox as drawn"
+            return f"rotor, {scope}"
         return f"not known: neither is the inertia of the rotor of {self.motor.name}"
 
     @property

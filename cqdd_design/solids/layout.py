@@ -23,13 +23,11 @@ in *units* of a millimetre on a 72 mm ring.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
-
-import numpy as np
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design.reducer import CarrierJoint
+from cqdd_design.solids.motor_layout import InrunnerLayout, MotorEnd, MotorLayout
 from cqdd_design.solids.selection import CapScrew, ChosenBearing, OutputPin
 
 
@@ -231,8 +229,8 @@ class CarrierLayout:
         Of the plate's shoulder under the output bearing.
     plate_bottom, bearing_bottom, bearing_top, nut_top, plate_top : float
         Heights on the plate.
-    nut_radius : float
-        Thread of the nut that holds the output bearing.
+    nut_radius, nut_slots_bottom : float
+        Thread of the nut that holds the output bearing; height down to which it has slots.
     bolt_thread, bolt_circle_radius, bolt_depth, bolt_room : float
         Tapped holes in the output face; a thread of 0 where there is no room. `bolt_room` is how
         thick the plate is there.
@@ -266,6 +264,7 @@ class CarrierLayout:
     nut_top: float
     plate_top: float
     nut_radius: float
+    nut_slots_bottom: float
     bolt_thread: float
     bolt_circle_radius: float
     bolt_depth: float
@@ -287,6 +286,32 @@ class CarrierLayout:
 
 
 @dataclass(frozen=True)
+class GapSeal:
+    """A narrow gap about what turns, which keeps grease in and coarse dust out, m.
+
+    Attributes
+    ----------
+    inner, outer : float
+        Radii of what turns and of the bore about it.
+    bottom, top : float
+        Heights between which the bore runs.
+    length : float
+        Over which both face each other.
+    """
+
+    inner: float
+    outer: float
+    bottom: float
+    top: float
+    length: float
+
+    @property
+    def gap(self) -> float:
+        """Radial."""
+        return self.outer - self.inner
+
+
+@dataclass(frozen=True)
 class HousingLayout:
     """Housing, ring clamp and output cover, m.
 
@@ -304,12 +329,19 @@ class HousingLayout:
         And as many mounting holes between them.
     mount_thread : float
         Of the screws through these.
+    face, spigot : float
+        Height of the flange's face under the clamp; how deep the clamp's spigots reach into the
+        ring's seat below it and into the bearing's seat of the cover above it.
     clamp_inner : float
         Bore of the ring clamp.
+    cover_bottom : float
+        Height of the cover's face on the clamp.
     cover_flange_top, cover_hub_radius, cover_top : float
         Of the output cover.
     boss_radius, floor_top, bottom : float
         Of the floor that carries the lower support bearing.
+    output_seal, shaft_seal : GapSeal
+        Between bearing nut and cover, and between shaft and floor.
     """
 
     register_radius: float
@@ -320,87 +352,18 @@ class HousingLayout:
     screw: CapScrew
     screw_count: int
     mount_thread: float
+    face: float
+    spigot: float
     clamp_inner: float
+    cover_bottom: float
     cover_flange_top: float
     cover_hub_radius: float
     cover_top: float
     boss_radius: float
     floor_top: float
     bottom: float
-
-
-@dataclass(frozen=True)
-class MotorLayout:
-    """Motor around the housing's tube, its bell and cover, and the encoder on the shaft's end, m.
-
-    Attributes
-    ----------
-    stack_inner, stack_outer, slot_radius : float
-        Laminations of the stator: bore, outside, bottom of the slots, which the coils fill.
-    stack_bottom, stack_top, coil : float
-        Heights of the laminations, and how far the coils stand out beyond them.
-    rotor_inner, rotor_outer, ring_bottom, ring_top : float
-        The rotor's ring of magnets and back iron.
-    bell_radius, web_bottom, web_top : float
-        Outside of the bell that carries the ring; its web.
-    hub_radius, hub_bottom, hub_top : float
-        The bell's hub on the shaft's stub; below the web it stands in the cover's dish.
-    magnet_radius, magnet_height, magnet_bottom : float
-        Of the encoder's magnet: flush with the end of the shaft, or on it.
-    board_radius, board_bottom, board_top, sensor_top : float
-        Encoder board with its sensor.
-    cover_inner, cover_outer, cover_floor, cover_wall : float
-        Inside and outside radius of the cover; height of its floor's inner face about the bell,
-        and its thickness (the dish under the board lies lower).
-    ear_radius, ear_circle, ear_height : float
-        Ears of flange and cover, for the screws that hold them together.
-    flange_top : float
-        Height of the flange's face under the heads of those screws.
-    cable_radius, cable_circle : float
-        Hole in the flange for the phase leads; 0 where there is no room.
-    """
-
-    stack_inner: float
-    stack_outer: float
-    slot_radius: float
-    stack_bottom: float
-    stack_top: float
-    coil: float
-    rotor_inner: float
-    rotor_outer: float
-    ring_bottom: float
-    ring_top: float
-    bell_radius: float
-    web_bottom: float
-    web_top: float
-    hub_radius: float
-    hub_bottom: float
-    hub_top: float
-    magnet_radius: float
-    magnet_height: float
-    magnet_bottom: float
-    board_radius: float
-    board_bottom: float
-    board_top: float
-    sensor_top: float
-    board_screw: CapScrew
-    cover_inner: float
-    cover_outer: float
-    cover_floor: float
-    cover_wall: float
-    ear_count: int
-    ear_radius: float
-    ear_circle: float
-    ear_height: float
-    flange_top: float
-    cover_screw: CapScrew
-    cable_radius: float
-    cable_circle: float
-
-    @property
-    def ear_angles(self) -> np.ndarray:
-        """Directions of the ears, rad."""
-        return (0.5 + np.arange(self.ear_count)) * 2.0 * math.pi / self.ear_count
+    output_seal: GapSeal
+    shaft_seal: GapSeal
 
 
 @dataclass(frozen=True)
@@ -430,7 +393,8 @@ class DowelLayout:
 class Layout:
     """All of the above for one design; `unit` is a millimetre at its scale, m.
 
-    `motor` is None where the motor, `motor_row`, cannot be drawn, and `motor_missing` says why.
+    `motor` is an outrunner and `inrunner` one behind the gearbox; both are None where the motor,
+    `motor_row`, cannot be drawn, and `motor_missing` says why.
     """
 
     unit: float
@@ -440,5 +404,11 @@ class Layout:
     housing: HousingLayout
     dowels: DowelLayout
     motor: MotorLayout | None
+    inrunner: InrunnerLayout | None
     motor_row: Motor
     motor_missing: str
+
+    @property
+    def motor_end(self) -> MotorEnd | None:
+        """The motor, of whichever kind it is."""
+        return self.motor or self.inrunner

@@ -28,12 +28,14 @@ from cqdd_design.solids.features.motor import (
 )
 from cqdd_design.solids.inertia import BELL, ROTOR
 from cqdd_design.solids.layers import Stack
-from cqdd_design.solids.layout import Layout, MotorLayout
+from cqdd_design.solids.layout import Layout
+from cqdd_design.solids.motor_layout import MotorEnd, MotorLayout
 from cqdd_design.solids.motor_rules import bell_material
 from cqdd_design.solids.part import Colour, Part, Source, around, on_axis, placed
-from cqdd_design.solids.poses import HOUSING, SHAFT, transform
+from cqdd_design.solids.poses import HOUSING, SHAFT, Body, transform
 from cqdd_design.solids.selection import CapScrew
 
+COVER_SCREW = "motor cover screw"
 STATOR_MATERIAL = "Electrical steel M400-50A"
 MAGNET_MATERIAL = "NdFeB N42"
 BOARD_MATERIAL = "FR-4 glass epoxy"
@@ -52,7 +54,7 @@ _STEEL: Colour = (0.78, 0.80, 0.82)
 
 
 def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
-    """Every part of the motor's end; none when the motor cannot be drawn.
+    """Every part of an outrunner's end; none when there is none.
 
     Parameters
     ----------
@@ -66,65 +68,77 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
     stub = 0.5 * layout.shaft.support.bearing.bore_diameter
     flange_bottom = layout.housing.flange_bottom
     on_bell = bell_features(motor, stub, unit)
-    on_cover, on_board = cover_features(motor, flange_bottom, unit), board_features(motor)
+    on_cover = cover_features(motor, flange_bottom, unit)
     cover = motor_shapes.motor_cover(motor, flange_bottom, unit, on_cover)
-    magnet = motor_shapes.encoder_magnet(motor)
-    magnets = magnets_of(2.0 * motor.magnet_radius, motor.magnet_height)
-    size = f"{2e3 * motor.magnet_radius:g} x {motor.magnet_height * 1e3:g} mm"
-    magnet_name = magnets[0].name if magnets else f"diametric magnet NdFeB N35 {size}"
-    bits = design.drive.encoder_bits
-    board_name = next((one.name for one in sensors_with(bits)), f"magnetic encoder, {bits} bits")
-
-    def one(
-        name: str,
-        shape: Stack,
-        material: str,
-        colour: Colour,
-        designation: str,
-        *,
-        turns: bool = False,
-        z: float = 0.0,
-        make: bool = False,
-        mass: float | None = None,
-        features: tuple[Feature, ...] = (),
-    ) -> Part:
-        pieces = on_axis(name, SHAFT if turns else HOUSING, z)
-        source: Source = "make" if make else "buy"
-        return Part(
-            name, shape, material, colour, source, designation, pieces, mass, stated=features
-        )
-
-    bell = one(
+    bell = piece(
         BELL, motor_shapes.bell(motor, stub, on_bell), bell_material(design), _BELL,
         "cup of the motor's rotor, turned and drilled, bonded on the shaft and to the magnets with "
         f"{ROTOR_COMPOUND.name}",
-        turns=True, make=True, features=on_bell,
+        body=SHAFT, make=True, features=on_bell,
     )  # fmt: skip
     masses = _motor_masses(row, motor, bell.exact_properties)
     return [
-        one(
-            "motor stator", motor_shapes.stator(motor), STATOR_MATERIAL, _STATOR,
-            f"{row.name}, stator", mass=masses.stator,
-        ),
-        one(
-            ROTOR, motor_shapes.rotor(motor), MAGNET_MATERIAL, _ROTOR,
-            f"{row.name}, ring of magnets", turns=True, mass=masses.magnets,
-        ),
+        *magnetic_circuit(row, motor_shapes.stator(motor), motor_shapes.rotor(motor),
+                          masses.stator, masses.magnets),
         replace(bell, catalogue_mass=masses.bell),
-        one("motor cover", cover, metal, _COVER, made_how(metal, "turned and milled"),
-            make=True, features=on_cover),
-        one(
-            "encoder magnet", magnet, MAGNET_MATERIAL, _MAGNET,
-            magnet_name, turns=True, z=motor.magnet_bottom,
-        ),
-        one(
-            "encoder board", motor_shapes.encoder_board(motor, on_board), BOARD_MATERIAL, _BOARD,
-            board_name, features=on_board,
-        ),
-        _screws("encoder screw", motor.board_screw, fastener, board_circle(motor), motor.board_top),
+        motor_cover_part(cover, metal, on_cover),
+        *encoder_parts(design, motor, fastener),
         _screws(
-            "motor cover screw", motor.cover_screw, fastener, ear_circle(motor), motor.flange_top
+            COVER_SCREW, motor.cover_screw, fastener, ear_circle(motor), motor.flange_top
         ),
+    ]  # fmt: skip
+
+
+def piece(
+    name: str,
+    shape: Stack,
+    material: str,
+    colour: Colour,
+    designation: str,
+    *,
+    body: Body = HOUSING,
+    z: float = 0.0,
+    make: bool = False,
+    mass: float | None = None,
+    features: tuple[Feature, ...] = (),
+) -> Part:
+    """A part of the motor's end that there is once, on the axis of its body."""
+    source: Source = "make" if make else "buy"
+    pieces = on_axis(name, body, z)
+    return Part(name, shape, material, colour, source, designation, pieces, mass, stated=features)
+
+
+def magnetic_circuit(
+    row: Motor, stator: Stack, rotor: Stack, stator_mass: float, rotor_mass: float
+) -> list[Part]:
+    """Stator and ring of magnets, as the maker sells them; masses in kg."""
+    return [
+        piece("motor stator", stator, STATOR_MATERIAL, _STATOR, f"{row.name}, stator",
+              mass=stator_mass),
+        piece(ROTOR, rotor, MAGNET_MATERIAL, _ROTOR, f"{row.name}, ring of magnets", body=SHAFT,
+              mass=rotor_mass),
+    ]  # fmt: skip
+
+
+def motor_cover_part(shape: Stack, metal: str, features: tuple[Feature, ...]) -> Part:
+    """The cover with its dish."""
+    how = made_how(metal, "turned and milled")
+    return piece("motor cover", shape, metal, _COVER, how, make=True, features=features)
+
+
+def encoder_parts(design: Design, motor: MotorEnd, fastener: str) -> list[Part]:
+    """Magnet, board and its screws, of a material."""
+    magnets = magnets_of(2.0 * motor.magnet_radius, motor.magnet_height)
+    size = f"{2e3 * motor.magnet_radius:g} x {motor.magnet_height * 1e3:g} mm"
+    magnet_name = magnets[0].name if magnets else f"diametric magnet NdFeB N35 {size}"
+    bits, on_board = design.drive.encoder_bits, board_features(motor)
+    board_name = next((one.name for one in sensors_with(bits)), f"magnetic encoder, {bits} bits")
+    return [
+        piece("encoder magnet", motor_shapes.encoder_magnet(motor), MAGNET_MATERIAL, _MAGNET,
+              magnet_name, body=SHAFT, z=motor.magnet_bottom),
+        piece("encoder board", motor_shapes.encoder_board(motor, on_board), BOARD_MATERIAL, _BOARD,
+              board_name, features=on_board),
+        _screws("encoder screw", motor.board_screw, fastener, board_circle(motor), motor.board_top),
     ]  # fmt: skip
 
 

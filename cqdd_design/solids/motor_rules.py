@@ -15,21 +15,22 @@ Half section, output upward; the discs are inside the tube::
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, SAFETY, length_needed
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.geometry.scale import MOST_TUBE_WALL, largest_ring
-from cqdd_design.solids.layout import MotorLayout
-from cqdd_design.solids.selection import cap_screw, thread_size
+from cqdd_design.solids.motor_layout import MotorLayout
+from cqdd_design.solids.registers import spigot_depth
+from cqdd_design.solids.selection import CapScrew, cap_screw, thread_size
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
     from cqdd_design.solids.layout import HousingLayout, PackLayout
     from cqdd_design.solids.selection import ChosenBearing
 
-_AIR_GAP = 0.5e-3
+AIR_GAP = 0.5e-3
 """Radial air gap of a motor whose catalogue gives only the gap's diameter."""
 _COIL_SHARE = 0.5
 """Height of the coils' ends over the depth of the slots."""
@@ -47,31 +48,44 @@ _MOST_HUB = 2.0
 """Length of a bonded hub over its diameter: beyond, only its ends carry."""
 _LEAST_WALL = 0.5e-3
 """Inside the threads of the cover's ears, m."""
-_SIZES = (
-    ("bore_diameter", "stator bore"),
+_CIRCUIT = (
     ("outer_diameter", "outside diameter"),
     ("gap_diameter", "diameter of the air gap"),
     ("stack_length", "length of the stack"),
     ("rotor_length", "length of the magnets"),
+)
+_OUTRUNNER = (
+    ("bore_diameter", "stator bore"),
+    *_CIRCUIT,
     ("slot_depth", "depth of the slots"),
+    ("mass", "mass"),
+)
+_INRUNNER = (
+    ("hollow_diameter", "bore of the rotor"),
+    *_CIRCUIT,
+    ("length", "length over the coils"),
     ("mass", "mass"),
 )
 """What is drawn of a motor, and its words."""
 
 
+def is_inrunner(motor: Motor) -> bool:
+    """Whether its rotor turns inside its stator."""
+    return "inrunner" in motor.kind
+
+
+def _sizes(motor: Motor) -> tuple[tuple[str, str], ...]:
+    return _INRUNNER if is_inrunner(motor) else _OUTRUNNER
+
+
 def undrawn_sizes(motor: Motor) -> tuple[str, ...]:
     """What is not known of a motor and is needed to draw it, in words."""
-    return tuple(words for field, words in _SIZES if getattr(motor, field) is None)
+    return tuple(words for field, words in _sizes(motor) if getattr(motor, field) is None)
 
 
 def drawn_motor(motor: Motor) -> tuple[Motor | None, str]:
     """Return a motor if its parts can be drawn, or None and why not."""
-    if "inrunner" in motor.kind:
-        return None, (
-            f"{motor.name} is an inrunner, whose rotor turns inside its stator; only outrunners "
-            "are drawn, round the ring, and no housing for this one behind the gearbox"
-        )
-    lacking = [(field, words) for field, words in _SIZES if getattr(motor, field) is None]
+    lacking = [(field, words) for field, words in _sizes(motor) if getattr(motor, field) is None]
     if lacking:
         *most, last = (words for _, words in lacking)
         named = (
@@ -88,6 +102,8 @@ def register_radius(motor: Motor, pack: PackLayout, unit: float) -> tuple[float,
     """Outside radius of the tube, the motor that sits on it, and why there is none."""
     own = pack.ring_radius + 2.0 * unit
     drawn, missing = drawn_motor(motor)
+    if is_inrunner(motor):
+        return own, None, missing
     bore = motor.bore_diameter
     if bore is None:
         return own, None, missing
@@ -127,12 +143,47 @@ def bell_material(design: Design) -> str:
     return own if ROTOR_COMPOUND.share_on(find_material(own)) else _BELL_METAL
 
 
-def _hub_length(torque: float, diameter: float) -> float:
+def hub_length(torque: float, diameter: float) -> float:
     """Length of a bonded hub, m: what holds the torque hot, up to `_MOST_HUB` diameters."""
     compound = ROTOR_COMPOUND
     lasting = compound.strength * compound.metal_share * compound.share_at(_HOT) / SAFETY
     needed = length_needed(torque, diameter, lasting)
     return min(math.ceil(needed * 2e3) / 2e3, _MOST_HUB * diameter)
+
+
+class EncoderPlace(NamedTuple):
+    """Magnet at the end of a shaft, and the board under it, as of `MotorEnd`; m."""
+
+    magnet_radius: float
+    magnet_height: float
+    magnet_bottom: float
+    board_radius: float
+    board_bottom: float
+    board_top: float
+    sensor_top: float
+    board_screw: CapScrew
+
+
+def lay_out_encoder(journal: float, end: float) -> EncoderPlace:
+    """The encoder at the end of a shaft of a radius, at a height; m."""
+    magnet = next((d for d in reversed(_MAGNETS) if d <= 1.3e3 * journal), _MAGNETS[0]) * 1e-3
+    height = min(0.5 * magnet, 2.5e-3)
+    # In a pocket of the shaft; on the end of a shaft too thin for one.
+    magnet_bottom = end if magnet <= 1.3 * journal + 1e-9 else end - height
+    sensor_top = magnet_bottom - _SENSOR_GAP
+    board_top = sensor_top - _SENSOR_HEIGHT
+    screw = cap_screw(2e-3, _BOARD_THICKNESS + 2.0e-3)
+    return EncoderPlace(
+        0.5 * magnet,
+        height,
+        magnet_bottom,
+        # Its screws' heads are higher than the gap to the shaft's end: they stand beside it.
+        max(0.5 * magnet + 9e-3, journal + screw.head_diameter + 0.9e-3),
+        board_top - _BOARD_THICKNESS,
+        board_top,
+        sensor_top,
+        screw,
+    )
 
 
 def lay_out_motor(
@@ -162,8 +213,8 @@ def lay_out_motor(
     """
     gap, depth = motor.gap_diameter or 0.0, motor.slot_depth or 0.0
     stack, ring = motor.stack_length or 0.0, motor.rotor_length or 0.0
-    stack_outer = 0.5 * (gap - _AIR_GAP)
-    rotor_inner = 0.5 * (gap + _AIR_GAP)
+    stack_outer = 0.5 * (gap - AIR_GAP)
+    rotor_inner = 0.5 * (gap + AIR_GAP)
     # The catalogue's outside is that of the cup, which is the bell.
     bell = 0.5 * (motor.outer_diameter or 0.0)
     rotor_outer = bell - min(1.2 * unit, 0.5 * (bell - rotor_inner))
@@ -178,18 +229,9 @@ def lay_out_motor(
     web_bottom = web_top - 2.0 * unit
 
     journal = 0.5 * support.bearing.bore_diameter
-    magnet = next((d for d in reversed(_MAGNETS) if d <= 1.3e3 * journal), _MAGNETS[0]) * 1e-3
-    height = min(0.5 * magnet, 2.5e-3)
     hub_top = housing.bottom - 0.8 * unit
-    hub_bottom = min(web_bottom, hub_top - _hub_length(torque, 2.0 * journal))
-    end = hub_bottom - 0.5 * unit
-    # In a pocket of the shaft; on the end of a shaft too thin for one.
-    magnet_bottom = end if magnet <= 1.3 * journal + 1e-9 else end - height
-    sensor_top = magnet_bottom - _SENSOR_GAP
-    board_top = sensor_top - _SENSOR_HEIGHT
-    board_screw = cap_screw(2e-3, _BOARD_THICKNESS + 2.0e-3)
-    # Its screws' heads are higher than the gap to the shaft's end: they stand beside it.
-    board = max(0.5 * magnet + 9e-3, journal + board_screw.head_diameter + 0.9e-3)
+    hub_bottom = min(web_bottom, hub_top - hub_length(torque, 2.0 * journal))
+    encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit)
 
     inner = bell + unit
     wall = 1.6 * unit
@@ -199,6 +241,11 @@ def lay_out_motor(
     head = cap_screw(thread, 0.0).head_diameter
     ear_height = 2.0 * thread
     flange = min(3.0 * unit, pack.top - housing.flange_bottom)
+    # Over the bell, whose ring ends a unit and a half below the flange.
+    spigot = min(spigot_depth(unit), 0.8 * unit)
+    spigot_inner = inner - unit
+    if housing.flange_radius > spigot_inner:
+        spigot = 0.0
     cable_room = inner - 0.5 * unit - housing.flange_radius - 0.5 * unit
     return MotorLayout(
         stack_inner=0.5 * (motor.bore_diameter or 0.0),
@@ -217,24 +264,21 @@ def lay_out_motor(
         hub_radius=journal + 3.5 * unit,
         hub_bottom=hub_bottom,
         hub_top=hub_top,
-        magnet_radius=0.5 * magnet,
-        magnet_height=height,
-        magnet_bottom=magnet_bottom,
-        board_radius=board,
-        board_bottom=board_top - _BOARD_THICKNESS,
-        board_top=board_top,
-        sensor_top=sensor_top,
-        board_screw=board_screw,
+        **encoder._asdict(),
         cover_inner=inner,
         cover_outer=inner + wall,
         cover_floor=web_bottom - unit - room,
         cover_wall=wall,
+        spigot=spigot,
+        spigot_inner=spigot_inner,
         ear_count=6,
         ear_radius=0.5 * head + 0.8 * unit,
         ear_circle=circle,
         ear_height=ear_height,
         flange_top=housing.flange_bottom + flange,
         cover_screw=cap_screw(thread, flange + 1.2 * thread),
+        cover_grip=flange,
+        cover_engaged=ear_height,
         cable_radius=min(0.3 * cable_room, 4.0 * unit) if cable_room > 3.0 * unit else 0.0,
         cable_circle=housing.flange_radius + 0.5 * unit + 0.35 * cable_room,
     )

@@ -27,7 +27,8 @@ from cqdd_design.solids.layers import (
     scalloped_circle,
     turned,
 )
-from cqdd_design.solids.layout import DowelLayout, Layout, MotorLayout
+from cqdd_design.solids.layout import DowelLayout, Layout
+from cqdd_design.solids.motor_layout import MotorEnd, MotorLayout
 
 _SENSOR_SIDE = 3.0e-3
 
@@ -72,6 +73,8 @@ def with_motor_flange(
 ) -> Stack:
     """The housing with lip and skirt for the stator, and its flange grown over the motor.
 
+    A rim under the flange centres the motor's cover.
+
     The features' holes outside the flange are in its ears and between them.
     """
     housing = layout.housing
@@ -85,6 +88,10 @@ def with_motor_flange(
             (circle(housing.register_radius - 2.5 * layout.unit),),
         )
         layers.append(Layer(tube, motor.stack_bottom, housing.bottom))
+    if motor.spigot:
+        rim = PlanarPart("spigot", circle(motor.cover_inner), (circle(motor.spigot_inner),))
+        bottom = housing.flange_bottom - motor.spigot
+        layers.append(Layer(rim, bottom, housing.flange_bottom))
     grown = reshaped(
         Stack(tuple(layers)),
         motor.stack_top,
@@ -157,12 +164,12 @@ def motor_cover(
     )
 
 
-def encoder_magnet(motor: MotorLayout) -> Stack:
+def encoder_magnet(motor: MotorEnd) -> Stack:
     """Diametric magnet in the end of the shaft, standing on z = 0."""
     return prism(PlanarPart("magnet", circle(motor.magnet_radius)), 0.0, motor.magnet_height)
 
 
-def encoder_board(motor: MotorLayout, features: Sequence[Feature]) -> Stack:
+def encoder_board(motor: MotorEnd, features: Sequence[Feature]) -> Stack:
     """Round board with the sensor's package over its middle."""
     half = 0.5 * _SENSOR_SIDE
     package = ArcContour(
@@ -176,7 +183,7 @@ def encoder_board(motor: MotorLayout, features: Sequence[Feature]) -> Stack:
     return Stack((*board.layers, sensor))
 
 
-def with_magnet_pocket(shaft: Stack, motor: MotorLayout) -> Stack:
+def with_magnet_pocket(shaft: Stack, motor: MotorEnd) -> Stack:
     """The shaft with a pocket for the magnet in its lower end, where the magnet is inside."""
     if motor.magnet_bottom < shaft.bottom - 1e-9:
         return shaft

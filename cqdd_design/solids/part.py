@@ -19,7 +19,7 @@ from cqdd_design.geometry.contours import FloatArray, Moments
 from cqdd_design.results import MassProperties
 from cqdd_design.solids.features.edges import edges
 from cqdd_design.solids.features.holes import FittedHole
-from cqdd_design.solids.features.kinds import Feature, Seat, Shoulder
+from cqdd_design.solids.features.kinds import Feature, SealFace, Seat, Shoulder
 from cqdd_design.solids.features.removal import cuts
 from cqdd_design.solids.features.revolved import Revolved
 from cqdd_design.solids.layers import Stack, prism_properties
@@ -107,12 +107,18 @@ class Part:
     def features(self) -> tuple[Feature, ...]:
         """All that it is made of: what is stated, and chamfers on the edges that turning leaves."""
         turned = self.source == "make" and self.exact_section is None
-        return (*self.stated, *edges(self.shape)) if turned else self.stated
+        if not turned:
+            return self.stated
+        return *self.stated, *edges(self.shape, [f for f in self.stated if isinstance(f, Seat)])
 
     @property
     def fits(self) -> tuple[Seat | FittedHole, ...]:
-        """Features with a tolerance zone."""
-        return tuple(one for one in self.stated if isinstance(one, Seat | FittedHole))
+        """Features with a tolerance zone on which another part sits."""
+        return tuple(
+            one
+            for one in self.stated
+            if isinstance(one, Seat | FittedHole) and not isinstance(one, SealFace)
+        )
 
     @property
     def length_origin(self) -> float:

@@ -34,6 +34,7 @@ from cqdd_design.solids.features.housing import (
     ring_dowel_holes,
     screw_circle,
 )
+from cqdd_design.solids.features.inrunner import flange_features
 from cqdd_design.solids.features.kinds import AxialThread, Feature
 from cqdd_design.solids.features.rotating import (
     loose_cam_features,
@@ -41,6 +42,8 @@ from cqdd_design.solids.features.rotating import (
     shaft_features,
     sleeve_features,
 )
+from cqdd_design.solids.inrunner_parts import inrunner_parts
+from cqdd_design.solids.inrunner_shapes import with_flange
 from cqdd_design.solids.layers import Stack, prism
 from cqdd_design.solids.layout import Layout, PackLayout, ShimLayout
 from cqdd_design.solids.motor_parts import dowel_part, motor_parts
@@ -93,6 +96,7 @@ def build_parts(design: Design, layout: Layout) -> tuple[Part, ...]:
         *_carrier_parts(design, layout),
         *_housing_parts(design, layout),
         *motor_parts(design, layout, SCREW_MATERIAL),
+        *inrunner_parts(design, layout, SCREW_MATERIAL),
     ]
     if design.reducer.balance.counterweights:
         parts += balance_weights(design, layout, parts, _SHAFT)
@@ -169,7 +173,7 @@ def _ring_parts(design: Design, layout: Layout) -> list[Part]:
 
 
 def _shaft_parts(design: Design, layout: Layout) -> list[Part]:
-    pack, shaft, motor = layout.pack, layout.shaft, layout.motor
+    pack, shaft, motor = layout.pack, layout.shaft, layout.motor_end
     material = shaft_material(pack.cam.bearing)
 
     def ground(name: str, shape: Stack, features: tuple[Feature, ...], more: str = "") -> Part:
@@ -410,6 +414,8 @@ def _housing_parts(design: Design, layout: Layout) -> list[Part]:
         return Part(name, shape, metal, colour, "make", how, pieces, stated=features)
 
     body, clamp = housing_features(layout), clamp_features(layout)
+    if layout.inrunner is not None:
+        body += flange_features(layout.inrunner)
     cover = cover_features(layout)
     places = np.array(screw_circle(housing).centres)
     screws = around("cover screw", HOUSING, places, housing.cover_flange_top)
@@ -427,6 +433,9 @@ def _housing_shape(layout: Layout, features: Sequence[Feature]) -> Stack:
     shape = housing_shapes.housing_body(layout, features)
     if layout.motor is not None:
         shape = with_motor_flange(shape, layout, layout.motor, features)
-    for holes in ring_dowel_holes(layout.pack, layout.dowels, layout.dowels.bottom):
+    if layout.inrunner is not None:
+        shape = with_flange(shape, layout.housing.register_radius, layout.inrunner, features)
+    dowels, top = layout.dowels, layout.housing.face
+    for holes in ring_dowel_holes(layout.pack, dowels, dowels.bottom, top):
         shape = with_dowel_grooves(shape, layout.pack.ring_radius, holes)
     return shape

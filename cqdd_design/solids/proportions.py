@@ -22,17 +22,24 @@ from cqdd_design.solids.carrier_rules import (
     reach_beside_circle,
 )
 from cqdd_design.solids.dowel_rules import ring_dowels
+from cqdd_design.solids.inrunner_rules import lay_out_inrunner, misfit
 from cqdd_design.solids.layout import (
     CarrierLayout,
     HeldPins,
     HousingLayout,
     Layout,
-    MotorLayout,
     PackLayout,
     ShaftLayout,
 )
-from cqdd_design.solids.motor_rules import bell_torque, lay_out_motor, register_radius
+from cqdd_design.solids.motor_layout import MotorEnd
+from cqdd_design.solids.motor_rules import (
+    bell_torque,
+    is_inrunner,
+    lay_out_motor,
+    register_radius,
+)
 from cqdd_design.solids.mounting import cover_thread, mounting_thread
+from cqdd_design.solids.registers import output_seal, shaft_seal, spigot_depth
 from cqdd_design.solids.selection import (
     ChosenBearing,
     OutputPin,
@@ -46,6 +53,8 @@ from cqdd_design.solids.selection import (
     thread_size,
 )
 
+_LEAST_FLOOR = 1.5
+"""Thickness of the housing's floor under the shaft's bearing, units."""
 _LEAST_CORE_SHARE = 0.2
 """Least core of the eccentric shaft as a share of the cam bearing's bore radius."""
 
@@ -73,19 +82,25 @@ def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
     )
     register, row, missing = register_radius(motor, pack, unit)
     housing, seat_top = _housing(design, pack, carrier, support, unit, register, row)
-    drawn = None
+    drawn, inside = None, None
     if row is not None:
         weights = design.reducer.balance.counterweights
         torque = bell_torque(design, row)
         drawn = lay_out_motor(row, pack, housing, support, unit, torque, weights=weights)
+    elif is_inrunner(motor) and not missing:
+        missing = misfit(motor, support, unit)
+        if not missing:
+            torque = bell_torque(design, motor)
+            inside = lay_out_inrunner(motor, housing, support, unit, torque)
     return Layout(
         unit=unit,
         pack=pack,
-        shaft=_shaft(pack, support, core, housing, seat_top, unit, drawn),
+        shaft=_shaft(pack, support, core, housing, seat_top, unit, drawn or inside),
         carrier=carrier,
         housing=housing,
         dowels=ring_dowels(design, pack, housing, unit),
         motor=drawn,
+        inrunner=inside,
         motor_row=motor,
         motor_missing=missing,
     )
@@ -126,7 +141,7 @@ def _seats(
 ) -> tuple[ChosenBearing, ChosenBearing]:
     pins = design.reducer.output_pins
     circle, radius = pins.circle_radius, reach_beside_circle(design.reducer)
-    heads = max(counterbore_radius(pin, unit), column_head_radius(design.reducer), radius)
+    heads = max(counterbore_radius(pin), column_head_radius(design.reducer), radius)
     support = support_bearing(
         2.0 * core,
         max(0.4e-3, 0.16 * core),
@@ -257,12 +272,15 @@ def _housing(
     """Housing, and the height of the lower support bearing's upper face."""
     count = 6 if design.reducer.ring.outer_diameter < 50e-3 else 8
     thread = cover_thread(design, thread_size(3.0 * unit), count, 5.5 * unit)
+    spigot = spigot_depth(unit)
+    face, cover_bottom = pack.top + spigot, carrier.bearing_bottom - spigot
     lip = max(2.0 * unit, 0.3 * thread)
     hub = 0.5 * carrier.output.bearing.outer_diameter + 2.5 * unit
     head = cap_screw(thread, 0.0).head_diameter
     cover_flange_top = carrier.bearing_bottom + max(
         3.0 * unit, min(thread, carrier.output.bearing.width)
     )
+    # Threads begin below the clamp's spigot: a long grip loses less of its preload.
     grip = cover_flange_top - pack.top
     screw = cap_screw(thread, grip + 1.3 * thread)
     flange_bottom = pack.top - max(screw.length - grip, 1.3 * thread) - 0.5 * unit
@@ -291,7 +309,9 @@ def _housing(
     nested = inside >= boss + 0.5 * unit
     floor_top = carrier.lowest - 0.8 * unit
     seat_top = -pack.gap if nested else floor_top
-    bottom = min(floor_top - 2.5 * unit, seat_top - support.bearing.width - unit)
+    seat_bottom = seat_top - support.bearing.width
+    bottom = min(floor_top - 2.5 * unit, seat_bottom - _LEAST_FLOOR * unit)
+    cover_top = carrier.output_seat_top + lip
     layout = HousingLayout(
         register_radius=register,
         seated_motor=motor is not None,
@@ -301,13 +321,18 @@ def _housing(
         screw=screw,
         screw_count=count,
         mount_thread=mount,
+        face=face,
+        spigot=spigot,
         clamp_inner=min(carrier.output.lip_radius, pack.most_clamp_radius),
+        cover_bottom=cover_bottom,
         cover_flange_top=cover_flange_top,
         cover_hub_radius=hub,
-        cover_top=carrier.output_seat_top + lip,
+        cover_top=cover_top,
         boss_radius=boss,
         floor_top=floor_top,
         bottom=bottom,
+        output_seal=output_seal(carrier, max(cover_top, cover_flange_top), unit),
+        shaft_seal=shaft_seal(support, bottom, seat_bottom, unit),
     )
     return layout, seat_top
 
@@ -319,7 +344,7 @@ def _shaft(
     housing: HousingLayout,
     seat_top: float,
     unit: float,
-    motor: MotorLayout | None,
+    motor: MotorEnd | None,
 ) -> ShaftLayout:
     journal = support.bearing.bore_diameter
     cam_bore = 0.5 * pack.cam.bearing.bore_diameter

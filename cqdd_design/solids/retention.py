@@ -28,6 +28,8 @@ _MOST_PLAY = 1.0
 """Of parts, in units of the layout, or the discs' spacing; what rolls on pins may float farther."""
 _EDGE = 0.05e-3
 """Distance from edges at which points are looked at, m."""
+_SAG = 5e-6
+"""Of the polygons that stand for grooved bores, m."""
 _RADII, _ANGLES = 3, 24
 """Of these points in a piece beside the axis."""
 _ROLLING = ("sleeve", "roller", "needle")
@@ -37,13 +39,10 @@ _FASTENED = (
     ("ring clamp", "housing", "cover screws"),
     ("output cover", "housing", "cover screws"),
     ("cover screw", "housing", "its thread"),
-    ("motor stator", "housing", "bond on the register"),
     ("motor cover", "housing", "its screws"),
     ("motor cover screw", "motor cover", "its thread"),
     ("encoder board", "motor cover", "its screws"),
     ("encoder screw", "motor cover", "its thread"),
-    ("rotor bell", "eccentric shaft", "bond on the stub"),
-    ("motor rotor", "rotor bell", "bond in the bell"),
     *((weight, "rotor bell", "bond on the bell") for weight in WEIGHTS),
     ("encoder magnet", "eccentric shaft", "bond in its pocket"),
     ("eccentric cam", "eccentric shaft", "press fit p6"),
@@ -56,6 +55,17 @@ _FASTENED = (
     ("column screw", "carrier plate", "its thread"),
 )
 """Part, what it is fastened to, and how."""
+_OUTRUNNER = (
+    ("motor stator", "housing", "bond on the register"),
+    ("rotor bell", "eccentric shaft", "bond on the stub"),
+    ("motor rotor", "rotor bell", "bond in the bell"),
+)
+_INRUNNER = (
+    ("motor stator", "motor cover", "bond in its seat"),
+    ("rotor hub", "eccentric shaft", "bond on the stub"),
+    ("motor rotor", "rotor hub", "bond on the hub"),
+)
+"""What holds a motor, of either kind."""
 
 
 @dataclass(frozen=True)
@@ -137,7 +147,7 @@ def _bore(station: Station) -> float:
 def _fastened(every: Sequence[Station], layout: Layout) -> tuple[list[int], list[str]]:
     """The group of every station, and how it is fastened in it."""
     groups, ways = list(range(len(every))), [""] * len(every)
-    pairs = list(_FASTENED)
+    pairs = [*_FASTENED, *(_OUTRUNNER if layout.inrunner is None else _INRUNNER)]
     carrier = layout.carrier
     if carrier.bonded_in_cap:
         pin = "dowel pin" if carrier.pin.screw is None else "shoulder screw"
@@ -234,13 +244,28 @@ def _material(span: Span, station: Station, points: ComplexArray) -> np.ndarray:
 
 
 def _inside(shape: PlanarPart, points: ComplexArray) -> np.ndarray:
-    """Which points are in a shape; outlines that are no circles count as round about the axis."""
+    """Which points are in a shape; outlines that are no circles count as round about the axis.
+
+    Bores with grooves do not: what stands in a groove passes.
+    """
     inner, outer = ring_of(shape)
     found = np.asarray((np.abs(points) < outer) & (np.abs(points) > inner))
     for hole in shape.holes:
         if isinstance(hole, Circle):
             found &= np.abs(points - complex(*hole.centre)) > hole.radius
+        elif found.any():
+            found &= ~_enclosed(hole.sample(_SAG) @ np.array([1.0, 1.0j]), points)
     return found
+
+
+def _enclosed(corners: ComplexArray, points: ComplexArray) -> np.ndarray:
+    """Which points a closed polygon goes round: crossings of a ray along x."""
+    begin, end = corners[:, None], np.roll(corners, -1)[:, None]
+    at = points.ravel()
+    spans = (begin.imag > at.imag) != (end.imag > at.imag)
+    rise = np.where(spans, end.imag - begin.imag, 1.0)
+    cross = begin.real + (at.imag - begin.imag) / rise * (end.real - begin.real)
+    return np.asarray((spans & (at.real < cross)).sum(axis=0) % 2 == 1).reshape(points.shape)
 
 
 def _may_touch(one: Station, other: Station) -> bool:

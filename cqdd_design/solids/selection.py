@@ -312,6 +312,23 @@ class CapScrew:
         return self.length in cap_screw_lengths(self.thread)
 
 
+def counterbore_of(head_diameter: float) -> float:
+    """Diameter of the counterbore for a cylindrical head of a diameter; m.
+
+    That of the cap screw with the next head that is no smaller (DIN 974-1, series 1): heads of ISO
+    7379 are those of ISO 4762. Beyond the largest, as much wider as that is.
+
+    Examples
+    --------
+    >>> [round(1e3 * counterbore_of(one * 1e-3), 1) for one in (7.0, 9.0, 13.0, 30.0)]
+    [8.0, 11.0, 15.0, 32.0]
+    """
+    mm, largest = round(head_diameter * 1e3, 3), max(_CAP_SCREWS)
+    beyond = mm + _COUNTERBORES[largest] - _CAP_SCREWS[largest][0]
+    fitting = (_COUNTERBORES[size] for size, (head, *_) in _CAP_SCREWS.items() if head >= mm)
+    return next(fitting, beyond) * 1e-3
+
+
 def thread_size(wanted: float) -> float:
     """The metric thread (m) nearest to `wanted` (m), from M1.6 to M16."""
     return min(_CAP_SCREWS, key=lambda size: abs(size - wanted * 1e3)) * 1e-3

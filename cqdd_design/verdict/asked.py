@@ -12,7 +12,7 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.precision.precision import precision
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine.carrying import carried_torque
-from cqdd_design.machine.thermal_parts import Node
+from cqdd_design.machine.heat_nodes import Node
 from cqdd_design.results import Check
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.headline import Figure, backlash, efficiency, mass
@@ -89,7 +89,7 @@ def _bore(evidence: Evidence) -> Iterator[Check]:
         yield build_check("BORE", None, 1e3 * wanted, error.message, "see why nothing is drawn")
         return
     hole = 2e3 * layout.shaft.bore_radius
-    closed = layout.motor is not None
+    closed = layout.motor_end is not None
     yield build_check(
         "BORE",
         0.0 if closed else hole,

@@ -65,10 +65,10 @@ def bell_line(machine: Machine, warm: MachineTemperatures | None) -> Check:
         layout = machine.layout
     except (CatalogError, GeometryError) as error:
         return build_check(name, None, None, error.message, "see why it is not known")
-    motor = layout.motor
+    motor = layout.motor_end
     if motor is None:
         return build_check(
-            name, None, None, f"no bell is drawn: {layout.motor_missing}",
+            name, None, None, f"no bell or hub is drawn: {layout.motor_missing}",
             "name a motor whose sizes are known and into which the ring goes",
         )  # fmt: skip
     hot, guessed = GREASE_MOST, " (not known, what grease bears)"

@@ -12,10 +12,12 @@ from cqdd_design.actuator.operating import envelope_torque, held_torque
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
+from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
+from cqdd_design.solids.motor_rules import is_inrunner
 
 MODEL = "operating points of the simulated actuator"
 _RPM = 30.0 / math.pi
@@ -54,14 +56,14 @@ def motor_lines(
     asked, motor = machine.design.requirements, machine.motor
     lines = list(_data(motor))
     if actuator is None:
-        return (*(_unknown(one, asked, why) for one in _LIMITS), *lines, _bore(machine))
+        return (*(_unknown(one, asked, why) for one in _LIMITS), *lines, *_bore(machine))
     peak, steady, *duty = demands(actuator, asked)
     lines += [
         _peak(peak, motor, asked),
         # Under a duty its own heat decides, see THERMAL-RISE.
         *(() if duty else (_continuous(steady, actuator, asked, uncooled),)),
         _speed(actuator, asked),
-        _bore(machine),
+        *_bore(machine),
     ]
     if asked.duty_log is not None:
         return (*lines, _logged(duty_points(actuator, asked.duty_log)))
@@ -172,14 +174,32 @@ def _fastest(actuator: ActuatorParameters, torque: float) -> float:
     return low
 
 
-def _bore(machine: Machine) -> Check:
-    """The ring inside the stator."""
+def _bore(machine: Machine) -> tuple[Check, ...]:
+    """The ring inside the stator; no line for a motor that stands behind the gearbox."""
     outer, motor = machine.design.reducer.ring.outer_diameter, machine.motor
+    if is_inrunner(motor):
+        return () if _stands_behind(machine) else (_no_place(machine, outer),)
     if motor.bore_diameter is None:
         told = f"ring {outer * 1e3:.4g} mm; the stator bore of '{motor.name}' is not known"
-        return build_check("MOTOR-BORE", outer * 1e3, None, told, GIVE)
+        return (build_check("MOTOR-BORE", outer * 1e3, None, told, GIVE),)
     screened = next(check for check in machine.analysis.checks if check.id == "MOTOR-BORE")
-    return replace(screened, severity="fail")
+    return (replace(screened, severity="fail"),)
+
+
+def _stands_behind(machine: Machine) -> bool:
+    try:
+        return machine.layout.inrunner is not None
+    except DesignError:
+        return False
+
+
+def _no_place(machine: Machine, ring: float) -> Check:
+    """An inrunner that is not drawn behind the gearbox, of a ring (outside, m)."""
+    try:
+        why = machine.layout.motor_missing
+    except DesignError as error:
+        why = error.message
+    return build_check("MOTOR-BORE", 1e3 * ring, None, why, GIVE)
 
 
 def _logged(found: DutyPoints) -> Check:

@@ -7,8 +7,8 @@ from cqdd_design.errors import CatalogError, DesignError, GeometryError
 from cqdd_design.gearbox.checks.allowables import LEAST_WALL_BETWEEN_HOLES, SHOULDER_SHARE
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.machine import Machine
+from cqdd_design.machine.heat_nodes import by_node
 from cqdd_design.machine.temperatures import MachineTemperatures
-from cqdd_design.machine.thermal_parts import by_node
 from cqdd_design.results import Check
 from cqdd_design.solids.axial import AxialStack
 from cqdd_design.solids.retention import Retained, Stop

@@ -22,7 +22,7 @@ from cqdd_design.design import Design, load_design
 from cqdd_design.files import WrittenFile
 from cqdd_design.gearbox.heat.expansion import HOTTEST
 from cqdd_design.machine import resolve
-from cqdd_design.machine.thermal_parts import by_node
+from cqdd_design.machine.heat_nodes import by_node
 from cqdd_design.report import ReportInput, build_report
 from cqdd_design.report.judgement.check_rows import printed
 from cqdd_design.results import Check

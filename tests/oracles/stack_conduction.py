@@ -19,8 +19,9 @@ from scipy.sparse.linalg import spsolve
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.gearbox.heat.surfaces import outside_conductance
 from cqdd_design.machine import Machine
+from cqdd_design.machine.heat_nodes import NODES, Node
 from cqdd_design.machine.temperatures import MachineTemperatures
-from cqdd_design.machine.thermal_parts import NODES, Node, conductances
+from cqdd_design.machine.thermal_parts import conductances
 
 
 @dataclass(frozen=True)
@@ -167,7 +168,7 @@ def stack_temperatures(found: MachineTemperatures, size: float = 1e-3) -> dict[s
     machine = found.machine
     layout = machine.layout
     assert layout.motor is not None
-    told = conductances(machine, layout, layout.motor)
+    told = conductances(machine, layout)
     pack, shaft, carrier, housing = layout.pack, layout.shaft, layout.carrier, layout.housing
     parts = fields(machine)
     cells = [_Cells(one, size) for one in parts]

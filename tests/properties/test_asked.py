@@ -17,7 +17,7 @@ from cqdd_design.gearbox.precision.precision import precision
 from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.carrying import carried_torque
-from cqdd_design.machine.thermal_parts import by_node
+from cqdd_design.machine.heat_nodes import by_node
 from cqdd_design.results import Check
 from cqdd_design.verdict import Verdict, judge
 from cqdd_design.verdict.asked import asked_lines

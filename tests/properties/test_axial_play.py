@@ -15,9 +15,9 @@ from cqdd_design.exporting.bill.fitting import fitting_notes
 from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.machine import Machine, resolve
+from cqdd_design.machine.heat_nodes import NODES
 from cqdd_design.machine.sealing import sealing
 from cqdd_design.machine.temperatures import machine_temperatures
-from cqdd_design.machine.thermal_parts import NODES
 from cqdd_design.solids.axial import AxialStack
 from cqdd_design.solids.features.holes import Counterbore
 from cqdd_design.solids.shims import OUTPUT_SET, SHAFT_SET
@@ -158,12 +158,14 @@ def test_counterbores_of_columns_are_those_of_din_974() -> None:
 
 
 def test_what_is_not_sealed_is_said(machine: Machine) -> None:
-    """Between a nut of 54.8 mm and a lip of 61.2 mm are 3.2 mm."""
-    assert "Not sealed: the 3.2 mm between nut and cover" in sealing(machine)
+    """Gaps of 0.5 and 0.25 mm; only sealed bearings keep out more than coarse dust."""
+    assert sealing(machine).startswith("Gap seals, without friction: a gap of 0.5 mm, 1.4 mm long,")
+    assert "one of 0.25 mm, 3.8 mm long, between shaft and housing" in sealing(machine)
+    assert "Nothing keeps fine dust and water out" in sealing(machine)
     assert fitting_notes(machine)["output bearing"].endswith("open, not sealed")
     assert sealing(machine) in AssemblyFacts(machine).notes()
     closed = machine.changed({"reducer.friction.seals": "contact"})
-    assert sealing(closed).startswith("Sealed by its bearings alone")
+    assert sealing(closed).startswith("Sealed by its bearings: ")
     assert "contact seals" in fitting_notes(closed)["shaft bearing"]
 
 

@@ -301,3 +301,37 @@ def test_picture_has_its_colours_where_the_stress_is() -> None:
     told = stress_view(strength, checks, outlines)["rows"][0]
     assert told[1] == values["rows"][0][1]
     assert told[2] == "not known"
+
+
+def plastic(disc: str, ring: str, low: float, high: float) -> dict[str, object]:
+    """The line of creep for materials of disc and ring under a cycle (Pa), or nothing."""
+    materials = {"reducer.disc_material": disc, "reducer.ring_material": ring}
+    design = machine_of_s().given.replacing(materials)
+    found = body_checks(design, with_stress(high, low, high, 1e6))
+    return {one.id: one for one in found if one.id == "PLASTIC-CREEP"}
+
+
+def test_a_plastic_held_for_long_strains_by_its_creep() -> None:
+    """Hostaform C 9021 has 1.3 GPa after 1000 h: 13 MPa are 1 %, and 20 MPa too much."""
+    steel = "AISI 4140 Q&T 540C"
+    assert plastic(steel, steel, 0.0, 20e6) == {}
+    (line,) = plastic("POM (acetal)", steel, -6.5e6, 3e6).values()
+    assert (line.status, line.value) == ("pass", pytest.approx(0.5))
+    assert line.limit == pytest.approx(1.0)
+    (line,) = plastic("POM (acetal)", steel, 0.0, 20e6).values()
+    assert (line.status, line.value) == ("fail", pytest.approx(100.0 * 20.0 / 1300.0))
+    # The worse of two plastics: PA66 has 0.7 GPa.
+    (line,) = plastic("POM (acetal)", "PA66", 0.0, 5e6).values()
+    assert "in the ring of PA66" in line.substituted
+    assert line.value == pytest.approx(100.0 * 5.0 / 700.0)
+
+
+def test_creep_of_printed_plastics_is_not_known() -> None:
+    """Unknown, unless the load is too much at once: 40 MPa on 2.3 GPa are 1.7 %."""
+    printed = "PC-CF FDM across layers"
+    (line,) = plastic(printed, "POM (acetal)", 0.0, 5e6).values()
+    assert (line.status, line.value) == ("unknown", None)
+    assert "lower it" not in line.remedy
+    assert "its creep is not known" in line.substituted
+    (line,) = plastic(printed, printed, 0.0, 40e6).values()
+    assert (line.status, line.value) == ("fail", pytest.approx(100.0 * 40.0 / 2300.0))

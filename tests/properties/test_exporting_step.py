@@ -17,7 +17,8 @@ from cqdd_design.exporting.job import ExportJob
 from cqdd_design.exporting.solids import step
 from cqdd_design.exporting.solids.step import export_step, file_label, write_part_step, write_step
 from cqdd_design.machine import resolve
-from cqdd_design.solids.features.holes import TappedHole
+from cqdd_design.solids.features.holes import ClearanceHole, FittedHole, TappedHole
+from cqdd_design.solids.features.kinds import Seat, Shoulder
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("cadquery") is None, reason="cadquery is not installed"
@@ -183,6 +184,86 @@ def test_ap242_carries_the_sizes_that_a_drawing_gives_a_zone(tmp_path: Path) -> 
         (22.0, 0.0, 0.021, 1),
         (50.0, 0.002, 0.018, 1),
     ]
+
+
+def read_back(path: Path) -> list[tuple[str, float, str, int]]:
+    """Kind, width, letters of datums in their order, and faces of every tolerance of a file."""
+    from OCP.STEPCAFControl import STEPCAFControl_Reader
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDF import TDF_LabelSequence
+    from OCP.TDocStd import TDocStd_Document
+    from OCP.XCAFDoc import XCAFDoc_Datum, XCAFDoc_DocumentTool, XCAFDoc_GeomTolerance
+
+    reader, document = STEPCAFControl_Reader(), TDocStd_Document(TCollection_ExtendedString("x"))
+    reader.SetGDTMode(True)
+    reader.ReadFile(str(path))
+    assert reader.Transfer(document)
+    tool, labels = XCAFDoc_DocumentTool.DimTolTool_s(document.Main()), TDF_LabelSequence()
+    tool.GetGeomToleranceLabels(labels)
+    read = []
+    for i in range(1, labels.Length() + 1):
+        faces, datums = TDF_LabelSequence(), TDF_LabelSequence()
+        tool.GetRefShapeLabel_s(labels.Value(i), faces, TDF_LabelSequence())
+        tool.GetDatumWithObjectOfTolerLabels_s(labels.Value(i), datums)
+        letters = [
+            XCAFDoc_Datum.Set_s(datums.Value(k)).GetObject() for k in range(1, datums.Length() + 1)
+        ]
+        ordered = sorted(letters, key=lambda one: one.GetPosition())
+        stated = XCAFDoc_GeomTolerance.Set_s(labels.Value(i)).GetObject()
+        kind = stated.GetType().name.rpartition("_")[2]
+        named = "".join(one.GetName().ToCString() for one in ordered)
+        read.append((kind, round(stated.GetValue(), 6), named, faces.Length()))
+    return sorted(read)
+
+
+@pytest.mark.parametrize("name", ["carrier plate", "ring clamp", "eccentric shaft"])
+def test_ap242_carries_form_place_and_datums(name: str, tmp_path: Path) -> None:
+    """Of the features, not of what the writer made of them; two letters in their order."""
+    part = part_named(known_parts("paper"), name)
+    path = tmp_path / "part.step"
+    write_part_step(known_design("paper"), part, path, "AP242")
+    read = read_back(path)
+    wanted: list[tuple[str, float, str]] = []
+    for one in part.features:
+        if isinstance(one, Seat) and one.cylindricity:
+            wanted.append(("Cylindricity", one.cylindricity, ""))
+        if isinstance(one, Seat) and one.position:
+            wanted.append(("Position", one.position, one.refers))
+        elif isinstance(one, Seat) and one.refers:
+            wanted.append(("TotalRunout", one.run_out, one.refers))
+        if isinstance(one, Shoulder) and one.refers:
+            wanted.append(("CircularRunout", one.run_out, one.refers))
+        if isinstance(one, FittedHole | TappedHole | ClearanceHole):
+            wanted.append(("Position", one.position, one.refers))
+    assert [one[:3] for one in read] == sorted(
+        (kind, round(1e3 * value, 6), letters) for kind, value, letters in wanted
+    )
+    assert all(faces >= 1 for *_, faces in read)
+
+
+def test_what_the_plate_and_clamp_say_of_their_holes(tmp_path: Path) -> None:
+    """Five threads of pins within 0.2 mm of A; eight holes of the clamp to its face, then axis."""
+    design = known_design("paper")
+    path = tmp_path / "part.step"
+    write_part_step(design, part_named(known_parts("paper"), "carrier plate"), path, "AP242")
+    assert ("Position", 0.2, "A", 5) in read_back(path)
+    write_part_step(design, part_named(known_parts("paper"), "ring clamp"), path, "AP242")
+    assert ("Position", 0.2, "BA", 8) in read_back(path)
+
+
+def test_a_file_that_lost_a_tolerance_is_not_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from cqdd_design.exporting.solids import pmi_file
+
+    def nothing(self: object, zone: object) -> None:
+        """As a kernel that drops what it does not know."""
+
+    monkeypatch.setattr(pmi_file._Sheet, "add_zone", nothing)
+    nut = part_named(known_parts("paper"), "bearing nut")
+    with pytest.raises(ReadBackError, match="0 tolerances instead of one with 1 and 2"):
+        write_part_step(known_design("paper"), nut, tmp_path / "nut.step", "AP242")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_file_that_lost_a_solid_is_not_kept(

@@ -20,10 +20,10 @@ from cqdd_design.design import load_design
 from cqdd_design.gearbox.checks.allowables import bond_limit
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.dowels import loaded_dowels, ring_torque
+from cqdd_design.machine.heat_nodes import NODES
 from cqdd_design.machine.screws import ScrewJoint, screw_joints
 from cqdd_design.machine.shaft_strength import output_loads
 from cqdd_design.machine.temperatures import MachineTemperatures
-from cqdd_design.machine.thermal_parts import NODES
 from cqdd_design.results import Check
 from cqdd_design.solids.motor_rules import bell_torque
 from cqdd_design.solids.mounting import forces

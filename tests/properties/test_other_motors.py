@@ -2,19 +2,36 @@
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
 import pytest
+from legible import assert_legible
 
 from cqdd_design.catalog import find_motor
 from cqdd_design.design import load_design
+from cqdd_design.errors import DesignError, GeometryError
+from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
+from cqdd_design.exporting.sheets.canvas import render
+from cqdd_design.exporting.sheets.part_facts import PartFacts
+from cqdd_design.exporting.sheets.part_sheet import draw_part
+from cqdd_design.exporting.sheets.title_block import HEIGHT, WIDTH
 from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.machine import resolve
+from cqdd_design.machine.heat_nodes import NODES
+from cqdd_design.machine.screws import screw_joints
+from cqdd_design.machine.thermal_parts import machine_network
 from cqdd_design.roads.export import left_out
-from cqdd_design.solids.motor_rules import drawn_motor, undrawn_sizes
+from cqdd_design.solids.apart import taken_apart
+from cqdd_design.solids.clearances import assembly_motion, output_revolution
+from cqdd_design.solids.mesh import DISPLAY
+from cqdd_design.solids.motor_rules import bell_torque, drawn_motor, undrawn_sizes
+from cqdd_design.solids.tool_access import reaches
 from cqdd_design.verdict.joint_lines import joint_lines
 
 UNDRAWN = (
-    "CubeMars RI100 KV105",
     "CubeMars RI50 KV100",
+    "CubeMars RI70 KV95",
     "maxon EC-i 40 100 W",
     "CubeMars RO80 KV105",
     "CubeMars RO60 KV115",
@@ -25,8 +42,12 @@ UNDRAWN = (
     "DJI GM6020",
 )
 """Three inrunners, three frameless outrunners, two open ones on their own shafts, and others."""
+DRAWN = ("CubeMars RI100 KV105", "CubeMars RI80 V2.0 KV75", "CubeMars RI50 KV100")
+"""Inrunners: wider than the ring's tube, about as wide, and slimmer (with a stated length)."""
 KEYS = {
     "stator bore": "bore_diameter",
+    "bore of the rotor": "hollow_diameter",
+    "length over the coils": "length",
     "outside diameter": "outer_diameter",
     "diameter of the air gap": "gap_diameter",
     "length of the stack": "stack_length",
@@ -51,12 +72,9 @@ def test_a_motor_without_its_sizes_is_left_out_by_a_sentence_everywhere(paper, n
     row, missing = find_motor(name), machine.layout.motor_missing
     assert machine.layout.motor is None
     assert name in missing
-    if "inrunner" in row.kind:
-        assert "is an inrunner" in missing
-    else:
-        for words in undrawn_sizes(row):
-            assert words in missing
-            assert KEYS[words] in missing
+    for words in undrawn_sizes(row):
+        assert words in missing
+        assert KEYS[words] in missing
     # The bill, the masses, the files and the verdict.
     (line,) = (one for one in bill_of_materials(machine, machine.parts) if one.part == "motor")
     assert line.designation == name
@@ -85,10 +103,139 @@ def test_an_outrunner_whose_sizes_are_stated_is_drawn(paper):
     assert whole == pytest.approx(0.6, rel=1e-9)
 
 
-def test_an_inrunner_is_not_drawn_as_an_outrunner_whatever_is_stated(paper):
-    known = paper.replacing({"motor": {"name": "CubeMars RI100 KV105", **SIZES}})
+def build(design):
+    return resolve(design).parts
+
+
+def inrunner(paper, name):
+    changed = {"motor.name": name}
+    if name == "CubeMars RI50 KV100":
+        changed = {"motor": {"name": name, "rotor_length": "18 mm"}}
+    return resolve(paper.replacing(changed))
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_an_inrunner_stands_behind_the_gearbox_with_its_own_sizes(paper, name):
+    machine = inrunner(paper, name)
+    layout, row = machine.layout, machine.motor
+    assert (layout.motor, layout.motor_missing) == (None, "")
+    parts = {part.name: part for part in machine.parts}
+    wanted = {"motor stator", "motor rotor", "rotor hub", "motor cover", "encoder board"}
+    assert wanted <= set(parts)
+    assert "rotor bell" not in parts
+    # What the catalogue says of it is what is drawn.
+    stator, rotor = parts["motor stator"].shape, parts["motor rotor"].shape
+    assert 2.0 * stator.outside_radius == pytest.approx(row.outer_diameter)
+    assert stator.top - stator.bottom == pytest.approx(row.length)
+    assert 2.0 * rotor.inside_radius == pytest.approx(row.hollow_diameter)
+    assert rotor.top - rotor.bottom == pytest.approx(row.rotor_length)
+    gap = rotor.outside_radius + stator.inside_radius
+    assert gap == pytest.approx(row.gap_diameter, abs=0.6e-3)
+    mass = parts["motor stator"].mass + parts["motor rotor"].mass
+    assert mass == pytest.approx(row.mass, rel=1e-9)
+    # The hub is ours: it comes on top of the catalogue's inertia of the rotor.
+    found = {one.name: one.reflected for one in machine.inertia.parts}
+    assert found["motor rotor"] == pytest.approx(row.rotor_inertia, rel=0.02)
+    assert machine.inertia.gearbox_reflected > found["rotor hub"] > 0.0
+    assert "with the rotor's hub" in machine.inertia.crank_scope
+    # All of it behind the gearbox's floor, and none of it left out in the files.
+    assert max(one.shape.top for one in (parts["motor stator"], parts["motor rotor"])) < (
+        layout.housing.bottom
+    )
+    assert left_out(machine.given, "step,bom") == ()
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_an_inrunner_is_held_and_goes_together(paper, name):
+    machine = inrunner(paper, name)
+    assert not [row.name for row in machine.retention if row.free]
+    ways = {row.name: (row.up.by, row.down.by) for row in machine.retention}
+    assert ways["motor stator"] == ("motor cover, bond in its seat",) * 2
+    assert ways["motor rotor"] == ("rotor hub, bond on the hub",) * 2
+    steps, whole = taken_apart(machine.design, machine.parts)
+    assert whole
+    # What is bonded on the bench comes with what it is bonded in.
+    said = AssemblyFacts(machine).order()
+    for bonded, unit in (("motor rotor", "rotor hub"), ("motor stator", "motor cover")):
+        assert any(one.startswith(f"unit of the {unit}: {bonded},") for one in said)
+        assert not any(one.startswith(f"{bonded},") for one in said)
+        assert f"the unit of the {unit}, from the motor side" in said
+    assert all(key.reaches for key in reaches(machine.design, steps))
+
+
+@pytest.mark.deep
+def test_an_inrunner_runs_free(paper):
+    machine = inrunner(paper, DRAWN[2])
+    angles = output_revolution(machine.design, 1)
+    motion = assembly_motion(machine.design, machine.parts, angles, DISPLAY)
+    assert motion.collisions == ()
+    gaps = {frozenset((one.first, one.second)): one.gap for one in motion.clearances}
+    assert gaps[frozenset(("motor stator", "motor rotor"))] == pytest.approx(0.5e-3, abs=0.1e-3)
+
+
+def test_sheets_of_an_inrunner_can_be_read(paper):
+    machine = inrunner(paper, DRAWN[2])
+    for part in machine.parts:
+        if part.name in ("motor cover", "rotor hub", "housing"):
+            svg = render(draw_part(PartFacts(part, machine.given)).drawing, WIDTH, HEIGHT)
+            assert_legible(svg)
+    said = " ".join(AssemblyFacts(machine).notes())
+    assert "Motor stator bonded at the stator seat" in said
+
+
+def test_a_rotor_too_narrow_for_the_shaft_is_told(paper):
+    known = {"name": "CubeMars RI50 KV100", "rotor_length": "18 mm", "hollow_diameter": "11 mm"}
+    machine = resolve(paper.replacing({"motor": known}))
+    assert machine.layout.inrunner is None
+    assert "has a bore of 11 mm, and with a hub it needs 12 mm on a shaft of 10 mm" in (
+        machine.layout.motor_missing
+    )
+    (line,) = (one for one in joint_lines(machine, None) if one.id == "BELL-JOINT")
+    assert line.status == "unknown"
+
+
+def test_an_inrunner_has_no_bell_for_balance_weights(paper):
+    with pytest.raises(GeometryError, match="is an inrunner, which has none"):
+        build(paper.replacing({"motor.name": DRAWN[0], "reducer.balance.counterweights": True}))
+
+
+def test_sizes_of_an_outrunner_do_not_make_one_of_an_inrunner(paper):
+    known = paper.replacing({"motor": {"name": "CubeMars RI70 KV95", **SIZES}})
     machine = resolve(known)
-    assert undrawn_sizes(machine.motor) == ()
-    assert drawn_motor(machine.motor)[0] is None
+    assert drawn_motor(machine.motor)[0] is not None
     assert machine.layout.motor is None
-    assert "is an inrunner" in machine.layout.motor_missing
+    assert "rotor bell" not in {part.name for part in machine.parts}
+
+
+def test_temperatures_of_an_inrunner_ask_for_its_slots(paper):
+    """Without the slots nothing is known; with them all heat leaves through the cover."""
+    with pytest.raises(DesignError, match="state slot_depth"):
+        machine_network(inrunner(paper, DRAWN[0]))
+    machine = resolve(paper.replacing({"motor": {"name": DRAWN[0], "slot_depth": "14 mm"}}))
+    network = machine_network(machine)
+    assert (network.conductance == network.conductance.T).all()
+    at = {name: NODES.index(name) for name in NODES}
+    # The stator hands its heat to the cover, not to the housing.
+    assert network.conductance[at["stator"], at["cover"]] > 1.0
+    assert network.conductance[at["stator"], at["housing"]] == 0.0
+    # Nothing is cut off: one watt in the winding leaves through the air.
+    area = sum(surface.area for surface in network.surfaces)
+    can, body = machine.layout.inrunner, machine.layout.housing
+    least = 2.0 * math.pi * can.cover_outer * (can.joint - can.cover_floor)
+    assert least < area < 8.0 * math.pi * body.flange_radius * (body.cover_top - can.board_bottom)
+    laplacian = np.diag(network.conductance.sum(axis=1)) - network.conductance
+    assert np.linalg.matrix_rank(laplacian) == len(NODES) - 1
+
+
+def test_screws_of_the_cover_hold_the_stators_torque(paper):
+    """Six of them on a circle: the motor's peak torque, which an outrunner's cover never feels."""
+    machine = inrunner(paper, DRAWN[0])
+    joints = {one.place: one for one in screw_joints(machine)}
+    cover = joints["motor's cover, which carries the stator"]
+    radius = machine.layout.inrunner.ear_circle
+    assert cover.across * cover.count * radius == pytest.approx(
+        bell_torque(machine.design, machine.motor)
+    )
+    assert 1.2 < cover.slip_safety < math.inf
+    outside = {one.place: one for one in screw_joints(resolve(paper))}
+    assert outside["motor's cover, which carries nothing"].across == 0.0

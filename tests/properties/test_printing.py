@@ -184,6 +184,7 @@ def test_the_readme_says_what_was_done_and_what_is_left(design, machine, every):
     assert "8 x M4, 8.5 mm deep: heat-set insert M4 x 8.1 in holes of 5.6 mm" in text
     assert "BELOW 0.84 mm" in text
     assert "it keeps strength and shape up to 110 degc" in text.lower()
+    assert "How it creeps is not known: hold no torque for long" in text
     assert "bores and pins of 5, 19, 21 mm" in text
     measured = design.replacing({"printing.outside_error": "60 um", "printing.shrinkage": 0.002})
     again = " ".join(
@@ -243,3 +244,32 @@ def test_the_printed_design_is_exported_whole(design, tmp_path):
     assert len(names) == 8 * 3 + 2 + 1
     assert {"printed-13-coupon.step", "printed-13-coupon.3mf"} <= names
     assert all(math.isfinite(one.bytes) and one.bytes > 1000 for one in files)
+
+
+def test_a_machine_of_metal_is_refused_before_anything_is_begun(paper_design_file, tmp_path):
+    """Not after the files of another kind are written: their solids take seconds."""
+    told = []
+    with pytest.raises(DesignError, match="no part is of a plastic to be printed or moulded"):
+        export(load_design(paper_design_file), "step,print", tmp_path / "out", progress=told.append)
+    assert told == []
+    assert not (tmp_path / "out").exists()
+
+
+def test_inserts_go_in_from_the_face(every):
+    """Through the counterbores over the threads of the housing, which are narrower than they."""
+    housing = next(one for one in every if one.made.name == "housing").made
+    (deep,) = (t for t in housing_threads(every) if t.insert is not None)
+    radius = 0.5 * deep.insert.hole
+    holes = [
+        (layer.bottom, layer.top, tuple(np.round(hole.centre, 7)))
+        for layer in housing.shape.layers
+        for hole in layer.shape.holes
+        if isinstance(hole, Circle) and hole.radius > 0.99 * radius and hole.radius < 1.1 * radius
+    ]
+    wide = {place: max(top for _, top, at in holes if at == place) for _, _, place in holes}
+    tops = [wide[place] for place in wide if np.hypot(*place) > 0.04]
+    assert len([top for top in tops if top > housing.shape.top - 0.1e-3]) >= deep.count
+
+
+def housing_threads(every):
+    return next(one for one in every if one.made.name == "housing").threads

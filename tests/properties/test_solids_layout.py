@@ -306,11 +306,7 @@ def test_fits_are_named_and_have_limits() -> None:
     seat = next(fit for fit in housing.fits if fit.name == "ring seat")
     assert (seat.zone, seat.limits.lower, seat.limits.upper) == ("H7", 0.0, pytest.approx(30e-6))
     made = [part for part in parts if part.source == "make"]
-    assert {part.name for part in made if not part.fits} == {
-        "ring clamp",
-        "bearing nut",
-        "motor cover",
-    }
+    assert {part.name for part in made if not part.fits} == {"bearing nut"}
 
 
 def test_density_of_the_housing_shows_in_the_mass() -> None:
@@ -331,18 +327,18 @@ def test_fixed_parts_stay_where_they_are() -> None:
     # The catalogue's motor, once: its rotor is magnets and the bell that carries them.
     motor = weights["motor stator"] + weights["motor rotor"] + weights["rotor bell"]
     assert motor == pytest.approx(0.525, rel=1e-9)
-    assert sum(weights.values()) == pytest.approx(1.4845, abs=1e-4)
+    assert sum(weights.values()) == pytest.approx(1.4907, abs=1e-4)
 
 
 @pytest.mark.parametrize(
     ("throw", "count", "circle", "pin"),
     [
-        # Heads of 7 mm in counterbores need 7.97 mm from pin to pin: 16 have 8.19 mm, 17 have 7.72.
-        ("0.8 mm", 16, "21 mm", "shoulder screw"),
-        ("0.8 mm", 17, "21 mm", "dowel pin"),
+        # Counterbores of 8 mm need 8.4 mm from pin to pin: 15 have 8.73 mm, 16 have 8.19.
+        ("0.8 mm", 15, "21 mm", "shoulder screw"),
+        ("0.8 mm", 16, "21 mm", "dowel pin"),
         # Near the ring the heads have no wall outside them any more.
-        ("0.4 mm", 6, "28.25 mm", "shoulder screw"),
-        ("0.4 mm", 6, "28.5 mm", "dowel pin"),
+        ("0.4 mm", 6, "28 mm", "shoulder screw"),
+        ("0.4 mm", 6, "28.25 mm", "dowel pin"),
     ],
 )
 def test_where_heads_have_no_room_pins_are_dowels(

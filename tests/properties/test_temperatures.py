@@ -24,6 +24,7 @@ from cqdd_design.gearbox.losses.swept import SWEEP_ANGLES
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.cooling import cooled_network, two_nodes
 from cqdd_design.machine.duty_heat import DutyCase, DutyHeat, duty_cases, duty_heat
+from cqdd_design.machine.heat_nodes import NODES, node_values
 from cqdd_design.machine.settling import settle
 from cqdd_design.machine.temperatures import (
     MachineTemperatures,
@@ -31,7 +32,7 @@ from cqdd_design.machine.temperatures import (
     judged_temperatures,
     machine_temperatures,
 )
-from cqdd_design.machine.thermal_parts import NODES, machine_network, node_values
+from cqdd_design.machine.thermal_parts import machine_network
 
 W, H = NODES.index("winding"), NODES.index("housing")
 

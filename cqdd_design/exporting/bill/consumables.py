@@ -59,21 +59,21 @@ class Bond:
 def bonds(machine: Machine) -> tuple[Bond, ...]:
     """Every cylindrical bond that is drawn."""
     layout = machine.layout
-    motor, carrier, stub = layout.motor, layout.carrier, layout.shaft.support.bearing.bore_diameter
-    found = []
+    carrier, stub = layout.carrier, layout.shaft.support.bearing.bore_diameter
+    motor, outside, found = layout.motor_end, layout.motor is not None, []
     if motor is not None:
-        ring = motor.ring_top - motor.ring_bottom
+        ring, stack = motor.ring_top - motor.ring_bottom, motor.stack_top - motor.stack_bottom
+        hub, held = motor.hub_top - motor.hub_bottom, _gap("F7", "k6", stub)
+        on_stub, in_rotor, seat = "hub on the shaft", "rotor on its hub", "stator in the cover"
+        wide, stator = motor.rotor_inner, motor.stack_outer
+        if outside:
+            on_stub, in_rotor = "bell on the shaft", "magnets in the bell"
+            seat = "stator on the housing"
+            wide, stator = motor.rotor_outer, motor.stack_inner
         found += [
-            Bond(
-                "bell on the shaft", stub, motor.hub_top - motor.hub_bottom, _gap("F7", "k6", stub)
-            ),
-            Bond("magnets in the bell", 2.0 * motor.rotor_outer, ring, _LEAST_GAP),
-            Bond(
-                "stator on the housing",
-                2.0 * motor.stack_inner,
-                motor.stack_top - motor.stack_bottom,
-                _LEAST_GAP,
-            ),
+            Bond(on_stub, stub, hub, held),
+            Bond(in_rotor, 2.0 * wide, ring, _LEAST_GAP),
+            Bond(seat, 2.0 * stator, stack, _LEAST_GAP),
         ]
     pin = carrier.pin.nominal_diameter
     if carrier.bonded_in_cap:

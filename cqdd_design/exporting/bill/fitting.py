@@ -117,14 +117,19 @@ def _needles(parts: dict[str, Part]) -> dict[str, str]:
 
 def _motor(machine: Machine) -> dict[str, str]:
     layout: Layout = machine.layout
-    motor = layout.motor
+    motor, outside = layout.motor_end, layout.motor is not None
     if motor is None:
         return {}
     gap = motor.magnet_bottom - motor.sensor_top
     board, thick = 2.0 * motor.board_radius, motor.board_top - motor.board_bottom
     return {
-        "motor stator": f"bonded on the housing's register, {2.0 * _MM * motor.stack_inner:g} h7",
-        "motor rotor": f"bonded into the bell with {ROTOR_COMPOUND.name}; comes with the stator",
+        "motor stator": (
+            f"bonded on the housing's register, {2.0 * _MM * motor.stack_inner:g} h7"
+            if outside
+            else f"bonded into its seat in the cover, {2.0 * _MM * motor.stack_outer:g} H7"
+        ),
+        "motor rotor": f"bonded {'into the bell' if outside else 'on the hub'} with "
+        f"{ROTOR_COMPOUND.name}; comes with the stator",
         "encoder magnet": (
             "bonded into the shaft's end"
             if motor.magnet_bottom >= layout.shaft.bottom - _SAME

@@ -57,7 +57,7 @@ def substitutes(machine: Machine, part: Part) -> tuple[str, ...]:
     if part.name == "encoder board":
         bits = machine.design.drive.encoder_bits
         found += [one.name for one in sensors_with(bits) if one.name != named]
-    motor = machine.layout.motor
+    motor = machine.layout.motor_end
     if part.name == "encoder magnet" and motor is not None:
         sizes = magnets_of(2.0 * motor.magnet_radius, motor.magnet_height)
         found += [one.name for one in sizes if one.name != named]
@@ -135,12 +135,12 @@ def equal_makes(row: Bearing) -> tuple[str, ...]:
 def longer_screw(machine: Machine, part: str) -> CapScrew | None:
     """The next longer cap screw, where it ends within the thread that is drawn for it."""
     layout = machine.layout
-    housing, motor = layout.housing, layout.motor
+    housing, motor = layout.housing, layout.motor_end
     if part == "cover screw":
         screw, room = housing.screw, housing.cover_flange_top - housing.flange_bottom
     elif part == "motor cover screw" and motor is not None:
         screw = motor.cover_screw
-        room = motor.flange_top - housing.flange_bottom + motor.ear_height
+        room = motor.cover_grip + motor.cover_engaged
     else:
         return None
     lengths = (one for one in cap_screw_lengths(screw.thread) if one > screw.length + _SAME)

@@ -29,6 +29,7 @@ from cqdd_design.solids.poses import HOUSING
 from cqdd_design.solids.walls import least_walls
 
 if TYPE_CHECKING:
+    from cqdd_design.design import Design
     from cqdd_design.exporting.job import ExportJob
     from cqdd_design.machine import Machine
     from cqdd_design.solids.part import Part
@@ -46,12 +47,7 @@ def export_print(job: ExportJob) -> tuple[WrittenFile, ...]:
     """
     every = printed_parts(job.machine, job.parts)
     if not every:
-        known = ", ".join(f"'{name}'" for name in list(printed_materials())[:4])
-        raise DesignError(
-            f"{job.design.name}: no part is of a plastic to be printed or moulded; set "
-            f"reducer.disc_material, reducer.ring_material or housing.material to one, such as "
-            f"{known}."
-        )
+        raise _no_plastic(job.design)
     files: list[WrittenFile] = []
     for one in every:
         piece = replace(one.made, instances=on_axis(one.made.name, HOUSING))
@@ -62,6 +58,28 @@ def export_print(job: ExportJob) -> tuple[WrittenFile, ...]:
     readme = job.folder / FOLDER / "README.txt"
     text = readme_text(job.design, every, test)
     return (*files, write_atomically(readme, text, "print"))
+
+
+def refuse_metal(machine: Machine) -> None:
+    """Raise the DesignError of :func:`export_print` where the design names no such plastic."""
+    reducer = machine.design.reducer
+    named = {
+        reducer.disc_material,
+        reducer.ring_material,
+        reducer.output_pins.material,
+        machine.design.housing.material,
+    }
+    if named.isdisjoint(printed_materials()):
+        raise _no_plastic(machine.given)
+
+
+def _no_plastic(design: Design) -> DesignError:
+    known = ", ".join(f"'{name}'" for name in list(printed_materials())[:4])
+    return DesignError(
+        f"{design.name}: no part is of a plastic to be printed or moulded; set "
+        f"reducer.disc_material, reducer.ring_material or housing.material to one, such as "
+        f"{known}."
+    )
 
 
 def printed_parts(machine: Machine, parts: Iterable[Part]) -> tuple[PrintedPart, ...]:

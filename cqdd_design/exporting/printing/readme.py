@@ -71,6 +71,10 @@ def _part(one: PrintedPart) -> Iterator[str]:
     if hottest is not None:
         told = f"it keeps strength and shape up to {hottest:g} degC"
     yield from _wrapped(f"{told[0].upper()}{told[1:]}.", "- ")
+    if find_material(part.material).creep_modulus is None:
+        yield from _wrapped(
+            "How it creeps is not known: hold no torque for long, and tighten screws again.", "- "
+        )
     for fit in part.fits:
         yield from _wrapped(
             f"Fit: {fit_label(fit)}; what the printer leaves is reamed or pressed.", "- "

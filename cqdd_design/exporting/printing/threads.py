@@ -69,7 +69,8 @@ def with_inserts(part: Part, least_wall: float) -> tuple[Part, tuple[ThreadedHol
         That the part's material can have, m.
     """
     tapped = {one.thread: one for one in part.stated if isinstance(one, TappedHole)}
-    found, bores = [], {}
+    found: list[ThreadedHoles] = []
+    bores: dict[tuple[float, float], float] = {}
     for thread, drilled in sorted(tapped.items()):
         drill = drilled.drill
         depths, rooms = _depths(part.shape, drill), _rooms(part.shape, drill)
@@ -83,14 +84,14 @@ def with_inserts(part: Part, least_wall: float) -> tuple[Part, tuple[ThreadedHol
             room = min(rooms[place] for place in places) - least_wall
             found.append(ThreadedHoles(thread, depth, len(places), room, insert))
             if insert is not None:
-                bores.update({(drill, place): 0.5 * insert.hole for place in places})
+                bores.update({place: 0.5 * insert.hole for place in places})
 
     def changed(hole: Contour) -> Contour:
-        for one in tapped.values():
-            if _is_drilled(hole, one.drill):
-                radius = bores.get((one.drill, _place(hole)))
-                return hole if radius is None else Circle(hole.centre, radius)
-        return hole
+        # A counterbore over the thread too, through which the insert has to go.
+        radius = bores.get(_place(hole)) if isinstance(hole, Circle) else None
+        if radius is None or not isinstance(hole, Circle) or hole.radius >= radius:
+            return hole
+        return Circle(hole.centre, radius)
 
     layers = tuple(
         Layer(

@@ -6,6 +6,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from cqdd_design.exporting.sheets.wording import joint_note
+from cqdd_design.machine.centring import centring
 from cqdd_design.machine.grease import grease_fill
 from cqdd_design.machine.screws import tightened_screws
 from cqdd_design.machine.sealing import sealing
@@ -89,7 +90,7 @@ class AssemblyFacts:
                 if isinstance(feature, Joint) and feature.kind != "screwed":
                     said.append(f"{_capital(part.name)}: {joint_note(feature)}")
         said.append(self._grease())
-        said.append(sealing(self.machine))
+        said += [sealing(self.machine), centring(self.machine)]
         said.append(
             f"Turned by hand, the output's face and seat run true to the housing within {_RUN_OUT} "
             "mm (ISO 2768-K); the parts' own run-outs stand on their sheets."

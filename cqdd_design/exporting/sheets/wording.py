@@ -168,7 +168,7 @@ def hole_rows(hole: Hole) -> tuple[Row, ...]:
         deep = "through" if hole.through else f"{BY} {mm(hole.top - hole.bottom)} deep"
         rows.append((Words(f"{lead}{size} {deep}"),))
         if hole.seam:
-            rows.append((Words("half grooves, milled or cut by wire; its mate has the others"),))
+            rows.append((Words("half grooves; its mate has the others"),))
     else:
         rows.append((Words(f"{lead}{DIA}{mm(hole.diameter)}"),))
     frame: list[Cell] = []

@@ -1,26 +1,36 @@
-"""Sizes with their limits in a part's AP242 file, tied to the faces that they are of.
+"""Sizes, tolerances of form and place, and datums of a part, tied to the faces of its solid.
 
-They are the diameters of the part's seats and fitted holes: those that a drawing gives a zone. The
-kernel writes each as a dimension of its cylinders (ISO 10303-242, DIMENSIONAL_SIZE with a
-PLUS_MINUS_TOLERANCE), which measuring and milling software reads without a drawing.
+They are what its drawing says: diameters of seats and fitted holes with their limits, cylindricity,
+total run-out and position of their surfaces and axes, run-out of shoulders, position of holes, and
+the letters of the datums that these refer to. `pmi_file` writes them into the part's AP242 file.
+
+Not among them are the profiles that wire cuts (no face, but hundreds), roughness, fillets, and the
+theoretically exact places of holes, which are those of the solid.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from cqdd_design.errors import CatalogError
 from cqdd_design.solids.cad import MM
-from cqdd_design.solids.features.holes import FittedHole
-from cqdd_design.solids.features.kinds import Seat
+from cqdd_design.solids.features.holes import ClearanceHole, CutHole, FittedHole, TappedHole
+from cqdd_design.solids.features.kinds import ON_AXIS, AxialThread, Seat, Shoulder
 
 if TYPE_CHECKING:
+    from cqdd_design.solids.features.holes import Centre, Facing
     from cqdd_design.solids.part import Part
 
-_NEAR = 0.02
+_NEAR = 0.03
 """By how much a face may lie off the nominal size, mm: some parts are drawn at their mean."""
+
+_EARS = 1.2
+"""By how much a face may reach beyond a shoulder's radius."""
+
+ZoneKind = Literal["cylindricity", "total run-out", "run-out", "position"]
+_Placed = FittedHole | ClearanceHole | TappedHole | CutHole
+"""Holes whose axes have zones."""
 
 
 class Size(NamedTuple):
@@ -32,13 +42,105 @@ class Size(NamedTuple):
     faces: tuple[Any, ...]
 
 
-def sizes_of(part: Part) -> tuple[Size, ...]:
-    """Seats and fitted holes of a part whose zones are tabulated, with their faces."""
-    faces = [face for face in part.solid.Faces() if face.geomType() == "CYLINDER"]
-    return tuple(size for size in _sizes(part, faces) if size.faces)
+class Zone(NamedTuple):
+    """A tolerance of form or place.
+
+    Attributes
+    ----------
+    value : float
+        Width, mm; the diameter of round zones.
+    round : bool
+        Whether the zone is a cylinder about an axis.
+    datums : tuple of str
+        Letters, in their order.
+    faces : tuple
+        Of the solid.
+    """
+
+    kind: ZoneKind
+    value: float
+    round: bool
+    datums: tuple[str, ...]
+    faces: tuple[Any, ...]
 
 
-def _sizes(part: Part, faces: list[Any]) -> Iterator[Size]:
+class Datum(NamedTuple):
+    """A letter and the faces that set it up."""
+
+    letter: str
+    faces: tuple[Any, ...]
+
+
+class Stated(NamedTuple):
+    """All that a part's file carries beside its solid."""
+
+    sizes: tuple[Size, ...]
+    zones: tuple[Zone, ...]
+    datums: tuple[Datum, ...]
+
+
+def stated_of(part: Part) -> Stated:
+    """What is stated of a part and found on its solid.
+
+    Sizes whose zones are not tabulated are left out, and tolerances that refer to a datum of which
+    the solid has no face.
+    """
+    solid = _Faces(part)
+    datums = tuple(_datums(part, solid))
+    letters = {one.letter for one in datums}
+    zones = (one for one in _zones(part, solid) if one.faces and letters.issuperset(one.datums))
+    return Stated(tuple(size for size in _sizes(part, solid) if size.faces), tuple(zones), datums)
+
+
+class _Faces:
+    """Cylinders and planes of a part's solid."""
+
+    def __init__(self, part: Part) -> None:
+        every = part.solid.Faces()
+        self._cylinders = [face for face in every if face.geomType() == "CYLINDER"]
+        self._planes = [face for face in every if face.geomType() == "PLANE"]
+
+    def cylinders(
+        self, diameter: float, bottom: float, top: float, centres: Iterable[Centre]
+    ) -> tuple[Any, ...]:
+        """Those of a diameter about any of some axes, between heights; m."""
+        axes = [(MM * x, MM * y) for x, y in centres]
+        return tuple(
+            face
+            for face in self._cylinders
+            if any(_is_cylinder(face, MM * diameter, MM * bottom, MM * top, one) for one in axes)
+        )
+
+    def planes(self, face: Shoulder) -> tuple[Any, ...]:
+        """Those at the height of a shoulder that look its way and lie within its radii."""
+        return tuple(one for one in self._planes if _is_shoulder(one, face, face.facing))
+
+
+def _is_cylinder(
+    face: Any, diameter: float, bottom: float, top: float, centre: tuple[float, float]
+) -> bool:
+    cylinder = face._geomAdaptor().Cylinder()
+    axis = cylinder.Axis().Location()
+    away = max(abs(axis.X() - centre[0]), abs(axis.Y() - centre[1]))
+    if away > _NEAR or abs(2.0 * cylinder.Radius() - diameter) > _NEAR:
+        return False
+    # A seat may be the end of a longer cylinder.
+    box = face.BoundingBox()
+    return bool(min(top, box.zmax) - max(bottom, box.zmin) > _NEAR)
+
+
+def _is_shoulder(face: Any, shoulder: Shoulder, facing: Facing) -> bool:
+    box = face.BoundingBox()
+    # Edges are broken, holes open in the face, and ears stand out of it.
+    reach = 0.5 * max(box.xlen, box.ylen)
+    return bool(
+        abs(face.Center().z - MM * shoulder.height) < 1e-3
+        and face.normalAt().z * (1.0 if facing == "up" else -1.0) > 0.99
+        and 0.5 * MM * (shoulder.inner + shoulder.outer) < reach < _EARS * MM * shoulder.outer
+    )
+
+
+def _sizes(part: Part, solid: _Faces) -> Iterator[Size]:
     for feature in part.features:
         if not isinstance(feature, Seat | FittedHole):
             continue
@@ -46,83 +148,54 @@ def _sizes(part: Part, faces: list[Any]) -> Iterator[Size]:
             limits = feature.limits
         except CatalogError:
             continue
-        centres = [feature.centre] if isinstance(feature, Seat) else feature.circle.centres
-        found = tuple(
-            face
-            for face in faces
-            if any(_is_of(face, feature, (MM * x, MM * y)) for x, y in centres)
+        yield Size(
+            MM * feature.diameter, MM * limits.lower, MM * limits.upper, _round(feature, solid)
         )
-        yield Size(MM * feature.diameter, MM * limits.lower, MM * limits.upper, found)
 
 
-def _is_of(face: Any, feature: Seat | FittedHole, centre: tuple[float, float]) -> bool:
-    """Whether a cylinder has the size, axis and heights of a feature."""
-    cylinder = face._geomAdaptor().Cylinder()
-    axis = cylinder.Axis().Location()
-    away = max(abs(axis.X() - centre[0]), abs(axis.Y() - centre[1]))
-    middle = face.Center().z
-    return bool(
-        abs(2.0 * cylinder.Radius() - MM * feature.diameter) < _NEAR
-        and away < _NEAR
-        and MM * feature.bottom < middle < MM * feature.top
-    )
+def _round(feature: Seat | FittedHole | CutHole, solid: _Faces) -> tuple[Any, ...]:
+    centres = (feature.centre,) if isinstance(feature, Seat) else feature.circle.centres
+    return solid.cylinders(feature.diameter, feature.bottom, feature.top, centres)
 
 
-def write_with_sizes(part: Part, path: Path) -> bool:
-    """Write a part in its own frame with its sizes; whether the kernel did.
-
-    The process's schema has to be AP242.
-    """
-    from OCP.IFSelect import IFSelect_ReturnStatus
-    from OCP.Interface import Interface_Static
-    from OCP.Quantity import Quantity_Color, Quantity_TOC_RGB
-    from OCP.STEPCAFControl import STEPCAFControl_Writer
-    from OCP.STEPControl import STEPControl_StepModelType
-    from OCP.TCollection import TCollection_ExtendedString
-    from OCP.TDataStd import TDataStd_Name
-    from OCP.TDocStd import TDocStd_Document
-    from OCP.XCAFApp import XCAFApp_Application
-    from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
-
-    document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
-    XCAFApp_Application.GetApplication_s().InitDocument(document)
-    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
-    whole = shapes.AddShape(part.solid.wrapped, False)
-    TDataStd_Name.Set_s(whole, TCollection_ExtendedString(part.name))
-    colours = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
-    colour = Quantity_Color(*part.colour, Quantity_TOC_RGB)
-    colours.SetColor(whole, colour, XCAFDoc_ColorType.XCAFDoc_ColorSurf)
-    for size in sizes_of(part):
-        _add(document, shapes, whole, size)
-    writer = STEPCAFControl_Writer()
-    writer.SetNameMode(True)
-    writer.SetColorMode(True)
-    writer.SetDimTolMode(True)
-    # As the other files are written: in mm, without curves in the parameters of faces.
-    Interface_Static.SetIVal_s("write.surfacecurve.mode", 0)
-    for setting in ("xstep.cascade.unit", "write.step.unit"):
-        Interface_Static.SetCVal_s(setting, "MM")
-    writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs)
-    return bool(writer.Write(str(path)) == IFSelect_ReturnStatus.IFSelect_RetDone)
+def _zones(part: Part, solid: _Faces) -> Iterator[Zone]:
+    for feature in part.features:
+        if isinstance(feature, Seat):
+            faces = _round(feature, solid)
+            refers = tuple(feature.refers)
+            if feature.cylindricity:
+                yield Zone("cylindricity", MM * feature.cylindricity, False, (), faces)
+            if feature.position:
+                yield Zone("position", MM * feature.position, True, refers, faces)
+            elif feature.run_out and refers:
+                yield Zone("total run-out", MM * feature.run_out, False, refers, faces)
+        elif isinstance(feature, Shoulder):
+            if feature.run_out and feature.refers:
+                refers, faces = tuple(feature.refers), solid.planes(feature)
+                yield Zone("run-out", MM * feature.run_out, False, refers, faces)
+        elif isinstance(feature, _Placed) and feature.position:
+            yield Zone(
+                "position", MM * feature.position, True, tuple(feature.refers),
+                _bored(feature, solid),
+            )  # fmt: skip
 
 
-def _add(document: Any, shapes: Any, whole: Any, size: Size) -> None:
-    from OCP.TDF import TDF_LabelSequence
-    from OCP.XCAFDimTolObjects import (
-        XCAFDimTolObjects_DimensionObject,
-        XCAFDimTolObjects_DimensionType,
-    )
-    from OCP.XCAFDoc import XCAFDoc_Dimension, XCAFDoc_DocumentTool
+def _bored(hole: _Placed, solid: _Faces) -> tuple[Any, ...]:
+    if not isinstance(hole, TappedHole):
+        return solid.cylinders(hole.diameter, hole.bottom, hole.top, hole.circle.centres)
+    ends = hole.mouth, hole.mouth + (-1.0 if hole.facing == "up" else 1.0) * hole.drill_depth
+    return solid.cylinders(hole.drill, min(ends), max(ends), hole.circle.centres)
 
-    tolerances = XCAFDoc_DocumentTool.DimTolTool_s(document.Main())
-    labels = TDF_LabelSequence()
-    for face in size.faces:
-        labels.Append(shapes.AddSubShape(whole, face.wrapped))
-    label = tolerances.AddDimension()
-    stated = XCAFDimTolObjects_DimensionObject()
-    stated.SetType(XCAFDimTolObjects_DimensionType.XCAFDimTolObjects_DimensionType_Size_Diameter)
-    stated.SetValue(size.diameter)
-    stated.SetUpperTolValue(size.upper)
-    stated.SetLowerTolValue(size.lower)
-    XCAFDoc_Dimension.Set_s(label).SetObject(stated)
-    tolerances.SetDimension(labels, TDF_LabelSequence(), label)
+
+def _datums(part: Part, solid: _Faces) -> Iterator[Datum]:
+    for feature in part.features:
+        if not (isinstance(feature, Shoulder | Seat | CutHole | AxialThread) and feature.datum):
+            continue
+        if isinstance(feature, Shoulder):
+            faces = solid.planes(feature)
+        elif isinstance(feature, AxialThread):
+            faces = solid.cylinders(feature.core, feature.bottom, feature.top, (ON_AXIS,))
+        else:
+            faces = _round(feature, solid)
+        if faces:
+            yield Datum(feature.datum, faces)

@@ -34,6 +34,7 @@ _OCCURRENCE = re.compile(rb"NEXT_ASSEMBLY_USAGE_OCCURRENCE\('[^']*'(.*?)\);", re
 _SOLID = re.compile(rb"#(\d+) = MANIFOLD_SOLID_BREP\(")
 _BODY = re.compile(rb"ADVANCED_BREP_SHAPE_REPRESENTATION\('',\((.*?)\),\s*#(\d+)\)", re.DOTALL)
 _SIZE = re.compile(rb"#\d+ = PLUS_MINUS_TOLERANCE\(")
+_ZONE = re.compile(rb"\b(?:CYLINDRICITY|POSITION|CIRCULAR_RUNOUT|TOTAL_RUNOUT)_TOLERANCE\s*\(")
 _STYLES = re.compile(rb"#\d+ = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION\(")
 _BEYOND_ASCII = re.compile(r"[^\x00-\x7f]")
 _LINE_END = re.compile(rb"\s*\n\s*")
@@ -101,30 +102,34 @@ def write_step(
 def write_part_step(design: Design, part: Part, path: Path, schema: str = "AP214") -> WrittenFile:
     """Write one part in its own frame; see `write_step`.
 
-    As AP242 with the sizes of its seats and fitted holes and their limits, see `pmi`.
+    As AP242 with the sizes, tolerances and datums of its features, see `pmi`.
     """
     from cqdd_design.solids.cad import import_cadquery
 
     cadquery = import_cadquery()
     if schema == "AP242":
-        return _write_with_sizes(design, part, path)
+        return _write_stated(design, part, path)
     assembly = cadquery.Assembly(name=design.name)
     assembly.add(part.solid, name=part.name, color=cadquery.Color(*part.colour, 1.0))
     return _write(assembly, design, [part], path, schema)
 
 
-def _write_with_sizes(design: Design, part: Part, path: Path) -> WrittenFile:
-    from cqdd_design.exporting.solids.pmi import sizes_of, write_with_sizes
+def _write_stated(design: Design, part: Part, path: Path) -> WrittenFile:
+    from cqdd_design.exporting.solids.pmi import stated_of
+    from cqdd_design.exporting.solids.pmi_file import write_stated
+
+    stated = stated_of(part)
+    wanted = (1, len(stated.sizes), len(stated.zones))
 
     def write(place: Path) -> None:
         with _schema("AP242"):
-            done = write_with_sizes(part, place)
+            done = write_stated(part, stated, place)
         content = place.read_bytes() if done else b""
-        solids, sizes = len(_SOLID.findall(content)), len(_SIZE.findall(content))
-        if solids != 1 or sizes != len(sizes_of(part)) or not _HEADER.search(content):
+        found = tuple(len(one.findall(content)) for one in (_SOLID, _SIZE, _ZONE))
+        if found != wanted or not _HEADER.search(content):
             raise ReadBackError(
-                f"{path.name} holds {solids} solids with {sizes} sizes instead of one with "
-                f"{len(sizes_of(part))}; nothing was kept."
+                f"{path.name} holds {found[0]} solids with {found[1]} sizes and {found[2]} "
+                f"tolerances instead of one with {wanted[1]} and {wanted[2]}; nothing was kept."
             )
         place.write_bytes(_reproducible(content, design, path.name))
 

@@ -7,6 +7,7 @@ from cqdd_design.design import Design
 from cqdd_design.gearbox.bodies.strength import LIGAMENTS, BodyStrength, Swing
 from cqdd_design.gearbox.bodies.stress import Region
 from cqdd_design.gearbox.checks.allowables import (
+    DESIGN_STRAIN,
     Allowable,
     edge_limit_fatigue,
     edge_limit_peak,
@@ -25,20 +26,65 @@ _PARTS: tuple[tuple[str, tuple[Region, ...], str], ...] = (
 
 
 def body_checks(design: Design, strength: BodyStrength) -> tuple[Check, ...]:
-    """Stress against yield at the peak torque, and over a turn against fatigue.
+    """Stress against yield at the peak torque, and over a turn against fatigue; creep of plastics.
 
     Parameters
     ----------
     strength : BodyStrength
         At the torques of the requirements.
     """
-    return tuple(
+    found = [
         check
         for part, regions, first in _PARTS
         for check in (
             _static(part, regions, first, design, strength),
             _fatigue(part, regions, first, design, strength),
         )
+    ]
+    return (*found, *_creep(design, strength))
+
+
+def _creep(design: Design, strength: BodyStrength) -> tuple[Check, ...]:
+    """Strain of discs and ring of plastic that the continuous torque holds; none of metal.
+
+    Without a modulus of creep the strain that the load makes at once still tells what is too much.
+    """
+    rows = []
+    for part, regions in (("disc", (*LIGAMENTS, "root")), ("ring", ("ring",))):
+        material = _material("RING" if part == "ring" else "ROOT", design)
+        cycles = [one for one in strength.swings if one.region in regions]
+        if material.is_plastic and cycles:
+            stress = max(max(abs(one.low), abs(one.high)) for one in cycles)
+            modulus = material.creep_modulus or material.youngs_modulus
+            rows.append((stress / modulus, stress, material, part))
+    if not rows:
+        return ()
+    # What is not known decides, unless something is known to be too much.
+    strain, stress, material, part = max(
+        rows, key=lambda row: (row[0] > DESIGN_STRAIN, row[2].creep_modulus is None, row[0])
+    )
+    known = material.creep_modulus is not None or strain > DESIGN_STRAIN
+    torque = design.requirements.continuous_torque
+    held = "after 1000 h at 23 degC" if material.creep_modulus else "at once"
+    told = (
+        f"{stress / _MEGA:.1f} MPa in the {part} of {material.name} at {torque:g} N*m: "
+        f"{100.0 * strain:.2g} % {held}"
+    )
+    if material.creep_modulus is None:
+        told += "; its creep is not known, of printed plastics least of all"
+    less = ""
+    if strain > DESIGN_STRAIN:
+        less = f"lower it to about {torque_words(torque * DESIGN_STRAIN / strain)}, "
+    return (
+        build_check(
+            "PLASTIC-CREEP",
+            100.0 * strain if known else None,
+            100.0 * DESIGN_STRAIN,
+            told,
+            f"hold no torque for long, {less}or choose a plastic whose creep the catalogue has "
+            "(`cqdd-design catalog materials`), or a metal",
+            basis=material.creep_source or f"modulus of {material.name}, without its creep",
+        ),
     )
 
 

@@ -17,7 +17,7 @@ _PARTS = (
     ("RING", "along the teeth of the ring, in a rigid housing", "A ring that {} loses its teeth"),
 )
 
-ROWS = tuple(
+_EDGES = tuple(
     row
     for part, where, why in _PARTS
     for row in (
@@ -44,4 +44,19 @@ ROWS = tuple(
             basis=FINITE_ELEMENTS,
         ),
     )
+)
+ROWS = (
+    *_EDGES,
+    CheckGuide(
+        "PLASTIC-CREEP",
+        "Strain of plastic discs and ring, continuous torque held",
+        "%",
+        "max",
+        f"|sigma|/E_c <= {100.0 * limits.DESIGN_STRAIN:g} %, E_c after 1000 h at 23 degC",
+        "A plastic goes on yielding under a load that it bears at once, the more the warmer it is; "
+        "the greatest stress of a turn is held where the crank stops. Screws in plastic lose their "
+        "preload likewise, which no line judges.",
+        f"{BODIES}; ISO 899-1 by makers' sheets; Crawford, Plastics Engineering, p. 19",
+        basis=FINITE_ELEMENTS,
+    ),
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from cqdd_design.errors import DesignError
+from cqdd_design.machine.centring import centring
 from cqdd_design.machine.sealing import sealing
 from cqdd_design.report.ink.numbers import significant
 from cqdd_design.report.ink.page import Values
@@ -23,6 +24,7 @@ def axial_view(machine: Machine, warm: MachineTemperatures | None) -> Values | N
     except DesignError:
         return None
     return {
+        "centring": centring(machine),
         "sealing": sealing(machine),
         "plays": [_play(one, warm) for one in stacks],
         "stacks": [

@@ -17,7 +17,7 @@ from cqdd_design.report.ink.svg import Figure, Words, line, rectangle, text
 from cqdd_design.report.judgement.check_rows import printed
 from cqdd_design.solids.features.holes import FittedHole
 from cqdd_design.solids.features.kinds import Seat
-from cqdd_design.solids.inertia import ROTOR_PARTS, ROTOR_SCOPE, GearboxInertia, PartInertia
+from cqdd_design.solids.inertia import ROTOR_PARTS, GearboxInertia, PartInertia, rotor_scope
 
 Row = tuple[str, ...]
 
@@ -115,8 +115,8 @@ def _beside_the_paper(design: Design, inertia: GearboxInertia) -> tuple[Row, ...
             with_unit(mass, "kg", 4),
             with_unit(paper["mass"], "kg", 3),
             f"{1e3 * (mass - paper['mass']):+.0f} g. The motor is the catalogue's "
-            f"{1e3 * groups['motor']:.0f} g, {ROTOR_SCOPE}. Housing and cover, whose walls the "
-            "paper does not print and which are proportioned here, weigh "
+            f"{1e3 * groups['motor']:.0f} g, {rotor_scope(inertia.motor)}. Housing and cover, "
+            "whose walls the paper does not print and which are proportioned here, weigh "
             f"{1e3 * (groups['housing'] + groups['cover and encoder']):.0f} g. Discs and "
             f"ring of steel ({1e3 * groups['discs and ring']:.0f} g) and the bearings are as the "
             "paper describes them.",
@@ -126,7 +126,7 @@ def _beside_the_paper(design: Design, inertia: GearboxInertia) -> tuple[Row, ...
             f"{inertial(whole)} {fourth}",
             f"{inertial(paper['actuator_inertia'])} {fourth}",
             f"{1e4 * (whole - paper['actuator_inertia']):+.3g}. The catalogue's rotor has "
-            f"{inertial(rotor)}, {ROTOR_SCOPE}; the gearbox adds "
+            f"{inertial(rotor)}, {rotor_scope(inertia.motor)}; the gearbox adds "
             f"{inertial(inertia.gearbox_reflected, 2)}.",
         ),
         (
@@ -162,7 +162,7 @@ def _reflected(inertia: GearboxInertia) -> tuple[Row, ...]:
         (
             "rotor of the motor",
             shown(inertia.rotor_inertia),
-            f"{inertia.motor.name}, {ROTOR_SCOPE}",
+            f"{inertia.motor.name}, {rotor_scope(inertia.motor)}",
         ),
         (
             "together, at the input",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cqdd_design.gearbox.heat.expansion import HOTTEST
-from cqdd_design.machine.thermal_parts import NODES
+from cqdd_design.machine.heat_nodes import NODES
 from cqdd_design.report.ink.axes import nice_step
 from cqdd_design.report.ink.charts import Curve, line_chart
 from cqdd_design.report.ink.numbers import significant, with_unit

@@ -21,6 +21,7 @@ from cqdd_design.solids.features.making import (
     clearance,
     fitted,
     metric,
+    seal_face,
     seat,
     shoulder,
     tapped,
@@ -124,6 +125,8 @@ def nut_features(carrier: CarrierLayout) -> tuple[Feature, ...]:
         ),
         shoulder("face on the output bearing", bottom, carrier.nut_radius,
                  carrier.output.shoulder_radius, "down", None, datum="B", refers="A"),
+        seal_face("outside in the cover's bore", 2.0 * carrier.output.shoulder_radius, bottom,
+                  carrier.nut_slots_bottom, zones.SEAL_INSIDE),
     )  # fmt: skip
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from cqdd_design.geometry.contours import Circle
 from cqdd_design.solids.features.holes import Facing
-from cqdd_design.solids.features.kinds import Chamfer
+from cqdd_design.solids.features.kinds import Chamfer, Seat
 from cqdd_design.solids.layers import Layer, Stack
 
 _SERIES = (1.0e-3, 0.8e-3, 0.5e-3, 0.3e-3, 0.2e-3, 0.1e-3)
@@ -61,10 +61,17 @@ class _Turned:
     holes: tuple[_Round, ...]
 
 
-def edges(shape: Stack) -> tuple[Chamfer, ...]:
-    """The chamfers of a part, from the lowest edge to the highest."""
+def edges(shape: Stack, seats: Sequence[Seat] = ()) -> tuple[Chamfer, ...]:
+    """The chamfers of a part, from the lowest edge to the highest.
+
+    Parameters
+    ----------
+    seats : sequence of Seat
+        Of which some say how wide the chamfers of their ends may be.
+    """
     every = [_turned(layer) for layer in shape.layers]
-    found = [one for layer in every for one in _of_layer(layer, every)]
+    leading = [one for one in seats if one.lead_in]
+    found = [one for layer in every for one in _of_layer(layer, every, leading)]
     found.sort(key=lambda one: (one.height, one.radius, one.facing))
     return tuple(found)
 
@@ -93,23 +100,45 @@ def _round(circle: Circle) -> _Round:
     return _Round(float(circle.centre[0]), float(circle.centre[1]), circle.radius)
 
 
-def _of_layer(layer: _Turned, every: Sequence[_Turned]) -> Iterator[Chamfer]:
+def _of_layer(
+    layer: _Turned, every: Sequence[_Turned], leading: Sequence[Seat]
+) -> Iterator[Chamfer]:
     for at, inside in ((layer.outer, False), (layer.bore, True)):
         # An eccentric's edges are only broken, as all others are: less would unbalance the crank.
         if at is None or math.hypot(at.x, at.y) > _SAME:
             continue
         facings: tuple[Facing, ...] = ("up", "down")
         for facing in facings:
-            width = _width(layer, at, inside, facing, every)
+            height = layer.top if facing == "up" else layer.bottom
+            most = _lead_in(at.radius, height, inside, leading)
+            width = _width(layer, at, inside, facing, every, most)
             if width is not None:
-                height = layer.top if facing == "up" else layer.bottom
                 where = "bore" if inside else "edge"
                 name = f"{where} {2e3 * at.radius:.6g} at {1e3 * height:.6g}"
                 yield Chamfer(name, at.radius, height, inside, facing, width)
 
 
+def _lead_in(radius: float, height: float, inside: bool, leading: Sequence[Seat]) -> float:
+    """Widest chamfer that a seat wants at an edge (radius and height, m), m."""
+    return next(
+        (
+            seat.lead_in
+            for seat in leading
+            if seat.inside == inside
+            and abs(0.5 * seat.diameter - radius) < _SAME
+            and min(abs(seat.bottom - height), abs(seat.top - height)) < _SAME
+        ),
+        math.inf,
+    )
+
+
 def _width(
-    layer: _Turned, at: _Round, inside: bool, facing: Facing, every: Sequence[_Turned]
+    layer: _Turned,
+    at: _Round,
+    inside: bool,
+    facing: Facing,
+    every: Sequence[_Turned],
+    widest: float,
 ) -> float | None:
     """How wide the chamfer of an edge is, m; None where it is no edge or has no room."""
     height = layer.top if facing == "up" else layer.bottom
@@ -125,7 +154,7 @@ def _width(
             return None
         face = min(face, room)
     length = _length(layer, at, inside, facing, every)
-    most = min(chamfer_width(2.0 * at.radius), _FACE_SHARE * face, _LENGTH_SHARE * length)
+    most = min(chamfer_width(2.0 * at.radius), widest, _FACE_SHARE * face, _LENGTH_SHARE * length)
     for hole in layer.holes:
         gap = _gap_to_hole(hole, at, inside) - _HOLE_GAP
         if gap < most:

@@ -45,5 +45,5 @@ def ring_features(design: Design, pack: PackLayout, dowels: DowelLayout) -> tupl
     return (
         outside,
         CutProfile("teeth", 0.0, pack.top, zone=zone, refers="A"),
-        *ring_dowel_holes(pack, dowels, 0.0),
+        *ring_dowel_holes(pack, dowels, 0.0, pack.top, refers="A"),
     )

@@ -129,7 +129,7 @@ class ClearanceHole:
 
 @dataclass(frozen=True)
 class Counterbore:
-    """Flat recesses for the heads of screws (DIN 974-1).
+    """Flat recesses for the heads of screws (DIN 974-1), or over threads that begin below a face.
 
     Attributes
     ----------

@@ -5,24 +5,41 @@ from __future__ import annotations
 import math
 
 from cqdd_design.catalog.bearings import least_chamfer
-from cqdd_design.catalog.threads import coarse_thread
+from cqdd_design.catalog.threads import coarse_thread, thread_size_of
 from cqdd_design.solids.features import zones
-from cqdd_design.solids.features.holes import BoltCircle, ClearanceHole, FittedHole, PlainHole
-from cqdd_design.solids.features.kinds import Feature, Joint
+from cqdd_design.solids.features.holes import (
+    BoltCircle,
+    ClearanceHole,
+    Counterbore,
+    FittedHole,
+    PlainHole,
+)
+from cqdd_design.solids.features.kinds import Feature, Joint, SealFace
 from cqdd_design.solids.features.making import (
     BEARING_FACE,
     clearance,
     fitted,
     metric,
+    seal_face,
     seat,
     shoulder,
     tapped,
 )
-from cqdd_design.solids.layout import DowelLayout, HousingLayout, Layout, MotorLayout, PackLayout
+from cqdd_design.solids.layout import (
+    DowelLayout,
+    GapSeal,
+    HousingLayout,
+    Layout,
+    PackLayout,
+)
+from cqdd_design.solids.motor_layout import MotorEnd, MotorLayout
+from cqdd_design.solids.registers import LEAD_IN
 
 SEAM_POSITION = 10e-6
 """Of the half grooves of the ring's dowels, in ring and housing, m: where both lie at the ends of
 their zones they miss each other by as much, which `zones.SEAM_GROOVE` leaves round a dowel."""
+_SPIGOT_CORNER = 0.5 * LEAD_IN
+"""Largest corner radius beside a spigot, m: what goes over it has a chamfer of the lead-in."""
 _RING_PIN_POSITION = 10e-6
 """Of the ends of a ring's pins, which gear with the discs, m."""
 
@@ -47,8 +64,9 @@ def housing_features(layout: Layout) -> tuple[Feature, ...]:
     support, seat_top = layout.shaft.support, layout.shaft.lower_seat_top
     seat_bottom = seat_top - support.bearing.width
     ring = seat(
-        "ring seat", 2.0 * pack.ring_radius, 0.0, pack.top, zones.RING_SEAT, inside=True, datum="A"
-    )
+        "ring seat", 2.0 * pack.ring_radius, 0.0, housing.face, zones.RING_SEAT, inside=True,
+        datum="A", lead_in=LEAD_IN,
+    )  # fmt: skip
     bore = seat(
         "seat of the shaft bearing", support.bearing.outer_diameter, seat_bottom, seat_top,
         zones.HOUSED, inside=True, refers="A",
@@ -66,9 +84,12 @@ def housing_features(layout: Layout) -> tuple[Feature, ...]:
                  along=BEARING_FACE),
         tapped("threads of the cover's screws", thread, metric(thread), screw_circle(housing),
                mouth=pack.top, facing="up", depth=deep, room=deep),
-        _mounting(housing, housing.flange_bottom, pack.top),
+        Counterbore("counterbores over these threads", thread_size_of(thread.diameter).medium,
+                    housing.face, "up", housing.face - pack.top, screw_circle(housing)),
+        _mounting(housing, housing.flange_bottom, housing.face),
         *_ring_pin_seats(pack, -pack.relief, downward=True),
-        *ring_dowel_holes(pack, layout.dowels, layout.dowels.bottom),
+        *ring_dowel_holes(pack, layout.dowels, layout.dowels.bottom, housing.face),
+        _seal_bore(housing.shaft_seal, "bore about the shaft"),
     ]  # fmt: skip
     if layout.motor is not None:
         found += _motor_flange(housing, layout.motor)
@@ -77,6 +98,10 @@ def housing_features(layout: Layout) -> tuple[Feature, ...]:
 
 _RING_CORNER = 0.2e-3
 """Largest corner radius in the ring's seat: the ring is cut by wire, its edges are broken less."""
+
+
+def _seal_bore(seal: GapSeal, name: str) -> SealFace:
+    return seal_face(name, 2.0 * seal.outer, seal.bottom, seal.top, zones.SEAL_OUTSIDE, inside=True)
 
 
 def _motor_flange(housing: HousingLayout, motor: MotorLayout) -> list[Feature]:
@@ -91,6 +116,12 @@ def _motor_flange(housing: HousingLayout, motor: MotorLayout) -> list[Feature]:
         clearance("holes of the motor cover's screws", motor.cover_screw.thread,
                   housing.flange_bottom, motor.flange_top, ear_circle(motor)),
     ]  # fmt: skip
+    if motor.spigot:
+        bottom = housing.flange_bottom - motor.spigot
+        found.append(
+            seat("spigot of the motor's cover", 2.0 * motor.cover_inner, bottom,
+                 housing.flange_bottom, zones.CAN_SPIGOT, refers="A", lead_in=LEAD_IN)
+        )  # fmt: skip
     if motor.cable_radius:
         # Between two ears, whose screws stand half a pitch off +x.
         where = BoltCircle("phase leads", motor.cable_circle, (0.0,))
@@ -101,22 +132,28 @@ def _motor_flange(housing: HousingLayout, motor: MotorLayout) -> list[Feature]:
     return found
 
 
-def ear_circle(motor: MotorLayout) -> BoltCircle:
-    """Of the ears' screws, on flange and cover."""
+def ear_circle(motor: MotorEnd) -> BoltCircle:
+    """Of the ears' screws, on housing and cover."""
     return BoltCircle("motor cover screws", motor.ear_circle, tuple(motor.ear_angles.tolist()))
 
 
 def ring_dowel_holes(
-    pack: PackLayout, dowels: DowelLayout, bottom: float
+    pack: PackLayout, dowels: DowelLayout, bottom: float, top: float, refers: str = "AB"
 ) -> tuple[FittedHole, ...]:
-    """Of the dowels between ring and housing, of which each has one half, from a height (m) up."""
+    """Of the dowels between ring and housing, of which each has one half, between heights (m).
+
+    Parameters
+    ----------
+    refers : str
+        Letters of the datums; the ring has but its outside.
+    """
     if not dowels.radius:
         return ()
     circle = BoltCircle("ring dowels", pack.ring_radius, dowels.angles)
     return (
         fitted("holes of the ring dowels", 2.0 * dowels.radius, zones.SEAM_GROOVE, circle,
-               bottom=bottom, top=pack.top, facing="up", position=SEAM_POSITION,
-               seam=True, refers="AB"),
+               bottom=bottom, top=top, facing="up", position=SEAM_POSITION,
+               seam=True, refers=refers),
     )  # fmt: skip
 
 
@@ -138,15 +175,29 @@ def clamp_features(layout: Layout) -> tuple[Feature, ...]:
     """Of the plate between flange and cover."""
     housing, pack, output = layout.housing, layout.pack, layout.carrier.output.bearing
     bottom, top = pack.top, layout.carrier.bearing_bottom
+    lower = seat(
+        "spigot in the housing", 2.0 * pack.ring_radius, bottom, housing.face, zones.SPIGOT,
+        datum="A", lead_in=LEAD_IN,
+    )  # fmt: skip
+    upper = seat(
+        "spigot in the cover", output.outer_diameter, housing.cover_bottom, top, zones.SPIGOT,
+        refers="A", lead_in=LEAD_IN,
+    )  # fmt: skip
     return (
-        clearance("holes of the cover's screws", housing.screw.thread, bottom, top,
-                  screw_circle(housing), refers="B"),
-        # Nothing centres the clamp but its screws: its holes stand to each other and to its face.
-        _mounting(housing, bottom, top, refers="B"),
+        lower,
+        upper,
+        clearance("holes of the cover's screws", housing.screw.thread, housing.face,
+                  housing.cover_bottom, screw_circle(housing), refers="BA"),
+        _mounting(housing, housing.face, housing.cover_bottom, refers="BA"),
         shoulder("face on the ring", bottom, max(pack.ledge_radius, housing.clamp_inner),
-                 housing.flange_radius, "down", None, datum="B", refers=""),
+                 pack.ring_radius, "down", None, datum="B", refers="A"),
+        shoulder("face on the housing", housing.face, pack.ring_radius, housing.flange_radius,
+                 "down", lower, fillet=_SPIGOT_CORNER, refers="A", along=BEARING_FACE),
+        shoulder("face under the cover", housing.cover_bottom, 0.5 * output.outer_diameter,
+                 housing.flange_radius, "up", upper, fillet=_SPIGOT_CORNER, refers="A",
+                 along=BEARING_FACE),
         shoulder("face under the output bearing", top, housing.clamp_inner,
-                 0.5 * output.outer_diameter, "up", None, refers="B", along=BEARING_FACE),
+                 0.5 * output.outer_diameter, "up", None, refers="A", along=BEARING_FACE),
         *_ring_pin_seats(pack, bottom + pack.relief, downward=False),
     )  # fmt: skip
 
@@ -154,14 +205,15 @@ def clamp_features(layout: Layout) -> tuple[Feature, ...]:
 def cover_features(layout: Layout) -> tuple[Feature, ...]:
     """Of the cover that carries the output bearing."""
     housing, carrier = layout.housing, layout.carrier
-    output, bottom = carrier.output.bearing, carrier.bearing_bottom
+    output, bottom = carrier.output.bearing, housing.cover_bottom
     top = carrier.output_seat_top
     bore = seat(
         "seat of the output bearing", output.outer_diameter, bottom, top,
-        zones.HOUSED, inside=True, datum="A",
+        zones.HOUSED, inside=True, datum="A", lead_in=LEAD_IN,
     )  # fmt: skip
     return (
         bore,
+        _seal_bore(housing.output_seal, "bore about the nut"),
         shoulder("lip over the output bearing", top, carrier.output.lip_radius,
                  0.5 * output.outer_diameter, "down", bore,
                  fillet=least_chamfer(output.bore_diameter), along=BEARING_FACE),

@@ -51,6 +51,8 @@ class Seat:
         Of its axis; lobes of an eccentric shaft stand off the part's.
     position : float
         Diameter of the zone of an axis that stands off the part's, m; 0 of others, which run true.
+    lead_in : float
+        Widest chamfer of its ends, m; 0 where its diameter says how wide they are.
     """
 
     name: str
@@ -67,11 +69,17 @@ class Seat:
     refers: str = ""
     centre: Centre = ON_AXIS
     position: float = 0.0
+    lead_in: float = 0.0
 
     @property
     def limits(self) -> FitLimits:
         """Deviations from nominal; a `CatalogError` where the zone's table ends."""
         return fit_limits(self.zone, self.diameter)
+
+
+@dataclass(frozen=True)
+class SealFace(Seat):
+    """A cylinder of a gap seal: nothing sits on it, it only runs true."""
 
 
 @dataclass(frozen=True)

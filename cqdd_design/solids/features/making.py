@@ -25,7 +25,7 @@ from cqdd_design.solids.features.holes import (
     FittedHole,
     TappedHole,
 )
-from cqdd_design.solids.features.kinds import ON_AXIS, Seat, Shoulder, Undercut
+from cqdd_design.solids.features.kinds import ON_AXIS, SealFace, Seat, Shoulder, Undercut
 
 POINT_ANGLE = math.radians(118.0)
 """Of twist drills (DIN 1412)."""
@@ -39,6 +39,8 @@ _RUN_OUT_TURNS = 3.0
 """Drilled beyond the full thread, in pitches: what a tap's lead of 2 to 3 threads leaves (DIN 2197
 form C)."""
 _POSITION_STEP = 0.01e-3
+_SEAL_RUN_OUT = 50e-6
+"""Of the cylinders of a gap seal, m."""
 _FLOOR = 0.3e-3
 """Least material beyond the point of a drill, m."""
 _RELIEF_SHARE = 0.34
@@ -63,6 +65,7 @@ def seat(
     refers: str = "",
     centre: Centre = ON_AXIS,
     position: float = 0.0,
+    lead_in: float = 0.0,
 ) -> Seat:
     """A seat whose form, run-out and roughness follow from the grade of its zone."""
     grade = grade_of(zone)
@@ -72,7 +75,17 @@ def seat(
         name, diameter, bottom, top, inside, zone, rough, ground,
         run_out=form if refers else 0.0,
         cylindricity=form,
-        datum=datum, refers=refers, centre=centre, position=position,
+        datum=datum, refers=refers, centre=centre, position=position, lead_in=lead_in,
+    )  # fmt: skip
+
+
+def seal_face(
+    name: str, diameter: float, bottom: float, top: float, zone: str, *, inside: bool = False
+) -> SealFace:
+    """A cylinder of a gap seal: a fifth of the narrowest gap of run-out, form by its zone."""
+    return SealFace(
+        name, diameter, bottom, top, inside, zone, TURNED, ground=False,
+        run_out=_SEAL_RUN_OUT, cylindricity=0.0, refers="A",
     )  # fmt: skip
 
 

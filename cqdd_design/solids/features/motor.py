@@ -6,11 +6,12 @@ import math
 
 from cqdd_design.catalog.threads import coarse_thread
 from cqdd_design.solids.features import zones
-from cqdd_design.solids.features.holes import BoltCircle, PlainHole
+from cqdd_design.solids.features.holes import BoltCircle, PlainHole, TappedHole
 from cqdd_design.solids.features.housing import ear_circle
 from cqdd_design.solids.features.kinds import Feature, Joint
 from cqdd_design.solids.features.making import clearance, metric, seat, shoulder, tapped
-from cqdd_design.solids.layout import MotorLayout
+from cqdd_design.solids.motor_layout import MotorEnd, MotorLayout
+from cqdd_design.solids.registers import LEAD_IN
 
 _LIGHTENING, _BOARD_SCREWS = 6, 3
 _BOARD_GAP = 0.4e-3
@@ -53,13 +54,13 @@ def _lightening(motor: MotorLayout, unit: float) -> tuple[PlainHole, ...]:
     return (PlainHole("lightening holes", 2.0 * hole, motor.web_bottom, motor.web_top, circle),)
 
 
-def board_circle(motor: MotorLayout) -> BoltCircle:
+def board_circle(motor: MotorEnd) -> BoltCircle:
     """Of the screws of the encoder's board."""
     radius = motor.board_radius - 0.5 * motor.board_screw.head_diameter - _BOARD_GAP
     return BoltCircle.even("encoder screws", _BOARD_SCREWS, radius)
 
 
-def dish_bottom(motor: MotorLayout, unit: float) -> float:
+def dish_bottom(motor: MotorEnd, unit: float) -> float:
     """Height of the underside of the dish that carries the board, m.
 
     The board's screws need a plate they do not come through.
@@ -67,27 +68,44 @@ def dish_bottom(motor: MotorLayout, unit: float) -> float:
     return motor.board_bottom - max(2.0 * unit, _board_thread(motor) + 0.5e-3)
 
 
-def _board_thread(motor: MotorLayout) -> float:
+def _board_thread(motor: MotorEnd) -> float:
     """How deep the board's screws reach into the dish, with some play, m."""
     return motor.board_screw.length - (motor.board_top - motor.board_bottom) + 0.3e-3
 
 
 def cover_features(motor: MotorLayout, flange_bottom: float, unit: float) -> tuple[Feature, ...]:
     """Of the can over the bell."""
-    small, large = coarse_thread(motor.board_screw.thread), coarse_thread(motor.cover_screw.thread)
+    large = coarse_thread(motor.cover_screw.thread)
+    bores, to = [], "B"
+    if motor.spigot:
+        to = "BA"
+        bores.append(
+            seat("bore on the flange's spigot", 2.0 * motor.cover_inner,
+                 flange_bottom - motor.spigot, flange_bottom, zones.CAN_BORE, inside=True,
+                 datum="A", lead_in=LEAD_IN)
+        )  # fmt: skip
     return (
-        tapped("threads of the board's screws", small, metric(small), board_circle(motor),
-               mouth=motor.board_bottom, facing="up", depth=_board_thread(motor),
-               room=motor.board_bottom - dish_bottom(motor, unit), refers="B"),
+        *bores,
+        board_threads(motor, unit, refers=to),
         tapped("threads of the cover's screws", large, metric(large), ear_circle(motor),
                mouth=flange_bottom, facing="up", depth=motor.ear_height, room=motor.ear_height,
-               countersunk=False, refers="B"),
+               countersunk=False, refers=to),
         shoulder("face on the housing", flange_bottom, motor.cover_inner, motor.cover_outer, "up",
                  None, datum="B", refers=""),
     )  # fmt: skip
 
 
-def board_features(motor: MotorLayout) -> tuple[Feature, ...]:
+def board_threads(motor: MotorEnd, unit: float, *, refers: str) -> TappedHole:
+    """For the screws of the encoder's board, in the cover's dish."""
+    small = coarse_thread(motor.board_screw.thread)
+    return tapped(
+        "threads of the board's screws", small, metric(small), board_circle(motor),
+        mouth=motor.board_bottom, facing="up", depth=_board_thread(motor),
+        room=motor.board_bottom - dish_bottom(motor, unit), refers=refers,
+    )  # fmt: skip
+
+
+def board_features(motor: MotorEnd) -> tuple[Feature, ...]:
     """Of the encoder's board."""
     return (
         clearance("holes of the screws", motor.board_screw.thread, motor.board_bottom,

@@ -9,7 +9,8 @@ from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.holes import Centre, Facing
 from cqdd_design.solids.features.kinds import Feature, Joint, Seat
 from cqdd_design.solids.features.making import BEARING_FACE, relief, seat, shoulder
-from cqdd_design.solids.layout import MotorLayout, PackLayout, ShaftLayout
+from cqdd_design.solids.layout import PackLayout, ShaftLayout
+from cqdd_design.solids.motor_layout import InrunnerLayout, MotorEnd
 
 
 def crank_offset(pack: PackLayout, disc: int) -> Centre:
@@ -19,7 +20,7 @@ def crank_offset(pack: PackLayout, disc: int) -> Centre:
 
 
 def shaft_features(
-    pack: PackLayout, shaft: ShaftLayout, motor: MotorLayout | None, position: float
+    pack: PackLayout, shaft: ShaftLayout, motor: MotorEnd | None, position: float
 ) -> tuple[Feature, ...]:
     """Of the eccentric shaft; its datum is the common axis A-B of its journals.
 
@@ -108,11 +109,10 @@ def lobe_features(
     return [lobe, face]
 
 
-def _motor_end(shaft: ShaftLayout, motor: MotorLayout) -> list[Feature]:
-    """The stub for the rotor's bell, and the pocket of the encoder's magnet where it is inside."""
-    bell = Joint(
-        "rotor bell", "bonded", "lower journal and rotor seat", "rotor bell", "bond on the stub"
-    )
+def _motor_end(shaft: ShaftLayout, motor: MotorEnd) -> list[Feature]:
+    """The stub for the rotor, and the pocket of the encoder's magnet where it is inside."""
+    name = "rotor hub" if isinstance(motor, InrunnerLayout) else "rotor bell"
+    bell = Joint(name, "bonded", "lower journal and rotor seat", name, "bond on the stub")
     if motor.magnet_bottom < shaft.bottom - 1e-9:
         return [bell]
     top = shaft.bottom + motor.magnet_height
