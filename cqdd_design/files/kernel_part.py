@@ -23,11 +23,19 @@ _TRIED = ("0.68.",)
 """Beginnings of the versions of numba whose inner steps are known."""
 
 
-def part(**options: Any) -> Callable[[_Function], _Function]:
+def part(*, borrows: bool = False, **options: Any) -> Callable[[_Function], _Function]:
     """Decorator of a function that kernels call, with numba's options (`forceinline`, `fastmath`).
 
     Division is numpy's, as in all kernels here.
+
+    Parameters
+    ----------
+    borrows : bool
+        Whether it makes no array and gives none back. Nobody counts references to its arrays then,
+        for its callers hold them: kernels side by side, which share most of theirs, spent a quarter
+        of their time on taking turns at the counters. numba refuses one that makes an array.
     """
+    options |= {"_nrt": False} if borrows else {}
     chosen = {"error_model": "numpy", **options}
     if numba.__version__.startswith(_TRIED):
         from cqdd_design.files.kernel_unfinished import PartCompiler

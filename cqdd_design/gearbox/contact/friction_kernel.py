@@ -55,7 +55,7 @@ def rubbing_work(discs: int, contacts: int) -> RubbingWork:
     return RubbingWork(new_work(discs, contacts), np.empty((size, size)), np.empty(size))
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _press(
     contacts: Contacts,
     rubbing: Rubbing,
@@ -114,7 +114,7 @@ def _press(
     return largest, (px, py, pt, pc), on_disc, (cx, cy, ct)
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _add(matrix: Any, i: int, j: int, sign: float, block: Any) -> None:
     """Add a 3x3 block, row by row, at row i and column j."""
     xx, xy, xt, yx, yy, yt, tx, ty, tt = block
@@ -129,7 +129,7 @@ def _add(matrix: Any, i: int, j: int, sign: float, block: Any) -> None:
     matrix[i + 2, j + 2] += sign * tt
 
 
-@part()
+@part(borrows=True)
 def evaluate_rubbed(
     contacts: Contacts,
     springs: Springs,
@@ -213,7 +213,7 @@ def evaluate_rubbed(
     return largest
 
 
-@part()
+@part(borrows=True)
 def rubbed_step(work: RubbingWork, ridge: float) -> float:
     """Newton step into `work.work.step`; returns the torsional stiffness at the carrier.
 
