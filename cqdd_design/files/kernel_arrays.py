@@ -39,6 +39,15 @@ def greatest(values: Any) -> float:
 
 
 @part(borrows=True, forceinline=True)
+def sum_of_squares(values: Any) -> float:
+    """Sum of the squares of an array of one axis."""
+    total = 0.0
+    for i in range(values.shape[0]):
+        total += values[i] * values[i]
+    return total
+
+
+@part(borrows=True, forceinline=True)
 def greatest_of_rows(values: Any) -> float:
     """Greatest absolute number of an array of two axes, likewise."""
     found = 0.0

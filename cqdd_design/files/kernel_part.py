@@ -35,16 +35,16 @@ def part(*, borrows: bool = False, **options: Any) -> Callable[[_Function], _Fun
         for its callers hold them: kernels side by side, which share most of theirs, spent a quarter
         of their time on taking turns at the counters. numba refuses one that makes an array.
     """
-    options |= {"_nrt": False} if borrows else {}
-    chosen = {"error_model": "numpy", **options}
-    if numba.__version__.startswith(_TRIED):
-        from cqdd_design.files.kernel_unfinished import PartCompiler
-
-        chosen |= {"no_cfunc_wrapper": True, "pipeline_class": PartCompiler}
+    chosen = {"error_model": "numpy", "_nrt": not borrows, **options}
 
     def decorate(function: _Function) -> _Function:
-        registered: _Function = register_jitable(**chosen)(function)
-        registered.part_options = options  # type: ignore[attr-defined]
-        return registered
+        if numba.__version__.startswith(_TRIED):
+            from cqdd_design.files.kernel_unfinished import register
+
+            register(function, {"no_cfunc_wrapper": True, **chosen})
+        else:
+            register_jitable(**chosen)(function)
+        function.part_options = chosen  # type: ignore[attr-defined]
+        return function
 
     return decorate

@@ -9,7 +9,13 @@ import numpy as np
 import pytest
 
 from cqdd_design.files import kernel_part
-from cqdd_design.files.kernel_arrays import greatest, greatest_of_rows, put, put_rows
+from cqdd_design.files.kernel_arrays import (
+    greatest,
+    greatest_of_rows,
+    put,
+    put_rows,
+    sum_of_squares,
+)
 
 
 def compiled(function):
@@ -35,6 +41,7 @@ def test_greatest_is_by_size_and_no_number_is_passed_over(called):
     values = np.array([[1.0, -4.0], [3.0, 2.0]])
     assert called(greatest)(values[0]) == 4.0
     assert called(greatest_of_rows)(values) == 4.0
+    assert called(sum_of_squares)(values[0]) == 17.0
     for i, j in np.ndindex(2, 2):
         spoilt = values.copy()
         spoilt[i, j] = np.nan
