@@ -35,7 +35,8 @@ def part(*, borrows: bool = False, **options: Any) -> Callable[[_Function], _Fun
         for its callers hold them: kernels side by side, which share most of theirs, spent a quarter
         of their time on taking turns at the counters. numba refuses one that makes an array.
     """
-    chosen = {"error_model": "numpy", "_nrt": not borrows, **options}
+    # All is said, as it would be taken from whichever caller comes first.
+    chosen = {"error_model": "numpy", "fastmath": False, "_nrt": not borrows, **options}
 
     def decorate(function: _Function) -> _Function:
         if numba.__version__.startswith(_TRIED):
