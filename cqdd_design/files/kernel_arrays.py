@@ -12,14 +12,14 @@ from typing import Any
 from cqdd_design.files.kernel_part import part
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def put(into: Any, values: Any) -> None:
     """Copy an array of one axis into one at least as long."""
     for i in range(values.shape[0]):
         into[i] = values[i]
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def put_rows(into: Any, values: Any) -> None:
     """Copy an array of two axes into one of the same shape."""
     for i in range(values.shape[0]):
@@ -27,7 +27,7 @@ def put_rows(into: Any, values: Any) -> None:
             into[i, k] = values[i, k]
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def greatest(values: Any) -> float:
     """Greatest absolute number of an array of one axis; not a number where one is none."""
     found = 0.0
@@ -38,7 +38,16 @@ def greatest(values: Any) -> float:
     return found
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
+def sum_of_squares(values: Any) -> float:
+    """Sum of the squares of an array of one axis."""
+    total = 0.0
+    for i in range(values.shape[0]):
+        total += values[i] * values[i]
+    return total
+
+
+@part(borrows=True, forceinline=True)
 def greatest_of_rows(values: Any) -> float:
     """Greatest absolute number of an array of two axes, likewise."""
     found = 0.0

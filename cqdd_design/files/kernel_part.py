@@ -23,20 +23,29 @@ _TRIED = ("0.68.",)
 """Beginnings of the versions of numba whose inner steps are known."""
 
 
-def part(**options: Any) -> Callable[[_Function], _Function]:
+def part(*, borrows: bool = False, **options: Any) -> Callable[[_Function], _Function]:
     """Decorator of a function that kernels call, with numba's options (`forceinline`, `fastmath`).
 
     Division is numpy's, as in all kernels here.
-    """
-    chosen = {"error_model": "numpy", **options}
-    if numba.__version__.startswith(_TRIED):
-        from cqdd_design.files.kernel_unfinished import PartCompiler
 
-        chosen |= {"no_cfunc_wrapper": True, "pipeline_class": PartCompiler}
+    Parameters
+    ----------
+    borrows : bool
+        Whether it makes no array and gives none back. Nobody counts references to its arrays then,
+        for its callers hold them: kernels side by side, which share most of theirs, spent a quarter
+        of their time on taking turns at the counters. numba refuses one that makes an array.
+    """
+    # All is said, as it would be taken from whichever caller comes first.
+    chosen = {"error_model": "numpy", "fastmath": False, "_nrt": not borrows, **options}
 
     def decorate(function: _Function) -> _Function:
-        registered: _Function = register_jitable(**chosen)(function)
-        registered.part_options = options  # type: ignore[attr-defined]
-        return registered
+        if numba.__version__.startswith(_TRIED):
+            from cqdd_design.files.kernel_unfinished import register
+
+            register(function, {"no_cfunc_wrapper": True, **chosen})
+        else:
+            register_jitable(**chosen)(function)
+        function.part_options = chosen  # type: ignore[attr-defined]
+        return function
 
     return decorate

@@ -1,18 +1,23 @@
 """numba's own steps for a function that is not finished by itself (:mod:`.kernel_part`).
 
+Nor is it compiled anew for each kind of caller: numba asks how a caller is to be compiled, and made
+two or three of a part that a kernel calls and other parts too.
+
 These are names that numba keeps for itself, so this module is imported with versions alone that it
 was tried with.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from typing import Any
 
-from numba import _dynfunc  # type: ignore[attr-defined]
+from numba import _dynfunc, types  # type: ignore[attr-defined]
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import register_pass
 from numba.core.typed_passes import NativeLowering
+from numba.core.typing.templates import infer, infer_global, make_overload_template
 
 
 class _Unfinished(JITCodeLibrary):
@@ -61,3 +66,21 @@ class PartCompiler(CompilerBase):
         passes._finalized = False
         passes.finalize()
         return [passes]
+
+
+def register(function: Callable[..., Any], options: Mapping[str, Any]) -> None:
+    """Let kernels call a function, as :func:`numba.extending.register_jitable` does."""
+    how = {"nopython": True, "no_cpython_wrapper": True, "pipeline_class": PartCompiler, **options}
+    usual: Any = make_overload_template(  # type: ignore[no-untyped-call]
+        function, lambda *_, **__: function, how, strict=False, inline="never"
+    )
+
+    def found(template: Any, args: Any, named: Any) -> Any:
+        key = template.context, tuple(args), tuple(named.items())
+        if key not in template._impl_cache:
+            template._build_impl(key, args, named)
+        return template._impl_cache[key]
+
+    once = type(usual)(usual.__name__, (usual,), {"_get_impl": found})
+    infer(once)  # type: ignore[no-untyped-call]
+    infer_global(function, types.Function(once))  # type: ignore[no-untyped-call]

@@ -18,6 +18,7 @@ from contextlib import suppress
 from pathlib import Path
 from queue import SimpleQueue
 from threading import Thread
+from types import FunctionType
 from typing import Any, NamedTuple
 
 from cqdd_design.gearbox.compiled import in_cache
@@ -210,11 +211,23 @@ def _feed(worker: subprocess.Popen[str], left: deque[list[str]], ended: SimpleQu
 _WORK = f"from {__name__} import compile_asked; compile_asked()"
 
 
+_ROOM = 2**17
+"""Places for values, of 8 bytes each: Python doubles its pieces from 16 kB until one is enough, and
+as much again is then left in it for the frames of what is called."""
+
+
 def compile_asked() -> None:
     """Compile the kernels whose names come in, a line at a time, and answer each line."""
     # A compiler makes millions of small things and next to no rubbish: a tenth of its time was
-    # the collector's.
+    # the collector's. Another fifth went into mapping memory for Python's frames: these stand in
+    # pieces of 16 kB, each of which is given back when it is empty, and calls that went up and
+    # down over a seam mapped one each time. A frame that claims room for itself brings more.
     gc.disable()
+    roomy = FunctionType(_compile_lines.__code__.replace(co_stacksize=_ROOM), globals())
+    roomy()
+
+
+def _compile_lines() -> None:
     # What libraries print goes elsewhere than the answers.
     with os.fdopen(os.dup(1), "w") as answers:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)

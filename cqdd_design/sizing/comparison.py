@@ -63,7 +63,7 @@ def compare_with_planetary(
         bore=machine.motor.bore_diameter,
         settings=chosen,
         cycloid=cycloid_limits(machine),
-        paper=_papers_case(material, quality),
+        paper=_papers_case(machine, material, quality),
         **given,
     )
     return replace(found, warnings=(*notes, *found.warnings))
@@ -82,10 +82,18 @@ def _gear_steel(
         return gear_material(find_material(DEFAULT_STEEL), quality), (note,)
 
 
+def _papers_case(machine: Machine, material: str | None, quality: Quality) -> PaperCase:
+    """The paper's actuator; its gears of the material asked for, else of its discs' steel.
+
+    Where the machine itself is that actuator, its own limits serve.
+    """
+    papers = papers_machine()
+    same = machine.design.sha256 == papers.design.sha256
+    return _case_of(machine if same else papers, material, quality)
+
+
 @lru_cache(maxsize=8)
-def _papers_case(material: str | None, quality: Quality) -> PaperCase:
-    """The paper's actuator; its gears of the material asked for, else of its discs' steel."""
-    machine = papers_machine()
+def _case_of(machine: Machine, material: str | None, quality: Quality) -> PaperCase:
     steel, _ = _gear_steel(machine.design.reducer.disc_material, material, quality)
     return PaperCase(
         steel,

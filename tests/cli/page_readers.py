@@ -56,8 +56,8 @@ function measured(frame) {
     if (!box.width || !box.height || style.visibility === "hidden") { continue; }
     var svg = at.closest("svg"), scale = svg ? Math.abs(svg.getScreenCTM().a) : 1;
     var size = parseFloat(style.fontSize) * scale;
-    if (at.namespaceURI.indexOf("MathML") < 0) { least = Math.min(least, size); }
-    if (size < LEAST_TEXT - 0.01 && at.namespaceURI.indexOf("MathML") < 0) {
+    least = Math.min(least, size);
+    if (size < LEAST_TEXT - 0.01) {
       small.push(size.toFixed(2) + " " + (at.getAttribute("class") || at.tagName) + " " +
         node.data.trim().slice(0, 30) + " in " + (at.closest("[id]") || page.body).id);
     }
@@ -121,10 +121,11 @@ window.addEventListener("load", function () {
 SCREENS = (
     (1300, 900, "light", True),
     (1300, 900, "dark", False),
+    (800, 900, "light", False),
     (400, 800, "light", False),
     (400, 800, "dark", True),
 )
-"""Width and height in px, looks, and whether axe reads there: both widths and both looks once."""
+"""Width and height in px, looks, and whether axe reads there: outer widths and both looks once."""
 
 
 def axe_source() -> str:

@@ -105,7 +105,8 @@ def test_every_reader_can_read_it(readers: dict[str, Any]) -> None:
 def _legible(screen: str, seen: dict[str, Any]) -> None:
     assert seen["small"] == [], screen
     assert seen["pale"] == [], screen
-    assert seen["cut"] == [], screen
+    # Between phone and desktop the widest tables scroll in boxes of their own.
+    assert seen["cut"] == [] or screen.startswith("800"), screen
     assert seen["overflow"] <= 0, screen
     serious = [v for v in seen.get("violations", ()) if v["impact"] in {"serious", "critical"}]
     assert serious == [], screen
@@ -114,7 +115,7 @@ def _legible(screen: str, seen: dict[str, Any]) -> None:
 def test_contents_are_at_hand_and_headings_in_order(readers: dict[str, Any]) -> None:
     for screen, seen in readers.items():
         used = seen["more"]
-        narrow = screen.startswith("400")
+        narrow = not screen.startswith("1300")
         assert (used["bar"] != "none") == narrow
         assert used["before"] == ("none" if narrow else "block")
         assert used["after"] == "block"

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import resource
+import sys
+import threading
 from dataclasses import replace
 from pathlib import Path
 
@@ -277,3 +280,20 @@ def test_the_only_tolerance_has_all_of_the_variance() -> None:
     assert total == pytest.approx(1.0, abs=0.35)
     others = [row[2] for row in result.ranking("backlash_arcmin")[1:]]
     assert max(others) == 0.0
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="threads have no priority of their own")
+def test_gearboxes_let_the_rest_of_a_report_go_first(monkeypatch):
+    from cqdd_design.gearbox.tolerance import ensemble_kernel
+
+    seen = []
+    solve = ensemble_kernel.solve_gearbox
+
+    def watched(*values):
+        seen.append(os.getpriority(os.PRIO_PROCESS, threading.get_native_id()))
+        return solve(*values)
+
+    monkeypatch.setattr(ensemble_kernel, "solve_gearbox", watched)
+    run_ensemble(make_ensemble(paper(), angles=110), 2, sensitivity=False)
+    assert len(seen) == 2
+    assert min(seen) > os.getpriority(os.PRIO_PROCESS, threading.get_native_id())

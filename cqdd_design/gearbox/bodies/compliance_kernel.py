@@ -66,7 +66,7 @@ def add_contacts(
                 rubbed[a, i, j] += across
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _solve_lower(matrix: Any, given: Any, size: int, columns: int) -> None:
     """Cholesky's lower factor L of a positive definite matrix, over it, and L^-1 `given`.
 
@@ -86,7 +86,7 @@ def _solve_lower(matrix: Any, given: Any, size: int, columns: int) -> None:
                 given[i, c] -= factor * given[k, c]
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _inverse(a: float, b: float, c: float) -> tuple[float, float, float]:
     """Entries of the inverse of [[a, b], [b, c]]."""
     determinant = a * c - b * b

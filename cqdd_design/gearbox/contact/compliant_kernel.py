@@ -53,7 +53,7 @@ def yielding_work(discs: int, contacts: int) -> YieldingWork:
     )
 
 
-@part()
+@part(borrows=True)
 def find_pushes(contacts: Contacts, rubbing: Rubbing, work: YieldingWork) -> None:
     """Force and arms of every contact by a unit normal force, friction included."""
     rows, share, push = contacts.rows, rubbing.share, work.push
@@ -68,7 +68,7 @@ def find_pushes(contacts: Contacts, rubbing: Rubbing, work: YieldingWork) -> Non
             push[d, k, 3] = h + m * carrier_arm[d, k]
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _find_yield(
     contacts: Contacts, teeth: int, compliance: Compliance, force: Any, work: YieldingWork
 ) -> None:
@@ -96,7 +96,7 @@ def _find_yield(
                     yielded[d, k] += pins[d, e] * (rows[d, k, 0] * fx + rows[d, k, 1] * fy)
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def press(
     contacts: Contacts,
     springs: Springs,
@@ -184,7 +184,7 @@ def press(
     return largest
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _meet(touching: Any, first: Any, teeth: int) -> bool:
     """Whether any two discs push the same pin; contacts stand in rising order."""
     for e in range(1, first.size - 1):
@@ -203,7 +203,7 @@ def _meet(touching: Any, first: Any, teeth: int) -> bool:
     return False
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _add_cams(
     contacts: Contacts, springs: Springs, u: Any, matrix: Any, row: int, column: int
 ) -> None:
@@ -227,7 +227,7 @@ def _add_cams(
             matrix[j + 1, m + 1] += springs.cam_stiffness
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def assemble(
     contacts: Contacts,
     springs: Springs,
@@ -309,7 +309,7 @@ def assemble(
     return meet
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _clear(matrix: Any, pivot: Any, rows: Any, after: Any, others: Any) -> None:
     """Take a pivot (row and column) out of some rows: its columns `after` it, and two others."""
     i, c = pivot
@@ -327,7 +327,7 @@ def _clear(matrix: Any, pivot: Any, rows: Any, after: Any, others: Any) -> None:
                 matrix[j, k] -= share * matrix[i, k]
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _swap_for_pivot(matrix: Any, i: int, c: int, last: int, columns: Any) -> int:
     """Bring the greatest entry of column c among rows i to `last` into row i; where it was."""
     pivot = i
@@ -342,7 +342,7 @@ def _swap_for_pivot(matrix: Any, i: int, c: int, last: int, columns: Any) -> int
     return pivot
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def eliminate(work: YieldingWork, meet: bool, fixed: int) -> float:
     """Motions into `work.step`, changes of force into the right-hand side.
 
@@ -420,7 +420,7 @@ def eliminate(work: YieldingWork, meet: bool, fixed: int) -> float:
     return 1.0 / float(unit[2])
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def change_approach(
     contacts: Contacts, teeth: int, compliance: Compliance, work: YieldingWork
 ) -> None:

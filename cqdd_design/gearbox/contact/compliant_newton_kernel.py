@@ -47,7 +47,7 @@ RIDGES = (1e-10, 1e-6, 1e-5, 1e-4)
 disc that hangs slack."""
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _lacking(work: YieldingWork, stiffness: float) -> tuple[float, float]:
     """Greatest force that is lacking, closings by their stiffness, and the sum of squares."""
     gradient, lack = work.gradient, work.lack
@@ -64,7 +64,7 @@ def _lacking(work: YieldingWork, stiffness: float) -> tuple[float, float]:
     return most, square
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _within_first_order(
     contacts: Contacts, springs: Springs, u: Any, approach: Any, work: YieldingWork, scale: float
 ) -> bool:
@@ -94,7 +94,7 @@ def _within_first_order(
     return True
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _take_step(
     contacts: Contacts, springs: Springs, u: Any, approach: Any, forces: Forces, work: YieldingWork
 ) -> None:
@@ -125,7 +125,7 @@ def _take_step(
         u[i] += step[i]
 
 
-@part()
+@part(borrows=True)
 def solve_yielding(
     contacts: Contacts,
     springs: Springs,
@@ -201,7 +201,7 @@ def _some(compliance: Compliance, held: Any, share: float) -> Compliance:
     return Compliance(pins, share * compliance.at_cap, compliance.join, share * compliance.bodies)
 
 
-@part()
+@part(borrows=True)
 def _from_held(contacts: Contacts, springs: Springs, start: Any, u: Any, approach: Any) -> None:
     """Motions and approaches of the state `start` (3 + 3 D,) of held plates and rigid bodies."""
     rows, gaps, coefficient = contacts.rows, contacts.gaps, contacts.coefficient

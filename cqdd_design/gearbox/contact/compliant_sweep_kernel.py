@@ -46,7 +46,7 @@ def rubbing_at(rubbing: Rubbing, a: int) -> Rubbing:
     return Rubbing(rubbing.share[a], rubbing.disc_arm[a], rubbing.carrier_arm[a])
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def predict_yielding(result: YieldingResult, turns: Any, a: int) -> None:
     """Start for angle `a` from up to four before it, by Lagrange's polynomial through them.
 

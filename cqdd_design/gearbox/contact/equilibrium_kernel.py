@@ -52,7 +52,7 @@ def new_work(discs: int, contacts: int) -> Work:
     )
 
 
-@part()
+@part(borrows=True)
 def solve_state(
     contacts: Contacts, springs: Springs, load: Load, state: Any, forces: Forces, work: Work
 ) -> tuple[int, int, float]:
@@ -129,7 +129,7 @@ def solve_state(
     return NOT_CONVERGED, _STEPS, torsional
 
 
-@part()
+@part(borrows=True)
 def _least_along(
     contacts: Contacts,
     springs: Springs,
@@ -205,7 +205,7 @@ def _least_along(
     return share
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def rounding(stiff: Any, state: Any) -> float:
     """Force that the rounding of the closings alone leaves unbalanced."""
     stiffest, furthest = 0.0, 0.0
@@ -217,7 +217,7 @@ def rounding(stiff: Any, state: Any) -> float:
     return 1e-15 * stiffest * furthest
 
 
-@part()
+@part(borrows=True)
 def _moved(rows: Any, teeth: int, step: Any, d: int, k: int) -> float:
     """How much further a contact closes by `step`."""
     x, y, t = step[3 + 3 * d], step[4 + 3 * d], step[5 + 3 * d]
@@ -228,7 +228,7 @@ def _moved(rows: Any, teeth: int, step: Any, d: int, k: int) -> float:
     return -float(rows[d, k, 0] * x + rows[d, k, 1] * y + rows[d, k, 2] * t)
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def within_first_order(contacts: Contacts, teeth: int, work: Work, scale: float) -> bool:
     """Whether the step neither opens nor closes a contact, nor changes a force by its square."""
     rows, step, closed, stiff = contacts.rows, work.step, work.closed, work.stiff
@@ -244,7 +244,7 @@ def within_first_order(contacts: Contacts, teeth: int, work: Work, scale: float)
     return True
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def take_step(contacts: Contacts, springs: Springs, state: Any, forces: Forces, work: Work) -> None:
     """Move the state by the step and the forces by their stiffness times it."""
     rows, step, stiff, teeth = contacts.rows, work.step, work.stiff, springs.teeth

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from cqdd_design.files.kernel_arrays import greatest
+from cqdd_design.files.kernel_arrays import greatest, sum_of_squares
 from cqdd_design.files.kernel_part import part
 from cqdd_design.gearbox.contact.equilibrium_kernel import (
     CONVERGED,
@@ -55,7 +55,7 @@ def rubbing_work(discs: int, contacts: int) -> RubbingWork:
     return RubbingWork(new_work(discs, contacts), np.empty((size, size)), np.empty(size))
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _press(
     contacts: Contacts,
     rubbing: Rubbing,
@@ -114,7 +114,7 @@ def _press(
     return largest, (px, py, pt, pc), on_disc, (cx, cy, ct)
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _add(matrix: Any, i: int, j: int, sign: float, block: Any) -> None:
     """Add a 3x3 block, row by row, at row i and column j."""
     xx, xy, xt, yx, yy, yt, tx, ty, tt = block
@@ -129,7 +129,7 @@ def _add(matrix: Any, i: int, j: int, sign: float, block: Any) -> None:
     matrix[i + 2, j + 2] += sign * tt
 
 
-@part()
+@part(borrows=True)
 def evaluate_rubbed(
     contacts: Contacts,
     springs: Springs,
@@ -213,7 +213,7 @@ def evaluate_rubbed(
     return largest
 
 
-@part()
+@part(borrows=True)
 def rubbed_step(work: RubbingWork, ridge: float) -> float:
     """Newton step into `work.work.step`; returns the torsional stiffness at the carrier.
 
@@ -252,7 +252,7 @@ def rubbed_step(work: RubbingWork, ridge: float) -> float:
     return 1.0 / float(unit[2])
 
 
-@part()
+@part(borrows=True)
 def solve_rubbed(
     contacts: Contacts,
     springs: Springs,
@@ -261,7 +261,7 @@ def solve_rubbed(
     state: Any,
     forces: Forces,
     scratch: RubbingWork,
-    held: float = RIDGES[0],
+    held: float,
 ) -> tuple[int, int, float]:
     """Find the equilibrium with friction near `state`, and into it.
 
@@ -276,7 +276,7 @@ def solve_rubbed(
     most = _STEPS if held == RIDGES[0] else _HELD_STEPS
     for iteration in range(most):
         residual = greatest(gradient)
-        square = np.sum(gradient * gradient)
+        square = sum_of_squares(gradient)
         if not math.isfinite(square):
             break
         scale = max(abs(load.pull), largest)
@@ -298,7 +298,7 @@ def solve_rubbed(
             for i in range(state.size):
                 trial[i] = state[i] + share * step[i]
             largest = evaluate_rubbed(contacts, springs, load.pull, rubbing, trial, forces, scratch)
-            if np.sum(gradient * gradient) < square:
+            if sum_of_squares(gradient) < square:
                 break
             share *= 0.5
         for i in range(state.size):

@@ -153,7 +153,9 @@ def rub_sweep(
         status, used, left = NOT_CONVERGED, 0, 0.0
         if a > 0:
             predict(states[a - 1], states[max(a - 2, 0)], turns[a], a, states[a])
-            status, used, left = solve_rubbed(here, springs, load, rubs, states[a], forces, scratch)
+            status, used, left = solve_rubbed(
+                here, springs, load, rubs, states[a], forces, scratch, RIDGES[0]
+            )
         if status != CONVERGED:
             enough = _SLACK * greatest_of_rows(smooth.force[a])
             for d in range(discs):

@@ -11,7 +11,7 @@ from cqdd_design.files.kernel_cache import numba
 from cqdd_design.files.kernel_part import part
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def palmgren_force(c: float, s: float, delta: float) -> tuple[float, float]:
     """Force and stiffness of delta = c F^0.9 + s F."""
     u = math.exp(math.log(delta / c) / 9.0)
@@ -52,7 +52,7 @@ def johnson_force(a: float, b: float, s: float, delta: float) -> tuple[float, fl
     return load, 1.0 / (c - b * (math.log(load) + 1.0))
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def line_force(code: int, c: float, b: float, s: float, delta: float) -> tuple[float, float]:
     """Force and stiffness of a line contact pressed together by delta > 0."""
     if code == 0:
@@ -63,7 +63,7 @@ def line_force(code: int, c: float, b: float, s: float, delta: float) -> tuple[f
     return k * delta, k
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def radial_force(stiffness: float, exponent: float, delta: float) -> tuple[float, float]:
     """Force and stiffness of F = K delta^exponent."""
     if exponent == 1.5:

@@ -14,7 +14,7 @@ from cqdd_design.gearbox.contact.kernel_values import Contacts, Forces, Springs,
 from cqdd_design.gearbox.contact.laws_kernel import line_force, radial_force
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _press(
     contacts: Contacts, forces: Forces, work: Work, which: Any, displacement: Any, law: Any
 ) -> Any:
@@ -56,7 +56,7 @@ def _press(
     return largest, (gx, gy, gt), (hxx, hxy, hxt, hyy, hyt, htt)
 
 
-@part()
+@part(borrows=True)
 def evaluate_state(
     contacts: Contacts, springs: Springs, pull: float, state: Any, forces: Forces, work: Work
 ) -> float:
@@ -124,7 +124,7 @@ def evaluate_state(
     return largest
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def _solve3(a: Any, ridge: float, b0: float, b1: float, b2: float) -> tuple[float, float, float]:
     """Solve a symmetric positive 3x3 system (xx, xy, xt, yy, yt, tt) plus ridge by LDL^T."""
     d0 = a[0] + ridge
@@ -140,7 +140,7 @@ def _solve3(a: Any, ridge: float, b0: float, b1: float, b2: float) -> tuple[floa
     return b0 / d0 - l1 * x1 - l2 * y2, x1, y2
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def newton_step(work: Work, carrier_stiffness: float, ridge: float) -> float:
     """Newton step by eliminating the discs; returns the torsional stiffness left at the carrier.
 

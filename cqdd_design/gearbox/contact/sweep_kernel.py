@@ -24,7 +24,7 @@ _FIRM_APPROACH = 5e-6
 """Approach, m, of a load that presses the discs firmly against what stops them."""
 
 
-@part()
+@part(borrows=True)
 def predict(state: Any, before: Any, turn: float, known: int, out: Any) -> None:
     """Start for the next angle: the last state turned with the crank, plus its last change.
 
@@ -46,7 +46,7 @@ def predict(state: Any, before: Any, turn: float, known: int, out: Any) -> None:
         out[i + 2] = t
 
 
-@part()
+@part(borrows=True)
 def solve_from_above(
     contacts: Contacts, springs: Springs, load: Load, state: Any, forces: Forces, work: Work
 ) -> tuple[int, int, float]:
@@ -74,7 +74,7 @@ def solve_from_above(
             firm = abs(pull)
 
 
-@part(forceinline=True)
+@part(borrows=True, forceinline=True)
 def solve_near(
     contacts: Contacts, springs: Springs, load: Load, state: Any, forces: Forces, work: Work
 ) -> tuple[int, int, float]:

@@ -41,7 +41,7 @@ _STILL = 2e-10
 """Metres at the pin circle between two rounds that count as standing still: 1e-4 arcmin or less."""
 
 
-@part()
+@part(borrows=True)
 def _true_gaps(parts: RigidParts, at: int, state: Any, rows: Any, gaps: Any) -> None:
     """Rows and gaps linearised at the displaced state, with gaps in the nominal coordinates.
 
@@ -102,7 +102,7 @@ def _true_gaps(parts: RigidParts, at: int, state: Any, rows: Any, gaps: Any) -> 
             )
 
 
-@part()
+@part(borrows=True)
 def _overlaps(forces: Forces) -> tuple[float, float]:
     """Greatest overlap and the sum of their squares; on springs of 1 N/m a force is one."""
     force, cam_force = forces.contact, forces.cam

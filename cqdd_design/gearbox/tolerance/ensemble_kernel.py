@@ -53,7 +53,7 @@ _NEXT_TO_NOTHING = 1e-3
 """Load of a gearbox without load, over the torque: what hangs loose then has its place."""
 
 
-@part()
+@part(borrows=True)
 def _slope(
     nominal: Nominal,
     found: Toleranced,

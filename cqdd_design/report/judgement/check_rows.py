@@ -53,6 +53,7 @@ def check_row(check: Check) -> Values:
         "formula": mathml(check.formula),
         "bar": margin_bar(check) if check.known else "",
         "substituted": printed(check.substituted),
+        "why_not_known": sentence(printed(check.substituted)) if check.status == "unknown" else "",
         "remedy": "" if check.satisfied else sentence(printed(check.remedy)),
         "basis": printed(check.basis),
         "source": printed(check.source).rstrip("."),

@@ -4,6 +4,7 @@ The CAD kernel takes its time, and now and then the process; the report goes on 
 the views stands their digest.
 """
 
+import gc
 import hashlib
 import os
 import pickle
@@ -19,6 +20,8 @@ from cqdd_design.solids.parts import build_parts
 
 def main() -> int:
     """Read (design, layout), write (views, viewer)."""
+    # Next to nothing of what a picture leaves behind is a cycle.
+    gc.disable()
     design, layout = pickle.load(sys.stdin.buffer)
     # What libraries print of their own goes to the errors, not among the views.
     sys.stdout.flush()

@@ -166,11 +166,13 @@ def _normals(vertices: FloatArray, triangles: np.ndarray) -> FloatArray:
     own = gltf.vertex_normals(vertices, triangles)
     keys = np.round(vertices * 1e4).astype(np.int64)
     _, place = np.unique(keys, axis=0, return_inverse=True)
-    order = np.argsort(place, kind="stable")
-    starts = np.flatnonzero(np.diff(place[order].ravel(), prepend=-1))
+    order = np.argsort(place, axis=None, kind="stable")
+    counts = np.bincount(place.ravel())
+    starts = np.cumsum(counts) - counts
     joined = own.copy()
-    for rows in np.split(order.ravel(), starts[1:]):
-        if len(rows) > 1:
-            alike = own[rows] @ own[rows].T > _SMOOTH
-            joined[rows] = alike @ own[rows]
+    for count in np.unique(counts[counts > 1]):
+        rows = order[starts[counts == count][:, None] + np.arange(count)]
+        met = own[rows]
+        alike = met @ met.swapaxes(1, 2) > _SMOOTH
+        joined[rows] = alike @ met
     return gltf.unit(joined)
