@@ -172,7 +172,7 @@ WRONG = {
     ("--duration", "-2 s"): "--duration -2 s is not above zero",
     ("--duration", "5"): 'write it like "5 s"',
     ("--duration", "1 hour"): "more than 20 million steps of 2e-05 s; use a duration of 200 s",
-    ("--step", "1 ms"): "too large for the stiffness of gearbox and load, which needs 7.3e-05 s",
+    ("--step", "1 ms"): "too large for the stiffness of gearbox and load, which needs 7.33e-05 s",
     ("--step", "0 s"): 'use "20 us"',
     ("--rate", "10 MHz"): "use a rate of 500000 Hz or less",
     ("--rate", "60 rpm"): "a rate is in Hz here",

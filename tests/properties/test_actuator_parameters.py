@@ -248,10 +248,10 @@ def test_friction_with_the_motor_on_the_shaft_keeps_backdrive_torques() -> None:
 
 def test_a_rotor_of_unknown_inertia_is_a_ring_of_part_of_the_motors_mass() -> None:
     """Of 30 % of the mass at 95 % of the radius, where the rotor is neither drawn nor listed."""
-    row = replace(find_motor("CubeMars RI100 KV105"), rotor_inertia=None)
+    row = replace(find_motor("CubeMars RI70 KV95"), rotor_inertia=None)
     one = actuator_parameters(resolve(PAPER.replacing({"motor.name": row.name}), row))
     assert one.origins["motor.rotor_inertia"].startswith("assumed: ring of 30 %")
-    ring = 0.3 * 0.5 * (0.95 * 0.052) ** 2
+    ring = 0.3 * row.mass * (0.95 * 0.5 * row.outer_diameter) ** 2
     assert one.motor.rotor_inertia == pytest.approx(ring, rel=1e-12)
 
 
