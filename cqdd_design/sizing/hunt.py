@@ -41,7 +41,7 @@ NEEDLE_PINS = "AISI 52100 / 100Cr6 hardened"
 """Of output pins that needles run on, where none is asked for."""
 DISC_COUNTS = (2, 3)
 """Likewise of discs: those that balance."""
-_LIKELY = 0.96
+_LIKELY, _HOPED = 0.93, 0.86
 """Of a reserve that part errors ask for with other cam bearings: they differ by so much."""
 _SOLVED = 15
 """Designs that are kept with their equilibria, but for the last."""
@@ -145,7 +145,7 @@ class Hunt:
     extra_of : dict of tuple to dict
         Likewise of designs with one cam bearing, by its designation.
     trusting : bool
-        Whether designs with cam bearings that have not been looked at need none.
+        Whether designs with cam bearings that have not been looked at need much less.
     lowered : bool
         Whether the motor did not hold a continuous torque that was tried.
     fit : Fit
@@ -227,13 +227,14 @@ class Hunt:
         """Reserve for part errors of designs with a cam bearing, by check.
 
         With one that has not been looked at, somewhat less than what every other asks for; where
-        the hunt is trusting, nothing.
+        the hunt is trusting, still less.
         """
         own = self.extra_of.get(cam)
-        if own is None and self.extra_of and not self.trusting:
+        if own is None and self.extra_of:
+            part = _HOPED if self.trusting else _LIKELY
             every = list(self.extra_of.values())
             shared = set.intersection(*map(set, every))
-            own = {one: max(_LIKELY * min(each[one] for each in every), 1.0) for one in shared}
+            own = {one: max(part * min(each[one] for each in every), 1.0) for one in shared}
         return self.extra | (own or {})
 
     def ask_extra(self, cam: str, asked: Mapping[str, float]) -> None:

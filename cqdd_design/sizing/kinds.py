@@ -74,12 +74,24 @@ def lightest(hunt: Hunt) -> Found | None:
     if PEAK in hunt.requirements.derived:
         # Torques that nobody stated are lowered instead.
         return None if best is None or _is_hopeless(best) else best
-    if (best is None or best.weak) and hunt.extra_of:
-        # What is known of others may be too much for those that are not known.
-        hunt.trusting = True
-        best = next(iter(ranked(hunt)), best)
-        hunt.trusting = False
+    if best is None or best.weak:
+        best = _hoped_for(hunt) or best
     return tightest(hunt) if best is None else best
+
+
+def _hoped_for(hunt: Hunt) -> Found | None:
+    """The best design with a cam bearing that has not been looked at.
+
+    What part errors ask for with others may be too much for it: it is asked for less, and has to be
+    looked at.
+    """
+    if not hunt.extra_of:
+        return None
+    hunt.trusting = True
+    every = ranked(hunt)
+    hunt.trusting = False
+    new = [one for one in every if one.cam not in hunt.extra_of and not one.worth[0]]
+    return min(new, key=lambda one: one.worth, default=None)
 
 
 def promising(hunt: Hunt) -> Found | None:
@@ -122,8 +134,10 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
             continue
         known, one = _answered(hunt, kind)
         if not known:
-            one = _in_rings(hunt, kind, best, thorough=thorough)
-            if thorough:
+            rings = _Rings(hunt, kind, best)
+            one = _in_rings(rings, kind, thorough=thorough)
+            # What lost to another may be the best where that one turns out to be none.
+            if thorough and not rings.gave_up:
                 hunt.answered[kind.space] = hunt.fixed, hunt.extra_for(kind.space.cam), one
         if one is None:
             continue
@@ -224,17 +238,32 @@ def _screened_anew(kind: _Kind, better: Mapping[str, _Kind]) -> _Kind:
 
 
 class _Rings:
-    """Designs of one kind in rings of several diameters."""
+    """Designs of one kind in rings of several diameters.
+
+    Attributes
+    ----------
+    most, least : float
+        Outside diameters, m, between which rings are tried.
+    gave_up : bool
+        Whether something was not looked for because another kind is far better.
+    """
 
     def __init__(self, hunt: Hunt, kind: _Kind, best: Found | None) -> None:
         self._hunt, self._space, self._best = hunt, kind.space, best
         frame = hunt.frame(kind.space, {})
         self.most, self.least = 2.0 * frame.outer_radius, 2.0 * frame.least_outer_radius
+        self.gave_up = False
         self._tried: dict[float, Found | None] = {}
         own = hunt.known.get(_key(kind.space))
         near = own or _near(hunt, kind.space)
         self._needs = None if near is None else near.needs
         self._point = None if own is None else own.point
+
+    def leaves_behind(self, found: Found) -> bool:
+        """Whether a design is so far from the best of other kinds that no finer steps are tried."""
+        behind = self._best is not None and found.worth[1] > _LEFT_BEHIND * self._best.worth[1]
+        self.gave_up |= behind
+        return behind
 
     def at(self, ring: float) -> Found | None:
         """The best in a ring of a diameter, m, that the equilibrium bears out."""
@@ -245,9 +274,10 @@ class _Rings:
         rounds = _FIRST_ROUNDS if self._point is None else _ROUNDS
         space = self._space._replace(ring_limit=ring)
         try:
-            found, _ = settled(self._hunt, space, rival, self._needs, self._point, rounds)
+            found, beaten = settled(self._hunt, space, rival, self._needs, self._point, rounds)
         except InfeasibleError:
-            found = None
+            found, beaten = None, False
+        self.gave_up |= beaten
         if found is not None:
             self._needs, self._point = found.needs, found.point
             found = replace(found, weak=weak_lines(found.sized.machine))
@@ -255,9 +285,8 @@ class _Rings:
         return found
 
 
-def _in_rings(hunt: Hunt, kind: _Kind, best: Found | None, *, thorough: bool) -> Found | None:
+def _in_rings(rings: _Rings, kind: _Kind, *, thorough: bool) -> Found | None:
     """The best design of a kind, in whichever ring; the first one where that is weak or enough."""
-    rings = _Rings(hunt, kind, best)
     ring = min(max(kind.ring, rings.least), rings.most)
     found = rings.at(ring)
     for turn in range(_MOST_UP):
@@ -268,7 +297,7 @@ def _in_rings(hunt: Hunt, kind: _Kind, best: Found | None, *, thorough: bool) ->
     if found is None or found.weak or not thorough:
         return found
     for step in _STEPS:
-        if best is not None and found.worth[1] > _LEFT_BEHIND * best.worth[1]:
+        if rings.leaves_behind(found):
             break
         smaller = _walked(rings, found, 1.0 - step)
         found = smaller or _walked(rings, found, 1.0 / (1.0 - step)) or found

@@ -11,7 +11,7 @@ from cqdd_design.sizing.kinds import ranked
 from cqdd_design.sizing.search import Search
 from cqdd_design.verdict import Verdict
 
-TRIALS = 14
+TRIALS = 20
 """Of sizing to the verdict."""
 _OVER, _LESS, _WEAKER = 1.06, 0.96, 14
 """Share of what the strongest design is thought to bear that is tried first for a refusal, the next

@@ -442,8 +442,9 @@ def test_part_errors_ask_for_the_reserve_that_they_use_up() -> None:
     assert set(hunt.extra_of) == {cam}
     # Of another cam bearing somewhat less is expected.
     assert 0.9 * found < hunt.extra_for("6904")["CONTACT-RING-PEAK"] < found
+    likely = hunt.extra_for("6904")["CONTACT-RING-PEAK"]
     hunt.trusting = True
-    assert hunt.extra_for("6904") == {}
+    assert 0.85 * found < hunt.extra_for("6904")["CONTACT-RING-PEAK"] < likely
     assert hunt.extra_for(cam)["CONTACT-RING-PEAK"] == found
     # Where enough of them are good nothing is asked for.
     easy = tuple(
