@@ -31,9 +31,7 @@ class Drawn(NamedTuple):
     """The greatest loads alone."""
 
 
-def drawn_gearboxes(
-    machine: Machine, samples: int, *, sensitivity: bool, rigid: bool = False
-) -> Drawn:
+def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Drawn:
     """Toleranced gearboxes at the continuous and at the peak torque.
 
     Parameters
@@ -42,8 +40,6 @@ def drawn_gearboxes(
         Gearboxes.
     sensitivity : bool
         Whether to rank the tolerances too, at the continuous torque, which takes twice as many.
-    rigid : bool
-        Whether discs and ring do not yield, for a look that has to be quick.
 
     Raises
     ------
@@ -54,12 +50,12 @@ def drawn_gearboxes(
     peak = machine.design.requirements.peak_torque
     # Greatest loads alone need the fewest angles.
     fewest = PER_TOOTH[1] * ratio * (ratio + 1)
-    at_peak = make_ensemble(machine.design, angles=fewest, torque=peak, outputs=LOADS, rigid=rigid)
+    at_peak = make_ensemble(machine.design, angles=fewest, torque=peak, outputs=LOADS)
     peaks = run_ensemble(at_peak, samples, mapper=work_remembered, sensitivity=False)
     # Last, so that what discs and ring yield at all its angles is at hand for other clearances.
     found = Drawn(
         run_ensemble(
-            make_ensemble(machine.design, rigid=rigid),
+            make_ensemble(machine.design),
             samples,
             mapper=work_remembered,
             sensitivity=sensitivity,
