@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from cqdd_design.errors import CatalogError
+from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.kinds import Seat
 
 if TYPE_CHECKING:
@@ -49,6 +50,6 @@ def centring(machine: Machine) -> str:
     off, depth = most_off_centre(machine), 1e3 * machine.layout.housing.spigot
     far = "" if off is None else f"; its axis stands off the ring's by {1e3 * off:.2f} mm at most"
     return (
-        f"Spigots of the ring clamp, {depth:.2g} mm deep and h6 in H7, centre it in the housing "
-        f"and the output cover on it{far}."
+        f"Spigots of the ring clamp, {depth:.2g} mm deep and {zones.SPIGOT} in {zones.HOUSED}, "
+        f"centre it in the housing and the output cover on it{far}."
     )

@@ -113,7 +113,7 @@ def lay_out_inrunner(
         hub_radius=hub,
         hub_bottom=hub_bottom,
         hub_top=hub_top,
-        **encoder._asdict(),
+        **vars(encoder),
         cover_inner=stack_outer,
         cover_outer=outside,
         cover_floor=floor,

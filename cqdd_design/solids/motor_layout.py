@@ -11,7 +11,29 @@ from cqdd_design.solids.selection import CapScrew
 
 
 @dataclass(frozen=True)
-class MotorEnd:
+class EncoderPlace:
+    """Magnet at the end of a shaft, and the board under it; m.
+
+    Attributes
+    ----------
+    magnet_radius, magnet_height, magnet_bottom : float
+        Of the encoder's magnet: flush with the end of the shaft, or on it.
+    board_radius, board_bottom, board_top, sensor_top : float
+        Encoder board with its sensor.
+    """
+
+    magnet_radius: float
+    magnet_height: float
+    magnet_bottom: float
+    board_radius: float
+    board_bottom: float
+    board_top: float
+    sensor_top: float
+    board_screw: CapScrew
+
+
+@dataclass(frozen=True)
+class MotorEnd(EncoderPlace):
     """What all motors have: stator and rotor, a hub on the shaft, cover and encoder; m.
 
     Attributes
@@ -25,10 +47,6 @@ class MotorEnd:
     hub_radius, hub_bottom, hub_top : float
         The hub on the shaft's stub that the rotor hangs on; below its web it stands in the cover's
         dish.
-    magnet_radius, magnet_height, magnet_bottom : float
-        Of the encoder's magnet: flush with the end of the shaft, or on it.
-    board_radius, board_bottom, board_top, sensor_top : float
-        Encoder board with its sensor.
     cover_inner, cover_outer, cover_floor, cover_wall : float
         Inside and outside radius of the cover; height of its floor's inner face, and its thickness
         (the dish under the board lies lower).
@@ -52,14 +70,6 @@ class MotorEnd:
     hub_radius: float
     hub_bottom: float
     hub_top: float
-    magnet_radius: float
-    magnet_height: float
-    magnet_bottom: float
-    board_radius: float
-    board_bottom: float
-    board_top: float
-    sensor_top: float
-    board_screw: CapScrew
     cover_inner: float
     cover_outer: float
     cover_floor: float

@@ -15,15 +15,15 @@ Half section, output upward; the discs are inside the tube::
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, SAFETY, length_needed
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.geometry.scale import MOST_TUBE_WALL, largest_ring
-from cqdd_design.solids.motor_layout import MotorLayout
+from cqdd_design.solids.motor_layout import EncoderPlace, MotorLayout
 from cqdd_design.solids.registers import spigot_depth
-from cqdd_design.solids.selection import CapScrew, cap_screw, thread_size
+from cqdd_design.solids.selection import cap_screw, thread_size
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
@@ -151,19 +151,6 @@ def hub_length(torque: float, diameter: float) -> float:
     return min(math.ceil(needed * 2e3) / 2e3, _MOST_HUB * diameter)
 
 
-class EncoderPlace(NamedTuple):
-    """Magnet at the end of a shaft, and the board under it, as of `MotorEnd`; m."""
-
-    magnet_radius: float
-    magnet_height: float
-    magnet_bottom: float
-    board_radius: float
-    board_bottom: float
-    board_top: float
-    sensor_top: float
-    board_screw: CapScrew
-
-
 def lay_out_encoder(journal: float, end: float) -> EncoderPlace:
     """The encoder at the end of a shaft of a radius, at a height; m."""
     magnet = next((d for d in reversed(_MAGNETS) if d <= 1.3e3 * journal), _MAGNETS[0]) * 1e-3
@@ -264,7 +251,7 @@ def lay_out_motor(
         hub_radius=journal + 3.5 * unit,
         hub_bottom=hub_bottom,
         hub_top=hub_top,
-        **encoder._asdict(),
+        **vars(encoder),
         cover_inner=inner,
         cover_outer=inner + wall,
         cover_floor=web_bottom - unit - room,

@@ -178,7 +178,7 @@ def _bore(machine: Machine) -> tuple[Check, ...]:
     """The ring inside the stator; no line for a motor that stands behind the gearbox."""
     outer, motor = machine.design.reducer.ring.outer_diameter, machine.motor
     if is_inrunner(motor):
-        return () if _stands_behind(machine) else (_no_place(machine, outer),)
+        return _behind(machine, outer)
     if motor.bore_diameter is None:
         told = f"ring {outer * 1e3:.4g} mm; the stator bore of '{motor.name}' is not known"
         return (build_check("MOTOR-BORE", outer * 1e3, None, told, GIVE),)
@@ -186,20 +186,15 @@ def _bore(machine: Machine) -> tuple[Check, ...]:
     return (replace(screened, severity="fail"),)
 
 
-def _stands_behind(machine: Machine) -> bool:
+def _behind(machine: Machine, ring: float) -> tuple[Check, ...]:
+    """Why an inrunner is not drawn behind the gearbox, of a ring (outside, m); none where it is."""
     try:
-        return machine.layout.inrunner is not None
-    except DesignError:
-        return False
-
-
-def _no_place(machine: Machine, ring: float) -> Check:
-    """An inrunner that is not drawn behind the gearbox, of a ring (outside, m)."""
-    try:
+        if machine.layout.inrunner is not None:
+            return ()
         why = machine.layout.motor_missing
     except DesignError as error:
         why = error.message
-    return build_check("MOTOR-BORE", 1e3 * ring, None, why, GIVE)
+    return (build_check("MOTOR-BORE", 1e3 * ring, None, why, GIVE),)
 
 
 def _logged(found: DutyPoints) -> Check:

@@ -9,6 +9,7 @@ import pytest
 from legible import assert_legible
 
 from cqdd_design.catalog import find_motor
+from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import load_design
 from cqdd_design.errors import DesignError, GeometryError
 from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
@@ -19,6 +20,7 @@ from cqdd_design.exporting.sheets.title_block import HEIGHT, WIDTH
 from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.machine import resolve
 from cqdd_design.machine.heat_nodes import NODES
+from cqdd_design.machine.inrunner_heat import inrunner_pairs, inrunner_surfaces
 from cqdd_design.machine.screws import screw_joints
 from cqdd_design.machine.thermal_parts import machine_network
 from cqdd_design.roads.export import left_out
@@ -225,6 +227,74 @@ def test_temperatures_of_an_inrunner_ask_for_its_slots(paper):
     assert least < area < 8.0 * math.pi * body.flange_radius * (body.cover_top - can.board_bottom)
     laplacian = np.diag(network.conductance.sum(axis=1)) - network.conductance
     assert np.linalg.matrix_rank(laplacian) == len(NODES) - 1
+
+
+def through_rings(conductivity, inner, outer, length):
+    """Resistance of a ring, K/W: that of many thin ones, one behind the other."""
+    edges = np.linspace(inner, outer, 20_001)
+    middle = 0.5 * (edges[1:] + edges[:-1])
+    return np.sum(np.diff(edges) / (conductivity * 2.0 * math.pi * middle * length))
+
+
+def test_heat_of_an_inrunner_passes_rings_and_gaps_one_behind_the_other(paper):
+    """Lengths of the drawn parts; iron, aluminium, and the air of seat and gaps by handbooks."""
+    machine = resolve(paper.replacing({"motor": {"name": DRAWN[0], "slot_depth": "14 mm"}}))
+    motor, housing, pack = machine.layout.inrunner, machine.layout.housing, machine.layout.pack
+    metal = find_material(machine.design.housing.material).conductivity
+    iron = find_material("Electrical steel M400-50A").conductivity
+    long = motor.stack_top - motor.stack_bottom
+    seat = 37e-6 / (0.027 * 2.0 * math.pi * motor.stack_outer * long)
+    yoke = through_rings(iron, motor.stack_inner + 14e-3, motor.stack_outer, long)
+    # From the middle of the tube down, out through both flanges, and half down the cover.
+    down = (
+        0.5
+        * (housing.flange_bottom - motor.joint)
+        / (metal * math.pi * (housing.register_radius**2 - pack.ring_radius**2))
+    )
+    out = through_rings(
+        metal, housing.register_radius, motor.cover_outer, motor.flange + motor.ear_height
+    )
+    along = (
+        0.5
+        * (motor.joint - motor.cover_floor)
+        / (metal * math.pi * (motor.cover_outer**2 - motor.cover_inner**2))
+    )
+    web = through_rings(
+        metal, motor.hub_radius, motor.rotor_inner, motor.web_top - motor.lip_bottom
+    )
+    gap = motor.stack_inner - motor.rotor_outer
+    below = motor.lip_bottom - motor.cover_floor
+    wanted = {
+        ("stator", "cover"): 1.0 / (yoke + seat),
+        ("stator", "rotor"): 0.028 * 2.0 * math.pi * motor.rotor_outer * long / gap,
+        ("rotor", "shaft"): 1.0 / web,
+        ("rotor", "cover"): 0.028 * math.pi * motor.lip_radius**2 / below,
+        ("housing", "cover"): 1.0 / (down + out + along),
+    }
+    found = inrunner_pairs(machine, machine.layout, motor, metal)
+    for pair, value in wanted.items():
+        assert found[pair] == pytest.approx(value, rel=1e-6), pair
+    # In the air: all of the can but its joint, the tube above it, and the flange's and cover's rim.
+    areas = [
+        one.area
+        for one in inrunner_surfaces(
+            machine.layout, motor, find_material(machine.design.housing.material)
+        )
+    ]
+    can = 2.0 * math.pi * motor.cover_outer * (motor.joint - motor.cover_floor + motor.cover_wall)
+    rim = housing.cover_flange_top - housing.flange_bottom
+    tube = (
+        2.0
+        * math.pi
+        * (
+            housing.register_radius * (housing.flange_bottom - motor.joint)
+            + housing.flange_radius * rim
+        )
+    )
+    nut = math.pi * machine.layout.carrier.nut_radius**2
+    faces = math.pi * (2.0 * housing.flange_radius**2 - housing.register_radius**2) - nut
+    bottom = math.pi * motor.cover_outer**2
+    assert areas == pytest.approx([can, bottom, tube, faces, nut])
 
 
 def test_screws_of_the_cover_hold_the_stators_torque(paper):

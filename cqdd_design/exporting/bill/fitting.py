@@ -124,9 +124,10 @@ def _motor(machine: Machine) -> dict[str, str]:
     board, thick = 2.0 * motor.board_radius, motor.board_top - motor.board_bottom
     return {
         "motor stator": (
-            f"bonded on the housing's register, {2.0 * _MM * motor.stack_inner:g} h7"
+            f"bonded on the housing's register, {2.0 * _MM * motor.stack_inner:g} {zones.REGISTER}"
             if outside
-            else f"bonded into its seat in the cover, {2.0 * _MM * motor.stack_outer:g} H7"
+            else f"bonded into its seat in the cover, {2.0 * _MM * motor.stack_outer:g} "
+            f"{zones.HOUSED}"
         ),
         "motor rotor": f"bonded {'into the bell' if outside else 'on the hub'} with "
         f"{ROTOR_COMPOUND.name}; comes with the stator",
