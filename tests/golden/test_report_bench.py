@@ -368,6 +368,26 @@ def test_bars_of_a_spectrum_are_in_proportion() -> None:
     assert (across[2] - across[1]) / (across[1] - across[0]) == pytest.approx(22 / 12, abs=0.01)
 
 
+def test_of_bars_that_hide_each_other_the_tallest_is_drawn() -> None:
+    """Two thousand orders on 356 px: every tall one is seen, at its place and height."""
+    order = np.arange(1.0, 2001.0)
+    amplitude = 1.0 + np.sin(order) ** 2
+    amplitude[[499, 1499]] = 8.0, 6.0
+    figure = spectrum(WORDS, order, amplitude, [500], "y")
+    bars = classed(figure, "line", "order-bar")
+    assert 600 < len(bars) < 750
+    tall = sorted(number(e, "y1") - number(e, "y2") for e in bars)
+    assert tall[-2] / tall[-1] == pytest.approx(6.0 / 8.0, abs=2e-3)
+    across = np.array([number(e, "x1") for e in bars])
+    assert np.diff(across).max() < 1.01
+    heights = [number(e, "y1") - number(e, "y2") for e in bars]
+    places = across[np.argsort(heights)[-2:]]
+    least = across.min()
+    assert (places[1] - least) / (places[0] - least) == pytest.approx(499 / 1499, abs=2e-3)
+    # Of two or three orders side by side one is a half off a zero of the sine at least.
+    assert min(heights) > (1.0 + math.sin(0.5) ** 2) / 8.0 * tall[-1]
+
+
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_the_dead_zone_of_a_drawn_loop_is_found(sense: float) -> None:
     """Motor to one flank, rest, and back through 7 arcmin; the output follows on the flanks."""

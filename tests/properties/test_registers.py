@@ -113,6 +113,16 @@ def test_gaps_are_as_narrow_as_the_table_says(name: str) -> None:
         assert {round(2e3 * seal.outer, 6), round(2e3 * seal.inner, 6)} <= set(sizes)
 
 
+@pytest.mark.parametrize("name", CHANGES)
+def test_gaps_stand_clear_of_the_bearings_inner_rings(name: str) -> None:
+    """Three tenths of a millimetre at least from the rings that turn beside them."""
+    layout = resolve(known_design(name)).layout
+    housing = layout.housing
+    assert housing.output_seal.bottom >= layout.carrier.output_seat_top + 0.3e-3 - 1e-9
+    seat = seat_of(part_named(known_parts(name), "housing"), "seat of the shaft bearing")
+    assert housing.shaft_seal.top <= seat.bottom - 0.3e-3 + 1e-9
+
+
 def test_how_far_the_output_stands_off_is_told() -> None:
     """Two times H7/h6 of 49 um of play at 66 and 72 mm, and 6.5 um of run-out."""
     machine = resolve(known_design("paper"))

@@ -15,6 +15,8 @@ from cqdd_design.report.ink.heat import cell, shade
 from cqdd_design.report.ink.numbers import NONE, significant
 from cqdd_design.report.ink.svg import Figure, Words, line, rectangle, text
 
+_BAR_STEP = 0.5
+"""Between bars of a spectrum, px; they are two wide."""
 _DOWN = -20.0 * math.log10(math.sqrt(2.0))
 """Half of the power, dB."""
 
@@ -312,6 +314,8 @@ def spectrum(
 ) -> Figure:
     """Amplitudes over order as thin bars, the strongest with their numbers.
 
+    Of bars that hide each other, four within the width of one, the tallest is drawn.
+
     Parameters
     ----------
     order, amplitude : array (O,)
@@ -332,10 +336,15 @@ def spectrum(
     labels = panel.labels()
     labels.right += 10.0
     body = panel.frame()
+    tallest: dict[int, tuple[float, float]] = {}
     for k, height in zip(order, amplitude, strict=True):
         if float(k) > panel.x.high or height < 0.002 * most:
             continue
         x, y = panel.place(float(k), float(height))
+        place = round(x / _BAR_STEP)
+        # Down the page is up the amplitude.
+        tallest[place] = min(tallest.get(place, (x, y)), (x, y), key=lambda one: one[1])
+    for x, y in tallest.values():
         body.append(line((x, panel.bottom), (x, y), "order-bar"))
         labels.avoid([x, x], [panel.bottom, y])
     values = dict(zip(order.astype(int).tolist(), amplitude.tolist(), strict=True))
