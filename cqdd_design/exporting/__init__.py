@@ -11,7 +11,7 @@ import contextlib
 import dataclasses
 import os
 import shutil
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from cqdd_design.actuator.specimen import Specimen
     from cqdd_design.design import Design
     from cqdd_design.exporting.job import Progress
+    from cqdd_design.exporting.kinds import ExportKind
     from cqdd_design.files import WrittenFile
     from cqdd_design.machine import Machine
 
@@ -49,6 +50,7 @@ def export(
     *,
     force: bool = False,
     progress: Progress | None = None,
+    before: Callable[[ExportKind], None] | None = None,
     options: ExportOptions = DEFAULTS,
     specimen: Specimen | None = None,
 ) -> tuple[WrittenFile, ...]:
@@ -67,6 +69,8 @@ def export(
         Replace existing files in a named folder.
     progress : callable, optional
         Called with a few words before each kind of file.
+    before : callable, optional
+        Called with each kind before its files are written; may wait for what the kind needs.
     options : ExportOptions, optional
         How files are written.
     specimen : Specimen, optional
@@ -106,6 +110,8 @@ def export(
             job = ExportJob(machine, staging, tell, options, specimen or AS_DRAWN)
             for kind in wanted:
                 tell(f"writing {kind}")
+                if before is not None:
+                    before(KINDS[kind])
                 placed += [
                     dataclasses.replace(one, path=target / one.path.relative_to(staging))
                     for one in KINDS[kind].load()(job)

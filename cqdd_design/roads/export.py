@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
 from cqdd_design.design import Design
 from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting import export as write
-from cqdd_design.exporting.kinds import KINDS, read_kinds
+from cqdd_design.exporting.kinds import KINDS, ExportKind, read_kinds
 from cqdd_design.exporting.options import DEFAULTS
 from cqdd_design.files import WrittenFile
 from cqdd_design.roads.telling import Progress, silent
@@ -27,9 +28,37 @@ def export(
 ) -> tuple[WrittenFile, ...]:
     """Write the files of a design; see `exporting.export`."""
     machine = specimen.machine(design)
-    return write(
-        machine, kinds, folder, force=force, progress=progress, options=options, specimen=specimen
-    )
+    with _kernels_beside(kinds) as before:
+        return write(
+            machine,
+            kinds,
+            folder,
+            force=force,
+            progress=progress,
+            before=before,
+            options=options,
+            specimen=specimen,
+        )
+
+
+@contextmanager
+def _kernels_beside(kinds: str | Iterable[str]) -> Iterator[Callable[[ExportKind], None] | None]:
+    """Compile on the first use what simulators' files call, while makers' are written."""
+    if not any(_simulates(KINDS[kind]) for kind in read_kinds(kinds)):
+        yield None
+        return
+    from cqdd_design.roads.kernels import compiling, missing
+
+    kernels = missing(simulation=True)
+    if not kernels:
+        yield None
+        return
+    with compiling(kernels) as wait:
+        yield lambda kind: wait() if _simulates(kind) else None
+
+
+def _simulates(kind: ExportKind) -> bool:
+    return kind.reader == "simulators"
 
 
 def left_out(

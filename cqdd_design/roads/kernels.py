@@ -13,8 +13,8 @@ import os
 import subprocess
 import sys
 from collections import deque
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from queue import SimpleQueue
 from threading import Thread
@@ -164,20 +164,43 @@ def compile_kernels(kernels: list[Kernel], tell: Callable[[int, int], None]) -> 
         Called with how many are done and how many there are, at the start and as each ends. One
         that fails is not told: the command compiles it itself and says why.
     """
+    with compiling(kernels, tell) as wait:
+        wait()
+
+
+@contextmanager
+def compiling(
+    kernels: list[Kernel], tell: Callable[[int, int], None] = lambda done, total: None
+) -> Iterator[Callable[[], None]]:
+    """Compile kernels beside other work, see `compile_kernels`; what is not done at the end stays.
+
+    Yields
+    ------
+    callable
+        Waits until all are compiled, and alone calls `tell`.
+    """
     modules = dict.fromkeys(kernel.module for kernel in kernels)
     left = deque([one.name for one in kernels if one.module == module] for module in modules)
     workers = [_started() for _ in range(min(len(left), os.cpu_count() or 1))]
     ended: SimpleQueue[int] = SimpleQueue()
-    done = 0
-    tell(done, len(kernels))
     threads = [Thread(target=_feed, args=(one, left, ended), daemon=True) for one in workers]
+    working = len(workers)
+
+    def wait() -> None:
+        nonlocal working
+        done = 0
+        tell(done, len(kernels))
+        while working:
+            if count := ended.get():
+                done += count
+                tell(done, len(kernels))
+            else:
+                working -= 1
+
     try:
         for thread in threads:
             thread.start()
-        for _ in workers:
-            while count := ended.get():
-                done += count
-                tell(done, len(kernels))
+        yield wait
     finally:
         for worker in workers:
             worker.kill()

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
+
 import pytest
 
 from cqdd_design.design import load_design
 from cqdd_design.exporting import KINDS, stages
 from cqdd_design.exporting.job import ExportJob
+from cqdd_design.roads import kernels
 from cqdd_design.roads.export import export
 
 
@@ -38,3 +41,25 @@ def test_solids_are_one_stage_more_for_all_kinds_together():
     assert stages(["bom"]) == 2
     assert stages(["dxf", "step", "stl", "3mf", "glb", "bom"]) == 7
     assert stages([]) == 0
+
+
+def test_only_files_of_simulators_wait_for_kernels_that_are_not_compiled(
+    paper_design_file, tmp_path, monkeypatch
+):
+    told = []
+
+    @contextmanager
+    def compiling(wanted):
+        assert wanted == [*kernels.GEARBOX, *kernels.SIMULATION]
+        told.append("begun")
+        yield lambda: told.append("waited")
+        told.append("left")
+
+    monkeypatch.setattr(kernels, "missing", lambda **_: [*kernels.GEARBOX, *kernels.SIMULATION])
+    monkeypatch.setattr(kernels, "compiling", compiling)
+    design = load_design(paper_design_file)
+    export(design, "svg,urdf", tmp_path / "both", progress=told.append)
+    assert told == ["begun", "writing svg", "writing urdf", "waited", "left"]
+    told.clear()
+    export(design, "svg", tmp_path / "maker", progress=told.append)
+    assert told == ["writing svg"]

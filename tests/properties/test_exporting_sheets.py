@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 import re
 import subprocess
@@ -15,6 +16,7 @@ from legible import assert_legible, faults
 
 from cqdd_design.design import load_design
 from cqdd_design.errors import CatalogError
+from cqdd_design.exporting.edm.dxf import add_classes, reproducible
 from cqdd_design.exporting.sheets import part_sheet
 from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 from cqdd_design.exporting.sheets.assembly_sheet import draw_assembly
@@ -260,6 +262,23 @@ def test_text_on_text_and_on_thick_lines_is_found():
 def sheets(machine, tmp_path_factory):
     design = machine.given
     return {f.path.name: f.path for f in export(design, "sheets", tmp_path_factory.mktemp("s"))}
+
+
+def test_the_same_sheet_is_the_same_bytes_in_every_process_and_at_every_time():
+    document = new_sheet(1.0).drawing
+    add_classes(document)
+    text = io.StringIO()
+    with reproducible():
+        document.write(text)
+    # The library stamps its version and the time that it made and wrote a document.
+    assert not re.search(r"@ (?!2000-01-01T)\d{4}-", text.getvalue())
+    assert len(re.findall("@ 2000-01-01T", text.getvalue())) == 2
+    section = text.getvalue().partition("CLASSES")[2].partition("ENDSEC")[0]
+    names = re.findall(r"\n *0\nCLASS\n *1\n(\w+)\n", section)
+    in_use = {"ACDBDICTIONARYWDFLT", "ACDBPLACEHOLDER", "LAYOUT", "MATERIAL", "MLEADERSTYLE"}
+    used = [name for name in names if name in in_use]
+    assert used == sorted(used)
+    assert len(used) > 3
 
 
 @pytest.mark.deep

@@ -156,9 +156,7 @@ def draw(
     drawing.header["$EXTMAX"] = (reach, reach, 0.0)
     drawing.set_modelspace_vport(1.1 * (reach - bottom), (0.0, 0.5 * (reach + bottom)))
     if options.dxf_version == "R2010":
-        # Left to itself the library adds classes in the order of a set, another in every process.
-        for kind in sorted(drawing.entitydb.dxf_types_in_use()):
-            drawing.classes.add_class(kind)
+        add_classes(drawing)
     audit = drawing.audit()
     if audit.errors or audit.fixes:
         message = (audit.errors + audit.fixes)[0].message
@@ -258,9 +256,21 @@ def _add_reference(space: Modelspace, flat: FlatPart, reach: float) -> None:
     space.add_circle((0.0, 0.0), flat.reference_radius * _MM, dxfattribs=attributes)
 
 
+def add_classes(drawing: Drawing) -> None:
+    """Name the kinds of objects in a document, sorted, as its dialect wants from R2004.
+
+    Left to itself the library names them in the order of a set, another in every process.
+    """
+    for kind in sorted(drawing.entitydb.dxf_types_in_use()):
+        drawing.classes.add_class(kind)
+
+
 @contextlib.contextmanager
 def reproducible() -> Iterator[None]:
-    """Write fixed dates and identifiers, so that the same design gives the same bytes."""
+    """Make and write documents with fixed dates and identifiers: the same design, the same bytes.
+
+    A document keeps the moment in which it was made, so it is to be made in here too.
+    """
     from ezdxf._options import options
 
     before = options.write_fixed_meta_data_for_testing

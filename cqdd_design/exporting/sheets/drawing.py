@@ -10,6 +10,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from cqdd_design.exporting.edm.dxf import reproducible
 from cqdd_design.exporting.sheets.lettering import fitting_height, printable, text_width
 from cqdd_design.geometry.contours import Circle, Contour
 
@@ -39,7 +40,8 @@ def new_sheet(scale: float) -> SheetDrawing:
     """Start a sheet whose dimensions measure `scale` millimetres of paper as one."""
     from ezdxf.filemanagement import new
 
-    drawing = new("R2010", setup=False, units=4)
+    with reproducible():
+        drawing = new("R2010", setup=False, units=4)
     drawing.linetypes.add("CENTRE", pattern=_CENTRE_LINE, description="centre line")
     drawing.linetypes.add("DASHED", pattern=_DASHED, description="hidden line")
     # No font of the machine: dimensions reckon with a cap height a character.

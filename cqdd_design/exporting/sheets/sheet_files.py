@@ -14,7 +14,7 @@ import io
 from typing import TYPE_CHECKING
 
 from cqdd_design.exporting.edm.cut_facts import facts_of
-from cqdd_design.exporting.edm.dxf import reproducible
+from cqdd_design.exporting.edm.dxf import add_classes, reproducible
 from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.files import WrittenFile, write_atomically
 
@@ -64,6 +64,7 @@ def _written(job: ExportJob, number: str, title: str, sheet: SheetDrawing) -> li
 
     with reproducible():
         canvas = render(sheet.drawing, WIDTH, HEIGHT)
+        add_classes(sheet.drawing)
         text = io.StringIO()
         sheet.drawing.write(text)
     named = f"{number}: {title}"
