@@ -26,7 +26,7 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.results import MassProperties
 from cqdd_design.solids import counterweights
 from cqdd_design.solids.mesh import mass_properties, mesh_volume
-from cqdd_design.solids.motor_rules import drawn_motor, is_inrunner
+from cqdd_design.solids.motor_rules import drawn_motor, is_inrunner, light_rotor
 from cqdd_design.solids.part import Instance, Part
 from cqdd_design.solids.poses import Body
 
@@ -261,6 +261,8 @@ class GearboxInertia:
         found = []
         if self.motor_missing:
             found.append(f"the motor is not drawn: {self.motor_missing}. Mass: {self.mass_scope}.")
+        if light := light_rotor(self.motor):
+            found.append(f"{light}.")
         if self.rotor_inertia is None:
             found.append(
                 f"the rotor inertia of {self.motor.name} is not known; "

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 AIR_GAP = 0.5e-3
 """Radial air gap of a motor whose catalogue gives only the gap's diameter."""
+_LEAST_FILL = 0.6
+"""Of a rotor's ring: gaps between magnets and cuts in the iron leave more."""
 _COIL_SHARE = 0.5
 """Height of the coils' ends over the depth of the slots."""
 _SENSOR_GAP = 1.0e-3
@@ -72,6 +74,28 @@ _INRUNNER = (
 def is_inrunner(motor: Motor) -> bool:
     """Whether its rotor turns inside its stator."""
     return "inrunner" in motor.kind
+
+
+def light_rotor(motor: Motor) -> str:
+    """Say that an inrunner's rotor would be lighter than its sizes are; empty where it is not.
+
+    Magnets on a back iron are a ring from the rotor's bore to the air gap. Where the inertia that
+    the source prints is that of a ring far less dense, it has left something out.
+    """
+    inner, outer = motor.hollow_diameter, motor.gap_diameter
+    long, inertia = motor.rotor_length or motor.stack_length, motor.rotor_inertia
+    if not (is_inrunner(motor) and inner and outer and long and inertia):
+        return ""
+    # J = pi/32 rho l (D^4 - d^4)
+    ring = math.pi / 32.0 * long * ((outer - AIR_GAP) ** 4 - inner**4)
+    dense = find_material("NdFeB N42").density
+    if inertia >= _LEAST_FILL * dense * ring:
+        return ""
+    return (
+        f"{motor.name} is listed with a rotor inertia of {inertia:.4g} kg*m^2, that of a ring of "
+        f"its sizes of {inertia / ring:.0f} kg/m^3, where magnets on iron have {dense:.0f} "
+        f"({dense * ring:.2g} kg*m^2): measure it, or state rotor_inertia in [motor]"
+    )
 
 
 def _sizes(motor: Motor) -> tuple[tuple[str, str], ...]:

@@ -14,6 +14,7 @@ from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine.carrying import carried_torque
 from cqdd_design.machine.heat_nodes import Node
 from cqdd_design.results import Check
+from cqdd_design.solids.motor_rules import light_rotor
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.headline import Figure, backlash, efficiency, mass
 
@@ -119,11 +120,15 @@ def _inertia(evidence: Evidence) -> Iterator[Check]:
         return
     known = found.rotor_drawn or found.rotor_inertia
     rotor = f"of '{machine.motor.name}' no rotor inertia is known"
+    light = light_rotor(machine.motor)
     yield build_check(
         name,
         found.reflected_output if known else None,
         wanted,
-        f"{found.ratio}^2 x {found.reflected_input:.4g} kg*m^2 at the crank" if known else rotor,
+        f"{found.ratio}^2 x {found.reflected_input:.4g} kg*m^2 at the crank"
+        + (f"; {light}" if light else "")
+        if known
+        else rotor,
         "lower the ratio, or take a motor with a lighter rotor"
         if known
         else "give it in the motor's data",

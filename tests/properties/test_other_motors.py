@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 import numpy as np
@@ -27,7 +28,7 @@ from cqdd_design.roads.export import left_out
 from cqdd_design.solids.apart import taken_apart
 from cqdd_design.solids.clearances import assembly_motion, output_revolution
 from cqdd_design.solids.mesh import DISPLAY
-from cqdd_design.solids.motor_rules import bell_torque, drawn_motor, undrawn_sizes
+from cqdd_design.solids.motor_rules import bell_torque, drawn_motor, light_rotor, undrawn_sizes
 from cqdd_design.solids.tool_access import reaches
 from cqdd_design.verdict.joint_lines import joint_lines
 
@@ -103,6 +104,25 @@ def test_an_outrunner_whose_sizes_are_stated_is_drawn(paper):
     mass = {part.name: part.mass for part in machine.parts}
     whole = mass["motor stator"] + mass["motor rotor"] + mass["rotor bell"]
     assert whole == pytest.approx(0.6, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_a_rotor_that_is_listed_lighter_than_its_ring_is_told_of(paper, name):
+    """All three listed inertias are a third to a half of what magnets on iron would have."""
+    row = find_motor(name)
+    told = light_rotor(row)
+    assert name in told
+    outer, inner = 0.5 * row.gap_diameter - 0.25e-3, 0.5 * row.hollow_diameter
+    long = row.rotor_length or row.stack_length
+    mass = 7500.0 * math.pi * (outer**2 - inner**2) * long
+    heavy = 0.5 * mass * (outer**2 + inner**2)
+    assert f"({heavy:.2g} kg*m^2)" in told
+    assert light_rotor(dataclasses.replace(row, rotor_inertia=0.601 * heavy)) == ""
+    assert light_rotor(dataclasses.replace(row, rotor_inertia=0.59 * heavy)) != ""
+    assert f"{told}." in resolve(paper.replacing({"motor.name": name})).inertia.warnings
+    # Where nothing is known to be wrong, nothing is said.
+    assert light_rotor(dataclasses.replace(row, rotor_inertia=None)) == ""
+    assert light_rotor(find_motor("CubeMars RO100 KV55")) == ""
 
 
 def build(design):
