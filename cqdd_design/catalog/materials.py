@@ -13,6 +13,10 @@ from cqdd_design.catalog.reader import column, find, read_records
 _PLASTIC_MODULUS = 20e9
 """Materials softer than this are plastics, Pa."""
 
+DESIGN_STRAIN = 0.01
+"""Most strain of a plastic that is loaded for long (Crawford, Plastics Engineering, p. 19:
+1 % in the absence of specific information, about half of it of brittle plastics)."""
+
 
 @dataclass(frozen=True)
 class Material:
@@ -90,6 +94,11 @@ class Material:
     def is_plastic(self) -> bool:
         """Whether it is softer than any metal of the catalogue."""
         return self.youngs_modulus < _PLASTIC_MODULUS
+
+    @property
+    def held_stress(self) -> float | None:
+        """What a plastic bears for long, Pa: `DESIGN_STRAIN` after 1000 h; None where not known."""
+        return None if self.creep_modulus is None else DESIGN_STRAIN * self.creep_modulus
 
     @property
     def brinell_hardness(self) -> float | None:

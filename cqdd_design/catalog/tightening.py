@@ -67,13 +67,18 @@ class Clamping:
 
     @property
     def preload(self) -> float:
-        """Greatest preload at the stated torque, N: what screw, head's seat and thread all bear."""
+        """Greatest preload at the stated torque, N: what screw, head's seat and thread all bear.
+
+        Seat and thread of a plastic whose creep is known bear it for long.
+        """
         most = [preload_at_yield(self.thread, UTILISATION * (self.screw.yield_strength or 0.0))]
-        seat = self.clamped.yield_strength
-        if seat is not None:
-            most.append(seat * self.bearing_area)
+        seats = self.clamped.yield_strength, self.clamped.held_stress
+        most += [seat * self.bearing_area for seat in seats if seat is not None]
         if self.stripping is not None:
             most.append(self.stripping / STRIPPING_SAFETY)
+        held = None if self.tapped is None else self.tapped.held_stress
+        if held is not None:
+            most.append(stripping_force(self.thread, self.engaged, SHEAR_SHARE * held))
         return min(most)
 
     @property
@@ -103,16 +108,46 @@ class Clamping:
     @property
     def least_preload(self) -> float:
         """What is left after scatter and embedding, N; 0 where embedding takes all."""
+        tapped = self.screw if self.tapped is None else self.tapped
+        soft = self._resilience(self.clamped.youngs_modulus, tapped.youngs_modulus)
+        lost = (EMBEDDING_ENDS + EMBEDDING_FACE * self.faces) / soft
+        return max(self.preload / TIGHTENING_FACTOR - lost, 0.0)
+
+    @property
+    def held_preload(self) -> float | None:
+        """What is left of `least_preload` after 1000 h, N; None where a plastic's creep is unknown.
+
+        Screw and plastic stay as long as they were tightened: what is soft and grows softer gives
+        way to the screw. Moduli of creep are put where elastic ones stood (Crawford, Plastics
+        Engineering, pseudo-elastic design).
+        """
+        tapped = self.screw if self.tapped is None else self.tapped
+        new = self._resilience(self.clamped.youngs_modulus, tapped.youngs_modulus)
+        clamped_later, tapped_later = _lasting(self.clamped), _lasting(tapped)
+        if clamped_later is None or tapped_later is None:
+            return None
+        return self.least_preload * new / self._resilience(clamped_later, tapped_later)
+
+    @property
+    def in_plastic(self) -> Material | None:
+        """Of head's seat or thread, the one that is a plastic; None where neither is."""
+        found = (one for one in (self.clamped, self.tapped) if one is not None and one.is_plastic)
+        return next(found, None)
+
+    def _resilience(self, clamped: float, tapped: float) -> float:
+        """delta_S + delta_P, m/N, for Young's moduli of what is clamped and of the thread, Pa."""
         thread, steel = self.thread, self.screw.youngs_modulus
         core = 0.25 * math.pi * thread.root_diameter**2
         shank = 0.25 * math.pi * thread.diameter**2
-        nut = steel if self.tapped is None else self.tapped.youngs_modulus
         d = thread.diameter
-        soft = (0.4 * d / shank + (self.grip + 0.5 * d) / core) / steel + 0.33 * d / shank / nut
+        soft = (0.4 * d / shank + (self.grip + 0.5 * d) / core) / steel + 0.33 * d / shank / tapped
         area = substitution_area(self.bearing_outer, self.bearing_inner, self.grip)
-        soft += self.grip / (area * self.clamped.youngs_modulus)
-        lost = (EMBEDDING_ENDS + EMBEDDING_FACE * self.faces) / soft
-        return max(self.preload / TIGHTENING_FACTOR - lost, 0.0)
+        return soft + self.grip / (area * clamped)
+
+
+def _lasting(material: Material) -> float | None:
+    """Modulus after 1000 h, Pa: a metal's own, a plastic's of creep, None where not known."""
+    return material.creep_modulus if material.is_plastic else material.youngs_modulus
 
 
 def preload_at_yield(thread: Thread, strength: float, friction: float = FRICTION) -> float:

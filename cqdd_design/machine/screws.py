@@ -50,10 +50,18 @@ class ScrewJoint:
     @property
     def slip_safety(self) -> float:
         """Least clamping force over what the forces ask for; endless where none do."""
-        left = self.clamping.least_preload - self.along
+        return self._safety(self.clamping.least_preload)
+
+    @property
+    def held_safety(self) -> float | None:
+        """The same after 1000 h; None where the creep of a plastic is not known."""
+        held = self.clamping.held_preload
+        return None if held is None else self._safety(held)
+
+    def _safety(self, preload: float) -> float:
         if self.across <= 0.0:
-            return self.clamping.least_preload / self.along if self.along > 0.0 else math.inf
-        return max(left, 0.0) * GRIP_FRICTION / self.across
+            return preload / self.along if self.along > 0.0 else math.inf
+        return max(preload - self.along, 0.0) * GRIP_FRICTION / self.across
 
 
 @dataclass(frozen=True)

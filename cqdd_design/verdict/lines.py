@@ -22,6 +22,7 @@ from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
 from cqdd_design.verdict.asked import asked_lines
+from cqdd_design.verdict.creep_lines import creep_lines
 from cqdd_design.verdict.drawn import yield_line
 from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.joint_lines import joint_lines
@@ -55,6 +56,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
         *retention_lines(machine, evidence.temperatures),
         *_rubbing(machine),
     )
+    lines += creep_lines(machine, lines)
     lines += evidence.stress_checks or _missing(_BODIES, evidence.stress_missing)
     lines += evidence.heat_checks or _missing(_HEAT, evidence.heat_missing)
     lines += motor_lines(

@@ -86,10 +86,6 @@ MACHINED_FACTOR, MACHINED_EXPONENT = 4.51, -0.265
 """Surface factor of machined steel, 4.51 S_u^-0.265 with MPa (Budynas and Nisbett 2015, table 6-2),
 for edges that were wire-cut and trimmed."""
 
-DESIGN_STRAIN = 0.01
-"""Most strain of a plastic that is loaded for long (Crawford, Plastics Engineering, p. 19:
-1 % in the absence of specific information, about half of it of brittle plastics)."""
-
 # Cam bearing ------------------------------------------------------------------------------------
 STATIC_SAFETY = 1.0
 """Least C0/P at the peak torque (ISO 76: normal operation without shocks)."""

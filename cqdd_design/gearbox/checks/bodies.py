@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from cqdd_design.catalog.materials import Material, find_material
+from cqdd_design.catalog.materials import DESIGN_STRAIN, Material, find_material
 from cqdd_design.design import Design
 from cqdd_design.gearbox.bodies.strength import LIGAMENTS, BodyStrength, Swing
 from cqdd_design.gearbox.bodies.stress import Region
-from cqdd_design.gearbox.checks.allowables import (
-    DESIGN_STRAIN,
-    Allowable,
-    edge_limit_fatigue,
-    edge_limit_peak,
-)
+from cqdd_design.gearbox.checks.allowables import Allowable, edge_limit_fatigue, edge_limit_peak
 from cqdd_design.gearbox.checks.remedies import torque_words
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_up

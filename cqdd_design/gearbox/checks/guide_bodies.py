@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cqdd_design.catalog.materials import DESIGN_STRAIN
 from cqdd_design.gearbox.checks import allowables as limits
 from cqdd_design.gearbox.checks.guide_row import (
     BODIES,
@@ -52,11 +53,31 @@ ROWS = (
         "Strain of plastic discs and ring, continuous torque held",
         "%",
         "max",
-        f"|sigma|/E_c <= {100.0 * limits.DESIGN_STRAIN:g} %, E_c after 1000 h at 23 degC",
+        f"|sigma|/E_c <= {100.0 * DESIGN_STRAIN:g} %, E_c after 1000 h at 23 degC",
         "A plastic goes on yielding under a load that it bears at once, the more the warmer it is; "
-        "the greatest stress of a turn is held where the crank stops. Screws in plastic lose their "
-        "preload likewise, which no line judges.",
+        "the greatest stress of a turn is held where the crank stops.",
         f"{BODIES}; ISO 899-1 by makers' sheets; Crawford, Plastics Engineering, p. 19",
         basis=FINITE_ELEMENTS,
+    ),
+    CheckGuide(
+        "PIN-CREEP",
+        "Strain of plastic output pins, continuous torque held",
+        "%",
+        "max",
+        f"sigma/E_c <= {100.0 * DESIGN_STRAIN:g} %, sigma of PIN-BENDING-CONTINUOUS, E_c after "
+        "1000 h at 23 degC",
+        "A pin that stays bent takes its load on one end, and lets the output turn on.",
+        "ISO 899-1 by makers' sheets; Crawford, Plastics Engineering, p. 19",
+    ),
+    CheckGuide(
+        "HOUSING-CREEP",
+        "Strain of plastic housing, covers and carrier, continuous torque held",
+        "%",
+        "max",
+        f"|sigma|/E_c <= {100.0 * DESIGN_STRAIN:g} %, E_c after 1000 h at 23 degC",
+        "Seats that widen lose their bearings and pins, and walls that give way let ring and "
+        "motor stand askew. Pressures on seats are judged where they come and go (DOWEL-BEARING), "
+        "not where they last.",
+        "ISO 899-1 by makers' sheets; Crawford, Plastics Engineering, p. 19",
     ),
 )

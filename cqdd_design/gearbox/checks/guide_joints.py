@@ -72,7 +72,8 @@ ROWS = (
         "MPa",
         "max",
         f"F_M/A_S <= {limits.PROOF_SHARE:g} S_y; F_M = what {UTILISATION:g} S_y in tension and "
-        "torsion, the seat of the head at its S_y and the thread all bear",
+        "torsion, the seat of the head at its S_y and the thread all bear, in plastics of known "
+        "creep for long",
         "More torque gains nothing: screw, seat or thread yields. Less lets the joint slip.",
         f"{_VDI}, table A1; ISO 898-1",
     ),
@@ -85,6 +86,20 @@ ROWS = (
         "(1/2 + (d - D_2) tan 30deg/P) of the part it is in",
         "Aluminium and plastic strip before the screw breaks where too few turns engage.",
         f"{_VDI}, section 5.5.5",
+    ),
+    CheckGuide(
+        "SCREW-CREEP",
+        "Screwed joints in plastic, clamping force after 1000 h over what holds them at peak",
+        "",
+        "min",
+        f"mu (F_V delta/delta_c - F_A)/F_Q >= {limits.SLIP_SAFETY:g}: delta of screw and plastic "
+        "when new, delta_c with E_c after 1000 h at 23 degC",
+        "A plastic under a head and round a thread goes on yielding, and a stiff screw loses its "
+        "tension in hours. Such screws are tightened no further than seat and thread "
+        "bear for long.",
+        f"{_VDI}, resilience; ISO 899-1 by makers' sheets; Crawford, Plastics Engineering (moduli "
+        "of creep in formulas of elastic bodies)",
+        basis=_EQUILIBRIUM,
     ),
     CheckGuide(
         "SCREW-TOOL-ACCESS",

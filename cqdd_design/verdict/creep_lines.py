@@ -1,0 +1,106 @@
+"""Lines of what plastics hold for long beside discs and ring: pins, housing, screws in them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from cqdd_design.catalog.materials import DESIGN_STRAIN, Material, find_material
+from cqdd_design.errors import CatalogError, ContactError, GeometryError
+from cqdd_design.gearbox.checks.allowables import SLIP_SAFETY
+from cqdd_design.gearbox.checks.remedies import torque_words
+from cqdd_design.gearbox.checks.state import build_check
+from cqdd_design.machine import Machine
+from cqdd_design.machine.screws import ScrewJoint, screw_joints
+from cqdd_design.results import Check
+
+_METAL, _HELD = "take a metal", "continuous torque"
+_MEGA = 1e6
+_ENDLESS = 1e3
+"""Safety of a joint that nothing parts."""
+
+
+def creep_lines(machine: Machine, lines: Iterable[Check]) -> tuple[Check, ...]:
+    """A line for each kind of plastic part; none of a machine of metal.
+
+    Parameters
+    ----------
+    lines : iterable of Check
+        Among them PIN-BENDING-CONTINUOUS, whose stress plastic pins hold.
+    """
+    found: list[Check] = []
+    pins = find_material(machine.design.reducer.output_pins.material)
+    if pins.is_plastic:
+        bent = next((one for one in lines if one.id == "PIN-BENDING-CONTINUOUS"), None)
+        found.append(_pins(pins, bent, machine.design.requirements.continuous_torque))
+    housing = find_material(machine.design.housing.material)
+    if housing.is_plastic:
+        found += [_housing(housing), _screws(machine, housing)]
+    return tuple(found)
+
+
+def _pins(plastic: Material, bent: Check | None, torque: float) -> Check:
+    name, limit = "PIN-CREEP", 100.0 * DESIGN_STRAIN
+    if bent is None or bent.value is None:
+        return build_check(
+            name, None, limit, "the bending of the pins is not known", "see PIN-BENDING-CONTINUOUS"
+        )
+    modulus = plastic.creep_modulus or plastic.youngs_modulus
+    strain = _MEGA * bent.value / modulus
+    known = plastic.creep_modulus is not None or strain > DESIGN_STRAIN
+    held = "after 1000 h at 23 degC" if plastic.creep_modulus else "at once; its creep is not known"
+    told = f"{bent.value:.1f} MPa in pins of {plastic.name}: {100.0 * strain:.2g} % {held}"
+    less = ""
+    if strain > DESIGN_STRAIN:
+        less = f", or lower the {_HELD} to {torque_words(torque * DESIGN_STRAIN / strain)}"
+    return build_check(
+        name,
+        100.0 * strain if known else None,
+        limit,
+        told,
+        f"{_METAL} for output_pins.material{less}",
+        basis=plastic.creep_source or f"modulus of {plastic.name}, without its creep",
+    )
+
+
+def _housing(plastic: Material) -> Check:
+    lacking = "" if plastic.creep_modulus else f", and {plastic.name} has no creep in the catalogue"
+    return build_check(
+        "HOUSING-CREEP",
+        None,
+        100.0 * DESIGN_STRAIN,
+        "the stresses of housing, ring clamp, covers and carrier, and in the seats of their "
+        f"bearings and pins, are not worked out{lacking}",
+        f"{_METAL} for housing.material, or hold no torque for long and measure what is built",
+    )
+
+
+def _screws(machine: Machine, plastic: Material) -> Check:
+    """Joints whose head or thread is in plastic; the worst of those that carry something."""
+    name, remedy = "SCREW-CREEP", f"{_METAL} for housing.material"
+    if plastic.creep_modulus is None:
+        return build_check(
+            name, None, SLIP_SAFETY,
+            f"what screws keep of their preload is not known: {plastic.name} has no creep in the "
+            "catalogue",
+            f"{remedy} or a plastic whose creep it has (`cqdd-design catalog materials`), and "
+            "until then tighten screws again",
+        )  # fmt: skip
+    try:
+        every = [one for one in screw_joints(machine) if one.clamping.in_plastic is not None]
+    except (CatalogError, ContactError, GeometryError) as error:
+        return build_check(name, None, SLIP_SAFETY, error.message, "see why it is not known")
+    safe = [(one, held) for one in every if (held := one.held_safety) is not None]
+    least = min(held for _, held in safe)
+    return build_check(
+        name,
+        min(least, _ENDLESS),
+        SLIP_SAFETY,
+        "; ".join(_told(one) for one, _ in safe),
+        f"{remedy}, or more and larger screws by a larger ring.outer_diameter",
+        basis=plastic.creep_source,
+    )
+
+
+def _told(one: ScrewJoint) -> str:
+    kept, new = one.clamping.held_preload or 0.0, one.clamping.least_preload
+    return f"{one.place}: {kept:.0f} N of {new:.0f} N are left"
