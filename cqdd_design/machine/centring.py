@@ -51,5 +51,6 @@ def centring(machine: Machine) -> str:
     far = "" if off is None else f"; its axis stands off the ring's by {1e3 * off:.2f} mm at most"
     return (
         f"Spigots of the ring clamp, {depth:.2g} mm deep and {zones.SPIGOT} in {zones.HOUSED}, "
-        f"centre it in the housing and the output cover on it{far}."
+        f"centre it in the housing and the output cover on it{far}. Turn the crank while the "
+        "cover screws are tightened crosswise: the discs push the cover to where they run free."
     )

@@ -39,12 +39,19 @@ _LEAST_WALL = 0.5e-3
 def misfit(motor: Motor, support: ChosenBearing, unit: float) -> str:
     """Why the rotor does not go over the shaft's end; empty where it does."""
     bore, stub = motor.hollow_diameter or 0.0, support.bearing.bore_diameter
-    least = stub + 2.0 * _LEAST_HUB * unit
+    hub = 2.0 * _LEAST_HUB * unit
+    least = stub + hub
     if bore >= least - 1e-9:
         return ""
-    return (
+    told = (
         f"the rotor of {motor.name} has a bore of {1e3 * bore:.4g} mm, and with a hub it needs "
         f"{1e3 * least:.3g} mm on a shaft of {1e3 * stub:.3g} mm"
+    )
+    if bore <= hub:
+        return told
+    return (
+        f"{told}, or a shaft of at most {1e3 * (bore - hub):.3g} mm, which a cam bearing with a "
+        "smaller bore brings"
     )
 
 

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, SAFETY, length_needed
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
-from cqdd_design.geometry.scale import MOST_TUBE_WALL, largest_ring
+from cqdd_design.geometry.scale import MOST_TUBE_WALL, largest_ring, smallest_ring
 from cqdd_design.solids.motor_layout import EncoderPlace, MotorLayout
 from cqdd_design.solids.registers import spigot_depth
 from cqdd_design.solids.selection import cap_screw, thread_size
@@ -139,7 +139,10 @@ def register_radius(motor: Motor, pack: PackLayout, unit: float) -> tuple[float,
             f"housing round it, it may be {1e3 * largest_ring(bore):.4g} mm"
         )
     elif wall > MOST_TUBE_WALL * unit:
-        misfit = f"the {stator} of {motor.name} is far larger than a ring of {ring}"
+        misfit = (
+            f"the {stator} of {motor.name} is far larger than a ring of {ring}; a tube of the "
+            f"housing fills it round rings from {1e3 * smallest_ring(bore):.4g} mm on"
+        )
     else:
         return 0.5 * bore, drawn, missing
     return own, None, f"{misfit}; besides, {missing}" if missing else misfit

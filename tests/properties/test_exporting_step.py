@@ -13,6 +13,8 @@ import pytest
 from solids_designs import known_design, known_parts, part_named
 
 from cqdd_design.errors import ReadBackError
+from cqdd_design.exporting.edm.cut_facts import zones_of
+from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.job import ExportJob
 from cqdd_design.exporting.solids import step
 from cqdd_design.exporting.solids.step import export_step, file_label, write_part_step, write_step
@@ -249,6 +251,22 @@ def test_what_the_plate_and_clamp_say_of_their_holes(tmp_path: Path) -> None:
     assert ("Position", 0.2, "A", 5) in read_back(path)
     write_part_step(design, part_named(known_parts("paper"), "ring clamp"), path, "AP242")
     assert ("Position", 0.2, "BA", 8) in read_back(path)
+
+
+@pytest.mark.parametrize(("name", "rounds"), [("disc", 1 + 5), ("ring", 8 + 24)])
+def test_ap242_carries_the_profiles_that_wire_cuts(name: str, rounds: int, tmp_path: Path) -> None:
+    """All walls but the bore and the holes, or the outside between its grooves of three arcs."""
+    design, part = known_design("paper"), part_named(known_parts("paper"), name)
+    path = tmp_path / "part.step"
+    write_part_step(design, part, path, "AP242")
+    (read,) = (one for one in read_back(path) if one[0] == "ProfileOfLine")
+    flat = next(one for one in flat_parts(resolve(design)) if one.label == name)
+    zones, walls = zones_of(flat, design), len(part.solid.Faces()) - 2
+    letters = "AC" if name == "disc" else "A"
+    assert read == ("ProfileOfLine", round(1e3 * zones.profile, 6), letters, walls - rounds)
+    assert b"GEOMETRIC_TOLERANCE_WITH_MODIFIERS((.COMMON_ZONE.))" in path.read_bytes()
+    if name == "disc":
+        assert ("Position", round(1e3 * zones.hole_position, 6), "A", 5) in read_back(path)
 
 
 def test_a_file_that_lost_a_tolerance_is_not_kept(

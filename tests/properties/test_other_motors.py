@@ -209,9 +209,9 @@ def test_a_rotor_too_narrow_for_the_shaft_is_told(paper):
     known = {"name": "CubeMars RI50 KV100", "rotor_length": "18 mm", "hollow_diameter": "11 mm"}
     machine = resolve(paper.replacing({"motor": known}))
     assert machine.layout.inrunner is None
-    assert "has a bore of 11 mm, and with a hub it needs 12 mm on a shaft of 10 mm" in (
-        machine.layout.motor_missing
-    )
+    told = machine.layout.motor_missing
+    assert "has a bore of 11 mm, and with a hub it needs 12 mm on a shaft of 10 mm" in told
+    assert "or a shaft of at most 9 mm" in told
     (line,) = (one for one in joint_lines(machine, None) if one.id == "BELL-JOINT")
     assert line.status == "unknown"
 
@@ -219,6 +219,15 @@ def test_a_rotor_too_narrow_for_the_shaft_is_told(paper):
 def test_an_inrunner_has_no_bell_for_balance_weights(paper):
     with pytest.raises(GeometryError, match="is an inrunner, which has none"):
         build(paper.replacing({"motor.name": DRAWN[0], "reducer.balance.counterweights": True}))
+
+
+def test_a_stator_far_wider_than_the_ring_is_told_with_the_ring_that_fills_it(paper):
+    """A tube of twelve 72nds of the ring's own diameter: 110 mm/(1 + 24/72)."""
+    known = {"name": "CubeMars GL100 KV10", **SIZES, "bore_diameter": "110 mm"}
+    wide = known | {"gap_diameter": "130 mm", "outer_diameter": "140 mm"}
+    machine = resolve(paper.replacing({"motor": wide}))
+    assert machine.layout.motor is None
+    assert "round rings from 82.5 mm on" in machine.layout.motor_missing
 
 
 def test_sizes_of_an_outrunner_do_not_make_one_of_an_inrunner(paper):

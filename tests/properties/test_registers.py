@@ -8,6 +8,10 @@ from solids_designs import CHANGES, known_design, known_parts, part_named
 
 from cqdd_design.errors import CatalogError
 from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
+from cqdd_design.gearbox.contact.model import ContactModel
+from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.sweep import output_turn_angles
+from cqdd_design.gearbox.precision.backlash import backlash
 from cqdd_design.geometry.contours import Circle
 from cqdd_design.machine import resolve
 from cqdd_design.machine.centring import centring, most_off_centre
@@ -128,7 +132,22 @@ def test_how_far_the_output_stands_off_is_told() -> None:
     machine = resolve(known_design("paper"))
     assert most_off_centre(machine) == pytest.approx(0.5 * (49e-6 + 49e-6 + 6.5e-6))
     assert "by 0.05 mm at most" in centring(machine)
+    assert "Turn the crank while the cover screws are tightened" in centring(machine)
     assert centring(machine) in AssemblyFacts(machine).notes()
+
+
+@pytest.mark.parametrize(("off", "tight"), [(10e-6, False), (30e-6, True)])
+def test_an_output_off_the_rings_axis_takes_the_backlash(off: float, tight: bool) -> None:
+    """Half of it at the teeth and half at the pins, as of a shaft that stands in both."""
+    model = ContactModel.from_design(known_design("paper"))
+    errors = GearboxErrors.none(model)
+    errors.tooth_position[:, 0] = -0.5 * off
+    errors.pin_position[:, 0] = 0.5 * off
+    perfect = backlash(model).mean
+    found = backlash(model, output_turn_angles(model, 44), errors=errors)
+    assert bool(found.overlap.max() > 5e-6) == tight
+    assert (found.free.min() == 0.0) == tight
+    assert found.mean < (0.05 if tight else 0.8) * perfect
 
 
 def test_counterbores_of_shoulder_screws_are_those_of_din_974() -> None:

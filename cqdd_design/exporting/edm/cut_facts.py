@@ -1,12 +1,10 @@
 """What a shop must know of a flat part, once for its sheet and for the README: one value.
 
-Zones follow from the standard deviations of the design's [tolerances]: a normal error is held to
-two of them, an even one to the whole of its zone.
+Zones follow from the standard deviations of the design's [tolerances], as those of the features.
 """
 
 from __future__ import annotations
 
-import math
 import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -19,6 +17,7 @@ from cqdd_design.exporting.edm.passes import WirePass, blank_side, contour_times
 from cqdd_design.exporting.edm.seats import Seat
 from cqdd_design.exporting.edm.wire_path import WirePath, wire_paths
 from cqdd_design.exporting.options import DEFAULTS, ExportOptions
+from cqdd_design.solids.features.flat import cut_zone, tooth_deviation
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
@@ -164,15 +163,13 @@ def facts_of(flat: FlatPart, machine: Machine, options: ExportOptions = DEFAULTS
 def zones_of(flat: FlatPart, design: Design) -> Zones:
     """Zones of a part from the design's standard deviations."""
     tolerances = design.tolerances
-    half = 2.0 if tolerances.distribution == "normal" else math.sqrt(3.0)
+    profile = tolerances.disc_profile
     if flat.label == "ring":
-        profile = math.hypot(tolerances.tooth_position, tolerances.tooth_radius)
-    else:
-        profile = tolerances.disc_profile
+        profile = tooth_deviation(tolerances)
     return Zones(
-        profile=2.0 * half * profile,
-        hole_position=2.0 * half * tolerances.hole_position,
-        hole_diameter=half * tolerances.hole_diameter,
+        profile=cut_zone(tolerances, profile),
+        hole_position=cut_zone(tolerances, tolerances.hole_position),
+        hole_diameter=0.5 * cut_zone(tolerances, tolerances.hole_diameter),
     )
 
 

@@ -1,11 +1,13 @@
 """Sizes, tolerances of form and place, and datums of a part, tied to the faces of its solid.
 
 They are what its drawing says: diameters of seats and fitted holes with their limits, cylindricity,
-total run-out and position of their surfaces and axes, run-out of shoulders, position of holes, and
-the letters of the datums that these refer to. `pmi_file` writes them into the part's AP242 file.
+total run-out and position of their surfaces and axes, run-out of shoulders, position of holes,
+profiles that wire cuts, and the letters of the datums that these refer to. `pmi_file` writes them
+into the part's AP242 file.
 
-Not among them are the profiles that wire cuts (no face, but hundreds), roughness, fillets, and the
-theoretically exact places of holes, which are those of the solid.
+Not among them are roughness, for which the kernel has no words, fillets, and the theoretically
+exact places of holes, which are those of the solid. Nor has it words for a pattern of holes and
+profile that is one (SIM on the sheet): the file ties the profile to the holes as a datum.
 """
 
 from __future__ import annotations
@@ -16,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 from cqdd_design.errors import CatalogError
 from cqdd_design.solids.cad import MM
 from cqdd_design.solids.features.holes import ClearanceHole, CutHole, FittedHole, TappedHole
-from cqdd_design.solids.features.kinds import ON_AXIS, AxialThread, Seat, Shoulder
+from cqdd_design.solids.features.kinds import ON_AXIS, AxialThread, CutProfile, Seat, Shoulder
 
 if TYPE_CHECKING:
     from cqdd_design.solids.features.holes import Centre, Facing
@@ -28,7 +30,7 @@ _NEAR = 0.03
 _EARS = 1.2
 """By how much a face may reach beyond a shoulder's radius."""
 
-ZoneKind = Literal["cylindricity", "total run-out", "run-out", "position"]
+ZoneKind = Literal["cylindricity", "total run-out", "run-out", "position", "profile"]
 _Placed = FittedHole | ClearanceHole | TappedHole | CutHole
 """Holes whose axes have zones."""
 
@@ -96,7 +98,7 @@ class _Faces:
     """Cylinders and planes of a part's solid."""
 
     def __init__(self, part: Part) -> None:
-        every = part.solid.Faces()
+        every = self._every = part.solid.Faces()
         self._cylinders = [face for face in every if face.geomType() == "CYLINDER"]
         self._planes = [face for face in every if face.geomType() == "PLANE"]
 
@@ -114,6 +116,20 @@ class _Faces:
     def planes(self, face: Shoulder) -> tuple[Any, ...]:
         """Those at the height of a shoulder that look its way and lie within its radii."""
         return tuple(one for one in self._planes if _is_shoulder(one, face, face.facing))
+
+    def walls(self, *, inside: bool) -> tuple[Any, ...]:
+        """Those of a prism along its outline, or along its largest opening."""
+        end = max(self._planes, key=lambda face: face.Area())
+        wires = end.innerWires() if inside else [end.outerWire()]
+        if not wires:
+            return ()
+        outline = max(wires, key=lambda wire: wire.BoundingBox().DiagonalLength)
+        along = {edge.hashCode() for edge in outline.Edges()}
+        return tuple(
+            face
+            for face in self._every
+            if not face.isSame(end) and any(edge.hashCode() in along for edge in face.Edges())
+        )
 
 
 def _is_cylinder(
@@ -173,6 +189,11 @@ def _zones(part: Part, solid: _Faces) -> Iterator[Zone]:
             if feature.run_out and feature.refers:
                 refers, faces = tuple(feature.refers), solid.planes(feature)
                 yield Zone("run-out", MM * feature.run_out, False, refers, faces)
+        elif isinstance(feature, CutProfile):
+            yield Zone(
+                "profile", MM * feature.zone, False, tuple(feature.refers),
+                solid.walls(inside=feature.inside),
+            )  # fmt: skip
         elif isinstance(feature, _Placed) and feature.position:
             yield Zone(
                 "position", MM * feature.position, True, tuple(feature.refers),

@@ -89,6 +89,7 @@ class _Sheet:
     def add_zone(self, zone: Zone) -> None:
         """A tolerance of form or place, with its datums in their order."""
         from OCP.XCAFDimTolObjects import (
+            XCAFDimTolObjects_GeomToleranceModif,
             XCAFDimTolObjects_GeomToleranceObject,
             XCAFDimTolObjects_GeomToleranceType,
             XCAFDimTolObjects_GeomToleranceTypeValue,
@@ -101,10 +102,14 @@ class _Sheet:
             "total run-out": kinds.XCAFDimTolObjects_GeomToleranceType_TotalRunout,
             "run-out": kinds.XCAFDimTolObjects_GeomToleranceType_CircularRunout,
             "position": kinds.XCAFDimTolObjects_GeomToleranceType_Position,
+            "profile": kinds.XCAFDimTolObjects_GeomToleranceType_ProfileOfLine,
         }[zone.kind]
         label, stated = self._tool.AddGeomTolerance(), XCAFDimTolObjects_GeomToleranceObject()
         stated.SetType(kind)
         stated.SetValue(zone.value)
+        if zone.kind == "profile":
+            marks = XCAFDimTolObjects_GeomToleranceModif
+            stated.AddModifier(marks.XCAFDimTolObjects_GeomToleranceModif_Common_Zone)
         if zone.round:
             forms = XCAFDimTolObjects_GeomToleranceTypeValue
             stated.SetTypeOfValue(forms.XCAFDimTolObjects_GeomToleranceTypeValue_Diameter)

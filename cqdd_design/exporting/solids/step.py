@@ -34,7 +34,9 @@ _OCCURRENCE = re.compile(rb"NEXT_ASSEMBLY_USAGE_OCCURRENCE\('[^']*'(.*?)\);", re
 _SOLID = re.compile(rb"#(\d+) = MANIFOLD_SOLID_BREP\(")
 _BODY = re.compile(rb"ADVANCED_BREP_SHAPE_REPRESENTATION\('',\((.*?)\),\s*#(\d+)\)", re.DOTALL)
 _SIZE = re.compile(rb"#\d+ = PLUS_MINUS_TOLERANCE\(")
-_ZONE = re.compile(rb"\b(?:CYLINDRICITY|POSITION|CIRCULAR_RUNOUT|TOTAL_RUNOUT)_TOLERANCE\s*\(")
+_ZONE = re.compile(
+    rb"\b(?:CYLINDRICITY|POSITION|CIRCULAR_RUNOUT|TOTAL_RUNOUT|LINE_PROFILE)_TOLERANCE\s*\("
+)
 _STYLES = re.compile(rb"#\d+ = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION\(")
 _BEYOND_ASCII = re.compile(r"[^\x00-\x7f]")
 _LINE_END = re.compile(rb"\s*\n\s*")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from cqdd_design.design import Design
+from cqdd_design.design.actuator import Tolerances
 from cqdd_design.geometry.disc import hole_centres, hole_diameter
 from cqdd_design.solids.features import zones
 from cqdd_design.solids.features.holes import BoltCircle, CutHole
@@ -15,8 +16,23 @@ from cqdd_design.solids.layout import DowelLayout, PackLayout
 
 SIGMAS = 6.0
 """Diameter of the zone of an axis over the standard deviation of its place."""
+_NORMAL_HALF, _EVEN_HALF = 2.0, math.sqrt(3.0)
+"""Standard deviations to either side that a zone of what wire cuts holds."""
 THICKNESS_TOLERANCE = 20e-6
 """Of discs and ring below nominal, m: they must not grow into the gaps beside them."""
+
+
+def cut_zone(tolerances: Tolerances, deviation: float) -> float:
+    """Width of the zone of what wire cuts, m, whose error has a standard deviation (m).
+
+    A normal error is held to two of them, an even one to the whole of its zone.
+    """
+    return 2.0 * deviation * (_NORMAL_HALF if tolerances.distribution == "normal" else _EVEN_HALF)
+
+
+def tooth_deviation(tolerances: Tolerances) -> float:
+    """Standard deviation of the ring's flanks about the exact curve, m: of place and of radius."""
+    return math.hypot(tolerances.tooth_position, tolerances.tooth_radius)
 
 
 def disc_features(design: Design, pack: PackLayout, disc: int) -> tuple[Feature, ...]:
@@ -32,8 +48,9 @@ def disc_features(design: Design, pack: PackLayout, disc: int) -> tuple[Feature,
     return (
         bore,
         CutHole("holes of the output pins", hole_diameter(design), 0.0, top, circle,
-                position=SIGMAS * tolerances.hole_position, datum="C", refers="A"),
-        CutProfile("lobes", 0.0, top, zone=SIGMAS * tolerances.disc_profile, refers="AC"),
+                position=cut_zone(tolerances, tolerances.hole_position), datum="C", refers="A"),
+        CutProfile("lobes", 0.0, top, zone=cut_zone(tolerances, tolerances.disc_profile),
+                   refers="AC"),
     )  # fmt: skip
 
 
@@ -41,9 +58,9 @@ def ring_features(design: Design, pack: PackLayout, dowels: DowelLayout) -> tupl
     """Of the ring: outside, teeth, and its halves of the dowels' holes."""
     tolerances = design.tolerances
     outside = seat("outside", 2.0 * pack.ring_radius, 0.0, pack.top, zones.RING_OUTSIDE, datum="A")
-    zone = SIGMAS * max(tolerances.tooth_position, tolerances.tooth_radius)
+    zone = cut_zone(tolerances, tooth_deviation(tolerances))
     return (
         outside,
-        CutProfile("teeth", 0.0, pack.top, zone=zone, refers="A"),
+        CutProfile("teeth", 0.0, pack.top, zone=zone, refers="A", inside=True),
         *ring_dowel_holes(pack, dowels, 0.0, pack.top, refers="A"),
     )

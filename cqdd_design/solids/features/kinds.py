@@ -208,6 +208,8 @@ class CutProfile:
         Width of the zone that it lies in, m.
     refers : str
         Letters of its datums; see the module.
+    inside : bool
+        Whether it is that of an opening.
     """
 
     name: str
@@ -215,6 +217,7 @@ class CutProfile:
     top: float
     zone: float
     refers: str = "A"
+    inside: bool = False
 
 
 @dataclass(frozen=True)
