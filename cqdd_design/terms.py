@@ -101,8 +101,18 @@ PHRASES = {
     "ring_approach": "closing at the ring",
     "wear_rate_low": "wear rate, at least",
     "wear_rate_high": "wear rate, at most",
-    "backdrive_static": "torque to start it from the output",
-    "backdrive_dynamic": "torque to keep it turning from the output",
+    "backdrive_static": "backdrive torque, breakaway",
+    "backdrive_dynamic": "backdrive torque, running",
+    "no_load_speed": "no-load speed",
+    "rated_power": "rated electrical power",
+    "efficiency_peak": "greatest efficiency",
+    "actuator_inertia": "inertia, at the motor",
+    "position_bandwidth_45deg": "position bandwidth, ±45°",
+    "position_bandwidth_5deg": "position bandwidth, ±5°",
+    "undercut_radius_limit": "largest tooth radius before undercut",
+    "uneven_sharing": "most loaded disc over the mean",
+    "teeth_in_contact": "ring teeth that carry together",
+    "life_hours": "required life",
     "backdrive_load_independent": "of that, losses without load",
     "backdrive_load_share": "loss of torque from the output over its torque",
     "backdrive_static_ratio": "friction at rest over friction turning",
@@ -125,7 +135,7 @@ PHRASES = {
     "poisson_ratio": "Poisson's ratio",
     "rms_roughness": "r.m.s. roughness",
 }
-_TIMES = {"hours": "h", "required_hours": "h", "L10h": "h"} | {
+_TIMES = {"hours": "h", "required_hours": "h", "life_hours": "h", "L10h": "h"} | {
     f"{before}L10h{after}": "h"
     for before, after in (("set_", ""), ("", "_at_greatest_load"), ("", "_of_rigid_law"))
 }

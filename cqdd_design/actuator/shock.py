@@ -36,7 +36,7 @@ from cqdd_design.machine.carrying import OUT_OF_REACH, compared_limits
 _PLACES = 12
 """Of a motor turn at which the output meets the stop in the simulation."""
 METHODS: Mapping[str, str] = {
-    "by_secant": "w sqrt(k J), secant stiffness at the continuous torque",
+    "by_secant": "speed times sqrt(k J), secant stiffness at the continuous torque",
     "by_energy": "energy, stiffening law, motor without torque",
     "by_energy_motor_in": "energy, stiffening law, motor's torque left in",
     "by_simulation": "simulated, motor without torque",

@@ -77,6 +77,7 @@ def _lines(result: ToleranceResult) -> list[str]:
         return ["no gearbox was finished"]
     statistics = result.statistics()
     columns = ("mean", "std", "p5", "p50", "p95", "p99")
+    heads = [f"{name[1:]} %" if name[1:].isdigit() else name for name in columns]
     limits = result.limits
     reserve = result.pressure_reserve()
     shown = statistics | ({"pressure_reserve": reserve} if reserve else {})
@@ -94,10 +95,10 @@ def _lines(result: ToleranceResult) -> list[str]:
         *folded(
             f"{len(result.values)} gearboxes over one output turn at "
             f"{number(result.ensemble.torque)} N*m, {result.solves:,} equilibria with friction in "
-            f"{result.seconds:.1f} s; p5 to p99: of 5 to 99 % of the gearboxes, at most"
+            f"{result.seconds:.1f} s; 5 % to 99 %: so many of the gearboxes have at most this"
         ),
         "",
-        table(rows, head=("", *columns, "limit"), right=tuple(range(1, len(columns) + 2))),
+        table(rows, head=("", *heads, "limit"), right=tuple(range(1, len(columns) + 2))),
     ]
     if result.sensitivity is None:
         return lines

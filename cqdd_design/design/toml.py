@@ -163,8 +163,17 @@ def _read(path: Path) -> dict[str, Any]:
     if not path.exists():
         folder = path.parent if path.parent.is_dir() else Path()
         near = nearest_names(path.name, [p.name for p in folder.glob("*.toml")])
-        hint = f"; did you mean {folder / near[0]}?" if near else ""
-        raise UsageError(f"there is no file {path}{hint}" + ("" if near else "."))
+        if near:
+            raise UsageError(f"there is no file {path}; did you mean {folder / near[0]}?")
+        from cqdd_design.design.templates import examples
+
+        name = path.stem
+        if name in examples():
+            raise UsageError(
+                f"there is no file {path}; `cqdd-design new --example {name} --out "
+                f"{path.with_suffix('.toml')}` writes this example."
+            )
+        raise UsageError(f"there is no file {path}.")
     text = read_text_file(path, LARGEST_FILE, wrong=DesignError)
     if not text.strip():
         raise DesignError(

@@ -118,7 +118,11 @@ class RatingSettings:
         """Name, value with its unit and whether it is the default, of every setting."""
         usual = RatingSettings()
         return tuple(
-            (name, row.text(getattr(self, name)), getattr(self, name) == getattr(usual, name))
+            (
+                name,
+                " ".join(part for part in (row.text(getattr(self, name)), row.unit) if part),
+                getattr(self, name) == getattr(usual, name),
+            )
             for name, row in SETTINGS.items()
         )
 
@@ -138,7 +142,8 @@ class RatingSettings:
 class Setting(NamedTuple):
     """How one setting is written, and its range.
 
-    `usual` is what the message of a refusal offers; without `most` there is no range.
+    `usual` is what the message of a refusal offers; without `most` there is no range. `unit` is
+    that of a number which is written without one, because its name says it.
     """
 
     least: float = 0.0
@@ -149,6 +154,7 @@ class Setting(NamedTuple):
     choices: tuple[str, ...] = ()
     kind: type = float
     missing: str = ""
+    unit: str = ""
 
     def text(self, value: Any) -> str:
         """A value as people read it."""
@@ -206,7 +212,7 @@ SETTINGS: Mapping[str, Setting] = {
     "lubricant_viscosity": Setting(1e-6, 1e-1, 150e-6, VISCOSITY, "_mm2_per_s"),
     "flank_roughness": Setting(0.1e-6, 100e-6, 3e-6, SMALL_LENGTH, "_um"),
     "root_roughness": Setting(0.1e-6, 100e-6, 10e-6, SMALL_LENGTH, "_um"),
-    "life_hours": Setting(1e-3, 1e7, 1000.0),
+    "life_hours": Setting(1e-3, 1e7, 1000.0, unit="h"),
     "peak_cycles": Setting(1.0, 1e12, 1e4),
     "least_contact_safety": Setting(0.1, 10.0, 1.0),
     "least_bending_safety": Setting(0.1, 10.0, 1.2),

@@ -198,9 +198,11 @@ def _clearances(machine: Machine, drawn: Drawn | None) -> tuple[ClearancePoint, 
     """What other clearances would make of a machine whose gearboxes can be drawn."""
     if drawn is None:
         return ()
-    angles = drawn.continuous.ensemble.angles
+    known = drawn.continuous
+    angles = known.ensemble.angles
     fitting = _CLEARANCE_SAMPLES * _REPORT_ANGLES // max(angles, _REPORT_ANGLES)
-    return clearance_study(machine.design, max(fitting, _LEAST_CLEARANCE_SAMPLES), angles)
+    samples = max(fitting, _LEAST_CLEARANCE_SAMPLES)
+    return clearance_study(machine.design, samples, angles, known=known)
 
 
 def _contact(machine: Machine) -> tuple[ContactAnalysis | None, tuple[str, ...]]:

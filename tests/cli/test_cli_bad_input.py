@@ -416,3 +416,10 @@ def test_debug_shows_the_traceback(cqdd):
     done = cqdd("check", "nothing.toml", "--debug")
     assert done.code == 2
     assert "Traceback" in done.err
+
+
+def test_a_missing_example_is_told_how_it_is_written(cqdd):
+    done = cqdd("check", "designs/printed-13.toml")
+    assert done.code == 2
+    told = " ".join(done.err.split())
+    assert "there is no file designs/printed-13.toml; `cqdd-design new --example printed-13" in told

@@ -61,7 +61,7 @@ def test_a_settings_file_is_read_and_options_go_before_it(cqdd, tmp_path):
         "crowned no given",
         "flank_roughness 5 um given",
         "ring_tip_diameter 68 mm given",
-        "life_hours 1000 default",
+        "life_hours 1000 h default",
         "lubricant_viscosity 150 mm^2/s default",
     ):
         assert line in lines, line

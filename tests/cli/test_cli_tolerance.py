@@ -65,7 +65,8 @@ def test_people_get_a_table_and_a_ranking(cqdd) -> None:
     assert done.code == 0
     assert too_wide(done.out) == []
     assert "backlash, arcmin" in done.out
-    assert "p95" in done.out
+    assert "5 %" in done.out
+    assert "95 %" in done.out
     assert "which tolerance it comes from" in done.out
     assert "of 128" not in done.out
     assert len(done.err.splitlines()) <= 12

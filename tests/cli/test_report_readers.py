@@ -150,6 +150,13 @@ def test_units_go_to_inches_and_back(readers: dict[str, Any]) -> None:
                 assert ounces == pytest.approx(grams / 28.349523, rel=5e-3)
 
 
+def test_nought_on_the_torque_page_has_no_sign() -> None:
+    """A phase of -0.4 degrees was printed as minus nought."""
+    page = torque_page(_evaluated())
+    assert re.search(r"\u22120\.\d*[1-9]", page)
+    assert re.search(r"\u22120(?:\.0+)?(?![\d.])", page) is None
+
+
 def test_the_torque_page_can_be_read_too(tmp_path: Path) -> None:
     for screen, seen in read(torque_page(_evaluated()), tmp_path, axe=axe_source()).items():
         _legible(screen, seen)

@@ -145,6 +145,34 @@ def test_the_report_says_what_the_command_says():
         assert _named(name) == (words, pretty_unit(unit))
 
 
+#: What a page once called a thing that has words in `terms`.
+FORMER = {
+    r"(?:forward|backward) efficiency\b": "efficiency_forward, efficiency_backward",
+    r"greatest (?:Hertz pressure|force|load) (?:at|of) an? ": "a key that ends in _max",
+    r"torque to (?:start it|keep it turning) from": "backdrive_static, backdrive_dynamic",
+    r"film at the\b": "thickness",
+    r"diameter of the output holes\b": "hole_diameter",
+}
+
+
+def test_pages_and_commands_read_their_words_from_the_terms():
+    """Nobody writes by hand what `terms` calls a thing, nor what it was called before."""
+    phrases = {words for words in PHRASES.values() if words.count(" ") >= 2 or "," in words}
+    wrong = []
+    for room in ("report", "cli"):
+        for path in sorted((PACKAGE / room).rglob("*.py")):
+            for line, text in strings(path):
+                if text in phrases or misnamed(text, FORMER):
+                    wrong.append(f"{path.relative_to(PACKAGE)}:{line}: {text!r}")
+    assert wrong == []
+
+
+def test_the_reader_of_former_names_sees_them():
+    assert misnamed("Forward efficiency at 3 rpm", FORMER)
+    assert misnamed("greatest force at a ring tooth", FORMER)
+    assert not misnamed("greatest ring force", FORMER)
+
+
 def test_heads_of_the_reports_tables_begin_alike():
     """With a capital, a figure or nothing; a unit alone stays as it is."""
     small = []

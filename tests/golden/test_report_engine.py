@@ -175,7 +175,7 @@ def test_the_darkest_cell_is_the_most_loaded_tooth(
         ]  # fmt: skip
         assert inside
     rows = {name: (law, here) for name, law, here in view["rows"]}
-    law, here = rows["greatest load of a cam bearing"]
+    law, here = rows["greatest cam bearing load"]
     assert "5003" in law
     assert f"{found.sweep.cam_load.max():.0f}"[:3] in here.replace("\u202f", "")
 

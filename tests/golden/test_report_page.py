@@ -24,6 +24,7 @@ from cqdd_design.gearbox.heat.expansion import HOTTEST
 from cqdd_design.machine import resolve
 from cqdd_design.machine.heat_nodes import by_node
 from cqdd_design.report import ReportInput, build_report
+from cqdd_design.report.ink.tables import readable_tables
 from cqdd_design.report.judgement.check_rows import printed
 from cqdd_design.results import Check
 
@@ -367,6 +368,23 @@ def test_heads_have_a_scope_and_cells_of_wide_tables_tell_their_column(page: str
                 assert all(cell.get("data-label") for cell in cells[1:])
                 wide += 1
     assert wide > 100
+
+
+def test_a_figure_at_the_head_of_a_stacked_row_says_what_it_is() -> None:
+    """A name needs no column; an index is written as one."""
+    heads = "".join(f"<th>{one}</th>" for one in ("Offset, µm", "S<sub>H</sub>", "B", "C"))
+
+    def row(first: str) -> str:
+        cells = f"<td>{first}</td><td>1</td><td>2</td><td>3</td>"
+        return readable_tables(
+            f"<table><thead><tr>{heads}</tr></thead><tbody><tr>{cells}</tr></tbody></table>"
+        )
+
+    for figure in ("0", "6, the design", "-1.5"):
+        assert f'<td data-head="Offset, µm">{figure}</td>' in row(figure)
+    for name in ("disc", "2 discs", ""):
+        assert f"<td>{name}</td>" in row(name)
+    assert '<td data-label="S_H">1</td>' in row("disc")
 
 
 def test_files_travel_with_the_page_and_those_of_the_run_are_linked(

@@ -9,6 +9,7 @@ import pytest
 
 from cqdd_design.design import load_design
 from cqdd_design.gearbox.life.fatigue import contact_cycle_factor
+from cqdd_design.gearbox.tolerance import clearance
 from cqdd_design.gearbox.tolerance.clearance import HOLE_SHARES, clearance_study
 from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
 from cqdd_design.gearbox.tolerance.limits import lasting_hours, lasting_pressure, limits
@@ -38,6 +39,25 @@ def test_points_are_the_ensembles_of_their_designs() -> None:
     view = tolerance_view(found, points)
     assert len(view["clearances"]) == len(points)
     assert len(view["clearance_figures"]) == 2
+
+
+def test_gearboxes_of_the_own_clearances_are_not_worked_twice(monkeypatch) -> None:
+    """The first of those that are known are, to the bit, those that would be drawn."""
+    design = resolve(load_design(DESIGNS / "cqdd-10.toml")).design
+    known = run_ensemble(make_ensemble(design, angles=44), 6, sensitivity=False)
+    alone = clearance_study(design, 3, 44)
+    worked = []
+
+    def counted(ensemble, samples, *, sensitivity):
+        worked.append(ensemble.design)
+        return run_ensemble(ensemble, samples, sensitivity=sensitivity)
+
+    monkeypatch.setattr(clearance, "run_ensemble", counted)
+    assert clearance_study(design, 3, 44, known=known) == alone
+    assert len(worked) == len(alone) - 1
+    other = run_ensemble(make_ensemble(design, angles=88), 6, sensitivity=False)
+    assert clearance_study(design, 3, 44, known=other) == alone
+    assert len(worked) == 2 * len(alone) - 1
 
 
 def test_a_point_without_an_equilibrium_says_so() -> None:

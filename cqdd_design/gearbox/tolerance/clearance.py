@@ -8,7 +8,7 @@ import numpy as np
 
 from cqdd_design.design import Design
 from cqdd_design.errors import ContactError, DesignError
-from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
+from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
 from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS
 from cqdd_design.gearbox.tolerance.limits import lasting_hours
 
@@ -56,7 +56,11 @@ class ClearancePoint:
 
 
 def clearance_study(
-    design: Design, samples: int = 24, angles: int | None = None, seed: int = 0
+    design: Design,
+    samples: int = 24,
+    angles: int | None = None,
+    seed: int = 0,
+    known: ToleranceResult | None = None,
 ) -> tuple[ClearancePoint, ...]:
     """Ensembles over :data:`EQUIDISTANTS`, for every hole clearance of :data:`HOLE_SHARES` in turn.
 
@@ -68,12 +72,14 @@ def clearance_study(
         Gearboxes at every point, the same draws everywhere.
     angles : int, optional
         Crank angles over the output turn; default :func:`.evaluate.turn_angles`.
+    known : ToleranceResult, optional
+        As many gearboxes or more of the design's own clearances, which are then not worked again.
     """
     offset = design.reducer.modification.equidistant
     hole = design.reducer.output_pins.hole_clearance
     offsets = sorted({*EQUIDISTANTS, offset})
     return tuple(
-        _point(design, one, share * hole, (samples, angles, seed))
+        _point(design, one, share * hole, (samples, angles, seed), known)
         for share in HOLE_SHARES
         for one in offsets
     )
@@ -84,6 +90,7 @@ def _point(
     equidistant: float,
     hole: float,
     draws: tuple[int, int | None, int],
+    known: ToleranceResult | None,
 ) -> ClearancePoint:
     samples, angles, seed = draws
     reducer = design.reducer
@@ -92,14 +99,18 @@ def _point(
         reducer.output_pins.hole_clearance,
     )
     try:
-        changed = design.replacing(
-            {
-                "reducer.modification.equidistant": equidistant,
-                "reducer.output_pins.hole_clearance": hole,
-            }
-        )
+        changed = design
+        if not own:
+            changed = design.replacing(
+                {
+                    "reducer.modification.equidistant": equidistant,
+                    "reducer.output_pins.hole_clearance": hole,
+                }
+            )
         ensemble = make_ensemble(changed, angles=angles, seed=seed, bodies=design)
-        found = run_ensemble(ensemble, samples, sensitivity=False)
+        found = known.first(samples) if known and known.ensemble == ensemble else None
+        if found is None or found.lost == samples:
+            found = run_ensemble(ensemble, samples, sensitivity=False)
     except (ContactError, DesignError) as error:
         return ClearancePoint(equidistant, hole, own, missing=error.message)
     values = dict(zip(OUTPUTS, found.values.T, strict=True))

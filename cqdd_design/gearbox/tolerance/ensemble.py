@@ -190,6 +190,14 @@ class ToleranceResult:
     seconds: float
     interrupted: bool
 
+    def first(self, count: int) -> ToleranceResult:
+        """The same result of the first `count` gearboxes alone."""
+        some = self.numbers < count
+        numbers = self.numbers[some]
+        return replace(
+            self, asked=count, values=self.values[some], numbers=numbers, lost=count - len(numbers)
+        )
+
     def statistics(self) -> dict[str, dict[str, float]]:
         """Mean, standard deviation and percentiles of every output."""
         return {name: _distribution(column) for name, column in self.columns.items()}

@@ -25,6 +25,7 @@ from cqdd_design.report.ink.numbers import (
     with_unit,
 )
 from cqdd_design.report.ink.page import Values
+from cqdd_design.terms import term
 
 _NO_SPREAD = 1e-3
 """Of the value: a smaller spread is not told in digits."""
@@ -45,17 +46,8 @@ RELATIONS = (
 )
 """What the words about an agreement mean."""
 
-_WORDS = {
-    "no_load_speed": "no-load speed",
-    "rated_power": "rated electrical power",
-    "efficiency_peak": "greatest efficiency",
-    "actuator_inertia": "inertia, at the motor",
-    "backdrive_static": "backdrive torque, breakaway",
-    "backdrive_dynamic": "backdrive torque, running",
-    "torque_ripple": "torque ripple, half of peak to peak",
-    "position_bandwidth_45deg": "position bandwidth, ±45°",
-    "position_bandwidth_5deg": "position bandwidth, ±5°",
-}
+_WORDS = {"torque_ripple": "torque ripple, half of peak to peak"}
+"""Where the bench means something else than the gearbox's result of that name."""
 _SHOWN_UNITS: dict[str, tuple[str, float]] = {"": ("%", 100.0), "kg*m^2": ("kg·cm²", 1e4)}
 
 
@@ -89,7 +81,7 @@ def bench_view(parameters: ActuatorParameters, bench: BenchResult, *, pin_count:
 
 def words_of(name: str) -> str:
     """A measurement in words."""
-    return _WORDS.get(name, name.replace("_", " "))
+    return _WORDS.get(name, term(name).words)
 
 
 def bench_row(metric: Metric, bench: BenchResult, *, holds: bool = False) -> Values:

@@ -51,8 +51,8 @@ def actuator_view(
         f"{with_unit(drive.supply_voltage, 'V')} with at most "
         f"{with_unit(drive.current_limit, 'A')}: without friction the driver's limit would be "
         f"{with_unit(parameters.torque_limit, 'N*m', 3)}. Heat by two thermal nodes in "
-        f"{with_unit(thermal.ambient, 'deg')}C, the winding at most at "
-        f"{with_unit(thermal.most, 'deg')}C, copper in the winding, friction and iron in the "
+        f"{with_unit(thermal.ambient, 'degC')}, the winding at most at "
+        f"{with_unit(thermal.most, 'degC')}, copper in the winding, friction and iron in the "
         "housing."
     )
     holds = holds_itself(parameters)
@@ -131,8 +131,8 @@ def _duty_heat(parameters: ActuatorParameters, requirements: Requirements) -> st
         return f"{head}the winding would heat without end, so that heat binds."
     verdict = "within" if found.winding <= most else "above, so that heat binds,"
     return (
-        f"{head}the winding would settle at {with_unit(found.winding, 'deg', 3)}C, {verdict} its "
-        f"limit of {with_unit(most, 'deg')}C."
+        f"{head}the winding would settle at {with_unit(found.winding, 'degC', 3)}, {verdict} its "
+        f"limit of {with_unit(most, 'degC')}."
     )
 
 
@@ -140,7 +140,7 @@ def _named(parameters: ActuatorParameters, curve: LimitCurve) -> tuple[str, str]
     """Name and style of a limit."""
     if not math.isnan(curve.temperature):
         cold = curve.temperature == parameters.thermal.ambient
-        name = f"winding at {with_unit(curve.temperature, 'deg')}C"
+        name = f"winding at {with_unit(curve.temperature, 'degC')}"
         return name, "series-1" if cold else "series-2"
     if math.isinf(curve.seconds):
         return "for ever", "held"

@@ -24,6 +24,7 @@ from cqdd_design.report.ink.svg import (
     part_shape,
     text,
 )
+from cqdd_design.terms import term
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.solved import ContactSweep
@@ -137,20 +138,21 @@ def _rows(analysis: ContactAnalysis, law: RigidMaxima) -> tuple[tuple[str, str, 
     sweep, back = analysis.sweep, analysis.reversed
     teeth = sweep.teeth_in_contact
 
-    def row(name: str, rigid: float, key: str, unit: str = "N") -> tuple[str, str, str]:
+    def row(key: str, rigid: float, attribute: str) -> tuple[str, str, str]:
+        words, unit = term(key)
         scale = 1e-6 if unit == "MPa" else 1.0
-        found = max(float(getattr(one, key).max()) for one in (sweep, back))
-        return f"greatest {name}", with_unit(scale * rigid, unit), with_unit(scale * found, unit)
+        found = max(float(getattr(one, attribute).max()) for one in (sweep, back))
+        return words, with_unit(scale * rigid, unit), with_unit(scale * found, unit)
 
     return (
-        row("force at a ring tooth", law.ring_force, "ring_force"),
-        row("Hertz pressure at a ring tooth", law.ring_pressure, "ring_pressure", "MPa"),
-        row("force at an output pin", law.output_pin_force, "pin_force"),
-        row("Hertz pressure at an output pin", law.output_pressure, "pin_pressure", "MPa"),
-        row("load of a cam bearing", law.cam_bearing_load, "cam_load"),
-        ("most loaded disc over the mean", "1", decimals(sweep.uneven_sharing, 3)),
+        row("ring_force_max_N", law.ring_force, "ring_force"),
+        row("ring_pressure_max_MPa", law.ring_pressure, "ring_pressure"),
+        row("output_pin_force_max_N", law.output_pin_force, "pin_force"),
+        row("output_pressure_max_MPa", law.output_pressure, "pin_pressure"),
+        row("cam_bearing_load_max_N", law.cam_bearing_load, "cam_load"),
+        (term("uneven_sharing").words, "1", decimals(sweep.uneven_sharing, 3)),
         (
-            "ring teeth that carry together",
+            term("teeth_in_contact").words,
             "half of them",
             f"{int(teeth.min())} to {int(teeth.max())}",
         ),

@@ -9,6 +9,7 @@ from cqdd_design.report.ink.heat import labelled_map
 from cqdd_design.report.ink.numbers import NONE, RPM, per_cent, significant, with_unit
 from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Words
+from cqdd_design.terms import term
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.film.running import Running
@@ -36,9 +37,9 @@ def losses_view(analysis: ContactAnalysis) -> Values:
     chart = labelled_map(
         Words(
             "efficiency-map",
-            "Forward efficiency",
-            "Forward efficiency of the gearbox over input speed and output torque, in per cent.",
-            "Per cent, the motor driving; the gearbox alone.",
+            "Efficiency, driven by the motor",
+            "Efficiency of the gearbox, driven by the motor, over input speed and output torque.",
+            "Per cent; the gearbox alone.",
         ),
         grid.forward.T[order],
         [significant(float(t), 3) for t in grid.torque[order]],
@@ -51,17 +52,17 @@ def losses_view(analysis: ContactAnalysis) -> Values:
 def _rows(analysis: ContactAnalysis) -> tuple[tuple[str, str, str], ...]:
     found = analysis.losses
     back = found.backdrive
-    turns = "the output turns the gearbox" if found.backdrives else "the gearbox holds itself"
+    turns = "the output can turn it" if found.backdrives else "it holds itself"
     at_output = "at the output; the gearbox alone, without the motor's drag, seals and preloads"
     torques = [
         "does not turn" if torque is None else with_unit(torque, "N*m", 3)
         for torque in (back.static_torque, back.dynamic_torque)
     ]
     return (
-        ("forward efficiency", _share(found.efficiency_forward), "the motor drives"),
-        ("backward efficiency", _share(found.efficiency_backward), f"the output drives; {turns}"),
-        ("backdrive torque, breakaway", torques[0], at_output),
-        ("backdrive torque, running", torques[1], at_output),
+        (term("efficiency_forward").words, _share(found.efficiency_forward), "the gearbox alone"),
+        (term("efficiency_backward").words, _share(found.efficiency_backward), turns),
+        (term("backdrive_static_Nm").words, torques[0], at_output),
+        (term("backdrive_dynamic_Nm").words, torques[1], at_output),
         *_film_rows(analysis.running),
     )
 
@@ -75,9 +76,13 @@ def _film_rows(found: Running) -> list[tuple[str, str, str]]:
             continue
         ratio = significant(film.ratio, 2)
         rows += [
-            (f"film at the {name}", with_unit(film.thickness * 1e6, "µm", 2), at),
             (
-                f"friction at the {name}",
+                f"{term('thickness_um').words} at the {name}",
+                with_unit(film.thickness * 1e6, "µm", 2),
+                at,
+            ),
+            (
+                f"friction coefficient at the {name}",
                 significant(film.friction, 3),
                 f"λ {ratio}; the film leaves {significant(film.by_film, 3)}",
             ),
@@ -93,7 +98,7 @@ def _film_rows(found: Running) -> list[tuple[str, str, str]]:
     for name, band, remark in places:
         if band is not None:
             low, high = (significant(1e6 * one, 2) for one in band)
-            told = f"Archard, 1e-9 to 1e-8 mm³/(N·m); {remark}"
+            told = f"Archard, 10⁻⁹ to 10⁻⁸ mm³/(N·m); {remark}"
             rows.append((f"wear of the {name} in {hours} h", f"{low} to {high} µm", told))
     return rows
 

@@ -57,8 +57,14 @@ def _seat(part: str, fit: Seat | FittedHole) -> Row:
     except CatalogError:
         upper = lower = "beyond the table"
     else:
-        upper, lower = (f"{1e6 * value:+.4g}" for value in (limits.upper, limits.lower))
+        upper, lower = (_deviation(1e6 * value) for value in (limits.upper, limits.lower))
     return part, fit.name, millimetres(fit.diameter, 4), fit.zone, upper, lower
+
+
+def _deviation(value: float) -> str:
+    """A limit of size with its sign, none before nought."""
+    shown = significant(value)
+    return f"+{shown}" if value > 0.0 and shown != "0" else shown
 
 
 def _part_row(row: BomRow, part: PartInertia | None, inertia: GearboxInertia) -> Row:

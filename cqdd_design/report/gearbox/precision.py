@@ -14,6 +14,7 @@ from cqdd_design.report.ink.charts import Curve, line_chart
 from cqdd_design.report.ink.numbers import ARCMIN, significant, with_unit
 from cqdd_design.report.ink.page import Values
 from cqdd_design.report.ink.svg import Figure, Words
+from cqdd_design.terms import term
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.precision.orders import Order
@@ -79,32 +80,32 @@ def _rows(found: Precision) -> tuple[tuple[str, ...], ...]:
     backlash, ripple = METRICS["backlash"], METRICS["torque_ripple"].value
     return (
         (
-            "backlash",
+            term("backlash_arcmin").words,
             f"{significant(float(free.mean()))} arcmin",
             f"{backlash.value:g} \u00b1 {backlash.spread:g} arcmin",
             f"{significant(float(free.min()))} to {significant(float(free.max()))} over a turn, "
             "rigid parts, from the clearances of the design",
         ),
         (
-            "lost motion",
+            term("lost_motion_arcmin").words,
             f"{significant(found.lost_motion * ARCMIN)} arcmin",
             "",
             f"between \u00b1{small}",
         ),
         (
-            "stiffness",
+            term("stiffness_Nm_per_arcmin").words,
             f"{significant(found.stiffness / ARCMIN)} N\u00b7m/arcmin",
             "",
             f"secant from half of {torque}; contacts, pins and cam bearings only",
         ),
         (
-            "transmission error, peak to peak",
+            term("transmission_error_pp_arcmin").words,
             f"{significant(found.transmission_error * ARCMIN)} arcmin",
             "",
             f"at {torque}; {significant(float(np.ptp(found.unloaded)) * ARCMIN)} without load",
         ),
         (
-            "torque ripple, peak to peak",
+            term("torque_ripple_pp_Nm").words,
             with_unit(found.ripple_pp, "N*m"),
             f"{2.0 * ripple:g} N\u00b7m (\u00b1{ripple:g})",
             f"at {torque}, perfect parts; tolerances add far more",

@@ -42,7 +42,7 @@ def tolerance_view(result: ToleranceResult, clearances: Sequence[ClearancePoint]
     reserve = result.pressure_reserve()
     if reserve is not None:
         told = tuple(significant(reserve[key]) for key in _STATISTICS)
-        rows += (("reserve of pressure at the required hours", *told, "1, least"),)
+        rows += ((term("pressure_reserve").words, *told, "1, least"),)
     lead += "".join(f" {words[0].upper()}{words[1:]}" for words in result.warnings)
     histograms = [_histogram(result, name) for name in _SHOWN]
     rankings = [_ranking(result, name) for name in _SHOWN if result.ranking(name)]
@@ -139,7 +139,7 @@ def _histogram(result: ToleranceResult, name: str) -> Figure:
             "output turn.",
         ),
         result.values[:, list(statistics).index(name)],
-        [(key, told[key]) for key in ("p5", "p50", "p95")],
+        [(f"{key[1:]}\u202f%", told[key]) for key in ("p5", "p50", "p95")],
         f"{words}, {unit}",
     )
 

@@ -50,9 +50,11 @@ def nice_step(span: float, most: int) -> float:
     return 20.0 * power
 
 
-def tick_below(x: float, base: float, value: float) -> list[str]:
-    """A tick under a horizontal axis at the height `base`, with its number."""
-    number = text((x, base + 17.0), significant(value), "tick", "middle")
+def tick_below(x: float, base: float, value: float, centre: float | None = None) -> list[str]:
+    """A tick under a horizontal axis at the height `base`, with its number about `centre`."""
+    number = text(
+        (x if centre is None else centre, base + 17.0), significant(value), "tick", "middle"
+    )
     return [line((x, base), (x, base + 4.0), "axis"), number]
 
 
@@ -184,7 +186,10 @@ class Panel:
             x = self.place(tick, self.y.low)[0]
             if self.x.log:
                 body.append(line((x, self.top), (x, self.bottom), "grid"))
-            body += tick_below(x, self.bottom, tick)[: 2 if names else 1]
+            # The last number ends where the picture does.
+            room = 0.5 * _PITCH * len(significant(tick))
+            centre = min(x, NARROW - room) if self.right < NARROW else x
+            body += tick_below(x, self.bottom, tick, centre)[: 2 if names else 1]
         body.append(line((self.left, self.bottom), (self.right, self.bottom), "axis"))
         middle = (self.left + 0.5 * self.width, self.top + 0.5 * self.height)
         below = (middle[0], self.bottom + 35.0, self.x.label)

@@ -18,7 +18,7 @@ import html
 import re
 from unicodedata import lookup
 
-_LETTERS = "alpha beta delta gamma eta kappa nu omega phi pi psi rho sigma tau theta"
+_LETTERS = "alpha beta delta gamma eta kappa mu nu omega phi pi psi rho sigma tau theta"
 _GREEK = {name: lookup(f"GREEK SMALL LETTER {name}") for name in _LETTERS.split(" ")}
 _FUNCTIONS = {"sin", "cos", "tan", "min", "max", "ln"}
 _UPRIGHT = {"HB", "HRC", "MPa", "mm", "rpm", "h", "N", "W", "um", "KV"}
@@ -65,7 +65,20 @@ def _side(side: str) -> str:
             return f'<math displaystyle="true">{_Parser(side).whole()}</math>'
         except _NotAFormula:
             pass
-    return f'<span class="prose-formula">{lowered(side)}</span>'
+    return f'<span class="prose-formula">{lowered(_signs(side))}</span>'
+
+
+def _signs(prose: str) -> str:
+    """Letters, powers, degrees and minus signs as print has them, in prose with some symbols.
+
+    Examples
+    --------
+    >>> _signs("tau = F/(pi/4 d^2) along its seam, 30deg")
+    'τ = F/(π/4 d²) along its seam, 30°'
+    """
+    prose = re.sub(rf"\b({'|'.join(_GREEK)})\b", lambda name: _GREEK[name[1]], prose)
+    prose = prose.replace("^2", "²").replace("^3", "³").replace(" - ", " \u2212 ")
+    return re.sub(r"(?<=\d) ?deg\b", "°", prose)
 
 
 def lowered(prose: str) -> str:

@@ -15,6 +15,8 @@ _TH = re.compile(r"<th\b([^>]*)>(.*?)</th>", re.S)
 _ROW = re.compile(r"<tr\b([^>]*)>(.*?)</tr>", re.S)
 _CELL = re.compile(r"<td\b([^>]*)>(.*?)</td>", re.S)
 _TAG = re.compile(r"<[^>]+>")
+_SUNK = re.compile(r"<sub>(.*?)</sub>", re.S)
+_FIGURE = re.compile(r"[-\u2212]?\d[\d.]*(?:,.*)?$")
 _WIDE = 4
 """Tables of so many columns are stacked where the screen is narrow."""
 
@@ -44,7 +46,7 @@ def _table(table: str) -> str:
 
 
 def _plain(content: str) -> str:
-    return html.unescape(_TAG.sub("", content)).strip()
+    return html.unescape(_TAG.sub("", _SUNK.sub(r"_\1", content))).strip()
 
 
 def _heading(found: re.Match[str]) -> str:
@@ -66,16 +68,21 @@ def _classed(before: str) -> str:
 
 
 def _row(row: re.Match[str], names: list[str]) -> str:
-    """A row whose cells tell their columns; what spans columns and the first cell do not."""
+    """A row whose cells tell their columns; what spans columns does not.
+
+    The first cell is the head of a stacked row, and tells its column where it is a figure alone.
+    """
     cells = _CELL.findall(row[2])
     if len(cells) != len(names):
         return row[0]
-    told = iter(["", *names[1:]])
+    told = iter(names)
+    first = True
 
     def labelled(cell: re.Match[str]) -> str:
-        name = next(told)
-        if not name:
+        nonlocal first
+        name, kind, first = next(told), "head" if first else "label", False
+        if not name or (kind == "head" and not _FIGURE.match(_plain(cell[2]))):
             return cell[0]
-        return f'<td data-label="{html.escape(name, quote=True)}"{cell[1]}>{cell[2]}</td>'
+        return f'<td data-{kind}="{html.escape(name, quote=True)}"{cell[1]}>{cell[2]}</td>'
 
     return f"<tr{row[1]}>{_CELL.sub(labelled, row[2])}</tr>"

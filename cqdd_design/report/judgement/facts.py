@@ -5,6 +5,7 @@ from __future__ import annotations
 from cqdd_design.report.ink.numbers import TIMES, millimetres, significant, with_unit
 from cqdd_design.report.input import ReportInput
 from cqdd_design.solids.part import overall_size
+from cqdd_design.terms import term
 
 
 def head_facts(results: ReportInput, least_margin: str) -> tuple[tuple[str, str, str], ...]:
@@ -54,11 +55,11 @@ def derived_values(results: ReportInput) -> tuple[tuple[str, str, str], ...]:
     thinnest = geometry.ligaments[0]
     area = with_unit(1e6 * geometry.profile_area, "mm^2", 6)
     lengths: tuple[tuple[str, str, float], ...] = (
-        ("largest tooth radius before undercut", "", geometry.undercut_radius_limit),
-        ("least convex radius of the disc", "", geometry.disc_min_convex_radius),
-        ("least concave radius of the disc", "", geometry.disc_min_concave_radius),
-        ("least concave radius of the ring", "", geometry.ring_min_concave_radius),
-        ("diameter of the output holes", "d_hole", geometry.hole_diameter),
+        (term("undercut_radius_limit_mm").words, "", geometry.undercut_radius_limit),
+        (term("disc_min_convex_radius_mm").words, "", geometry.disc_min_convex_radius),
+        (term("disc_min_concave_radius_mm").words, "", geometry.disc_min_concave_radius),
+        (term("ring_min_concave_radius_mm").words, "", geometry.ring_min_concave_radius),
+        (term("hole_diameter_mm").words, "d_hole", geometry.hole_diameter),
         (f"thinnest ligament, {thinnest.where}", "", thinnest.thickness),
         ("length of the lobed outline", "", geometry.profile_perimeter),
         ("free length of the output pins", "L", analysis.output_pins.span),

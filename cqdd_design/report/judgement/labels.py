@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from cqdd_design.terms import term
+
 
 @dataclass(frozen=True)
 class Label:
@@ -74,7 +76,7 @@ _LABELS = {
     "requirements.pin_material": Label("pin material asked for"),
     "requirements.duty": Label("duty at the output"),
     "requirements.duty_file": Label("duty over time, file"),
-    "reducer.ratio": Label("lobes on the disc", "n"),
+    "reducer.ratio": Label(term("lobe_count").words, "n"),
     "reducer.ring_pitch_radius": Label("ring pitch radius", "R"),
     "reducer.eccentricity": Label("eccentricity", "e"),
     "reducer.ring_pin_diameter": Label("diameter of ring teeth", "2r"),

@@ -13,6 +13,7 @@ from cqdd_design.planetary.settings import RatingSettings
 from cqdd_design.report.ink.numbers import decimals, millimetres, significant, with_unit
 from cqdd_design.report.ink.page import Values
 from cqdd_design.report.judgement.check_rows import printed
+from cqdd_design.terms import term
 
 #: Every number of planets up to this has a row; past it, those that some answer names.
 _ROWS = 8
@@ -78,7 +79,7 @@ def _other_settings(settings: RatingSettings) -> str:
     said = {"shifts", "ring_tip_diameter", "crowned", "accuracy_class", "application_factor"}
     said |= {"mesh_load_table", "dynamic_factor", "face_load_factor", "transverse_load_factor"}
     rows = [(name, value) for name, value, _ in settings.rows() if name not in said]
-    return ", ".join(f"{name.replace('_', ' ')} {value}" for name, value in rows)
+    return ", ".join(f"{term(name).words} {value}" for name, value in rows)
 
 
 def _rows(comparison: PlanetaryComparison) -> tuple[Values, ...]:
@@ -140,7 +141,7 @@ def _summary(comparison: PlanetaryComparison) -> tuple[tuple[str, str], ...]:
         ("centre distance", millimetres(gears.centre_distance, 4)),
         ("material", comparison.material.label),
         ("load factors", printed(gears.settings.label)),
-        ("profile shifts", gears.shifts_text),
+        ("profile shifts", printed(gears.shifts_text)),
         ("tip diameter of the ring", millimetres(gears.ring_tip_diameter, 5)),
         ("other settings", printed(_other_settings(gears.settings))),
         ("planets that fit side by side", f"at most {comparison.planets_that_fit}"),

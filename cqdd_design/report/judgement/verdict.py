@@ -45,7 +45,7 @@ def verdict(judged: Verdict, costs: Sequence[str]) -> Values:
         "rows": tuple(check_row(line) for line in limits if line.status != "pass"),
         "closest": tuple(check_row(line) for line in closest if line.status == "pass"),
         "filled": sizes,
-        "costs": tuple(costs),
+        "costs": tuple(map(printed, costs)),
         "least": margin,
     }
 

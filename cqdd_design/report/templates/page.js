@@ -80,6 +80,10 @@
     });
   }
   reachable();
+  // Of a drawing that is wider than the screen the middle is seen first.
+  each("#drawings figure, #mesh-section figure, #machine figure", function (box) {
+    box.scrollLeft = (box.scrollWidth - box.clientWidth) / 2;
+  });
   follow();
   unfold();
 }());

@@ -143,10 +143,10 @@ def _wide(results: EvaluationResult, found: SetResult) -> list[Figure]:
         words = Words(
             "torque-zoom",
             "Ripple",
-            f"{ZOOM:g} s of episode {zoom.episode}, one panel a model with the label in black.",
+            f"{ZOOM:g} s of episode {zoom.episode}, one panel a model beside the label.",
             f"Episode {zoom.episode}, where the label's ripple is strongest, on one flank of the "
-            "gear if it can be; the label in black. From all curves the same cubic is taken off, "
-            "that through the label, so that bias stays. Chosen by the label alone.",
+            "gear if it can be; a model beside the label. From all curves the same cubic is taken "
+            "off, that through the label, so that bias stays. Chosen by the label alone.",
         )
         figures.append(zoomed(words, zoom.time, zoom.label, curves(zoom.estimates, _PANELS)))
     return figures

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
@@ -40,6 +41,7 @@ class Table:
     note: str = ""
 
 
+_NO_SIGN = re.compile(r"-(?=0(?:\.0+)?(?![\d.]))")
 Item = TypeVar("Item")
 Column = tuple[str, Callable[[Item], str | Cell]]
 """Heading, and what stands there for an item."""
@@ -54,8 +56,9 @@ def _table(
 
 
 def _cell(value: Interval | None, factor: float = 1.0) -> Cell:
-    middle, ends = ends_shown(value, factor)
-    return Cell(middle.replace("-", MINUS), ends.replace("-", MINUS))
+    # Nought has no sign.
+    shown = (_NO_SIGN.sub("", text).replace("-", MINUS) for text in ends_shown(value, factor))
+    return Cell(*shown)
 
 
 def _of(part: Ripple | None, name: str) -> str | Cell:
