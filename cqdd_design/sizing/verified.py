@@ -7,21 +7,21 @@ with few gearboxes first, and choose clearances and reserves; then the whole ver
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
 from cqdd_design.sizing.able import cooler, first_guess
-from cqdd_design.sizing.agreement import FITS, Found, Hunt, Progress, agreed, lightest
 from cqdd_design.sizing.bearable import or_weaker
 from cqdd_design.sizing.costs import costs
-from cqdd_design.sizing.frame import Goal
+from cqdd_design.sizing.frame import Fit, Goal
+from cqdd_design.sizing.hunt import FITS, Found, Hunt, Progress
+from cqdd_design.sizing.kinds import lightest, promising
 from cqdd_design.sizing.looks import (
     HOT,
     NothingWiderError,
     clearance_needed,
-    closer_look,
     learn,
     look,
     read_spread,
@@ -29,15 +29,13 @@ from cqdd_design.sizing.looks import (
 )
 from cqdd_design.sizing.refusals import TRIALS, nothing, refused, unsettled
 from cqdd_design.sizing.result import SizingResult
+from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import BOND, SHAFT, stronger_shaft
-from cqdd_design.sizing.smaller_rings import in_its_ring, in_smaller_rings
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.verdict import Verdict, judge
 
 _CLOSER, _CLOSER_PINS = 0.96, 6
 """Of a pin circle without a rated carrier bearing, and how often one is tried."""
-_SMALLER, _RESERVES = 6, 3
-"""Designs in smaller rings that are looked at, and how often with another reserve."""
 _BY_FRICTION = {"EFFICIENCY", "MOTOR-PEAK", "MOTOR-CONTINUOUS", "THERMAL-RISE"}
 _NEEDLES_BRING = 0.8
 """Least margin of these lines from which needles under the output pins are tried."""
@@ -103,29 +101,31 @@ def size_to_verdict(
     if goal == "efficiency" and hunt.may_roll:
         hunt.pins = False, True
     progress("searching by closed forms, held against the contact equilibrium")
-    found = or_weaker(hunt, lambda: lightest(hunt))
+    found = or_weaker(hunt, lambda: promising(hunt))
     last: Verdict | None = None
+    thorough = False
     for _ in range(TRIALS):
         found = None if found is None else _with_rated_bearing(hunt, found)
         if found is None:
             break
         try:
-            if learn(hunt, found):
+            if found.weak:
+                stronger_shaft(hunt, found, found.weak)
                 found = _again(hunt, found)
                 continue
-            # A smaller ring leaves shaft and joints less room, at which no look was taken: where it
-            # ends in a no, the design it came from is judged.
-            can, step = None, None
-            for tried in (*_in_smaller_rings(hunt, found), found):
-                own = tried.sized.machine
-                can, step = look(hunt, own)
-                if can is None and step is None:
-                    progress(f"judging {tried.sized.design.name} by the whole verdict")
-                    last = judge(own)
-                    if last.meets == "yes":
-                        return _verified(hunt, tried, last, requirements, began)
+            if learn(hunt, found) or not thorough:
+                # The best may do with less clearance than the first; what it lacks will be seen.
+                hunt.fit = hunt.fit if thorough else _closer(hunt.fit)
+                thorough = True
+                found = _again(hunt, found)
+                continue
+            # With elastic discs and ring, of which the looks before knew nothing.
+            can, step = look(hunt, found.sized.machine)
             if can is None and step is None:
-                assert last is not None
+                progress(f"judging {found.sized.design.name} by the whole verdict")
+                last = judge(found.sized.machine)
+                if last.meets == "yes":
+                    return _verified(hunt, found, last, requirements, began)
                 if _turned(hunt, found, last):
                     found = or_weaker(hunt, lambda: lightest(hunt))
                     continue
@@ -142,34 +142,29 @@ def size_to_verdict(
 
 
 def _again(hunt: Hunt, found: Found) -> Found | None:
-    """The search repeated near a design, with what has been learnt since.
+    """The search repeated with what has been learnt since.
 
-    Where that leaves nothing: for less torque if none was stated, else with other materials, discs
-    and pins.
+    Where that leaves nothing, for less torque if none was stated.
     """
-    space = found.space._replace(fit=hunt.fit)
+    return or_weaker(hunt, lambda: lightest(hunt), found)
 
-    def near() -> Found | None:
-        return agreed(hunt, space, None, found.needs)
 
-    if hunt.requirements.derived:
-        return or_weaker(hunt, near, found)
-    return near() or lightest(hunt)
+def _closer(fit: Fit) -> Fit:
+    """The next closer fit of those that are tried; the closest stays."""
+    return FITS[max(FITS.index(fit) - 1, 0)]
 
 
 def _with_rated_bearing(hunt: Hunt, found: Found) -> Found:
     """The design, or one on a pin circle round which a carrier bearing with ratings fits.
 
-    What a bearing that is made to order carries would stay unknown. Near the design first, then
-    with other materials and discs, and for less torque, where none was stated, in the end.
+    What a bearing that is made to order carries would stay unknown.
     """
     wanted, widest = hunt.requirements, hunt.most_pin_circle
     for _ in range(_CLOSER_PINS):
-        if found.rated:
+        if found.rated or found.weak:
             return found
         hunt.most_pin_circle = _CLOSER * found.sized.design.reducer.output_pins.circle_radius
-        near = agreed(hunt, found.space, None, found.needs) or lightest(hunt)
-        near = near or _again(hunt, found)
+        near = _again(hunt, found)
         if near is None:
             break
         found = near
@@ -187,10 +182,10 @@ def _verified(
 
 
 def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:
-    """With alternatives of the last search, whose closed forms are held against the equilibrium."""
-    search, screen = found.search, found.search.found
-    most = search.most_reserve()
-    others = () if most is None else search.alternatives(found.sized, found.point, most)
+    """With alternatives in the same ring with any cam bearing, by closed forms and its needs."""
+    search = Search.of(hunt.frame(found.space._replace(cam=""), found.needs), hunt.tables)
+    screen, most = search.found, search.most_reserve()
+    others = () if most is None else search.alternatives(found.sized, search.at(found.point), most)
     return SizingResult(
         **vars(found.sized),
         alternatives=others,
@@ -200,30 +195,6 @@ def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:
         costs=costs(hunt, found),
         seconds=time.perf_counter() - began,
     )
-
-
-def _in_smaller_rings(hunt: Hunt, found: Found) -> Iterator[Found]:
-    """The best design in a smaller ring of which the looks say as much, if there is one."""
-    extra = dict(hunt.extra)
-    for candidate in in_smaller_rings(hunt, found)[:_SMALLER]:
-        other: Found | None = candidate
-        for _ in range(_RESERVES):
-            if other is None or look(hunt, replace(other.sized.machine, stiff=True)) != (
-                None,
-                None,
-            ):
-                break
-            step = closer_look(hunt, other, other.sized.machine)
-            if step is None:
-                yield other
-                # Not the one after all: what its bearing takes is nothing to the others.
-                hunt.extra = extra
-                return
-            if step > 0.0:
-                break
-            # Another cam bearing takes another reserve, which may fit into the same ring.
-            other = in_its_ring(hunt, other)
-        hunt.extra = dict(extra)
 
 
 def _next_step(hunt: Hunt, found: Found, judged: Verdict) -> float | None:
@@ -239,7 +210,7 @@ def _next_step(hunt: Hunt, found: Found, judged: Verdict) -> float | None:
     if not failing <= {"YIELD", "THERMAL-CLEARANCE", *SHAFT}:
         return None
     if failing & SHAFT:
-        stronger_shaft(hunt, found, judged)
+        stronger_shaft(hunt, found, judged.lines)
         return 0.0
     step = clearance_needed(judged.evidence.temperatures, judged.lines)
     if step > 0.0:
@@ -274,7 +245,7 @@ def _turned(hunt: Hunt, found: Found, judged: Verdict) -> bool:
     if not goals or not failing <= {*_GOALS, "YIELD", *SHAFT} or goals[0] == hunt.goal:
         return False
     if failing & SHAFT:
-        stronger_shaft(hunt, found, judged)
+        stronger_shaft(hunt, found, judged.lines)
     hunt.goal, hunt.fit = goals[0], FITS[0]
     hunt.tried.add(goals[0])
     hunt.say(f"searching with {goals[0]} as the objective, which is asked for")

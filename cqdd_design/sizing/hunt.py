@@ -1,0 +1,313 @@
+"""What one search to the verdict is for, and what it learns on the way."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.catalog.materials import find_material
+from cqdd_design.catalog.motors import Motor
+from cqdd_design.design import Requirements
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.gearbox.checks import allowables
+from cqdd_design.machine import Machine
+from cqdd_design.results import Check
+from cqdd_design.sizing.exact import exact_checks
+from cqdd_design.sizing.frame import USUAL_FIT, Fit, Frame, Goal, search_frame
+from cqdd_design.sizing.points import Points
+from cqdd_design.sizing.result import SizedDesign
+from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.stage_tables import StageTables
+
+Progress = Callable[[str], None]
+
+FITS = (
+    USUAL_FIT,
+    Fit(9e-6, 28e-6),
+    Fit(12e-6, 40e-6),
+    Fit(16e-6, 56e-6),
+    Fit(22e-6, 80e-6),
+    Fit(30e-6, 110e-6),
+)
+"""Clearances that are tried, the closest first."""
+MATERIALS = ("AISI 4140 Q&T 540C", "AISI 52100 / 100Cr6 hardened")
+"""Of discs and ring where none is asked for: the paper's, and a through-hardened bearing steel."""
+NEEDLE_PINS = "AISI 52100 / 100Cr6 hardened"
+"""Of output pins that needles run on, where none is asked for."""
+DISC_COUNTS = (2, 3)
+"""Likewise of discs: those that balance."""
+_LIKELY, _HOPED = 0.93, 0.86
+"""Of a reserve that part errors ask for with other cam bearings: they differ by so much."""
+_SOLVED = 15
+"""Designs that are kept with their equilibria, but for the last."""
+
+
+class Space(NamedTuple):
+    """What a search by closed forms does not vary; any cam bearing where none is named."""
+
+    disc_count: int
+    disc_material: str
+    ring_material: str
+    fit: Fit
+    needles: bool = False
+    ring_limit: float = math.inf
+    cam: str = ""
+
+    @property
+    def anywhere(self) -> Space:
+        """The same discs, materials and pins with any cam bearing in a ring of any size."""
+        return self._replace(ring_limit=math.inf, cam="")
+
+    @property
+    def is_soft(self) -> bool:
+        """Whether a part is of the weakest material that is tried."""
+        return MATERIALS[0] in {self.disc_material, self.ring_material}
+
+    def of(self, requirements: Requirements) -> Requirements:
+        """The requirements with these discs and materials, which are tried and not asked for."""
+        tried = requirements.model_copy(
+            update={
+                "disc_count": self.disc_count,
+                "disc_material": self.disc_material,
+                "ring_material": self.ring_material,
+                "pin_material": self.pin_material(requirements),
+            }
+        )
+        tried.model_fields_set.intersection_update(requirements.model_fields_set)
+        return tried
+
+    def pin_material(self, requirements: Requirements) -> str:
+        """Of the output pins: under needles a hardened one, where none is stated."""
+        if self.needles and "pin_material" not in requirements.model_fields_set:
+            return NEEDLE_PINS
+        return requirements.pin_material
+
+
+@dataclass(frozen=True)
+class Found:
+    """A design of a space that the contact equilibrium bears out.
+
+    Attributes
+    ----------
+    search : Search
+    needs : mapping of str to float
+        What closed forms had to show for it.
+    sized : SizedDesign
+    point : Points
+        On the grid.
+    rated : bool
+        Whether the carrier's bearing has ratings: one that is made to order has none, and what it
+        carries would stay unknown.
+    weak : tuple of Check
+        Lines of the shaft and of the bearings at its ends that it does not meet, if they were
+        asked.
+    """
+
+    space: Space
+    search: Search
+    needs: Mapping[str, float]
+    sized: SizedDesign
+    point: Points
+    rated: bool = True
+    weak: tuple[Check, ...] = ()
+
+    @property
+    def worth(self) -> tuple[bool, float]:
+        """What is better is less."""
+        return not self.rated or bool(self.weak), self.sized.objective.score
+
+    @property
+    def cam(self) -> str:
+        """Designation of its cam bearing."""
+        return self.sized.design.reducer.cam_bearing.designation
+
+    @property
+    def ring(self) -> float:
+        """Outside diameter of its ring, m."""
+        return self.sized.design.reducer.ring.outer_diameter
+
+
+@dataclass
+class Hunt:
+    """One search to the verdict: what is learnt on the way.
+
+    Attributes
+    ----------
+    requirements : Requirements
+        With the torques that are tried where none were stated.
+    extra : dict of str to float
+        Reserve for part errors of designs of any kind, by check.
+    extra_of : dict of tuple to dict
+        Likewise of designs with one cam bearing, by its designation.
+    trusting : bool
+        Whether designs with cam bearings that have not been looked at need much less.
+    lowered : bool
+        Whether the motor did not hold a continuous torque that was tried.
+    fit : Fit
+        The closest that heat and part errors leave.
+    least_bore : float
+        Of the cam bearings that are tried, m: smaller ones leave the shaft's ends no bearing.
+    most_pin_circle : float
+        Radius of the largest pin circle that is tried, m: round wider ones no carrier bearing of
+        the catalogue fits.
+    pins : tuple of bool
+        Whether output pins that are tried are on needles.
+    tried : set of Goal
+        Goals that were taken to meet something that is asked for.
+    yielding : tuple of array, optional
+        Outputs of gearboxes whose discs and ring yield over those of rigid ones, at the continuous
+        and at the peak torque, of the first design that was looked at.
+    solved : list
+        The last designs that were held against the equilibrium, for searches that come back.
+    known : dict of Space to Found
+        The best with each cam bearing as it was found last, in a ring of any size and for the
+        closest fit: where to begin when asked again.
+    answered : dict of Space to tuple
+        What was fixed and asked for part errors of a cam bearing in a space, and the best that was
+        found for it, if anything was.
+    too_weak : dict
+        Peak torque, N m, beyond which shafts are hopeless, by disc count and cam bearing's bore.
+    """
+
+    requirements: Requirements
+    motor: Motor | None
+    ambient: float | None
+    say: Progress
+    tables: StageTables
+    goal: Goal
+    extra: dict[str, float] = field(default_factory=dict)
+    extra_of: dict[str, dict[str, float]] = field(default_factory=dict)
+    trusting: bool = False
+    lowered: bool = False
+    fit: Fit = FITS[0]
+    least_bore: float = 0.0
+    most_pin_circle: float = math.inf
+    pins: tuple[bool, ...] = (False,)
+    tried: set[Goal] = field(default_factory=set)
+    yielding: tuple[NDArray[np.float64], ...] | None = None
+    solved: list[tuple[Machine, tuple[Check, ...]]] = field(default_factory=list)
+    known: dict[Space, Found] = field(default_factory=dict)
+    answered: dict[Space, tuple[object, Mapping[str, float], Found | None]] = field(
+        default_factory=dict
+    )
+    too_weak: dict[tuple[int, float], float] = field(default_factory=dict)
+
+    def held_against(self, machine: Machine) -> tuple[Machine, tuple[Check, ...]]:
+        """The machine of its design that is known, and its load lines by the equilibrium.
+
+        Raises
+        ------
+        ContactError, DesignError
+            When it has none.
+        """
+        for one in self.solved:
+            if one[0].given == machine.given:
+                return one
+        found = machine, exact_checks(machine)
+        self.solved[_SOLVED:] = []
+        self.solved.insert(0, found)
+        return found
+
+    @property
+    def fixed(self) -> tuple[object, ...]:
+        """What is asked of every design but for part errors."""
+        return self.requirements, self.goal, self.most_pin_circle, self.least_bore
+
+    @property
+    def has_extra(self) -> bool:
+        """Whether part errors ask for any reserve."""
+        return bool(self.extra or self.extra_of)
+
+    def extra_for(self, cam: str) -> Mapping[str, float]:
+        """Reserve for part errors of designs with a cam bearing, by check.
+
+        With one that has not been looked at, somewhat less than what every other asks for; where
+        the hunt is trusting, still less.
+        """
+        own = self.extra_of.get(cam)
+        if own is None and self.extra_of:
+            part = _HOPED if self.trusting else _LIKELY
+            every = list(self.extra_of.values())
+            shared = set.intersection(*map(set, every))
+            own = {one: max(part * min(each[one] for each in every), 1.0) for one in shared}
+        return self.extra | (own or {})
+
+    def ask_extra(self, cam: str, asked: Mapping[str, float]) -> None:
+        """Have designs with a cam bearing keep a reserve for part errors, by check."""
+        own = self.extra_of.get(cam, {})
+        self.extra_of[cam] = own | {
+            one: max(own.get(one, 1.0), more) for one, more in asked.items()
+        }
+
+    @property
+    def may_roll(self) -> bool:
+        """Whether needles can run on the output pins that are asked for."""
+        asked = self.requirements
+        return "pin_material" not in asked.model_fields_set or allowables.is_hardened(
+            find_material(asked.pin_material)
+        )
+
+    def frame(
+        self, space: Space, needs: Mapping[str, float], *, smaller_rings: bool = False
+    ) -> Frame:
+        """The frame of a space; needs of part errors count on top.
+
+        With rings of one diameter, unless smaller ones are asked for: held against the equilibrium,
+        those make the loop swing.
+
+        Raises
+        ------
+        InfeasibleError
+            When nothing of the catalogues goes into the space.
+        """
+        asked = space.of(self.requirements)
+        frame = search_frame(
+            asked, self.motor, self.ambient, space.fit, self.goal, needles=space.needles
+        )
+        extra = self.extra_for(space.cam)
+        every = {*needs, *extra}
+        both = {one: needs.get(one, 1.0) * extra.get(one, 1.0) for one in every}
+        bearings = tuple(
+            one
+            for one in frame.bearings
+            if one.bore_diameter >= self.least_bore and space.cam in {"", one.designation}
+        )
+        if not bearings:
+            raise InfeasibleError("no cam bearing that is tried goes into this space.")
+        return replace(
+            frame,
+            needs=both,
+            bearings=bearings,
+            smaller_rings=smaller_rings,
+            ring_limit=space.ring_limit,
+            pin_circle_limit=self.most_pin_circle,
+        )
+
+
+def spaces(
+    requirements: Requirements, fit: Fit, pins: tuple[bool, ...] = (False,)
+) -> Iterator[Space]:
+    """Materials and disc counts that are tried: those that are stated, or all.
+
+    And output pins bare and on needles, as `pins` says.
+    """
+    stated = requirements.model_fields_set
+    counts = (requirements.disc_count,) if "disc_count" in stated else DISC_COUNTS
+    for count in counts:
+        tried = [
+            Space(
+                count,
+                requirements.disc_material if "disc_material" in stated else material,
+                requirements.ring_material if "ring_material" in stated else material,
+                fit,
+                needles,
+            )
+            for needles in pins
+            for material in MATERIALS
+        ]
+        yield from dict.fromkeys(tried)

@@ -1,0 +1,317 @@
+"""The best design with each cam bearing, and so the best of all.
+
+One bearing after another, those first that a screen by closed forms makes lightest. A bearing and a
+ring held fast leave closed forms and equilibrium little to disagree about, so that their loop
+settles; a shaft that is too weak, or whose ends no bearing fits, is told before anything dearer is
+asked.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.sizing.able import PEAK
+from cqdd_design.sizing.agreement import settled, tightest
+from cqdd_design.sizing.choose import by_bearing
+from cqdd_design.sizing.hunt import FITS, Found, Hunt, Space, spaces
+from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.shafts import weak_lines
+
+_SLACK = 1.08
+"""A screen's objective over the best so far beyond which a bearing cannot win: screens are
+coarse."""
+_UNSCREENED = 1.15
+"""Objective over that of a screen without needs, of a bearing that a screen with needs leaves
+out."""
+_STEPS = (0.04, 0.02, 0.01, 0.005)
+"""By how much of its diameter the next ring is smaller or larger: finer ones from the best."""
+_MOST_UP = 4
+"""Rings larger than the screen's that are tried before the largest."""
+_NO_STEP = 1e-3
+"""By how much, as a share, a ring has to differ from those that have been tried."""
+_ROUNDS = 4
+"""Of closed forms against the equilibrium: beside a design that both agree on they agree at once,
+or not at all."""
+_FIRST_ROUNDS = 6
+_MAY_WIN = 1.06
+"""Objective by closed forms over the best so far, up to which a ring may hold a better design."""
+_LEFT_BEHIND = 1.04
+"""Objective over the best so far beyond which no finer steps of the ring make up for it."""
+_HOPELESS = 0.85
+"""Margin of a shaft below which thinner ones are too weak as well."""
+
+
+@dataclass
+class _Kind:
+    """A space with one cam bearing, and what a search in it may lead to.
+
+    Attributes
+    ----------
+    space : Space
+    bore : float
+        Of the bearing, m.
+    objective : float
+        As far as is known.
+    ring : float
+        Outside diameter to begin at, m.
+    """
+
+    space: Space
+    bore: float
+    objective: float
+    ring: float
+
+
+def lightest(hunt: Hunt) -> Found | None:
+    """The best design of all spaces, cam bearings and rings at the hunt's fit; see `ranked`.
+
+    One whose shaft is too weak where there is no other.
+    """
+    best = next(iter(ranked(hunt)), None)
+    if PEAK in hunt.requirements.derived:
+        # Torques that nobody stated are lowered instead.
+        return None if best is None or _is_hopeless(best) else best
+    if best is None or best.weak:
+        best = _hoped_for(hunt) or best
+    return tightest(hunt) if best is None else best
+
+
+def _hoped_for(hunt: Hunt) -> Found | None:
+    """The best design with a cam bearing that has not been looked at.
+
+    What part errors ask for with others may be too much for it: it is asked for less, and has to be
+    looked at.
+    """
+    if not hunt.extra_of:
+        return None
+    hunt.trusting = True
+    every = ranked(hunt)
+    hunt.trusting = False
+    new = [one for one in every if one.cam not in hunt.extra_of and not one.worth[0]]
+    return min(new, key=lambda one: one.worth, default=None)
+
+
+def promising(hunt: Hunt) -> Found | None:
+    """A design that will be near the best: enough to learn from it what heat and errors ask for.
+
+    With the cam bearing that a screen makes lightest of those that are borne out, in the first ring
+    that will do.
+    """
+    best = next(iter(ranked(hunt, thorough=False)), None)
+    if PEAK in hunt.requirements.derived:
+        return None if best is None or _is_hopeless(best) else best
+    return tightest(hunt) if best is None else best
+
+
+def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
+    """The best design with each cam bearing that the equilibrium bears out, the best of all first.
+
+    Parameters
+    ----------
+    thorough : bool
+        Whether every bearing is tried with which a design can be the best, so far as closed forms
+        can tell, in every ring; else the first with which one is sound, in the first ring.
+    """
+    kinds = [
+        kind
+        for space in spaces(hunt.requirements, hunt.fit, hunt.pins)
+        for kind in _kinds(hunt, space, _near(hunt, space))
+    ]
+    found: list[Found] = []
+    best: Found | None = None
+    anew: set[Space] = set()
+    while kinds:
+        # What is of the weaker material asks for more clearance than the best will.
+        kind = min(kinds, key=lambda one: (not thorough and one.space.is_soft, one.objective))
+        kinds.remove(kind)
+        if best is not None and kind.objective > _SLACK * best.worth[1]:
+            break
+        place = kind.space.anywhere
+        if _is_too_weak(hunt, kind):
+            continue
+        known, one = _answered(hunt, kind)
+        if not known:
+            rings = _Rings(hunt, kind, best)
+            one = _in_rings(rings, kind, thorough=thorough)
+            # What lost to another may be the best where that one turns out to be none.
+            if thorough and not rings.gave_up:
+                hunt.answered[kind.space] = hunt.fixed, hunt.extra_for(kind.space.cam), one
+        if one is None:
+            continue
+        found.append(one)
+        if one.weak:
+            if _is_hopeless(one):
+                hunt.too_weak[kind.space.disc_count, kind.bore] = _bears(hunt, one)
+            continue
+        hunt.known[_key(kind.space)] = one
+        if not one.worth[0] and (best is None or one.worth < best.worth):
+            best = one
+            if not thorough:
+                break
+        if place not in anew:
+            anew.add(place)
+            better = {each.space.cam: each for each in _kinds(hunt, place, one)}
+            kinds = [
+                _screened_anew(each, better) if each.space.anywhere == place else each
+                for each in kinds
+            ]
+    return sorted(found, key=lambda one: one.worth)
+
+
+def _is_hopeless(found: Found) -> bool:
+    """Whether a design's shaft is so weak that nothing near by will do."""
+    return any(not line.known or line.margin < _HOPELESS for line in found.weak)
+
+
+def _bears(hunt: Hunt, found: Found) -> float:
+    """Peak torque beyond which a weak design's shaft is hopeless, N m; 0 where none would do."""
+    if not all(line.known for line in found.weak):
+        return 0.0
+    margin = min(line.margin for line in found.weak)
+    return hunt.requirements.peak_torque * margin / _HOPELESS
+
+
+def _is_too_weak(hunt: Hunt, kind: _Kind) -> bool:
+    """Whether a bearing as wide at least was found to leave a hopeless shaft."""
+    peak = hunt.requirements.peak_torque
+    return any(
+        count == kind.space.disc_count and kind.bore <= bore and peak > most
+        for (count, bore), most in hunt.too_weak.items()
+    )
+
+
+def _answered(hunt: Hunt, kind: _Kind) -> tuple[bool, Found | None]:
+    """Whether a kind's best is known from before, and that: what is asked of it has not changed.
+
+    Where nothing was found, nothing will be for more.
+    """
+    fixed, extra, found = hunt.answered.get(kind.space, (None, {}, None))
+    if fixed != hunt.fixed:
+        return False, None
+    now = hunt.extra_for(kind.space.cam)
+    if found is not None:
+        return extra == now, found
+    return all(now.get(one, 1.0) >= less for one, less in extra.items()), None
+
+
+def _key(space: Space) -> Space:
+    """A space whatever its rings and its fit."""
+    return space._replace(ring_limit=math.inf, fit=FITS[0])
+
+
+def _near(hunt: Hunt, space: Space) -> Found | None:
+    """The best that was found before with any cam bearing: of the space, else of any."""
+    own = [one for key, one in hunt.known.items() if key.anywhere == _key(space.anywhere)]
+    return min(own or hunt.known.values(), key=lambda one: one.worth, default=None)
+
+
+def _kinds(hunt: Hunt, space: Space, near: Found | None) -> Iterator[_Kind]:
+    """Every cam bearing with which something survives a screen, with the needs of one near by."""
+    try:
+        frame = hunt.frame(space, {} if near is None else near.needs, smaller_rings=True)
+        search = Search.of(frame, hunt.tables)
+    except InfeasibleError:
+        return
+    for one in by_bearing(frame, search.space, search.found):
+        own = space._replace(cam=one.bearing.designation)
+        known = hunt.known.get(_key(own))
+        yield (
+            _Kind(own, one.bearing.bore_diameter, one.objective, one.ring)
+            if known is None or known.sized.objective.goal != hunt.goal
+            else _Kind(
+                own,
+                one.bearing.bore_diameter,
+                # What is asked may have grown since.
+                max(known.worth[1], one.objective / _SLACK),
+                known.ring,
+            )
+        )
+
+
+def _screened_anew(kind: _Kind, better: Mapping[str, _Kind]) -> _Kind:
+    """What a screen with needs says of a kind."""
+    other = better.get(kind.space.cam)
+    return replace(kind, objective=_UNSCREENED * kind.objective) if other is None else other
+
+
+class _Rings:
+    """Designs of one kind in rings of several diameters.
+
+    Attributes
+    ----------
+    most, least : float
+        Outside diameters, m, between which rings are tried.
+    gave_up : bool
+        Whether something was not looked for because another kind is far better.
+    """
+
+    def __init__(self, hunt: Hunt, kind: _Kind, best: Found | None) -> None:
+        self._hunt, self._space, self._best = hunt, kind.space, best
+        frame = hunt.frame(kind.space, {})
+        self.most, self.least = 2.0 * frame.outer_radius, 2.0 * frame.least_outer_radius
+        self.gave_up = False
+        self._tried: dict[float, Found | None] = {}
+        own = hunt.known.get(_key(kind.space))
+        near = own or _near(hunt, kind.space)
+        self._needs = None if near is None else near.needs
+        self._point = None if own is None else own.point
+
+    def leaves_behind(self, found: Found) -> bool:
+        """Whether a design is so far from the best of other kinds that no finer steps are tried."""
+        behind = self._best is not None and found.worth[1] > _LEFT_BEHIND * self._best.worth[1]
+        self.gave_up |= behind
+        return behind
+
+    def at(self, ring: float) -> Found | None:
+        """The best in a ring of a diameter, m, that the equilibrium bears out."""
+        for other, found in self._tried.items():
+            if abs(ring - other) < _NO_STEP * other:
+                return found
+        rival = None if self._best is None else (False, _MAY_WIN * self._best.worth[1])
+        rounds = _FIRST_ROUNDS if self._point is None else _ROUNDS
+        space = self._space._replace(ring_limit=ring)
+        try:
+            found, beaten = settled(self._hunt, space, rival, self._needs, self._point, rounds)
+        except InfeasibleError:
+            found, beaten = None, False
+        self.gave_up |= beaten
+        if found is not None:
+            self._needs, self._point = found.needs, found.point
+            found = replace(found, weak=weak_lines(found.sized.machine))
+        self._tried[ring] = found
+        return found
+
+
+def _in_rings(rings: _Rings, kind: _Kind, *, thorough: bool) -> Found | None:
+    """The best design of a kind, in whichever ring; the first one where that is weak or enough."""
+    ring = min(max(kind.ring, rings.least), rings.most)
+    found = rings.at(ring)
+    for turn in range(_MOST_UP):
+        if found is not None or ring >= rings.most:
+            break
+        ring = rings.most if turn == _MOST_UP - 1 else min(ring / (1.0 - _STEPS[0]), rings.most)
+        found = rings.at(ring)
+    if found is None or found.weak or not thorough:
+        return found
+    for step in _STEPS:
+        if rings.leaves_behind(found):
+            break
+        smaller = _walked(rings, found, 1.0 - step)
+        found = smaller or _walked(rings, found, 1.0 / (1.0 - step)) or found
+    return found
+
+
+def _walked(rings: _Rings, found: Found, factor: float) -> Found | None:
+    """The last of better and better designs in rings by a factor after one; None where none is."""
+    best: Found | None = None
+    while True:
+        ring = factor * (best or found).ring
+        if not rings.least * (1.0 - _NO_STEP) <= ring <= rings.most * (1.0 + _NO_STEP):
+            return best
+        one = rings.at(min(max(ring, rings.least), rings.most))
+        if one is None or one.worth >= (best or found).worth:
+            return best
+        best = one
