@@ -58,7 +58,8 @@ def or_weaker(
             both = not any(lowered) or turn >= _TURNS // 2
             peak, lasting = (_LESS if both or one else 1.0 for one in lowered)
         # What was lowered for part errors is not raised to what the motor holds.
-        hunt.lowered |= hunt.has_extra and lasting < 1.0
+        if hunt.has_extra and lasting < 1.0:
+            hunt.lowered, hunt.lowered_by = True, ""
         hunt.requirements = weaker(hunt.requirements, peak, lasting)
     return None
 

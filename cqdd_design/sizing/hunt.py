@@ -43,6 +43,8 @@ DISC_COUNTS = (2, 3)
 """Likewise of discs: those that balance."""
 _LIKELY, _HOPED = 0.93, 0.86
 """Of a reserve that part errors ask for with other cam bearings: they differ by so much."""
+_MOST_RISEN = 2
+"""How often a torque is raised that was lowered before: it could go up and down for ever."""
 _SOLVED = 15
 """Designs that are kept with their equilibria, but for the last."""
 
@@ -148,6 +150,10 @@ class Hunt:
         Whether designs with cam bearings that have not been looked at need much less.
     lowered : bool
         Whether the motor did not hold a continuous torque that was tried.
+    lowered_by : str
+        Cam bearing of the design with which it did not; empty where strength was short.
+    risen : int
+        How often the torque was raised again with another cam bearing.
     fit : Fit
         The closest that heat and part errors leave.
     least_bore : float
@@ -184,6 +190,8 @@ class Hunt:
     extra_of: dict[str, dict[str, float]] = field(default_factory=dict)
     trusting: bool = False
     lowered: bool = False
+    lowered_by: str = ""
+    risen: int = 0
     fit: Fit = FITS[0]
     least_bore: float = 0.0
     most_pin_circle: float = math.inf
@@ -217,6 +225,14 @@ class Hunt:
     def fixed(self) -> tuple[object, ...]:
         """What is asked of every design but for part errors."""
         return self.requirements, self.goal, self.most_pin_circle, self.least_bore
+
+    def may_rise(self, cam: str) -> bool:
+        """Whether a continuous torque is raised to what the motor holds in a design.
+
+        Another cam bearing may rub less than the one with which it was too much.
+        """
+        other = self.lowered_by not in {"", cam} and self.risen < _MOST_RISEN
+        return not self.lowered or other
 
     @property
     def has_extra(self) -> bool:

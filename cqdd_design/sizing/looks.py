@@ -66,12 +66,12 @@ def learn(hunt: Hunt, found: Found) -> bool:
             step = closer_look(hunt, found, machine)
             if not step:
                 return turn > 0 or step is not None
-        take(hunt, can, step)
+        take(hunt, can, step, found.cam)
         machine = machine.changed(_asked(hunt))
     return True
 
 
-def take(hunt: Hunt, can: Requirements | None, step: float | None) -> None:
+def take(hunt: Hunt, can: Requirements | None, step: float | None, cam: str = "") -> None:
     """What `look` and `read_spread` say, as what the hunt is for from now on.
 
     Raises
@@ -79,7 +79,10 @@ def take(hunt: Hunt, can: Requirements | None, step: float | None) -> None:
     NothingWiderError
     """
     if can is not None:
-        hunt.lowered |= can.continuous_torque < hunt.requirements.continuous_torque
+        less = can.continuous_torque < hunt.requirements.continuous_torque
+        hunt.risen += hunt.lowered and not less
+        if less:
+            hunt.lowered, hunt.lowered_by = True, cam
         hunt.requirements = can
     elif step:
         least = hunt.fit.hole_clearance + step
@@ -109,7 +112,8 @@ def look(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, float | Non
     """
     if hunt.requirements.derived:
         try:
-            can = what_it_can(machine, hunt.requirements, may_rise=not hunt.lowered)
+            may_rise = hunt.may_rise(machine.design.reducer.cam_bearing.designation)
+            can = what_it_can(machine, hunt.requirements, may_rise=may_rise)
         except ContactError:
             # Beyond this gearbox at some angle or torque that the search did not look at.
             return weaker(hunt.requirements, _LESS, _LESS), None
@@ -126,8 +130,11 @@ def look(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, float | Non
 
 def loosened(hunt: Hunt, found: Found, machine: Machine) -> bool:
     """Whether the bond between shaft and bell gives way, and a stronger shaft is searched for."""
-    line = bell_line(machine, judged_temperatures(machine)[0])
-    if line.status != "fail":
+    warm, lines, _ = judged_temperatures(machine)
+    line = bell_line(machine, warm)
+    # No shaft helps a bond that is hotter than a motor may be.
+    too_hot = any(one.id == HOT and one.known and not one.satisfied for one in lines)
+    if line.status != "fail" or too_hot:
         return False
     stronger_shaft(hunt, found, (line,))
     return True

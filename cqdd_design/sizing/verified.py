@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
-from cqdd_design.sizing.able import cooler, first_guess
-from cqdd_design.sizing.bearable import or_weaker
+from cqdd_design.sizing.able import PEAK, cooler, first_guess
+from cqdd_design.sizing.bearable import JUST, or_weaker, weaker
 from cqdd_design.sizing.costs import costs
 from cqdd_design.sizing.frame import Fit, Goal
 from cqdd_design.sizing.hunt import FITS, Found, Hunt, Progress
@@ -39,6 +39,8 @@ _CLOSER, _CLOSER_PINS = 0.96, 6
 _BY_FRICTION = {"EFFICIENCY", "MOTOR-PEAK", "MOTOR-CONTINUOUS", "THERMAL-RISE"}
 _NEEDLES_BRING = 0.8
 """Least margin of these lines from which needles under the output pins are tried."""
+_LEAST_SHARE = 0.5
+"""Of a peak torque that was not stated, below which no line's shortfall is met by lowering it."""
 _GOALS: Mapping[str, Goal] = {
     "BACKLASH": "backlash",
     "LOST-MOTION": "backlash",
@@ -132,7 +134,7 @@ def size_to_verdict(
                 step = _next_step(hunt, found, last)
                 if step is None:
                     break
-            take(hunt, can, step)
+            take(hunt, can, step, found.cam)
         except NothingWiderError:
             break
         found = _again(hunt, found)
@@ -202,13 +204,18 @@ def _next_step(hunt: Hunt, found: Found, judged: Verdict) -> float | None:
     failing = {line.id for line in judged.lines if line.status in {"fail", "unknown"}}
     less = cooler(hunt.requirements) if failing & {HOT, "MOTOR-CONTINUOUS"} else None
     if less is not None:
-        hunt.requirements, hunt.lowered = less, True
+        hunt.requirements, hunt.lowered, hunt.lowered_by = less, True, found.cam
         # What is cooler is bonded better.
         failing -= {HOT, "MOTOR-CONTINUOUS", BOND}
         if not failing:
             return 0.0
-    if not failing <= {"YIELD", "THERMAL-CLEARANCE", *SHAFT}:
-        return None
+    others = failing - {"YIELD", "THERMAL-CLEARANCE", *SHAFT}
+    if others:
+        share = _bearing_all(hunt, judged, others)
+        if share is None:
+            return None
+        hunt.requirements = weaker(hunt.requirements, share, 1.0)
+        return 0.0
     if failing & SHAFT:
         stronger_shaft(hunt, found, judged.lines)
         return 0.0
@@ -217,6 +224,18 @@ def _next_step(hunt: Hunt, found: Found, judged: Verdict) -> float | None:
         return step
     machine, drawn = judged.evidence.machine, judged.evidence.drawn
     return None if drawn is None else read_spread(hunt, machine, drawn, judged.lines)
+
+
+def _bearing_all(hunt: Hunt, judged: Verdict, short: set[str]) -> float | None:
+    """Share of a peak torque that was not stated which some lines bear; None where that helps none.
+
+    Of lines in proportion to it; others that do not come right by it end the trials.
+    """
+    lines = [line for line in judged.lines if line.id in short]
+    if PEAK not in hunt.requirements.derived or not all(line.known for line in lines):
+        return None
+    share = JUST * min(line.margin for line in lines)
+    return share if _LEAST_SHARE <= share < 1.0 else None
 
 
 def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
