@@ -157,6 +157,8 @@ def settled(
     known: Mapping[str, float] | None,
     near: Points | None,
     rounds: int = _ROUNDS,
+    *,
+    beside: bool = False,
 ) -> tuple[Found | None, bool]:
     """The loop of `agreed`, and whether it was left to a rival that is lighter.
 
@@ -167,10 +169,12 @@ def settled(
         leads to nothing.
     rounds : int
         At most.
+    beside : bool
+        Whether nothing is looked for that is not near `near`.
     """
     search = Search.of(hunt.frame(space, {}), hunt.tables)
-    most = search.most_reserve() if near is None else near
-    strongest = near is None
+    most = search.most_reserve() if near is None else search.evaluator.placed(near)
+    strongest = near is None or beside
     if most is None:
         return None, False
     needs: dict[str, float] = dict(known or {})

@@ -50,7 +50,10 @@ _SOLVED = 15
 
 
 class Space(NamedTuple):
-    """What a search by closed forms does not vary; any cam bearing where none is named."""
+    """What a search by closed forms does not vary; any cam bearing where none is named.
+
+    All rings have the largest diameter within `ring_limit`, m; where `free`, they may be smaller.
+    """
 
     disc_count: int
     disc_material: str
@@ -59,11 +62,12 @@ class Space(NamedTuple):
     needles: bool = False
     ring_limit: float = math.inf
     cam: str = ""
+    free: bool = False
 
     @property
     def anywhere(self) -> Space:
         """The same discs, materials and pins with any cam bearing in a ring of any size."""
-        return self._replace(ring_limit=math.inf, cam="")
+        return self._replace(ring_limit=math.inf, cam="", free=False)
 
     @property
     def is_soft(self) -> bool:
@@ -134,6 +138,26 @@ class Found:
         return self.sized.design.reducer.ring.outer_diameter
 
 
+class Answer(NamedTuple):
+    """What was found with a cam bearing in a space, if anything, for what was asked then.
+
+    Attributes
+    ----------
+    fixed : tuple
+        `Hunt.fixed`.
+    extra : mapping of str to float
+        `Hunt.extra_for` the bearing.
+    found : Found or None
+    fine : bool
+        Whether rings of nearly the same size were tried too.
+    """
+
+    fixed: tuple[object, ...]
+    extra: Mapping[str, float]
+    found: Found | None
+    fine: bool
+
+
 @dataclass
 class Hunt:
     """One search to the verdict: what is learnt on the way.
@@ -173,9 +197,9 @@ class Hunt:
     known : dict of Space to Found
         The best with each cam bearing as it was found last, in a ring of any size and for the
         closest fit: where to begin when asked again.
-    answered : dict of Space to tuple
-        What was fixed and asked for part errors of a cam bearing in a space, and the best that was
-        found for it, if anything was.
+    answered : dict of Space to Answer
+    fine : bool
+        Whether rings of nearly the same size are tried too.
     too_weak : dict
         Peak torque, N m, beyond which shafts are hopeless, by disc count and cam bearing's bore.
     """
@@ -200,9 +224,8 @@ class Hunt:
     yielding: tuple[NDArray[np.float64], ...] | None = None
     solved: list[tuple[Machine, tuple[Check, ...]]] = field(default_factory=list)
     known: dict[Space, Found] = field(default_factory=dict)
-    answered: dict[Space, tuple[object, Mapping[str, float], Found | None]] = field(
-        default_factory=dict
-    )
+    answered: dict[Space, Answer] = field(default_factory=dict)
+    fine: bool = False
     too_weak: dict[tuple[int, float], float] = field(default_factory=dict)
 
     def held_against(self, machine: Machine) -> tuple[Machine, tuple[Check, ...]]:
@@ -268,13 +291,8 @@ class Hunt:
             find_material(asked.pin_material)
         )
 
-    def frame(
-        self, space: Space, needs: Mapping[str, float], *, smaller_rings: bool = False
-    ) -> Frame:
+    def frame(self, space: Space, needs: Mapping[str, float]) -> Frame:
         """The frame of a space; needs of part errors count on top.
-
-        With rings of one diameter, unless smaller ones are asked for: held against the equilibrium,
-        those make the loop swing.
 
         Raises
         ------
@@ -299,7 +317,7 @@ class Hunt:
             frame,
             needs=both,
             bearings=bearings,
-            smaller_rings=smaller_rings,
+            smaller_rings=space.free,
             ring_limit=space.ring_limit,
             pin_circle_limit=self.most_pin_circle,
         )

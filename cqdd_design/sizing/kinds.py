@@ -16,9 +16,9 @@ from cqdd_design.errors import InfeasibleError
 from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.agreement import settled, tightest
 from cqdd_design.sizing.choose import by_bearing
-from cqdd_design.sizing.hunt import FITS, Found, Hunt, Space, spaces
+from cqdd_design.sizing.hunt import FITS, Answer, Found, Hunt, Space, spaces
 from cqdd_design.sizing.search import Search
-from cqdd_design.sizing.shafts import weak_lines
+from cqdd_design.sizing.shafts import THICKNESS, weak_lines
 
 _SLACK = 1.08
 """A screen's objective over the best so far beyond which a bearing cannot win: screens are
@@ -26,20 +26,20 @@ coarse."""
 _UNSCREENED = 1.15
 """Objective over that of a screen without needs, of a bearing that a screen with needs leaves
 out."""
-_STEPS = (0.04, 0.02, 0.01, 0.005)
+_STEPS = (0.01, 0.005)
 """By how much of its diameter the next ring is smaller or larger: finer ones from the best."""
-_MOST_UP = 4
-"""Rings larger than the screen's that are tried before the largest."""
+_ROOMIER = 1.004
+"""Of a ring in which closed forms and equilibrium agreed, where a ring held fast is too tight."""
 _NO_STEP = 1e-3
 """By how much, as a share, a ring has to differ from those that have been tried."""
 _ROUNDS = 4
 """Of closed forms against the equilibrium: beside a design that both agree on they agree at once,
 or not at all."""
-_FIRST_ROUNDS = 6
+_FIRST_ROUNDS = 8
 _MAY_WIN = 1.06
 """Objective by closed forms over the best so far, up to which a ring may hold a better design."""
-_LEFT_BEHIND = 1.04
-"""Objective over the best so far beyond which no finer steps of the ring make up for it."""
+_FINE = 1.025
+"""Objective over the best so far up to which finer steps of the ring may make up for it."""
 _HOPELESS = 0.85
 """Margin of a shaft below which thinner ones are too weak as well."""
 
@@ -113,7 +113,8 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
     ----------
     thorough : bool
         Whether every bearing is tried with which a design can be the best, so far as closed forms
-        can tell, in every ring; else the first with which one is sound, in the first ring.
+        can tell; else the first with which one is sound. Finer rings are tried round the best where
+        the hunt is fine.
     """
     kinds = [
         kind
@@ -132,18 +133,18 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
         place = kind.space.anywhere
         if _is_too_weak(hunt, kind):
             continue
-        known, one = _answered(hunt, kind)
+        known, one = _answered(hunt, kind.space)
         if not known:
-            rings = _Rings(hunt, kind, best)
-            one = _in_rings(rings, kind, thorough=thorough)
+            rings = _Rings(hunt, kind.space, best)
+            one = rings.any()
             # What lost to another may be the best where that one turns out to be none.
             if thorough and not rings.gave_up:
-                hunt.answered[kind.space] = hunt.fixed, hunt.extra_for(kind.space.cam), one
+                _note(hunt, kind.space, one, fine=False)
         if one is None:
             continue
         found.append(one)
         if one.weak:
-            if _is_hopeless(one):
+            if _is_hopeless(one) and {line.id for line in one.weak} <= THICKNESS:
                 hunt.too_weak[kind.space.disc_count, kind.bore] = _bears(hunt, one)
             continue
         hunt.known[_key(kind.space)] = one
@@ -158,6 +159,9 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
                 _screened_anew(each, better) if each.space.anywhere == place else each
                 for each in kinds
             ]
+    if thorough and hunt.fine and best is not None:
+        most = _FINE * best.worth[1]
+        found = [one if one.weak or one.worth[1] > most else _finer(hunt, one) for one in found]
     return sorted(found, key=lambda one: one.worth)
 
 
@@ -183,23 +187,27 @@ def _is_too_weak(hunt: Hunt, kind: _Kind) -> bool:
     )
 
 
-def _answered(hunt: Hunt, kind: _Kind) -> tuple[bool, Found | None]:
+def _answered(hunt: Hunt, space: Space) -> tuple[bool, Found | None]:
     """Whether a kind's best is known from before, and that: what is asked of it has not changed.
 
     Where nothing was found, nothing will be for more.
     """
-    fixed, extra, found = hunt.answered.get(kind.space, (None, {}, None))
-    if fixed != hunt.fixed:
+    known = hunt.answered.get(space)
+    if known is None or known.fixed != hunt.fixed:
         return False, None
-    now = hunt.extra_for(kind.space.cam)
-    if found is not None:
-        return extra == now, found
-    return all(now.get(one, 1.0) >= less for one, less in extra.items()), None
+    now = hunt.extra_for(space.cam)
+    if known.found is not None:
+        return known.extra == now, known.found
+    return all(now.get(one, 1.0) >= less for one, less in known.extra.items()), None
+
+
+def _note(hunt: Hunt, space: Space, found: Found | None, *, fine: bool) -> None:
+    hunt.answered[space] = Answer(hunt.fixed, hunt.extra_for(space.cam), found, fine)
 
 
 def _key(space: Space) -> Space:
     """A space whatever its rings and its fit."""
-    return space._replace(ring_limit=math.inf, fit=FITS[0])
+    return space._replace(ring_limit=math.inf, fit=FITS[0], free=False)
 
 
 def _near(hunt: Hunt, space: Space) -> Found | None:
@@ -211,7 +219,7 @@ def _near(hunt: Hunt, space: Space) -> Found | None:
 def _kinds(hunt: Hunt, space: Space, near: Found | None) -> Iterator[_Kind]:
     """Every cam bearing with which something survives a screen, with the needs of one near by."""
     try:
-        frame = hunt.frame(space, {} if near is None else near.needs, smaller_rings=True)
+        frame = hunt.frame(space._replace(free=True), {} if near is None else near.needs)
         search = Search.of(frame, hunt.tables)
     except InfeasibleError:
         return
@@ -242,76 +250,77 @@ class _Rings:
 
     Attributes
     ----------
-    most, least : float
-        Outside diameters, m, between which rings are tried.
     gave_up : bool
         Whether something was not looked for because another kind is far better.
     """
 
-    def __init__(self, hunt: Hunt, kind: _Kind, best: Found | None) -> None:
-        self._hunt, self._space, self._best = hunt, kind.space, best
-        frame = hunt.frame(kind.space, {})
-        self.most, self.least = 2.0 * frame.outer_radius, 2.0 * frame.least_outer_radius
+    def __init__(self, hunt: Hunt, space: Space, best: Found | None) -> None:
+        self._hunt, self._space = hunt, space
+        self._rival = None if best is None else (False, _MAY_WIN * best.worth[1])
+        frame = hunt.frame(space, {})
+        self._most, self._least = 2.0 * frame.outer_radius, 2.0 * frame.least_outer_radius
         self.gave_up = False
         self._tried: dict[float, Found | None] = {}
-        own = hunt.known.get(_key(kind.space))
-        near = own or _near(hunt, kind.space)
+        own = hunt.known.get(_key(space))
+        near = own or _near(hunt, space)
         self._needs = None if near is None else near.needs
         self._point = None if own is None else own.point
 
-    def leaves_behind(self, found: Found) -> bool:
-        """Whether a design is so far from the best of other kinds that no finer steps are tried."""
-        behind = self._best is not None and found.worth[1] > _LEFT_BEHIND * self._best.worth[1]
-        self.gave_up |= behind
-        return behind
+    def any(self) -> Found | None:
+        """The best in a ring of any size, near enough, else in the largest."""
+        found = self._settled(self._space._replace(free=True), _FIRST_ROUNDS)
+        if found is None:
+            return None if self.gave_up else self.at(self._most)
+        return self.at(found.ring) or self.at(min(_ROOMIER * found.ring, self._most))
 
     def at(self, ring: float) -> Found | None:
         """The best in a ring of a diameter, m, that the equilibrium bears out."""
         for other, found in self._tried.items():
             if abs(ring - other) < _NO_STEP * other:
                 return found
-        rival = None if self._best is None else (False, _MAY_WIN * self._best.worth[1])
         rounds = _FIRST_ROUNDS if self._point is None else _ROUNDS
-        space = self._space._replace(ring_limit=ring)
-        try:
-            found, beaten = settled(self._hunt, space, rival, self._needs, self._point, rounds)
-        except InfeasibleError:
-            found, beaten = None, False
-        self.gave_up |= beaten
+        found = self._settled(self._space._replace(ring_limit=ring), rounds)
         if found is not None:
-            self._needs, self._point = found.needs, found.point
             found = replace(found, weak=weak_lines(found.sized.machine))
         self._tried[ring] = found
         return found
 
+    def walked(self, found: Found, factor: float) -> Found | None:
+        """The last of better and better designs in rings by a factor after one, if there is one."""
+        best: Found | None = None
+        while True:
+            ring = factor * (best or found).ring
+            if not self._least * (1.0 - _NO_STEP) <= ring <= self._most * (1.0 + _NO_STEP):
+                return best
+            one = self.at(min(max(ring, self._least), self._most))
+            if one is None or one.weak or one.worth >= (best or found).worth:
+                return best
+            best = one
 
-def _in_rings(rings: _Rings, kind: _Kind, *, thorough: bool) -> Found | None:
-    """The best design of a kind, in whichever ring; the first one where that is weak or enough."""
-    ring = min(max(kind.ring, rings.least), rings.most)
-    found = rings.at(ring)
-    for turn in range(_MOST_UP):
-        if found is not None or ring >= rings.most:
-            break
-        ring = rings.most if turn == _MOST_UP - 1 else min(ring / (1.0 - _STEPS[0]), rings.most)
-        found = rings.at(ring)
-    if found is None or found.weak or not thorough:
+    def _settled(self, space: Space, rounds: int) -> Found | None:
+        beside = self._point is not None and not space.free
+        try:
+            found, beaten = settled(
+                self._hunt, space, self._rival, self._needs, self._point, rounds, beside=beside
+            )
+        except InfeasibleError:
+            return None
+        self.gave_up |= beaten
+        if found is not None:
+            self._needs, self._point = found.needs, found.point
         return found
+
+
+def _finer(hunt: Hunt, found: Found) -> Found:
+    """The best in rings round that of a design, in finer and finer steps."""
+    space = found.space._replace(ring_limit=math.inf)
+    known = hunt.answered.get(space)
+    if known is not None and known.fine and known.found is found:
+        return found
+    rings = _Rings(hunt, space, None)
     for step in _STEPS:
-        if rings.leaves_behind(found):
-            break
-        smaller = _walked(rings, found, 1.0 - step)
-        found = smaller or _walked(rings, found, 1.0 / (1.0 - step)) or found
+        smaller = rings.walked(found, 1.0 - step)
+        found = smaller or rings.walked(found, 1.0 / (1.0 - step)) or found
+    hunt.known[_key(space)] = found
+    _note(hunt, space, found, fine=True)
     return found
-
-
-def _walked(rings: _Rings, found: Found, factor: float) -> Found | None:
-    """The last of better and better designs in rings by a factor after one; None where none is."""
-    best: Found | None = None
-    while True:
-        ring = factor * (best or found).ring
-        if not rings.least * (1.0 - _NO_STEP) <= ring <= rings.most * (1.0 + _NO_STEP):
-            return best
-        one = rings.at(min(max(ring, rings.least), rings.most))
-        if one is None or one.worth >= (best or found).worth:
-            return best
-        best = one

@@ -121,6 +121,10 @@ def size_to_verdict(
                 thorough = True
                 found = _again(hunt, found)
                 continue
+            if not hunt.fine:
+                hunt.fine = True
+                found = _again(hunt, found)
+                continue
             # With elastic discs and ring, of which the looks before knew nothing.
             can, step = look(hunt, found.sized.machine)
             if can is None and step is None:
