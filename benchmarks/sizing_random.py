@@ -63,6 +63,7 @@ def by_search(requirements: Requirements) -> tuple[Found | None, float]:
     """What the search finds, and the seconds that it took."""
     began = time.process_time()
     hunt = _hunt(requirements)
+    hunt.fine = True
     found = lightest(hunt)
     return None if found is None or found.weak else found, time.process_time() - began
 
@@ -77,7 +78,7 @@ def by_chance(requirements: Requirements, seconds: float, seed: int) -> tuple[fl
     hunt, draw = _hunt(requirements), np.random.default_rng(seed)
     tried = []
     for space in spaces(requirements, hunt.fit):
-        frame = hunt.frame(space, {}, smaller_rings=True)
+        frame = hunt.frame(space._replace(free=True), {})
         tried.append(Search.of(frame, hunt.tables))
     best, seen, end = np.inf, 0, time.process_time() + seconds
     place: tuple[Search, Points] | None = None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -10,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.catalog.materials import find_material
+from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
@@ -328,20 +330,41 @@ def spaces(
 ) -> Iterator[Space]:
     """Materials and disc counts that are tried: those that are stated, or all.
 
-    And output pins bare and on needles, as `pins` says.
+    And output pins bare and on needles, as `pins` says. Of the materials, those alone than which no
+    other is both stronger and lighter: nothing is the better for them by any goal.
     """
     stated = requirements.model_fields_set
     counts = (requirements.disc_count,) if "disc_count" in stated else DISC_COUNTS
-    for count in counts:
-        tried = [
-            Space(
-                count,
-                requirements.disc_material if "disc_material" in stated else material,
-                requirements.ring_material if "ring_material" in stated else material,
-                fit,
-                needles,
-            )
-            for needles in pins
-            for material in MATERIALS
-        ]
-        yield from dict.fromkeys(tried)
+    for count, needles, material in itertools.product(counts, pins, _undominated(MATERIALS)):
+        yield Space(
+            count,
+            requirements.disc_material if "disc_material" in stated else material,
+            requirements.ring_material if "ring_material" in stated else material,
+            fit,
+            needles,
+        )
+
+
+@functools.cache
+def _undominated(names: tuple[str, ...]) -> tuple[str, ...]:
+    """Materials than which no other of them is both stronger and lighter."""
+    tried = {name: _merits(find_material(name)) for name in names}
+    return tuple(
+        name
+        for name, own in tried.items()
+        if not any(
+            other != own and all(theirs >= mine for theirs, mine in zip(other, own, strict=True))
+            for other in tried.values()
+        )
+    )
+
+
+def _merits(material: Material) -> tuple[float, ...]:
+    """What of a material decides here: more is better."""
+    return (
+        material.yield_strength or 0.0,
+        material.ultimate_strength or 0.0,
+        allowables.contact_limit_static(material).value,
+        allowables.contact_limit_fatigue(material).value,
+        -material.density,
+    )

@@ -144,8 +144,7 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
             continue
         found.append(one)
         if one.weak:
-            if _is_hopeless(one) and {line.id for line in one.weak} <= THICKNESS:
-                hunt.too_weak[kind.space.disc_count, kind.bore] = _bears(hunt, one)
+            hunt.too_weak[kind.space.disc_count, kind.bore] = _bears(hunt, one)
             continue
         hunt.known[_key(kind.space)] = one
         if not one.worth[0] and (best is None or one.worth < best.worth):
@@ -171,15 +170,19 @@ def _is_hopeless(found: Found) -> bool:
 
 
 def _bears(hunt: Hunt, found: Found) -> float:
-    """Peak torque beyond which a weak design's shaft is hopeless, N m; 0 where none would do."""
-    if not all(line.known for line in found.weak):
+    """Peak torque beyond which a weak design's shaft is too thin by far, N m.
+
+    Of its bearings nothing is said: beside a wide bore there may be room for thin ones alone.
+    """
+    thin = [line for line in found.weak if line.id in THICKNESS]
+    if not all(line.known for line in thin):
         return 0.0
-    margin = min(line.margin for line in found.weak)
+    margin = min((line.margin for line in thin), default=math.inf)
     return hunt.requirements.peak_torque * margin / _HOPELESS
 
 
 def _is_too_weak(hunt: Hunt, kind: _Kind) -> bool:
-    """Whether a bearing as wide at least was found to leave a hopeless shaft."""
+    """Whether a bearing as wide at least was found to leave far too thin a shaft."""
     peak = hunt.requirements.peak_torque
     return any(
         count == kind.space.disc_count and kind.bore <= bore and peak > most
@@ -270,7 +273,8 @@ class _Rings:
         """The best in a ring of any size, near enough, else in the largest."""
         found = self._settled(self._space._replace(free=True), _FIRST_ROUNDS)
         if found is None:
-            return None if self.gave_up else self.at(self._most)
+            # Where space is so tight that hardly a point is left, a ring held fast finds it.
+            return None if self.gave_up or self._rival is not None else self.at(self._most)
         return self.at(found.ring) or self.at(min(_ROOMIER * found.ring, self._most))
 
     def at(self, ring: float) -> Found | None:

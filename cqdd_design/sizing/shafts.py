@@ -23,7 +23,7 @@ AT_PEAK = frozenset({"SHAFT-STRENGTH", "SUPPORT-STATIC"})
 SHAFT = AT_PEAK | {"SHAFT-FATIGUE", "SUPPORT-LIFE", BOND}
 """Lines that a cam bearing with a wider bore helps."""
 THICKNESS = frozenset({"SHAFT-STRENGTH", "SHAFT-FATIGUE"})
-"""Lines that every thinner shaft does worse. Of support bearings a wide bore may leave thin ones."""
+"""Lines that a thinner shaft does worse."""
 _SHORT = frozenset({"fail", "unknown"})
 _WIDER, _SAME = 1.001, 0.999
 """Of a bore: the least of the next wider one, and one that is no narrower."""
