@@ -184,6 +184,9 @@ class Hunt:
         The closest that heat and part errors leave.
     least_bore : float
         Of the cam bearings that are tried, m: smaller ones leave the shaft's ends no bearing.
+    least_ring : float
+        Outside diameter of the smallest ring that is tried, m: smaller ones turn too far within
+        their clearances.
     most_pin_circle : float
         Radius of the largest pin circle that is tried, m: round wider ones no carrier bearing of
         the catalogue fits.
@@ -220,6 +223,7 @@ class Hunt:
     risen: int = 0
     fit: Fit = FITS[0]
     least_bore: float = 0.0
+    least_ring: float = 0.0
     most_pin_circle: float = math.inf
     pins: tuple[bool, ...] = (False,)
     tried: set[Goal] = field(default_factory=set)
@@ -249,7 +253,8 @@ class Hunt:
     @property
     def fixed(self) -> tuple[object, ...]:
         """What is asked of every design but for part errors."""
-        return self.requirements, self.goal, self.most_pin_circle, self.least_bore
+        limits = self.most_pin_circle, self.least_bore, self.least_ring
+        return self.requirements, self.goal, *limits
 
     def may_rise(self, cam: str) -> bool:
         """Whether a continuous torque is raised to what the motor holds in a design.
@@ -321,6 +326,7 @@ class Hunt:
             bearings=bearings,
             smaller_rings=space.free,
             ring_limit=space.ring_limit,
+            ring_least=self.least_ring,
             pin_circle_limit=self.most_pin_circle,
         )
 

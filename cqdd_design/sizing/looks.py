@@ -6,6 +6,7 @@ more reserve.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import replace
 
@@ -22,7 +23,7 @@ from cqdd_design.sizing.able import cooler, what_it_can
 from cqdd_design.sizing.bearable import weaker
 from cqdd_design.sizing.exact import exact_checks
 from cqdd_design.sizing.finish import torque_reserve
-from cqdd_design.sizing.hunt import FITS, Found, Hunt
+from cqdd_design.sizing.hunt import FITS, Found, Hunt, spaces
 from cqdd_design.sizing.shafts import stronger_shaft
 from cqdd_design.verdict.drawn import Allowed, Drawn, drawn_gearboxes, good_gearboxes, used
 from cqdd_design.verdict.joint_lines import bell_line
@@ -37,6 +38,8 @@ _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
 
 
+_WIDEST = 0.995
+"""Share of the largest ring beyond which no wider one is asked for."""
 _LOOKS = 12
 """At one design before the search is repeated."""
 
@@ -190,7 +193,7 @@ def read_spread(
 ) -> float | None:
     """More clearance of the holes that part errors ask for, m; None where they ask for nothing.
 
-    0 where they ask for reserve instead, which is noted.
+    0 where they ask for reserve or a wider ring instead, which is noted.
     """
     good = good_gearboxes(machine, drawn, lines)
     if good is None:
@@ -225,9 +228,28 @@ def read_spread(
                 for check, ratio in over.items()
             },
         )
-    if loose:
-        return 0.0 if short else None
-    return 0.0 if short else _LEAST_STEP
+    slack = fails.get("backlash", 0) > fails["bind"] + jams
+    wider = slack and _asks_for_a_wider_ring(hunt, machine, drawn, quantile)
+    if short or wider:
+        return 0.0
+    return None if loose else _LEAST_STEP
+
+
+def _asks_for_a_wider_ring(hunt: Hunt, machine: Machine, drawn: Drawn, quantile: float) -> bool:
+    """Whether a wider ring may turn less within the same clearances; if so it is noted.
+
+    The angle is that of a clearance at the ring's radius.
+    """
+    asked, own = machine.design.requirements, machine.design.reducer.ring.outer_diameter
+    assert asked.backlash is not None
+    found = float(np.quantile(drawn.continuous.columns["backlash_arcmin"], quantile))
+    ring = _SPARE * own * math.radians(found / 60.0) / asked.backlash
+    space = next(spaces(hunt.requirements, hunt.fit))
+    most = 2.0 * hunt.frame(space, {}).outer_radius
+    if own > _WIDEST * most:
+        return False
+    hunt.least_ring = min(max(ring, own), most)
+    return True
 
 
 def _reserve_for(ratio: float, line: Check, design: Design) -> float:
