@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
@@ -43,7 +44,7 @@ NEEDLE_PINS = "AISI 52100 / 100Cr6 hardened"
 """Of output pins that needles run on, where none is asked for."""
 DISC_COUNTS = (2, 3)
 """Likewise of discs: those that balance."""
-_LIKELY, _HOPED = 0.93, 0.86
+_LIKELY, _HOPED = 0.95, 0.86
 """Of a reserve that part errors ask for with other cam bearings: they differ by so much."""
 _MOST_RISEN = 2
 """How often a torque is raised that was lowered before: it could go up and down for ever."""
@@ -196,7 +197,9 @@ class Hunt:
         Goals that were taken to meet something that is asked for.
     yielding : tuple of array, optional
         Outputs of gearboxes whose discs and ring yield over those of rigid ones, at the continuous
-        and at the peak torque, of the first design that was looked at.
+        and at the peak torque, of the design that was last judged, or the first that was looked at.
+    rigid : tuple, optional
+        The machine that was looked at last, and outputs of its gearboxes while nothing yields.
     solved : list
         The last designs that were held against the equilibrium, for searches that come back.
     known : dict of Space to Found
@@ -228,6 +231,7 @@ class Hunt:
     pins: tuple[bool, ...] = (False,)
     tried: set[Goal] = field(default_factory=set)
     yielding: tuple[NDArray[np.float64], ...] | None = None
+    rigid: tuple[Machine, tuple[NDArray[np.float64], ...]] | None = None
     solved: list[tuple[Machine, tuple[Check, ...]]] = field(default_factory=list)
     known: dict[Space, Found] = field(default_factory=dict)
     answered: dict[Space, Answer] = field(default_factory=dict)
@@ -272,16 +276,27 @@ class Hunt:
     def extra_for(self, cam: str) -> Mapping[str, float]:
         """Reserve for part errors of designs with a cam bearing, by check.
 
-        With one that has not been looked at, somewhat less than what every other asks for; where
-        the hunt is trusting, still less.
+        With one that has not been looked at, somewhat less than what the known one asks for whose
+        rating is closest, and where none is named, than what every one does; where the hunt is
+        trusting, still less.
         """
         own = self.extra_of.get(cam)
         if own is None and self.extra_of:
             part = _HOPED if self.trusting else _LIKELY
-            every = list(self.extra_of.values())
+            known = [self._closest(cam)] if cam else list(self.extra_of)
+            every = [self.extra_of[one] for one in known]
             shared = set.intersection(*map(set, every))
             own = {one: max(part * min(each[one] for each in every), 1.0) for one in shared}
         return self.extra | (own or {})
+
+    def _closest(self, cam: str) -> str:
+        """Of the cam bearings that have been looked at, the one that is rated most alike."""
+        rating = find_bearing(cam).static_rating or 1.0
+
+        def ratio(other: str) -> float:
+            return abs(math.log((find_bearing(other).static_rating or 1.0) / rating))
+
+        return min(self.extra_of, key=ratio)
 
     def ask_extra(self, cam: str, asked: Mapping[str, float]) -> None:
         """Have designs with a cam bearing keep a reserve for part errors, by check."""

@@ -154,24 +154,32 @@ def closer_look(hunt: Hunt, found: Found, machine: Machine) -> float | None:
 
 
 def _drawn(hunt: Hunt, machine: Machine) -> Drawn:
-    """A few gearboxes, whose discs and ring yield as they did at the first design of the hunt.
+    """A few gearboxes, whose discs and ring yield as they did at another design of the hunt.
 
     The finite elements of a new geometry cost more than all else here, and what yielding changes,
     as a share, is alike for designs of one hunt. The verdict has those of its own.
     """
     rigid = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False, rigid=True)
+    hunt.rigid = machine, tuple(_high(one) for one in rigid)
     if hunt.yielding is None:
         found = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False)
-        hunt.yielding = tuple(
-            _high(one) / np.where(other := _high(two), other, 1.0)
-            for one, two in zip(found, rigid, strict=True)
-        )
+        calibrate(hunt, machine, found)
         return found
     return Drawn(
         *(
             replace(one, values=one.values * share)
             for one, share in zip(rigid, hunt.yielding, strict=True)
         )
+    )
+
+
+def calibrate(hunt: Hunt, machine: Machine, drawn: Drawn | None) -> None:
+    """Note what yielding discs and ring change, where a machine was looked at without them too."""
+    if drawn is None or hunt.rigid is None or hunt.rigid[0].given != machine.given:
+        return
+    hunt.yielding = tuple(
+        _high(one) / np.where(other, other, 1.0)
+        for one, other in zip(drawn, hunt.rigid[1], strict=True)
     )
 
 

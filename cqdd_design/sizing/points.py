@@ -122,7 +122,8 @@ class Evaluator:
         Their steps alone are right; the largest pitch circle where the same does not go in.
         """
         steps = points.steps.copy()
-        throw, tooth = steps[:, 0] * self.grid.throw, steps[:, 1] * self.grid.tooth
+        sizes = steps.astype(np.float64)
+        throw, tooth = sizes[:, 0] * self.grid.throw, sizes[:, 1] * self.grid.tooth
         room = shapes.largest_pitch_for_wall(self.frame, throw, tooth)
         spare = np.floor(room / RADIUS_STEP + 1e-6) - np.round(points.pitch_radius / RADIUS_STEP)
         steps[:, 2] = np.maximum(spare, 0).astype(np.intp)

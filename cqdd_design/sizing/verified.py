@@ -21,6 +21,7 @@ from cqdd_design.sizing.kinds import lightest, promising
 from cqdd_design.sizing.looks import (
     HOT,
     NothingWiderError,
+    calibrate,
     clearance_needed,
     learn,
     look,
@@ -130,6 +131,7 @@ def size_to_verdict(
             if can is None and step is None:
                 progress(f"judging {found.sized.design.name} by the whole verdict")
                 last = judge(found.sized.machine)
+                calibrate(hunt, found.sized.machine, last.evidence.drawn)
                 if last.meets == "yes":
                     return _verified(hunt, found, last, requirements, began)
                 if _turned(hunt, found, last):
