@@ -116,14 +116,11 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
         can tell; else the first with which one is sound. Finer rings are tried round the best where
         the hunt is fine.
     """
-    kinds = [
-        kind
-        for space in spaces(hunt.requirements, hunt.fit, hunt.pins)
-        for kind in _kinds(hunt, space, _near(hunt, space))
-    ]
+    tried = list(spaces(hunt.requirements, hunt.fit, hunt.pins))
+    kinds = [kind for space in tried for kind in _kinds(hunt, space, _near(hunt, space))]
     found: list[Found] = []
     best: Found | None = None
-    anew: set[Space] = set()
+    screened = {space for space in tried if _own(hunt, space)}
     while kinds:
         # What is of the weaker material asks for more clearance than the best will.
         kind = min(kinds, key=lambda one: (not thorough and one.space.is_soft, one.objective))
@@ -151,8 +148,8 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
             best = one
             if not thorough:
                 break
-        if place not in anew:
-            anew.add(place)
+        if place not in screened:
+            screened.add(place)
             better = {each.space.cam: each for each in _kinds(hunt, place, one)}
             kinds = [
                 _screened_anew(each, better) if each.space.anywhere == place else each
@@ -213,10 +210,15 @@ def _key(space: Space) -> Space:
     return space._replace(ring_limit=math.inf, fit=FITS[0], free=False)
 
 
+def _own(hunt: Hunt, space: Space) -> list[Found]:
+    """What was found before in a space, the best with each cam bearing."""
+    return [one for key, one in hunt.known.items() if key.anywhere == _key(space.anywhere)]
+
+
 def _near(hunt: Hunt, space: Space) -> Found | None:
     """The best that was found before with any cam bearing: of the space, else of any."""
-    own = [one for key, one in hunt.known.items() if key.anywhere == _key(space.anywhere)]
-    return min(own or hunt.known.values(), key=lambda one: one.worth, default=None)
+    every = _own(hunt, space) or hunt.known.values()
+    return min(every, key=lambda one: one.worth, default=None)
 
 
 def _kinds(hunt: Hunt, space: Space, near: Found | None) -> Iterator[_Kind]:

@@ -117,8 +117,8 @@ def test_reserves_are_those_of_the_analysis(found):
         closed = float(value[0]) * pins.circle_radius
         whole = torque_reserve(by_id[name], machine.design)
         if name == "SLEEVE-LIFE":
-            # As fast as with the largest throw: on the safe side, by little.
-            assert 0.85 * whole < closed <= whole
+            # As fast as with the largest throw: on the safe side, by the third power of little.
+            assert 0.7 * whole < closed <= whole
         else:
             assert closed == pytest.approx(whole, rel=2e-3), name
 

@@ -335,16 +335,25 @@ def test_a_design_is_looked_at_with_what_it_was_found_to_ask_for(
     answers += [(None, None), (None, None)]
     assert learn(hunt, light)
     assert seen[-1].design.reducer.output_pins.hole_clearance == FITS[2].hole_clearance
-    # A bond that gives way is another search too, for a wider bore.
-    answers.append((None, None))
+    # A bond that gives way is another search too, for a wider bore; where it is too hot, none is.
     monkeypatch.undo()
     monkeypatch.setattr("cqdd_design.sizing.looks.look", look)
+    monkeypatch.setattr("cqdd_design.sizing.looks.closer_look", lambda *_: None)
     bond = bell_line(light.sized.machine, None)
     weak = replace(bond, value=2.0 * bond.limit)
     monkeypatch.setattr("cqdd_design.sizing.looks.bell_line", lambda *_: weak)
-    hunt.least_bore = 0.0
-    assert learn(hunt, light)
-    assert hunt.least_bore > light.sized.machine.cam.bore_diameter
+    (warmth,) = [
+        one for one in judged_temperatures(light.sized.machine)[1] if one.id == "THERMAL-RISE"
+    ]
+    for share, wider in ((2.0, False), (0.5, True)):
+        risen = (replace(warmth, value=share * warmth.limit),)
+        monkeypatch.setattr(
+            "cqdd_design.sizing.looks.judged_temperatures", lambda _, told=risen: (None, told, None)
+        )
+        answers.append((None, None))
+        hunt.least_bore = 0.0
+        assert learn(hunt, light) == wider
+        assert (hunt.least_bore > light.sized.machine.cam.bore_diameter) == wider
 
 
 @pytest.mark.deep
@@ -375,11 +384,13 @@ def test_the_order_of_spaces_decides_nothing_and_no_ring_is_searched_twice(
     assert found.sized.design == best.sized.design
     rings: dict[Space, list[float]] = {}
 
-    def noted(hunt: Hunt, space: Space, *rest: Any) -> Any:
-        rings.setdefault(space._replace(ring_limit=math.inf), []).append(space.ring_limit)
-        return settled(hunt, space, *rest)
+    def noted(hunt: Hunt, space: Space, *rest: Any, **beside: Any) -> Any:
+        if not space.free:
+            rings.setdefault(space._replace(ring_limit=math.inf), []).append(space.ring_limit)
+        return settled(hunt, space, *rest, **beside)
 
     monkeypatch.setattr("cqdd_design.sizing.kinds.settled", noted)
+    hunt.fine = True
     lighter = lightest(hunt)
     assert lighter is not None
     assert lighter.worth < found.worth
