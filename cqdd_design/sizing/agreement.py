@@ -17,7 +17,7 @@ from cqdd_design.machine import Machine, resolve
 from cqdd_design.results import Check
 from cqdd_design.sizing.exact import shortfalls
 from cqdd_design.sizing.finish import design_of, finish, torque_reserve
-from cqdd_design.sizing.hunt import Found, Hunt, Space, spaces
+from cqdd_design.sizing.hunt import CAM, Found, Hunt, Space, spaces
 from cqdd_design.sizing.points import Evaluator, Points
 from cqdd_design.sizing.refine import Starts, best_rows
 from cqdd_design.sizing.search import Search
@@ -31,7 +31,7 @@ _SETTLED = 2e-3
 """Change of every need, as a share, at which closed forms and equilibrium agree."""
 _FAR = 1.1
 """Objective over a rival's beyond which no further needs make a design win."""
-RING, _PINS, _CAM = "CONTACT-RING-PEAK", "CONTACT-PIN-PEAK", "BEARING-STATIC"
+RING, _PINS = "CONTACT-RING-PEAK", "CONTACT-PIN-PEAK"
 
 
 def tightest(hunt: Hunt) -> Found | None:
@@ -213,7 +213,7 @@ def settled(
         try:
             machine, exact = hunt.held_against(design.machine)
         except (ContactError, DesignError):
-            needs = {one: 1.5 * needs.get(one, 1.0) for one in (RING, _PINS, _CAM)}
+            needs = {one: 1.5 * needs.get(one, 1.0) for one in (RING, _PINS, CAM)}
             continue
         short, holds = shortfalls(machine, exact), _holds(hunt, exact, machine.design)
         found = Found(space, now, needs, design, point, _rated(machine))

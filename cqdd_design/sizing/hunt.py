@@ -40,6 +40,8 @@ FITS = (
 """Clearances that are tried, the closest first."""
 MATERIALS = ("AISI 4140 Q&T 540C", "AISI 52100 / 100Cr6 hardened")
 """Of discs and ring where none is asked for: the paper's, and a through-hardened bearing steel."""
+CAM = "BEARING-STATIC"
+"""Check of the load on a cam bearing at the peak torque."""
 NEEDLE_PINS = "AISI 52100 / 100Cr6 hardened"
 """Of output pins that needles run on, where none is asked for."""
 DISC_COUNTS = (2, 3)
@@ -56,6 +58,7 @@ class Space(NamedTuple):
     """What a search by closed forms does not vary; any cam bearing where none is named.
 
     All rings have the largest diameter within `ring_limit`, m; where `free`, they may be smaller.
+    `quieter` is by how much the load on a cam bearing has to be less than it bears, for the shaft.
     """
 
     disc_count: int
@@ -66,11 +69,17 @@ class Space(NamedTuple):
     ring_limit: float = math.inf
     cam: str = ""
     free: bool = False
+    quieter: float = 1.0
 
     @property
     def anywhere(self) -> Space:
         """The same discs, materials and pins with any cam bearing in a ring of any size."""
-        return self._replace(ring_limit=math.inf, cam="", free=False)
+        return self.kind._replace(cam="")
+
+    @property
+    def kind(self) -> Space:
+        """The same discs, materials, pins and cam bearing in a ring of any size."""
+        return self._replace(ring_limit=math.inf, free=False, quieter=1.0)
 
     @property
     def is_soft(self) -> bool:
@@ -328,6 +337,7 @@ class Hunt:
         extra = self.extra_for(space.cam)
         every = {*needs, *extra}
         both = {one: needs.get(one, 1.0) * extra.get(one, 1.0) for one in every}
+        both[CAM] = both.get(CAM, 1.0) * space.quieter
         bearings = tuple(
             one
             for one in frame.bearings

@@ -16,7 +16,7 @@ from cqdd_design.errors import InfeasibleError
 from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.agreement import settled, tightest
 from cqdd_design.sizing.choose import by_bearing
-from cqdd_design.sizing.hunt import FITS, Answer, Found, Hunt, Space, spaces
+from cqdd_design.sizing.hunt import CAM, FITS, Answer, Found, Hunt, Space, spaces
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import THICKNESS, weak_lines
 
@@ -40,6 +40,9 @@ _MAY_WIN = 1.06
 """Objective by closed forms over the best so far, up to which a ring may hold a better design."""
 _FINE = 1.025
 """Objective over the best so far up to which finer steps of the ring may make up for it."""
+_QUIETER, _NOT_FAR, _SPARE = 2, 0.5, 1.01
+"""How often less load on a cam bearing is asked for, from which margin of the shaft's lines, and
+how much less again."""
 _HOPELESS = 0.85
 """Margin of a shaft below which thinner ones are too weak as well."""
 
@@ -207,7 +210,7 @@ def _note(hunt: Hunt, space: Space, found: Found | None, *, fine: bool) -> None:
 
 def _key(space: Space) -> Space:
     """A space whatever its rings and its fit."""
-    return space._replace(ring_limit=math.inf, fit=FITS[0], free=False)
+    return space.kind._replace(fit=FITS[0])
 
 
 def _own(hunt: Hunt, space: Space) -> list[Found]:
@@ -272,7 +275,30 @@ class _Rings:
         self._point = None if own is None else own.point
 
     def any(self) -> Found | None:
-        """The best in a ring of any size, near enough, else in the largest."""
+        """The best in a ring of any size, near enough, else in the largest.
+
+        Where its shaft is not far too weak, one with less load on the cam bearing, which is what
+        bends the shaft and loads the bearings at its ends.
+        """
+        found = self._any()
+        for _ in range(_QUIETER):
+            if found is None or not found.weak:
+                break
+            margin = min(line.margin if line.known else 0.0 for line in found.weak)
+            if margin < _NOT_FAR:
+                break
+            checks = self._hunt.held_against(found.sized.machine)[1]
+            (cam,) = [one for one in checks if one.id == CAM]
+            spare = cam.margin / self._hunt.extra_for(found.cam).get(CAM, 1.0)
+            self._space = self._space._replace(quieter=_SPARE * spare / margin)
+            self._tried = {}
+            stronger = self._any()
+            if stronger is None:
+                break
+            found = stronger
+        return found
+
+    def _any(self) -> Found | None:
         found = self._settled(self._space._replace(free=True), _FIRST_ROUNDS)
         if found is None:
             # Where space is so tight that hardly a point is left, a ring held fast finds it.
@@ -319,14 +345,13 @@ class _Rings:
 
 def _finer(hunt: Hunt, found: Found) -> Found:
     """The best in rings round that of a design, in finer and finer steps."""
-    space = found.space._replace(ring_limit=math.inf)
-    known = hunt.answered.get(space)
+    known = hunt.answered.get(found.space.kind)
     if known is not None and known.fine and known.found is found:
         return found
-    rings = _Rings(hunt, space, None)
+    rings = _Rings(hunt, found.space._replace(ring_limit=math.inf), None)
     for step in _STEPS:
         smaller = rings.walked(found, 1.0 - step)
         found = smaller or rings.walked(found, 1.0 / (1.0 - step)) or found
-    hunt.known[_key(space)] = found
-    _note(hunt, space, found, fine=True)
+    hunt.known[_key(found.space)] = found
+    _note(hunt, found.space.kind, found, fine=True)
     return found
