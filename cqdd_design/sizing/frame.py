@@ -122,6 +122,8 @@ class Frame:
         Outside diameter of the smallest ring that is tried, m, where the motor leaves smaller ones.
     pin_circle_limit : float
         Radius of the largest pin circle that is tried, m.
+    throw_limit : float
+        Largest eccentricity that is tried, m.
     needs : mapping of str to float
         Torque reserve by load check that closed forms have to show, see `needed`.
     """
@@ -155,6 +157,7 @@ class Frame:
     ring_limit: float = math.inf
     ring_least: float = 0.0
     pin_circle_limit: float = math.inf
+    throw_limit: float = math.inf
     needs: Mapping[str, float] = field(default_factory=dict)
 
     def needed(self, check: str) -> float:

@@ -58,7 +58,8 @@ class Space(NamedTuple):
     """What a search by closed forms does not vary; any cam bearing where none is named.
 
     All rings have the largest diameter within `ring_limit`, m; where `free`, they may be smaller.
-    `quieter` is by how much the load on a cam bearing has to be less than it bears, for the shaft.
+    `quieter` is by how much the load on a cam bearing has to be less than it bears, and `throw` the
+    largest eccentricity, m, for the shaft and the bearings at its ends.
     """
 
     disc_count: int
@@ -70,6 +71,7 @@ class Space(NamedTuple):
     cam: str = ""
     free: bool = False
     quieter: float = 1.0
+    throw: float = math.inf
 
     @property
     def anywhere(self) -> Space:
@@ -79,7 +81,7 @@ class Space(NamedTuple):
     @property
     def kind(self) -> Space:
         """The same discs, materials, pins and cam bearing in a ring of any size."""
-        return self._replace(ring_limit=math.inf, free=False, quieter=1.0)
+        return self._replace(ring_limit=math.inf, free=False, quieter=1.0, throw=math.inf)
 
     @property
     def is_soft(self) -> bool:
@@ -353,6 +355,7 @@ class Hunt:
             ring_limit=space.ring_limit,
             ring_least=self.least_ring,
             pin_circle_limit=self.most_pin_circle,
+            throw_limit=space.throw,
         )
 
 

@@ -40,9 +40,9 @@ _MAY_WIN = 1.06
 """Objective by closed forms over the best so far, up to which a ring may hold a better design."""
 _FINE = 1.025
 """Objective over the best so far up to which finer steps of the ring may make up for it."""
-_QUIETER, _NOT_FAR, _SPARE = 2, 0.5, 1.01
-"""How often less load on a cam bearing is asked for, from which margin of the shaft's lines, and
-how much less again."""
+_NOT_FAR, _WIDER, _LESS_THROW, _SPARE = 0.4, (1.01, 1.02, 1.04), (0.97, 0.9), 1.01
+"""From which margin of the shaft's lines wider rings and less eccentricity are tried, how much
+wider and less, and how much less load on the cam bearing than the margin says."""
 _HOPELESS = 0.85
 """Margin of a shaft below which thinner ones are too weak as well."""
 
@@ -277,32 +277,48 @@ class _Rings:
     def any(self) -> Found | None:
         """The best in a ring of any size, near enough, else in the largest.
 
-        Where its shaft is not far too weak, one with less load on the cam bearing, which is what
-        bends the shaft and loads the bearings at its ends.
+        Where its shaft is weak, but not by far, the best of some in wider rings or with less
+        eccentricity, which leaves room for larger bearings at its ends, or with less load on the
+        cam bearing.
         """
         found = self._any()
-        for _ in range(_QUIETER):
-            if found is None or not found.weak:
+        if found is None or not found.weak:
+            return found
+        margin = min(line.margin if line.known else 0.0 for line in found.weak)
+        if margin < _NOT_FAR:
+            return found
+        return min(self._stronger(found, margin), key=lambda one: one.worth, default=found)
+
+    def _stronger(self, weak: Found, margin: float) -> Iterator[Found]:
+        """Designs beside one whose shaft is weak that has what it lacks."""
+        for factor in _WIDER:
+            wider = self.at(min(factor * weak.ring, self._most))
+            if wider is not None and not wider.weak:
+                yield wider
                 break
-            margin = min(line.margin if line.known else 0.0 for line in found.weak)
-            if margin < _NOT_FAR:
-                break
-            checks = self._hunt.held_against(found.sized.machine)[1]
-            (cam,) = [one for one in checks if one.id == CAM]
-            spare = cam.margin / self._hunt.extra_for(found.cam).get(CAM, 1.0)
-            self._space = self._space._replace(quieter=_SPARE * spare / margin)
-            self._tried = {}
-            stronger = self._any()
-            if stronger is None:
-                break
-            found = stronger
-        return found
+        throw, space = weak.sized.design.reducer.eccentricity, self._space
+        (cam,) = [one for one in self._hunt.held_against(weak.sized.machine)[1] if one.id == CAM]
+        bears = cam.margin / self._hunt.extra_for(weak.cam).get(CAM, 1.0)
+        for changed in (
+            *(space._replace(throw=less * throw) for less in _LESS_THROW),
+            space._replace(quieter=_SPARE * bears / margin),
+        ):
+            self._space, self._tried = changed, {}
+            other = self._free()
+            if other is not None and not other.weak:
+                yield other
+        self._space, self._tried = space, {}
 
     def _any(self) -> Found | None:
+        found = self._free()
+        # Where space is so tight that hardly a point is left, a ring held fast finds it.
+        tight = found is None and not self.gave_up and self._rival is None
+        return self.at(self._most) if tight else found
+
+    def _free(self) -> Found | None:
         found = self._settled(self._space._replace(free=True), _FIRST_ROUNDS)
         if found is None:
-            # Where space is so tight that hardly a point is left, a ring held fast finds it.
-            return None if self.gave_up or self._rival is not None else self.at(self._most)
+            return None
         return self.at(found.ring) or self.at(min(_ROOMIER * found.ring, self._most))
 
     def at(self, ring: float) -> Found | None:

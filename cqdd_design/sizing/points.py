@@ -119,9 +119,12 @@ class Evaluator:
     def placed(self, points: Points) -> Points:
         """Points of another search, with the wall spare of the same pitch circles in these rings.
 
-        Their steps alone are right; the largest pitch circle where the same does not go in.
+        Their steps alone are right; the largest pitch circle or eccentricity where the same does
+        not go in.
         """
         steps = points.steps.copy()
+        most = self.frame.throw_limit / self.grid.throw
+        steps[:, 0] = np.minimum(steps[:, 0], most).astype(np.intp)
         sizes = steps.astype(np.float64)
         throw, tooth = sizes[:, 0] * self.grid.throw, sizes[:, 1] * self.grid.tooth
         room = shapes.largest_pitch_for_wall(self.frame, throw, tooth)
