@@ -35,7 +35,7 @@ _NO_STEP = 1e-3
 _ROUNDS = 4
 """Of closed forms against the equilibrium: beside a design that both agree on they agree at once,
 or not at all."""
-_FIRST_ROUNDS = 8
+_FIRST_ROUNDS = 6
 _MAY_WIN = 1.06
 """Objective by closed forms over the best so far, up to which a ring may hold a better design."""
 _FINE = 1.025
@@ -193,15 +193,19 @@ def _is_too_weak(hunt: Hunt, kind: _Kind) -> bool:
 def _answered(hunt: Hunt, space: Space) -> tuple[bool, Found | None]:
     """Whether a kind's best is known from before, and that: what is asked of it has not changed.
 
-    Where nothing was found, nothing will be for more.
+    Where nothing was found, nothing will be for more, nor with more clearance.
     """
-    known = hunt.answered.get(space)
-    if known is None or known.fixed != hunt.fixed:
-        return False, None
     now = hunt.extra_for(space.cam)
-    if known.found is not None:
-        return known.extra == now, known.found
-    return all(now.get(one, 1.0) >= less for one, less in known.extra.items()), None
+    for fit in FITS[: FITS.index(space.fit) + 1]:
+        known = hunt.answered.get(space._replace(fit=fit))
+        if known is None or known.fixed != hunt.fixed:
+            continue
+        if known.found is None:
+            if all(now.get(one, 1.0) >= less for one, less in known.extra.items()):
+                return True, None
+        elif fit == space.fit:
+            return known.extra == now, known.found
+    return False, None
 
 
 def _note(hunt: Hunt, space: Space, found: Found | None, *, fine: bool) -> None:
