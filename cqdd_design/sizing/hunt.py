@@ -208,7 +208,7 @@ class Hunt:
         Goals that were taken to meet something that is asked for.
     yielding : tuple of array, optional
         Outputs of gearboxes whose discs and ring yield over those of rigid ones, at the continuous
-        and at the peak torque, of the design that was last judged, or the first that was looked at.
+        and at the peak torque, of the last design that was looked at with them.
     rigid : tuple, optional
         The machine that was looked at last, and outputs of its gearboxes while nothing yields.
     solved : list

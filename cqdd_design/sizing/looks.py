@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from cqdd_design.design import Design, Requirements
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
+from cqdd_design.gearbox.tolerance.ensemble import BLOCK, ToleranceResult
 from cqdd_design.machine import Machine
 from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import cooler, what_it_can
 from cqdd_design.sizing.bearable import weaker
-from cqdd_design.sizing.exact import exact_checks
+from cqdd_design.sizing.exact import exact_checks, yielding_checks
 from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.hunt import FITS, Found, Hunt, spaces
 from cqdd_design.sizing.shafts import stronger_shaft
@@ -153,17 +153,31 @@ def closer_look(hunt: Hunt, found: Found, machine: Machine) -> float | None:
     return read_spread(hunt, machine, drawn, exact_checks(machine))
 
 
+def last_look(hunt: Hunt, machine: Machine) -> float | None:
+    """What the first of the verdict's own gearboxes ask for, discs and ring yielding.
+
+    As `closer_look`, which only guesses how they yield; the verdict goes on from these.
+    """
+    try:
+        drawn = drawn_gearboxes(machine, BLOCK, sensitivity=False)
+        lines = yielding_checks(machine)
+    except ContactError:
+        return _LEAST_STEP
+    _calibrate(hunt, machine, drawn)
+    return read_spread(hunt, machine, drawn, lines)
+
+
 def _drawn(hunt: Hunt, machine: Machine) -> Drawn:
     """A few gearboxes, whose discs and ring yield as they did at another design of the hunt.
 
     The finite elements of a new geometry cost more than all else here, and what yielding changes,
-    as a share, is alike for designs of one hunt. The verdict has those of its own.
+    as a share, is alike for designs of one hunt.
     """
     rigid = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False, rigid=True)
     hunt.rigid = machine, tuple(_high(one) for one in rigid)
     if hunt.yielding is None:
         found = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False)
-        calibrate(hunt, machine, found)
+        _calibrate(hunt, machine, found)
         return found
     return Drawn(
         *(
@@ -173,9 +187,9 @@ def _drawn(hunt: Hunt, machine: Machine) -> Drawn:
     )
 
 
-def calibrate(hunt: Hunt, machine: Machine, drawn: Drawn | None) -> None:
+def _calibrate(hunt: Hunt, machine: Machine, drawn: Drawn) -> None:
     """Note what yielding discs and ring change, where a machine was looked at without them too."""
-    if drawn is None or hunt.rigid is None or hunt.rigid[0].given != machine.given:
+    if hunt.rigid is None or hunt.rigid[0].given != machine.given:
         return
     hunt.yielding = tuple(
         _high(one) / np.where(other, other, 1.0)

@@ -21,8 +21,8 @@ from cqdd_design.sizing.kinds import lightest, promising
 from cqdd_design.sizing.looks import (
     HOT,
     NothingWiderError,
-    calibrate,
     clearance_needed,
+    last_look,
     learn,
     look,
     read_spread,
@@ -129,9 +129,10 @@ def size_to_verdict(
             # With elastic discs and ring, of which the looks before knew nothing.
             can, step = look(hunt, found.sized.machine)
             if can is None and step is None:
+                step = last_look(hunt, found.sized.machine)
+            if can is None and step is None:
                 progress(f"judging {found.sized.design.name} by the whole verdict")
                 last = judge(found.sized.machine)
-                calibrate(hunt, found.sized.machine, last.evidence.drawn)
                 if last.meets == "yes":
                     return _verified(hunt, found, last, requirements, began)
                 if _turned(hunt, found, last):
