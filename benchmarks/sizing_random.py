@@ -2,37 +2,33 @@
 
     python benchmarks/sizing_random.py [times [row ...]]
 
-For ten requirements, `sizing.agreement.lightest` searches first. Then random points of the same
+For ten requirements, `sizing.kinds.lightest` searches first. Then random points of the same
 grid, over the whole space and about the best that was found at random so far, are screened by the
 closed forms, and those that might be lighter are held against the same equilibrium
-(`exact_checks`), for `times` (100) times as long. Both are borne out by the same lines and end at
-the smallest ring that a motor is drawn round; what is printed is the mass that the search finds
-over the lightest of the random one. Times are those of the processor.
+(`exact_checks`), and their shafts against theirs (`weak_lines`), for `times` (100) times as long.
+Both are borne out by the same lines and end at the smallest ring that a motor is drawn round; what
+is printed is the mass that the search finds over the lightest of the random one. Times are those of
+the processor.
 """
 
 from __future__ import annotations
 
 import sys
 import time
-from dataclasses import replace
 
 import numpy as np
 
 from cqdd_design.design import Requirements, requirements_from_mapping
 from cqdd_design.errors import ContactError, DesignError
 from cqdd_design.machine import resolve
-from cqdd_design.sizing.agreement import (
-    Found,
-    Hunt,
-    lightest,
-    spaces,
-)
 from cqdd_design.sizing.exact import exact_checks
 from cqdd_design.sizing.finish import finish
+from cqdd_design.sizing.hunt import Found, Hunt, spaces
+from cqdd_design.sizing.kinds import lightest
 from cqdd_design.sizing.points import Evaluator, Points
 from cqdd_design.sizing.ring_stages import Pins
 from cqdd_design.sizing.search import Search
-from cqdd_design.sizing.smaller_rings import in_smaller_rings
+from cqdd_design.sizing.shafts import weak_lines
 from cqdd_design.sizing.stage_tables import stage_tables
 
 TIMES = 100.0
@@ -67,9 +63,9 @@ def by_search(requirements: Requirements) -> tuple[Found | None, float]:
     """What the search finds, and the seconds that it took."""
     began = time.process_time()
     hunt = _hunt(requirements)
+    hunt.fine = True
     found = lightest(hunt)
-    found = None if found is None else next(iter(in_smaller_rings(hunt, found)), found)
-    return found, time.process_time() - began
+    return None if found is None or found.weak else found, time.process_time() - began
 
 
 def _hunt(requirements: Requirements) -> Hunt:
@@ -82,7 +78,7 @@ def by_chance(requirements: Requirements, seconds: float, seed: int) -> tuple[fl
     hunt, draw = _hunt(requirements), np.random.default_rng(seed)
     tried = []
     for space in spaces(requirements, hunt.fit):
-        frame = replace(hunt.frame(space, {}), smaller_rings=True)
+        frame = hunt.frame(space._replace(free=True), {})
         tried.append(Search.of(frame, hunt.tables))
     best, seen, end = np.inf, 0, time.process_time() + seconds
     place: tuple[Search, Points] | None = None
@@ -129,7 +125,9 @@ def _borne_out(evaluator: Evaluator, points: Points, row: int) -> bool:
     if sized is None:
         return False
     try:
-        return all(one.satisfied for one in exact_checks(resolve(sized.design)))
+        machine = resolve(sized.design)
+        borne = all(one.satisfied for one in exact_checks(machine))
+        return borne and not weak_lines(machine)
     except (ContactError, DesignError):
         return False
 

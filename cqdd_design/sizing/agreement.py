@@ -7,230 +7,39 @@ much reserve as the equilibrium, solved at the design just found, says that they
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
-from cqdd_design.catalog.materials import find_material
-from cqdd_design.catalog.motors import Motor
-from cqdd_design.design import Design, Requirements
+from cqdd_design.design import Design
 from cqdd_design.errors import ContactError, DesignError, InfeasibleError
-from cqdd_design.gearbox.checks import allowables
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.results import Check
-from cqdd_design.sizing.exact import exact_checks, shortfalls
+from cqdd_design.sizing.exact import shortfalls
 from cqdd_design.sizing.finish import design_of, finish, torque_reserve
-from cqdd_design.sizing.frame import USUAL_FIT, Fit, Frame, Goal, search_frame
+from cqdd_design.sizing.hunt import CAM, Found, Hunt, Space, spaces
 from cqdd_design.sizing.points import Evaluator, Points
-from cqdd_design.sizing.refine import Starts
-from cqdd_design.sizing.result import SizedDesign
+from cqdd_design.sizing.refine import Starts, best_rows
 from cqdd_design.sizing.search import Search
-from cqdd_design.sizing.stage_tables import StageTables
 
-Progress = Callable[[str], None]
-
-FITS = (
-    USUAL_FIT,
-    Fit(9e-6, 28e-6),
-    Fit(12e-6, 40e-6),
-    Fit(16e-6, 56e-6),
-    Fit(22e-6, 80e-6),
-    Fit(30e-6, 110e-6),
-)
-"""Clearances that are tried, the closest first."""
-MATERIALS = ("AISI 4140 Q&T 540C", "AISI 52100 / 100Cr6 hardened")
-"""Of discs and ring where none is asked for: the paper's, and a through-hardened bearing steel."""
-NEEDLE_PINS = "AISI 52100 / 100Cr6 hardened"
-"""Of output pins that needles run on, where none is asked for."""
-DISC_COUNTS = (2, 3)
-"""Likewise of discs: those that balance."""
 _ROUNDS, _UNDAMPED, _STRONG_ROUNDS = 8, 3, 5
-_SOLVED = 15
-"""Designs that are kept with their equilibria, but for the last."""
+_BACK = 2
+"""How often needs that leave no design are halved."""
+_GO_ON = 4
+"""Points of one round from which the next goes on."""
 _SETTLED = 2e-3
 """Change of every need, as a share, at which closed forms and equilibrium agree."""
 _FAR = 1.1
 """Objective over a rival's beyond which no further needs make a design win."""
-RING, _PINS, _CAM = "CONTACT-RING-PEAK", "CONTACT-PIN-PEAK", "BEARING-STATIC"
+RING, _PINS = "CONTACT-RING-PEAK", "CONTACT-PIN-PEAK"
 
 
-class Space(NamedTuple):
-    """What a search by closed forms does not vary."""
+def tightest(hunt: Hunt) -> Found | None:
+    """The best in the largest ring, of all spaces at the hunt's fit, that is borne out.
 
-    disc_count: int
-    disc_material: str
-    ring_material: str
-    fit: Fit
-    needles: bool = False
-    ring_limit: float = math.inf
-
-    @property
-    def is_soft(self) -> bool:
-        """Whether a part is of the weakest material that is tried."""
-        return MATERIALS[0] in {self.disc_material, self.ring_material}
-
-    def of(self, requirements: Requirements) -> Requirements:
-        """The requirements with these discs and materials, which are tried and not asked for."""
-        tried = requirements.model_copy(
-            update={
-                "disc_count": self.disc_count,
-                "disc_material": self.disc_material,
-                "ring_material": self.ring_material,
-                "pin_material": self.pin_material(requirements),
-            }
-        )
-        tried.model_fields_set.intersection_update(requirements.model_fields_set)
-        return tried
-
-    def pin_material(self, requirements: Requirements) -> str:
-        """Of the output pins: under needles a hardened one, where none is stated."""
-        if self.needles and "pin_material" not in requirements.model_fields_set:
-            return NEEDLE_PINS
-        return requirements.pin_material
-
-
-@dataclass(frozen=True)
-class Found:
-    """A design of a space that the contact equilibrium bears out.
-
-    Attributes
-    ----------
-    search : Search
-    needs : mapping of str to float
-        What closed forms had to show for it.
-    sized : SizedDesign
-    point : Points
-        On the grid.
-    rated : bool
-        Whether the carrier's bearing has ratings: one that is made to order has none, and what it
-        carries would stay unknown.
+    Whichever cam bearing it takes; where a space is so tight that only its strongest point will do,
+    that one.
     """
-
-    space: Space
-    search: Search
-    needs: Mapping[str, float]
-    sized: SizedDesign
-    point: Points
-    rated: bool = True
-
-    @property
-    def worth(self) -> tuple[bool, float]:
-        """What is better is less."""
-        return not self.rated, self.sized.objective.score
-
-
-@dataclass
-class Hunt:
-    """One search to the verdict: what is learnt on the way.
-
-    Attributes
-    ----------
-    requirements : Requirements
-        With the torques that are tried where none were stated.
-    extra : dict of str to float
-        Reserve for part errors, by check.
-    lowered : bool
-        Whether the motor did not hold a continuous torque that was tried.
-    fit : Fit
-        The closest that heat and part errors leave.
-    least_bore : float
-        Of the cam bearings that are tried, m: smaller ones leave the shaft's ends no bearing.
-    most_pin_circle : float
-        Radius of the largest pin circle that is tried, m: round wider ones no carrier bearing of
-        the catalogue fits.
-    pins : tuple of bool
-        Whether output pins that are tried are on needles.
-    tried : set of Goal
-        Goals that were taken to meet something that is asked for.
-    solved : list
-        The last designs that were held against the equilibrium, for searches that come back.
-    """
-
-    requirements: Requirements
-    motor: Motor | None
-    ambient: float | None
-    say: Progress
-    tables: StageTables
-    goal: Goal
-    extra: dict[str, float] = field(default_factory=dict)
-    lowered: bool = False
-    fit: Fit = FITS[0]
-    least_bore: float = 0.0
-    most_pin_circle: float = math.inf
-    pins: tuple[bool, ...] = (False,)
-    tried: set[Goal] = field(default_factory=set)
-    solved: list[tuple[Machine, tuple[Check, ...]]] = field(default_factory=list)
-
-    def held_against(self, machine: Machine) -> tuple[Machine, tuple[Check, ...]]:
-        """The machine of its design that is known, and its load lines by the equilibrium.
-
-        Raises
-        ------
-        ContactError, DesignError
-            When it has none.
-        """
-        for one in self.solved:
-            if one[0].given == machine.given:
-                return one
-        found = machine, exact_checks(machine)
-        self.solved[_SOLVED:] = []
-        self.solved.insert(0, found)
-        return found
-
-    @property
-    def may_roll(self) -> bool:
-        """Whether needles can run on the output pins that are asked for."""
-        asked = self.requirements
-        return "pin_material" not in asked.model_fields_set or allowables.is_hardened(
-            find_material(asked.pin_material)
-        )
-
-    def frame(self, space: Space, needs: Mapping[str, float]) -> Frame:
-        """The frame of a space; needs of part errors count on top."""
-        asked = space.of(self.requirements)
-        frame = search_frame(
-            asked, self.motor, self.ambient, space.fit, self.goal, needles=space.needles
-        )
-        every = {*needs, *self.extra}
-        both = {one: needs.get(one, 1.0) * self.extra.get(one, 1.0) for one in every}
-        bearings = tuple(one for one in frame.bearings if one.bore_diameter >= self.least_bore)
-        # The loop settles with rings of one diameter; smaller ones make it swing.
-        return replace(
-            frame,
-            needs=both,
-            bearings=bearings,
-            smaller_rings=False,
-            ring_limit=space.ring_limit,
-            pin_circle_limit=self.most_pin_circle,
-        )
-
-
-def spaces(
-    requirements: Requirements, fit: Fit, pins: tuple[bool, ...] = (False,)
-) -> Iterator[Space]:
-    """Materials and disc counts that are tried: those that are stated, or all.
-
-    And output pins bare and on needles, as `pins` says.
-    """
-    stated = requirements.model_fields_set
-    counts = (requirements.disc_count,) if "disc_count" in stated else DISC_COUNTS
-    for count in counts:
-        tried = [
-            Space(
-                count,
-                requirements.disc_material if "disc_material" in stated else material,
-                requirements.ring_material if "ring_material" in stated else material,
-                fit,
-                needles,
-            )
-            for needles in pins
-            for material in MATERIALS
-        ]
-        yield from dict.fromkeys(tried)
-
-
-def lightest(hunt: Hunt) -> Found | None:
-    """The best of all spaces at the hunt's fit that the equilibrium bears out."""
     best: Found | None = None
     every = list(spaces(hunt.requirements, hunt.fit, hunt.pins))
     # The stronger material first: where it makes a light design, the other is soon given up.
@@ -255,16 +64,16 @@ class Strongest(NamedTuple):
 
     def reserve(self, hunt: Hunt) -> float:
         """The least of its torque reserves, over what part errors take."""
+        design = self.machine.design
+        extra = hunt.extra_for(design.reducer.cam_bearing.designation)
         return min(
-            torque_reserve(one, self.machine.design) / hunt.extra.get(one.id, 1.0)
-            if one.known
-            else 0.0
+            torque_reserve(one, design) / extra.get(one.id, 1.0) if one.known else 0.0
             for one in self.checks
         )
 
     def found(self, hunt: Hunt, space: Space) -> Found | None:
         """It as a design that is borne out; None where it is not."""
-        if not _holds(self.checks, self.machine.design, hunt.extra):
+        if not _holds(hunt, self.checks, self.machine.design):
             return None
         sized = finish(self.search.evaluator, self.point, 0)
         if sized is None:
@@ -286,7 +95,9 @@ def strongest(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> Strongest
     """
     best: Strongest | None = None
     # Torques that nobody stated are lowered instead.
-    rounds = 1 if "peak_torque" in hunt.requirements.derived and not hunt.extra else _STRONG_ROUNDS
+    rounds = (
+        1 if "peak_torque" in hunt.requirements.derived and not hunt.has_extra else _STRONG_ROUNDS
+    )
     for _ in range(rounds):
         now = _strongest(hunt, space, needs)
         if now is None or (best is not None and now.reserve(hunt) <= best.reserve(hunt)):
@@ -346,6 +157,8 @@ def settled(
     known: Mapping[str, float] | None,
     near: Points | None,
     rounds: int = _ROUNDS,
+    *,
+    beside: bool = False,
 ) -> tuple[Found | None, bool]:
     """The loop of `agreed`, and whether it was left to a rival that is lighter.
 
@@ -356,15 +169,18 @@ def settled(
         leads to nothing.
     rounds : int
         At most.
+    beside : bool
+        Whether nothing is looked for that is not near `near`.
     """
     search = Search.of(hunt.frame(space, {}), hunt.tables)
-    most = search.most_reserve() if near is None else near
-    strongest = near is None
+    most = search.most_reserve() if near is None else search.evaluator.placed(near)
+    strongest = near is None or beside
     if most is None:
         return None, False
     needs: dict[str, float] = dict(known or {})
     begin, best = search.beginning(most), None
     seen: list[Machine] = []
+    back = 0
     for turn in range(rounds):
         frame = hunt.frame(space, needs)
         evaluator = Evaluator.of(frame, hunt.tables, search.space.pin_counts)
@@ -378,12 +194,13 @@ def settled(
             sized, others = now.lightest_from(Starts.at(more, 1.0))
             reached = reached.joined(others)
         elif sized is None and turn > 0:
-            sized, reached = now.lightest_from(search.beginning(reached.different()))
+            sized, reached = now.lightest_from(search.beginning(best_rows(reached, _GO_ON)))
         # The next turn's needs are others: it goes on from where this one has come.
-        begin = Starts.at(reached.different(), 1.0)
+        begin = Starts.at(best_rows(reached, _GO_ON), 1.0)
         if sized is None:
             # What was needed at the last design may be too much: half way back.
-            if not needs or turn >= rounds - 1:
+            back += 1
+            if not needs or back > _BACK:
                 break
             needs = {one: math.sqrt(value) for one, value in needs.items()}
             continue
@@ -396,9 +213,9 @@ def settled(
         try:
             machine, exact = hunt.held_against(design.machine)
         except (ContactError, DesignError):
-            needs = {one: 1.5 * needs.get(one, 1.0) for one in (RING, _PINS, _CAM)}
+            needs = {one: 1.5 * needs.get(one, 1.0) for one in (RING, _PINS, CAM)}
             continue
-        short, holds = shortfalls(machine, exact), _holds(exact, machine.design, hunt.extra)
+        short, holds = shortfalls(machine, exact), _holds(hunt, exact, machine.design)
         found = Found(space, now, needs, design, point, _rated(machine))
         if holds and (best is None or found.worth < best.worth):
             best = found
@@ -421,8 +238,9 @@ def _rated(machine: Machine) -> bool:
     return machine.seats[1].bearing.static_rating is not None
 
 
-def _holds(checks: tuple[Check, ...], design: Design, extra: Mapping[str, float]) -> bool:
+def _holds(hunt: Hunt, checks: tuple[Check, ...], design: Design) -> bool:
     """Whether every line has the reserve that is needed, a rounding's worth aside."""
+    extra = hunt.extra_for(design.reducer.cam_bearing.designation)
     return all(
         one.known and torque_reserve(one, design) >= extra.get(one.id, 1.0) * (1.0 - 2e-4)
         for one in checks

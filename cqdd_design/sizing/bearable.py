@@ -3,21 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.sizing.able import CONTINUOUS, PEAK
-from cqdd_design.sizing.agreement import Found, Hunt, Space, spaces, strongest
+from cqdd_design.sizing.agreement import strongest
+from cqdd_design.sizing.choose import strong_bearings
 from cqdd_design.sizing.finish import torque_reserve
+from cqdd_design.sizing.hunt import Found, Hunt, Space, spaces
+from cqdd_design.sizing.search import Search
 
-_LESS, _TURNS = 0.9, 12
+_LESS, _TURNS = 0.95, 16
 """Share of both torques that is tried next where the strongest design would bear them, and how
 often."""
-JUST = 0.98
-"""Of what the strongest design bears."""
+_SHARES = (1.0, 0.6, 0.35, 0.2)
+"""Of both torques at which something is looked for that bears more, or less, than them."""
+_STRONG = 5
+"""Cam bearings of a space that are asked what they bear."""
+JUST, _WELL = 0.98, 0.92
+"""Of what the strongest design bears, without and with reserve for part errors."""
 _LEAST = 0.1
 """Share of a torque that is tried at least."""
 _DIGITS = 2
@@ -43,13 +50,16 @@ def or_weaker(
         peak, lasting = bearable(hunt, near)
         if min(peak, lasting) < 1.0:
             lowered = lowered[0] or peak < 1.0, lowered[1] or lasting < 1.0
-            peak, lasting = (JUST * one if one < 1.0 else one for one in (peak, lasting))
+            # What errors ask for differs from design to design.
+            part = _WELL if hunt.has_extra else JUST
+            peak, lasting = (part * one if one < 1.0 else one for one in (peak, lasting))
         else:
             # Of what has been too much so far, and in the end of both.
             both = not any(lowered) or turn >= _TURNS // 2
             peak, lasting = (_LESS if both or one else 1.0 for one in lowered)
         # What was lowered for part errors is not raised to what the motor holds.
-        hunt.lowered |= bool(hunt.extra) and lasting < 1.0
+        if hunt.has_extra and lasting < 1.0:
+            hunt.lowered, hunt.lowered_by = True, ""
         hunt.requirements = weaker(hunt.requirements, peak, lasting)
     return None
 
@@ -77,39 +87,82 @@ def bearable(hunt: Hunt, near: Found | None) -> tuple[float, float]:
     The strongest is no stronger at one torque than it has to be for the other; where it is short
     of both, one that has to bear less of what it is shortest of may bear more of the other.
     """
-    asked, first = hunt.requirements, _strongest(hunt, near)
+    asked = hunt.requirements
+    for share in _SHARES:
+        found = _strongest(replace(hunt, requirements=weaker(asked, share, share)), near)
+        if found is not None:
+            break
+    else:
+        return _SHARES[-1], _SHARES[-1]
+    first = _within(share * found[0]), _within(share * found[1])
     if max(first) == 1.0:
         return first
     short = 0 if first[0] < first[1] else 1
     shares = [JUST * one if place == short else 1.0 for place, one in enumerate(first)]
     second = _strongest(replace(hunt, requirements=weaker(asked, *shares)), near)
-    other = shares[0] * second[0], shares[1] * second[1]
+    if second is None:
+        return first
+    other = shares[0] * _within(second[0]), shares[1] * _within(second[1])
     return max(first, other, key=math.prod)
 
 
-def _strongest(hunt: Hunt, near: Found | None) -> tuple[float, float]:
-    if near is not None:
-        return _in_space(hunt, near.space._replace(fit=hunt.fit), near.needs)
-    every = spaces(hunt.requirements, hunt.fit, hunt.pins)
-    return max((_in_space(hunt, space, {}) for space in every), key=min)
+def both_bearable(hunt: Hunt) -> float:
+    """About what share of both torques, stated or not, the strongest design bears."""
+    for share in _SHARES:
+        found = _strongest(replace(hunt, requirements=times(hunt.requirements, share)), None)
+        if found is not None:
+            return share * min(found)
+    return _SHARES[-1]
 
 
-def _in_space(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> tuple[float, float]:
+def times(requirements: Requirements, share: float) -> Requirements:
+    """The requirements with a share of both torques, stated or not."""
+    changed = {key: share * getattr(requirements, key) for key in (PEAK, CONTINUOUS)}
+    return requirements.model_copy(update=changed)
+
+
+def _strongest(hunt: Hunt, near: Found | None) -> tuple[float, float] | None:
+    """Reserves of both torques with whichever of the strong cam bearings bears most.
+
+    Of the spaces that are tried, or of one near by; None where nothing survives a screen.
+    """
+    if near is None:
+        every: Iterable[Space] = spaces(hunt.requirements, hunt.fit, hunt.pins)
+    else:
+        every = (near.space.anywhere._replace(fit=hunt.fit),)
+    needs = {} if near is None else near.needs
+    kinds = [kind for space in every for kind in _strong_kinds(hunt, space, needs)]
+    found = (_in_space(hunt, kind, needs) for kind in kinds)
+    return max((one for one in found if one is not None), key=min, default=None)
+
+
+def _strong_kinds(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> list[Space]:
+    """A space with each of the cam bearings that bear most by a screen."""
+    try:
+        search = Search.of(hunt.frame(space, needs), hunt.tables)
+    except InfeasibleError:
+        return []
+    strong = strong_bearings(search.frame, search.space, search.found)
+    return [space._replace(cam=one) for one in strong[:_STRONG]]
+
+
+def _in_space(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> tuple[float, float] | None:
     try:
         strong = strongest(hunt, space, needs)
     except InfeasibleError:
         strong = None
     if strong is None:
-        return _LESS, _LESS
+        return None
     design = strong.machine.design
+    extra = hunt.extra_for(design.reducer.cam_bearing.designation)
     reserves = {
-        line.id: torque_reserve(line, design) / hunt.extra.get(line.id, 1.0)
+        line.id: torque_reserve(line, design) / extra.get(line.id, 1.0)
         for line in strong.checks
         if line.known
     }
     lasting = [one for name, one in reserves.items() if name.endswith(_LASTING)]
     peak = [one for name, one in reserves.items() if not name.endswith(_LASTING)]
-    return _within(min(peak, default=1.0)), _within(min(lasting, default=1.0))
+    return min(peak, default=1.0), min(lasting, default=1.0)
 
 
 def _within(share: float) -> float:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cqdd_design.catalog.bearings import Bearing
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing import masses
 from cqdd_design.sizing import shape_limits as shapes
@@ -77,6 +79,51 @@ def strongest(space: SearchSpace, found: Screened, most: int) -> Picks:
     return _picks(space, found, rows, columns, reserve[rows, columns])
 
 
+class Bound(NamedTuple):
+    """The best survivor of a screen with one cam bearing.
+
+    Attributes
+    ----------
+    objective : float
+        What the search makes small.
+    bearing : Bearing
+    ring : float
+        Its outside diameter, m.
+    """
+
+    objective: float
+    bearing: Bearing
+    ring: float
+
+
+class _Ready(NamedTuple):
+    """Survivors of a screen, each in the thinnest discs that carry the load, (M,).
+
+    `row`, `bearing` and `thickness` are places in what was screened; `outer` is the ring's radius.
+    """
+
+    row: IntArray
+    bearing: IntArray
+    thickness: IntArray
+    objective: FloatArray
+    outer: FloatArray
+
+
+def strong_bearings(frame: Frame, space: SearchSpace, found: Screened) -> list[str]:
+    """Designations of the cam bearings with something right in shape, those that bear most first.
+
+    As far as screened candidates have torque reserve, ready or not.
+    """
+    load = np.where(found.cam_load > 0.0, found.cam_load, np.inf)[:, None]
+    cam = np.where(found.fits, found.bearings.allowed_load / load, 0.0)
+    most = np.zeros(space.bearings.size)
+    for place in range(space.thickness.size):
+        both = np.minimum(cam, found.reserve[:, place, None]) * found.pairs[:, place]
+        most = np.maximum(most, both.max(axis=0, initial=0.0))
+    order = [row for row in np.argsort(-most, kind="stable") if most[row] > 0.0]
+    return [frame.bearings[space.bearings[row]].designation for row in order]
+
+
 def lightest(
     frame: Frame, space: SearchSpace, found: Screened, most: int, wanted: float = 1.0
 ) -> Picks:
@@ -91,6 +138,32 @@ def lightest(
     wanted : float
         Torque reserve they must have, at least 1.
     """
+    ready = _ready(frame, space, found, wanted)
+    row, thickness, objective = ready.row, ready.thickness, ready.objective
+    pins = found.rows.count[row] * space.pin_sizes.size + found.rows.size[row]
+    best = np.concatenate(
+        [_best_of_groups(groups, objective, most) for groups in (pins, ready.bearing, thickness)]
+    )
+    best = np.unique(best)
+    best = best[np.argsort(objective[best], kind="stable")]
+    return _picks(space, found, row[best], thickness[best], objective[best])
+
+
+def by_bearing(frame: Frame, space: SearchSpace, found: Screened) -> tuple[Bound, ...]:
+    """The best survivor with each cam bearing, best first."""
+    ready = _ready(frame, space, found, 1.0)
+    best = _best_of_groups(ready.bearing, ready.objective, space.bearings.size)
+    return tuple(
+        Bound(
+            float(ready.objective[one]),
+            frame.bearings[space.bearings[ready.bearing[one]]],
+            2.0 * float(ready.outer[one]),
+        )
+        for one in best
+    )
+
+
+def _ready(frame: Frame, space: SearchSpace, found: Screened, wanted: float) -> _Ready:
     rows = found.rows
     carried = found.fits & (found.bearings.allowed_load >= wanted * found.cam_load[:, None])
     enough = found.reserve >= wanted
@@ -141,13 +214,7 @@ def lightest(
             friction=found.rings.friction_number[ring],
         ),
     )
-    pins = rows.count[row] * space.pin_sizes.size + rows.size[row]
-    best = np.concatenate(
-        [_best_of_groups(groups, objective, most) for groups in (pins, bearing, thickness)]
-    )
-    best = np.unique(best)
-    best = best[np.argsort(objective[best], kind="stable")]
-    return _picks(space, found, row[best], thickness[best], objective[best])
+    return _Ready(row, bearing, thickness, objective, outer[ring])
 
 
 def _best_of_groups(groups: IntArray, rank: FloatArray, most: int) -> IntArray:

@@ -10,55 +10,67 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from cqdd_design.errors import InfeasibleError
-from cqdd_design.sizing.agreement import Found, Hunt, Space, settled
+from cqdd_design.sizing.agreement import settled
+from cqdd_design.sizing.hunt import Found, Hunt, Space
 from cqdd_design.sizing.looks import closer_look
-from cqdd_design.sizing.points import Evaluator
 from cqdd_design.sizing.result import Cost
+from cqdd_design.sizing.search import Search
 
 _MORE, _TWICE, _LESS_ROOM = 1.1, 2.0, 0.95
 
 
 def costs(hunt: Hunt, found: Found) -> tuple[Cost, ...]:
     """What 10 % more of either torque, twice the life and a ring 5 % smaller cost."""
-    asked, space = hunt.requirements, found.space
+    # Whichever cam bearing it takes: what part errors ask for is known of this one.
+    near = replace(hunt, extra=dict(hunt.extra_for(found.cam)), extra_of={})
+    asked, space = hunt.requirements, found.space._replace(cam="")
+    wide = space.anywhere._replace(free=True)
     peak, lasting = asked.peak_torque, asked.continuous_torque
-    ring = _LESS_ROOM * found.sized.design.reducer.ring.outer_diameter
     changes = (
         ("peak_torque", "10 % more peak torque", _MORE * peak),
         ("continuous_torque", "10 % more continuous torque", min(_MORE * lasting, peak)),
         ("life", "twice the life", _TWICE * asked.life),
     )
     more = [
-        Cost(key, words, value, _more_mass(hunt, found, space, {key: value}))
+        Cost(key, words, value, _more_mass(near, found, wide, {key: value}))
         for key, words, value in changes
     ]
-    return (*more, Cost("outer_diameter", "a ring 5 % smaller", ring, _in_ring(hunt, found, ring)))
+    ring = _LESS_ROOM * found.ring
+    less = _in_smaller_ring(near, found, space._replace(ring_limit=ring))
+    return (*more, Cost("outer_diameter", "a ring 5 % smaller", ring, less))
 
 
 def _more_mass(
     hunt: Hunt, found: Found, space: Space, changed: Mapping[str, float]
 ) -> float | None:
-    """By closed forms; what asks for more takes no less."""
+    """By closed forms; what asks for more takes no less.
+
+    With the design's own cam bearing, else with any: then over what closed forms make of what is
+    asked now, because they may think too well of another one.
+    """
+    own = _mass(hunt, found, space._replace(cam=found.cam), changed)
+    if own is not None:
+        return max(own - found.sized.objective.mass, 0.0)
+    more, now = (_mass(hunt, found, space, one) for one in (changed, {}))
+    return None if more is None or now is None else max(more - now, 0.0)
+
+
+def _mass(hunt: Hunt, found: Found, space: Space, changed: Mapping[str, float]) -> float | None:
     asked = hunt.requirements.model_copy(update=dict(changed))
     try:
-        frame = replace(hunt, requirements=asked).frame(space, found.needs)
+        search = Search.of(replace(hunt, requirements=asked).frame(space, found.needs), hunt.tables)
     except InfeasibleError:
         return None
-    evaluator = Evaluator.of(frame, hunt.tables, found.search.space.pin_counts)
-    near = replace(found.search, evaluator=evaluator).lightest(found.point)
-    if near is None:
-        return None
-    return max(near[0].objective.mass - found.sized.objective.mass, 0.0)
+    near = search.lightest(search.evaluator.placed(found.point))
+    return None if near is None else near[0].objective.mass
 
 
-def _in_ring(hunt: Hunt, found: Found, ring: float) -> float | None:
-    """In a ring of a diameter, m; where it is lighter, equilibrium and part errors bear it."""
-    space = found.space._replace(ring_limit=ring)
+def _in_smaller_ring(hunt: Hunt, found: Found, space: Space) -> float | None:
+    """Where it is lighter, equilibrium and part errors bear it."""
     more = _more_mass(hunt, found, space, {})
     if more is None or more > 0.0:
         return more
-    own = replace(hunt, extra=dict(hunt.extra))
-    borne, _ = settled(own, space, None, found.needs, found.point)
-    if borne is None or closer_look(own, borne, borne.sized.machine) is not None:
+    borne, _ = settled(hunt, space, None, found.needs, found.point)
+    if borne is None or closer_look(hunt, borne, borne.sized.machine) is not None:
         return None
     return borne.sized.objective.mass - found.sized.objective.mass

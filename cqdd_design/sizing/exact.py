@@ -30,6 +30,19 @@ def exact_checks(machine: Machine) -> tuple[Check, ...]:
     return (*peak_checks(state, loads), *lasting_checks(state, life(machine.design, rigid)))
 
 
+def yielding_checks(machine: Machine) -> tuple[Check, ...]:
+    """As `exact_checks`, with discs and ring that yield: the verdict's own.
+
+    Raises
+    ------
+    ContactError
+        When the gearbox has no equilibrium at a load.
+    """
+    peak, state = machine.design.requirements.peak_torque, machine.analysis
+    loads = PeakLoads.of(peak, machine.loaded_contacts.greatest(peak))
+    return (*peak_checks(state, loads), *lasting_checks(state, machine.life))
+
+
 def shortfalls(machine: Machine, checks: Iterable[Check]) -> dict[str, float]:
     """Torque reserve by closed forms over that by the equilibrium, by load check.
 

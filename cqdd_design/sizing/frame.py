@@ -118,8 +118,12 @@ class Frame:
         Whether rings are as small as their teeth allow; else all have the largest diameter.
     ring_limit : float
         Outside diameter of the largest ring that is tried, m, where less than is asked for.
+    ring_least : float
+        Outside diameter of the smallest ring that is tried, m, where the motor leaves smaller ones.
     pin_circle_limit : float
         Radius of the largest pin circle that is tried, m.
+    throw_limit : float
+        Largest eccentricity that is tried, m.
     needs : mapping of str to float
         Torque reserve by load check that closed forms have to show, see `needed`.
     """
@@ -151,7 +155,9 @@ class Frame:
     needles: bool = False
     smaller_rings: bool = True
     ring_limit: float = math.inf
+    ring_least: float = 0.0
     pin_circle_limit: float = math.inf
+    throw_limit: float = math.inf
     needs: Mapping[str, float] = field(default_factory=dict)
 
     def needed(self, check: str) -> float:
@@ -196,9 +202,9 @@ class Frame:
 
     @property
     def least_outer_radius(self) -> float:
-        """Of the smallest ring round which a tube fills the motor's bore, m; 0 without a bore."""
+        """Of the smallest ring that is tried, and round which a tube fills the motor's bore, m."""
         bore = self.motor.bore_diameter
-        return 0.0 if bore is None else 0.5 * smallest_ring(bore)
+        return 0.5 * max(self.ring_least, 0.0 if bore is None else smallest_ring(bore))
 
     def bearing_table(self) -> BearingTable:
         """The cam bearings as arrays."""

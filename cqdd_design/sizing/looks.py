@@ -6,22 +6,27 @@ more reserve.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from cqdd_design.design import Requirements
+from cqdd_design.design import Design, Requirements
 from cqdd_design.errors import ContactError
+from cqdd_design.gearbox.tolerance.ensemble import BLOCK, ToleranceResult
 from cqdd_design.machine import Machine
 from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import cooler, what_it_can
-from cqdd_design.sizing.agreement import FITS, Found, Hunt
 from cqdd_design.sizing.bearable import weaker
-from cqdd_design.sizing.exact import exact_checks
+from cqdd_design.sizing.exact import exact_checks, yielding_checks
 from cqdd_design.sizing.finish import torque_reserve
+from cqdd_design.sizing.hunt import FITS, Found, Hunt, spaces
+from cqdd_design.sizing.shafts import stronger_shaft
 from cqdd_design.verdict.drawn import Allowed, Drawn, drawn_gearboxes, good_gearboxes, used
+from cqdd_design.verdict.joint_lines import bell_line
 
 HOT = "THERMAL-RISE"
 _LEAST_STEP = 1e-6
@@ -33,6 +38,8 @@ _SPARE = 1.02
 """Reserve over what 95 % of the gearboxes need, so that the next design's are not just short."""
 
 
+_WIDEST = 0.995
+"""Share of the largest ring beyond which no wider one is asked for."""
 _LOOKS = 12
 """At one design before the search is repeated."""
 
@@ -44,9 +51,9 @@ class NothingWiderError(Exception):
 def learn(hunt: Hunt, found: Found) -> bool:
     """Look at a design until it asks for nothing more; whether the search has to be repeated.
 
-    Torques and clearances that motor and heat ask for are given to the very design, and looked at
-    again: what they have to be hardly hangs on the sizes that a repeated search would change. What
-    part errors ask for does.
+    Torques and clearances that are asked for are given to the very design, and looked at again:
+    what they have to be hardly hangs on the sizes that a repeated search would change. The reserve
+    that part errors ask for does.
 
     Raises
     ------
@@ -54,17 +61,20 @@ def learn(hunt: Hunt, found: Found) -> bool:
     """
     machine = found.sized.machine
     for turn in range(_LOOKS):
-        can, step = look(hunt, replace(machine, stiff=True))
+        rigid = replace(machine, stiff=True)
+        can, step = look(hunt, rigid)
         if can is None and step is None:
+            if loosened(hunt, found, rigid):
+                return True
             step = closer_look(hunt, found, machine)
-            take(hunt, None, step)
-            return turn > 0 or step is not None
-        take(hunt, can, step)
+            if not step:
+                return turn > 0 or step is not None
+        take(hunt, can, step, found.cam)
         machine = machine.changed(_asked(hunt))
     return True
 
 
-def take(hunt: Hunt, can: Requirements | None, step: float | None) -> None:
+def take(hunt: Hunt, can: Requirements | None, step: float | None, cam: str = "") -> None:
     """What `look` and `read_spread` say, as what the hunt is for from now on.
 
     Raises
@@ -72,7 +82,10 @@ def take(hunt: Hunt, can: Requirements | None, step: float | None) -> None:
     NothingWiderError
     """
     if can is not None:
-        hunt.lowered |= can.continuous_torque < hunt.requirements.continuous_torque
+        less = can.continuous_torque < hunt.requirements.continuous_torque
+        hunt.risen += hunt.lowered and not less
+        if less:
+            hunt.lowered, hunt.lowered_by = True, cam
         hunt.requirements = can
     elif step:
         least = hunt.fit.hole_clearance + step
@@ -102,7 +115,8 @@ def look(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, float | Non
     """
     if hunt.requirements.derived:
         try:
-            can = what_it_can(machine, hunt.requirements, may_rise=not hunt.lowered)
+            may_rise = hunt.may_rise(machine.design.reducer.cam_bearing.designation)
+            can = what_it_can(machine, hunt.requirements, may_rise=may_rise)
         except ContactError:
             # Beyond this gearbox at some angle or torque that the search did not look at.
             return weaker(hunt.requirements, _LESS, _LESS), None
@@ -117,14 +131,75 @@ def look(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, float | Non
     return (cooler(hunt.requirements) if hot else None), None
 
 
+def loosened(hunt: Hunt, found: Found, machine: Machine) -> bool:
+    """Whether the bond between shaft and bell gives way, and a stronger shaft is searched for."""
+    warm, lines, _ = judged_temperatures(machine)
+    line = bell_line(machine, warm)
+    # No shaft helps a bond that is hotter than a motor may be.
+    too_hot = any(one.id == HOT and one.known and not one.satisfied for one in lines)
+    if line.status != "fail" or too_hot:
+        return False
+    stronger_shaft(hunt, found, (line,))
+    return True
+
+
 def closer_look(hunt: Hunt, found: Found, machine: Machine) -> float | None:
     """What a few gearboxes ask for: see `read_spread`."""
     hunt.say(f"looking at toleranced gearboxes of {found.sized.design.name}")
     try:
-        drawn = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False)
+        drawn = _drawn(hunt, machine)
     except ContactError:
         return _LEAST_STEP
     return read_spread(hunt, machine, drawn, exact_checks(machine))
+
+
+def last_look(hunt: Hunt, machine: Machine) -> float | None:
+    """What the first of the verdict's own gearboxes ask for, discs and ring yielding.
+
+    As `closer_look`, which only guesses how they yield; the verdict goes on from these.
+    """
+    try:
+        drawn = drawn_gearboxes(machine, BLOCK, sensitivity=False)
+        lines = yielding_checks(machine)
+    except ContactError:
+        return _LEAST_STEP
+    _calibrate(hunt, machine, drawn)
+    return read_spread(hunt, machine, drawn, lines)
+
+
+def _drawn(hunt: Hunt, machine: Machine) -> Drawn:
+    """A few gearboxes, whose discs and ring yield as they did at another design of the hunt.
+
+    The finite elements of a new geometry cost more than all else here, and what yielding changes,
+    as a share, is alike for designs of one hunt.
+    """
+    rigid = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False, rigid=True)
+    hunt.rigid = machine, tuple(_high(one) for one in rigid)
+    if hunt.yielding is None:
+        found = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False)
+        _calibrate(hunt, machine, found)
+        return found
+    return Drawn(
+        *(
+            replace(one, values=one.values * share)
+            for one, share in zip(rigid, hunt.yielding, strict=True)
+        )
+    )
+
+
+def _calibrate(hunt: Hunt, machine: Machine, drawn: Drawn) -> None:
+    """Note what yielding discs and ring change, where a machine was looked at without them too."""
+    if hunt.rigid is None or hunt.rigid[0].given != machine.given:
+        return
+    hunt.yielding = tuple(
+        _high(one) / np.where(other, other, 1.0)
+        for one, other in zip(drawn, hunt.rigid[1], strict=True)
+    )
+
+
+def _high(result: ToleranceResult) -> NDArray[np.float64]:
+    """What 95 % of the gearboxes stay below, of every output."""
+    return np.quantile(result.values, 0.95, axis=0)
 
 
 def clearance_needed(found: MachineTemperatures | None, checks: Iterable[Check]) -> float:
@@ -140,7 +215,7 @@ def read_spread(
 ) -> float | None:
     """More clearance of the holes that part errors ask for, m; None where they ask for nothing.
 
-    0 where they ask for reserve instead, which is noted.
+    0 where they ask for reserve or a wider ring instead, which is noted.
     """
     good = good_gearboxes(machine, drawn, lines)
     if good is None:
@@ -165,12 +240,49 @@ def read_spread(
     over = {
         check: float(np.quantile(ratio, quantile)) for check, ratio in used(allowed, drawn).items()
     }
-    short = {check: ratio for check, ratio in over.items() if ratio > 1.0}
-    for check, ratio in short.items():
-        # So much more than the perfect parts of this design have; pressure is a root of torque.
-        more = _SPARE * ratio
-        reserve = torque_reserve(by_id[check], machine.design)
-        hunt.extra[check] = reserve * (more**2 if check.startswith("CONTACT-") else more)
-    if loose:
-        return 0.0 if short else None
-    return 0.0 if short else _LEAST_STEP
+    short = any(ratio > 1.0 for ratio in over.values())
+    if short:
+        cam = machine.design.reducer.cam_bearing.designation
+        hunt.ask_extra(
+            cam,
+            {
+                check: _reserve_for(ratio, by_id[check], machine.design)
+                for check, ratio in over.items()
+            },
+        )
+    slack = fails.get("backlash", 0) > fails["bind"] + jams
+    wider = slack and _asks_for_a_wider_ring(hunt, machine, drawn, quantile)
+    if short or wider:
+        return 0.0
+    return None if loose else _LEAST_STEP
+
+
+def _asks_for_a_wider_ring(hunt: Hunt, machine: Machine, drawn: Drawn, quantile: float) -> bool:
+    """Whether a wider ring may turn less within the same clearances; if so it is noted.
+
+    The angle is that of a clearance at the ring's radius.
+    """
+    asked, own = machine.design.requirements, machine.design.reducer.ring.outer_diameter
+    assert asked.backlash is not None
+    found = float(np.quantile(drawn.continuous.columns["backlash_arcmin"], quantile))
+    ring = _SPARE * own * math.radians(found / 60.0) / asked.backlash
+    space = next(spaces(hunt.requirements, hunt.fit))
+    most = 2.0 * hunt.frame(space, {}).outer_radius
+    if own > _WIDEST * most:
+        return False
+    hunt.least_ring = min(max(ring, own), most)
+    return True
+
+
+def _reserve_for(ratio: float, line: Check, design: Design) -> float:
+    """Torque reserve of perfect parts whose errors use a line up to its limit.
+
+    Parameters
+    ----------
+    ratio : float
+        Over the limit, of the design's own gearboxes, whose perfect parts have the line's reserve;
+        pressure is a root of torque.
+    """
+    more = _SPARE * ratio
+    reserve = torque_reserve(line, design)
+    return max(reserve * (more**2 if line.id.startswith("CONTACT-") else more), 1.0)

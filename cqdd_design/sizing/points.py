@@ -9,7 +9,7 @@ cam load, and the cam bearing is the lightest that carries what is wanted.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from cqdd_design.gearbox.cam_bearing import least_bore
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.sizing import masses, reserves
+from cqdd_design.sizing import shape_limits as shapes
 from cqdd_design.sizing.bought_parts import BearingTable
 from cqdd_design.sizing.columns import Columns
 from cqdd_design.sizing.frame import THICKNESS_STEP, Frame
@@ -30,6 +31,7 @@ from cqdd_design.sizing.ring_stages import (
     StageWork,
     manufacturing_grid,
 )
+from cqdd_design.sizing.shape_limits import RADIUS_STEP
 from cqdd_design.sizing.stage_tables import StageTables
 
 BoolArray = NDArray[np.bool_]
@@ -113,6 +115,22 @@ class Evaluator:
             for count in sorted(set(pin_counts))
         }
         return cls(frame, tables, manufacturing_grid(frame), frame.bearing_table(), sums)
+
+    def placed(self, points: Points) -> Points:
+        """Points of another search, with the wall spare of the same pitch circles in these rings.
+
+        Their steps alone are right; the largest pitch circle or eccentricity where the same does
+        not go in.
+        """
+        steps = points.steps.copy()
+        most = self.frame.throw_limit / self.grid.throw
+        steps[:, 0] = np.minimum(steps[:, 0], most).astype(np.intp)
+        sizes = steps.astype(np.float64)
+        throw, tooth = sizes[:, 0] * self.grid.throw, sizes[:, 1] * self.grid.tooth
+        room = shapes.largest_pitch_for_wall(self.frame, throw, tooth)
+        spare = np.floor(room / RADIUS_STEP + 1e-6) - np.round(points.pitch_radius / RADIUS_STEP)
+        steps[:, 2] = np.maximum(spare, 0).astype(np.intp)
+        return replace(points, steps=steps)
 
     def evaluate(
         self, ring_steps: IntArray, thickness: IntArray, pins: Pins, wanted: FloatArray

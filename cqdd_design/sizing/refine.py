@@ -145,6 +145,13 @@ def _best_neighbours(
     return tried.rows(np.arange(count) * ranks.shape[1] + chosen), chosen == 0
 
 
+def best_rows(points: Points, most: int) -> Points:
+    """Up to so many different points, those that are nearest to a reserve of one or best."""
+    apart = points.different()
+    order = np.argsort(rank(apart, np.ones(apart.count)), kind="stable")
+    return apart.rows(order[:most])
+
+
 def rank(points: Points, wanted: FloatArray) -> FloatArray:
     """What `climb` makes small."""
     short = np.where(points.reserve > 0.0, _SHORT - points.reserve, np.inf)

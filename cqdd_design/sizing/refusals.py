@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from cqdd_design.geometry.limits import rounded_down
-from cqdd_design.sizing.able import CONTINUOUS, PEAK
-from cqdd_design.sizing.agreement import FITS, RING, Found, Hunt, lightest, spaces
+from cqdd_design.sizing.agreement import RING
+from cqdd_design.sizing.bearable import both_bearable, times
+from cqdd_design.sizing.hunt import FITS, Found, Hunt, spaces
 from cqdd_design.sizing.infeasible import SizingInfeasibleError, no_design
+from cqdd_design.sizing.kinds import ranked
 from cqdd_design.sizing.search import Search
 from cqdd_design.verdict import Verdict
 
-TRIALS = 14
+TRIALS = 20
 """Of sizing to the verdict."""
-_LESS, _WEAKER = 0.9, 16
-"""Share of both torques that is tried next where none of a refusal's is carried, and how often."""
+_OVER, _LESS, _WEAKER = 1.06, 0.96, 14
+"""Share of what the strongest design is thought to bear that is tried first for a refusal, the next
+over the one before where that is not carried, and how often."""
+_HALF = 0.98
+"""Half of such a step."""
 
 
 def nothing(hunt: Hunt) -> SizingInfeasibleError:
@@ -26,19 +31,20 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
     closed = no_design(search) if most is None or float(most.reserve[0]) < 1.0 else None
     if closed is not None and closed.most_torque is None:
         return closed
-    torque = asked.peak_torque if closed is None else closed.most_torque or 0.0
-    carried = _carried(hunt, torque)
-    errors = "and with what part errors take, " if hunt.extra else ""
+    share = _carried(hunt)
+    errors = "and with what part errors take, " if hunt.has_extra else ""
     text = (
         f"{asked.peak_torque:g} N*m at ratio {asked.ratio}, {asked.continuous_torque:g} N*m of it "
         f"for ever, do not fit: by the contact equilibrium, {errors}"
     )
-    ways = ["state closer [tolerances] in a design"] if hunt.extra else []
-    if carried is None:
+    ways = ["state closer [tolerances] in a design"] if hunt.has_extra else []
+    carried = None
+    if share is None:
         text += "far less is carried in this space"
         ways.insert(0, "lower both torques")
     else:
-        lasting = rounded_down(carried * asked.continuous_torque / asked.peak_torque, 2)
+        carried = rounded_down(share * asked.peak_torque, 2)
+        lasting = rounded_down(share * asked.continuous_torque, 2)
         text += f"about {carried:g} and {lasting:g} N*m are carried in this space"
         ways.insert(0, f"lower peak_torque to {carried:g} and continuous_torque to {lasting:g} N*m")
     ring = None if closed is None else closed.outer_diameter_needed
@@ -49,27 +55,32 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
     remedy = ", or ".join(ways)
     return SizingInfeasibleError(
         f"{text}. {remedy[0].upper()}{remedy[1:]}.",
-        binding=(*(("YIELD",) if hunt.extra else ()), *((RING,) if not closed else closed.binding)),
+        binding=(
+            *(("YIELD",) if hunt.has_extra else ()),
+            *((RING,) if not closed else closed.binding),
+        ),
         most_torque=carried,
         outer_diameter_needed=ring,
         length_needed=length,
     )
 
 
-def _carried(hunt: Hunt, torque: float) -> float | None:
-    """The peak torque, N m, from some torque down, at which a design is borne out; None far below.
+def _carried(hunt: Hunt) -> float | None:
+    """The share of both torques, up to about one, at which a design is borne out; None far below.
 
-    The continuous torque falls with it.
+    Two per cent more are not.
     """
     asked = hunt.requirements
-    share = asked.continuous_torque / asked.peak_torque
+
+    def borne(share: float) -> bool:
+        hunt.requirements = times(asked, share)
+        return any(not one.worth[0] for one in ranked(hunt))
+
+    share = min(_OVER * both_bearable(hunt), 1.0)
     for _ in range(_WEAKER):
-        torque *= _LESS
-        hunt.requirements = asked.model_copy(
-            update={PEAK: torque, CONTINUOUS: min(asked.continuous_torque, share * torque)}
-        )
-        if lightest(hunt) is not None:
-            return rounded_down(torque, 2)
+        if borne(share):
+            return share / _HALF if borne(share / _HALF) else share
+        share *= _LESS
     return None
 
 

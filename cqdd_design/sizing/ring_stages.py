@@ -158,7 +158,7 @@ class StageWork(NamedTuple):
         e, r = sound[:, 0] * self.grid.throw, sound[:, 1] * self.grid.tooth
         room = np.floor(shapes.largest_pitch_for_wall(frame, e, r) / RADIUS_STEP + 1e-6)
         pitch = (room - steps[:, 2]) * RADIUS_STEP
-        possible &= r + e < pitch
+        possible &= (r + e < pitch) & (e <= frame.throw_limit)
         R = np.where(possible, pitch, frame.outer_radius).astype(np.float64)
         ring = shapes.RingSizes(R, e, r)
         for met in shapes.profile_checks(frame, ring).values():
@@ -234,6 +234,7 @@ class _Facts(NamedTuple):
     relief_clearance: float
     wire_radius: float
     pin_circle_limit: float
+    throw_limit: float
     pins: tuple[tuple[float, float], ...]
 
     @classmethod
@@ -250,6 +251,7 @@ class _Facts(NamedTuple):
             frame.relief_clearance,
             frame.wire_radius,
             frame.pin_circle_limit,
+            frame.throw_limit,
             tuple((one.running_diameter, one.hole_clearance) for one in frame.pin_sizes),
         )
 

@@ -206,7 +206,7 @@ def _sound_rings(
         pressure_number=tables.pressure_at(shortening, share),
         friction_number=tables.friction_at(shortening, share),
     )
-    keep = np.ones(radius.size, dtype=bool)
+    keep = rings.eccentricity <= frame.throw_limit
     for check, met in shapes.profile_checks(frame, rings).items():
         keep &= met
         tally.after(check, int(keep.sum()) * candidates)

@@ -15,6 +15,7 @@ from cqdd_design.sizing.frame import Frame
 from cqdd_design.sizing.points import Evaluator, Points
 from cqdd_design.sizing.refine import Starts, climb, rank
 from cqdd_design.sizing.result import SizedDesign
+from cqdd_design.sizing.ring_stages import Pins
 from cqdd_design.sizing.screen import Screened, screen
 from cqdd_design.sizing.space import SearchSpace, search_space
 from cqdd_design.sizing.stage_tables import StageTables, stage_tables
@@ -60,6 +61,15 @@ class Search:
     def frame(self) -> Frame:
         """What the requirements fix."""
         return self.evaluator.frame
+
+    def at(self, point: Points) -> Points:
+        """A point (1,) of another search with its own ring and discs, and the bearing of this one.
+
+        The best that carries as much as the point does, else the strongest.
+        """
+        pins = Pins.of(self.frame, point.pin_count, point.pin_size)
+        thickness = point.steps[:, 3, None]
+        return self.evaluator.evaluate(point.steps[:, :3], thickness, pins, 0.999 * point.reserve)
 
     def most_reserve(self) -> Points | None:
         """The point with the most torque reserve; None where no shape fits."""

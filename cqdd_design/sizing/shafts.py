@@ -7,34 +7,48 @@ takes material from the discs. Where the peak torque was not stated, less of it 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import replace
 
+from cqdd_design.machine import Machine
+from cqdd_design.results import Check
 from cqdd_design.sizing.able import PEAK
-from cqdd_design.sizing.agreement import Found, Hunt
 from cqdd_design.sizing.bearable import JUST, bearable, weaker
-from cqdd_design.verdict import Verdict
+from cqdd_design.sizing.hunt import Found, Hunt
+from cqdd_design.verdict.shaft_lines import shaft_lines
 
 BOND = "BELL-JOINT"
 AT_PEAK = frozenset({"SHAFT-STRENGTH", "SUPPORT-STATIC"})
 """Lines of the shaft in proportion to the peak torque."""
 SHAFT = AT_PEAK | {"SHAFT-FATIGUE", "SUPPORT-LIFE", BOND}
 """Lines that a cam bearing with a wider bore helps."""
+THICKNESS = frozenset({"SHAFT-STRENGTH", "SHAFT-FATIGUE"})
+"""Lines that a thinner shaft does worse."""
+_SHORT = frozenset({"fail", "unknown"})
 _WIDER, _SAME = 1.001, 0.999
 """Of a bore: the least of the next wider one, and one that is no narrower."""
 
 
-def stronger_shaft(hunt: Hunt, found: Found, judged: Verdict) -> None:
+def weak_lines(machine: Machine) -> tuple[Check, ...]:
+    """Lines of `SHAFT` that a machine does not meet, but for the bond, which hangs on heat.
+
+    With rigid discs and ring, whose forces are within a few per cent.
+    """
+    every = shaft_lines(replace(machine, stiff=True))
+    return tuple(one for one in every if one.id in SHAFT and one.status in _SHORT)
+
+
+def stronger_shaft(hunt: Hunt, found: Found, every: Iterable[Check]) -> None:
     """Have the next search make a stronger shaft, or ask less of it where that leaves more torque.
 
     Parameters
     ----------
-    judged : Verdict
-        On the design, with lines of `SHAFT` that it does not meet.
+    every : iterable of Check
+        Of the design, with lines of `SHAFT` that it does not meet.
     """
-    bore = judged.evidence.machine.cam.bore_diameter
+    bore = found.sized.machine.cam.bore_diameter
     wider = replace(hunt, least_bore=_WIDER * bore)
-    short = [line for line in judged.lines if line.status in {"fail", "unknown"}]
-    lines = [line for line in short if line.id in SHAFT]
+    lines = [line for line in every if line.id in SHAFT and line.status in _SHORT]
     if PEAK in hunt.requirements.derived and all(
         line.known and line.id in AT_PEAK for line in lines
     ):

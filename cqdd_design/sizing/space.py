@@ -18,7 +18,6 @@ IntArray = NDArray[np.intp]
 PIN_COUNTS = (4, 5, 6, 8, 10, 12, 14, 16, 18, 20, 24)
 """Pin counts tried at every ratio, beside those that divide it."""
 _MOST_PINS = 20
-_MOST_BEARINGS = 14
 _NEAR = (0.85, 0.93, 0.975, 1.0)
 _SCALE_STEP = 0.88
 """Sizes of rings over the largest: close to it, and each over the next where they are smaller."""
@@ -122,7 +121,7 @@ def _tenths(thickness: FloatArray, most: float) -> FloatArray:
 
 
 def _promising_bearings(frame: Frame) -> IntArray:
-    """Bearings that could carry the least load any candidate puts on one, thinned out.
+    """Bearings that could carry the least load any candidate puts on one.
 
     The tangential cam load T/(D n e) is least at the largest eccentricity the ring allows. When no
     bearing carries it, all are kept: the search then finds the most torque there is.
@@ -133,7 +132,4 @@ def _promising_bearings(frame: Frame) -> IntArray:
     rows = np.flatnonzero(frame.bearing_table().allowed_load >= least_load)
     if rows.size == 0:
         rows = np.arange(len(frame.bearings))
-    if rows.size <= _MOST_BEARINGS:
-        return rows
-    picked = np.linspace(0.0, rows.size - 1.0, _MOST_BEARINGS).round().astype(np.intp)
-    return np.asarray(rows[picked])
+    return rows

@@ -7,21 +7,22 @@ with few gearboxes first, and choose clearances and reserves; then the whole ver
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
-from cqdd_design.sizing.able import cooler, first_guess
-from cqdd_design.sizing.agreement import FITS, Found, Hunt, Progress, agreed, lightest
-from cqdd_design.sizing.bearable import or_weaker
+from cqdd_design.sizing.able import PEAK, cooler, first_guess
+from cqdd_design.sizing.bearable import JUST, or_weaker, weaker
 from cqdd_design.sizing.costs import costs
-from cqdd_design.sizing.frame import Goal
+from cqdd_design.sizing.frame import Fit, Goal
+from cqdd_design.sizing.hunt import FITS, Found, Hunt, Progress
+from cqdd_design.sizing.kinds import lightest, promising
 from cqdd_design.sizing.looks import (
     HOT,
     NothingWiderError,
     clearance_needed,
-    closer_look,
+    last_look,
     learn,
     look,
     read_spread,
@@ -29,18 +30,18 @@ from cqdd_design.sizing.looks import (
 )
 from cqdd_design.sizing.refusals import TRIALS, nothing, refused, unsettled
 from cqdd_design.sizing.result import SizingResult
+from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import BOND, SHAFT, stronger_shaft
-from cqdd_design.sizing.smaller_rings import in_its_ring, in_smaller_rings
 from cqdd_design.sizing.stage_tables import stage_tables
 from cqdd_design.verdict import Verdict, judge
 
 _CLOSER, _CLOSER_PINS = 0.96, 6
 """Of a pin circle without a rated carrier bearing, and how often one is tried."""
-_SMALLER, _RESERVES = 6, 3
-"""Designs in smaller rings that are looked at, and how often with another reserve."""
 _BY_FRICTION = {"EFFICIENCY", "MOTOR-PEAK", "MOTOR-CONTINUOUS", "THERMAL-RISE"}
 _NEEDLES_BRING = 0.8
 """Least margin of these lines from which needles under the output pins are tried."""
+_LEAST_SHARE = 0.5
+"""Of a peak torque that was not stated, below which no line's shortfall is met by lowering it."""
 _GOALS: Mapping[str, Goal] = {
     "BACKLASH": "backlash",
     "LOST-MOTION": "backlash",
@@ -103,36 +104,44 @@ def size_to_verdict(
     if goal == "efficiency" and hunt.may_roll:
         hunt.pins = False, True
     progress("searching by closed forms, held against the contact equilibrium")
-    found = or_weaker(hunt, lambda: lightest(hunt))
+    found = or_weaker(hunt, lambda: promising(hunt))
     last: Verdict | None = None
+    thorough = False
     for _ in range(TRIALS):
         found = None if found is None else _with_rated_bearing(hunt, found)
         if found is None:
             break
         try:
-            if learn(hunt, found):
+            if found.weak:
+                stronger_shaft(hunt, found, found.weak)
                 found = _again(hunt, found)
                 continue
-            # A smaller ring leaves shaft and joints less room, at which no look was taken: where it
-            # ends in a no, the design it came from is judged.
-            can, step = None, None
-            for tried in (*_in_smaller_rings(hunt, found), found):
-                own = tried.sized.machine
-                can, step = look(hunt, own)
-                if can is None and step is None:
-                    progress(f"judging {tried.sized.design.name} by the whole verdict")
-                    last = judge(own)
-                    if last.meets == "yes":
-                        return _verified(hunt, tried, last, requirements, began)
+            if learn(hunt, found) or not thorough:
+                # The best may do with less clearance than the first; what it lacks will be seen.
+                hunt.fit = hunt.fit if thorough else _closer(hunt.fit)
+                thorough = True
+                found = _again(hunt, found)
+                continue
+            if not hunt.fine:
+                hunt.fine = True
+                found = _again(hunt, found)
+                continue
+            # With elastic discs and ring, of which the looks before knew nothing.
+            can, step = look(hunt, found.sized.machine)
             if can is None and step is None:
-                assert last is not None
+                step = last_look(hunt, found.sized.machine)
+            if can is None and step is None:
+                progress(f"judging {found.sized.design.name} by the whole verdict")
+                last = judge(found.sized.machine)
+                if last.meets == "yes":
+                    return _verified(hunt, found, last, requirements, began)
                 if _turned(hunt, found, last):
                     found = or_weaker(hunt, lambda: lightest(hunt))
                     continue
                 step = _next_step(hunt, found, last)
                 if step is None:
                     break
-            take(hunt, can, step)
+            take(hunt, can, step, found.cam)
         except NothingWiderError:
             break
         found = _again(hunt, found)
@@ -142,34 +151,29 @@ def size_to_verdict(
 
 
 def _again(hunt: Hunt, found: Found) -> Found | None:
-    """The search repeated near a design, with what has been learnt since.
+    """The search repeated with what has been learnt since.
 
-    Where that leaves nothing: for less torque if none was stated, else with other materials, discs
-    and pins.
+    Where that leaves nothing, for less torque if none was stated.
     """
-    space = found.space._replace(fit=hunt.fit)
+    return or_weaker(hunt, lambda: lightest(hunt), found)
 
-    def near() -> Found | None:
-        return agreed(hunt, space, None, found.needs)
 
-    if hunt.requirements.derived:
-        return or_weaker(hunt, near, found)
-    return near() or lightest(hunt)
+def _closer(fit: Fit) -> Fit:
+    """The next closer fit of those that are tried; the closest stays."""
+    return FITS[max(FITS.index(fit) - 1, 0)]
 
 
 def _with_rated_bearing(hunt: Hunt, found: Found) -> Found:
     """The design, or one on a pin circle round which a carrier bearing with ratings fits.
 
-    What a bearing that is made to order carries would stay unknown. Near the design first, then
-    with other materials and discs, and for less torque, where none was stated, in the end.
+    What a bearing that is made to order carries would stay unknown.
     """
     wanted, widest = hunt.requirements, hunt.most_pin_circle
     for _ in range(_CLOSER_PINS):
-        if found.rated:
+        if found.rated or found.weak:
             return found
         hunt.most_pin_circle = _CLOSER * found.sized.design.reducer.output_pins.circle_radius
-        near = agreed(hunt, found.space, None, found.needs) or lightest(hunt)
-        near = near or _again(hunt, found)
+        near = _again(hunt, found)
         if near is None:
             break
         found = near
@@ -187,10 +191,10 @@ def _verified(
 
 
 def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:
-    """With alternatives of the last search, whose closed forms are held against the equilibrium."""
-    search, screen = found.search, found.search.found
-    most = search.most_reserve()
-    others = () if most is None else search.alternatives(found.sized, found.point, most)
+    """With alternatives in the same ring with any cam bearing, by closed forms and its needs."""
+    search = Search.of(hunt.frame(found.space._replace(cam=""), found.needs), hunt.tables)
+    screen, most = search.found, search.most_reserve()
+    others = () if most is None else search.alternatives(found.sized, search.at(found.point), most)
     return SizingResult(
         **vars(found.sized),
         alternatives=others,
@@ -202,50 +206,43 @@ def _result(hunt: Hunt, found: Found, began: float) -> SizingResult:
     )
 
 
-def _in_smaller_rings(hunt: Hunt, found: Found) -> Iterator[Found]:
-    """The best design in a smaller ring of which the looks say as much, if there is one."""
-    extra = dict(hunt.extra)
-    for candidate in in_smaller_rings(hunt, found)[:_SMALLER]:
-        other: Found | None = candidate
-        for _ in range(_RESERVES):
-            if other is None or look(hunt, replace(other.sized.machine, stiff=True)) != (
-                None,
-                None,
-            ):
-                break
-            step = closer_look(hunt, other, other.sized.machine)
-            if step is None:
-                yield other
-                # Not the one after all: what its bearing takes is nothing to the others.
-                hunt.extra = extra
-                return
-            if step > 0.0:
-                break
-            # Another cam bearing takes another reserve, which may fit into the same ring.
-            other = in_its_ring(hunt, other)
-        hunt.extra = dict(extra)
-
-
 def _next_step(hunt: Hunt, found: Found, judged: Verdict) -> float | None:
     """What could bring a design that was judged nearer to a yes; see `read_spread`."""
     failing = {line.id for line in judged.lines if line.status in {"fail", "unknown"}}
     less = cooler(hunt.requirements) if failing & {HOT, "MOTOR-CONTINUOUS"} else None
     if less is not None:
-        hunt.requirements, hunt.lowered = less, True
+        hunt.requirements, hunt.lowered, hunt.lowered_by = less, True, found.cam
         # What is cooler is bonded better.
         failing -= {HOT, "MOTOR-CONTINUOUS", BOND}
         if not failing:
             return 0.0
-    if not failing <= {"YIELD", "THERMAL-CLEARANCE", *SHAFT}:
-        return None
+    others = failing - {"YIELD", "THERMAL-CLEARANCE", *SHAFT}
+    if others:
+        share = _bearing_all(hunt, judged, others)
+        if share is None:
+            return None
+        hunt.requirements = weaker(hunt.requirements, share, 1.0)
+        return 0.0
     if failing & SHAFT:
-        stronger_shaft(hunt, found, judged)
+        stronger_shaft(hunt, found, judged.lines)
         return 0.0
     step = clearance_needed(judged.evidence.temperatures, judged.lines)
     if step > 0.0:
         return step
     machine, drawn = judged.evidence.machine, judged.evidence.drawn
     return None if drawn is None else read_spread(hunt, machine, drawn, judged.lines)
+
+
+def _bearing_all(hunt: Hunt, judged: Verdict, short: set[str]) -> float | None:
+    """Share of a peak torque that was not stated which some lines bear; None where that helps none.
+
+    Of lines in proportion to it; others that do not come right by it end the trials.
+    """
+    lines = [line for line in judged.lines if line.id in short]
+    if PEAK not in hunt.requirements.derived or not all(line.known for line in lines):
+        return None
+    share = JUST * min(line.margin for line in lines)
+    return share if _LEAST_SHARE <= share < 1.0 else None
 
 
 def _needles_help(hunt: Hunt, judged: Verdict) -> bool:
@@ -274,7 +271,7 @@ def _turned(hunt: Hunt, found: Found, judged: Verdict) -> bool:
     if not goals or not failing <= {*_GOALS, "YIELD", *SHAFT} or goals[0] == hunt.goal:
         return False
     if failing & SHAFT:
-        stronger_shaft(hunt, found, judged)
+        stronger_shaft(hunt, found, judged.lines)
     hunt.goal, hunt.fit = goals[0], FITS[0]
     hunt.tried.add(goals[0])
     hunt.say(f"searching with {goals[0]} as the objective, which is asked for")

@@ -31,7 +31,9 @@ class Drawn(NamedTuple):
     """The greatest loads alone."""
 
 
-def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Drawn:
+def drawn_gearboxes(
+    machine: Machine, samples: int, *, sensitivity: bool, rigid: bool = False
+) -> Drawn:
     """Toleranced gearboxes at the continuous and at the peak torque.
 
     Parameters
@@ -40,6 +42,8 @@ def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Dra
         Gearboxes.
     sensitivity : bool
         Whether to rank the tolerances too, at the continuous torque, which takes twice as many.
+    rigid : bool
+        Whether discs and ring do not yield, for a look that has to be quick.
 
     Raises
     ------
@@ -50,12 +54,12 @@ def drawn_gearboxes(machine: Machine, samples: int, *, sensitivity: bool) -> Dra
     peak = machine.design.requirements.peak_torque
     # Greatest loads alone need the fewest angles.
     fewest = PER_TOOTH[1] * ratio * (ratio + 1)
-    at_peak = make_ensemble(machine.design, angles=fewest, torque=peak, outputs=LOADS)
+    at_peak = make_ensemble(machine.design, angles=fewest, torque=peak, outputs=LOADS, rigid=rigid)
     peaks = run_ensemble(at_peak, samples, mapper=work_remembered, sensitivity=False)
     # Last, so that what discs and ring yield at all its angles is at hand for other clearances.
     found = Drawn(
         run_ensemble(
-            make_ensemble(machine.design),
+            make_ensemble(machine.design, rigid=rigid),
             samples,
             mapper=work_remembered,
             sensitivity=sensitivity,

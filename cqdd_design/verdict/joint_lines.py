@@ -32,7 +32,7 @@ def joint_lines(machine: Machine, warm: MachineTemperatures | None) -> tuple[Che
     warm : MachineTemperatures or None
         Where they are not known, the bond is as warm as grease may be.
     """
-    return (*_dowels(machine), _bell(machine, warm))
+    return (*_dowels(machine), bell_line(machine, warm))
 
 
 def _dowels(machine: Machine) -> tuple[Check, ...]:
@@ -58,7 +58,8 @@ def _dowels(machine: Machine) -> tuple[Check, ...]:
     )
 
 
-def _bell(machine: Machine, warm: MachineTemperatures | None) -> Check:
+def bell_line(machine: Machine, warm: MachineTemperatures | None) -> Check:
+    """The bond between the shaft and the motor's bell, at the motor's torque; see `joint_lines`."""
     name, design = "BELL-JOINT", machine.design
     try:
         layout = machine.layout

@@ -13,11 +13,12 @@ from cqdd_design.design import requirements_from_mapping
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.geometry.runners import pin_runner
 from cqdd_design.machine import resolve
-from cqdd_design.sizing.agreement import FITS, NEEDLE_PINS, Hunt, lightest, spaces
 from cqdd_design.sizing.bought_parts import needle_pins
 from cqdd_design.sizing.exact import exact_checks
 from cqdd_design.sizing.finish import design_of, torque_reserve
 from cqdd_design.sizing.frame import search_frame
+from cqdd_design.sizing.hunt import FITS, NEEDLE_PINS, Hunt, spaces
+from cqdd_design.sizing.kinds import lightest
 from cqdd_design.sizing.points import Evaluator, Pins
 from cqdd_design.sizing.reserves import needle_reserves_per_radius, pin_reserves_per_radius
 from cqdd_design.sizing.search import Search
@@ -90,7 +91,7 @@ def test_what_was_found_is_borne_out(found):
 
 
 def test_reserves_are_those_of_the_analysis(found):
-    frame = frame_with_needles()
+    frame = replace(frame_with_needles(), ring_limit=found.ring)
     machine = resolve(found.sized.design)
     reducer, pins = machine.design.reducer, machine.design.reducer.output_pins
     size = next(one for one in frame.pin_sizes if one.diameter == pins.diameter)
@@ -116,8 +117,8 @@ def test_reserves_are_those_of_the_analysis(found):
         closed = float(value[0]) * pins.circle_radius
         whole = torque_reserve(by_id[name], machine.design)
         if name == "SLEEVE-LIFE":
-            # As fast as with the largest throw: on the safe side, by little.
-            assert 0.85 * whole < closed <= whole
+            # As fast as with the largest throw: on the safe side, by the third power of little.
+            assert 0.7 * whole < closed <= whole
         else:
             assert closed == pytest.approx(whole, rel=2e-3), name
 

@@ -5,7 +5,8 @@ import pytest
 from brute_search import Space, strongest
 
 from cqdd_design.design import requirements_from_mapping
-from cqdd_design.sizing.agreement import Hunt, lightest
+from cqdd_design.sizing.hunt import Hunt
+from cqdd_design.sizing.kinds import lightest
 from cqdd_design.sizing.stage_tables import stage_tables
 
 SOFT, HARD = "AISI 4140 Q&T 540C", "AISI 52100 / 100Cr6 hardened"

@@ -321,6 +321,7 @@ def make_ensemble(
     bodies: Design | None = None,
     temperatures: PartTemperatures = AS_DRAWN,
     outputs: tuple[str, ...] = OUTPUTS,
+    rigid: bool = False,
 ) -> Ensemble:
     """Complete an ensemble: continuous torque, and about 1000 angles over the turn.
 
@@ -335,6 +336,8 @@ def make_ensemble(
         Of the parts of all gearboxes.
     outputs : tuple of str
         `OUTPUTS`, or `LOADS` where nothing else is asked, which takes a quarter of the time.
+    rigid : bool
+        Whether discs and ring do not yield although they could.
 
     Raises
     ------
@@ -354,7 +357,7 @@ def make_ensemble(
     load = design.requirements.continuous_torque if torque is None else torque
     yielding: Design | None = bodies or design
     pairs = wanted * contacts**2 / reducer.disc_count
-    if pairs > _MOST_PAIRS or bodies_or_none(bodies or design) is None:
+    if rigid or pairs > _MOST_PAIRS or bodies_or_none(bodies or design) is None:
         yielding = None
     growth_of(design, temperatures)
     return Ensemble(design, yielding, load, wanted, seed, temperatures, outputs)

@@ -1,0 +1,404 @@
+"""What one search to the verdict is for, and what it learns on the way."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cqdd_design.catalog.bearings import find_bearing
+from cqdd_design.catalog.materials import Material, find_material
+from cqdd_design.catalog.motors import Motor
+from cqdd_design.design import Requirements
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.gearbox.checks import allowables
+from cqdd_design.machine import Machine
+from cqdd_design.results import Check
+from cqdd_design.sizing.exact import exact_checks
+from cqdd_design.sizing.frame import USUAL_FIT, Fit, Frame, Goal, search_frame
+from cqdd_design.sizing.points import Points
+from cqdd_design.sizing.result import SizedDesign
+from cqdd_design.sizing.search import Search
+from cqdd_design.sizing.stage_tables import StageTables
+
+Progress = Callable[[str], None]
+
+FITS = (
+    USUAL_FIT,
+    Fit(9e-6, 28e-6),
+    Fit(12e-6, 40e-6),
+    Fit(16e-6, 56e-6),
+    Fit(22e-6, 80e-6),
+    Fit(30e-6, 110e-6),
+)
+"""Clearances that are tried, the closest first."""
+MATERIALS = ("AISI 4140 Q&T 540C", "AISI 52100 / 100Cr6 hardened")
+"""Of discs and ring where none is asked for: the paper's, and a through-hardened bearing steel."""
+CAM = "BEARING-STATIC"
+"""Check of the load on a cam bearing at the peak torque."""
+NEEDLE_PINS = "AISI 52100 / 100Cr6 hardened"
+"""Of output pins that needles run on, where none is asked for."""
+DISC_COUNTS = (2, 3)
+"""Likewise of discs: those that balance."""
+_LIKELY, _HOPED = 0.95, 0.86
+"""Of a reserve that part errors ask for with other cam bearings: they differ by so much."""
+_MOST_RISEN = 2
+"""How often a torque is raised that was lowered before: it could go up and down for ever."""
+_SOLVED = 15
+"""Designs that are kept with their equilibria, but for the last."""
+
+
+class Space(NamedTuple):
+    """What a search by closed forms does not vary; any cam bearing where none is named.
+
+    All rings have the largest diameter within `ring_limit`, m; where `free`, they may be smaller.
+    `quieter` is by how much the load on a cam bearing has to be less than it bears, and `throw` the
+    largest eccentricity, m, for the shaft and the bearings at its ends.
+    """
+
+    disc_count: int
+    disc_material: str
+    ring_material: str
+    fit: Fit
+    needles: bool = False
+    ring_limit: float = math.inf
+    cam: str = ""
+    free: bool = False
+    quieter: float = 1.0
+    throw: float = math.inf
+
+    @property
+    def anywhere(self) -> Space:
+        """The same discs, materials and pins with any cam bearing in a ring of any size."""
+        return self.kind._replace(cam="")
+
+    @property
+    def kind(self) -> Space:
+        """The same discs, materials, pins and cam bearing in a ring of any size."""
+        return self._replace(ring_limit=math.inf, free=False, quieter=1.0, throw=math.inf)
+
+    @property
+    def is_soft(self) -> bool:
+        """Whether a part is of the weakest material that is tried."""
+        return MATERIALS[0] in {self.disc_material, self.ring_material}
+
+    def of(self, requirements: Requirements) -> Requirements:
+        """The requirements with these discs and materials, which are tried and not asked for."""
+        tried = requirements.model_copy(
+            update={
+                "disc_count": self.disc_count,
+                "disc_material": self.disc_material,
+                "ring_material": self.ring_material,
+                "pin_material": self.pin_material(requirements),
+            }
+        )
+        tried.model_fields_set.intersection_update(requirements.model_fields_set)
+        return tried
+
+    def pin_material(self, requirements: Requirements) -> str:
+        """Of the output pins: under needles a hardened one, where none is stated."""
+        if self.needles and "pin_material" not in requirements.model_fields_set:
+            return NEEDLE_PINS
+        return requirements.pin_material
+
+
+@dataclass(frozen=True)
+class Found:
+    """A design of a space that the contact equilibrium bears out.
+
+    Attributes
+    ----------
+    search : Search
+    needs : mapping of str to float
+        What closed forms had to show for it.
+    sized : SizedDesign
+    point : Points
+        On the grid.
+    rated : bool
+        Whether the carrier's bearing has ratings: one that is made to order has none, and what it
+        carries would stay unknown.
+    weak : tuple of Check
+        Lines of the shaft and of the bearings at its ends that it does not meet, if they were
+        asked.
+    """
+
+    space: Space
+    search: Search
+    needs: Mapping[str, float]
+    sized: SizedDesign
+    point: Points
+    rated: bool = True
+    weak: tuple[Check, ...] = ()
+
+    @property
+    def worth(self) -> tuple[bool, float]:
+        """What is better is less."""
+        return not self.rated or bool(self.weak), self.sized.objective.score
+
+    @property
+    def cam(self) -> str:
+        """Designation of its cam bearing."""
+        return self.sized.design.reducer.cam_bearing.designation
+
+    @property
+    def ring(self) -> float:
+        """Outside diameter of its ring, m."""
+        return self.sized.design.reducer.ring.outer_diameter
+
+
+class Answer(NamedTuple):
+    """What was found with a cam bearing in a space, if anything, for what was asked then.
+
+    Attributes
+    ----------
+    fixed : tuple
+        `Hunt.fixed`.
+    extra : mapping of str to float
+        `Hunt.extra_for` the bearing.
+    found : Found or None
+    fine : bool
+        Whether rings of nearly the same size were tried too.
+    """
+
+    fixed: tuple[object, ...]
+    extra: Mapping[str, float]
+    found: Found | None
+    fine: bool
+
+
+@dataclass
+class Hunt:
+    """One search to the verdict: what is learnt on the way.
+
+    Attributes
+    ----------
+    requirements : Requirements
+        With the torques that are tried where none were stated.
+    extra : dict of str to float
+        Reserve for part errors of designs of any kind, by check.
+    extra_of : dict of tuple to dict
+        Likewise of designs with one cam bearing, by its designation.
+    trusting : bool
+        Whether designs with cam bearings that have not been looked at need much less.
+    lowered : bool
+        Whether the motor did not hold a continuous torque that was tried.
+    lowered_by : str
+        Cam bearing of the design with which it did not; empty where strength was short.
+    risen : int
+        How often the torque was raised again with another cam bearing.
+    fit : Fit
+        The closest that heat and part errors leave.
+    least_bore : float
+        Of the cam bearings that are tried, m: smaller ones leave the shaft's ends no bearing.
+    least_ring : float
+        Outside diameter of the smallest ring that is tried, m: smaller ones turn too far within
+        their clearances.
+    most_pin_circle : float
+        Radius of the largest pin circle that is tried, m: round wider ones no carrier bearing of
+        the catalogue fits.
+    pins : tuple of bool
+        Whether output pins that are tried are on needles.
+    tried : set of Goal
+        Goals that were taken to meet something that is asked for.
+    yielding : tuple of array, optional
+        Outputs of gearboxes whose discs and ring yield over those of rigid ones, at the continuous
+        and at the peak torque, of the last design that was looked at with them.
+    rigid : tuple, optional
+        The machine that was looked at last, and outputs of its gearboxes while nothing yields.
+    solved : list
+        The last designs that were held against the equilibrium, for searches that come back.
+    known : dict of Space to Found
+        The best with each cam bearing as it was found last, in a ring of any size and for the
+        closest fit: where to begin when asked again.
+    answered : dict of Space to Answer
+    fine : bool
+        Whether rings of nearly the same size are tried too.
+    too_weak : dict
+        Peak torque, N m, beyond which shafts are hopeless, by disc count and cam bearing's bore.
+    """
+
+    requirements: Requirements
+    motor: Motor | None
+    ambient: float | None
+    say: Progress
+    tables: StageTables
+    goal: Goal
+    extra: dict[str, float] = field(default_factory=dict)
+    extra_of: dict[str, dict[str, float]] = field(default_factory=dict)
+    trusting: bool = False
+    lowered: bool = False
+    lowered_by: str = ""
+    risen: int = 0
+    fit: Fit = FITS[0]
+    least_bore: float = 0.0
+    least_ring: float = 0.0
+    most_pin_circle: float = math.inf
+    pins: tuple[bool, ...] = (False,)
+    tried: set[Goal] = field(default_factory=set)
+    yielding: tuple[NDArray[np.float64], ...] | None = None
+    rigid: tuple[Machine, tuple[NDArray[np.float64], ...]] | None = None
+    solved: list[tuple[Machine, tuple[Check, ...]]] = field(default_factory=list)
+    known: dict[Space, Found] = field(default_factory=dict)
+    answered: dict[Space, Answer] = field(default_factory=dict)
+    fine: bool = False
+    too_weak: dict[tuple[int, float], float] = field(default_factory=dict)
+
+    def held_against(self, machine: Machine) -> tuple[Machine, tuple[Check, ...]]:
+        """The machine of its design that is known, and its load lines by the equilibrium.
+
+        Raises
+        ------
+        ContactError, DesignError
+            When it has none.
+        """
+        for one in self.solved:
+            if one[0].given == machine.given:
+                return one
+        found = machine, exact_checks(machine)
+        self.solved[_SOLVED:] = []
+        self.solved.insert(0, found)
+        return found
+
+    @property
+    def fixed(self) -> tuple[object, ...]:
+        """What is asked of every design but for part errors."""
+        limits = self.most_pin_circle, self.least_bore, self.least_ring
+        return self.requirements, self.goal, *limits
+
+    def may_rise(self, cam: str) -> bool:
+        """Whether a continuous torque is raised to what the motor holds in a design.
+
+        Another cam bearing may rub less than the one with which it was too much.
+        """
+        other = self.lowered_by not in {"", cam} and self.risen < _MOST_RISEN
+        return not self.lowered or other
+
+    @property
+    def has_extra(self) -> bool:
+        """Whether part errors ask for any reserve."""
+        return bool(self.extra or self.extra_of)
+
+    def extra_for(self, cam: str) -> Mapping[str, float]:
+        """Reserve for part errors of designs with a cam bearing, by check.
+
+        With one that has not been looked at, somewhat less than what the known one asks for whose
+        rating is closest, and where none is named, than what every one does; where the hunt is
+        trusting, still less.
+        """
+        own = self.extra_of.get(cam)
+        if own is None and self.extra_of:
+            part = _HOPED if self.trusting else _LIKELY
+            known = [self._closest(cam)] if cam else list(self.extra_of)
+            every = [self.extra_of[one] for one in known]
+            shared = set.intersection(*map(set, every))
+            own = {one: max(part * min(each[one] for each in every), 1.0) for one in shared}
+        return self.extra | (own or {})
+
+    def _closest(self, cam: str) -> str:
+        """Of the cam bearings that have been looked at, the one that is rated most alike."""
+        rating = find_bearing(cam).static_rating or 1.0
+
+        def ratio(other: str) -> float:
+            return abs(math.log((find_bearing(other).static_rating or 1.0) / rating))
+
+        return min(self.extra_of, key=ratio)
+
+    def ask_extra(self, cam: str, asked: Mapping[str, float]) -> None:
+        """Have designs with a cam bearing keep a reserve for part errors, by check."""
+        own = self.extra_of.get(cam, {})
+        self.extra_of[cam] = own | {
+            one: max(own.get(one, 1.0), more) for one, more in asked.items()
+        }
+
+    @property
+    def may_roll(self) -> bool:
+        """Whether needles can run on the output pins that are asked for."""
+        asked = self.requirements
+        return "pin_material" not in asked.model_fields_set or allowables.is_hardened(
+            find_material(asked.pin_material)
+        )
+
+    def frame(self, space: Space, needs: Mapping[str, float]) -> Frame:
+        """The frame of a space; needs of part errors count on top.
+
+        Raises
+        ------
+        InfeasibleError
+            When nothing of the catalogues goes into the space.
+        """
+        asked = space.of(self.requirements)
+        frame = search_frame(
+            asked, self.motor, self.ambient, space.fit, self.goal, needles=space.needles
+        )
+        extra = self.extra_for(space.cam)
+        every = {*needs, *extra}
+        both = {one: needs.get(one, 1.0) * extra.get(one, 1.0) for one in every}
+        both[CAM] = both.get(CAM, 1.0) * space.quieter
+        bearings = tuple(
+            one
+            for one in frame.bearings
+            if one.bore_diameter >= self.least_bore and space.cam in {"", one.designation}
+        )
+        if not bearings:
+            raise InfeasibleError("no cam bearing that is tried goes into this space.")
+        return replace(
+            frame,
+            needs=both,
+            bearings=bearings,
+            smaller_rings=space.free,
+            ring_limit=space.ring_limit,
+            ring_least=self.least_ring,
+            pin_circle_limit=self.most_pin_circle,
+            throw_limit=space.throw,
+        )
+
+
+def spaces(
+    requirements: Requirements, fit: Fit, pins: tuple[bool, ...] = (False,)
+) -> Iterator[Space]:
+    """Materials and disc counts that are tried: those that are stated, or all.
+
+    And output pins bare and on needles, as `pins` says. Of the materials, those alone than which no
+    other is both stronger and lighter: nothing is the better for them by any goal.
+    """
+    stated = requirements.model_fields_set
+    counts = (requirements.disc_count,) if "disc_count" in stated else DISC_COUNTS
+    for count, needles, material in itertools.product(counts, pins, _undominated(MATERIALS)):
+        yield Space(
+            count,
+            requirements.disc_material if "disc_material" in stated else material,
+            requirements.ring_material if "ring_material" in stated else material,
+            fit,
+            needles,
+        )
+
+
+@functools.cache
+def _undominated(names: tuple[str, ...]) -> tuple[str, ...]:
+    """Materials than which no other of them is both stronger and lighter."""
+    tried = {name: _merits(find_material(name)) for name in names}
+    return tuple(
+        name
+        for name, own in tried.items()
+        if not any(
+            other != own and all(theirs >= mine for theirs, mine in zip(other, own, strict=True))
+            for other in tried.values()
+        )
+    )
+
+
+def _merits(material: Material) -> tuple[float, ...]:
+    """What of a material decides here: more is better."""
+    return (
+        material.yield_strength or 0.0,
+        material.ultimate_strength or 0.0,
+        allowables.contact_limit_static(material).value,
+        allowables.contact_limit_fatigue(material).value,
+        -material.density,
+    )
