@@ -237,9 +237,12 @@ def read_spread(
     by_id = {line.id: line for line in lines}
     # What may fail is shared among the lines that do.
     quantile = 1.0 - (1.0 - share) / max(sum(1 for number in fails.values() if number), 1)
-    over = {
-        check: float(np.quantile(ratio, quantile)) for check, ratio in used(allowed, drawn).items()
-    }
+    ratios = used(allowed, drawn)
+    over = {check: float(np.quantile(ratio, quantile)) for check, ratio in ratios.items()}
+    overloaded = sum(int(np.sum(ratio > 1.0)) for ratio in ratios.values())
+    if overloaded and overloaded >= fails["bind"] + jams and max(over.values()) <= 1.0:
+        # Of few gearboxes the one that is overloaded is hardly in the quantile.
+        over = {check: float(ratio.max()) for check, ratio in ratios.items()}
     short = any(ratio > 1.0 for ratio in over.values())
     if short:
         cam = machine.design.reducer.cam_bearing.designation
