@@ -9,6 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
@@ -107,6 +108,7 @@ def size_to_verdict(
     found = or_weaker(hunt, lambda: promising(hunt))
     last: Verdict | None = None
     thorough = False
+    sound: _Sound | None = None
     for _ in range(TRIALS):
         found = None if found is None else _with_rated_bearing(hunt, found)
         if found is None:
@@ -120,10 +122,11 @@ def size_to_verdict(
                 # The best may do with less clearance than the first; what it lacks will be seen.
                 hunt.fit = hunt.fit if thorough else _closer(hunt.fit)
                 thorough = True
-                found = _again(hunt, found)
+                found, sound = _or_sound(hunt, found, sound)
                 continue
             if not hunt.fine:
                 hunt.fine = True
+                sound = _Sound(found, hunt.fixed, hunt.fit)
                 found = _again(hunt, found)
                 continue
             # With elastic discs and ring, of which the looks before knew nothing.
@@ -144,10 +147,28 @@ def size_to_verdict(
             take(hunt, can, step, found.cam)
         except NothingWiderError:
             break
-        found = _again(hunt, found)
+        found, sound = _or_sound(hunt, found, sound)
     if last is not None:
         raise refused(last)
     raise nothing(hunt) if found is None else unsettled(found)
+
+
+class _Sound(NamedTuple):
+    """A design at which looks asked for nothing more, and what was asked of it then."""
+
+    found: Found
+    fixed: tuple[object, ...]
+    fit: Fit
+
+
+def _or_sound(hunt: Hunt, found: Found, sound: _Sound | None) -> tuple[Found | None, _Sound | None]:
+    """The search repeated, or the design from which a finer search led to one that asks for more.
+
+    What part errors ask of the lighter one may be too much for both, though not for that.
+    """
+    if sound is None or sound.found is found or (hunt.fixed, hunt.fit) != sound[1:]:
+        return _again(hunt, found), None
+    return sound.found, sound
 
 
 def _again(hunt: Hunt, found: Found) -> Found | None:
