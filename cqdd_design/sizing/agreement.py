@@ -42,8 +42,7 @@ def tightest(hunt: Hunt) -> Found | None:
     """
     best: Found | None = None
     every = list(spaces(hunt.requirements, hunt.fit, hunt.pins))
-    # The stronger material first: where it makes a light design, the other is soon given up.
-    for space in sorted(every, key=lambda one: (one.disc_count, one.needles, one.is_soft)):
+    for space in every:
         try:
             found = agreed(hunt, space, None if best is None else best.worth)
         except InfeasibleError:

@@ -87,26 +87,22 @@ class Bound(NamedTuple):
     objective : float
         What the search makes small.
     bearing : Bearing
-    ring : float
-        Its outside diameter, m.
     """
 
     objective: float
     bearing: Bearing
-    ring: float
 
 
 class _Ready(NamedTuple):
     """Survivors of a screen, each in the thinnest discs that carry the load, (M,).
 
-    `row`, `bearing` and `thickness` are places in what was screened; `outer` is the ring's radius.
+    `row`, `bearing` and `thickness` are places in what was screened.
     """
 
     row: IntArray
     bearing: IntArray
     thickness: IntArray
     objective: FloatArray
-    outer: FloatArray
 
 
 def strong_bearings(frame: Frame, space: SearchSpace, found: Screened) -> list[str]:
@@ -157,7 +153,6 @@ def by_bearing(frame: Frame, space: SearchSpace, found: Screened) -> tuple[Bound
         Bound(
             float(ready.objective[one]),
             frame.bearings[space.bearings[ready.bearing[one]]],
-            2.0 * float(ready.outer[one]),
         )
         for one in best
     )
@@ -214,7 +209,7 @@ def _ready(frame: Frame, space: SearchSpace, found: Screened, wanted: float) -> 
             friction=found.rings.friction_number[ring],
         ),
     )
-    return _Ready(row, bearing, thickness, objective, outer[ring])
+    return _Ready(row, bearing, thickness, objective)
 
 
 def _best_of_groups(groups: IntArray, rank: FloatArray, most: int) -> IntArray:

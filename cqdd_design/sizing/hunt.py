@@ -83,11 +83,6 @@ class Space(NamedTuple):
         """The same discs, materials, pins and cam bearing in a ring of any size."""
         return self._replace(ring_limit=math.inf, free=False, quieter=1.0, throw=math.inf)
 
-    @property
-    def is_soft(self) -> bool:
-        """Whether a part is of the weakest material that is tried."""
-        return MATERIALS[0] in {self.disc_material, self.ring_material}
-
     def of(self, requirements: Requirements) -> Requirements:
         """The requirements with these discs and materials, which are tried and not asked for."""
         tried = requirements.model_copy(

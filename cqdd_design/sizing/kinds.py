@@ -1,9 +1,9 @@
 """The best design with each cam bearing, and so the best of all.
 
-One bearing after another, those first that a screen by closed forms makes lightest. A bearing and a
-ring held fast leave closed forms and equilibrium little to disagree about, so that their loop
-settles; a shaft that is too weak, or whose ends no bearing fits, is told before anything dearer is
-asked.
+One bearing after another, those first that a screen by closed forms makes lightest. A bearing that
+is held fast leaves closed forms and equilibrium little to disagree about, so that their loop
+settles with rings of any size; a shaft that is too weak, or whose ends no bearing fits, is told
+before anything dearer is asked.
 """
 
 from __future__ import annotations
@@ -58,14 +58,11 @@ class _Kind:
         Of the bearing, m.
     objective : float
         As far as is known.
-    ring : float
-        Outside diameter to begin at, m.
     """
 
     space: Space
     bore: float
     objective: float
-    ring: float
 
 
 def lightest(hunt: Hunt) -> Found | None:
@@ -100,8 +97,7 @@ def _hoped_for(hunt: Hunt) -> Found | None:
 def promising(hunt: Hunt) -> Found | None:
     """A design that will be near the best: enough to learn from it what heat and errors ask for.
 
-    With the cam bearing that a screen makes lightest of those that are borne out, in the first ring
-    that will do.
+    With the cam bearing that a screen makes lightest of those that are borne out.
     """
     best = next(iter(ranked(hunt, thorough=False)), None)
     if PEAK in hunt.requirements.derived:
@@ -125,8 +121,7 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
     best: Found | None = None
     screened = {space for space in tried if _own(hunt, space)}
     while kinds:
-        # What is of the weaker material asks for more clearance than the best will.
-        kind = min(kinds, key=lambda one: (not thorough and one.space.is_soft, one.objective))
+        kind = min(kinds, key=lambda one: one.objective)
         kinds.remove(kind)
         if best is not None and kind.objective > _SLACK * best.worth[1]:
             break
@@ -237,18 +232,11 @@ def _kinds(hunt: Hunt, space: Space, near: Found | None) -> Iterator[_Kind]:
         return
     for one in by_bearing(frame, search.space, search.found):
         own = space._replace(cam=one.bearing.designation)
-        known = hunt.known.get(_key(own))
-        yield (
-            _Kind(own, one.bearing.bore_diameter, one.objective, one.ring)
-            if known is None or known.sized.objective.goal != hunt.goal
-            else _Kind(
-                own,
-                one.bearing.bore_diameter,
-                # What is asked may have grown since.
-                max(known.worth[1], one.objective / _SLACK),
-                known.ring,
-            )
-        )
+        known, objective = hunt.known.get(_key(own)), one.objective
+        if known is not None and known.sized.objective.goal == hunt.goal:
+            # What is asked may have grown since.
+            objective = max(known.worth[1], one.objective / _SLACK)
+        yield _Kind(own, one.bearing.bore_diameter, objective)
 
 
 def _screened_anew(kind: _Kind, better: Mapping[str, _Kind]) -> _Kind:
