@@ -117,6 +117,7 @@ def test_no_pin_circle_is_wider_than_a_carrier_bearing_allows(found):
     assert near.sized.objective.score >= 0.995 * found.sized.objective.score
 
 
+@pytest.mark.deep
 def test_more_costs_what_a_search_for_more_finds():
     own = hunt(peak_torque="50 N*m")
     found = lightest(own)
