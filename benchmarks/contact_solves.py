@@ -37,8 +37,9 @@ from cqdd_design.gearbox.contact.states import error_states, nominal_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep
 from cqdd_design.gearbox.contact.sweep_kernel import solve_sweep
 from cqdd_design.gearbox.tolerance.draws import draw_errors
-from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
+from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
 from cqdd_design.gearbox.tolerance.evaluate import ensemble_tables, evaluate_gearboxes
+from cqdd_design.gearbox.tolerance.run import run_ensemble
 from cqdd_design.machine import resolve
 
 REPOSITORY = Path(__file__).resolve().parents[1]
@@ -232,7 +233,8 @@ def peak_memory(samples: int) -> float:
     code = (
         "import resource, sys; from pathlib import Path;"
         "from cqdd_design.design import load_design;"
-        "from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble;"
+        "from cqdd_design.gearbox.tolerance.ensemble import make_ensemble;"
+        "from cqdd_design.gearbox.tolerance.run import run_ensemble;"
         "e = make_ensemble(load_design(Path(sys.argv[1])), angles=36);"
         "run_ensemble(e, int(sys.argv[2]), sensitivity=False);"
         "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)"

@@ -182,7 +182,8 @@ def _paper_table() -> str:
     from cqdd_design.design import load_design
     from cqdd_design.gearbox.contact.model import ContactModel
     from cqdd_design.gearbox.precision.precision import precision
-    from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
+    from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
+    from cqdd_design.gearbox.tolerance.run import run_ensemble
 
     paper = load_design(DOCS.parent / "designs" / "cqdd-10.toml")
     exact = precision(ContactModel.from_design(paper), 40.0).to_dict()

@@ -57,8 +57,9 @@ def moving() -> None:
 def gearboxes() -> None:
     """A whole analysis, and ensembles of two gearboxes, of all outputs and of loads alone."""
     from cqdd_design.design import load_design
-    from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
+    from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
     from cqdd_design.gearbox.tolerance.evaluate import LOADS, OUTPUTS
+    from cqdd_design.gearbox.tolerance.run import run_ensemble
     from cqdd_design.machine import resolve
     from cqdd_design.machine.contact_analysis import analyse_contact
 

@@ -16,7 +16,7 @@ from cqdd_design.cli.tables import folded, number, table
 from cqdd_design.terms import term
 
 if TYPE_CHECKING:
-    from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
+    from cqdd_design.gearbox.tolerance.run import ToleranceResult
 
 _MOST_SAMPLES = 10_000_000
 _RANKED = 4

@@ -12,7 +12,7 @@ from cqdd_design.library.inputs import DesignLike, PathLike, design_of, path_of
 from cqdd_design.library.results import Result, Row
 
 if TYPE_CHECKING:
-    from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
+    from cqdd_design.gearbox.tolerance.run import ToleranceResult
     from cqdd_design.planetary.compare import PlanetaryComparison
     from cqdd_design.report.notebook import Section
     from cqdd_design.roads.inertia import InertiaAndBalance

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from cqdd_design.design import Design
 from cqdd_design.gearbox.heat.expansion import AS_DRAWN, PartTemperatures
-from cqdd_design.gearbox.tolerance.ensemble import (
-    Progress,
-    ToleranceResult,
-    make_ensemble,
-    run_ensemble,
-)
+from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
+from cqdd_design.gearbox.tolerance.run import Progress, ToleranceResult, run_ensemble
 from cqdd_design.geometry.validate import validate_geometry
 from cqdd_design.machine import resolve
 

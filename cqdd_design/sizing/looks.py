@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from cqdd_design.design import Design, Requirements
 from cqdd_design.errors import ContactError
-from cqdd_design.gearbox.tolerance.ensemble import BLOCK, ToleranceResult
+from cqdd_design.gearbox.tolerance.run import BLOCK, ToleranceResult
 from cqdd_design.machine import Machine
 from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check

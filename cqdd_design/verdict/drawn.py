@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
-from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
+from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
 from cqdd_design.gearbox.tolerance.evaluate import LOADS, PER_TOOTH
 from cqdd_design.gearbox.tolerance.remembered import work_remembered
+from cqdd_design.gearbox.tolerance.run import ToleranceResult, run_ensemble
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
 

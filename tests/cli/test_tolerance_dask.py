@@ -18,7 +18,8 @@ distributed = pytest.importorskip("distributed")
 
 from cqdd_design.design import load_design  # noqa: E402
 from cqdd_design.errors import UsageError  # noqa: E402
-from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble  # noqa: E402
+from cqdd_design.gearbox.tolerance.ensemble import make_ensemble  # noqa: E402
+from cqdd_design.gearbox.tolerance.run import run_ensemble  # noqa: E402
 from cqdd_design.sizing.distributed import dask_client, on_cluster  # noqa: E402
 
 DESIGN = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"

@@ -13,7 +13,8 @@ import pytest
 
 from cqdd_design.catalog import find_bearing
 from cqdd_design.design import Design, load_design
-from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
+from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
+from cqdd_design.gearbox.tolerance.run import ToleranceResult, run_ensemble
 from cqdd_design.machine import resolve
 from cqdd_design.machine.contact_analysis import ContactAnalysis, analyse_contact
 from cqdd_design.report.drawings.outlines import Outlines

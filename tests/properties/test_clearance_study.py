@@ -11,8 +11,9 @@ from cqdd_design.design import load_design
 from cqdd_design.gearbox.life.fatigue import contact_cycle_factor
 from cqdd_design.gearbox.tolerance import clearance
 from cqdd_design.gearbox.tolerance.clearance import HOLE_SHARES, clearance_study
-from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
+from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
 from cqdd_design.gearbox.tolerance.limits import lasting_hours, lasting_pressure, limits
+from cqdd_design.gearbox.tolerance.run import run_ensemble
 from cqdd_design.machine import resolve
 from cqdd_design.report.gearbox.tolerances import tolerance_view
 

@@ -26,7 +26,8 @@ from cqdd_design.gearbox.heat.expansion import (
     part_materials,
 )
 from cqdd_design.gearbox.precision.backlash import backlash
-from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
+from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
+from cqdd_design.gearbox.tolerance.run import run_ensemble
 from cqdd_design.geometry.kinematics import disc_pose
 from cqdd_design.machine import Machine, resolve
 

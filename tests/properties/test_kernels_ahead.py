@@ -13,8 +13,9 @@ from cqdd_design.actuator.scenario import Scenario
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.design import load_design
 from cqdd_design.files import kernel_part
-from cqdd_design.gearbox.tolerance.ensemble import make_ensemble, run_ensemble
+from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
 from cqdd_design.gearbox.tolerance.evaluate import LOADS, OUTPUTS
+from cqdd_design.gearbox.tolerance.run import run_ensemble
 from cqdd_design.machine import resolve
 from cqdd_design.machine.contact_analysis import analyse_contact
 from cqdd_design.roads.kernels import ENSEMBLES, GEARBOX, SIMULATION, missing, signature

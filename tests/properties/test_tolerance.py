@@ -26,7 +26,6 @@ from cqdd_design.gearbox.tolerance.ensemble import (
     Block,
     Ensemble,
     make_ensemble,
-    run_ensemble,
     work_block,
     work_here,
 )
@@ -37,6 +36,7 @@ from cqdd_design.gearbox.tolerance.evaluate import (
     ensemble_tables,
     evaluate_gearboxes,
 )
+from cqdd_design.gearbox.tolerance.run import run_ensemble
 from cqdd_design.gearbox.tolerance.sobol import sobol_indices
 
 PAPER = Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml"

@@ -8,9 +8,10 @@ import numpy as np
 
 from cqdd_design.design import Design
 from cqdd_design.errors import ContactError, DesignError
-from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult, make_ensemble, run_ensemble
+from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
 from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS
 from cqdd_design.gearbox.tolerance.limits import lasting_hours
+from cqdd_design.gearbox.tolerance.run import ToleranceResult, run_ensemble
 
 EQUIDISTANTS = (0.0, 3e-6, 6e-6, 10e-6)
 """Offsets of the flank that are tried beside the design's own, m."""

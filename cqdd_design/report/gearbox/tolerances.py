@@ -16,7 +16,7 @@ from cqdd_design.terms import term
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.tolerance.clearance import ClearancePoint
-    from cqdd_design.gearbox.tolerance.ensemble import ToleranceResult
+    from cqdd_design.gearbox.tolerance.run import ToleranceResult
 
 _SHOWN = ("backlash_arcmin", "torque_ripple_pp_Nm", "ring_pressure_max_MPa")
 _STATISTICS = ("mean", "std", "p5", "p50", "p95", "p99")
