@@ -364,14 +364,17 @@ def spaces(
     """
     stated = requirements.model_fields_set
     counts = (requirements.disc_count,) if "disc_count" in stated else DISC_COUNTS
-    for count, needles, material in itertools.product(counts, pins, _undominated(MATERIALS)):
-        yield Space(
+    every = itertools.product(counts, pins, _undominated(MATERIALS))
+    yield from dict.fromkeys(
+        Space(
             count,
             requirements.disc_material if "disc_material" in stated else material,
             requirements.ring_material if "ring_material" in stated else material,
             fit,
             needles,
         )
+        for count, needles, material in every
+    )
 
 
 @functools.cache

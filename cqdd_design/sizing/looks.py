@@ -271,9 +271,9 @@ def _asks_for_a_wider_ring(hunt: Hunt, machine: Machine, drawn: Drawn, quantile:
     ring = _SPARE * own * math.radians(found / 60.0) / asked.backlash
     space = next(spaces(hunt.requirements, hunt.fit))
     most = 2.0 * hunt.frame(space, {}).outer_radius
-    if own > _WIDEST * most:
+    if ring <= own or own > _WIDEST * most:
         return False
-    hunt.least_ring = min(max(ring, own), most)
+    hunt.least_ring = min(ring, most)
     return True
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import pytest
 from cqdd_design.design import Requirements, requirements_from_mapping
 from cqdd_design.sizing.hunt import FITS, MATERIALS, Hunt, Space, _undominated, spaces
 from cqdd_design.sizing.kinds import lightest
+from cqdd_design.sizing.looks import _asks_for_a_wider_ring
 from cqdd_design.sizing.refine import Starts, climb
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import weak_lines
@@ -105,3 +107,33 @@ def test_less_load_on_the_cam_bearing_is_what_quieter_asks_for() -> None:
     usual, less = (hunt.frame(one, {}) for one in (space, space._replace(quieter=1.5)))
     assert less.needed("BEARING-STATIC") == pytest.approx(1.5 * usual.needed("BEARING-STATIC"))
     assert less.needed("BEARING-LIFE") == usual.needed("BEARING-LIFE")
+
+
+def test_what_errors_ask_of_a_bearing_follows_the_one_rated_most_alike() -> None:
+    hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
+    hunt.ask_extra("6800", {"BEARING-STATIC": 3.0})
+    hunt.ask_extra("6905", {"BEARING-STATIC": 2.0})
+    small, large = (hunt.extra_for(one)["BEARING-STATIC"] for one in ("6801", "6904"))
+    assert 2.7 < small < 3.0
+    assert 1.8 < large < 2.0
+    # Where none is named, no more than any asks for.
+    assert hunt.extra_for("")["BEARING-STATIC"] == large
+
+
+def test_a_backlash_beyond_what_is_asked_widens_the_ring_in_proportion() -> None:
+    hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
+    reducer = SimpleNamespace(ring=SimpleNamespace(outer_diameter=60e-3))
+    limit = np.radians(8.0 / 60.0)
+    design = SimpleNamespace(requirements=SimpleNamespace(backlash=limit), reducer=reducer)
+    machine = SimpleNamespace(design=design)
+
+    def drawn(arcmin: float) -> SimpleNamespace:
+        columns = {"backlash_arcmin": np.full(8, arcmin)}
+        return SimpleNamespace(continuous=SimpleNamespace(columns=columns))
+
+    assert _asks_for_a_wider_ring(hunt, machine, drawn(8.8), 0.95)  # type: ignore[arg-type]
+    assert hunt.least_ring == pytest.approx(1.02 * 1.1 * 60e-3)
+    # As large as there is at most; and no wider one where the backlash is small enough.
+    assert _asks_for_a_wider_ring(hunt, machine, drawn(16.0), 0.95)  # type: ignore[arg-type]
+    assert hunt.least_ring == pytest.approx(72e-3)
+    assert not _asks_for_a_wider_ring(hunt, machine, drawn(7.0), 0.95)  # type: ignore[arg-type]
