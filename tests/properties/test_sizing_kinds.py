@@ -11,11 +11,12 @@ import pytest
 from cqdd_design.design import Requirements, requirements_from_mapping
 from cqdd_design.sizing.hunt import FITS, MATERIALS, Hunt, Space, _undominated, spaces
 from cqdd_design.sizing.kinds import lightest
-from cqdd_design.sizing.looks import _asks_for_a_wider_ring
+from cqdd_design.sizing.looks import _asks_for_a_wider_ring, _calibrate, read_spread
 from cqdd_design.sizing.refine import Starts, climb
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import weak_lines
 from cqdd_design.sizing.stage_tables import stage_tables
+from cqdd_design.verdict.drawn import Drawn
 
 
 def asked(ratio: int, peak: float, lasting: float, hours: float) -> Requirements:
@@ -137,3 +138,41 @@ def test_a_backlash_beyond_what_is_asked_widens_the_ring_in_proportion() -> None
     assert _asks_for_a_wider_ring(hunt, machine, drawn(16.0), 0.95)  # type: ignore[arg-type]
     assert hunt.least_ring == pytest.approx(72e-3)
     assert not _asks_for_a_wider_ring(hunt, machine, drawn(7.0), 0.95)  # type: ignore[arg-type]
+
+
+def test_what_yields_is_noted_as_a_share_of_what_does_not() -> None:
+    hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
+    machine = SimpleNamespace(given="this one")
+    drawn = [SimpleNamespace(values=np.full((4, 2), more)) for more in (3.0, 6.0)]
+    hunt.rigid = machine, (np.array([2.0, 4.0]), np.array([2.0, 0.0]))  # type: ignore[assignment]
+    _calibrate(hunt, SimpleNamespace(given="another"), drawn)  # type: ignore[arg-type]
+    assert hunt.yielding is None
+    _calibrate(hunt, machine, drawn)  # type: ignore[arg-type]
+    assert hunt.yielding is not None
+    assert [one.tolist() for one in hunt.yielding] == [[1.5, 0.75], [3.0, 6.0]]
+
+
+@pytest.mark.parametrize(("binding", "step"), [(0, 0.0), (2, 1e-6)])
+def test_of_few_gearboxes_the_overloaded_one_asks_for_reserve(
+    monkeypatch: pytest.MonkeyPatch, binding: int, step: float
+) -> None:
+    """Clearance where more bind than are overloaded."""
+    looks, hunt = "cqdd_design.sizing.looks.", hunt_for(asked(10, 30.0, 4.0, 1000.0))
+    ratios = np.full(32, 0.9)
+    ratios[0] = 1.1
+    fails = {"bind": binding, "cam load at the peak": 1}
+    good = np.arange(30)
+    monkeypatch.setattr(looks + "good_gearboxes", lambda *_: (good, fails))
+    monkeypatch.setattr(looks + "used", lambda *_: {"BEARING-STATIC": ratios})
+    monkeypatch.setattr(looks + "Allowed", SimpleNamespace(of=lambda *_: ()))
+    monkeypatch.setattr(looks + "torque_reserve", lambda *_: 1.0)
+    requirements = SimpleNamespace(yield_share=0.95, backlash=0.002)
+    reducer = SimpleNamespace(cam_bearing=SimpleNamespace(designation="6803"))
+    design = SimpleNamespace(requirements=requirements, reducer=reducer)
+    ensemble = SimpleNamespace(values=np.ones((32, 1)), lost=0)
+    drawn = Drawn(ensemble, ensemble)  # type: ignore[arg-type]
+    lines = (SimpleNamespace(id="BEARING-STATIC"),)
+    found = read_spread(hunt, SimpleNamespace(design=design), drawn, lines)  # type: ignore[arg-type]
+    assert found == step
+    extra = hunt.extra_of.get("6803", {}).get("BEARING-STATIC", 1.0)
+    assert extra == (pytest.approx(1.02 * 1.1) if not binding else 1.0)
