@@ -148,11 +148,13 @@ class Output:
             told = with_coloured_start(printable(sentence), WARNING, sys.stderr)
             print(told, file=sys.stderr, flush=True)
 
-    def compile_ahead(self, *, simulation: bool = False, ensembles: bool = False) -> None:
+    def compile_ahead(
+        self, *, simulation: bool = False, ensembles: bool = False, sizing: bool = False
+    ) -> None:
         """On the first run after installation, compile what the command will call, and tell so."""
         from cqdd_design.roads.kernels import compile_kernels, missing
 
-        kernels = missing(simulation=simulation, ensembles=ensembles)
+        kernels = missing(simulation=simulation, ensembles=ensembles, sizing=sizing)
         if kernels:
             self.note("compiling on this first use, once; the next run starts at once")
             compile_kernels(kernels, self.counting("kernels compiled", alike=False))

@@ -125,7 +125,7 @@ def size(
     )
     if not quick or report:
         stopped = wanted.requirements.shock_speed > 0.0
-        out.compile_ahead(simulation=report or stopped, ensembles=True)
+        out.compile_ahead(simulation=report or stopped, ensembles=True, sizing=True)
     road = size_and_write(
         wanted.requirements,
         target,

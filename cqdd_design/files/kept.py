@@ -99,13 +99,29 @@ def write_entry(
     digest = hashlib.sha256(content).hexdigest().encode()
     try:
         write_atomically(path, b"\n".join([digest, content]), path.suffix[1:])
-        _clear(path.parent, path.suffix, most)
+        _make_room(path.parent, path.suffix, len(content), most)
     except (CqddError, OSError) as error:
         _log.info("%s is not kept (%s)", path.name, error)
 
 
-def _clear(among: Path, suffix: str, most: int) -> None:
-    """Take away what was not used for longest, as far as all entries are too many bytes."""
+_TAKEN: dict[tuple[Path, str], int] = {}
+"""Bytes of a folder's entries with a suffix, as they were counted last and written since."""
+
+
+def _make_room(among: Path, suffix: str, written: int, most: int) -> None:
+    """Take old entries away where all may be too many bytes: a folder of thousands takes long."""
+    taken = _TAKEN.get((among, suffix), most) + written
+    _TAKEN[among, suffix] = taken if taken <= most else _clear(among, suffix, most)
+
+
+def _clear(among: Path, suffix: str, most: int) -> int:
+    """Take away what was not used for longest, as far as all entries are too many bytes.
+
+    Returns
+    -------
+    int
+        Bytes that are left.
+    """
     entries = sorted(
         ((one.stat(), one) for one in among.glob(f"*{suffix}")),
         key=lambda entry: entry[0].st_mtime,
@@ -113,6 +129,8 @@ def _clear(among: Path, suffix: str, most: int) -> None:
     )
     kept = 0
     for status, one in entries:
-        kept += status.st_size
-        if kept > most:
+        if kept + status.st_size > most:
             one.unlink(missing_ok=True)
+        else:
+            kept += status.st_size
+    return kept

@@ -16,7 +16,8 @@ from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.thermal_parts import machine_network, scaled
 
 _MOST_FACTOR = 1e3
-_HALVINGS = 60
+_HALVINGS, _STILL = 6, 1e-12
+"""Of the logarithm of what is sought, before its root is closed in on, and how closely."""
 _WATTS = 1e-3, 1e5
 """Between which the heat lies that takes a winding to its limit."""
 
@@ -50,12 +51,12 @@ def cooled_network(machine: Machine) -> ThermalNetwork:
     heat = Heat.constant(node_values({"winding": watts}))
     w = NODES.index("winding")
 
-    def warm(one: ThermalNetwork) -> bool:
-        return bool(one.steady(heat)[w] > most)
+    def room(one: ThermalNetwork) -> float:
+        return float(most - one.steady(heat)[w])
 
     best = scaled(network, _MOST_FACTOR)
-    if not warm(best):
-        enough = _halved(lambda x: warm(scaled(network, x)), 1.0 / _MOST_FACTOR, _MOST_FACTOR)
+    if room(best) >= 0.0:
+        enough = _enough(lambda x: room(scaled(network, x)), 1.0 / _MOST_FACTOR, _MOST_FACTOR)
         return scaled(network, enough)
 
     # Colder than its own copper and iron allow: everything conducts better.
@@ -63,15 +64,25 @@ def cooled_network(machine: Machine) -> ThermalNetwork:
         conducts = factor * best.conductance
         return replace(best, conductance=conducts, cooling=factor * best.cooling)
 
-    return all_better(_halved(lambda x: warm(all_better(x)), 1.0, _MOST_FACTOR))
+    return all_better(_enough(lambda x: room(all_better(x)), 1.0, _MOST_FACTOR))
 
 
-def _halved(too_small: Callable[[float], bool], least: float, most: float) -> float:
-    """Where a number is enough, by halving its logarithm."""
+def _enough(surplus: Callable[[float], float], least: float, most: float) -> float:
+    """Where a surplus that grows with a number is nothing, or the end that is nearest to that.
+
+    Near first: far from there networks run away and have no temperatures.
+    """
+    from scipy.optimize import brentq
+
     for _ in range(_HALVINGS):
         middle = math.sqrt(least * most)
-        least, most = (middle, most) if too_small(middle) else (least, middle)
-    return math.sqrt(least * most)
+        least, most = (middle, most) if surplus(middle) <= 0.0 else (least, middle)
+    if surplus(most) <= 0.0:
+        return most
+    if surplus(least) >= 0.0:
+        return least
+    found = brentq(lambda x: surplus(math.exp(x)), math.log(least), math.log(most), xtol=_STILL)
+    return math.exp(found)
 
 
 @lru_cache(maxsize=2)
@@ -88,7 +99,7 @@ def two_nodes(network: ThermalNetwork, most: float = WINDING_MOST) -> TwoNodes:
     def at(watts: float) -> FloatArray:
         return network.steady(one._replace(fixed=watts * one.fixed))
 
-    watts = _halved(lambda watts: bool(at(watts)[w] <= most), *_WATTS)
+    watts = _enough(lambda watts: float(at(watts)[w] - most), *_WATTS)
     found = network.resistances(w, at(watts))
     rest = network.capacity * found
     return TwoNodes(

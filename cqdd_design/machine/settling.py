@@ -22,7 +22,7 @@ from cqdd_design.machine.heat_nodes import NODES, Node, by_node
 from cqdd_design.machine.machine import Machine
 
 _GEARBOX: tuple[Node, ...] = ("ring", "disc", "shaft", "carrier")
-_ROUNDS, _STILL, _NEARLY_STILL = 60, 1e-6, 1e-2
+_ROUNDS, _STILL, _NEARLY_STILL = 60, 1e-6, 5e-2
 """Of the search, and K by which temperatures may still move; with rigid bodies, whose losses are
 good to a per cent."""
 _MOST_GAIN = 0.8

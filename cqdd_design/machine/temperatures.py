@@ -43,8 +43,8 @@ _LEAST_TIME, _SETTLED = 5.0, 6.0
 """First time of a history, s, and its last over the slowest time constant."""
 _SHOWN = 200
 """Times of a duty's cycle in JSON."""
-_LOOKS = 6
-"""States on the way from the coldest start at which clearances are looked at."""
+_LOOKS, _FEW_LOOKS = 6, 3
+"""States on the way from the coldest start at which clearances are looked at; with rigid bodies."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +181,7 @@ class MachineTemperatures:
     def on_the_way(self) -> tuple[WarmClearance, ...]:
         """Clearances at the coldest start, on the way from there, and at `reached`."""
         coldest = self.machine.design.environment.coldest
-        times = self.times[:: max(_TIMES // _LOOKS, 1)]
+        times = self.times[:: _TIMES // (_FEW_LOOKS if self.machine.stiff else _LOOKS)]
         warming = self.network.history(self.duty.heat, times, coldest)
         inside = np.clip(warming, COLDEST, HOTTEST)
         return (
@@ -346,7 +346,7 @@ def _in_words(parts: PartTemperatures) -> str:
     return f"{told} degC"
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=6)
 def judged_temperatures(
     machine: Machine,
 ) -> tuple[MachineTemperatures | None, tuple[Check, ...], tuple[str, ...]]:

@@ -116,6 +116,12 @@ ENSEMBLES = (
     Kernel("gearbox.tolerance.ensemble_kernel", "solve_greatest", _DRAWN, _DRAWN_VALUES),
 )
 """What works toleranced gearboxes."""
+SIZING = (
+    Kernel("sizing.shape_kernel", "reliefs_pass", ("i", "f2", "f2", "f", "b1")),
+    Kernel("sizing.shape_kernel", "pin_circles", ("i", "f2", "f1", "f2", "f2", "f2")),
+    Kernel("sizing.shape_kernel", "lobed_areas", ("i", "f2", "f1", "f1")),
+)
+"""What a search calls beside."""
 
 
 def signature(kernel: Kernel) -> tuple[Any, ...]:
@@ -137,13 +143,16 @@ def signature(kernel: Kernel) -> tuple[Any, ...]:
     return tuple(typed(one) for one in kernel.arguments)
 
 
-def missing(*, simulation: bool = False, ensembles: bool = False) -> list[Kernel]:
+def missing(
+    *, simulation: bool = False, ensembles: bool = False, sizing: bool = False
+) -> list[Kernel]:
     """Kernels that no earlier run has left compiled, the longest to compile first."""
     wanted = (
         *(ENSEMBLES if ensembles else ()),
         *GEARBOX[:2],
         *(SIMULATION if simulation else ()),
         *GEARBOX[2:],
+        *(SIZING if sizing else ()),
     )
     return [kernel for kernel in wanted if not in_cache(kernel.compiled())]
 
@@ -256,7 +265,7 @@ def _compile_lines() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         for line in sys.stdin:
             names = line.split()
-            for kernel in (*GEARBOX, *SIMULATION, *ENSEMBLES):
+            for kernel in (*GEARBOX, *SIMULATION, *ENSEMBLES, *SIZING):
                 if kernel.name in names:
                     kernel.compiled().compile(signature(kernel))
             print(file=answers, flush=True)

@@ -21,7 +21,7 @@ from cqdd_design.machine.temperatures import MachineTemperatures, judged_tempera
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import cooler, what_it_can
 from cqdd_design.sizing.bearable import weaker
-from cqdd_design.sizing.exact import exact_checks, yielding_checks
+from cqdd_design.sizing.exact import yielding_checks
 from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.hunt import FITS, Found, Hunt, spaces
 from cqdd_design.sizing.shafts import stronger_shaft
@@ -59,10 +59,10 @@ def learn(hunt: Hunt, found: Found) -> bool:
     ------
     NothingWiderError
     """
-    machine = found.sized.machine
+    machine, can, step = found.sized.machine, None, None
     for turn in range(_LOOKS):
         rigid = replace(machine, stiff=True)
-        can, step = look(hunt, rigid)
+        can, step = look(hunt, rigid, heat_first=step is not None)
         if can is None and step is None:
             if loosened(hunt, found, rigid):
                 return True
@@ -107,21 +107,41 @@ def _asked(hunt: Hunt) -> dict[str, float]:
     }
 
 
-def look(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, float | None]:
+def look(
+    hunt: Hunt, machine: Machine, *, heat_first: bool = False
+) -> tuple[Requirements | None, float | None]:
     """What the motor can do, where that was asked, and clearance that heat needs more, m.
 
     With rigid discs and ring first: their finite elements cost more than all else here, and change
     either by a per cent.
+
+    Parameters
+    ----------
+    heat_first : bool
+        Whether more clearance is what is most likely asked for.
     """
-    if hunt.requirements.derived:
-        try:
-            may_rise = hunt.may_rise(machine.design.reducer.cam_bearing.designation)
-            can = what_it_can(machine, hunt.requirements, may_rise=may_rise)
-        except ContactError:
-            # Beyond this gearbox at some angle or torque that the search did not look at.
-            return weaker(hunt.requirements, _LESS, _LESS), None
-        if can is not None:
-            return can, None
+    ways = [_motor, _heat]
+    for way in reversed(ways) if heat_first else ways:
+        found = way(hunt, machine)
+        if found != (None, None):
+            return found
+    return None, None
+
+
+def _motor(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, None]:
+    """Other torques, where none were stated."""
+    if not hunt.requirements.derived:
+        return None, None
+    try:
+        may_rise = hunt.may_rise(machine.design.reducer.cam_bearing.designation)
+        return what_it_can(machine, hunt.requirements, may_rise=may_rise), None
+    except ContactError:
+        # Beyond this gearbox at some angle or torque that the search did not look at.
+        return weaker(hunt.requirements, _LESS, _LESS), None
+
+
+def _heat(hunt: Hunt, machine: Machine) -> tuple[Requirements | None, float | None]:
+    """More clearance, or less torque where warm parts are free and still too hot."""
     found, checks, _ = judged_temperatures(machine)
     step = clearance_needed(found, checks)
     if step > 0.0:
@@ -144,27 +164,36 @@ def loosened(hunt: Hunt, found: Found, machine: Machine) -> bool:
 
 
 def closer_look(hunt: Hunt, found: Found, machine: Machine) -> float | None:
-    """What a few gearboxes ask for: see `read_spread`."""
+    """What a few gearboxes ask for: see `read_spread`.
+
+    Limits are the same whether discs and ring yield or not; the quicker way leads to them.
+    """
     hunt.say(f"looking at toleranced gearboxes of {found.sized.design.name}")
     try:
         drawn = _drawn(hunt, machine)
     except ContactError:
         return _LEAST_STEP
-    return read_spread(hunt, machine, drawn, exact_checks(machine))
+    rigid = replace(machine, stiff=True)
+    return read_spread(hunt, rigid, drawn, hunt.held_against(rigid)[1])
 
 
 def last_look(hunt: Hunt, machine: Machine) -> float | None:
     """What the first of the verdict's own gearboxes ask for, discs and ring yielding.
 
-    As `closer_look`, which only guesses how they yield; the verdict goes on from these.
+    As `closer_look`, which only guesses how they yield; a few first, as these tell most of what is
+    missing. The verdict goes on from the others.
     """
-    try:
-        drawn = drawn_gearboxes(machine, BLOCK, sensitivity=False)
-        lines = yielding_checks(machine)
-    except ContactError:
-        return _LEAST_STEP
-    _calibrate(hunt, machine, drawn)
-    return read_spread(hunt, machine, drawn, lines)
+    for samples in (_TRIAL_SAMPLES, BLOCK):
+        try:
+            drawn = drawn_gearboxes(machine, samples, sensitivity=False)
+            lines = yielding_checks(machine)
+        except ContactError:
+            return _LEAST_STEP
+        _calibrate(hunt, machine, drawn)
+        step = read_spread(hunt, machine, drawn, lines)
+        if step is not None:
+            return step
+    return None
 
 
 def _drawn(hunt: Hunt, machine: Machine) -> Drawn:

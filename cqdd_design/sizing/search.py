@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import reduce
+from functools import cached_property, reduce
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,25 +37,30 @@ USEFUL_RESERVE = 2.0
 
 @dataclass(frozen=True)
 class Search:
-    """A frame with its tables and the outcome of its screen.
+    """A frame with its tables, its search space and the outcome of its screen.
 
     Attributes
     ----------
     evaluator : Evaluator
         Holds the frame and the tables.
+    tables : StageTables
     """
 
     evaluator: Evaluator
+    tables: StageTables
     space: SearchSpace
-    found: Screened
 
     @classmethod
     def of(cls, frame: Frame, tables: StageTables | None = None) -> Search:
-        """Screen the space of a frame; tables of the same ratio may be handed in."""
+        """Search the space of a frame; tables of the same ratio may be handed in."""
         tables = stage_tables(frame.lobe_count) if tables is None else tables
         space = search_space(frame, tables)
-        found = screen(frame, tables, space)
-        return cls(Evaluator.of(frame, tables, space.pin_counts), space, found)
+        return cls(Evaluator.of(frame, tables, space.pin_counts), tables, space)
+
+    @cached_property
+    def found(self) -> Screened:
+        """The outcome of the screen, when it is first asked for."""
+        return screen(self.frame, self.tables, self.space)
 
     @property
     def frame(self) -> Frame:

@@ -11,14 +11,16 @@ from actuator_samples import paper_actuator
 
 from cqdd_design.actuator.scenario import Scenario
 from cqdd_design.actuator.simulate import simulate
-from cqdd_design.design import load_design
+from cqdd_design.design import Requirements, load_design
 from cqdd_design.files import kernel_part
 from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
 from cqdd_design.gearbox.tolerance.evaluate import LOADS, OUTPUTS
 from cqdd_design.gearbox.tolerance.run import run_ensemble
 from cqdd_design.machine import resolve
 from cqdd_design.machine.contact_analysis import analyse_contact
-from cqdd_design.roads.kernels import ENSEMBLES, GEARBOX, SIMULATION, missing, signature
+from cqdd_design.roads.kernels import ENSEMBLES, GEARBOX, SIMULATION, SIZING, missing, signature
+from cqdd_design.sizing.frame import search_frame
+from cqdd_design.sizing.search import Search
 
 PAPER = Path(__file__).parents[2] / "designs" / "cqdd-10.toml"
 
@@ -38,9 +40,10 @@ def test_what_is_compiled_ahead_is_what_commands_call() -> None:
     simulate([paper_actuator()], Scenario(), 1e-3, 1e-5)
     for outputs in (OUTPUTS, LOADS):
         run_ensemble(make_ensemble(design, angles=44, outputs=outputs), 2)
-    for kernel in (*GEARBOX, *SIMULATION, *ENSEMBLES):
+    Search.of(search_frame(Requirements(ratio=10))).most_reserve()
+    for kernel in (*GEARBOX, *SIMULATION, *ENSEMBLES, *SIZING):
         assert signature(kernel) in kernel.compiled().signatures, kernel.name
-    assert missing(simulation=True, ensembles=True) == []
+    assert missing(simulation=True, ensembles=True, sizing=True) == []
 
 
 def test_a_part_is_plain_python_to_python() -> None:

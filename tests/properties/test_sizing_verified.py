@@ -308,7 +308,7 @@ def test_a_design_is_looked_at_with_what_it_was_found_to_ask_for(
     answers: list[Any] = [(less, None), (None, 1e-6), (None, None)]
     seen: list[Machine] = []
 
-    def look(_: Hunt, own: Machine) -> Any:
+    def look(_: Hunt, own: Machine, **__: Any) -> Any:
         seen.append(own)
         return answers.pop(0)
 
