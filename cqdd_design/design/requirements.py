@@ -236,6 +236,13 @@ class Requirements(FrozenModel):
         """Torques that were not stated and follow from the ratio."""
         return self._derived
 
+    def deriving(self, *torques: str) -> Requirements:
+        """The same, with torques that count as not stated and may be lowered."""
+        free = self.model_copy()
+        free.model_fields_set.difference_update(torques)
+        free._derived = frozenset(torques)
+        return free
+
     @property
     def held_speed(self) -> float:
         """Input speed at which the continuous torque is held for ever, rad/s."""

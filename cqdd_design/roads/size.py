@@ -22,6 +22,7 @@ from cqdd_design.roads.telling import Progress, silent
 from cqdd_design.sizing import SizingResult, size
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.motors import MotorChoice, size_with_any
+from cqdd_design.sizing.nearest import size_or_nearest
 from cqdd_design.sizing.verified import size_to_verdict
 from cqdd_design.verdict import Verdict, judge
 
@@ -262,7 +263,9 @@ def _sized(
         if quick:
             alone = size(asked, progress, motor=row, ambient=ambient, goal=goal)
             return _Sized(alone, None, frozenset())
-        done = size_to_verdict(asked, progress, motor=row, ambient=ambient, goal=goal)
+        # Of many motors each refusal would take minutes.
+        way = size_to_verdict if any_motor else size_or_nearest
+        done = way(asked, progress, motor=row, ambient=ambient, goal=goal)
         return _Sized(done.sizing, done.verdict, done.derived)
 
     if any_motor:

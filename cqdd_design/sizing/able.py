@@ -33,6 +33,10 @@ _SAME = 0.05
 """A torque is left as it is where what the motor can do is not more above it."""
 
 
+class TooHotError(InfeasibleError):
+    """A motor holds no torque for ever at the speed that is asked for."""
+
+
 def first_guess(requirements: Requirements, motor: Motor | None) -> Requirements:
     """The requirements with guesses in place of torques that were not stated.
 
@@ -70,7 +74,7 @@ def what_it_can(
 
     Raises
     ------
-    InfeasibleError
+    TooHotError
         When the motor holds no torque for ever at the speed that is asked for.
     DesignError
         When the actuator cannot be simulated.
@@ -86,7 +90,7 @@ def what_it_can(
         speed = requirements.held_speed / requirements.ratio
         most = _SPARE * float(held_torque(actuator, speed)[0])
         if most <= 0.0:
-            raise InfeasibleError(
+            raise TooHotError(
                 f"motor '{machine.motor.name}' holds no torque for ever at "
                 f"{requirements.held_speed * 30.0 / math.pi:.0f} rpm in still air of "
                 f"{actuator.thermal.ambient:g} degC: its own drag and the gearbox's heat it to its "

@@ -21,7 +21,7 @@ from cqdd_design.sizing.points import Points
 from cqdd_design.sizing.result import SizedDesign
 from cqdd_design.sizing.search import Search
 
-_CLOSE = 1.03
+CLOSE = 1.03
 """Load checks within this factor of the least reserve bind together with it."""
 _LARGEST_RING_MM = 1000
 """Outside diameter at which the search for a larger ring stops (the model's own bound)."""
@@ -64,12 +64,14 @@ class SizingInfeasibleError(InfeasibleError):
         Identifiers of the checks that bind, the tightest first.
     most_torque : float or None
         Peak torque that a design in the same space does carry, with the continuous torque lowered
-        in proportion, N m; None where no gearbox of any torque fits.
+        in proportion or to `most_lasting_torque`, N m; None where no gearbox of any torque fits.
+    most_lasting_torque : float or None
+        Continuous torque that goes with it, N m.
     outer_diameter_needed : float or None
-        Smallest ring, in whole millimetres, that carries the torque asked for in the same length,
-        m; None where none does that goes into the motor's bore.
+        Smallest ring, in whole or half millimetres, that carries the torque asked for in the same
+        length, m; None where none does that goes into the motor's bore.
     length_needed : float or None
-        Shortest pack, in whole millimetres, that carries it in the same ring, m.
+        Shortest pack, likewise, that carries it in the same ring, m.
     """
 
     def __init__(
@@ -78,12 +80,14 @@ class SizingInfeasibleError(InfeasibleError):
         *,
         binding: tuple[str, ...],
         most_torque: float | None,
+        most_lasting_torque: float | None = None,
         outer_diameter_needed: float | None = None,
         length_needed: float | None = None,
     ) -> None:
         super().__init__(message)
         self.binding = binding
         self.most_torque = most_torque
+        self.most_lasting_torque = most_lasting_torque
         self.outer_diameter_needed = outer_diameter_needed
         self.length_needed = length_needed
 
@@ -92,24 +96,31 @@ class SizingInfeasibleError(InfeasibleError):
         return {
             "binding": list(self.binding),
             "most_peak_torque_Nm": self.most_torque,
-            "outer_diameter_needed_mm": _whole_mm(self.outer_diameter_needed),
-            "length_needed_mm": _whole_mm(self.length_needed),
+            "most_continuous_torque_Nm": self.most_lasting_torque,
+            "outer_diameter_needed_mm": _in_mm(self.outer_diameter_needed),
+            "length_needed_mm": _in_mm(self.length_needed),
         }
 
 
-def _whole_mm(length: float | None) -> int | None:
-    return None if length is None else round(length * 1e3)
+def _in_mm(length: float | None) -> float | None:
+    return None if length is None else round(length * 1e3, 1)
 
 
-def no_design(search: Search) -> SizingInfeasibleError:
-    """Explain a search that found nothing, with the nearest requirements that would fit."""
+def no_design(search: Search, *, nearest: bool = True) -> SizingInfeasibleError:
+    """Explain a search that found nothing, with the nearest requirements that would fit.
+
+    Parameters
+    ----------
+    nearest : bool
+        Whether a larger ring and a longer pack are looked for that would do by closed forms.
+    """
     wanted = search.frame.requirements
     best = _most_torque(search)
     bore = search.frame.motor.bore_diameter
     largest = _LARGEST_RING_MM if bore is None else math.floor(largest_ring(bore) * 1e3 + _ROUNDING)
-    ring = _smallest(search, "outer_diameter", largest)
-    length = _smallest(search, "length", _LONGEST_PACK_MM)
-    space = f"{_a(wanted.outer_diameter)} ring"
+    ring = _smallest(search, "outer_diameter", largest) if nearest else None
+    length = _smallest(search, "length", _LONGEST_PACK_MM) if nearest else None
+    space = f"{a_length(wanted.outer_diameter)} ring"
     asked = f"{wanted.peak_torque:g} N*m at ratio {wanted.ratio}"
     fixes = []
     binding: tuple[str, ...]
@@ -126,7 +137,7 @@ def no_design(search: Search) -> SizingInfeasibleError:
         most = best.design.requirements
         text = (
             f"{asked} does not fit: in {space} the most is {most.peak_torque:g} N*m; "
-            f"{_listed(words)} {'binds' if len(words) == 1 else 'bind'}"
+            f"{listed(words)} {'binds' if len(words) == 1 else 'bind'}"
         )
         fixes.append(
             f"lower peak_torque to {most.peak_torque:g} N*m and continuous_torque to "
@@ -134,9 +145,9 @@ def no_design(search: Search) -> SizingInfeasibleError:
         )
     for key, need, what in (("outer_diameter", ring, "ring"), ("length", length, "pack of discs")):
         if need is not None:
-            text += f"; {asked} needs {_a(need)} {what}"
+            text += f"; {asked} needs {a_length(need)} {what}"
             fixes.append(f"raise {key} to {need * 1e3:g} mm")
-    if ring is None and bore is not None and largest < _LARGEST_RING_MM:
+    if nearest and ring is None and bore is not None and largest < _LARGEST_RING_MM:
         text += (
             f"; {search.frame.motor.name} has a bore of {bore * 1e3:g} mm, for rings up to "
             f"{largest} mm"
@@ -146,19 +157,22 @@ def no_design(search: Search) -> SizingInfeasibleError:
         f"{text}. {remedy[0].upper()}{remedy[1:]}.",
         binding=binding,
         most_torque=None if best is None else best.design.requirements.peak_torque,
+        most_lasting_torque=None
+        if best is None
+        else rounded_down(best.design.requirements.continuous_torque),
         outer_diameter_needed=ring,
         length_needed=length,
     )
 
 
-def _a(length: float) -> str:
+def a_length(length: float) -> str:
     """A length in mm with the article it is read with: a 40 mm, an 80 mm."""
     text = f"{length * 1e3:g}"
     vowel = text.startswith("8") or text.split(".")[0] in ("11", "18")
     return f"{'an' if vowel else 'a'} {text} mm"
 
 
-def _listed(words: list[str]) -> str:
+def listed(words: list[str]) -> str:
     """Words joined as in a sentence."""
     return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
@@ -194,7 +208,7 @@ def _binding(sized: SizedDesign) -> tuple[str, ...]:
         if check.id in LOAD_CHECKS
     }
     least = min(reserve.values())
-    close = [check for check, value in reserve.items() if value <= _CLOSE * least]
+    close = [check for check, value in reserve.items() if value <= CLOSE * least]
     return tuple(sorted(close, key=lambda check: reserve[check]))
 
 

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from cqdd_design.gearbox.checks.guide import CHECK_GUIDE
 from cqdd_design.geometry.limits import rounded_down
-from cqdd_design.sizing.agreement import RING
+from cqdd_design.sizing.agreement import RING, strongest
 from cqdd_design.sizing.bearable import both_bearable, times
-from cqdd_design.sizing.hunt import FITS, Found, Hunt, spaces
-from cqdd_design.sizing.infeasible import SizingInfeasibleError, no_design
-from cqdd_design.sizing.kinds import ranked
+from cqdd_design.sizing.finish import torque_reserve
+from cqdd_design.sizing.hunt import FITS, Found, Hunt, Space, spaces
+from cqdd_design.sizing.infeasible import (
+    CLOSE,
+    WORDS,
+    SizingInfeasibleError,
+    a_length,
+    listed,
+    no_design,
+)
 from cqdd_design.sizing.search import Search
 from cqdd_design.verdict import Verdict
 
 TRIALS = 20
 """Of sizing to the verdict."""
-_OVER, _LESS, _WEAKER = 1.06, 0.96, 14
-"""Share of what the strongest design is thought to bear that is tried first for a refusal, the next
-over the one before where that is not carried, and how often."""
-_HALF = 0.98
-"""Half of such a step."""
 
 
 def nothing(hunt: Hunt) -> SizingInfeasibleError:
@@ -27,61 +32,52 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
     """
     asked, space = hunt.requirements, next(spaces(hunt.requirements, hunt.fit))
     search = Search.of(hunt.frame(space, {}), hunt.tables)
-    most = search.most_reserve()
-    closed = no_design(search) if most is None or float(most.reserve[0]) < 1.0 else None
-    if closed is not None and closed.most_torque is None:
-        return closed
-    share = _carried(hunt)
-    errors = "and with what part errors take, " if hunt.has_extra else ""
+    if search.most_reserve() is None:
+        closed = no_design(search, nearest=False)
+        if closed.most_torque is None:
+            return closed
+    share = min(both_bearable(hunt), 1.0)
+    binding = _binding(hunt, space, share)
+    words = list(dict.fromkeys(WORDS.get(one, CHECK_GUIDE[one].title) for one in binding))
     text = (
         f"{asked.peak_torque:g} N*m at ratio {asked.ratio}, {asked.continuous_torque:g} N*m of it "
-        f"for ever, do not fit: by the contact equilibrium, {errors}"
+        f"for ever, do not fit in {a_length(asked.outer_diameter)} ring and "
+        f"{1e3 * asked.length:g} mm of length: {listed(words)} "
+        f"{'binds' if len(words) == 1 else 'bind'}"
     )
-    ways = ["state closer [tolerances] in a design"] if hunt.has_extra else []
-    carried = None
-    if share is None:
-        text += "far less is carried in this space"
-        ways.insert(0, "lower both torques")
-    else:
-        carried = rounded_down(share * asked.peak_torque, 2)
-        lasting = rounded_down(share * asked.continuous_torque, 2)
-        text += f"about {carried:g} and {lasting:g} N*m are carried in this space"
-        ways.insert(0, f"lower peak_torque to {carried:g} and continuous_torque to {lasting:g} N*m")
-    ring = None if closed is None else closed.outer_diameter_needed
-    length = None if closed is None else closed.length_needed
-    for key, need in (("outer_diameter", ring), ("length", length)):
-        if need is not None:
-            ways.append(f"raise {key}, to more than the {1e3 * need:g} mm of closed forms")
-    remedy = ", or ".join(ways)
+    if share < 1.0:
+        parts = "with what part errors take" if hunt.has_extra else "of perfect parts"
+        carried, lasting = (
+            rounded_down(share * one, 2) for one in (asked.peak_torque, asked.continuous_torque)
+        )
+        text += (
+            f"; by the contact equilibrium {parts} no more than about {carried:g} and "
+            f"{lasting:g} N*m are carried"
+        )
+    closer = ", or state closer [tolerances] in a design" if hunt.has_extra else ""
     return SizingInfeasibleError(
-        f"{text}. {remedy[0].upper()}{remedy[1:]}.",
-        binding=(
-            *(("YIELD",) if hunt.has_extra else ()),
-            *((RING,) if not closed else closed.binding),
-        ),
-        most_torque=carried,
-        outer_diameter_needed=ring,
-        length_needed=length,
+        f"{text}. Ask for less torque, give more space{closer}.",
+        binding=(*(("YIELD",) if hunt.has_extra else ()), *binding),
+        most_torque=rounded_down(share * asked.peak_torque, 2) if share < 1.0 else None,
     )
 
 
-def _carried(hunt: Hunt) -> float | None:
-    """The share of both torques, up to about one, at which a design is borne out; None far below.
-
-    Two per cent more are not.
-    """
-    asked = hunt.requirements
-
-    def borne(share: float) -> bool:
-        hunt.requirements = times(asked, share)
-        return any(not one.worth[0] for one in ranked(hunt))
-
-    share = min(_OVER * both_bearable(hunt), 1.0)
-    for _ in range(_WEAKER):
-        if borne(share):
-            return share / _HALF if borne(share / _HALF) else share
-        share *= _LESS
-    return None
+def _binding(hunt: Hunt, space: Space, share: float) -> tuple[str, ...]:
+    """Lines that bind in a space, by the equilibrium of the strongest design at a share of it."""
+    if share == 1.0 and hunt.too_weak:
+        return ("SHAFT-STRENGTH",)
+    found = strongest(replace(hunt, requirements=times(hunt.requirements, share)), space, {})
+    if found is None:
+        return (RING,)
+    extra = hunt.extra_for(found.machine.cam.designation)
+    reserves = {
+        one.id: torque_reserve(one, found.machine.design) / extra.get(one.id, 1.0)
+        for one in found.checks
+        if one.known
+    }
+    least = min(reserves.values())
+    close = [name for name, reserve in reserves.items() if reserve <= CLOSE * least]
+    return tuple(sorted(close, key=reserves.__getitem__))
 
 
 def unsettled(found: Found) -> SizingInfeasibleError:

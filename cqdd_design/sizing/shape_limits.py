@@ -87,18 +87,16 @@ def largest_pin_circle(
         m; negative where no hole fits at all.
     """
     clear = hole_radius + allowables.LIGAMENT + SAMPLING_GUARD
-    clear, offset = np.broadcast_arrays(clear, offset)
-    count = len(clear)
-    found = np.empty((count, clear[0].size if count else 0))
+    shape = np.broadcast_shapes(clear.shape, offset.shape)
+    found = np.empty((shape[0], math.prod(shape[1:])))
     pin_circles(
         frame.lobe_count,
         _generation(frame, ring),
         valley_distance(frame, ring),
-        np.ascontiguousarray(clear).reshape(found.shape),
-        np.ascontiguousarray(offset).reshape(found.shape),
+        *(np.array(np.broadcast_to(one, shape)).reshape(found.shape) for one in (clear, offset)),
         found,
     )
-    return np.minimum(found.reshape(clear.shape), frame.pin_circle_limit)
+    return np.minimum(found.reshape(shape), frame.pin_circle_limit)
 
 
 def largest_pitch_for_wall(

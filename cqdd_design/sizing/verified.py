@@ -99,9 +99,24 @@ def size_to_verdict(
     SizingInfeasibleError
         When no design was found whose verdict is yes; it names the lines that bind.
     """
-    began = time.perf_counter()
-    guess = first_guess(requirements, motor)
-    hunt = Hunt(guess, motor, ambient, progress, stage_tables(requirements.ratio), goal)
+    return searched(new_hunt(requirements, progress, motor, ambient, goal), requirements)
+
+
+def new_hunt(
+    requirements: Requirements,
+    progress: Progress,
+    motor: Motor | None,
+    ambient: float | None,
+    goal: Goal,
+) -> Hunt:
+    """A hunt that has learnt nothing, with guesses in place of torques that were not stated."""
+    guess, tables = first_guess(requirements, motor), stage_tables(requirements.ratio)
+    return Hunt(guess, motor, ambient, progress, tables, goal)
+
+
+def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
+    """The search of `size_to_verdict`; `requirements` are those that were stated."""
+    began, goal, progress = time.perf_counter(), hunt.goal, hunt.say
     if goal == "efficiency" and hunt.may_roll:
         hunt.pins = False, True
     progress("searching by closed forms, held against the contact equilibrium")

@@ -37,12 +37,13 @@ SENTENCE = (
 
 
 @pytest.mark.parametrize(
-    ("given", "most", "ring", "binding"),
+    ("given", "most", "lasting", "ring", "binding"),
     [
-        ({"outer_diameter": "40 mm"}, 4.89, 69, ("BEARING-STATIC",)),
+        ({"outer_diameter": "40 mm"}, 4.89, 1.85, 69, ("BEARING-STATIC",)),
         pytest.param(
             {"peak_torque": "120 N*m"},
             101.0,
+            38.3,
             None,
             ("CONTACT-RING-PEAK", "BEARING-STATIC"),
             marks=pytest.mark.deep,
@@ -50,13 +51,14 @@ SENTENCE = (
         pytest.param(
             {"peak_torque": "120 N*m", "continuous_torque": "40 N*m"},
             106.0,
+            35.3,
             None,
             ("BEARING-STATIC", "CONTACT-RING-PEAK"),
             marks=pytest.mark.deep,
         ),
     ],
 )
-def test_what_does_not_fit_and_what_would(given, most, ring, binding):
+def test_what_does_not_fit_and_what_would(given, most, lasting, ring, binding):
     with pytest.raises(SizingInfeasibleError) as caught:
         size(Requirements(ratio=10, **given))
     error = caught.value
@@ -69,6 +71,7 @@ def test_what_does_not_fit_and_what_would(given, most, ring, binding):
     assert error.to_dict() == {
         "binding": list(binding),
         "most_peak_torque_Nm": most,
+        "most_continuous_torque_Nm": lasting,
         "outer_diameter_needed_mm": ring,
         "length_needed_mm": None,
     }

@@ -1,0 +1,183 @@
+"""The nearest requirements that fit where some do not, each borne out by the whole verdict.
+
+In each direction by itself. Torques are lowered as those are that nobody stated. A larger ring or
+longer discs are looked for by the equilibrium, with the reserve that part errors were found to
+take; what is told has been searched to the verdict just as whoever asks for it would.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from cqdd_design.catalog.motors import Motor, find_motor
+from cqdd_design.design import Requirements
+from cqdd_design.errors import InfeasibleError
+from cqdd_design.geometry.scale import largest_ring
+from cqdd_design.sizing.able import CONTINUOUS, PEAK, TooHotError
+from cqdd_design.sizing.bearable import both_bearable
+from cqdd_design.sizing.frame import Goal
+from cqdd_design.sizing.hunt import Hunt, Progress
+from cqdd_design.sizing.infeasible import SizingInfeasibleError
+from cqdd_design.sizing.kinds import promising
+from cqdd_design.sizing.verified import VerifiedDesign, new_hunt, searched
+
+_MOST = 3.0
+"""Of a length that is too small: so far a longer one, and a larger ring without a bore that limits
+it, are looked for."""
+_STEP = 5e-4
+"""In which rings and lengths are told, m."""
+_CLOSE = 0.015
+"""Share of a length within which the least is found."""
+_ROUNDS, _ON = 6, 1.02
+"""Of lengths that the equilibrium bears out and that are searched to the verdict, and the least
+step from one to the next."""
+_NEARLY = 0.9
+"""Share of both torques below which nothing is looked for that bears all: it is told roughly."""
+_ROUNDING = 1e-6
+_NO_SPACE = ("MOTOR-", "THERMAL-RISE", "EFFICIENCY", "REFLECTED-INERTIA", "MASS")
+"""Beginnings of lines that no more space helps."""
+
+
+@dataclass(frozen=True)
+class _Way:
+    """A search with other requirements: its design, or why there is none, and what it learnt."""
+
+    hunt: Hunt
+    found: VerifiedDesign | None
+    refusal: InfeasibleError | None
+
+    @property
+    def hopeless(self) -> bool:
+        """Whether it failed for what no space helps."""
+        if isinstance(self.refusal, SizingInfeasibleError):
+            return all(line.startswith(_NO_SPACE) for line in self.refusal.binding)
+        return isinstance(self.refusal, TooHotError)
+
+
+def size_or_nearest(
+    requirements: Requirements,
+    progress: Progress = lambda _: None,
+    *,
+    motor: Motor | None = None,
+    ambient: float | None = None,
+    goal: Goal = "mass",
+) -> VerifiedDesign:
+    """As :func:`.verified.size_to_verdict`; a refusal says which requirements would fit."""
+    hunt = new_hunt(requirements, progress, motor, ambient, goal)
+    asked = hunt.requirements
+    try:
+        return searched(hunt, requirements)
+    except SizingInfeasibleError as refusal:
+        raise _with_ways(refusal, replace(hunt, requirements=asked, goal=goal)) from refusal
+
+
+def _with_ways(refusal: SizingInfeasibleError, hunt: Hunt) -> SizingInfeasibleError:
+    """A refusal with the nearest requirements that fit, in each direction in which any do.
+
+    Parameters
+    ----------
+    hunt : Hunt
+        That was refused, with the requirements that it began with.
+    """
+    asked = hunt.requirements
+    less = _Way(hunt, None, refusal)
+    if PEAK not in asked.derived and not asked.load_cases:
+        hunt.say("looking for the torques that fit")
+        less = _tried(hunt, asked.deriving(PEAK, CONTINUOUS))
+    ways, needed = [], {}
+    most = lasting = None
+    if less.found is not None:
+        fits = less.found.sizing.design.requirements
+        most, lasting = fits.peak_torque, fits.continuous_torque
+        ways.append(f"peak_torque {most:g} N*m with continuous_torque {lasting:g} N*m")
+    if not less.hopeless:
+        for key, limit in _limits(hunt):
+            hunt.say(f"looking for the least {key} that fits, up to {1e3 * limit:g} mm")
+            needed[key] = need = _least(less.hunt, asked, key, limit)
+            ways += [] if need is None else [f"{key} {1e3 * need:g} mm"]
+    if ways:
+        told = f"What fits, by the whole verdict: {', or '.join(ways)}."
+    elif less.refusal is not None and less.refusal is not refusal:
+        why = less.refusal.message.partition(";")[0].rstrip(".")
+        told = f"Less torque does not help: {why}."
+    else:
+        told = "No larger ring and no longer discs were found that do, by the whole verdict."
+    return SizingInfeasibleError(
+        f"{refusal.message.rstrip('.')}. {told}",
+        binding=refusal.binding,
+        most_torque=most,
+        most_lasting_torque=lasting,
+        outer_diameter_needed=needed.get("outer_diameter"),
+        length_needed=needed.get("length"),
+    )
+
+
+def _tried(hunt: Hunt, asked: Requirements) -> _Way:
+    """A search of its own for other requirements, never for more than they ask."""
+    own = _new(hunt, asked)
+    own.lowered = True
+    try:
+        return _Way(own, searched(own, asked), None)
+    except InfeasibleError as refusal:
+        return _Way(own, None, refusal)
+
+
+def _new(hunt: Hunt, asked: Requirements) -> Hunt:
+    """A hunt for other requirements that has learnt nothing and says nothing."""
+    return Hunt(asked, hunt.motor, hunt.ambient, lambda _: None, hunt.tables, hunt.goal)
+
+
+def _limits(hunt: Hunt) -> Iterator[tuple[str, float]]:
+    """Keys of the space, and how large they may become, m."""
+    asked = hunt.requirements
+    bore = (hunt.motor or find_motor(asked.motor)).bore_diameter
+    ring = _MOST * asked.outer_diameter if bore is None else largest_ring(bore)
+    for key, most in (("outer_diameter", ring), ("length", _MOST * asked.length)):
+        limit = math.floor(most / _STEP + _ROUNDING) * _STEP
+        if limit > getattr(asked, key) + 0.5 * _STEP:
+            yield key, round(limit, 9)
+
+
+def _bears(hunt: Hunt, asked: Requirements) -> bool:
+    """Whether the equilibrium bears a design out, with what the hunt knows of part errors."""
+    some = _new(hunt, asked)
+    some.extra, some.extra_of, some.fit = hunt.extra, hunt.extra_of, hunt.fit
+    try:
+        if both_bearable(some) < _NEARLY:
+            return False
+        found = promising(some)
+    except InfeasibleError:
+        return False
+    return found is not None and not found.weak
+
+
+def _least(hunt: Hunt, asked: Requirements, key: str, limit: float) -> float | None:
+    """The smallest ring or length with which the verdict is yes, near enough, m."""
+
+    def stating(length: float) -> Requirements:
+        changed = asked.model_copy(update={key: length})
+        changed.model_fields_set.add(key)
+        return changed
+
+    low, known = getattr(asked, key), hunt
+    for _ in range(_ROUNDS):
+        high = limit
+        if not _bears(known, stating(high)):
+            return None
+        while high > (1.0 + _CLOSE) * low and high - low > 1.5 * _STEP:
+            middle = _up(math.sqrt(low * high))
+            low, high = (low, middle) if _bears(known, stating(middle)) else (middle, high)
+        way = _tried(hunt, stating(high))
+        if way.found is not None:
+            return high
+        # It has learnt what part errors take there.
+        low, known = _up(_ON * high) - _STEP, way.hunt
+        if low >= limit:
+            return None
+    return None
+
+
+def _up(length: float) -> float:
+    return round(math.ceil(length / _STEP - _ROUNDING) * _STEP, 9)

@@ -1,0 +1,135 @@
+"""What a refusal says would fit: the road to it; deep, that it does and little less does not."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+
+from cqdd_design.design import requirements_from_mapping
+from cqdd_design.sizing import nearest
+from cqdd_design.sizing.able import TooHotError
+from cqdd_design.sizing.infeasible import SizingInfeasibleError
+from cqdd_design.sizing.verified import size_to_verdict
+
+ASKED = {
+    "ratio": 16,
+    "peak_torque": "45 N*m",
+    "continuous_torque": "6 N*m",
+    "continuous_speed": "300 rpm",
+}
+
+
+def refused(*binding):
+    return SizingInfeasibleError("it does not fit.", binding=binding, most_torque=None)
+
+
+def found(**asked):
+    design = SimpleNamespace(requirements=SimpleNamespace(**asked))
+    return SimpleNamespace(sizing=SimpleNamespace(design=design))
+
+
+def said(monkeypatch, bears, verdict, given=ASKED, first=("BEARING-STATIC",)):
+    """The refusal of a search that fails at first, with what bears and passes by length."""
+    asked = requirements_from_mapping({**given, "length": "8 mm"})
+    tried = []
+
+    def searched(hunt, stated):
+        own = hunt.requirements
+        if not tried:
+            tried.append("first")
+            raise refused(*first)
+        tried.append((1e3 * own.length, tuple(sorted(own.derived))))
+        answer = verdict(1e3 * own.length, own.derived)
+        if isinstance(answer, Exception):
+            raise answer
+        return answer
+
+    monkeypatch.setattr(nearest, "searched", searched)
+    monkeypatch.setattr(nearest, "both_bearable", lambda _: 1.0)
+    promising = SimpleNamespace(weak=())
+    monkeypatch.setattr(
+        nearest,
+        "promising",
+        lambda hunt: promising if bears(1e3 * hunt.requirements.length) else None,
+    )
+    with pytest.raises(SizingInfeasibleError) as caught:
+        nearest.size_or_nearest(asked)
+    return caught.value, tried
+
+
+def test_torques_and_the_least_length_are_told(monkeypatch):
+    def verdict(length, derived):
+        return found(peak_torque=15.0, continuous_torque=5.0)
+
+    error, tried = said(monkeypatch, lambda length: length >= 13.2, verdict)
+    assert error.message == (
+        "it does not fit. What fits, by the whole verdict: peak_torque 15 N*m with "
+        "continuous_torque 5 N*m, or length 13.5 mm."
+    )
+    assert error.to_dict() == {
+        "binding": ["BEARING-STATIC"],
+        "most_peak_torque_Nm": 15.0,
+        "most_continuous_torque_Nm": 5.0,
+        "outer_diameter_needed_mm": None,
+        "length_needed_mm": 13.5,
+    }
+    assert tried == [
+        "first",
+        (8.0, ("continuous_torque", "peak_torque")),
+        (pytest.approx(13.5), ()),
+    ]
+
+
+def test_a_length_that_the_verdict_refuses_is_not_told(monkeypatch):
+    """What it has learnt moves the next one on."""
+
+    def verdict(length, derived):
+        return (
+            found(peak_torque=15.0, continuous_torque=5.0)
+            if derived or length > 14.2
+            else refused("YIELD")
+        )
+
+    error, tried = said(monkeypatch, lambda length: length >= 13.2, verdict)
+    assert error.length_needed is not None
+    assert error.length_needed > 14.2e-3
+    assert all(one[0] > 13.0 for one in tried[2:])
+    assert [one[0] for one in tried[2:]] == sorted(one[0] for one in tried[2:])
+
+
+def test_where_less_torque_does_not_help_neither_does_space(monkeypatch):
+    hot = TooHotError("the motor holds nothing; state continuous_speed.")
+    error, tried = said(monkeypatch, lambda _: True, lambda *_: hot)
+    assert error.message == ("it does not fit. Less torque does not help: the motor holds nothing.")
+    assert len(tried) == 2
+    error, tried = said(monkeypatch, lambda _: True, lambda *_: refused("MOTOR-PEAK", "EFFICIENCY"))
+    assert error.length_needed is None
+    assert len(tried) == 2
+
+
+def test_torques_that_nobody_stated_are_not_looked_for(monkeypatch):
+    given = {"ratio": 16}
+    error, tried = said(monkeypatch, lambda _: False, lambda *_: refused("YIELD"), given)
+    assert tried == ["first"]
+    assert error.message.endswith("were found that do, by the whole verdict.")
+
+
+def test_a_ring_that_fills_the_bore_is_not_made_larger():
+    hunt = nearest.new_hunt(requirements_from_mapping(ASKED), lambda _: None, None, None, "mass")
+    assert dict(nearest._limits(hunt)) == {"length": pytest.approx(60e-3)}
+    small = replace(
+        hunt, requirements=requirements_from_mapping({**ASKED, "outer_diameter": "60 mm"})
+    )
+    assert dict(nearest._limits(small))["outer_diameter"] == pytest.approx(72e-3)
+
+
+@pytest.mark.deep
+def test_the_length_that_is_told_fits_and_little_less_does_not():
+    with pytest.raises(SizingInfeasibleError) as caught:
+        nearest.size_or_nearest(requirements_from_mapping({**ASKED, "length": "8 mm"}))
+    need = caught.value.length_needed
+    assert need is not None
+    fits = size_to_verdict(requirements_from_mapping({**ASKED, "length": f"{1e3 * need} mm"}))
+    assert fits.verdict.meets == "yes"
+    with pytest.raises(SizingInfeasibleError):
+        size_to_verdict(requirements_from_mapping({**ASKED, "length": f"{960.0 * need} mm"}))
