@@ -279,3 +279,24 @@ def test_the_band_is_there_and_an_indicator_gets_at_it(name: str) -> None:
     if motor is not None:
         head = motor.ear_circle - 0.5 * motor.cover_screw.head_diameter
         assert head - 0.5 * band.diameter >= 5e-3
+
+
+# ------------------------------------------------------------------ without load
+
+
+@pytest.mark.parametrize("seed", [None, 0, 1, 2, 3])
+def test_without_load_parts_press_where_they_have_no_backlash(
+    model: ContactModel, seed: int | None
+) -> None:
+    """And nowhere else: parts that hang free have an equilibrium too, without any force."""
+    design, angle = known_design("paper"), output_turn_angles(model, 66)
+    errors = off_by(model, 3.0 * OFF)
+    if seed is not None:
+        errors = draw_errors(model, design.tolerances, seed, 0, 1).one(0)
+    found = contact_sweep(model, 0.0, angle, errors=errors)
+    most = np.maximum(found.ring_force.max(axis=(1, 2)), found.pin_force.max(axis=(1, 2)))
+    rigid = backlash(model, angle, errors=errors)
+    tight, loose = rigid.overlap > 5e-7, rigid.free > 1e-5
+    assert loose.any()
+    assert most[tight].min(initial=np.inf) > 1.0
+    assert most[loose].max() < 1e-9
