@@ -10,6 +10,8 @@ from solids_designs import CHANGES, known_design, known_parts, part_named
 
 from cqdd_design.design import Design
 from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
+from cqdd_design.exporting.sheets.part_facts import PartFacts
+from cqdd_design.exporting.sheets.part_sheet import plan_sheet
 from cqdd_design.gearbox.contact.model import ContactModel
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
 from cqdd_design.gearbox.contact.states import error_states, nominal_states
@@ -279,6 +281,18 @@ def test_the_band_is_there_and_an_indicator_gets_at_it(name: str) -> None:
     if motor is not None:
         head = motor.ear_circle - 0.5 * motor.cover_screw.head_diameter
         assert head - 0.5 * band.diameter >= 5e-3
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_the_housings_sheet_has_room_for_what_is_said_of_the_band(name: str) -> None:
+    facts = PartFacts(part_named(known_parts(name), "housing"), known_design(name))
+    plan = plan_sheet(facts)
+    assert plan.fits
+    assert plan.scale >= 0.2
+    band = next(one for one in facts.part.features if getattr(one, "name", "") == INDICATOR_BAND)
+    assert isinstance(band, TrueFace)
+    on_band = plan.section.at(0.5 * (band.bottom + band.top), 0.5 * band.diameter)
+    assert on_band in [one.block.target for one in plan.section.blocks]
 
 
 # ------------------------------------------------------------------ without load
