@@ -137,11 +137,10 @@ def test_how_far_the_output_stands_off_is_told() -> None:
 
 @pytest.mark.parametrize(("off", "tight"), [(10e-6, False), (30e-6, True)])
 def test_an_output_off_the_rings_axis_takes_the_backlash(off: float, tight: bool) -> None:
-    """Half of it at the teeth and half at the pins, as of a shaft that stands in both."""
+    """A third at 10 um, and all of it, with micrometres of overlap, at 30."""
     model = ContactModel.from_design(known_design("paper"))
     errors = GearboxErrors.none(model)
-    errors.tooth_position[:, 0] = -0.5 * off
-    errors.pin_position[:, 0] = 0.5 * off
+    errors.output_axis[0] = off
     perfect = backlash(model).mean
     found = backlash(model, output_turn_angles(model, 44), errors=errors)
     assert bool(found.overlap.max() > 5e-6) == tight
