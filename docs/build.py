@@ -145,7 +145,7 @@ CLEARANCES = (
     "reducer.cam_bearing.radial_clearance",
 )
 EDM_ONLY = dict.fromkeys(
-    ("pin_position", "pin_diameter", "eccentricity", "bearing_clearance"), 0.0
+    ("pin_position", "pin_diameter", "eccentricity", "bearing_clearance", "output_position"), 0.0
 ) | {"tooth_position": 1e-6, "hole_position": 1e-6}
 
 

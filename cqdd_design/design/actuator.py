@@ -77,6 +77,11 @@ class Environment(FrozenModel):
 _Deviation = Annotated[float, QuantityIn(SMALL_LENGTH, "0 um", "1000 um", "a standard deviation")]
 
 
+ZONE_OF_CIRCLE = 4.0
+"""Diameter of a circle over the standard deviation, along any direction, of a place that is
+anywhere in it alike."""
+
+
 class Tolerances(FrozenModel):
     """Manufacturing tolerances as standard deviations, and how they scatter.
 
@@ -84,7 +89,9 @@ class Tolerances(FrozenModel):
     profile, `eccentricity` the error of every cam's centre along and across its crank (throw and
     phase), the diameters are those of holes and pins, `bearing_clearance` is that of the play.
     With `distribution = "uniform"` every error is even over the zone that has this standard
-    deviation, 1.73 of it to either side.
+    deviation, 1.73 of it to either side. `output_position`, of the carrier's axis against the
+    ring's, is what the output is centred to at assembly: the axis lies anywhere in a circle of
+    four of them in diameter alike, whatever the distribution, and never outside it.
     """
 
     distribution: Literal["normal", "uniform"] = "normal"
@@ -97,6 +104,12 @@ class Tolerances(FrozenModel):
     pin_diameter: _Deviation = default("9 um")
     eccentricity: _Deviation = default("2 um")
     bearing_clearance: _Deviation = default("2 um")
+    output_position: _Deviation = default("5 um")
+
+    @property
+    def output_zone(self) -> float:
+        """Diameter of the zone of the output's axis about the ring's, m."""
+        return ZONE_OF_CIRCLE * self.output_position
 
 
 THINNEST_WIRE = "0.02 mm"

@@ -107,7 +107,7 @@ _DRAWN = (
     _LOAD,
     ("Start", "b1", "f2", "f3", "f"),
     ("Shared", _RUBBING, _RUBBING, _COMPLIANCE, _COMPLIANCE, ("Worn", "f3", "f3", "f")),
-    ("GearboxErrors", "f2", "f1", "f3", "f3", "f2", "f2", "f1", "f2", "f1"),
+    ("GearboxErrors", "f2", "f1", "f3", "f3", "f2", "f2", "f1", "f2", "f1", "f1"),
     "f1",
 )  # fmt: skip
 _DRAWN_VALUES = "gearbox.contact.kernel_values", "gearbox.contact.part_errors"

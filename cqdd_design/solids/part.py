@@ -19,7 +19,7 @@ from cqdd_design.geometry.contours import FloatArray, Moments
 from cqdd_design.results import MassProperties
 from cqdd_design.solids.features.edges import edges
 from cqdd_design.solids.features.holes import FittedHole
-from cqdd_design.solids.features.kinds import Feature, SealFace, Seat, Shoulder
+from cqdd_design.solids.features.kinds import Feature, Seat, Shoulder, TrueFace
 from cqdd_design.solids.features.removal import cuts
 from cqdd_design.solids.features.revolved import Revolved
 from cqdd_design.solids.layers import Stack, prism_properties
@@ -117,7 +117,7 @@ class Part:
         return tuple(
             one
             for one in self.stated
-            if isinstance(one, Seat | FittedHole) and not isinstance(one, SealFace)
+            if isinstance(one, Seat | FittedHole) and not isinstance(one, TrueFace)
         )
 
     @property

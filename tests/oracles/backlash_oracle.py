@@ -69,10 +69,11 @@ class DiscGaps:
         self.hole_play = stack.hole_radius + _of(faults.hole_radius, index)
         self.hole_play = self.hole_play - stack.pin_radius - faults.pin_radius
         along = _of(faults.cam_centre, index)
-        self.cam = np.zeros(2)
+        self.axis = complex(_plane(faults.output_axis))
+        shift = 0.5 * self.axis
         if isinstance(along, np.ndarray):
-            shift = complex(*along) * np.exp(1j * crank) / MICRON
-            self.cam = np.array([shift.real, shift.imag])
+            shift = shift + complex(*along) * np.exp(1j * crank)
+        self.cam = np.array([shift.real, shift.imag]) / MICRON
         self.half_play = 0.5 * max(stack.cam_play + float(_of(faults.cam_play, index)), 0.0)
         self.profile = None if faults.disc_profile is None else faults.disc_profile[index]
 
@@ -98,8 +99,9 @@ class DiscGaps:
             ],
             axis=1,
         )
+        # Pins turn about the carrier's own axis.
         hole, pin = self.holes * turn, self.pins * np.exp(1j * gamma)
-        apart = pin - centre - hole
+        apart = self.axis + pin - centre - hole
         far = np.abs(apart)
         out = apart / far
         holes = self.hole_play - far

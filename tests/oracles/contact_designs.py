@@ -152,6 +152,7 @@ def random_errors(
         cam_centre=normal(D, 2),
         # A bearing keeps a play, whatever its ring is pressed into.
         cam_play=np.maximum(normal(D), -model.cam.play),
+        output_axis=normal(2),
     )
 
 

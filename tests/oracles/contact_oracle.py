@@ -119,6 +119,7 @@ class Faults:
     pin_radius: np.ndarray | float = 0.0
     cam_centre: np.ndarray | float = 0.0
     cam_play: np.ndarray | float = 0.0
+    output_axis: np.ndarray | float = 0.0
 
 
 @dataclass(frozen=True)
@@ -224,6 +225,9 @@ def build_contacts(machine: Machine, phi: float, d: int) -> Contacts:
     push = -u
     turned = np.exp(-1j * phi / n)
     apart = (_complex(faults.pin_position) - _complex(_of(faults.hole_position, d))) * turned
+    # The carrier's axis stands in the housing, and half of its way off the shaft's does.
+    axis = complex(_complex(faults.output_axis))
+    apart = apart + axis
     pin_gap = (
         machine.hole_radius
         + _of(faults.hole_radius, d)
@@ -234,6 +238,7 @@ def build_contacts(machine: Machine, phi: float, d: int) -> Contacts:
     ) + np.zeros(machine.pin_count)
     along = _of(faults.cam_centre, d)
     shift = complex(_complex(along)) * u if isinstance(along, np.ndarray) else 0j
+    shift = shift + 0.5 * axis
     return Contacts(
         centre=complex(centre),
         ring_gap=gap,

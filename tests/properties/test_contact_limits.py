@@ -234,7 +234,8 @@ def work_rate(sweep: ContactSweep, errors: GearboxErrors) -> float:
 
     A tooth displaced along its force on the disc, or grown, closes its gap; so does material on
     the disc. A pin displaced along its force or grown closes; a hole opens. A cam displaced along
-    its force presses, and half of a growing play is lost.
+    its force presses, and half of a growing play is lost. A carrier off the ring's axis takes all
+    pins along, and the cams half as far.
     """
     n = sweep.model.lobe_count
     ring = sweep.ring_force[0, ..., None] * sweep.ring_normal[0]
@@ -261,7 +262,8 @@ def work_rate(sweep: ContactSweep, errors: GearboxErrors) -> float:
         + (sweep.ring_force[0] * (errors.tooth_radius + material)).sum()
         + (pins * (seen(errors.pin_position) - seen(errors.hole_position))).sum()
         + (sweep.pin_force[0] * (errors.pin_radius - errors.hole_radius)).sum()
-        + (sweep.cam_force[0] * cam).sum()
+        + (sweep.cam_force[0] * (cam + 0.5 * errors.output_axis)).sum()
+        + (pins * errors.output_axis).sum()
         - 0.5 * (sweep.cam_load[0] * errors.cam_play).sum()
     )
 

@@ -34,6 +34,7 @@ from cqdd_design.gearbox.contact.rubbing import ContactFriction
 from cqdd_design.gearbox.contact.states import error_states
 from cqdd_design.gearbox.contact.sweep import contact_sweep, output_turn_angles
 from cqdd_design.gearbox.precision.backlash import backlash
+from cqdd_design.gearbox.precision.backlash_kernel import OVERLAP
 from cqdd_design.gearbox.precision.orders import order_spectrum
 from cqdd_design.gearbox.precision.precision import precision
 from cqdd_design.gearbox.tolerance.draws import draw_errors
@@ -284,10 +285,11 @@ def test_backlash_repeats_after_the_mesh_period() -> None:
 def test_backlash_of_drawn_gearboxes_is_that_of_the_search(seed: int) -> None:
     """Line to line: some angles are free by microns, some not at all, and all must be told.
 
-    Errors count to first order, which leaves tens of nanometres: the range lies between those of
-    the search with holes smaller and larger by as much.
+    Errors count to first order, which leaves tens of nanometres, and what overlaps by no more than
+    `OVERLAP` counts as touching: the range lies between those of the search with holes smaller and
+    larger by as much.
     """
-    design, left_out = paper_design(), 5e-8
+    design, left_out = paper_design(), OVERLAP
     model = ContactModel.from_design(design)
     errors = draw_errors(model, design.tolerances, seed, 0, 1).one(0)
     angle = np.linspace(0.0, 20.0 * math.pi, 9, endpoint=False)

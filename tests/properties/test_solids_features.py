@@ -25,9 +25,9 @@ from cqdd_design.solids.features.kinds import (
     Chamfer,
     Groove,
     Joint,
-    SealFace,
     Seat,
     Shoulder,
+    TrueFace,
     Undercut,
 )
 from cqdd_design.solids.features.making import point_length
@@ -221,9 +221,9 @@ def test_every_seat_has_the_facts_that_make_it() -> None:
         assert one.limits.lower < one.limits.upper
         assert 0.0 < one.roughness <= 1.6e-6
         zone = one.limits.upper - one.limits.lower
-        # Nothing sits on what a gap seals: it only has to run true.
-        sealing = isinstance(one, SealFace)
-        assert one.cylindricity == 0.0 if sealing else 0.0 < one.cylindricity < zone
+        # Nothing sits on what a gap seals or an indicator is held to: it only has to run true.
+        true = isinstance(one, TrueFace)
+        assert one.cylindricity == 0.0 if true else 0.0 < one.cylindricity < zone
         assert (one.run_out > 0.0) == bool(one.refers)
         assert one.refers or one.datum, part.name
         assert one.ground == (one.roughness < 0.8e-6)

@@ -36,7 +36,15 @@ from cqdd_design.exporting.sheets.wording import (
 )
 from cqdd_design.solids.axial_view import Line, Rectangle, cut_rectangles, lines_behind
 from cqdd_design.solids.features.holes import TappedHole
-from cqdd_design.solids.features.kinds import AxialThread, Chamfer, Groove, Seat, Shoulder, Undercut
+from cqdd_design.solids.features.kinds import (
+    AxialThread,
+    Chamfer,
+    Groove,
+    Seat,
+    Shoulder,
+    TrueFace,
+    Undercut,
+)
 from cqdd_design.solids.slabs import stack_slabs
 
 if TYPE_CHECKING:
@@ -206,7 +214,7 @@ class SectionPlan:
                 seat: Seat | None = None, datum: str = "") -> None:  # fmt: skip
             low, high = (self.factor * (end - self.middle) for end in span)
             off = (centre * cmath.exp(-1j * self.shape.directions[0])).real
-            rows = seat_rows(seat) if seat else ()
+            rows = seat_rows(seat) if seat and not _is_reached(seat) else ()
             size = Diameter(self.factor * radius, self.factor * off, low, high, text, rows, datum)
             found.append((size, span))
 
@@ -287,6 +295,9 @@ class SectionPlan:
             elif isinstance(feature, Shoulder):
                 target = self.at(feature.height, feature.outer)
                 blocks.append(Block(target, shoulder_rows(feature), "face"))
+            elif isinstance(feature, Seat) and _is_reached(feature):
+                target = self.at(0.5 * (feature.bottom + feature.top), 0.5 * feature.diameter)
+                blocks.append(Block(target, seat_rows(feature), "face"))
         level = max(self.reach + 5.0, self.sizes.top + 3.0)
         return stairs(blocks, level, up=True)
 
@@ -388,3 +399,8 @@ class SectionPlan:
             for middle in self._in_plane(group[0].circle.centres):
                 begin, end = self.at(stack.bottom, middle), self.at(stack.top, middle)
                 sheet.line(place + begin - 2.0, place + end + 2.0, AXIS)
+
+
+def _is_reached(seat: Seat) -> bool:
+    """Whether what is said of a cylinder points at its surface: there is more room above it."""
+    return isinstance(seat, TrueFace) and not seat.inside

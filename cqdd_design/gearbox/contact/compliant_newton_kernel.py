@@ -40,6 +40,9 @@ _NEARLY = 1e-2
 _SQUARE = 3e-9
 """Square of a step, in shares of the greatest force, below which forces follow in first order:
 a line contact's own curve, F^0.9, leaves a twentieth of it."""
+_UNLOADED = 1e-12
+"""Approach, m, whose force is next to none: without load parts that touch nothing have no force
+that others could be held against."""
 _LEAST_RISE = 2.0**-8
 """Share of the compliance below which no further rise is tried: the machine jams."""
 RIDGES = (1e-10, 1e-6, 1e-5, 1e-4)
@@ -167,7 +170,7 @@ def solve_yielding(
                     approach[d, k] = trial_approach[d, k]
             if iteration == _STEPS or not math.isfinite(square):
                 return NOT_CONVERGED, iteration, torsional
-            scale = max(abs(pull), largest)
+            scale = max(abs(pull), largest, _UNLOADED * load.scale_stiffness)
             meet = assemble(contacts, springs, compliance, u, ridge, work)
             torsional = eliminate(work, meet, 2 if springs.carrier_stiffness <= 0.0 else 0)
             change_approach(contacts, springs.teeth, compliance, work)

@@ -12,7 +12,7 @@ import numpy as np
 
 from cqdd_design.files.kernel_cache import numba
 from cqdd_design.gearbox.contact.kernel_values import Nominal, Toleranced
-from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.part_errors import SHAFT_SHARE, GearboxErrors
 from cqdd_design.geometry.contours import FloatArray
 
 _POINTS_PER_HARMONIC = 16
@@ -41,6 +41,7 @@ def fill_errors(nominal: Nominal, errors: GearboxErrors, found: Toleranced) -> N
     teeth = errors.tooth_radius.shape[0]
     size, harmonics = basis.shape[0], basis.shape[2]
     spacing = 2.0 * math.pi / size
+    ox, oy = errors.output_axis[0], errors.output_axis[1]
     material = np.zeros((discs, size))
     slope = np.zeros((discs, size))
     for d in range(discs):
@@ -92,12 +93,15 @@ def fill_errors(nominal: Nominal, errors: GearboxErrors, found: Toleranced) -> N
                 ay = errors.hole_position[d, j, 1] - errors.pin_position[j, 1]
                 wx, wy = cosine * ax - sine * ay, sine * ax + cosine * ay
                 wider, thicker = errors.hole_radius[d, j], errors.pin_radius[j]
-                gaps[i, d, k] = nominal.gaps[i, d, k] + nx * wx + ny * wy + wider - thicker
+                # All pins stand off with the carrier's axis, which does not turn.
+                open_by = nx * (wx - ox) + ny * (wy - oy)
+                gaps[i, d, k] = nominal.gaps[i, d, k] + open_by + wider - thicker
                 gap_rates[i, d, k] = (spin + 1.0 / lobe_count) * (nx * wy - ny * wx)
+                gap_rates[i, d, k] -= spin * (nx * oy - ny * ox)
             own = phi + nominal.phases[d]
             ux, uy = math.cos(own), math.sin(own)
             along, across = errors.cam_centre[d, 0], errors.cam_centre[d, 1]
-            offset[i, d, 0] = along * ux - across * uy
-            offset[i, d, 1] = along * uy + across * ux
+            offset[i, d, 0] = along * ux - across * uy + SHAFT_SHARE * ox
+            offset[i, d, 1] = along * uy + across * ux + SHAFT_SHARE * oy
             offset_rates[i, d, 0] = -along * uy - across * ux
             offset_rates[i, d, 1] = along * ux - across * uy

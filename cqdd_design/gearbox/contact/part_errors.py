@@ -2,7 +2,8 @@
 
 All zero is the perfect gearbox. The frames are those of the parts: ring errors in the ring's
 frame, hole errors in the disc's frame (its x axis on +x at crank angle zero), pin errors in the
-carrier's, cam errors along and across the crank direction of the disc.
+carrier's, cam errors along and across the crank direction of the disc. Where the carrier's axis
+stands is a place in the ring's frame: it turns with neither carrier nor crank.
 """
 
 from __future__ import annotations
@@ -12,6 +13,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from cqdd_design.geometry.contours import FloatArray
+
+SHAFT_SHARE = 0.5
+"""How far the shaft stands off at the discs, over how far the carrier does: one of its bearings is
+in the housing and one in the carrier, and the discs are between them."""
 
 if TYPE_CHECKING:
     from cqdd_design.gearbox.contact.model import ContactModel
@@ -40,6 +45,9 @@ class GearboxErrors(NamedTuple):
     eccentricity and of phase."""
     cam_play: FloatArray
     """(D,) Added to the total play of every cam bearing, m."""
+    output_axis: FloatArray
+    """(2,) Displacement of the carrier's axis from the ring's, in the ring's frame, m; the shaft is
+    displaced by :data:`SHAFT_SHARE` of it."""
 
     @classmethod
     def none(cls, model: ContactModel, harmonics: int = 0) -> GearboxErrors:
@@ -55,6 +63,7 @@ class GearboxErrors(NamedTuple):
             pin_radius=np.zeros(pins),
             cam_centre=np.zeros((discs, 2)),
             cam_play=np.zeros(discs),
+            output_axis=np.zeros(2),
         )
 
     def one(self, index: int) -> GearboxErrors:

@@ -9,7 +9,7 @@ import numpy as np
 
 from cqdd_design.gearbox.contact.kernel_values import Toleranced
 from cqdd_design.gearbox.contact.model import ContactModel
-from cqdd_design.gearbox.contact.part_errors import GearboxErrors
+from cqdd_design.gearbox.contact.part_errors import SHAFT_SHARE, GearboxErrors
 from cqdd_design.gearbox.contact.tables import RingTable, pin_table, ring_table
 from cqdd_design.geometry import kinematics
 from cqdd_design.geometry.contours import FloatArray
@@ -191,7 +191,8 @@ def error_states(
     """What part errors change: plain twin of :func:`.gaps_kernel.fill_errors`.
 
     A tooth that moves toward the disc or grows, and material on the disc, close the gap; a hole
-    that moves along the pin's force or grows opens it, a pin that does closes it.
+    that moves along the pin's force or grows opens it, a pin that does closes it. Pins and cams
+    stand off with the axes of carrier and shaft, which turn with nothing.
     """
     shape = states.gaps.shape
     offset = np.zeros((*shape[:2], 2))
@@ -212,14 +213,16 @@ def error_states(
         -np.einsum("adtx,tx->adt", turned[:, :, :teeth], errors.tooth_position)
         - slope * states.ring.parameter_rate
     )
-    apart = errors.hole_position - errors.pin_position
-    seen = kinematics.turned_with_carrier(model.lobe_count, states.crank_angle, apart)
+    seen = kinematics.turned_with_carrier(
+        model.lobe_count, states.crank_angle, errors.hole_position - errors.pin_position
+    )
     drift = np.stack([seen[..., 1], -seen[..., 0]], axis=-1) / model.lobe_count
+    apart = seen - errors.output_axis
     gaps[..., teeth:] = (
-        np.sum(normal[:, :, teeth:] * seen, axis=-1) + errors.hole_radius - errors.pin_radius
+        np.sum(normal[:, :, teeth:] * apart, axis=-1) + errors.hole_radius - errors.pin_radius
     )
     gap_rates[..., teeth:] = np.sum(
-        turned[:, :, teeth:] * seen + normal[:, :, teeth:] * drift, axis=-1
+        turned[:, :, teeth:] * apart + normal[:, :, teeth:] * drift, axis=-1
     )
     u = kinematics.crank_direction(states.crank_angle[:, None], model.phases)
     v = np.stack([-u[..., 1], u[..., 0]], axis=-1)
@@ -227,7 +230,7 @@ def error_states(
     return Toleranced(
         gaps=states.gaps + gaps,
         gap_rates=gap_rates,
-        offset=along * u + across * v,
+        offset=along * u + across * v + SHAFT_SHARE * errors.output_axis,
         offset_rates=along * v - across * u,
         half_play=np.maximum(half_play + 0.5 * errors.cam_play, 0.0),
     )

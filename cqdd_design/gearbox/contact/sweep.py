@@ -143,7 +143,7 @@ def idle_sweep(
     """Equilibria without load; where that leaves parts without a place, under next to none.
 
     Parts whose clearances warmth or a tight fit has nearly used up hang between contacts that
-    just touch, and then have no equilibrium under no load at all.
+    just touch, and with friction then have no equilibrium under no load at all.
 
     Parameters
     ----------

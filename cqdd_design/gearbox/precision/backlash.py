@@ -147,13 +147,14 @@ def free_poses(model: ContactModel, states: NominalStates) -> FloatArray:
 
 
 def _apart(model: ContactModel, states: NominalStates, errors: GearboxErrors | None) -> FloatArray:
-    """Hole off its pin by heat and by position errors, turned with the carrier, (A, D, P, 2)."""
+    """Hole off its pin by heat, by errors of both and by the carrier's axis, (A, D, P, 2), m."""
     shape = (len(states.crank_angle), model.disc_count, model.pin_count, 2)
     warm = hole_off_pin(model, states.pin_angle)
     if errors is None:
         return np.broadcast_to(warm, shape).copy()
     apart = errors.hole_position - errors.pin_position
-    return warm + turned_with_carrier(model.lobe_count, states.crank_angle, apart)
+    turned = turned_with_carrier(model.lobe_count, states.crank_angle, apart)
+    return warm + turned - errors.output_axis
 
 
 def _push(

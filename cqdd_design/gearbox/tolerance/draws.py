@@ -26,6 +26,7 @@ GROUPS: tuple[str, ...] = (
     "pin_diameter",
     "eccentricity",
     "bearing_clearance",
+    "output_position",
 )
 """The tolerances of a design file, each of which is drawn by itself, in the order of the part
 errors that they give."""
@@ -50,21 +51,30 @@ def profile_amplitudes(lobe_count: int) -> FloatArray:
     return np.asarray(amplitude / np.sqrt(np.sum(amplitude**2)))
 
 
-def _standard(
-    seed: int, group: int, matrix: int, first: int, count: int, size: int, distribution: str
-) -> FloatArray:
-    """Numbers of mean 0 and variance 1 for gearboxes `first` to `first + count`, (count, size)."""
-    from scipy.special import ndtri
-
+def _shares(seed: int, group: int, matrix: int, first: int, count: int, size: int) -> FloatArray:
+    """Even numbers between 0 and 1 for gearboxes `first` to `first + count`, (count, size)."""
     steps = -(-size // _WORDS)
     stream = np.random.Philox(key=np.array([seed, 2 * group + matrix], dtype=np.uint64))
     stream.advance(first * steps)
     raw = stream.random_raw(count * steps * _WORDS).reshape(count, -1)[:, :size]
     # 53 bits, in the middle of their steps: never 0 nor 1.
-    share = ((raw >> np.uint64(11)).astype(float) + 0.5) * 2.0**-53
+    return np.asarray(((raw >> np.uint64(11)).astype(float) + 0.5) * 2.0**-53)
+
+
+def _standard(share: FloatArray, distribution: str) -> FloatArray:
+    """Numbers of mean 0 and variance 1 from even ones between 0 and 1."""
+    from scipy.special import ndtri
+
     if distribution == "uniform":
         return np.asarray(np.sqrt(3.0) * (2.0 * share - 1.0))
     return np.asarray(ndtri(share))
+
+
+def _in_circle(share: FloatArray) -> FloatArray:
+    """Places (S, 2) anywhere in a circle of radius 1 alike, from even numbers (S, 2)."""
+    radius = np.sqrt(share[:, 0])
+    angle = 2.0 * np.pi * share[:, 1]
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=-1)
 
 
 def draw_errors(
@@ -90,7 +100,12 @@ def draw_errors(
     drawn = []
     for number, (name, none) in enumerate(zip(GROUPS, perfect, strict=True)):
         matrix = (matrices or {}).get(name, 0)
-        values = _standard(seed, number, matrix, first, count, none.size, tolerances.distribution)
+        share = _shares(seed, number, matrix, first, count, none.size)
+        if name == "output_position":
+            # Measured in every gearbox, and set again where it is out of its zone.
+            drawn.append(0.5 * tolerances.output_zone * _in_circle(share))
+            continue
+        values = _standard(share, tolerances.distribution)
         drawn.append(getattr(tolerances, name) * values.reshape(count, *none.shape))
     found = GearboxErrors(*drawn)
     return found._replace(

@@ -208,8 +208,8 @@ def _rigid_parts(nominal: Nominal, found: Toleranced, errors: GearboxErrors) -> 
             for j in range(pins):
                 x = errors.hole_position[d, j, 0] - errors.pin_position[j, 0]
                 y = errors.hole_position[d, j, 1] - errors.pin_position[j, 1]
-                apart[a, d, j, 0] = cosine * x - sine * y
-                apart[a, d, j, 1] = sine * x + cosine * y
+                apart[a, d, j, 0] = cosine * x - sine * y - errors.output_axis[0]
+                apart[a, d, j, 1] = sine * x + cosine * y - errors.output_axis[1]
     return RigidParts(
         nominal.rows,
         found.gaps,

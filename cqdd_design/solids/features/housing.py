@@ -14,11 +14,12 @@ from cqdd_design.solids.features.holes import (
     FittedHole,
     PlainHole,
 )
-from cqdd_design.solids.features.kinds import Feature, Joint, SealFace
+from cqdd_design.solids.features.kinds import Feature, Joint, TrueFace
 from cqdd_design.solids.features.making import (
     BEARING_FACE,
     clearance,
     fitted,
+    indicator_band,
     metric,
     seal_face,
     seat,
@@ -90,17 +91,29 @@ def housing_features(layout: Layout) -> tuple[Feature, ...]:
         *_ring_pin_seats(pack, -pack.relief, downward=True),
         *ring_dowel_holes(pack, layout.dowels, layout.dowels.bottom, housing.face),
         _seal_bore(housing.shaft_seal, "bore about the shaft"),
+        indicator_band(INDICATOR_BAND, 2.0 * housing.flange_radius, _band_bottom(layout),
+                       housing.face, zones.BAND),
     ]  # fmt: skip
     if layout.motor is not None:
         found += _motor_flange(housing, layout.motor)
     return tuple(found)
 
 
+INDICATOR_BAND = "band for the indicator"
+"""Outside of the flange, by which the output is centred on the ring."""
+
+
+def _band_bottom(layout: Layout) -> float:
+    """Where the flange ends, or the ears for the motor's cover on it, m."""
+    end = layout.housing.flange_bottom
+    return end if layout.motor is None else max(end, layout.motor.flange_top)
+
+
 _RING_CORNER = 0.2e-3
 """Largest corner radius in the ring's seat: the ring is cut by wire, its edges are broken less."""
 
 
-def _seal_bore(seal: GapSeal, name: str) -> SealFace:
+def _seal_bore(seal: GapSeal, name: str) -> TrueFace:
     return seal_face(name, 2.0 * seal.outer, seal.bottom, seal.top, zones.SEAL_OUTSIDE, inside=True)
 
 

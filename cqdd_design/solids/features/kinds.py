@@ -78,8 +78,8 @@ class Seat:
 
 
 @dataclass(frozen=True)
-class SealFace(Seat):
-    """A cylinder of a gap seal: nothing sits on it, it only runs true."""
+class TrueFace(Seat):
+    """A cylinder on which nothing sits: it only runs true, in a gap seal or under an indicator."""
 
 
 @dataclass(frozen=True)

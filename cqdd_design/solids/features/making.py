@@ -25,7 +25,7 @@ from cqdd_design.solids.features.holes import (
     FittedHole,
     TappedHole,
 )
-from cqdd_design.solids.features.kinds import ON_AXIS, SealFace, Seat, Shoulder, Undercut
+from cqdd_design.solids.features.kinds import ON_AXIS, Seat, Shoulder, TrueFace, Undercut
 
 POINT_ANGLE = math.radians(118.0)
 """Of twist drills (DIN 1412)."""
@@ -41,6 +41,8 @@ form C)."""
 _POSITION_STEP = 0.01e-3
 _SEAL_RUN_OUT = 50e-6
 """Of the cylinders of a gap seal, m."""
+BAND_RUN_OUT = 5e-6
+"""Of a cylinder for an indicator, turned in one setting with the seat that it tells of, m."""
 _FLOOR = 0.3e-3
 """Least material beyond the point of a drill, m."""
 _RELIEF_SHARE = 0.34
@@ -81,11 +83,19 @@ def seat(
 
 def seal_face(
     name: str, diameter: float, bottom: float, top: float, zone: str, *, inside: bool = False
-) -> SealFace:
+) -> TrueFace:
     """A cylinder of a gap seal: a fifth of the narrowest gap of run-out, form by its zone."""
-    return SealFace(
+    return TrueFace(
         name, diameter, bottom, top, inside, zone, TURNED, ground=False,
         run_out=_SEAL_RUN_OUT, cylindricity=0.0, refers="A",
+    )  # fmt: skip
+
+
+def indicator_band(name: str, diameter: float, bottom: float, top: float, zone: str) -> TrueFace:
+    """A cylinder outside a part by which an indicator finds the axis of datum A."""
+    return TrueFace(
+        name, diameter, bottom, top, False, zone, FINE, ground=False,
+        run_out=BAND_RUN_OUT, cylindricity=0.0, refers="A",
     )  # fmt: skip
 
 

@@ -30,6 +30,8 @@ SPIGOT = "h6"
 CAN_SPIGOT, CAN_BORE = "h7", "H8"
 """Of the flange, and of the motor's cover on it: a thin can, which only the encoder asks to be
 centred, within a quarter of a millimetre."""
+BAND = "h9"
+"""Of the cylinder for an indicator, which only has to run true."""
 SEAL_INSIDE, SEAL_OUTSIDE = "h9", "H9"
 """Of what turns in a gap seal, and of the bore about it."""
 BELL_BORE, MAGNETS, MAGNET_POCKET = "F7", "H7", "H9"
