@@ -89,13 +89,11 @@ def largest_pin_circle(
     clear = hole_radius + allowables.LIGAMENT + SAMPLING_GUARD
     shape = np.broadcast_shapes(clear.shape, offset.shape)
     found = np.empty((shape[0], math.prod(shape[1:])))
-    pin_circles(
-        frame.lobe_count,
-        _generation(frame, ring),
-        valley_distance(frame, ring),
-        *(np.array(np.broadcast_to(one, shape)).reshape(found.shape) for one in (clear, offset)),
-        found,
+    clear, offset = (
+        np.array(np.broadcast_to(one, shape)).reshape(found.shape) for one in (clear, offset)
     )
+    valley = valley_distance(frame, ring)
+    pin_circles(frame.lobe_count, _generation(frame, ring), valley, clear, offset, found)
     return np.minimum(found.reshape(shape), frame.pin_circle_limit)
 
 
