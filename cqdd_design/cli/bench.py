@@ -65,7 +65,7 @@ def bench(
     others = tuple(name.strip() for name in (beside or "").split(";") if name.strip())
     loaded = read_design(out, design, motor, motor_file)
     specimen = read_specimen(out, loaded, calibration=calibration, seed=seed)
-    out.compile_ahead(simulation=True, ensembles=True)
+    out.compile_ahead(loaded, simulation=True, ensembles=True)
     found = data_sheet(
         loaded,
         specimen,

@@ -71,7 +71,7 @@ def calibrate(
     loaded = read_design(out, design, motor, motor_file)
     if path is not None:
         refuse_overwrite(path, force=force)
-    out.compile_ahead(simulation=True)
+    out.compile_ahead(loaded, simulation=True)
     found = fitted(
         loaded,
         rows,

@@ -148,14 +148,23 @@ class Output:
             told = with_coloured_start(printable(sentence), WARNING, sys.stderr)
             print(told, file=sys.stderr, flush=True)
 
-    def compile_ahead(self, *, simulation: bool = False, ensembles: bool = False) -> None:
-        """On the first run after installation, compile what the command will call, and tell so."""
+    def compile_ahead(
+        self,
+        design: Design | None = None,
+        *,
+        simulation: bool = False,
+        ensembles: bool = False,
+    ) -> None:
+        """On the first run after installation, compile what the command will call, and tell so.
+
+        What of a design's analysis needs none of it is done meanwhile.
+        """
         from cqdd_design.roads.kernels import compile_kernels, missing
 
         kernels = missing(simulation=simulation, ensembles=ensembles)
         if kernels:
             self.note("compiling on this first use, once; the next run starts at once")
-            compile_kernels(kernels, self.counting("kernels compiled", alike=False))
+            compile_kernels(kernels, self.counting("kernels compiled", alike=False), design)
             self.end_progress(done=True)
             self._bar = None
 
