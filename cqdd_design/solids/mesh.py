@@ -66,7 +66,6 @@ def picture_quality(part: Part) -> Quality:
     return Quality(min(2e-3, chord), 0.38, chords=False)
 
 
-
 @dataclass(frozen=True, eq=False)
 class Facets:
     """Triangles of a solid, face by face: no two faces of the solid share a vertex.
