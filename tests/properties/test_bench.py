@@ -197,7 +197,7 @@ def test_a_bandwidth_beyond_coherence_is_none(actuator: ActuatorParameters) -> N
     assert math.isnan(found.value)
     assert found.known is result.value("torque_bandwidth") is None
     assert result.to_dict()["metrics"]["torque_bandwidth"]["value"] is None  # type: ignore[index]
-    assert result.warnings == (f"torque_bandwidth: {found.missing}.",)
+    assert result.warnings == (f"torque bandwidth: {found.missing}.",)
     assert "coherence" in found.missing
 
 
