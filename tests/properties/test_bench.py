@@ -378,7 +378,7 @@ def test_a_motor_without_drag_data_is_told(actuator: ActuatorParameters) -> None
     """Where a measurement hangs on it, and only there."""
     assert actuator.origins["motor.coulomb"] == "assumed: 0, the catalogue gives none"
     (told,) = run_bench(actuator, only=["backdrive_dynamic", "mass"]).warnings
-    assert "0 is assumed: backdrive_dynamic is that" in told
+    assert "0 is assumed: backdrive torque, running is that" in told
     assert run_bench(actuator, only=["mass"]).warnings == ()
     known = changed(actuator, motor={"viscous": 1e-4})
     assert run_bench(known, only=["backdrive_dynamic"]).warnings == ()
