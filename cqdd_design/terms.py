@@ -143,6 +143,12 @@ _ENDINGS = {"_max": "greatest {}", "_min": "least {}", "_pp": "{}, peak to peak"
 _ESTIMATES = {"_low": ", at least", "_high": ", at most"}
 
 
+_MEASURED = {
+    "continuous_torque": "continuous torque, standing",
+    "torque_ripple": "torque ripple, half of peak to peak",
+}
+
+
 class Term(NamedTuple):
     """A quantity in words.
 
@@ -183,6 +189,19 @@ def term(key: str) -> Term:
             name, unit = key.removesuffix(f"_{part}"), UNITS[part]
             break
     return Term(_words(name) + after, unit)
+
+
+def measurement(name: str) -> str:
+    """A measurement of the test bench in words: where it is not the gearbox's result of that name.
+
+    Examples
+    --------
+    >>> measurement("torque_ripple")
+    'torque ripple, half of peak to peak'
+    >>> measurement("backdrive_static")
+    'backdrive torque, breakaway'
+    """
+    return _MEASURED.get(name) or term(name).words
 
 
 def _words(name: str) -> str:

@@ -75,7 +75,7 @@ def analyse(
     parts_at = parse_option("--temperature", temperature, TEMPERATURE)
     asked_speed = parse_positive("--speed", speed, SPEED)
     loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)
-    out.compile_ahead(simulation=True)
+    out.compile_ahead(loaded, simulation=True)
     found = analysed(
         loaded,
         torque=asked_torque,

@@ -20,6 +20,7 @@ from cqdd_design.cli.options import (
 )
 from cqdd_design.cli.session import Output, read_design, read_specimen
 from cqdd_design.cli.tables import folded, headline_table, number, table, told
+from cqdd_design.terms import measurement
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -30,9 +31,10 @@ if TYPE_CHECKING:
 
 _OTHERWISE = (
     "Measurements follow the protocols of the paper, these figures the requirements: "
-    "continuous_torque is of a standing output, the continuous torque above is held for ever at "
-    "the input speed; stall_torque is met while the current rises, which loosens some friction; "
-    "efficiency_peak is of motor and gearbox at their best point; backlash is of one gearbox."
+    "continuous torque, standing, is of an output at rest, the continuous torque above is held for "
+    "ever at the input speed; stall torque is met while the current rises, which loosens some "
+    "friction; greatest efficiency is of motor and gearbox at their best point; backlash is of one "
+    "gearbox."
 )
 
 
@@ -65,7 +67,7 @@ def bench(
     others = tuple(name.strip() for name in (beside or "").split(";") if name.strip())
     loaded = read_design(out, design, motor, motor_file)
     specimen = read_specimen(out, loaded, calibration=calibration, seed=seed)
-    out.compile_ahead(simulation=True, ensembles=True)
+    out.compile_ahead(loaded, simulation=True, ensembles=True)
     found = data_sheet(
         loaded,
         specimen,
@@ -93,7 +95,7 @@ def _lines(result: BenchResult) -> list[str]:
     rows = []
     for metric in result.metrics:
         row = [
-            metric.name,
+            measurement(metric.name),
             "-" if metric.known is None else number(metric.value),
             "" if metric.spread is None else number(metric.spread, 2),
             metric.unit,
@@ -115,10 +117,10 @@ def _lines(result: BenchResult) -> list[str]:
         "",
         *folded(
             f"{len(rows)} measurements in {number(result.seconds)} s; dynamic rows at "
-            f"{result.voltage:g} V. Protocols stand in --json and in the report."
+            f"{result.voltage:g} V. Protocols, and names for --only, stand in --json."
         ),
     ]
-    remarks = [(one.name, one.remark) for one in result.metrics if one.remark]
+    remarks = [(measurement(one.name), one.remark) for one in result.metrics if one.remark]
     lines += ["", told(remarks), ""] if remarks else []
     return [
         *lines,

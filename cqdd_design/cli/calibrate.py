@@ -20,6 +20,7 @@ from cqdd_design.cli.options import (
 from cqdd_design.cli.session import Output, read_design, read_specimen
 from cqdd_design.cli.tables import folded, number, table
 from cqdd_design.environment import output_folder
+from cqdd_design.terms import measurement
 
 if TYPE_CHECKING:
     from cqdd_design.actuator.bench.calibrate import Calibration
@@ -71,7 +72,7 @@ def calibrate(
     loaded = read_design(out, design, motor, motor_file)
     if path is not None:
         refuse_overwrite(path, force=force)
-    out.compile_ahead(simulation=True)
+    out.compile_ahead(loaded, simulation=True)
     found = fitted(
         loaded,
         rows,
@@ -97,7 +98,7 @@ def _lines(found: Calibration) -> list[str]:
     for row in found.rows:
         rows.append(
             [
-                row.name,
+                measurement(row.name),
                 row.unit,
                 "" if row.measured is None else number(row.measured),
                 "-" if row.before is None else number(row.before),
@@ -116,7 +117,7 @@ def _lines(found: Calibration) -> list[str]:
         ]
         for name, value in found.factors.items()
     ]
-    good = [row.name for row in found.within]
+    good = [measurement(row.name) for row in found.within]
     lines = [
         table(rows, head=head, right=(2, 3, 4, 5)),
         "",
@@ -124,7 +125,7 @@ def _lines(found: Calibration) -> list[str]:
         "",
         *folded(
             f"{len(good)} of {len(found.predicted)} predicted rows are within 20 % (efficiency: "
-            f"5 points): {', '.join(good) or 'none'}."
+            f"5 points): {'; '.join(good) or 'none'}."
         ),
     ]
     return lines

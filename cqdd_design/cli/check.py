@@ -42,7 +42,7 @@ def check(
     from cqdd_design.verdict.judge import sentence
 
     loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)
-    out.compile_ahead(simulation=loaded.requirements.shock_speed > 0.0, ensembles=True)
+    out.compile_ahead(loaded, simulation=loaded.requirements.shock_speed > 0.0, ensembles=True)
     found = judged(
         loaded,
         read_specimen(out, loaded),

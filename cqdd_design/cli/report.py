@@ -43,7 +43,7 @@ def report(
 
     chosen = report_form(format)
     loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)
-    out.compile_ahead(simulation=True, ensembles=True)
+    out.compile_ahead(loaded, simulation=True, ensembles=True)
     written = write_report(
         loaded,
         target,

@@ -149,15 +149,23 @@ class Output:
             print(told, file=sys.stderr, flush=True)
 
     def compile_ahead(
-        self, *, simulation: bool = False, ensembles: bool = False, sizing: bool = False
+        self,
+        design: Design | None = None,
+        *,
+        simulation: bool = False,
+        ensembles: bool = False,
+        sizing: bool = False,
     ) -> None:
-        """On the first run after installation, compile what the command will call, and tell so."""
+        """On the first run after installation, compile what the command will call, and tell so.
+
+        What of a design's analysis needs none of it is done meanwhile.
+        """
         from cqdd_design.roads.kernels import compile_kernels, missing
 
         kernels = missing(simulation=simulation, ensembles=ensembles, sizing=sizing)
         if kernels:
             self.note("compiling on this first use, once; the next run starts at once")
-            compile_kernels(kernels, self.counting("kernels compiled", alike=False))
+            compile_kernels(kernels, self.counting("kernels compiled", alike=False), design)
             self.end_progress(done=True)
             self._bar = None
 

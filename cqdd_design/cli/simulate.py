@@ -165,7 +165,7 @@ def simulate(
     asked = chosen.run(loaded, load=load, command=command, signal=signal, friction=friction)
     out.warn(*asked.warnings)
     specimen = read_specimen(out, loaded, calibration=calibration, seed=seed)
-    out.compile_ahead(simulation=True)
+    out.compile_ahead(loaded, simulation=True)
     result = simulated(
         loaded,
         asked.scenario,

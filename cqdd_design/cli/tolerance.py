@@ -55,7 +55,7 @@ def tolerance(
     parts_at = parse_option("--temperature", temperature, TEMPERATURE)
     loaded = load_design(design)
     if scheduler is None:
-        out.compile_ahead(ensembles=True)
+        out.compile_ahead(loaded, ensembles=True)
     result = drawn(
         loaded,
         samples=samples,

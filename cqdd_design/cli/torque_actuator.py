@@ -28,7 +28,7 @@ def data_actuator(
     seed = facts.get("training_gearbox") if gearbox is None else gearbox
     own = facts.get("calibration") if calibration is None else None
     factors = read_factors(out, calibration, design) or (own if isinstance(own, dict) else {})
-    out.compile_ahead()
+    out.compile_ahead(design)
     if facts.get("design_sha256") not in (None, design.sha256):
         out.warn(f"the data are of another design or version of it than {design.name}.")
     specimen = Specimen(

@@ -77,7 +77,7 @@ def generate(
     )
     loaded = read_design(out, design, motor, motor_file)
     specimen = read_specimen(out, loaded, calibration=calibration)
-    out.compile_ahead(simulation=True)
+    out.compile_ahead(loaded, simulation=True)
     found = generated(
         loaded,
         request,

@@ -176,7 +176,7 @@ def drawn_actuators(
     others = "of the others" if drawn else "of perfect parts"
     return drawn, (
         f"{len(refused)} of {RIPPLE_DRAWS} gearboxes drawn from the tolerances cannot be "
-        f"simulated, and backlash and torque_ripple are those {others}: {refused[0]}",
+        f"simulated, and backlash and torque ripple are those {others}: {refused[0]}",
     )
 
 

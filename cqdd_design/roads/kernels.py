@@ -19,9 +19,13 @@ from pathlib import Path
 from queue import SimpleQueue
 from threading import Thread
 from types import FunctionType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from cqdd_design.errors import CqddError
 from cqdd_design.gearbox.compiled import in_cache
+
+if TYPE_CHECKING:
+    from cqdd_design.design import Design
 
 _CONTACTS = ("Contacts", "f4", "f3", "f3", "f3", "f1")
 _SPRINGS = ("Springs", "i", "i", "i", "f", "f", "f1", "f", "f", "f")
@@ -164,7 +168,9 @@ def kernel_folder() -> Path:
     return cache_place(GEARBOX[0].compiled()._cache)
 
 
-def compile_kernels(kernels: list[Kernel], tell: Callable[[int, int], None]) -> None:
+def compile_kernels(
+    kernels: list[Kernel], tell: Callable[[int, int], None], design: Design | None = None
+) -> None:
     """Compile kernels into the cache, those of a module together.
 
     Parameters
@@ -172,9 +178,24 @@ def compile_kernels(kernels: list[Kernel], tell: Callable[[int, int], None]) -> 
     tell : callable
         Called with how many are done and how many there are, at the start and as each ends. One
         that fails is not told: the command compiles it itself and says why.
+    design : Design, optional
+        Its discs and ring as elastic bodies, of which no kernel is waited for, are made meanwhile
+        and kept for the command.
     """
+    beside = Thread(target=_make_bodies, args=(design,), daemon=True)
     with compiling(kernels, tell) as wait:
+        beside.start()
         wait()
+    beside.join()
+
+
+def _make_bodies(design: Design | None) -> None:
+    # What is wrong with a design the command finds and tells.
+    with suppress(CqddError):
+        if design is not None:
+            from cqdd_design.machine import resolve
+
+            _ = resolve(design).bodies
 
 
 @contextmanager

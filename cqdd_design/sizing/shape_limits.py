@@ -22,7 +22,6 @@ from cqdd_design.geometry.trochoid import (
 )
 from cqdd_design.sizing.columns import Columns
 from cqdd_design.sizing.frame import Frame
-from cqdd_design.sizing.shape_kernel import lobed_areas, pin_circles, reliefs_pass
 
 BoolArray = NDArray[np.bool_]
 
@@ -86,6 +85,8 @@ def largest_pin_circle(
     array (G, ...)
         m; negative where no hole fits at all.
     """
+    from cqdd_design.sizing.shape_kernel import pin_circles
+
     clear = hole_radius + allowables.LIGAMENT + SAMPLING_GUARD
     shape = np.broadcast_shapes(clear.shape, offset.shape)
     found = np.empty((shape[0], math.prod(shape[1:])))
@@ -149,6 +150,8 @@ def relief_passes_wire(frame: Frame, ring: RingSizes) -> BoolArray:
     A fillet between tooth and root circle must clear everything the disc sweeps and leave the
     tooth a neck. Fillets up from the wire's own radius are tried; finer ones would not help.
     """
+    from cqdd_design.sizing.shape_kernel import reliefs_pass
+
     R, e, r = ring.pitch_radius, ring.eccentricity, ring.tooth_radius
     root = ring.root_radius(frame)
     across = R * math.cos(math.pi / (frame.lobe_count + 1))
@@ -170,6 +173,8 @@ def profile_integrals(frame: Frame, ring: RingSizes) -> tuple[FloatArray, FloatA
 
     By Green's theorem, without holes; the trapezoidal rule is spectral here.
     """
+    from cqdd_design.sizing.shape_kernel import lobed_areas
+
     area, polar = np.empty((2, ring.pitch_radius.size))
     lobed_areas(frame.lobe_count, _generation(frame, ring), area, polar)
     return area, polar

@@ -1,7 +1,7 @@
 """Closed triangle meshes of the solids, and mass properties from them.
 
-Two qualities: `FINE` for mass, inertia and interference, `DISPLAY` for files that are looked at or
-printed. Every part is tessellated once for each and kept.
+Qualities: `FINE` for mass, inertia and interference, `DISPLAY` for files that are looked at or
+printed, and that of the report's pictures. Every part is tessellated once for each and kept.
 """
 
 from __future__ import annotations
@@ -41,16 +41,29 @@ class Quality:
         Most distance of a facet from the surface, as a share of the part's outside radius.
     angle : float
         Most turn of the surface from facet to facet, rad.
+    chords : bool
+        Whether the smallest arcs are meshed as chords: of finer facets a torus would take
+        thousands.
     """
 
     deflection: float
     angle: float
+    chords: bool = True
 
 
 # A polygon that stays within s of a circle of radius r misses 4 s/(3 r) of its area and twice that
 # of its polar moment: 2.5e-5 of the outside radius costs 7e-5 there at most, and less in holes.
 FINE = Quality(deflection=2.5e-5, angle=0.2)
 DISPLAY = Quality(deflection=4e-4, angle=0.25)
+
+_PICTURE_CHORD = 0.05
+"""Most distance of a picture's facet from the surface, mm: a quarter of a pixel and less."""
+
+
+def picture_quality(part: Part) -> Quality:
+    """Of pictures of the whole machine, and of what turns in the browser."""
+    chord = _PICTURE_CHORD / (part.shape.outside_radius * MM)
+    return Quality(min(2e-3, chord), 0.38, chords=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,7 +170,8 @@ def _facets(part: Part, quality: Quality, mesher: str, *, seamed: bool) -> Facet
     from OCP.TopLoc import TopLoc_Location
 
     # A copy, so that the facets of one quality never reach another or a STEP file.
-    solid = (part.seamed_solid if seamed else part.faceted_solid).copy()
+    whole = part.faceted_solid if quality.chords else part.solid
+    solid = (part.seamed_solid if seamed else whole).copy()
     _mesh_in_place(solid.wrapped, quality, mesher, part.shape.outside_radius * MM)
     vertices: list[tuple[float, float, float]] = []
     blocks: list[IntArray] = []

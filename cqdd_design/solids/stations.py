@@ -16,7 +16,7 @@ import numpy as np
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray, PlanarPart
 from cqdd_design.solids.cad import MM, location
-from cqdd_design.solids.mesh import DISPLAY, closed_mesh
+from cqdd_design.solids.mesh import closed_mesh, picture_quality
 from cqdd_design.solids.part import Instance, Part
 from cqdd_design.solids.poses import Body
 
@@ -178,14 +178,14 @@ class Posed:
 
     @property
     def vertices(self) -> FloatArray:
-        """Of the part's closed mesh (v, 3), mm."""
-        found = closed_mesh(self.part, DISPLAY).vertices
+        """Of the part's closed mesh for pictures (v, 3), mm."""
+        found = closed_mesh(self.part, picture_quality(self.part)).vertices
         return np.asarray(found @ self.pose[:3, :3].T + self.pose[:3, 3] * MM)
 
     @property
     def triangles(self) -> np.ndarray:
         """Corners (t, 3) of the mesh's triangles."""
-        return closed_mesh(self.part, DISPLAY).triangles
+        return closed_mesh(self.part, picture_quality(self.part)).triangles
 
 
 def posed(station: Station, design: Design, crank_angle: float) -> tuple[Posed, ...]:

@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+from actuator_samples import paper_actuator
 from terminal_lines import too_wide
 
+from cqdd_design.actuator.bench import METRICS, BenchResult, run_bench
+from cqdd_design.actuator.bench.metric import Metric
+from cqdd_design.catalog.paper import METRICS as PAPER
+from cqdd_design.cli.bench import _lines
 from cqdd_design.cli.main import run
+from cqdd_design.report.actuator.bench_table import bench_row
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 DESIGN = str(REPOSITORY / "designs" / "cqdd-10.toml")
@@ -55,12 +62,56 @@ def test_bench_measures_every_row_and_writes_its_traces(cqdd, tmp_path):
 def test_bench_says_what_an_agreement_is(cqdd):
     found = cqdd("bench", DESIGN, "--only", "mass,peak_torque,no_load_speed", "--voltage", "48 V")
     assert found.code == 0
-    lines = {line.split()[0]: line for line in found.out.splitlines() if line}
-    assert lines["mass"].split()[-1] == "predicted"
-    assert lines["peak_torque"].split()[-1] == "given"
+    lines = {line.split("  ")[0]: line.split() for line in found.out.splitlines() if line}
+    assert lines["mass"][-1] == "predicted"
+    assert lines["peak torque"][-1] == "given"
     # Twice the voltage, about twice the paper's speed at 24 V.
-    assert 255.0 < float(lines["no_load_speed"].split()[1]) < 270.0
+    assert 255.0 < float(lines["no-load speed"][2]) < 270.0
     assert "actuator  " not in found.out
+
+
+def test_measurements_are_told_in_words_and_kept_under_names():
+    """What people read has no key in it, is aligned, fits 80 columns, and is what the page says."""
+    metrics = tuple(
+        Metric(name, 1.07 * PAPER[name].value, "predicted", "Told.", remark="so")
+        for name in METRICS
+    )
+    result = BenchResult("some", metrics, True, 24.0, 1.0)
+    said = "\n".join(_lines(result))
+    assert "_" not in said
+    assert too_wide(said) == []
+    title, line, *rows = said.partition("\n\n")[0].splitlines()
+    first, value = (len(dashes) for dashes in line.split("  ")[:2])
+    names: list[str] = []
+    for row in rows:
+        # What is folded goes on below, indented.
+        if row.startswith(" "):
+            names[-1] += f" {row[:first].strip()}"
+        else:
+            names.append(row[:first].strip())
+            assert row[first:].startswith("  ")
+            assert float(row[first : first + 2 + value])
+            assert row.endswith("+7.0  predicted")
+    assert names == [bench_row(one, result)["words"] for one in metrics]
+    assert len(set(names)) == len(METRICS)
+    assert title.split() == [
+        "measurement",
+        "value",
+        "spread",
+        "unit",
+        "paper",
+        "off",
+        "%",
+        "row",
+        "is",
+    ]
+
+
+def test_warnings_of_the_bench_are_in_words():
+    """A measurement without a value is called in its warning as in the table."""
+    found = run_bench(paper_actuator(), only=("rated_power",))
+    assert found.metrics == ()
+    assert found.warnings[0].startswith("rated electrical power: the motor's catalogue gives no")
 
 
 @pytest.mark.deep
@@ -164,9 +215,10 @@ def test_like_names_of_unlike_figures_are_told_apart(cqdd, paper_design_file):
     """Its continuous torque is of a standing output, that of the verdict for ever at speed."""
     done = cqdd("bench", paper_design_file)
     lines = done.out.splitlines()
-    standing = next(line for line in lines if line.startswith("continuous_torque "))
+    standing = next(line for line in lines if line.startswith("continuous torque,"))
     verdict = next(line for line in lines if " continuous torque " in line)
-    assert float(standing.split()[1]) != float(verdict.split()[3])
+    (value, *_) = re.findall(r"[0-9.]+", standing)
+    assert float(value) != float(verdict.split()[3])
     words = " ".join(done.out.split())
-    assert "continuous_torque is of a standing output, the continuous torque above is held" in words
+    assert "continuous torque, standing, is of an output at rest, the continuous torque" in words
     assert too_wide(done.out) == []

@@ -28,7 +28,7 @@ def test_warm_parts_move_the_backlash_and_leave_the_closed_forms(cqdd) -> None:
 
 
 def test_toleranced_gearboxes_bind_when_warm(cqdd) -> None:
-    words = ("tolerance", str(DESIGN), "--samples", "6", "--angles", "110", "--json")
+    words = ("tolerance", str(DESIGN), "--samples", "24", "--angles", "110", "--json")
     shares = []
     for more in ((), ("--temperature", "80 degC")):
         found = json.loads(cqdd(*words, *more).out)["results"]

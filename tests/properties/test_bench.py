@@ -197,7 +197,7 @@ def test_a_bandwidth_beyond_coherence_is_none(actuator: ActuatorParameters) -> N
     assert math.isnan(found.value)
     assert found.known is result.value("torque_bandwidth") is None
     assert result.to_dict()["metrics"]["torque_bandwidth"]["value"] is None  # type: ignore[index]
-    assert result.warnings == (f"torque_bandwidth: {found.missing}.",)
+    assert result.warnings == (f"torque bandwidth: {found.missing}.",)
     assert "coherence" in found.missing
 
 
@@ -378,7 +378,7 @@ def test_a_motor_without_drag_data_is_told(actuator: ActuatorParameters) -> None
     """Where a measurement hangs on it, and only there."""
     assert actuator.origins["motor.coulomb"] == "assumed: 0, the catalogue gives none"
     (told,) = run_bench(actuator, only=["backdrive_dynamic", "mass"]).warnings
-    assert "0 is assumed: backdrive_dynamic is that" in told
+    assert "0 is assumed: backdrive torque, running is that" in told
     assert run_bench(actuator, only=["mass"]).warnings == ()
     known = changed(actuator, motor={"viscous": 1e-4})
     assert run_bench(known, only=["backdrive_dynamic"]).warnings == ()

@@ -13,12 +13,22 @@ from cqdd_design.actuator.scenario import Scenario
 from cqdd_design.actuator.simulate import simulate
 from cqdd_design.design import Requirements, load_design
 from cqdd_design.files import kernel_part
+from cqdd_design.gearbox.bodies.point_load import Places, Plate, displacement_of
+from cqdd_design.gearbox.bodies.point_load_kernel import displacements
 from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
 from cqdd_design.gearbox.tolerance.evaluate import LOADS, OUTPUTS
 from cqdd_design.gearbox.tolerance.run import run_ensemble
-from cqdd_design.machine import resolve
+from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.contact_analysis import analyse_contact
-from cqdd_design.roads.kernels import ENSEMBLES, GEARBOX, SIMULATION, SIZING, missing, signature
+from cqdd_design.roads.kernels import (
+    ENSEMBLES,
+    GEARBOX,
+    SIMULATION,
+    SIZING,
+    compile_kernels,
+    missing,
+    signature,
+)
 from cqdd_design.sizing.frame import search_frame
 from cqdd_design.sizing.search import Search
 
@@ -76,6 +86,24 @@ def test_a_kernel_runs_its_parts_whatever_numba_does_with_them(versions, monkeyp
     values = np.array([1.0, 2.0, 4.0])
     assert kernel(values, 2.0) == 10.5 == 3.0 * summed(values, 2.0)
     assert kernel(values, 0.0) == np.inf
+
+
+def test_bodies_are_made_while_kernels_are_compiled(monkeypatch) -> None:
+    design, made = load_design(PAPER), []
+    monkeypatch.setattr(Machine, "bodies", property(lambda machine: made.append(machine.given)))
+    compile_kernels([], lambda done, total: None, design)
+    compile_kernels([], lambda done, total: None)
+    assert made == [design]
+
+
+def test_a_view_compiles_no_kernel_anew() -> None:
+    places = Places(*(np.array([x, 1j * x]) for x in (1.0, -1.0, -2.0)))
+    plate, points = Plate(2e11, 0.3, 5e-3), np.array([0.3 + 0.1j, 0.2 - 0.4j])
+    rows = np.array([[0, 1], [1, 0]])
+    whole = displacement_of(np.ascontiguousarray(rows[:, :1]), points, places, plate)
+    before = len(displacements.signatures)
+    assert np.array_equal(displacement_of(rows[:, :1], points, places, plate), whole)
+    assert len(displacements.signatures) == before
 
 
 @pytest.mark.deep

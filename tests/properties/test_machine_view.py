@@ -164,9 +164,10 @@ def test_section_cuts_what_the_plane_meets() -> None:
     points = np.concatenate(disc.loops)
     assert points[:, 1].min() == pytest.approx(0.0, abs=1e-3)
     assert points[:, 1].max() == pytest.approx(design.reducer.disc_thickness * MM, abs=1e-3)
-    # The crank runs along the cut, so the bore of the first disc lies one eccentricity outward.
+    # The crank runs along the cut, so the bore of the first disc lies one eccentricity outward, as
+    # near as facets of a picture keep to it.
     bore = part_named(parts, "cam bearing").shape.outside_radius + design.reducer.eccentricity
-    assert points[:, 0].min() == pytest.approx(bore * MM, abs=0.02)
+    assert points[:, 0].min() == pytest.approx(bore * MM, abs=0.05)
     # The pin of the carrier stands in the same half plane.
     assert any("shoulder screw" in face for face in faces)
 

@@ -14,6 +14,7 @@ from cqdd_design.actuator.bench.metric import BenchResult, Metric, refuse_unmeas
 from cqdd_design.actuator.parameters import ActuatorParameters
 from cqdd_design.catalog import paper
 from cqdd_design.errors import UsageError
+from cqdd_design.terms import measurement
 
 if TYPE_CHECKING:
     from cqdd_design.machine.carrying import CarriedTorque
@@ -113,19 +114,19 @@ def run_bench(
         if only and name not in only:
             continue
         if progress is not None:
-            progress(name.replace("_", " "))
+            progress(measurement(name))
         metric = measure()
         if metric is None:
-            warnings.append(f"{name}: {_ABSENT[name]}.")
+            warnings.append(f"{measurement(name)}: {_ABSENT[name]}.")
         else:
             fitted = metric.name in parameters.fitted
             found.append(dataclasses.replace(metric, relation="calibrated") if fitted else metric)
             if metric.missing:
-                warnings.append(f"{name}: {metric.missing}.")
-    hanging = [metric.name for metric in found if metric.name in _OF_DRAG]
+                warnings.append(f"{measurement(name)}: {metric.missing}.")
+    hanging = [measurement(metric.name) for metric in found if metric.name in _OF_DRAG]
     if hanging and not (parameters.motor.dry_drag or parameters.motor.drag_slope):
         warnings.append(
-            f"nothing is known of the motor's own drag, and 0 is assumed: {', '.join(hanging)} "
+            f"nothing is known of the motor's own drag, and 0 is assumed: {'; '.join(hanging)} "
             f"{'is that' if len(hanging) == 1 else 'are those'} of a motor that turns freely. "
             "Measure it, and give coulomb and viscous in a motor file."
         )

@@ -139,6 +139,8 @@ def displacement_of(
     """
     from cqdd_design.gearbox.bodies.point_load_kernel import displacements, separations
 
+    # A view has another type, for which numba would compile both kernels anew.
+    which = np.ascontiguousarray(which)
     at, spread, count = _plane(z), places.spread(), which.shape[1]
     found = np.empty((2, len(z), 2 * count))
     rows = max(_AT_ONCE // max(count, 1), 1)

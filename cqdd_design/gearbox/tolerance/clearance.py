@@ -11,6 +11,7 @@ from cqdd_design.errors import ContactError, DesignError
 from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
 from cqdd_design.gearbox.tolerance.evaluate import OUTPUTS
 from cqdd_design.gearbox.tolerance.limits import lasting_hours
+from cqdd_design.gearbox.tolerance.remembered import work_remembered
 from cqdd_design.gearbox.tolerance.run import ToleranceResult, run_ensemble
 
 EQUIDISTANTS = (0.0, 3e-6, 6e-6, 10e-6)
@@ -111,7 +112,7 @@ def _point(
         ensemble = make_ensemble(changed, angles=angles, seed=seed, bodies=design)
         found = known.first(samples) if known and known.ensemble == ensemble else None
         if found is None or found.lost == samples:
-            found = run_ensemble(ensemble, samples, sensitivity=False)
+            found = run_ensemble(ensemble, samples, mapper=work_remembered, sensitivity=False)
     except (ContactError, DesignError) as error:
         return ClearancePoint(equidistant, hole, own, missing=error.message)
     values = dict(zip(OUTPUTS, found.values.T, strict=True))

@@ -25,7 +25,7 @@ from cqdd_design.report.ink.numbers import (
     with_unit,
 )
 from cqdd_design.report.ink.page import Values
-from cqdd_design.terms import term
+from cqdd_design.terms import measurement
 
 _NO_SPREAD = 1e-3
 """Of the value: a smaller spread is not told in digits."""
@@ -46,8 +46,6 @@ RELATIONS = (
 )
 """What the words about an agreement mean."""
 
-_WORDS = {"torque_ripple": "torque ripple, half of peak to peak"}
-"""Where the bench means something else than the gearbox's result of that name."""
 _SHOWN_UNITS: dict[str, tuple[str, float]] = {"": ("%", 100.0), "kg*m^2": ("kg·cm²", 1e4)}
 
 
@@ -79,11 +77,6 @@ def bench_view(parameters: ActuatorParameters, bench: BenchResult, *, pin_count:
     }
 
 
-def words_of(name: str) -> str:
-    """A measurement in words."""
-    return _WORDS.get(name, term(name).words)
-
-
 def bench_row(metric: Metric, bench: BenchResult, *, holds: bool = False) -> Values:
     """One measurement as printed; `off` is how far it lies from the paper's.
 
@@ -99,7 +92,7 @@ def bench_row(metric: Metric, bench: BenchResult, *, holds: bool = False) -> Val
     paper = bench.paper(metric.name)
     return {
         "name": metric.name,
-        "words": words_of(metric.name),
+        "words": measurement(metric.name),
         "value": maybe(factor * metric.value),
         "spread": _spread(metric, factor),
         "unit": unit,
@@ -151,8 +144,8 @@ def _summary(bench: BenchResult) -> str:
     told = [(m, p) for m, p in beside if m.relation == "predicted" and math.isfinite(m.value)]
     if not told:
         return ""
-    near = [words_of(m.name) for m, p in told if is_near(m.unit, m.value, p)]
-    far = [words_of(m.name) for m, p in told if not is_near(m.unit, m.value, p)]
+    near = [measurement(m.name) for m, p in told if is_near(m.unit, m.value, p)]
+    far = [measurement(m.name) for m, p in told if not is_near(m.unit, m.value, p)]
     listed = f": {'; '.join(near)}." if near else "."
     parts = [
         f"Of {len(told)} predicted rows {len(near)} lie within {per_cent(NEAR)} of the paper's "
@@ -160,11 +153,11 @@ def _summary(bench: BenchResult) -> str:
     ]
     if far:
         parts.append(f"Not so: {'; '.join(far)}.")
-    calibrated = [words_of(m.name) for m, _ in beside if m.relation == "calibrated"]
+    calibrated = [measurement(m.name) for m, _ in beside if m.relation == "calibrated"]
     if calibrated:
         parts.append(f"Calibrated: {'; '.join(calibrated)}.")
     ripple = next((m for m, _ in told if m.name == "torque_ripple"), None)
-    if ripple is not None and words_of(ripple.name) in far:
+    if ripple is not None and measurement(ripple.name) in far:
         perfect = finite(ripple.details, "perfect_parts_Nm")
         if perfect is not None:
             parts.append(

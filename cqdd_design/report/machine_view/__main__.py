@@ -9,6 +9,7 @@ import hashlib
 import os
 import pickle
 import sys
+from types import ModuleType
 from typing import BinaryIO
 
 from cqdd_design.design import Design
@@ -22,6 +23,8 @@ def main() -> int:
     """Read (design, layout), write (views, viewer)."""
     # Next to nothing of what a picture leaves behind is a cycle.
     gc.disable()
+    # The CAD kernel's bridge to VTK imports all of it, a quarter of what the kernel takes to come.
+    sys.modules.setdefault("vtk", ModuleType("vtk"))
     design, layout = pickle.load(sys.stdin.buffer)
     # What libraries print of their own goes to the errors, not among the views.
     sys.stdout.flush()

@@ -21,12 +21,10 @@ from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.report.machine_view.explode import take_apart
 from cqdd_design.report.machine_view.stills import EXPLODED_TILT
 from cqdd_design.solids.cad import MM
-from cqdd_design.solids.mesh import Facets, Quality, facets
+from cqdd_design.solids.mesh import Facets, facets, picture_quality
 from cqdd_design.solids.part import Part
 from cqdd_design.solids.stations import stations
 
-_CHORD = 0.05
-"""Most distance of a facet from the surface, mm."""
 _SMOOTH = np.cos(np.radians(28.0))
 """Facets that turn by less than this at a vertex share a normal there."""
 _STEPS = 16383
@@ -131,8 +129,7 @@ def _primitive(
     part: Part, material: int, buffer: gltf.Buffer
 ) -> tuple[dict[str, Any], tuple[FloatArray, float]]:
     """The mesh of a part; and the lowest corner (m) and the size of a step (m) of its box."""
-    quality = Quality(min(2e-3, _CHORD / (part.shape.outside_radius * MM)), 0.35)
-    mesh = _in_order_of_use(facets(part, quality))
+    mesh = _in_order_of_use(facets(part, picture_quality(part)))
     vertices = mesh.vertices / MM
     low = vertices.min(axis=0)
     step = float((vertices.max(axis=0) - low).max()) / _STEPS

@@ -15,10 +15,12 @@ from cqdd_design.report.machine_view.balloons import ballooned, legend
 from cqdd_design.report.machine_view.camera import Camera
 from cqdd_design.report.machine_view.explode import take_apart
 from cqdd_design.report.machine_view.paint import (
+    SCALED,
     Sheet,
     bounds,
     drawn,
     painted,
+    path_data,
     silhouette,
     stroked,
     titled,
@@ -86,7 +88,11 @@ def assembled_figure(design: Design, found: Sequence[Station]) -> Figure:
     scale = min(560.0 / (high[1] - low[1]), 640.0 / (high[0] - low[0]))
     sheet = Sheet(scale, low[0] - _MARGIN / scale, high[1] + _MARGIN / scale)
     width, height = (scale * (high - low) + 2.0 * _MARGIN).tolist()
-    body = painted(faces, sheet) + drawn(lines, sheet) + stroked(outline, sheet, 1.9, closed=True)
+    # Surfaces are those of prisms: what chamfers take off them lies outside the outline.
+    edge = element("path", d=path_data(outline, sheet, closed=True), transform=SCALED)
+    clip = element("clipPath", edge, id="assembled-outline")
+    inside = element("g", painted(faces, sheet), clip_path="url(#assembled-outline)")
+    body = clip + inside + drawn(lines, sheet) + stroked(outline, sheet, 1.9, closed=True)
     names = ", ".join(dict.fromkeys(piece.part.name for piece in seen))
     words = Words(
         "machine-assembled",
