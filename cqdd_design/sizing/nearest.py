@@ -23,12 +23,12 @@ from cqdd_design.sizing.infeasible import SizingInfeasibleError
 from cqdd_design.sizing.kinds import promising
 from cqdd_design.sizing.verified import VerifiedDesign, new_hunt, searched
 
-_MOST = 3.0
+_MOST = 2.5
 """Of a length that is too small: so far a longer one, and a larger ring without a bore that limits
 it, are looked for."""
 _STEP = 5e-4
 """In which rings and lengths are told, m."""
-_CLOSE = 0.015
+_CLOSE = 0.02
 """Share of a length within which the least is found."""
 _ROUNDS, _ON = 6, 1.02
 """Of lengths that the equilibrium bears out and that are searched to the verdict, and the least

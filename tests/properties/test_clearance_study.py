@@ -49,9 +49,9 @@ def test_gearboxes_of_the_own_clearances_are_not_worked_twice(monkeypatch) -> No
     alone = clearance_study(design, 3, 44)
     worked = []
 
-    def counted(ensemble, samples, *, sensitivity):
+    def counted(ensemble, samples, **how):
         worked.append(ensemble.design)
-        return run_ensemble(ensemble, samples, sensitivity=sensitivity)
+        return run_ensemble(ensemble, samples, **how)
 
     monkeypatch.setattr(clearance, "run_ensemble", counted)
     assert clearance_study(design, 3, 44, known=known) == alone

@@ -116,7 +116,7 @@ def test_torques_that_nobody_stated_are_not_looked_for(monkeypatch):
 
 def test_a_ring_that_fills_the_bore_is_not_made_larger():
     hunt = nearest.new_hunt(requirements_from_mapping(ASKED), lambda _: None, None, None, "mass")
-    assert dict(nearest._limits(hunt)) == {"length": pytest.approx(60e-3)}
+    assert dict(nearest._limits(hunt)) == {"length": pytest.approx(50e-3)}
     small = replace(
         hunt, requirements=requirements_from_mapping({**ASKED, "outer_diameter": "60 mm"})
     )
