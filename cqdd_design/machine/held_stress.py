@@ -178,15 +178,15 @@ def _housing(machine: Machine, held: HeldLoads) -> Iterator[HeldStress]:
         yield HeldStress(
             "housing", "half holes of the ring's dowels", seam.pressure, f"{torque:.3g} N m on them"
         )
-    moment, inner, back = float(_tube_moment(machine, held).max()), pack.ring_radius, torque
+    moment, inner, over = float(_tube_moment(machine, held).max()), pack.ring_radius, torque
     if dowels.radius and dowels.bottom >= housing.flange_bottom:
         # The flange takes what the dowels hand on; the wall holds what the stator puts on it.
-        back = held.crank_torque
+        over = held.crank_torque
     else:
         # Grooves all round would leave the wall its least section.
         inner += dowels.radius
-    twisted = stress.tube_stress(housing.register_radius, inner, moment, back)
-    told = f"{moment:.3g} N m bend and {back:.3g} N m twist it"
+    twisted = stress.tube_stress(housing.register_radius, inner, moment, over)
+    told = f"{moment:.3g} N m bend and {over:.3g} N m twist it"
     yield HeldStress("housing", "wall round the ring", twisted, told)
     flange = stress.tilted_plate_stress(
         housing.register_radius,
@@ -195,13 +195,14 @@ def _housing(machine: Machine, held: HeldLoads) -> Iterator[HeldStress]:
         moment,
     )
     yield HeldStress("housing", "flange up to its screws", flange, f"{moment:.3g} N m tilt it")
-    inrunner = layout.inrunner
+    back = held.crank_torque
+    inrunner, motor, told = layout.inrunner, layout.motor, f"{back:.3g} N m twist it"
     if inrunner is not None:
-        back = held.crank_torque
         twisted = stress.tube_stress(inrunner.cover_outer, inrunner.cover_inner, 0.0, back)
-        yield HeldStress(
-            "motor cover", "wall round the stator", twisted, f"{back:.3g} N m twist it"
-        )
+        yield HeldStress("motor cover", "wall round the stator", twisted, told)
+    if motor is not None and motor.behind:
+        twisted = stress.tube_stress(motor.stack_inner, motor.neck_inner, 0.0, back)
+        yield HeldStress("housing", "neck under the stator", twisted, told)
 
 
 def _tube_moment(machine: Machine, held: HeldLoads) -> FloatArray:
