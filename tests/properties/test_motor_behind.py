@@ -25,7 +25,8 @@ from cqdd_design.roads.export import left_out
 from cqdd_design.solids.apart import taken_apart
 from cqdd_design.solids.clearances import assembly_motion, output_revolution
 from cqdd_design.solids.features.kinds import Seat
-from cqdd_design.solids.mesh import DISPLAY
+from cqdd_design.solids.interference import overlap_of, posed_manifold
+from cqdd_design.solids.mesh import DISPLAY, FINE, surface_slack
 from cqdd_design.solids.motor_layout import MotorLayout
 from cqdd_design.solids.motor_rules import undrawn_sizes
 from cqdd_design.solids.tool_access import reaches
@@ -235,6 +236,24 @@ def test_its_sheets_can_be_read(which: str, request: pytest.FixtureRequest) -> N
         if part.name in ("motor cover", "rotor bell", "housing"):
             svg = render(draw_part(PartFacts(part, machine.given)).drawing, WIDTH, HEIGHT)
             assert_legible(svg)
+
+
+def test_a_ring_in_its_seat_is_no_collision(paper: Design) -> None:
+    """Meshes lie off the arcs between the half grooves by more than the kernel is asked for."""
+    machine = resolve(paper.replacing({"reducer.ring.outer_diameter": "88 mm"}))
+    meshed = [
+        (part, quality)
+        for name, quality in (("ring", FINE), ("housing", DISPLAY))
+        for part in machine.parts
+        if part.name == name
+    ]
+    posed = [
+        posed_manifold(part, part.instances[0].pose(machine.design, 0.6), quality)
+        for part, quality in meshed
+    ]
+    found = overlap_of(*posed)
+    assert found is not None
+    assert found[1] < sum(surface_slack(part, quality) for part, quality in meshed)
 
 
 def test_it_runs_free(large: Machine) -> None:
