@@ -200,3 +200,39 @@ def test_the_wall_is_bent_by_floor_and_ring(printed: Machine, held: HeldLoads) -
     )
     assert layout.dowels.bottom >= root
     assert wall.stress == pytest.approx(twisted)
+
+
+def test_floor_lip_and_neck_by_hand(printed: Machine, held: HeldLoads) -> None:
+    """Arms and sections from the drawing; behind the gearbox the stator turns back on its neck."""
+    behind = printed.changed({"reducer.ring.outer_diameter": "80 mm"})
+    layout = behind.layout
+    housing, motor = layout.housing, layout.motor
+    assert motor is not None
+    assert motor.behind
+    found = by_place(held_stresses(behind, held))
+    support = layout.shaft.support.bearing
+    middle = layout.shaft.lower_seat_top - 0.5 * support.width
+    push, floor = np.abs(held.lower).max(), 0.5 * (housing.floor_top + housing.bottom)
+    thick = housing.floor_top - housing.bottom
+    bent = stress.tilted_plate_stress(
+        housing.boss_radius, layout.pack.ledge_radius, thick, push * abs(middle - floor)
+    )
+    assert middle > floor
+    assert found["housing", "floor about its boss"].stress == pytest.approx(bent)
+    # 2 t_cr/(pi (r^4 - r_i^4)) r in shear, and sqrt(3) of it.
+    shear = 2.0 * held.crank_torque * motor.stack_inner / np.pi
+    shear /= motor.stack_inner**4 - motor.neck_inner**4
+    neck = found["housing", "neck under the stator"].stress
+    assert neck == pytest.approx(np.sqrt(3.0) * shear)
+    output = layout.carrier.output
+    outside, lip = output.bearing.outer_diameter, housing.cover_top - layout.carrier.output_seat_top
+    wide = 0.5 * outside - output.lip_radius
+    load = 4.0 * held.output.moment.max() / (np.pi * outside**2)
+    assert found["output cover", "face of that lip"].stress == pytest.approx(load / wide)
+    root = 6.0 * load * 0.5 * wide / lip**2
+    assert found["output cover", "lip over the output bearing"].stress == pytest.approx(root)
+    dowels = layout.dowels
+    torque = 6.0 + held.crank_torque
+    force = torque / (0.75 * len(dowels.angles) * layout.pack.ring_radius)
+    pressed = 2.0 * force / (2.0 * dowels.radius * dowels.bearing_length)
+    assert found["housing", "half holes of the ring's dowels"].stress == pytest.approx(pressed)
