@@ -1,11 +1,12 @@
 """Sized machines of every kind: nothing left out, nothing in the way, all of it held and drawn.
 
-    python benchmarks/whole_machines.py [--rows 75] [--first 1] [--angles 7]
+    python benchmarks/whole_machines.py [--rows 84] [--first 1] [--angles 7]
 
 Every row is a requirement: a ratio of 6 to 40, one to three discs, and one of ten outrunners whose
-rings are 45 to 150 mm; the last nine have an inrunner behind rings of 52 to 95 mm. It is sized by
-the screen (`quick`), and its ring is then made solid, conjugate or of pins. Where this is refused
-the row is the sentence. Otherwise the machine is resolved, and looked at
+rings are 45 to 150 mm; then nine have an inrunner behind rings of 52 to 95 mm, and nine an
+outrunner behind rings of 45 to 130 mm, which do not go into its stator or do not fill it. It is
+sized by the screen (`quick`), and its ring is then made solid, conjugate or of pins. Where this is
+refused the row is the sentence. Otherwise the machine is resolved, and looked at
 
 - for parts that are left out: the motor's, and those of what the design asks for;
 - for solids that run into each other through a revolution of the output;
@@ -62,10 +63,12 @@ RINGS = (45.0, 52.0, 60.0, 72.0, 70.0, 82.0, 95.0, 110.0, 130.0, 150.0)
 """Largest ring of every motor, mm; the two of 72 and 70 mm are of the catalogue."""
 CATALOGUE = {72.0: LIKE, 70.0: "CubeMars RO100 Lite KV55"}
 KINDS = ("solid", "conjugate", "pinwheel")
-OUTRUNNER_ROWS = 66
+OUTRUNNER_ROWS, INRUNNER_ROWS = 66, 9
 INRUNNERS = ("CubeMars RI100 KV105", "CubeMars RI80 V2.0 KV75")
 BEHIND = (52.0, 72.0, 95.0)
 """Rings before these, mm."""
+ASTRIDE = (45.0, 95.0, 130.0)
+"""Rings before an outrunner of the catalogue, each sized with the motor that fits it, mm."""
 MOTOR_PARTS = {
     "motor stator", "motor rotor", "motor cover", "encoder magnet", "encoder board",
 }  # fmt: skip
@@ -81,6 +84,8 @@ class Row:
         Largest diameter, mm.
     inrunner : str
         Of the catalogue, that stands behind the gearbox; empty where an outrunner is round it.
+    behind : str
+        Outrunner of the catalogue that takes that one's place, and stands behind.
     """
 
     number: int
@@ -89,6 +94,7 @@ class Row:
     discs: int
     kind: str
     inrunner: str = ""
+    behind: str = ""
 
     def __str__(self) -> str:
         """In the columns of the table."""
@@ -98,12 +104,15 @@ class Row:
 
 
 def rows(count: int) -> Iterator[Row]:
-    """Rows in which every outrunner meets every kind of ring and number of discs; inrunners."""
+    """Rows in which every outrunner meets every kind of ring and number of discs; others behind."""
     yield from _with_outrunners(count)
     for i in range(OUTRUNNER_ROWS, count):
         ratio, number = 6 + (i * 13) % 35, i - OUTRUNNER_ROWS
-        ring, motor = BEHIND[number % 3], INRUNNERS[number % 2]
-        yield Row(i + 1, ratio, ring, 1 + number % 3, KINDS[(number // 3) % 3], motor)
+        place, kind = number % 3, KINDS[(number // 3) % 3]
+        if number < INRUNNER_ROWS:
+            yield Row(i + 1, ratio, BEHIND[place], 1 + place, kind, INRUNNERS[number % 2])
+        else:
+            yield Row(i + 1, ratio, ASTRIDE[place], 1 + place, kind, behind=LIKE)
 
 
 def _with_outrunners(count: int) -> Iterator[Row]:
@@ -162,9 +171,8 @@ def designed(row: Row, folder: Path) -> Design:
         continuous_torque=f"{2.0 * scale**3 * math.sqrt(row.discs):.4g} N*m",
         input_speed=f"{1200.0 / max(scale, 1.0):.4g} rpm",
     )
-    if row.kind == "solid":
-        return sized.design
-    return sized.design.replacing({"reducer.ring_type": row.kind})
+    motor = {"motor": {"name": row.behind}} if row.behind else {}
+    return sized.design.replacing({"reducer.ring_type": row.kind, **motor})
 
 
 def resolved(design: Design) -> Machine:
@@ -293,7 +301,7 @@ def looked_at(row: Row, angles: int, folder: Path) -> tuple[str, list[str]]:
 def main() -> None:
     """Read the arguments and print a row for every requirement."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--rows", type=int, default=75, help="how many")
+    parser.add_argument("--rows", type=int, default=84, help="how many")
     parser.add_argument("--first", type=int, default=1, help="number of the first that is done")
     parser.add_argument("--angles", type=int, default=7, help="of the crank, looked at")
     options = parser.parse_args()

@@ -1,7 +1,8 @@
-"""Conductances between an inrunner behind the gearbox, its cover and the housing, and the outside.
+"""Conductances between a motor behind the gearbox, its cover and the housing, and the outside.
 
-The stator's heat leaves through its seat into the cover, which stands in the air and joins the
-housing at their flanges. Faces that screws press together count as one piece.
+An inrunner's heat leaves through its seat into the cover, which stands in the air and joins the
+housing at their flanges; an outrunner's goes up its neck. Faces that screws press together count as
+one piece.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from cqdd_design.machine.heat_nodes import (
 )
 from cqdd_design.machine.machine import Machine
 from cqdd_design.solids.layout import Layout
-from cqdd_design.solids.motor_layout import InrunnerLayout
+from cqdd_design.solids.motor_layout import InrunnerLayout, MotorEnd
 
 _MOST_DEPTH = 0.9
 """Of slots in the width of the laminations."""
@@ -70,11 +71,11 @@ def inrunner_pairs(
             metal, min(motor.hub_radius, motor.rotor_inner - 0.5 * unit), motor.rotor_inner, web
         ),
         ("rotor", "cover"): AIR * math.pi * motor.lip_radius**2 / below,
-        ("housing", "cover"): _to_cover(layout, motor, metal),
+        ("housing", "cover"): to_flanged_cover(layout, motor, metal),
     }
 
 
-def _to_cover(layout: Layout, motor: InrunnerLayout, metal: float) -> float:
+def to_flanged_cover(layout: Layout, motor: MotorEnd, metal: float) -> float:
     """From the middle of the housing's tube down to its flange, out, and half down the cover."""
     housing, pack = layout.housing, layout.pack
     tube = math.pi * (housing.register_radius**2 - pack.ring_radius**2)
@@ -90,9 +91,7 @@ def _to_cover(layout: Layout, motor: InrunnerLayout, metal: float) -> float:
     return series(*path)
 
 
-def inrunner_surfaces(
-    layout: Layout, motor: InrunnerLayout, metal: Material
-) -> tuple[Surface, ...]:
+def surfaces_behind(layout: Layout, motor: MotorEnd, metal: Material) -> tuple[Surface, ...]:
     """Outside of cover and housing, and the carrier's own face; the cover's upper face is hidden.
 
     Raises

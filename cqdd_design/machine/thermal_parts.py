@@ -36,7 +36,7 @@ from cqdd_design.machine.heat_nodes import (
     known,
     series,
 )
-from cqdd_design.machine.inrunner_heat import inrunner_pairs, inrunner_surfaces
+from cqdd_design.machine.inrunner_heat import inrunner_pairs, surfaces_behind, to_flanged_cover
 from cqdd_design.machine.machine import Machine
 from cqdd_design.solids.inertia import GROUPS
 from cqdd_design.solids.layout import Layout
@@ -151,12 +151,15 @@ def conductances(machine: Machine, layout: Layout) -> Conductances:
     about: dict[tuple[Node, Node], float] = {}
     surfaces: tuple[Surface, ...] = ()
     if layout.motor is not None:
-        about = _motor_pairs(machine, layout.motor, layout.unit, metal)
-        about["housing", "cover"] = _to_cover(layout, layout.motor, metal)
-        surfaces = _surfaces(layout, layout.motor, housing)
+        motor, behind = layout.motor, layout.motor.behind
+        about = _motor_pairs(machine, motor, layout.unit, metal)
+        about["housing", "cover"] = (to_flanged_cover if behind else _to_cover)(
+            layout, motor, metal
+        )
+        surfaces = (surfaces_behind if behind else _surfaces)(layout, motor, housing)
     elif layout.inrunner is not None:
         about = inrunner_pairs(machine, layout, layout.inrunner, metal)
-        surfaces = inrunner_surfaces(layout, layout.inrunner, housing)
+        surfaces = surfaces_behind(layout, layout.inrunner, housing)
     shaft = layout.shaft
     turn = 1.0 + 1.0 / design.reducer.ratio
     speed = design.requirements.held_speed
@@ -203,12 +206,17 @@ def _motor_pairs(
     below = (
         math.pi * motor.bell_radius**2 / max(motor.web_bottom - motor.cover_floor, LEAST_AIR_GAP)
     )
+    to_tube = [
+        annulus_conductance(iron, motor.stack_inner, motor.slot_radius, length),
+        joints.seat_conductance(motor.stack_inner, length),
+    ]
+    if motor.behind:
+        # Up the neck, from the middle of the laminations.
+        neck = math.pi * (motor.stack_inner**2 - motor.neck_inner**2)
+        to_tube.append(metal * neck / (motor.joint - motor.stack_top + 0.5 * length))
     return {
         ("winding", "stator"): joints.winding_conductance(slots, depth, middle, length),
-        ("stator", "housing"): series(
-            annulus_conductance(iron, motor.stack_inner, motor.slot_radius, length),
-            joints.seat_conductance(motor.stack_inner, length),
-        ),
+        ("stator", "housing"): series(*to_tube),
         ("stator", "rotor"): gap,
         ("rotor", "shaft"): annulus_conductance(
             metal, motor.hub_radius, motor.rotor_inner, max(web, 0.5 * unit)

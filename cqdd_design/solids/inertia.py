@@ -340,7 +340,7 @@ def gearbox_inertia(
 
 def _why(motor: Motor) -> str:
     """Why the parts hold no motor."""
-    return drawn_motor(motor)[1] or f"{motor.name} does not sit round a ring of this size"
+    return drawn_motor(motor)[1] or f"{motor.name} leaves no room for a hub on a shaft of this size"
 
 
 def closed_form(part: Part) -> MassProperties:

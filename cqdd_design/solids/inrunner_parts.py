@@ -2,33 +2,28 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Design
 from cqdd_design.solids import inrunner_shapes
-from cqdd_design.solids.carrier import cap_screw_shape
-from cqdd_design.solids.features.housing import ear_circle
 from cqdd_design.solids.features.inrunner import can_features, hub_features
 from cqdd_design.solids.inertia import HUB
 from cqdd_design.solids.layout import Layout
 from cqdd_design.solids.motor_layout import InrunnerLayout
 from cqdd_design.solids.motor_parts import (
-    COVER_SCREW,
     encoder_parts,
     magnetic_circuit,
     motor_cover_part,
     piece,
+    screws_below,
 )
 from cqdd_design.solids.motor_rules import bell_material
-from cqdd_design.solids.part import Colour, Part, placed
-from cqdd_design.solids.poses import HOUSING, SHAFT, transform
+from cqdd_design.solids.part import Colour, Part
+from cqdd_design.solids.poses import SHAFT
 
 _ROTOR_SHARE = 0.3
 """Of a motor's mass: a rotor of unknown inertia; the most that one of known inertia weighs."""
 _HUB: Colour = (0.62, 0.65, 0.70)
-_SCREW: Colour = (0.16, 0.17, 0.19)
 
 
 def inrunner_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
@@ -47,12 +42,6 @@ def inrunner_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
     on_hub, on_cover = hub_features(motor, stub), can_features(motor, unit)
     cover = inrunner_shapes.cover(motor, unit, on_cover)
     rotor = _rotor_mass(row, motor)
-    screw = motor.cover_screw
-    # Heads under the ears of the cover, threads in the housing's flange.
-    heads = (
-        transform(x=x, y=y, z=motor.joint - motor.ear_height, turned_over=True)
-        for x, y in np.array(ear_circle(motor).centres)
-    )
     return [
         *magnetic_circuit(row, inrunner_shapes.stator(motor), inrunner_shapes.rotor(motor),
                           (row.mass or 0.0) - rotor, rotor),
@@ -64,8 +53,7 @@ def inrunner_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
         ),
         motor_cover_part(cover, metal, on_cover),
         *encoder_parts(design, motor, fastener),
-        Part(COVER_SCREW, cap_screw_shape(screw), fastener, _SCREW, "buy", screw.designation,
-             placed(COVER_SCREW, HOUSING, *heads), catalogue_mass=screw.mass),
+        screws_below(motor, fastener),
     ]  # fmt: skip
 
 

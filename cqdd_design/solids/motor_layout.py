@@ -50,6 +50,9 @@ class MotorEnd(EncoderPlace):
     cover_inner, cover_outer, cover_floor, cover_wall : float
         Inside and outside radius of the cover; height of its floor's inner face, and its thickness
         (the dish under the board lies lower).
+    joint, body, flange : float
+        Height of the face between housing and cover; radius of the flanges there, ears left out;
+        thickness of the housing's.
     spigot, spigot_inner : float
         How deep a rim of the housing reaches into the cover, and its inner radius.
     ear_radius, ear_circle, ear_height : float
@@ -74,6 +77,9 @@ class MotorEnd(EncoderPlace):
     cover_outer: float
     cover_floor: float
     cover_wall: float
+    joint: float
+    body: float
+    flange: float
     spigot: float
     spigot_inner: float
     ear_count: int
@@ -92,7 +98,7 @@ class MotorEnd(EncoderPlace):
 
 @dataclass(frozen=True)
 class MotorLayout(MotorEnd):
-    """An outrunner around the housing's tube, m.
+    """An outrunner around the housing's tube, or behind the gearbox on a neck of its floor; m.
 
     Attributes
     ----------
@@ -104,6 +110,8 @@ class MotorLayout(MotorEnd):
         Height of the housing's face under the heads of the cover's screws.
     cable_radius, cable_circle : float
         Hole in the housing's flange for the phase leads; 0 where there is no room.
+    neck_inner : float
+        Bore of the neck that carries the stator; 0 where the housing's tube does.
     """
 
     slot_radius: float
@@ -113,6 +121,17 @@ class MotorLayout(MotorEnd):
     flange_top: float
     cable_radius: float
     cable_circle: float
+    neck_inner: float = 0.0
+
+    @property
+    def behind(self) -> bool:
+        """Whether it stands behind the gearbox."""
+        return self.neck_inner > 0.0
+
+    @property
+    def lip(self) -> float:
+        """Radius of the step over the laminations, which they stand against."""
+        return 0.5 * (self.stack_inner + self.slot_radius)
 
 
 @dataclass(frozen=True)
@@ -121,10 +140,6 @@ class InrunnerLayout(MotorEnd):
 
     Attributes
     ----------
-    joint, body : float
-        Height of the face between housing and cover; radius of the flanges there, ears left out.
-    flange : float
-        Thickness of the housing's.
     coil_inner, coil_outer : float
         Radii of the coils' ends.
     ledge : float
@@ -136,9 +151,6 @@ class InrunnerLayout(MotorEnd):
         Hole in the cover's floor for the phase leads; 0 where there is no room.
     """
 
-    joint: float
-    body: float
-    flange: float
     coil_inner: float
     coil_outer: float
     ledge: float

@@ -25,7 +25,9 @@ from cqdd_design.solids.features.motor import (
     board_circle,
     board_features,
     cover_features,
+    flanged_cover_features,
 )
+from cqdd_design.solids.flanged_can import flanged_can
 from cqdd_design.solids.inertia import BELL, ROTOR
 from cqdd_design.solids.layers import Stack
 from cqdd_design.solids.layout import Layout
@@ -66,10 +68,16 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
         return []
     row, metal, unit = layout.motor_row, design.housing.material, layout.unit
     stub = 0.5 * layout.shaft.support.bearing.bore_diameter
-    flange_bottom = layout.housing.flange_bottom
     on_bell = bell_features(motor, stub, unit)
-    on_cover = cover_features(motor, flange_bottom, unit)
-    cover = motor_shapes.motor_cover(motor, flange_bottom, unit, on_cover)
+    if motor.behind:
+        on_cover = flanged_cover_features(motor, unit)
+        cover, screws = flanged_can(motor, unit, on_cover), screws_below(motor, fastener)
+    else:
+        on_cover = cover_features(motor, motor.joint, unit)
+        cover = motor_shapes.motor_cover(motor, motor.joint, unit, on_cover)
+        screws = _screws(
+            COVER_SCREW, motor.cover_screw, fastener, ear_circle(motor), motor.flange_top
+        )
     bell = piece(
         BELL, motor_shapes.bell(motor, stub, on_bell), bell_material(design), _BELL,
         "cup of the motor's rotor, turned and drilled, bonded on the shaft and to the magnets with "
@@ -83,9 +91,7 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
         replace(bell, catalogue_mass=masses.bell),
         motor_cover_part(cover, metal, on_cover),
         *encoder_parts(design, motor, fastener),
-        _screws(
-            COVER_SCREW, motor.cover_screw, fastener, ear_circle(motor), motor.flange_top
-        ),
+        screws,
     ]  # fmt: skip
 
 
@@ -178,6 +184,17 @@ def _screws(name: str, screw: CapScrew, material: str, circle: BoltCircle, heigh
     shape = cap_screw_shape(screw)
     how = screw.designation
     return Part(name, shape, material, _SCREW, "buy", how, pieces, catalogue_mass=screw.mass)
+
+
+def screws_below(motor: MotorEnd, material: str) -> Part:
+    """Screws of a cover with their heads under its ears, threads in the housing's flange."""
+    screw = motor.cover_screw
+    heads = (
+        transform(x=x, y=y, z=motor.joint - motor.ear_height, turned_over=True)
+        for x, y in np.array(ear_circle(motor).centres)
+    )
+    return Part(COVER_SCREW, cap_screw_shape(screw), material, _SCREW, "buy", screw.designation,
+                placed(COVER_SCREW, HOUSING, *heads), catalogue_mass=screw.mass)  # fmt: skip
 
 
 def dowel_part(layout: Layout) -> list[Part]:

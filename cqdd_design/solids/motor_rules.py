@@ -1,5 +1,7 @@
 """Where the motor goes: an outrunner around the housing's tube, its bell on the shaft's stub.
 
+One that the tube does not fill stands behind the gearbox (`behind_rules`).
+
 Half section, output upward; the discs are inside the tube::
 
       ear  |  flange of the housing                     | pack_top
@@ -15,12 +17,12 @@ Half section, output upward; the discs are inside the tube::
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, SAFETY, length_needed
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.catalog.motors import Motor
-from cqdd_design.geometry.scale import MOST_TUBE_WALL, largest_ring, smallest_ring
+from cqdd_design.geometry.scale import MOST_TUBE_WALL
 from cqdd_design.solids.motor_layout import EncoderPlace, MotorLayout
 from cqdd_design.solids.registers import spigot_depth
 from cqdd_design.solids.selection import cap_screw, thread_size
@@ -122,30 +124,36 @@ def drawn_motor(motor: Motor) -> tuple[Motor | None, str]:
     return motor, ""
 
 
-def register_radius(motor: Motor, pack: PackLayout, unit: float) -> tuple[float, Motor | None, str]:
-    """Outside radius of the tube, the motor that sits on it, and why there is none."""
+class MotorPlace(NamedTuple):
+    """Where a motor goes."""
+
+    tube: float
+    """Outside radius of the housing's tube, m."""
+    outrunner: Motor | None
+    """The motor if it is one that is drawn, round the tube or behind the gearbox."""
+    behind: bool
+    """Whether the tube does not fill its stator's bore."""
+    missing: str
+    """Which of its sizes are not known."""
+
+
+def motor_place(motor: Motor, pack: PackLayout, unit: float) -> MotorPlace:
+    """Place a motor round the housing's tube where that fills its stator's bore, else behind it.
+
+    Parameters
+    ----------
+    unit : float
+        A millimetre at the scale of this machine, m.
+    """
     own = pack.ring_radius + 2.0 * unit
     drawn, missing = drawn_motor(motor)
-    if is_inrunner(motor):
-        return own, None, missing
-    bore = motor.bore_diameter
-    if bore is None:
-        return own, None, missing
-    wall = 0.5 * bore - pack.ring_radius
-    ring, stator = f"{2e3 * pack.ring_radius:.4g} mm", f"{bore * 1e3:.4g} mm stator bore"
-    if wall < unit * (1.0 - 1e-9):
-        misfit = (
-            f"a ring of {ring} does not go into the {stator} of {motor.name}; with a wall of the "
-            f"housing round it, it may be {1e3 * largest_ring(bore):.4g} mm"
-        )
-    elif wall > MOST_TUBE_WALL * unit:
-        misfit = (
-            f"the {stator} of {motor.name} is far larger than a ring of {ring}; a tube of the "
-            f"housing fills it round rings from {1e3 * smallest_ring(bore):.4g} mm on"
-        )
-    else:
-        return 0.5 * bore, drawn, missing
-    return own, None, f"{misfit}; besides, {missing}" if missing else misfit
+    if is_inrunner(motor) or drawn is None:
+        return MotorPlace(own, None, False, missing)
+    inside = 0.5 * (drawn.bore_diameter or 0.0)
+    wall = inside - pack.ring_radius
+    if unit * (1.0 - 1e-9) <= wall <= MOST_TUBE_WALL * unit:
+        return MotorPlace(inside, drawn, False, "")
+    return MotorPlace(own, drawn, True, "")
 
 
 def bell_torque(design: Design, motor: Motor) -> float:
@@ -283,6 +291,9 @@ def lay_out_motor(
         cover_outer=inner + wall,
         cover_floor=web_bottom - unit - room,
         cover_wall=wall,
+        joint=housing.flange_bottom,
+        body=inner + wall,
+        flange=flange,
         spigot=spigot,
         spigot_inner=spigot_inner,
         ear_count=6,

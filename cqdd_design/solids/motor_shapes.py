@@ -78,7 +78,7 @@ def with_motor_flange(
     The features' holes outside the flange are in its ears and between them.
     """
     housing = layout.housing
-    lip = 0.5 * (motor.stack_inner + motor.slot_radius)
+    lip = motor.lip
     layers = list(housing_stack.layers)
     skirt = housing.bottom - motor.stack_bottom
     if skirt > 1e-9:

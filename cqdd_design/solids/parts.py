@@ -21,6 +21,7 @@ from cqdd_design.geometry.runners import Runner, pin_runner, ring_runner
 from cqdd_design.solids import carrier as carrier_shapes
 from cqdd_design.solids import housing as housing_shapes
 from cqdd_design.solids import rotating
+from cqdd_design.solids.behind_shapes import with_neck
 from cqdd_design.solids.clocking import DiscGroup, disc_groups
 from cqdd_design.solids.counterweights import balance_weights
 from cqdd_design.solids.features import carrier as carrier_features
@@ -42,8 +43,8 @@ from cqdd_design.solids.features.rotating import (
     shaft_features,
     sleeve_features,
 )
+from cqdd_design.solids.flanged_can import with_flange
 from cqdd_design.solids.inrunner_parts import inrunner_parts
-from cqdd_design.solids.inrunner_shapes import with_flange
 from cqdd_design.solids.layers import Stack, prism
 from cqdd_design.solids.layout import Layout, PackLayout, ShimLayout
 from cqdd_design.solids.motor_parts import dowel_part, motor_parts
@@ -414,8 +415,9 @@ def _housing_parts(design: Design, layout: Layout) -> list[Part]:
         return Part(name, shape, metal, colour, "make", how, pieces, stated=features)
 
     body, clamp = housing_features(layout), clamp_features(layout)
-    if layout.inrunner is not None:
-        body += flange_features(layout.inrunner)
+    if layout.inrunner is not None or (layout.motor is not None and layout.motor.behind):
+        assert layout.motor_end is not None
+        body += flange_features(layout.motor_end)
     cover = cover_features(layout)
     places = np.array(screw_circle(housing).centres)
     screws = around("cover screw", HOUSING, places, housing.cover_flange_top)
@@ -431,10 +433,13 @@ def _housing_parts(design: Design, layout: Layout) -> list[Part]:
 
 def _housing_shape(layout: Layout, features: Sequence[Feature]) -> Stack:
     shape = housing_shapes.housing_body(layout, features)
-    if layout.motor is not None:
-        shape = with_motor_flange(shape, layout, layout.motor, features)
-    if layout.inrunner is not None:
-        shape = with_flange(shape, layout.housing.register_radius, layout.inrunner, features)
+    motor, inrunner, register = layout.motor, layout.inrunner, layout.housing.register_radius
+    if motor is not None and motor.behind:
+        shape = with_neck(shape, register, motor, features)
+    elif motor is not None:
+        shape = with_motor_flange(shape, layout, motor, features)
+    elif inrunner is not None:
+        shape = with_flange(shape, register, inrunner, features)
     dowels, top = layout.dowels, layout.housing.face
     for holes in ring_dowel_holes(layout.pack, dowels, dowels.bottom, top):
         shape = with_dowel_grooves(shape, layout.pack.ring_radius, holes)

@@ -14,6 +14,7 @@ from cqdd_design.geometry.ring import ring_root_radius
 from cqdd_design.geometry.runners import pin_runner, ring_runner
 from cqdd_design.geometry.scale import millimetre_unit
 from cqdd_design.geometry.validate import validate_geometry
+from cqdd_design.solids import behind_rules
 from cqdd_design.solids.carrier_rules import (
     column_head_radius,
     counterbore_radius,
@@ -33,10 +34,11 @@ from cqdd_design.solids.layout import (
 )
 from cqdd_design.solids.motor_layout import MotorEnd
 from cqdd_design.solids.motor_rules import (
+    MotorPlace,
     bell_torque,
     is_inrunner,
     lay_out_motor,
-    register_radius,
+    motor_place,
 )
 from cqdd_design.solids.mounting import cover_thread, mounting_thread
 from cqdd_design.solids.registers import output_seal, shaft_seal, spigot_depth
@@ -80,17 +82,19 @@ def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
     carrier = lay_out_carrier(
         design, pin, pack, support, output, core, unit, _most_shoulder_radius(pack, unit)
     )
-    register, row, missing = register_radius(motor, pack, unit)
-    housing, seat_top = _housing(design, pack, carrier, support, unit, register, row)
-    drawn, inside = None, None
+    place = motor_place(motor, pack, unit)
+    row, behind, missing = place.outrunner, place.behind, place.missing
+    housing, seat_top = _housing(design, pack, carrier, support, unit, place)
+    drawn, inside, torque = None, None, bell_torque(design, motor)
     if row is not None:
-        weights = design.reducer.balance.counterweights
-        torque = bell_torque(design, row)
-        drawn = lay_out_motor(row, pack, housing, support, unit, torque, weights=weights)
+        missing = behind_rules.misfit(row, support, unit) if behind else ""
+        if not missing:
+            rule = behind_rules.lay_out_behind if behind else lay_out_motor
+            weights = design.reducer.balance.counterweights
+            drawn = rule(row, pack, housing, support, unit, torque, weights=weights)
     elif is_inrunner(motor) and not missing:
         missing = misfit(motor, support, unit)
         if not missing:
-            torque = bell_torque(design, motor)
             inside = lay_out_inrunner(motor, housing, support, unit, torque)
     return Layout(
         unit=unit,
@@ -266,8 +270,7 @@ def _housing(
     carrier: CarrierLayout,
     support: ChosenBearing,
     unit: float,
-    register: float,
-    motor: Motor | None,
+    place: MotorPlace,
 ) -> tuple[HousingLayout, float]:
     """Housing, and the height of the lower support bearing's upper face."""
     count = 6 if design.reducer.ring.outer_diameter < 50e-3 else 8
@@ -285,7 +288,7 @@ def _housing(
     screw = cap_screw(thread, grip + 1.3 * thread)
     flange_bottom = pack.top - max(screw.length - grip, 1.3 * thread) - 0.5 * unit
     bolt_circle = max(
-        register + 0.5 * thread + unit,
+        place.tube + 0.5 * thread + unit,
         hub + 0.5 * head + 0.4 * unit,
         pack.ring_radius + 0.5 * thread + unit,
     )
@@ -313,8 +316,8 @@ def _housing(
     bottom = min(floor_top - 2.5 * unit, seat_bottom - _LEAST_FLOOR * unit)
     cover_top = carrier.output_seat_top + lip
     layout = HousingLayout(
-        register_radius=register,
-        seated_motor=motor is not None,
+        register_radius=place.tube,
+        seated_motor=place.outrunner is not None and not place.behind,
         flange_radius=bolt_circle + rim,
         flange_bottom=max(flange_bottom, bottom),
         bolt_circle_radius=bolt_circle,

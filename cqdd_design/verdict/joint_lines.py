@@ -69,7 +69,7 @@ def bell_line(machine: Machine, warm: MachineTemperatures | None) -> Check:
     if motor is None:
         return build_check(
             name, None, None, f"no bell or hub is drawn: {layout.motor_missing}",
-            "name a motor whose sizes are known and into which the ring goes",
+            "name a motor whose sizes are known and which leaves a hub on the shaft room",
         )  # fmt: skip
     hot, guessed = GREASE_MOST, " (not known, what grease bears)"
     if warm is not None:

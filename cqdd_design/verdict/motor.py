@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from dataclasses import replace
 
 from cqdd_design.actuator.demands import Demand, demands
@@ -17,7 +18,7 @@ from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine
 from cqdd_design.results import Check
-from cqdd_design.solids.motor_rules import is_inrunner
+from cqdd_design.solids.motor_rules import is_inrunner, undrawn_sizes
 
 MODEL = "operating points of the simulated actuator"
 _RPM = 30.0 / math.pi
@@ -182,14 +183,18 @@ def _bore(machine: Machine) -> tuple[Check, ...]:
     if motor.bore_diameter is None:
         told = f"ring {outer * 1e3:.4g} mm; the stator bore of '{motor.name}' is not known"
         return (build_check("MOTOR-BORE", outer * 1e3, None, told, GIVE),)
+    with suppress(DesignError):
+        drawn = machine.layout.motor
+        if (drawn is None and not undrawn_sizes(motor)) or (drawn is not None and drawn.behind):
+            return _behind(machine, outer)
     screened = next(check for check in machine.analysis.checks if check.id == "MOTOR-BORE")
     return (replace(screened, severity="fail"),)
 
 
 def _behind(machine: Machine, ring: float) -> tuple[Check, ...]:
-    """Why an inrunner is not drawn behind the gearbox, of a ring (outside, m); none where it is."""
+    """Why a motor is not drawn behind the gearbox, of a ring (outside, m); none where it is."""
     try:
-        if machine.layout.inrunner is not None:
+        if machine.layout.motor_end is not None:
             return ()
         why = machine.layout.motor_missing
     except DesignError as error:

@@ -30,8 +30,14 @@ from cqdd_design.solids.inertia import gearbox_inertia
 from cqdd_design.solids.mesh import mass_properties
 
 PAPER = load_design(Path(__file__).resolve().parents[2] / "designs" / "cqdd-10.toml")
-WIDE = PAPER.replacing({"reducer.ring.outer_diameter": 0.11, "requirements.peak_torque": 60.0})
-"""A ring far larger than the motor's bore: the motor is not drawn, and asked for 60 N m."""
+WIDE = PAPER.replacing(
+    {
+        "reducer.ring.outer_diameter": 0.11,
+        "requirements.peak_torque": 60.0,
+        "motor": {"name": "CubeMars RO100 Lite KV55", "bore_diameter": "20 mm"},
+    }
+)
+"""A stator too narrow for its neck: the motor is not drawn, and asked for 60 N m."""
 CHEAP = ("mass", "peak_torque", "torque_density")
 
 

@@ -73,8 +73,9 @@ def test_weights_as_drawn_leave_nothing_to_the_checks() -> None:
 
 
 def test_weights_that_cannot_be_built_balance_nothing() -> None:
-    """A ring far beyond the motor's bore: there is no bell to carry weights, and it is said."""
-    wide = PAPER.replacing({**WEIGHTS, "reducer.ring.outer_diameter": 0.11})
+    """A stator too narrow for a neck: there is no bell to carry weights, and it is said."""
+    narrow = {"name": "CubeMars RO100 Lite KV55", "bore_diameter": "20 mm"}
+    wide = PAPER.replacing({**WEIGHTS, "motor": narrow, "reducer.ring.outer_diameter": 0.11})
     bare = resolve(wide.replacing({"reducer.balance.counterweights": False}))
     machine = resolve(wide)
     with pytest.raises(GeometryError, match="sit on the motor's bell"):
@@ -85,7 +86,7 @@ def test_weights_that_cannot_be_built_balance_nothing() -> None:
     assert real > 1e-4
     assert static.value == 1e6 * real
     assert static.status == checks["BALANCE-WEIGHTS"].status == "fail"
-    assert "does not go into the 74 mm stator bore" in static.substituted
+    assert "on a neck in its 20 mm stator bore" in static.substituted
     assert "choose another motor.name" in checks["BALANCE-WEIGHTS"].remedy
 
 

@@ -21,7 +21,7 @@ from cqdd_design.exporting.sheets.title_block import HEIGHT, WIDTH
 from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.machine import resolve
 from cqdd_design.machine.heat_nodes import NODES
-from cqdd_design.machine.inrunner_heat import inrunner_pairs, inrunner_surfaces
+from cqdd_design.machine.inrunner_heat import inrunner_pairs, surfaces_behind
 from cqdd_design.machine.screws import screw_joints
 from cqdd_design.machine.thermal_parts import machine_network
 from cqdd_design.roads.export import left_out
@@ -221,15 +221,6 @@ def test_an_inrunner_has_no_bell_for_balance_weights(paper):
         build(paper.replacing({"motor.name": DRAWN[0], "reducer.balance.counterweights": True}))
 
 
-def test_a_stator_far_wider_than_the_ring_is_told_with_the_ring_that_fills_it(paper):
-    """A tube of twelve 72nds of the ring's own diameter: 110 mm/(1 + 24/72)."""
-    known = {"name": "CubeMars GL100 KV10", **SIZES, "bore_diameter": "110 mm"}
-    wide = known | {"gap_diameter": "130 mm", "outer_diameter": "140 mm"}
-    machine = resolve(paper.replacing({"motor": wide}))
-    assert machine.layout.motor is None
-    assert "round rings from 82.5 mm on" in machine.layout.motor_missing
-
-
 def test_sizes_of_an_outrunner_do_not_make_one_of_an_inrunner(paper):
     known = paper.replacing({"motor": {"name": "CubeMars RI70 KV95", **SIZES}})
     machine = resolve(known)
@@ -306,7 +297,7 @@ def test_heat_of_an_inrunner_passes_rings_and_gaps_one_behind_the_other(paper):
     # In the air: all of the can but its joint, the tube above it, and the flange's and cover's rim.
     areas = [
         one.area
-        for one in inrunner_surfaces(
+        for one in surfaces_behind(
             machine.layout, motor, find_material(machine.design.housing.material)
         )
     ]

@@ -117,7 +117,13 @@ def test_the_magnet_is_flush_and_the_sensor_near_it() -> None:
             {"motor.name": "CubeMars R100 KV90"},
             "of CubeMars R100 KV90 are not known (state bore_diameter, outer_diameter, gap_",
         ),
-        ({"reducer.ring.outer_diameter": 76e-3}, "it may be 72 mm"),
+        (
+            {
+                "reducer.ring.outer_diameter": 76e-3,
+                "motor": {"name": "CubeMars RO100 Lite KV55", "bore_diameter": "20 mm"},
+            },
+            "or a shaft of at most 5.64 mm",
+        ),
     ],
 )
 def test_a_motor_that_cannot_be_drawn_is_left_out_and_told(

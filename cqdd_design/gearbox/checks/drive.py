@@ -184,5 +184,6 @@ def _bore(state: GearboxState, motor: Motor, bore: float) -> Check:
         outer * 1e3,
         most * 1e3,
         f"ring {outer * 1e3:.4g} mm, stator bore {bore * 1e3:.4g} mm{note}",
-        f"lower ring.outer_diameter to {most * 1e3:.4g} mm, or take a motor with a larger bore",
+        f"lower ring.outer_diameter to {most * 1e3:.4g} mm, or take a motor with a larger bore; "
+        "else it stands behind the gearbox",
     )

@@ -74,10 +74,14 @@ ROWS = (
         "Strain of plastic housing, covers and carrier, continuous torque held",
         "%",
         "max",
-        f"|sigma|/E_c <= {100.0 * DESIGN_STRAIN:g} %, E_c after 1000 h at 23 degC",
+        f"|sigma|/E_c <= {100.0 * DESIGN_STRAIN:g} %, sigma the greatest nominal stress of seats, "
+        "floor, walls, lips, flanges, plate and cap, E_c after 1000 h at 23 degC",
         "Seats that widen lose their bearings and pins, and walls that give way let ring and "
-        "motor stand askew. Pressures on seats are judged where they come and go (DOWEL-BEARING), "
-        "not where they last.",
-        "ISO 899-1 by makers' sheets; Crawford, Plastics Engineering, p. 19",
+        "motor stand askew. External loads count in full; a pin's seat holds the pin alone, as "
+        "once its screw's preload is gone (SCREW-CREEP).",
+        "Young and Budynas 2002, Roark's Formulas, sections 8.1 and 10.1, table 11.2; Wittel and "
+        "others 2017, Roloff/Matek Maschinenelemente, section 9.3; forces of the contact "
+        "equilibrium, cqdd_design.machine.held_stress; ISO 899-1 by makers' sheets; Crawford, "
+        "Plastics Engineering, p. 19",
     ),
 )

@@ -95,7 +95,8 @@ def housing_features(layout: Layout) -> tuple[Feature, ...]:
                        housing.face, zones.BAND),
     ]  # fmt: skip
     if layout.motor is not None:
-        found += _motor_flange(housing, layout.motor)
+        motor = layout.motor
+        found += _neck(motor) if motor.behind else _motor_flange(housing, motor)
     return tuple(found)
 
 
@@ -143,6 +144,31 @@ def _motor_flange(housing: HousingLayout, motor: MotorLayout) -> list[Feature]:
                       motor.flange_top, where)
         )  # fmt: skip
     return found
+
+
+def _neck(motor: MotorLayout) -> list[Feature]:
+    """Register and shoulder of a stator behind the gearbox, and the hole of the phase leads.
+
+    What holds the cover is on the flange (`flange_features`).
+    """
+    register = seat(
+        "stator register", 2.0 * motor.stack_inner, motor.stack_bottom, motor.stack_top,
+        zones.REGISTER, refers="A", lead_in=LEAD_IN,
+    )  # fmt: skip
+    # Between two ears, whose screws stand half a pitch off +x.
+    where = BoltCircle("phase leads", motor.cable_circle, (0.0,))
+    return [
+        register,
+        shoulder("shoulder of the stator", motor.stack_top, motor.stack_inner, motor.lip, "down",
+                 register, fillet=_STATOR_CORNER, refers="A"),
+        Joint("motor stator", "bonded", register.name, "motor stator", "bond on the register"),
+        PlainHole("hole of the phase leads", 2.0 * motor.cable_radius, motor.joint,
+                  motor.joint + motor.flange, where),
+    ]  # fmt: skip
+
+
+_STATOR_CORNER = 0.3e-3
+"""Largest corner radius under a stator, m."""
 
 
 def ear_circle(motor: MotorEnd) -> BoltCircle:

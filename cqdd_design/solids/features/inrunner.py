@@ -9,7 +9,7 @@ from cqdd_design.solids.features.housing import ear_circle
 from cqdd_design.solids.features.kinds import Feature, Joint
 from cqdd_design.solids.features.making import clearance, metric, seat, shoulder, tapped
 from cqdd_design.solids.features.motor import board_threads
-from cqdd_design.solids.motor_layout import InrunnerLayout
+from cqdd_design.solids.motor_layout import InrunnerLayout, MotorEnd
 from cqdd_design.solids.registers import LEAD_IN
 
 _CORNER = 0.3e-3
@@ -63,11 +63,11 @@ def can_features(motor: InrunnerLayout, unit: float) -> tuple[Feature, ...]:
     return tuple(found)
 
 
-def flange_features(motor: InrunnerLayout) -> tuple[Feature, ...]:
+def flange_features(motor: MotorEnd) -> tuple[Feature, ...]:
     """Of the flange at the end of the housing's tube."""
     thread = coarse_thread(motor.cover_screw.thread)
     return (
-        seat("spigot of the motor's cover", 2.0 * motor.stack_outer, motor.joint - motor.spigot,
+        seat("spigot of the motor's cover", 2.0 * motor.cover_inner, motor.joint - motor.spigot,
              motor.joint, zones.CAN_SPIGOT, refers="A", lead_in=LEAD_IN),
         tapped("threads of the motor cover's screws", thread, metric(thread), ear_circle(motor),
                mouth=motor.joint, facing="down", depth=motor.flange, room=motor.flange),

@@ -95,6 +95,22 @@ def cover_features(motor: MotorLayout, flange_bottom: float, unit: float) -> tup
     )  # fmt: skip
 
 
+def flanged_cover_features(motor: MotorLayout, unit: float) -> tuple[Feature, ...]:
+    """Of the can over the bell of a motor behind the gearbox; its datum is the rim's bore."""
+    bore = seat(
+        "bore on the flange's spigot", 2.0 * motor.cover_inner, motor.joint - motor.spigot,
+        motor.joint, zones.CAN_BORE, inside=True, datum="A", lead_in=LEAD_IN,
+    )  # fmt: skip
+    return (
+        bore,
+        shoulder("face on the housing", motor.joint, motor.cover_inner, motor.body, "up", bore,
+                 datum="B"),
+        board_threads(motor, unit, refers="A"),
+        clearance("holes of the cover's screws", motor.cover_screw.thread,
+                  motor.joint - motor.ear_height, motor.joint, ear_circle(motor)),
+    )  # fmt: skip
+
+
 def board_threads(motor: MotorEnd, unit: float, *, refers: str) -> TappedHole:
     """For the screws of the encoder's board, in the cover's dish."""
     small = coarse_thread(motor.board_screw.thread)
