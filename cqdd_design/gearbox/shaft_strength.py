@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cqdd_design.gearbox.life.fatigue import goodman_reversed
+from cqdd_design.gearbox.life.fatigue import BROKEN, goodman_reversed
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 _FIBRES = 24
@@ -66,7 +66,8 @@ class StepStress:
     static : float
         Greatest von Mises stress, Pa, nominal.
     reversed_amplitude : float
-        Of the reversed stress that harms as much as the worst fibre's cycle, notches in it, Pa.
+        Of the reversed stress that harms as much as the worst fibre's cycle, notches in it, Pa; a hundred
+        times the ultimate strength where its mean alone breaks the shaft.
     bending_factor, torsion_factor : float
         Fatigue notch factors.
     """
@@ -202,7 +203,7 @@ def step_stress(
         turn * abs(sheared.max() + sheared.min()),
     )
     worst = goodman_reversed(middle - amplitude, middle + amplitude, ultimate)
-    return StepStress(step, static, float(worst.max()), bend, turn)
+    return StepStress(step, static, min(float(worst.max()), BROKEN * ultimate), bend, turn)
 
 
 def _joined(twice_bent: ArrayLike, twice_sheared: ArrayLike) -> FloatArray:

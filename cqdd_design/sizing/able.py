@@ -14,7 +14,6 @@ from cqdd_design.design import Requirements
 from cqdd_design.design.motor import MotorTable
 from cqdd_design.errors import InfeasibleError
 from cqdd_design.geometry.limits import rounded_down
-from cqdd_design.geometry.scale import largest_ring, smallest_ring
 from cqdd_design.machine import Machine
 
 HELD_SPEED = 300.0 * math.pi / 30.0
@@ -36,24 +35,6 @@ _SAME = 0.05
 
 class TooHotError(InfeasibleError):
     """A motor holds no torque for ever at the speed that is asked for."""
-
-
-def refuse_small_ring(requirements: Requirements, motor: Motor | None) -> None:
-    """Raise where no ring that may be so small fills the motor's bore with its housing.
-
-    Of such a machine neither bell nor temperatures are known, and so no verdict is yes.
-    """
-    row = motor or find_motor(requirements.motor)
-    if row.bore_diameter is None:
-        return
-    least, most = smallest_ring(row.bore_diameter), largest_ring(row.bore_diameter)
-    if requirements.outer_diameter < least:
-        raise InfeasibleError(
-            f"requirements.outer_diameter = {1e3 * requirements.outer_diameter:g} mm: the "
-            f"{1e3 * row.bore_diameter:g} mm stator bore of {row.name} takes rings of "
-            f"{1e3 * least:.4g} to {1e3 * most:.4g} mm; allow such a ring, or name a motor with a "
-            "smaller bore (cqdd-design catalog motors), or --motor any."
-        )
 
 
 def first_guess(requirements: Requirements, motor: Motor | None) -> Requirements:

@@ -202,9 +202,14 @@ class Frame:
 
     @property
     def least_outer_radius(self) -> float:
-        """Of the smallest ring that is tried, and round which a tube fills the motor's bore, m."""
+        """Of the smallest ring that is tried, and round which a tube fills the motor's bore, m.
+
+        Where no ring may be as large as that, the motor stands behind all of them.
+        """
         bore = self.motor.bore_diameter
-        return 0.5 * max(self.ring_least, 0.0 if bore is None else smallest_ring(bore))
+        inside = 0.0 if bore is None else smallest_ring(bore)
+        behind = self.requirements.outer_diameter < inside
+        return 0.5 * max(self.ring_least, 0.0 if behind else inside)
 
     def bearing_table(self) -> BearingTable:
         """The cam bearings as arrays."""

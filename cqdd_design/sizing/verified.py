@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
-from cqdd_design.sizing.able import PEAK, cooler, first_guess, refuse_small_ring
+from cqdd_design.sizing.able import PEAK, cooler, first_guess
 from cqdd_design.sizing.bearable import JUST, or_weaker, weaker
 from cqdd_design.sizing.costs import costs
 from cqdd_design.sizing.frame import Fit, Goal
@@ -109,14 +109,7 @@ def new_hunt(
     ambient: float | None,
     goal: Goal,
 ) -> Hunt:
-    """A hunt that has learnt nothing, with guesses in place of torques that were not stated.
-
-    Raises
-    ------
-    InfeasibleError
-        When no ring that is allowed goes with the motor.
-    """
-    refuse_small_ring(requirements, motor)
+    """A hunt that has learnt nothing, with guesses in place of torques that were not stated."""
     guess, tables = first_guess(requirements, motor), stage_tables(requirements.ratio)
     return Hunt(guess, motor, ambient, progress, tables, goal)
 

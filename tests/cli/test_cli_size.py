@@ -422,13 +422,3 @@ def test_costs_are_told_of_the_design_they_were_found_for(tmp_path):
     path.write_text(path.read_text().replace("# - twice", "# - thrice"))
     assert kept_costs(path, own) == ()
     assert kept_costs(tmp_path / "none.toml", own) == ()
-
-
-def test_a_ring_too_small_for_the_motors_bore_is_refused_at_once(cqdd, tmp_path) -> None:
-    """Without a search: of such a machine the bell, and so the verdict, is never known."""
-    target = tmp_path / "small.toml"
-    run = cqdd("size", "--ratio", "26", "--outer-diameter", "52 mm", "--out", str(target))
-    assert run.code == 3
-    assert "requirements.outer_diameter = 52 mm" in run.err
-    assert "takes rings of 55.5 to 72 mm" in run.err
-    assert not target.exists()

@@ -76,6 +76,13 @@ def test_a_hollow_bar_by_hand() -> None:
     assert found.reversed_amplitude == pytest.approx(half / (1.0 - half / 1e9), rel=1e-9)
 
 
+def test_a_shaft_that_breaks_at_once_has_a_number() -> None:
+    """Checks take no infinite one: a mean stress beyond S_u is a hundred times it."""
+    found = step_stress(BAR, np.full(4, 1e4 + 0.0j), np.full(4, 1e4), 1e9)
+    assert found.static > 1e9
+    assert found.reversed_amplitude == pytest.approx(100e9)
+
+
 def test_a_load_that_turns_with_the_shaft_harms_less_than_one_that_stands() -> None:
     """A moment that goes round in the shaft's frame is reversed; one that rests is not."""
     round_it = 4.0 * np.exp(2j * np.pi * np.arange(24) / 24)

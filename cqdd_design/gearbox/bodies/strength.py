@@ -22,15 +22,12 @@ from cqdd_design.gearbox.bodies.give import ToothGive, tooth_gives
 from cqdd_design.gearbox.bodies.stress import Region, disc_regions, disc_stress, ring_stress
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import NominalStates
-from cqdd_design.gearbox.life.fatigue import goodman_reversed
+from cqdd_design.gearbox.life.fatigue import BROKEN, goodman_reversed
 from cqdd_design.geometry.contours import ComplexArray, FloatArray
 
 REGIONS: tuple[Region, ...] = get_args(Region)
 """Of all discs and rings: one with columns between all of its holes lacks ``hole to hole``."""
 LIGAMENTS = REGIONS[:6]
-
-_BROKEN = 100.0
-"""Of S_u: written where a mean stress reaches it, which no reversed amplitude stands for."""
 
 
 @dataclass(frozen=True)
@@ -335,7 +332,7 @@ def _swing(edge: _Edge, region: Region, turns: Sequence[FloatArray], ultimate: f
         np.fmax.at(high, edge.orbit, np.fmax.reduce(stress, axis=0))
     own = np.flatnonzero((edge.regions == region) & (low <= high)[edge.orbit])
     low, high = low[edge.orbit[own]], high[edge.orbit[own]]
-    harm = np.minimum(goodman_reversed(low, high, ultimate), _BROKEN * ultimate)
+    harm = np.minimum(goodman_reversed(low, high, ultimate), BROKEN * ultimate)
     worst = int(harm.argmax())
     place = complex(edge.places[own[worst]])
     return Swing(

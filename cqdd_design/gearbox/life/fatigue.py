@@ -107,6 +107,10 @@ def pin_cycles(amplitude: ArrayLike, limit: float, ultimate: float) -> FloatArra
     return np.asarray(np.where(s > limit, np.maximum(finite, 1.0), np.inf))
 
 
+BROKEN = 100.0
+"""Of S_u: told where a mean stress reaches it, which no reversed amplitude stands for."""
+
+
 def goodman_reversed(low: ArrayLike, high: ArrayLike, ultimate: float) -> FloatArray:
     """Reversed amplitude as harmful as a cycle between two stresses: s_a/(1 - s_m/S_u).
 
