@@ -66,8 +66,8 @@ class StepStress:
     static : float
         Greatest von Mises stress, Pa, nominal.
     reversed_amplitude : float
-        Of the reversed stress that harms as much as the worst fibre's cycle, notches in it, Pa; a hundred
-        times the ultimate strength where its mean alone breaks the shaft.
+        Of the reversed stress that harms as much as the worst fibre's cycle, notches in it, Pa; a
+        hundred times the ultimate strength where its mean alone breaks the shaft.
     bending_factor, torsion_factor : float
         Fatigue notch factors.
     """
