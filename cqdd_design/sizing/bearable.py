@@ -23,7 +23,7 @@ _SHARES = (1.0, 0.6, 0.35, 0.2)
 """Of both torques at which something is looked for that bears more, or less, than them."""
 _STRONG = 5
 """Cam bearings of a space that are asked what they bear."""
-JUST, _WELL = 0.98, 0.92
+JUST, _WELL = 0.98, 0.96
 """Of what the strongest design bears, without and with reserve for part errors."""
 _LEAST = 0.1
 """Share of a torque that is tried at least."""

@@ -219,7 +219,7 @@ def test_a_search_turns_to_what_is_asked_for_and_not_met(found):
     ("more", "line"),
     [
         ({"efficiency": 0.80}, "EFFICIENCY"),
-        ({"peak_torque": "40 N*m", "backlash": "8 arcmin"}, "BACKLASH"),
+        ({"peak_torque": "40 N*m", "backlash": "10 arcmin"}, "BACKLASH"),
     ],
 )
 def test_what_is_asked_for_beyond_loads_is_searched_for(more, line):
