@@ -162,11 +162,11 @@ def _housing(machine: Machine, held: HeldLoads) -> Iterator[HeldStress]:
     if cantilever > 0.0:
         moment = most * cantilever
         bent = stress.tube_stress(housing.boss_radius, seat, moment, 0.0)
-        yield HeldStress("housing", "boss of the shaft bearing", bent, f"{moment:.3g} N m bend it")
+        yield HeldStress("housing", "boss of the shaft bearing", bent, f"{moment:.3g} N*m bend it")
     thick = housing.floor_top - housing.bottom
     moment = most * abs(seat_middle - 0.5 * (housing.floor_top + housing.bottom))
     bent = stress.tilted_plate_stress(housing.boss_radius, pack.ledge_radius, thick, moment)
-    yield HeldStress("housing", "floor about its boss", bent, f"{moment:.3g} N m tilt it")
+    yield HeldStress("housing", "floor about its boss", bent, f"{moment:.3g} N*m tilt it")
 
     torque = machine.design.requirements.continuous_torque + held.crank_torque
     dowels = layout.dowels
@@ -176,7 +176,7 @@ def _housing(machine: Machine, held: HeldLoads) -> Iterator[HeldStress]:
             torque, len(dowels.angles), pack.ring_radius, size, dowels.bearing_length
         )
         yield HeldStress(
-            "housing", "half holes of the ring's dowels", seam.pressure, f"{torque:.3g} N m on them"
+            "housing", "half holes of the ring's dowels", seam.pressure, f"{torque:.3g} N*m on them"
         )
     moment, inner, over = float(_tube_moment(machine, held).max()), pack.ring_radius, torque
     if dowels.radius and dowels.bottom >= housing.flange_bottom:
@@ -186,7 +186,7 @@ def _housing(machine: Machine, held: HeldLoads) -> Iterator[HeldStress]:
         # Grooves all round would leave the wall its least section.
         inner += dowels.radius
     twisted = stress.tube_stress(housing.register_radius, inner, moment, over)
-    told = f"{moment:.3g} N m bend and {over:.3g} N m twist it"
+    told = f"{moment:.3g} N*m bend and {over:.3g} N*m twist it"
     yield HeldStress("housing", "wall round the ring", twisted, told)
     flange = stress.tilted_plate_stress(
         housing.register_radius,
@@ -194,9 +194,9 @@ def _housing(machine: Machine, held: HeldLoads) -> Iterator[HeldStress]:
         housing.face - housing.flange_bottom,
         moment,
     )
-    yield HeldStress("housing", "flange up to its screws", flange, f"{moment:.3g} N m tilt it")
+    yield HeldStress("housing", "flange up to its screws", flange, f"{moment:.3g} N*m tilt it")
     back = held.crank_torque
-    inrunner, motor, told = layout.inrunner, layout.motor, f"{back:.3g} N m twist it"
+    inrunner, motor, told = layout.inrunner, layout.motor, f"{back:.3g} N*m twist it"
     if inrunner is not None:
         twisted = stress.tube_stress(inrunner.cover_outer, inrunner.cover_inner, 0.0, back)
         yield HeldStress("motor cover", "wall round the stator", twisted, told)
@@ -242,7 +242,7 @@ def _cover(machine: Machine, held: HeldLoads) -> Iterator[HeldStress]:
         housing.cover_flange_top - housing.cover_bottom,
     )
     bent = stress.tilted_plate_stress(*sizes, moment) + stress.pushed_plate_stress(*sizes, axial)
-    told = f"{moment:.3g} N m tilt and {axial:.0f} N push it"
+    told = f"{moment:.3g} N*m tilt and {axial:.0f} N push it"
     yield HeldStress("output cover", "flange up to its screws", bent, told)
 
 
@@ -274,7 +274,7 @@ def _plate(machine: Machine, held: HeldLoads) -> Iterator[HeldStress]:
     if dowels.count:
         found = across_a_joint(torque, dowels.count, circle, dowels.diameter, dowels.depth)
         place = "dowel holes of the output's face"
-        yield HeldStress(part, place, found.pressure, f"{torque:.3g} N m on them")
+        yield HeldStress(part, place, found.pressure, f"{torque:.3g} N*m on them")
     if carrier.bolt_thread:
         threads = next(
             one for one in features if isinstance(one, TappedHole) and one.name.endswith("output")
@@ -290,7 +290,7 @@ def _plate(machine: Machine, held: HeldLoads) -> Iterator[HeldStress]:
             part,
             "between the holes of the output's face",
             math.hypot(bent, sheared) / left,
-            f"{asked:.3g} N m tilt and {torque:.3g} N m twist it",
+            f"{asked:.3g} N*m tilt and {torque:.3g} N*m twist it",
         )
 
 
@@ -325,5 +325,5 @@ def _socket(part: str, seat: FittedHole, on_it: ComplexArray, moment: FloatArray
         part,
         seat.name,
         float(pressed[worst]),
-        f"{force[worst]:.0f} N and {moment[worst]:.2g} N m of a pin on {1e3 * long:.3g} mm",
+        f"{force[worst]:.0f} N and {moment[worst]:.2g} N*m of a pin on {1e3 * long:.3g} mm",
     )

@@ -17,6 +17,7 @@ from cqdd_design.actuator.bench.run import run_bench
 from cqdd_design.actuator.bench.unknowns import UNKNOWNS
 from cqdd_design.actuator.parameters import ActuatorParameters, FloatArray
 from cqdd_design.errors import CqddError, UsageError
+from cqdd_design.terms import measurement
 
 CLOSE = 0.05
 """Relative miss of a row below which it counts as fitted."""
@@ -73,8 +74,9 @@ class _Misses:
         for name, wanted in self._targets.items():
             value = result.value(name)
             if value is None:
+                said = measurement(name)
                 self.why = next(
-                    (one.rstrip(".") for one in result.warnings if one.startswith(name)), name
+                    (one.rstrip(".") for one in result.warnings if one.startswith(said)), said
                 )
             lost = value is None or value <= 0.0
             misses.append(_UNMEASURED if lost or value is None else math.log(value / wanted))

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 _HOLE, _PLACE, _PITCH = 10.2, 13.5, 4.0
 """Width of a block of the table of holes, and its rows, mm."""
 _TITLE_ROWS = 4
-_BETWEEN = 4.0
+_BETWEEN = 3.0
 
 
 @dataclass(frozen=True, eq=False)
