@@ -127,10 +127,11 @@ def _clear(among: Path, suffix: str, most: int) -> int:
         key=lambda entry: entry[0].st_mtime,
         reverse=True,
     )
-    kept = 0
+    kept, left = 0, 0
     for status, one in entries:
-        if kept + status.st_size > most:
+        kept += status.st_size
+        if kept > most:
             one.unlink(missing_ok=True)
         else:
-            kept += status.st_size
-    return kept
+            left = kept
+    return left

@@ -25,16 +25,20 @@ _PLACE_STEP = (_LAST - _FIRST) / (PROFILE_POINTS - 1)
 
 
 @part()
-def _flank(n: int, R: float, e: float, r: float, t: float) -> tuple[float, float]:
-    """A point of the flank, m."""
-    K = e * (n + 1) / R
-    cosine, sine = math.cos(t), math.sin(t)
+def _normal(n: int, K: float, t: float) -> tuple[float, float, float]:
+    """Outward unit normal of the flank, and D = |1 - K1 e^{int}|."""
     real, imag = 1.0 - K * math.cos(n * t), -K * math.sin(n * t)
     length = math.sqrt(real * real + imag * imag)
-    normal_x = (cosine * real - sine * imag) / length
-    normal_y = (cosine * imag + sine * real) / length
-    x = R * cosine - e * math.cos((n + 1) * t) - r * normal_x
-    y = R * sine - e * math.sin((n + 1) * t) - r * normal_y
+    cosine, sine = math.cos(t) / length, math.sin(t) / length
+    return cosine * real - sine * imag, cosine * imag + sine * real, length
+
+
+@part()
+def _flank(n: int, R: float, e: float, r: float, t: float) -> tuple[float, float]:
+    """A point of the flank, m."""
+    normal_x, normal_y, _ = _normal(n, e * (n + 1) / R, t)
+    x = R * math.cos(t) - e * math.cos((n + 1) * t) - r * normal_x
+    y = R * math.sin(t) - e * math.sin((n + 1) * t) - r * normal_y
     return x, y
 
 
@@ -221,12 +225,9 @@ def lobed_areas(n: int, ring: Any, area: Any, polar: Any) -> None:
             across, along = sharpness * math.sin(0.5 * place), math.cos(0.5 * place)
             t = 2.0 / n * math.atan2(across, along)
             rate = sharpness / (along * along + across * across) / n
-            c = math.cos(n * t)
-            real, imag = 1.0 - K * c, -K * math.sin(n * t)
-            length = math.sqrt(real * real + imag * imag)
-            normal_x = (math.cos(t) * real - math.sin(t) * imag) / length
-            normal_y = (math.cos(t) * imag + math.sin(t) * real) / length
-            bend = (1.0 + (n + 1.0) * K * K - (n + 2.0) * K * c) / (R * length**3)
+            normal_x, normal_y, length = _normal(n, K, t)
+            turn = (n + 2.0) * K * math.cos(n * t)
+            bend = (1.0 + (n + 1.0) * K * K - turn) / (R * length**3)
             x, y = _flank(n, R, e, r, t)
             swept = (x * normal_x + y * normal_y) * R * length * (1.0 - r * bend) * rate
             whole += swept

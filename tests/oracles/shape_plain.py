@@ -51,25 +51,7 @@ def _even_parameter(
 def largest_pin_circle(
     frame: Frame, ring: RingSizes, hole_radius: FloatArray, offset: FloatArray
 ) -> FloatArray:
-    """Largest pin circle whose holes keep the least ligament to the lobed profile.
-
-    At most the frame's limit. A profile point at (rho, theta) stays q away from a hole centre at
-    angle delta as long as
-
-    R_w <= rho cos(theta - delta) - sqrt(q^2 - rho^2 sin^2(theta - delta)); the profile beside the
-    valley nearest to any hole decides.
-
-    Parameters
-    ----------
-    ring : RingSizes (G,)
-    hole_radius, offset : array (G, ...)
-        m, and angles from `valley_offset` in rad; they broadcast with each other.
-
-    Returns
-    -------
-    array (G, ...)
-        m; negative where no hole fits at all.
-    """
+    """As `shape_limits.largest_pin_circle`."""
     clear = hole_radius + allowables.LIGAMENT + SAMPLING_GUARD
     spare = len(np.broadcast_shapes(clear.shape, offset.shape)) - 1
     own = (slice(None),) + (None,) * spare
@@ -116,11 +98,7 @@ def _parabola(
 
 
 def relief_passes_wire(frame: Frame, ring: RingSizes) -> BoolArray:
-    """Whether a solid ring (G,) has a relief whose fillets the wire can follow.
-
-    A fillet between tooth and root circle must clear everything the disc sweeps and leave the
-    tooth a neck. Fillets up from the wire's own radius are tried; finer ones would not help.
-    """
+    """As `shape_limits.relief_passes_wire`."""
     R, e, r = ring.pitch_radius, ring.eccentricity, ring.tooth_radius
     n, half = frame.lobe_count, math.pi / (frame.lobe_count + 1)
     root = ring.root_radius(frame)
