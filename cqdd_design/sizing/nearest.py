@@ -166,8 +166,10 @@ def _least(hunt: Hunt, asked: Requirements, key: str, limit: float) -> float | N
         high = limit
         if not _bears(known, stating(high)):
             return None
-        while high > (1.0 + _CLOSE) * low and high - low > 1.5 * _STEP:
-            middle = _up(math.sqrt(low * high))
+        while high > (1.0 + _CLOSE) * low:
+            middle = min(_up(math.sqrt(low * high)), round(high - _STEP, 9))
+            if middle <= low:
+                break
             low, high = (low, middle) if _bears(known, stating(middle)) else (middle, high)
         way = _tried(hunt, stating(high))
         if way.found is not None:

@@ -28,9 +28,9 @@ def found(**asked):
     return SimpleNamespace(sizing=SimpleNamespace(design=design))
 
 
-def said(monkeypatch, bears, verdict, given=ASKED, first=("BEARING-STATIC",)):
+def said(monkeypatch, bears, verdict, given=ASKED, first=("BEARING-STATIC",), length="8 mm"):
     """The refusal of a search that fails at first, with what bears and passes by length."""
-    asked = requirements_from_mapping({**given, "length": "8 mm"})
+    asked = requirements_from_mapping({**given, "length": length})
     tried = []
 
     def searched(hunt, stated):
@@ -78,6 +78,13 @@ def test_torques_and_the_least_length_are_told(monkeypatch):
         (8.0, ("continuous_torque", "peak_torque")),
         (pytest.approx(13.5), ()),
     ]
+
+
+@pytest.mark.parametrize("length", ["10.2 mm", "10.26 mm", "10.74 mm"])
+def test_a_length_between_the_steps_ends_the_search_too(monkeypatch, length):
+    torques = found(peak_torque=15.0, continuous_torque=5.0)
+    error, _ = said(monkeypatch, lambda _: True, lambda *_: torques, length=length)
+    assert 1e3 * error.length_needed == pytest.approx(11.0)
 
 
 def test_a_length_that_the_verdict_refuses_is_not_told(monkeypatch):
