@@ -70,7 +70,7 @@ def by_search(requirements: Requirements) -> tuple[Found | None, float]:
 
 def _hunt(requirements: Requirements) -> Hunt:
     tables = stage_tables(requirements.ratio)
-    return Hunt(requirements, None, None, lambda _: None, tables, "mass")
+    return Hunt(requirements, None, None, lambda _: None, tables, "mass", usual={})
 
 
 def by_chance(requirements: Requirements, seconds: float, seed: int) -> tuple[float, int]:

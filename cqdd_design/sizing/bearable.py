@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from typing import NamedTuple
 
 from cqdd_design.design import Requirements
 from cqdd_design.errors import InfeasibleError
@@ -25,10 +26,15 @@ _STRONG = 5
 """Cam bearings of a space that are asked what they bear."""
 JUST, _WELL = 0.98, 0.96
 """Of what the strongest design bears, without and with reserve for part errors."""
+_CERTAIN = 0.97
+"""Share that the strongest design bears below which a first search would find nothing: what closed
+forms take for the strongest is that within a few per cent."""
+_CLOSE = 1.1
+"""Likewise, below which it is the strongest design that is promising."""
 _LEAST = 0.1
 """Share of a torque that is tried at least."""
 _DIGITS = 2
-_LASTING = ("-CONTINUOUS", "-LIFE")
+LASTING = ("-CONTINUOUS", "-LIFE")
 """Ends of the lines at the continuous torque."""
 
 
@@ -42,12 +48,18 @@ def or_weaker(
     near : Found, optional
         A design near by, whose space and needs count.
     """
+    if PEAK not in hunt.requirements.derived:
+        return search()
     lowered: tuple[bool, bool] = (False, False)
+    first = bearable(hunt, None) if near is None else Borne(math.inf, math.inf)
+    if first.least < _CLOSE:
+        hunt.strongest = first.cam
     for turn in range(_TURNS):
-        found = search()
-        if found is not None or PEAK not in hunt.requirements.derived:
+        hopeless = turn == 0 and first.least < _CERTAIN
+        found = None if hopeless else search()
+        if found is not None:
             return found
-        peak, lasting = bearable(hunt, near)
+        peak, lasting, hunt.strongest = first if hopeless else bearable(hunt, near)
         if min(peak, lasting) < 1.0:
             lowered = lowered[0] or peak < 1.0, lowered[1] or lasting < 1.0
             # What errors ask for differs from design to design.
@@ -81,8 +93,33 @@ def weaker(requirements: Requirements, peak: float, lasting: float) -> Requireme
     return requirements.model_copy(update={PEAK: most, CONTINUOUS: least})
 
 
-def bearable(hunt: Hunt, near: Found | None) -> tuple[float, float]:
-    """Shares, up to 1, of the peak and of the continuous torque that the strongest design bears.
+class Borne(NamedTuple):
+    """Shares of the peak and of the continuous torque that a design bears, and its cam bearing.
+
+    Over those that are asked for; the designation is empty where there is no design.
+    """
+
+    peak: float
+    lasting: float
+    cam: str = ""
+
+    def of(self, peak: float, lasting: float) -> Borne:
+        """Shares of torques of which so much was asked for."""
+        return Borne(max(peak * self.peak, _LEAST), max(lasting * self.lasting, _LEAST), self.cam)
+
+    @property
+    def least(self) -> float:
+        """The lesser share."""
+        return min(self.peak, self.lasting)
+
+    @property
+    def both(self) -> float:
+        """Product of the shares, each of 1 at most."""
+        return min(self.peak, 1.0) * min(self.lasting, 1.0)
+
+
+def bearable(hunt: Hunt, near: Found | None) -> Borne:
+    """Shares of the peak and of the continuous torque that the strongest design bears.
 
     The strongest is no stronger at one torque than it has to be for the other; where it is short
     of both, one that has to bear less of what it is shortest of may bear more of the other.
@@ -93,17 +130,17 @@ def bearable(hunt: Hunt, near: Found | None) -> tuple[float, float]:
         if found is not None:
             break
     else:
-        return _SHARES[-1], _SHARES[-1]
-    first = _within(share * found[0]), _within(share * found[1])
-    if max(first) == 1.0:
+        return Borne(_SHARES[-1], _SHARES[-1])
+    first = found.of(share, share)
+    if max(first.peak, first.lasting) >= 1.0:
         return first
-    short = 0 if first[0] < first[1] else 1
-    shares = [JUST * one if place == short else 1.0 for place, one in enumerate(first)]
-    second = _strongest(replace(hunt, requirements=weaker(asked, *shares)), near)
+    peak, lasting = (
+        (JUST * first.peak, 1.0) if first.peak < first.lasting else (1.0, JUST * first.lasting)
+    )
+    second = _strongest(replace(hunt, requirements=weaker(asked, peak, lasting)), near)
     if second is None:
         return first
-    other = shares[0] * _within(second[0]), shares[1] * _within(second[1])
-    return max(first, other, key=math.prod)
+    return max(first, second.of(peak, lasting), key=lambda one: one.both)
 
 
 def both_bearable(hunt: Hunt) -> float:
@@ -111,7 +148,7 @@ def both_bearable(hunt: Hunt) -> float:
     for share in _SHARES:
         found = _strongest(replace(hunt, requirements=times(hunt.requirements, share)), None)
         if found is not None:
-            return share * min(found)
+            return share * found.least
     return _SHARES[-1]
 
 
@@ -121,7 +158,7 @@ def times(requirements: Requirements, share: float) -> Requirements:
     return requirements.model_copy(update=changed)
 
 
-def _strongest(hunt: Hunt, near: Found | None) -> tuple[float, float] | None:
+def _strongest(hunt: Hunt, near: Found | None) -> Borne | None:
     """Reserves of both torques with whichever of the strong cam bearings bears most.
 
     Of the spaces that are tried, or of one near by; None where nothing survives a screen.
@@ -133,7 +170,7 @@ def _strongest(hunt: Hunt, near: Found | None) -> tuple[float, float] | None:
     needs = {} if near is None else near.needs
     kinds = [kind for space in every for kind in _strong_kinds(hunt, space, needs)]
     found = (_in_space(hunt, kind, needs) for kind in kinds)
-    return max((one for one in found if one is not None), key=min, default=None)
+    return max((one for one in found if one is not None), key=lambda one: one.least, default=None)
 
 
 def _strong_kinds(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> list[Space]:
@@ -146,7 +183,7 @@ def _strong_kinds(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> list[
     return [space._replace(cam=one) for one in strong[:_STRONG]]
 
 
-def _in_space(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> tuple[float, float] | None:
+def _in_space(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> Borne | None:
     try:
         strong = strongest(hunt, space, needs)
     except InfeasibleError:
@@ -160,10 +197,6 @@ def _in_space(hunt: Hunt, space: Space, needs: Mapping[str, float]) -> tuple[flo
         for line in strong.checks
         if line.known
     }
-    lasting = [one for name, one in reserves.items() if name.endswith(_LASTING)]
-    peak = [one for name, one in reserves.items() if not name.endswith(_LASTING)]
-    return min(peak, default=1.0), min(lasting, default=1.0)
-
-
-def _within(share: float) -> float:
-    return min(max(share, _LEAST), 1.0)
+    lasting = [one for name, one in reserves.items() if name.endswith(LASTING)]
+    peak = [one for name, one in reserves.items() if not name.endswith(LASTING)]
+    return Borne(min(peak, default=1.0), min(lasting, default=1.0), space.cam)

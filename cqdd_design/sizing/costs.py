@@ -22,7 +22,7 @@ _MORE, _TWICE, _LESS_ROOM = 1.1, 2.0, 0.95
 def costs(hunt: Hunt, found: Found) -> tuple[Cost, ...]:
     """What 10 % more of either torque, twice the life and a ring 5 % smaller cost."""
     # Whichever cam bearing it takes: what part errors ask for is known of this one.
-    near = replace(hunt, extra=dict(hunt.extra_for(found.cam)), extra_of={})
+    near = replace(hunt, usual=dict(hunt.extra_for(found.cam)), extra_of={})
     asked, space = hunt.requirements, found.space._replace(cam="")
     wide = space.anywhere._replace(free=True)
     peak, lasting = asked.peak_torque, asked.continuous_torque

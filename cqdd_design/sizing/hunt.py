@@ -48,6 +48,14 @@ DISC_COUNTS = (2, 3)
 """Likewise of discs: those that balance."""
 _LIKELY, _HOPED = 0.95, 0.86
 """Of a reserve that part errors ask for with other cam bearings: they differ by so much."""
+_USUAL = {
+    "CONTACT-RING-CONTINUOUS": 2.0,
+    "CONTACT-RING-PEAK": 1.15,
+    "BEARING-LIFE": 1.8,
+    CAM: 1.3,
+}
+"""Reserve for part errors, by check, before toleranced gearboxes have been looked at: a little less
+than searches at ratios from 5 to 30 came to ask for."""
 _MOST_RISEN = 2
 """How often a torque is raised that was lowered before: it could go up and down for ever."""
 _SOLVED = 15
@@ -175,18 +183,24 @@ class Hunt:
     ----------
     requirements : Requirements
         With the torques that are tried where none were stated.
-    extra : dict of str to float
-        Reserve for part errors of designs of any kind, by check.
-    extra_of : dict of tuple to dict
-        Likewise of designs with one cam bearing, by its designation.
+    usual : mapping of str to float
+        Reserve for part errors while no toleranced gearboxes have been looked at, by check.
+    extra_of : dict of str to dict
+        Reserve for part errors of designs with one cam bearing, by its designation and by check.
     trusting : bool
-        Whether designs with cam bearings that have not been looked at need much less.
+        Whether designs with cam bearings that have not been looked at need much less, and nothing
+        where none has been.
+    borne : tuple of float, optional
+        Shares of the peak and of the continuous torque that enough of the gearboxes that were
+        looked at last bear, where these were too few.
     lowered : bool
         Whether the motor did not hold a continuous torque that was tried.
     lowered_by : str
         Cam bearing of the design with which it did not; empty where strength was short.
     risen : int
         How often the torque was raised again with another cam bearing.
+    strongest : str
+        Cam bearing of the design that bears most, where torques were lowered to what it bears.
     fit : Fit
         The closest that heat and part errors leave.
     least_bore : float
@@ -206,6 +220,8 @@ class Hunt:
         and at the peak torque, of the last design that was looked at with them.
     rigid : tuple, optional
         The machine that was looked at last, and outputs of its gearboxes while nothing yields.
+    calm : tuple, optional
+        The design, and whether its torque might rise, at which looks asked for nothing last.
     solved : list
         The last designs that were held against the equilibrium, for searches that come back.
     known : dict of Space to Found
@@ -224,12 +240,14 @@ class Hunt:
     say: Progress
     tables: StageTables
     goal: Goal
-    extra: dict[str, float] = field(default_factory=dict)
+    usual: Mapping[str, float] = field(default_factory=lambda: _USUAL)
     extra_of: dict[str, dict[str, float]] = field(default_factory=dict)
     trusting: bool = False
+    borne: tuple[float, float] | None = None
     lowered: bool = False
     lowered_by: str = ""
     risen: int = 0
+    strongest: str = ""
     fit: Fit = FITS[0]
     least_bore: float = 0.0
     least_ring: float = 0.0
@@ -238,6 +256,7 @@ class Hunt:
     tried: set[Goal] = field(default_factory=set)
     yielding: tuple[NDArray[np.float64], ...] | None = None
     rigid: tuple[Machine, tuple[NDArray[np.float64], ...]] | None = None
+    calm: tuple[object, bool] | None = None
     solved: list[tuple[Machine, tuple[Check, ...]]] = field(default_factory=list)
     known: dict[Space, Found] = field(default_factory=dict)
     answered: dict[Space, Answer] = field(default_factory=dict)
@@ -277,23 +296,25 @@ class Hunt:
     @property
     def has_extra(self) -> bool:
         """Whether part errors ask for any reserve."""
-        return bool(self.extra or self.extra_of)
+        return bool(self.extra_of)
 
     def extra_for(self, cam: str) -> Mapping[str, float]:
         """Reserve for part errors of designs with a cam bearing, by check.
 
         With one that has not been looked at, somewhat less than what the known one asks for whose
         rating is closest, and where none is named, than what every one does; where the hunt is
-        trusting, still less.
+        trusting, still less. Where none is known, what is usual.
         """
         own = self.extra_of.get(cam)
-        if own is None and self.extra_of:
+        if own is None and not self.extra_of:
+            own = {} if self.trusting else dict(self.usual)
+        elif own is None:
             part = _HOPED if self.trusting else _LIKELY
             known = [self._closest(cam)] if cam else list(self.extra_of)
             every = [self.extra_of[one] for one in known]
             shared = set.intersection(*map(set, every))
             own = {one: max(part * min(each[one] for each in every), 1.0) for one in shared}
-        return self.extra | (own or {})
+        return own
 
     def _closest(self, cam: str) -> str:
         """Of the cam bearings that have been looked at, the one that is rated most alike."""

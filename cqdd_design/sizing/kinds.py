@@ -76,17 +76,15 @@ def lightest(hunt: Hunt) -> Found | None:
         return None if best is None or _is_hopeless(best) else best
     if best is None or best.weak:
         best = _hoped_for(hunt) or best
-    return tightest(hunt) if best is None else best
+    return _tightest(hunt) if best is None else best
 
 
 def _hoped_for(hunt: Hunt) -> Found | None:
     """The best design with a cam bearing that has not been looked at.
 
-    What part errors ask for with others may be too much for it: it is asked for less, and has to be
-    looked at.
+    What part errors ask for with others, or usually, may be too much for it: it is asked for less,
+    and has to be looked at.
     """
-    if not hunt.extra_of:
-        return None
     hunt.trusting = True
     every = ranked(hunt)
     hunt.trusting = False
@@ -97,12 +95,23 @@ def _hoped_for(hunt: Hunt) -> Found | None:
 def promising(hunt: Hunt) -> Found | None:
     """A design that will be near the best: enough to learn from it what heat and errors ask for.
 
-    With the cam bearing that a screen makes lightest of those that are borne out.
+    With the cam bearing that a screen makes lightest of those that are borne out; where torques
+    were lowered to what the strongest design bears, with that one's.
     """
     best = next(iter(ranked(hunt, thorough=False)), None)
     if PEAK in hunt.requirements.derived:
         return None if best is None or _is_hopeless(best) else best
-    return tightest(hunt) if best is None else best
+    if best is None or best.weak:
+        best = _hoped_for(hunt) or best
+    return _tightest(hunt) if best is None else best
+
+
+def _tightest(hunt: Hunt) -> Found | None:
+    """The best that is borne out, of perfect parts where none has been looked at."""
+    hunt.trusting = not hunt.has_extra
+    found = tightest(hunt)
+    hunt.trusting = False
+    return found
 
 
 def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
@@ -121,7 +130,7 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
     best: Found | None = None
     screened = {space for space in tried if _own(hunt, space)}
     while kinds:
-        kind = min(kinds, key=lambda one: one.objective)
+        kind = min(kinds, key=lambda one: _turn(hunt, one, thorough=thorough))
         kinds.remove(kind)
         if best is not None and kind.objective > _SLACK * best.worth[1]:
             break
@@ -157,6 +166,11 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
         most = _FINE * best.worth[1]
         found = [one if one.weak or one.worth[1] > most else _finer(hunt, one) for one in found]
     return sorted(found, key=lambda one: one.worth)
+
+
+def _turn(hunt: Hunt, kind: _Kind, *, thorough: bool) -> tuple[bool, float]:
+    """What makes a kind's turn come early is less."""
+    return thorough or kind.space.cam != hunt.strongest, kind.objective
 
 
 def _is_hopeless(found: Found) -> bool:

@@ -7,20 +7,20 @@ more reserve.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cqdd_design.design import Design, Requirements
+from cqdd_design.design import Requirements
 from cqdd_design.errors import ContactError
 from cqdd_design.gearbox.tolerance.run import BLOCK, ToleranceResult
 from cqdd_design.machine import Machine
 from cqdd_design.machine.temperatures import MachineTemperatures, judged_temperatures
 from cqdd_design.results import Check
 from cqdd_design.sizing.able import cooler, what_it_can
-from cqdd_design.sizing.bearable import weaker
+from cqdd_design.sizing.bearable import LASTING, weaker
 from cqdd_design.sizing.exact import yielding_checks
 from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.hunt import FITS, Found, Hunt, spaces
@@ -62,8 +62,11 @@ def learn(hunt: Hunt, found: Found) -> bool:
     machine, can, step = found.sized.machine, None, None
     for turn in range(_LOOKS):
         rigid = replace(machine, stiff=True)
-        can, step = look(hunt, rigid, heat_first=step is not None)
+        calm = machine.given, hunt.may_rise(found.cam)
+        nothing = calm == hunt.calm
+        can, step = (None, None) if nothing else look(hunt, rigid, heat_first=step is not None)
         if can is None and step is None:
+            hunt.calm = calm
             if loosened(hunt, found, rigid):
                 return True
             step = closer_look(hunt, found, machine)
@@ -246,13 +249,18 @@ def read_spread(
 
     0 where they ask for reserve or a wider ring instead, which is noted.
     """
-    good = good_gearboxes(machine, drawn, lines)
+    good, hunt.borne = good_gearboxes(machine, drawn, lines), None
     if good is None:
         return None
     numbers, fails = good
+    allowed = Allowed.of(machine, lines)
+    assert allowed is not None
     count = len(drawn.continuous.values) + drawn.continuous.lost
     share = machine.design.requirements.yield_share
     if len(numbers) >= share * count:
+        if machine.design.reducer.cam_bearing.designation not in hunt.extra_of:
+            # What they need is known now, where only what is usual was.
+            _ask_extra(hunt, machine, lines, _over(used(allowed, drawn), share))
         return None
     # No clearance makes a gearbox tighter or stiffer.
     loose = any(fails.get(name, 0) > (1.0 - share) * count for name in ("backlash", "stiffness"))
@@ -261,32 +269,50 @@ def read_spread(
     may = (0.5 if machine.design.requirements.backlash is None else 1.0) * (1.0 - share) * count
     if not loose and fails["bind"] + jams > may:
         return _LEAST_STEP
-    allowed = Allowed.of(machine, lines)
-    assert allowed is not None
-    by_id = {line.id: line for line in lines}
     # What may fail is shared among the lines that do.
     quantile = 1.0 - (1.0 - share) / max(sum(1 for number in fails.values() if number), 1)
     ratios = used(allowed, drawn)
-    over = {check: float(np.quantile(ratio, quantile)) for check, ratio in ratios.items()}
+    over = _over(ratios, quantile)
     overloaded = sum(int(np.sum(ratio > 1.0)) for ratio in ratios.values())
     if overloaded and overloaded >= fails["bind"] + jams and max(over.values()) <= 1.0:
         # Of few gearboxes the one that is overloaded is hardly in the quantile.
         over = {check: float(ratio.max()) for check, ratio in ratios.items()}
     short = any(ratio > 1.0 for ratio in over.values())
     if short:
-        cam = machine.design.reducer.cam_bearing.designation
-        hunt.ask_extra(
-            cam,
-            {
-                check: _reserve_for(ratio, by_id[check], machine.design)
-                for check, ratio in over.items()
-            },
-        )
+        _ask_extra(hunt, machine, lines, over)
+        hunt.borne = _borne(over)
     slack = fails.get("backlash", 0) > fails["bind"] + jams
     wider = slack and _asks_for_a_wider_ring(hunt, machine, drawn, quantile)
     if short or wider:
         return 0.0
     return None if loose else _LEAST_STEP
+
+
+def _over(ratios: Mapping[str, NDArray[np.float64]], share: float) -> dict[str, float]:
+    """What a share of the gearboxes stays below, by the line it stands for."""
+    return {check: float(np.quantile(ratio, share)) for check, ratio in ratios.items()}
+
+
+def _ask_extra(
+    hunt: Hunt, machine: Machine, lines: Iterable[Check], over: Mapping[str, float]
+) -> None:
+    """Note the reserve with which designs like one stay within their limits."""
+    by_id = {line.id: line for line in lines}
+    hunt.ask_extra(
+        machine.design.reducer.cam_bearing.designation,
+        {
+            check: max(torque_reserve(by_id[check], machine.design) * _torque(check, ratio), 1.0)
+            for check, ratio in over.items()
+        },
+    )
+
+
+def _borne(over: Mapping[str, float]) -> tuple[float, float]:
+    """Shares of the peak and of the continuous torque at which lines are on their limits."""
+    shares = {check: min(1.0 / _torque(check, ratio), 1.0) for check, ratio in over.items()}
+    lasting = [share for check, share in shares.items() if check.endswith(LASTING)]
+    peak = [share for check, share in shares.items() if not check.endswith(LASTING)]
+    return min(peak, default=1.0), min(lasting, default=1.0)
 
 
 def _asks_for_a_wider_ring(hunt: Hunt, machine: Machine, drawn: Drawn, quantile: float) -> bool:
@@ -306,15 +332,10 @@ def _asks_for_a_wider_ring(hunt: Hunt, machine: Machine, drawn: Drawn, quantile:
     return True
 
 
-def _reserve_for(ratio: float, line: Check, design: Design) -> float:
-    """Torque reserve of perfect parts whose errors use a line up to its limit.
+def _torque(check: str, ratio: float) -> float:
+    """By how much less torque a line that is so far over its limit comes to it; see `_SPARE`.
 
-    Parameters
-    ----------
-    ratio : float
-        Over the limit, of the design's own gearboxes, whose perfect parts have the line's reserve;
-        pressure is a root of torque.
+    Pressure is a root of torque.
     """
     more = _SPARE * ratio
-    reserve = torque_reserve(line, design)
-    return max(reserve * (more**2 if line.id.startswith("CONTACT-") else more), 1.0)
+    return more**2 if check.startswith("CONTACT-") else more

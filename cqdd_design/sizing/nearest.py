@@ -143,7 +143,7 @@ def _limits(hunt: Hunt) -> Iterator[tuple[str, float]]:
 def _bears(hunt: Hunt, asked: Requirements) -> bool:
     """Whether the equilibrium bears a design out, with what the hunt knows of part errors."""
     some = _new(hunt, asked)
-    some.extra, some.extra_of, some.fit = hunt.extra, hunt.extra_of, hunt.fit
+    some.extra_of, some.fit = hunt.extra_of, hunt.fit
     try:
         if both_bearable(some) < _NEARLY:
             return False

@@ -30,6 +30,8 @@ def nothing(hunt: Hunt) -> SizingInfeasibleError:
 
     With the clearance and the reserve that heat and part errors were found to ask for.
     """
+    # Of perfect parts where no gearbox has been looked at.
+    hunt = replace(hunt, trusting=not hunt.has_extra)
     asked, space = hunt.requirements, next(spaces(hunt.requirements, hunt.fit))
     search = Search.of(hunt.frame(space, {}), hunt.tables)
     if search.most_reserve() is None:

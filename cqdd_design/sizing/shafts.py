@@ -6,7 +6,6 @@ takes material from the discs. Where the peak torque was not stated, less of it 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import replace
 
@@ -56,7 +55,7 @@ def stronger_shaft(hunt: Hunt, found: Found, every: Iterable[Check]) -> None:
         left = hunt.frame(found.space, {}).bearings
         if (
             all(one.bore_diameter < wider.least_bore for one in left)
-            or math.prod(bearable(wider, found)) < share
+            or bearable(wider, found).both < share
         ):
             hunt.requirements = weaker(hunt.requirements, share, 1.0)
             # What a shaft as thick as this bears is known.

@@ -16,6 +16,7 @@ from cqdd_design.design import Requirements
 from cqdd_design.sizing.able import PEAK, cooler, first_guess
 from cqdd_design.sizing.bearable import JUST, or_weaker, weaker
 from cqdd_design.sizing.costs import costs
+from cqdd_design.sizing.eased import eased
 from cqdd_design.sizing.frame import Fit, Goal
 from cqdd_design.sizing.hunt import FITS, Found, Hunt, Progress
 from cqdd_design.sizing.kinds import lightest, promising
@@ -148,6 +149,9 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
             can, step = look(hunt, found.sized.machine)
             if can is None and step is None:
                 step = last_look(hunt, found.sized.machine)
+                if (less := eased(hunt, found)) is not None:
+                    found = less
+                    continue
             if can is None and step is None:
                 progress(f"judging {found.sized.design.name} by the whole verdict")
                 last = judge(found.sized.machine)
@@ -159,6 +163,9 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 step = _next_step(hunt, found, last)
                 if step is None:
                     break
+                if (less := eased(hunt, found)) is not None:
+                    found = less
+                    continue
             take(hunt, can, step, found.cam)
         except NothingWiderError:
             break

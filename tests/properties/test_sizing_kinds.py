@@ -32,8 +32,9 @@ def asked(ratio: int, peak: float, lasting: float, hours: float) -> Requirements
 
 
 def hunt_for(requirements: Requirements) -> Hunt:
+    """Of perfect parts."""
     tables = stage_tables(requirements.ratio)
-    return Hunt(requirements, None, None, lambda _: None, tables, "mass")
+    return Hunt(requirements, None, None, lambda _: None, tables, "mass", usual={})
 
 
 def test_every_cam_bearing_that_goes_in_is_screened() -> None:
@@ -119,6 +120,21 @@ def test_what_errors_ask_of_a_bearing_follows_the_one_rated_most_alike() -> None
     assert 1.8 < large < 2.0
     # Where none is named, no more than any asks for.
     assert hunt.extra_for("")["BEARING-STATIC"] == large
+
+
+def test_before_any_gearbox_is_looked_at_what_is_usual_is_asked() -> None:
+    requirements = asked(10, 30.0, 4.0, 1000.0)
+    hunt = Hunt(requirements, None, None, lambda _: None, stage_tables(10), "mass")
+    assert hunt.extra_for("6803") == hunt.extra_for("") == hunt.usual
+    assert not hunt.has_extra
+    space = Space(2, MATERIALS[1], MATERIALS[1], FITS[0], cam="6803")
+    assert hunt.frame(space, {}).needed("BEARING-STATIC") == 1.3
+    hunt.trusting = True
+    assert hunt.frame(space, {}).needed("BEARING-STATIC") == 1.0
+    hunt.trusting = False
+    hunt.ask_extra("6904", {"BEARING-STATIC": 1.1})
+    assert hunt.extra_for("6904") == {"BEARING-STATIC": 1.1}
+    assert hunt.extra_for("6803") == {"BEARING-STATIC": pytest.approx(1.045)}
 
 
 def test_a_backlash_beyond_what_is_asked_widens_the_ring_in_proportion() -> None:

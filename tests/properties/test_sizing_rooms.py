@@ -30,7 +30,7 @@ HARD = Space(2, MATERIALS[1], MATERIALS[1], USUAL_FIT)
 
 def hunt(**more):
     asked = requirements_from_mapping(ASKED | more)
-    return Hunt(asked, None, None, lambda _: None, stage_tables(10), "mass")
+    return Hunt(asked, None, None, lambda _: None, stage_tables(10), "mass", usual={})
 
 
 @pytest.fixture(scope="module")
@@ -101,7 +101,7 @@ def test_past_a_ring_that_is_heavier_a_lighter_one_is_found():
             "life": "222 h",
         }
     )
-    own = Hunt(asked, None, None, lambda _: None, stage_tables(20), "mass")
+    own = Hunt(asked, None, None, lambda _: None, stage_tables(20), "mass", usual={})
     first = agreed(own, HARD, None)
     best = ranked(own)[0]
     assert best.sized.objective.mass < 0.75 * first.sized.objective.mass

@@ -20,11 +20,13 @@ from cqdd_design.catalog.bearings import find_bearing
 from cqdd_design.catalog.motors import find_motor
 from cqdd_design.design import Requirements, load_design, requirements_from_mapping
 from cqdd_design.errors import InfeasibleError
+from cqdd_design.geometry.limits import rounded_down
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.temperatures import judged_temperatures
 from cqdd_design.sizing.able import HELD_SPEED, cooler, first_guess, what_it_can
 from cqdd_design.sizing.agreement import RING, agreed, settled, tightest
 from cqdd_design.sizing.bearable import or_weaker, weaker
+from cqdd_design.sizing.eased import eased
 from cqdd_design.sizing.exact import exact_checks, shortfalls
 from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.frame import Fit, search_frame
@@ -58,7 +60,9 @@ def machine() -> Machine:
 
 
 def hunt_of_what_is_assumed() -> Hunt:
-    return Hunt(first_guess(asked(), None), None, None, lambda _: None, stage_tables(10), "mass")
+    """Of perfect parts."""
+    guess = first_guess(asked(), None)
+    return Hunt(guess, None, None, lambda _: None, stage_tables(10), "mass", usual={})
 
 
 @pytest.fixture(scope="module")
@@ -191,12 +195,12 @@ def test_only_what_was_not_stated_grows_weaker() -> None:
 )
 def test_what_is_not_borne_grows_less(spared: str, more: dict[str, float]) -> None:
     """Where no design has the reserve that is asked for at one torque, the other falls less."""
-    guess = first_guess(asked(), None)
-    hunt = Hunt(guess, None, None, lambda _: None, stage_tables(10), "mass")
+    hunt = hunt_of_what_is_assumed()
+    guess = hunt.requirements
     space = Space(2, MATERIALS[1], MATERIALS[1], FITS[0])
     near = agreed(hunt, space, None)
     assert near is not None
-    hunt.extra = more
+    hunt.usual = more
     assert agreed(hunt, space, None, near.needs) is None
     found = or_weaker(hunt, lambda: agreed(hunt, space, None, near.needs), near)
     assert found is not None
@@ -211,11 +215,11 @@ def test_what_is_not_borne_grows_less(spared: str, more: dict[str, float]) -> No
 @pytest.mark.deep
 def test_the_strongest_is_fallen_back_on() -> None:
     """Making designs light leaves none with this reserve; the strongest one has it."""
-    hunt = Hunt(first_guess(asked(), None), None, None, lambda _: None, stage_tables(10), "mass")
+    hunt = hunt_of_what_is_assumed()
     space = Space(2, MATERIALS[1], MATERIALS[1], FITS[0])
     near = agreed(hunt, space, None)
     assert near is not None
-    hunt.extra = {"CONTACT-RING-CONTINUOUS": 8.0}
+    hunt.usual = {"CONTACT-RING-CONTINUOUS": 8.0}
     found = agreed(hunt, space, None, near.needs)
     assert found is not None
     lines = {one.id: one for one in exact_checks(resolve(found.sized.design))}
@@ -267,7 +271,7 @@ def test_less_is_asked_of_a_shaft_where_a_wider_bore_would_take_more(
     assert hunt.least_bore > bore
     assert (hunt.requirements.peak_torque, hunt.requirements.continuous_torque) == (peak, lasting)
     # With more reserve for part errors it bears less than the shaft's own line would leave.
-    hunt.extra, hunt.least_bore = {"BEARING-STATIC": 3.0}, 0.0
+    hunt.usual, hunt.least_bore = {"BEARING-STATIC": 3.0}, 0.0
     stronger_shaft(hunt, light, short)
     assert 0.77 * peak <= hunt.requirements.peak_torque <= 0.81 * peak
     assert hunt.requirements.continuous_torque == lasting
@@ -275,11 +279,36 @@ def test_less_is_asked_of_a_shaft_where_a_wider_bore_would_take_more(
     # What was stated stays.
     firm = Hunt(
         asked(peak_torque=f"{peak} N*m", continuous_torque=f"{lasting} N*m"),
-        None, None, lambda _: None, stage_tables(10), "mass", extra=hunt.extra,
+        None, None, lambda _: None, stage_tables(10), "mass", usual=hunt.usual,
     )  # fmt: skip
     stronger_shaft(firm, light, short)
     assert firm.least_bore > bore
     assert firm.requirements.peak_torque == peak
+
+
+def test_the_same_gearbox_is_asked_for_what_it_bears(light: Found) -> None:
+    hunt = hunt_of_what_is_assumed()
+    peak, lasting = hunt.requirements.peak_torque, hunt.requirements.continuous_torque
+    for short in (None, (0.85, 1.0), (0.95, 0.85)):
+        hunt.borne = short
+        assert eased(hunt, light) is None
+    assert hunt.requirements.peak_torque == peak
+    hunt.borne = (0.95, 1.0)
+    less = eased(hunt, light)
+    assert less is not None
+    assert less.sized.design.reducer == light.sized.design.reducer
+    given = less.sized.design.requirements
+    assert given.peak_torque == hunt.requirements.peak_torque == rounded_down(0.95 * peak, 2)
+    assert given.continuous_torque == lasting
+    assert not hunt.lowered
+    hunt.borne = (1.0, 0.95)
+    assert eased(hunt, less) is not None
+    assert hunt.requirements.continuous_torque == rounded_down(0.95 * lasting, 2)
+    assert hunt.lowered
+    # What was stated stays.
+    asks = asked(peak_torque=f"{peak} N*m")
+    firm = Hunt(asks, None, None, lambda _: None, stage_tables(10), "mass", borne=(0.95, 1.0))
+    assert eased(firm, light) is None
 
 
 def test_what_looks_ask_for_is_what_the_hunt_is_for() -> None:
@@ -451,6 +480,8 @@ def test_part_errors_ask_for_the_reserve_that_they_use_up() -> None:
     assert (1.02 * over.min() * line.margin) ** 2 <= found <= (1.02 * over.max() * line.margin) ** 2
     assert found > 1.0
     assert set(hunt.extra_of) == {cam}
+    assert hunt.borne is not None
+    assert hunt.borne[0] == pytest.approx(line.margin**2 / found)
     # Of another cam bearing somewhat less is expected.
     assert 0.9 * found < hunt.extra_for("6904")["CONTACT-RING-PEAK"] < found
     likely = hunt.extra_for("6904")["CONTACT-RING-PEAK"]
@@ -464,4 +495,7 @@ def test_part_errors_ask_for_the_reserve_that_they_use_up() -> None:
     )
     calm = Hunt(machine.design.requirements, None, None, print, stage_tables(10), "mass")
     assert read_spread(calm, machine, drawn, easy) is None
-    assert not calm.has_extra
+    # What they need is known from then on.
+    assert set(calm.extra_of) == {cam}
+    assert calm.borne is None
+    assert calm.extra_of[cam]["CONTACT-RING-PEAK"] <= found
