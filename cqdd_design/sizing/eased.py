@@ -10,19 +10,19 @@ from cqdd_design.sizing.finish import finish
 from cqdd_design.sizing.hunt import Found, Hunt
 from cqdd_design.sizing.search import Search
 
-_LEAST = 0.9
-"""Share of a torque below which another design is searched for."""
+LITTLE, MUCH = 0.9, 0.7
+"""Share of a torque that is left where a search for more reserve would only go from one design that
+just fails to the next, and where such a search found none."""
 
 
-def eased(hunt: Hunt, found: Found) -> Found | None:
-    """The same gearbox for what enough of those that were looked at last bear, if that is near.
+def eased(hunt: Hunt, found: Found, least: float = LITTLE) -> Found | None:
+    """The same gearbox for what enough of those that were looked at last bear.
 
-    None where the torque was stated; where little is short, a search for more reserve would only
-    go from one design that just fails to the next.
+    None where the torque was stated, or less than a share of either would be left.
     """
     peak, lasting = hunt.borne or (0.0, 0.0)
     stated = {PEAK, CONTINUOUS} - hunt.requirements.derived
-    if PEAK in stated or min(peak, lasting) < _LEAST or (stated and lasting < 1.0):
+    if PEAK in stated or min(peak, lasting) < least or (stated and lasting < 1.0):
         return None
     asked = weaker(hunt.requirements, peak, lasting)
     search = Search.of(

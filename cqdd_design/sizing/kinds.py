@@ -130,7 +130,7 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
     best: Found | None = None
     screened = {space for space in tried if _own(hunt, space)}
     while kinds:
-        kind = min(kinds, key=lambda one: _turn(hunt, one, thorough=thorough))
+        kind = min(kinds, key=lambda one: _turn(hunt, one))
         kinds.remove(kind)
         if best is not None and kind.objective > _SLACK * best.worth[1]:
             break
@@ -168,9 +168,13 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
     return sorted(found, key=lambda one: one.worth)
 
 
-def _turn(hunt: Hunt, kind: _Kind, *, thorough: bool) -> tuple[bool, float]:
-    """What makes a kind's turn come early is less."""
-    return thorough or kind.space.cam != hunt.strongest, kind.objective
+def _turn(hunt: Hunt, kind: _Kind) -> tuple[bool, float]:
+    """What makes a kind's turn come early is less.
+
+    Where torques were lowered to what one cam bearing bears, hardly another bears them; its needs
+    tell of the others.
+    """
+    return kind.space.cam != hunt.strongest, kind.objective
 
 
 def _is_hopeless(found: Found) -> bool:

@@ -16,7 +16,7 @@ from cqdd_design.design import Requirements
 from cqdd_design.sizing.able import PEAK, cooler, first_guess
 from cqdd_design.sizing.bearable import JUST, or_weaker, weaker
 from cqdd_design.sizing.costs import costs
-from cqdd_design.sizing.eased import eased
+from cqdd_design.sizing.eased import MUCH, eased
 from cqdd_design.sizing.frame import Fit, Goal
 from cqdd_design.sizing.hunt import FITS, Found, Hunt, Progress
 from cqdd_design.sizing.kinds import lightest, promising
@@ -196,9 +196,13 @@ def _or_sound(hunt: Hunt, found: Found, sound: _Sound | None) -> tuple[Found | N
 def _again(hunt: Hunt, found: Found) -> Found | None:
     """The search repeated with what has been learnt since.
 
-    Where that leaves nothing, for less torque if none was stated.
+    Where that leaves nothing, for less torque if none was stated: what the same gearbox bears, or
+    the strongest.
     """
-    return or_weaker(hunt, lambda: lightest(hunt), found)
+    better = lightest(hunt)
+    if better is None:
+        better = eased(hunt, found, MUCH)
+    return or_weaker(hunt, lambda: lightest(hunt), found) if better is None else better
 
 
 def _closer(fit: Fit) -> Fit:
