@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from cqdd_design.sizing.able import CONTINUOUS, PEAK
 from cqdd_design.sizing.bearable import weaker
 from cqdd_design.sizing.finish import finish
@@ -15,22 +17,22 @@ LITTLE, MUCH = 0.9, 0.7
 just fails to the next, and where such a search found none."""
 
 
-def eased(hunt: Hunt, found: Found, least: float = LITTLE) -> Found | None:
-    """The same gearbox for what enough of those that were looked at last bear.
+def eased(hunt: Hunt, found: Found, least: float) -> Found | None:
+    """Ask for what enough of the gearboxes that were looked at last bear, and the same gearbox.
 
-    None where the torque was stated, or less than a share of either would be left.
+    Nothing is changed where the torque was stated, or less than a share of either would be left;
+    None then, and where the gearbox has no room for the clearance that is asked for since.
     """
     peak, lasting = hunt.borne or (0.0, 0.0)
     stated = {PEAK, CONTINUOUS} - hunt.requirements.derived
     if PEAK in stated or min(peak, lasting) < least or (stated and lasting < 1.0):
         return None
-    asked = weaker(hunt.requirements, peak, lasting)
-    search = Search.of(
-        replace(hunt, requirements=asked, usual={}, extra_of={}).frame(found.space, {}), hunt.tables
-    )
+    hunt.requirements = weaker(hunt.requirements, peak, lasting)
+    hunt.lowered, hunt.eased = hunt.lowered or lasting < 1.0, True
+    space = found.space._replace(fit=hunt.fit)
+    search = Search.of(replace(hunt, usual={}, extra_of={}).frame(space, {}), hunt.tables)
     point = search.evaluator.placed(found.point)
     sized = finish(search.evaluator, point, 0)
-    if sized is None or sized.design.reducer != found.sized.design.reducer:
+    if sized is None or not np.array_equal(point.steps, found.point.steps):
         return None
-    hunt.requirements, hunt.lowered = asked, hunt.lowered or lasting < 1.0
-    return replace(found, search=search, sized=sized, point=point)
+    return replace(found, space=space, search=search, sized=sized, point=point)

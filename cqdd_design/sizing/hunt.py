@@ -199,6 +199,8 @@ class Hunt:
         Cam bearing of the design with which it did not; empty where strength was short.
     risen : int
         How often the torque was raised again with another cam bearing.
+    eased : bool
+        Whether torques were lowered to what part errors leave of a design.
     strongest : str
         Cam bearing of the design that bears most, where torques were lowered to what it bears.
     fit : Fit
@@ -247,6 +249,7 @@ class Hunt:
     lowered: bool = False
     lowered_by: str = ""
     risen: int = 0
+    eased: bool = False
     strongest: str = ""
     fit: Fit = FITS[0]
     least_bore: float = 0.0
@@ -272,7 +275,7 @@ class Hunt:
             When it has none.
         """
         for one in self.solved:
-            if one[0].given == machine.given:
+            if one[0].design == machine.design:
                 return one
         found = machine, exact_checks(machine)
         self.solved[_SOLVED:] = []

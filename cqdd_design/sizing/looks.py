@@ -60,9 +60,10 @@ def learn(hunt: Hunt, found: Found) -> bool:
     NothingWiderError
     """
     machine, can, step = found.sized.machine, None, None
+    hunt.borne = None
     for turn in range(_LOOKS):
         rigid = replace(machine, stiff=True)
-        calm = machine.given, hunt.may_rise(found.cam)
+        calm = machine.design, hunt.may_rise(found.cam)
         nothing = calm == hunt.calm
         can, step = (None, None) if nothing else look(hunt, rigid, heat_first=step is not None)
         if can is None and step is None:
@@ -221,7 +222,7 @@ def _drawn(hunt: Hunt, machine: Machine) -> Drawn:
 
 def _calibrate(hunt: Hunt, machine: Machine, drawn: Drawn) -> None:
     """Note what yielding discs and ring change, where a machine was looked at without them too."""
-    if hunt.rigid is None or hunt.rigid[0].given != machine.given:
+    if hunt.rigid is None or hunt.rigid[0].design != machine.design:
         return
     hunt.yielding = tuple(
         _high(one) / np.where(other, other, 1.0)

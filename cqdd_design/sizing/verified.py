@@ -16,7 +16,7 @@ from cqdd_design.design import Requirements
 from cqdd_design.sizing.able import PEAK, cooler, first_guess
 from cqdd_design.sizing.bearable import JUST, or_weaker, weaker
 from cqdd_design.sizing.costs import costs
-from cqdd_design.sizing.eased import MUCH, eased
+from cqdd_design.sizing.eased import LITTLE, MUCH, eased
 from cqdd_design.sizing.frame import Fit, Goal
 from cqdd_design.sizing.hunt import FITS, Found, Hunt, Progress
 from cqdd_design.sizing.kinds import lightest, promising
@@ -135,6 +135,11 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 found = _again(hunt, found)
                 continue
             if learn(hunt, found) or not thorough:
+                # Once: lighter ones that are found for less would be eased on and on.
+                less = None if hunt.eased else eased(hunt, found, LITTLE)
+                if less is not None:
+                    found = less
+                    continue
                 # The best may do with less clearance than the first; what it lacks will be seen.
                 hunt.fit = hunt.fit if thorough else _closer(hunt.fit)
                 thorough = True
@@ -149,7 +154,7 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
             can, step = look(hunt, found.sized.machine)
             if can is None and step is None:
                 step = last_look(hunt, found.sized.machine)
-                if (less := eased(hunt, found)) is not None:
+                if (less := eased(hunt, found, LITTLE)) is not None:
                     found = less
                     continue
             if can is None and step is None:
@@ -163,7 +168,7 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 step = _next_step(hunt, found, last)
                 if step is None:
                     break
-                if (less := eased(hunt, found)) is not None:
+                if (less := eased(hunt, found, LITTLE)) is not None:
                     found = less
                     continue
             take(hunt, can, step, found.cam)

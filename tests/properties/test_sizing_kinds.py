@@ -158,10 +158,10 @@ def test_a_backlash_beyond_what_is_asked_widens_the_ring_in_proportion() -> None
 
 def test_what_yields_is_noted_as_a_share_of_what_does_not() -> None:
     hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
-    machine = SimpleNamespace(given="this one")
+    machine = SimpleNamespace(design="this one")
     drawn = [SimpleNamespace(values=np.full((4, 2), more)) for more in (3.0, 6.0)]
     hunt.rigid = machine, (np.array([2.0, 4.0]), np.array([2.0, 0.0]))  # type: ignore[assignment]
-    _calibrate(hunt, SimpleNamespace(given="another"), drawn)  # type: ignore[arg-type]
+    _calibrate(hunt, SimpleNamespace(design="another"), drawn)  # type: ignore[arg-type]
     assert hunt.yielding is None
     _calibrate(hunt, machine, drawn)  # type: ignore[arg-type]
     assert hunt.yielding is not None
