@@ -17,9 +17,9 @@ from cqdd_design.sizing.finish import torque_reserve
 from cqdd_design.sizing.hunt import Found, Hunt, Space, spaces
 from cqdd_design.sizing.search import Search
 
-_LESS, _TURNS = 0.95, 16
-"""Share of both torques that is tried next where the strongest design would bear them, and how
-often."""
+_LESS, _HALF, _TURNS = 0.95, 0.5, 16
+"""Share of both torques that is tried next where the strongest design would bear them, the least
+where shafts would not, and how often."""
 _SHARES = (1.0, 0.6, 0.35, 0.2)
 """Of both torques at which something is looked for that bears more, or less, than them."""
 _STRONG = 5
@@ -68,7 +68,8 @@ def or_weaker(
         else:
             # Of what has been too much so far, and in the end of both.
             both = not any(lowered) or turn >= _TURNS // 2
-            peak, lasting = (_LESS if both or one else 1.0 for one in lowered)
+            less = max(min(_LESS, hunt.shaft_bears), _HALF)
+            peak, lasting = (less if both or one else 1.0 for one in lowered)
         # What was lowered for part errors is not raised to what the motor holds.
         if hunt.has_extra and lasting < 1.0:
             hunt.lowered, hunt.lowered_by = True, ""

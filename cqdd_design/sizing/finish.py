@@ -136,8 +136,9 @@ def _requirements_given(requirements: Requirements) -> dict[str, Any]:
     Torques equal to what would be derived anyway count as derived.
     """
     stated, fields = dump(requirements), Requirements.model_fields
-    given = {fields[name].alias or name for name in requirements.model_fields_set}
     peak, continuous = "peak_torque", "continuous_torque"
+    given = {fields[name].alias or name for name in requirements.model_fields_set}
+    given |= {peak, continuous}
     by_ratio = Requirements.model_validate({"ratio": requirements.ratio})
     by_peak = Requirements.model_validate({"ratio": requirements.ratio, peak: stated[peak]})
     derived = {peak: dump(by_ratio)[peak], continuous: dump(by_peak)[continuous]}

@@ -199,6 +199,8 @@ class Hunt:
         Cam bearing of the design with which it did not; empty where strength was short.
     risen : int
         How often the torque was raised again with another cam bearing.
+    shaft_bears : float
+        Share of the torques at which shafts were no longer too weak by far, where all were.
     eased : bool
         Whether torques were lowered to what part errors leave of a design.
     strongest : str
@@ -249,6 +251,7 @@ class Hunt:
     lowered: bool = False
     lowered_by: str = ""
     risen: int = 0
+    shaft_bears: float = 1.0
     eased: bool = False
     strongest: str = ""
     fit: Fit = FITS[0]

@@ -9,7 +9,7 @@ before anything dearer is asked.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from cqdd_design.errors import InfeasibleError
@@ -70,10 +70,10 @@ def lightest(hunt: Hunt) -> Found | None:
 
     One whose shaft is too weak where there is no other.
     """
-    best = next(iter(ranked(hunt)), None)
+    every = ranked(hunt)
     if PEAK in hunt.requirements.derived:
-        # Torques that nobody stated are lowered instead.
-        return None if best is None or _is_hopeless(best) else best
+        return _with_a_shaft(hunt, every)
+    best = next(iter(every), None)
     if best is None or best.weak:
         best = _hoped_for(hunt) or best
     return _tightest(hunt) if best is None else best
@@ -98,9 +98,10 @@ def promising(hunt: Hunt) -> Found | None:
     With the cam bearing that a screen makes lightest of those that are borne out; where torques
     were lowered to what the strongest design bears, with that one's.
     """
-    best = next(iter(ranked(hunt, thorough=False)), None)
+    every = ranked(hunt, thorough=False)
     if PEAK in hunt.requirements.derived:
-        return None if best is None or _is_hopeless(best) else best
+        return _with_a_shaft(hunt, every)
+    best = next(iter(every), None)
     if best is None or best.weak:
         best = _hoped_for(hunt) or best
     return _tightest(hunt) if best is None else best
@@ -177,9 +178,20 @@ def _turn(hunt: Hunt, kind: _Kind) -> tuple[bool, float]:
     return kind.space.cam != hunt.strongest, kind.objective
 
 
-def _is_hopeless(found: Found) -> bool:
-    """Whether a design's shaft is so weak that nothing near by will do."""
-    return any(not line.known or line.margin < _HOPELESS for line in found.weak)
+def _with_a_shaft(hunt: Hunt, every: Sequence[Found]) -> Found | None:
+    """The first design; None where all shafts are so weak that nothing near by will do.
+
+    Torques that nobody stated are lowered instead, then to what the best of them bears.
+    """
+    best = next(iter(every), None)
+    hopeless = best is not None and _shaft_margin(best) < _HOPELESS
+    hunt.shaft_bears = max(map(_shaft_margin, every)) / _HOPELESS if hopeless else 1.0
+    return None if hopeless else best
+
+
+def _shaft_margin(found: Found) -> float:
+    """The least margin of what is too weak of a design's shaft."""
+    return min((line.margin if line.known else 0.0 for line in found.weak), default=math.inf)
 
 
 def _bears(hunt: Hunt, found: Found) -> float:

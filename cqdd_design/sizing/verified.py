@@ -42,6 +42,8 @@ _CLOSER, _CLOSER_PINS = 0.96, 6
 _BY_FRICTION = {"EFFICIENCY", "MOTOR-PEAK", "MOTOR-CONTINUOUS", "THERMAL-RISE"}
 _NEEDLES_BRING = 0.8
 """Least margin of these lines from which needles under the output pins are tried."""
+_PATIENCE = 6
+"""Trials after which a gearbox that part errors leave short is eased, and no other looked for."""
 _LEAST_SHARE = 0.5
 """Of a peak torque that was not stated, below which no line's shortfall is met by lowering it."""
 _GOALS: Mapping[str, Goal] = {
@@ -125,7 +127,7 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     last: Verdict | None = None
     thorough = False
     sound: _Sound | None = None
-    for _ in range(TRIALS):
+    for trial in range(TRIALS):
         found = None if found is None else _with_rated_bearing(hunt, found)
         if found is None:
             break
@@ -135,8 +137,7 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 found = _again(hunt, found)
                 continue
             if learn(hunt, found) or not thorough:
-                # Once: lighter ones that are found for less would be eased on and on.
-                less = None if hunt.eased else eased(hunt, found, LITTLE)
+                less = None if _may_go_back(hunt, found, sound) else _less_of_it(hunt, found, trial)
                 if less is not None:
                     found = less
                     continue
@@ -180,6 +181,18 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     raise nothing(hunt) if found is None else unsettled(found)
 
 
+def _less_of_it(hunt: Hunt, found: Found, trial: int) -> Found | None:
+    """The gearbox for less torque, where part errors leave it a little short at first looks.
+
+    Once: lighter ones that are found for less would be eased on and on. In the end one gearbox is
+    held on to, or each that is found would ask for something else.
+    """
+    late = trial >= _PATIENCE
+    if hunt.eased and not late:
+        return None
+    return eased(hunt, found, MUCH if late else LITTLE)
+
+
 class _Sound(NamedTuple):
     """A design at which looks asked for nothing more, and what was asked of it then."""
 
@@ -188,14 +201,19 @@ class _Sound(NamedTuple):
     fit: Fit
 
 
+def _may_go_back(hunt: Hunt, found: Found, sound: _Sound | None) -> bool:
+    """Whether a design came from a sound one by a finer search, and the same is asked of it."""
+    return sound is not None and sound.found is not found and (hunt.fixed, hunt.fit) == sound[1:]
+
+
 def _or_sound(hunt: Hunt, found: Found, sound: _Sound | None) -> tuple[Found | None, _Sound | None]:
     """The search repeated, or the design from which a finer search led to one that asks for more.
 
     What part errors ask of the lighter one may be too much for both, though not for that.
     """
-    if sound is None or sound.found is found or (hunt.fixed, hunt.fit) != sound[1:]:
-        return _again(hunt, found), None
-    return sound.found, sound
+    if sound is not None and _may_go_back(hunt, found, sound):
+        return sound.found, sound
+    return _again(hunt, found), None
 
 
 def _again(hunt: Hunt, found: Found) -> Found | None:
