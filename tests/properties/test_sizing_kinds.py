@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from cqdd_design.design import Requirements, requirements_from_mapping
+from cqdd_design.sizing.bearable import Borne, or_weaker
+from cqdd_design.sizing.finish import _requirements_given
 from cqdd_design.sizing.hunt import FITS, MATERIALS, Hunt, Space, _undominated, spaces
-from cqdd_design.sizing.kinds import lightest
+from cqdd_design.sizing.kinds import _with_a_shaft, lightest
 from cqdd_design.sizing.looks import _asks_for_a_wider_ring, _calibrate, read_spread
 from cqdd_design.sizing.refine import Starts, climb
 from cqdd_design.sizing.search import Search
@@ -192,3 +195,39 @@ def test_of_few_gearboxes_the_overloaded_one_asks_for_reserve(
     assert found == step
     extra = hunt.extra_of.get("6803", {}).get("BEARING-STATIC", 1.0)
     assert extra == (pytest.approx(1.02 * 1.1) if not binding else 1.0)
+
+
+def test_torques_fall_to_what_the_best_of_the_shafts_bears(monkeypatch: pytest.MonkeyPatch) -> None:
+    hunt = hunt_for(asked(10, 40.0, 4.0, 1000.0).deriving("peak_torque", "continuous_torque"))
+
+    def found(*margins: float | None) -> Any:
+        lines = [SimpleNamespace(known=one is not None, margin=one) for one in margins]
+        return SimpleNamespace(weak=tuple(lines))
+
+    sound, near = found(), found(0.9)
+    assert _with_a_shaft(hunt, [sound, found(0.2)]) is sound
+    assert _with_a_shaft(hunt, [near, found(0.2)]) is near
+    assert hunt.shaft_bears == 1.0
+    assert _with_a_shaft(hunt, []) is None
+    assert hunt.shaft_bears == 1.0
+    assert _with_a_shaft(hunt, [found(0.8, None), found(0.9, 0.681), found(0.4)]) is None
+    assert hunt.shaft_bears == pytest.approx(0.8, rel=2e-3)
+
+    monkeypatch.setattr("cqdd_design.sizing.bearable.bearable", lambda *_: Borne(2.0, 3.0, "6903"))
+    assert or_weaker(hunt, iter([None, sound]).__next__) is sound
+    assert hunt.requirements.peak_torque == 32.0
+    assert hunt.requirements.continuous_torque == pytest.approx(3.2)
+    # Never by more than half at once, nor by less than a twentieth.
+    for bears, peak in ((0.1, 15.0), (0.99, 14.0)):
+        hunt.shaft_bears = bears
+        assert or_weaker(hunt, iter([None, sound]).__next__) is sound
+        assert hunt.requirements.peak_torque == peak
+
+
+def test_a_design_says_the_torques_that_were_tried() -> None:
+    """Those that may be lowered too, where they are not what follows from the ratio."""
+    free = asked(10, 40.0, 4.0, 1000.0).deriving("peak_torque", "continuous_torque")
+    given = _requirements_given(free)
+    assert (given["peak_torque"], given["continuous_torque"]) == ("40 N*m", "4 N*m")
+    plain = requirements_from_mapping({"ratio": 10})
+    assert not {"peak_torque", "continuous_torque"} & set(_requirements_given(plain))
