@@ -70,13 +70,7 @@ def lightest(hunt: Hunt) -> Found | None:
 
     One whose shaft is too weak where there is no other.
     """
-    every = ranked(hunt)
-    if PEAK in hunt.requirements.derived:
-        return _with_a_shaft(hunt, every)
-    best = next(iter(every), None)
-    if best is None or best.weak:
-        best = _hoped_for(hunt) or best
-    return _tightest(hunt) if best is None else best
+    return _best(hunt, ranked(hunt))
 
 
 def _hoped_for(hunt: Hunt) -> Found | None:
@@ -98,21 +92,25 @@ def promising(hunt: Hunt) -> Found | None:
     With the cam bearing that a screen makes lightest of those that are borne out; where torques
     were lowered to what the strongest design bears, with that one's.
     """
-    every = ranked(hunt, thorough=False)
+    return _best(hunt, ranked(hunt, thorough=False))
+
+
+def _best(hunt: Hunt, every: Sequence[Found]) -> Found | None:
+    """The first of some designs, else one that is hoped for, else the tightest.
+
+    Of perfect parts, where no toleranced ones have been looked at; where torques were not stated,
+    they are lowered instead.
+    """
     if PEAK in hunt.requirements.derived:
         return _with_a_shaft(hunt, every)
     best = next(iter(every), None)
     if best is None or best.weak:
         best = _hoped_for(hunt) or best
-    return _tightest(hunt) if best is None else best
-
-
-def _tightest(hunt: Hunt) -> Found | None:
-    """The best that is borne out, of perfect parts where none has been looked at."""
-    hunt.trusting = not hunt.has_extra
-    found = tightest(hunt)
-    hunt.trusting = False
-    return found
+    if best is None:
+        hunt.trusting = not hunt.has_extra
+        best = tightest(hunt)
+        hunt.trusting = False
+    return best
 
 
 def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
