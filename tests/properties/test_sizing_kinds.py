@@ -11,6 +11,7 @@ import pytest
 
 from cqdd_design.design import Requirements, requirements_from_mapping
 from cqdd_design.sizing.bearable import Borne, or_weaker
+from cqdd_design.sizing.eased import LITTLE, MUCH
 from cqdd_design.sizing.finish import _requirements_given
 from cqdd_design.sizing.hunt import FITS, MATERIALS, Hunt, Space, _undominated, spaces
 from cqdd_design.sizing.kinds import _with_a_shaft, lightest
@@ -19,6 +20,7 @@ from cqdd_design.sizing.refine import Starts, climb
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import weak_lines
 from cqdd_design.sizing.stage_tables import stage_tables
+from cqdd_design.sizing.verified import _PATIENCE, _less_of_it, _may_go_back, _Sound
 from cqdd_design.verdict.drawn import Drawn
 
 
@@ -231,3 +233,43 @@ def test_a_design_says_the_torques_that_were_tried() -> None:
     assert (given["peak_torque"], given["continuous_torque"]) == ("40 N*m", "4 N*m")
     plain = requirements_from_mapping({"ratio": 10})
     assert not {"peak_torque", "continuous_torque"} & set(_requirements_given(plain))
+
+
+def test_shares_are_of_what_was_asked() -> None:
+    borne = Borne(1.6, 0.5, "6903").of(0.5, 0.8)
+    assert borne == Borne(0.8, 0.4, "6903")
+    assert (borne.least, borne.both) == (0.4, pytest.approx(0.32))
+    # What is more than asked does not make up for what is short.
+    assert Borne(1.5, 0.5).both == 0.5
+    assert Borne(0.05, 0.05).of(0.5, 0.5)[:2] == (0.1, 0.1)
+
+
+def test_a_gearbox_is_eased_once_and_in_the_end_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    hunt = hunt_for(asked(10, 40.0, 4.0, 1000.0))
+    shares: list[float] = []
+    monkeypatch.setattr(
+        "cqdd_design.sizing.verified.eased", lambda _hunt, _found, least: shares.append(least)
+    )
+    found: Any = None
+    _less_of_it(hunt, found, 0)
+    hunt.eased = True
+    _less_of_it(hunt, found, 0)
+    assert shares == [LITTLE]
+    _less_of_it(hunt, found, _PATIENCE)
+    assert shares == [LITTLE, MUCH]
+
+
+def test_a_sound_design_is_gone_back_to_while_the_same_is_asked() -> None:
+    hunt, first, finer = hunt_for(asked(10, 40.0, 4.0, 1000.0)), object(), object()
+    sound: Any = _Sound(first, hunt.fixed, hunt.fit)  # type: ignore[arg-type]
+
+    def back(found: Any, to: Any) -> bool:
+        return _may_go_back(hunt, found, to)
+
+    assert back(finer, sound)
+    assert not back(first, sound)
+    assert not back(finer, None)
+    hunt.fit = FITS[1]
+    assert not back(finer, sound)
+    hunt.fit, hunt.least_bore = FITS[0], 0.01
+    assert not back(finer, sound)
