@@ -1,4 +1,4 @@
-"""The design that was found, for as much less torque as its part errors take."""
+"""The gearbox that was found, for what is asked by now, or for what its part errors leave."""
 
 from __future__ import annotations
 
@@ -29,6 +29,14 @@ def eased(hunt: Hunt, found: Found, least: float) -> Found | None:
         return None
     hunt.requirements = weaker(hunt.requirements, peak, lasting)
     hunt.lowered, hunt.eased = hunt.lowered or lasting < 1.0, True
+    return given(hunt, found)
+
+
+def given(hunt: Hunt, found: Found) -> Found | None:
+    """The same gearbox with the torques and the clearance that are asked for by now.
+
+    None where it has no room for that clearance. Loads and part errors are to be looked at again.
+    """
     space = found.space._replace(fit=hunt.fit)
     search = Search.of(replace(hunt, usual={}, extra_of={}).frame(space, {}), hunt.tables)
     point = search.evaluator.placed(found.point)

@@ -167,12 +167,20 @@ class Answer(NamedTuple):
     found : Found or None
     fine : bool
         Whether rings of nearly the same size were tried too.
+    least : float
+        Objective below which nothing was found; infinite where nothing was at all.
     """
 
     fixed: tuple[object, ...]
     extra: Mapping[str, float]
     found: Found | None
     fine: bool
+    least: float
+
+    @property
+    def gave_up(self) -> bool:
+        """Whether nothing was looked for beyond an objective, because another kind is better."""
+        return self.found is None and math.isfinite(self.least)
 
 
 @dataclass
@@ -190,6 +198,9 @@ class Hunt:
     trusting : bool
         Whether designs with cam bearings that have not been looked at need much less, and nothing
         where none has been.
+    settling : bool
+        Whether cam bearings that have been looked at are tried alone, if with any of them there is
+        a design.
     borne : tuple of float, optional
         Shares of the peak and of the continuous torque that enough of the gearboxes that were
         looked at last bear, where these were too few.
@@ -222,6 +233,8 @@ class Hunt:
     yielding : tuple of array, optional
         Outputs of gearboxes whose discs and ring yield over those of rigid ones, at the continuous
         and at the peak torque, of the last design that was looked at with them.
+    yielding_at : float
+        Thickness of that design's discs, m.
     rigid : tuple, optional
         The machine that was looked at last, and outputs of its gearboxes while nothing yields.
     calm : tuple, optional
@@ -247,6 +260,7 @@ class Hunt:
     usual: Mapping[str, float] = field(default_factory=lambda: _USUAL)
     extra_of: dict[str, dict[str, float]] = field(default_factory=dict)
     trusting: bool = False
+    settling: bool = False
     borne: tuple[float, float] | None = None
     lowered: bool = False
     lowered_by: str = ""
@@ -261,6 +275,7 @@ class Hunt:
     pins: tuple[bool, ...] = (False,)
     tried: set[Goal] = field(default_factory=set)
     yielding: tuple[NDArray[np.float64], ...] | None = None
+    yielding_at: float = 0.0
     rigid: tuple[Machine, tuple[NDArray[np.float64], ...]] | None = None
     calm: tuple[object, bool] | None = None
     solved: list[tuple[Machine, tuple[Check, ...]]] = field(default_factory=list)
@@ -287,8 +302,8 @@ class Hunt:
 
     @property
     def fixed(self) -> tuple[object, ...]:
-        """What is asked of every design but for part errors."""
-        limits = self.most_pin_circle, self.least_bore, self.least_ring
+        """What is asked of every design with a cam bearing that is tried, but for part errors."""
+        limits = self.most_pin_circle, self.least_ring
         return self.requirements, self.goal, *limits
 
     def may_rise(self, cam: str) -> bool:

@@ -70,6 +70,11 @@ def lightest(hunt: Hunt) -> Found | None:
 
     One whose shaft is too weak where there is no other.
     """
+    if hunt.settling:
+        known = next(iter(ranked(hunt)), None)
+        if known is not None and not known.worth[0]:
+            return known
+        hunt.settling = False
     return _best(hunt, ranked(hunt))
 
 
@@ -124,7 +129,12 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
         the hunt is fine.
     """
     tried = list(spaces(hunt.requirements, hunt.fit, hunt.pins))
-    kinds = [kind for space in tried for kind in _kinds(hunt, space, _near(hunt, space))]
+    kinds = [
+        kind
+        for space in tried
+        for kind in _kinds(hunt, space, _near(hunt, space))
+        if not hunt.settling or kind.space.cam in hunt.extra_of
+    ]
     found: list[Found] = []
     best: Found | None = None
     screened = {space for space in tried if _own(hunt, space)}
@@ -138,11 +148,12 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
             continue
         known, one = _answered(hunt, kind.space)
         if not known:
+            if best is not None and _least(hunt, kind.space) > best.worth[1]:
+                continue
             rings = _Rings(hunt, kind.space, best)
             one = rings.any()
-            # What lost to another may be the best where that one turns out to be none.
-            if thorough and not rings.gave_up:
-                _note(hunt, kind.space, one, fine=False)
+            if thorough:
+                _note(hunt, kind.space, one, rings.least(one))
         if one is None:
             continue
         found.append(one)
@@ -163,7 +174,7 @@ def ranked(hunt: Hunt, *, thorough: bool = True) -> list[Found]:
             ]
     if thorough and hunt.fine and best is not None:
         most = _FINE * best.worth[1]
-        found = [one if one.weak or one.worth[1] > most else _finer(hunt, one) for one in found]
+        found = [one if one.weak or one.worth[1] > most else finer(hunt, one) for one in found]
     return sorted(found, key=lambda one: one.worth)
 
 
@@ -221,7 +232,8 @@ def _answered(hunt: Hunt, space: Space) -> tuple[bool, Found | None]:
     now = hunt.extra_for(space.cam)
     for fit in FITS[: FITS.index(space.fit) + 1]:
         known = hunt.answered.get(space._replace(fit=fit))
-        if known is None or known.fixed != hunt.fixed:
+        # What lost to another may be the best where that one turns out to be none.
+        if known is None or known.fixed != hunt.fixed or known.gave_up:
             continue
         if known.found is None:
             if all(now.get(one, 1.0) >= less for one, less in known.extra.items()):
@@ -231,8 +243,28 @@ def _answered(hunt: Hunt, space: Space) -> tuple[bool, Found | None]:
     return False, None
 
 
-def _note(hunt: Hunt, space: Space, found: Found | None, *, fine: bool) -> None:
-    hunt.answered[space] = Answer(hunt.fixed, hunt.extra_for(space.cam), found, fine)
+def _least(hunt: Hunt, space: Space) -> float:
+    """Objective below which nothing of a kind was found, for no more than is asked now."""
+    now = hunt.extra_for(space.cam)
+    known = (
+        hunt.answered.get(space._replace(fit=fit)) for fit in FITS[: FITS.index(space.fit) + 1]
+    )
+    return max(
+        (
+            one.least
+            for one in known
+            if one is not None
+            and one.fixed == hunt.fixed
+            and all(now.get(each, 1.0) >= less for each, less in one.extra.items())
+        ),
+        default=0.0,
+    )
+
+
+def _note(
+    hunt: Hunt, space: Space, found: Found | None, least: float, *, fine: bool = False
+) -> None:
+    hunt.answered[space] = Answer(hunt.fixed, hunt.extra_for(space.cam), found, fine, least)
 
 
 def _key(space: Space) -> Space:
@@ -293,6 +325,12 @@ class _Rings:
         near = own or _near(hunt, space)
         self._needs = None if near is None else near.needs
         self._point = None if own is None else own.point
+
+    def least(self, found: Found | None) -> float:
+        """Objective below which nothing was found."""
+        if found is not None:
+            return found.worth[1]
+        return self._rival[1] if self.gave_up and self._rival is not None else math.inf
 
     def any(self) -> Found | None:
         """The best in a ring of any size, near enough, else in the largest.
@@ -379,7 +417,7 @@ class _Rings:
         return found
 
 
-def _finer(hunt: Hunt, found: Found) -> Found:
+def finer(hunt: Hunt, found: Found) -> Found:
     """The best in rings round that of a design, in finer and finer steps."""
     known = hunt.answered.get(found.space.kind)
     if known is not None and known.fine and known.found is found:
@@ -389,5 +427,5 @@ def _finer(hunt: Hunt, found: Found) -> Found:
         smaller = rings.walked(found, 1.0 - step)
         found = smaller or rings.walked(found, 1.0 / (1.0 - step)) or found
     hunt.known[_key(found.space)] = found
-    _note(hunt, found.space.kind, found, fine=True)
+    _note(hunt, found.space.kind, found, found.worth[1], fine=True)
     return found

@@ -40,6 +40,8 @@ _SPARE = 1.02
 
 _WIDEST = 0.995
 """Share of the largest ring beyond which no wider one is asked for."""
+_ALIKE = 1.25
+"""Ratio of the thickness of discs up to which they are taken to yield alike."""
 _LOOKS = 12
 """At one design before the search is repeated."""
 
@@ -204,11 +206,12 @@ def _drawn(hunt: Hunt, machine: Machine) -> Drawn:
     """A few gearboxes, whose discs and ring yield as they did at another design of the hunt.
 
     The finite elements of a new geometry cost more than all else here, and what yielding changes,
-    as a share, is alike for designs of one hunt.
+    as a share, is alike for designs of one hunt with discs of about the same thickness.
     """
     rigid = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False, rigid=True)
     hunt.rigid = machine, tuple(_high(one) for one in rigid)
-    if hunt.yielding is None:
+    thicker = machine.design.reducer.disc_thickness / (hunt.yielding_at or math.inf)
+    if hunt.yielding is None or not 1.0 / _ALIKE <= thicker <= _ALIKE:
         found = drawn_gearboxes(machine, _TRIAL_SAMPLES, sensitivity=False)
         _calibrate(hunt, machine, found)
         return found
@@ -224,6 +227,7 @@ def _calibrate(hunt: Hunt, machine: Machine, drawn: Drawn) -> None:
     """Note what yielding discs and ring change, where a machine was looked at without them too."""
     if hunt.rigid is None or hunt.rigid[0].design != machine.design:
         return
+    hunt.yielding_at = machine.design.reducer.disc_thickness
     hunt.yielding = tuple(
         _high(one) / np.where(other, other, 1.0)
         for one, other in zip(drawn, hunt.rigid[1], strict=True)

@@ -13,13 +13,13 @@ from typing import NamedTuple
 
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.design import Requirements
-from cqdd_design.sizing.able import PEAK, cooler, first_guess
+from cqdd_design.sizing.able import CONTINUOUS, PEAK, cooler, first_guess
 from cqdd_design.sizing.bearable import JUST, or_weaker, weaker
 from cqdd_design.sizing.costs import costs
-from cqdd_design.sizing.eased import LITTLE, MUCH, eased
+from cqdd_design.sizing.eased import LITTLE, MUCH, eased, given
 from cqdd_design.sizing.frame import Fit, Goal
 from cqdd_design.sizing.hunt import FITS, Found, Hunt, Progress
-from cqdd_design.sizing.kinds import lightest, promising
+from cqdd_design.sizing.kinds import finer, lightest, promising
 from cqdd_design.sizing.looks import (
     HOT,
     NothingWiderError,
@@ -43,7 +43,10 @@ _BY_FRICTION = {"EFFICIENCY", "MOTOR-PEAK", "MOTOR-CONTINUOUS", "THERMAL-RISE"}
 _NEEDLES_BRING = 0.8
 """Least margin of these lines from which needles under the output pins are tried."""
 _PATIENCE = 6
-"""Trials after which a gearbox that part errors leave short is eased, and no other looked for."""
+"""Trials after which a gearbox that part errors leave short is eased, a sound one kept, and no cam
+bearing tried that has not been looked at."""
+_WORTH_IT = 0.99
+"""Objective over a sound design's from which another is looked at instead."""
 _LEAST_SHARE = 0.5
 """Of a peak torque that was not stated, below which no line's shortfall is met by lowering it."""
 _GOALS: Mapping[str, Goal] = {
@@ -128,30 +131,35 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
     thorough = False
     sound: _Sound | None = None
     for trial in range(TRIALS):
+        hunt.settling = trial >= _PATIENCE
         found = None if found is None else _with_rated_bearing(hunt, found)
         if found is None:
             break
         try:
             if found.weak:
                 stronger_shaft(hunt, found, found.weak)
-                found = _again(hunt, found)
+                found = _better(hunt, found, sound, trial)
                 continue
-            if learn(hunt, found) or not thorough:
-                less = None if _may_go_back(hunt, found, sound) else _less_of_it(hunt, found, trial)
+            asks = (sound is None or sound.found is not found) and learn(hunt, found)
+            if not asks:
+                sound = _Sound(found, hunt.requirements, hunt.fit)
+            if asks or not thorough:
+                less = None if _may_go_back(hunt, sound) else _less_of_it(hunt, found, trial)
                 if less is not None:
                     found = less
                     continue
-                # The best may do with less clearance than the first; what it lacks will be seen.
-                hunt.fit = hunt.fit if thorough else _closer(hunt.fit)
+                if not asks:
+                    # The best may do with less clearance than the first.
+                    hunt.fit = _closer(hunt.fit)
                 thorough = True
-                found, sound = _or_sound(hunt, found, sound)
+                found = _better(hunt, found, sound, trial)
                 continue
             if not hunt.fine:
                 hunt.fine = True
-                sound = _Sound(found, hunt.fixed, hunt.fit)
-                found = _again(hunt, found)
+                found = finer(hunt, found)
                 continue
             # With elastic discs and ring, of which the looks before knew nothing.
+            sound = None
             can, step = look(hunt, found.sized.machine)
             if can is None and step is None:
                 step = last_look(hunt, found.sized.machine)
@@ -175,7 +183,9 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
             take(hunt, can, step, found.cam)
         except NothingWiderError:
             break
-        found, sound = _or_sound(hunt, found, sound)
+        # More clearance or less torque is given to the same gearbox, reserve to another.
+        same = given(hunt, found) if can is not None or step else None
+        found = _again(hunt, found) if same is None else same
     if last is not None:
         raise refused(last)
     raise nothing(hunt) if found is None else unsettled(found)
@@ -197,23 +207,34 @@ class _Sound(NamedTuple):
     """A design at which looks asked for nothing more, and what was asked of it then."""
 
     found: Found
-    fixed: tuple[object, ...]
+    requirements: Requirements
     fit: Fit
 
 
-def _may_go_back(hunt: Hunt, found: Found, sound: _Sound | None) -> bool:
-    """Whether a design came from a sound one by a finer search, and the same is asked of it."""
-    return sound is not None and sound.found is not found and (hunt.fixed, hunt.fit) == sound[1:]
+def _may_go_back(hunt: Hunt, sound: _Sound | None) -> bool:
+    """Whether a sound design is one for what is asked now: no less torque, the same goal."""
+    if sound is None or sound.found.sized.objective.goal != hunt.goal:
+        return False
+    then, now = sound.requirements, hunt.requirements
+    same = then.model_copy(update={key: getattr(now, key) for key in (PEAK, CONTINUOUS)}) == now
+    return same and all(getattr(then, key) >= getattr(now, key) for key in (PEAK, CONTINUOUS))
 
 
-def _or_sound(hunt: Hunt, found: Found, sound: _Sound | None) -> tuple[Found | None, _Sound | None]:
-    """The search repeated, or the design from which a finer search led to one that asks for more.
+def _better(hunt: Hunt, found: Found, sound: _Sound | None, trial: int) -> Found | None:
+    """The search repeated, or the sound design where that promises little more.
 
-    What part errors ask of the lighter one may be too much for both, though not for that.
+    What a search promises with a cam bearing that has not been looked at is seldom all kept; and
+    what part errors ask of a design by a finer search may be too much for both, though not for the
+    sound one.
     """
-    if sound is not None and _may_go_back(hunt, found, sound):
-        return sound.found, sound
-    return _again(hunt, found), None
+    if not _may_go_back(hunt, sound):
+        return _again(hunt, found)
+    assert sound is not None
+    again = None if hunt.fine or trial >= _PATIENCE else lightest(hunt)
+    if again is not None and again.worth < (False, _WORTH_IT * sound.found.worth[1]):
+        return again
+    hunt.requirements, hunt.fit = sound.requirements, sound.fit
+    return sound.found
 
 
 def _again(hunt: Hunt, found: Found) -> Found | None:

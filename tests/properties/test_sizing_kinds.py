@@ -14,13 +14,21 @@ from cqdd_design.sizing.bearable import Borne, or_weaker
 from cqdd_design.sizing.eased import LITTLE, MUCH
 from cqdd_design.sizing.finish import _requirements_given
 from cqdd_design.sizing.hunt import FITS, MATERIALS, Hunt, Space, _undominated, spaces
-from cqdd_design.sizing.kinds import _with_a_shaft, lightest
-from cqdd_design.sizing.looks import _asks_for_a_wider_ring, _calibrate, read_spread
+from cqdd_design.sizing.kinds import (
+    _answered,
+    _kinds,
+    _least,
+    _note,
+    _with_a_shaft,
+    lightest,
+    ranked,
+)
+from cqdd_design.sizing.looks import _asks_for_a_wider_ring, _calibrate, _drawn, read_spread
 from cqdd_design.sizing.refine import Starts, climb
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import weak_lines
 from cqdd_design.sizing.stage_tables import stage_tables
-from cqdd_design.sizing.verified import _PATIENCE, _less_of_it, _may_go_back, _Sound
+from cqdd_design.sizing.verified import _PATIENCE, _better, _less_of_it, _may_go_back, _Sound
 from cqdd_design.verdict.drawn import Drawn
 
 
@@ -163,7 +171,8 @@ def test_a_backlash_beyond_what_is_asked_widens_the_ring_in_proportion() -> None
 
 def test_what_yields_is_noted_as_a_share_of_what_does_not() -> None:
     hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
-    machine = SimpleNamespace(design="this one")
+    reducer = SimpleNamespace(disc_thickness=6e-3)
+    machine = SimpleNamespace(design=SimpleNamespace(reducer=reducer))
     drawn = [SimpleNamespace(values=np.full((4, 2), more)) for more in (3.0, 6.0)]
     hunt.rigid = machine, (np.array([2.0, 4.0]), np.array([2.0, 0.0]))  # type: ignore[assignment]
     _calibrate(hunt, SimpleNamespace(design="another"), drawn)  # type: ignore[arg-type]
@@ -259,17 +268,112 @@ def test_a_gearbox_is_eased_once_and_in_the_end_again(monkeypatch: pytest.Monkey
     assert shares == [LITTLE, MUCH]
 
 
-def test_a_sound_design_is_gone_back_to_while_the_same_is_asked() -> None:
-    hunt, first, finer = hunt_for(asked(10, 40.0, 4.0, 1000.0)), object(), object()
-    sound: Any = _Sound(first, hunt.fixed, hunt.fit)  # type: ignore[arg-type]
+def test_a_sound_design_is_gone_back_to_where_another_promises_little_more(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hunt = hunt_for(asked(10, 40.0, 4.0, 1000.0).deriving("peak_torque", "continuous_torque"))
 
-    def back(found: Any, to: Any) -> bool:
-        return _may_go_back(hunt, found, to)
+    def design(mass: float) -> Any:
+        objective = SimpleNamespace(goal="mass")
+        return SimpleNamespace(worth=(False, mass), sized=SimpleNamespace(objective=objective))
 
-    assert back(finer, sound)
-    assert not back(first, sound)
-    assert not back(finer, None)
-    hunt.fit = FITS[1]
-    assert not back(finer, sound)
-    hunt.fit, hunt.least_bore = FITS[0], 0.01
-    assert not back(finer, sound)
+    first, lighter = design(0.4), design(0.39)
+    searched: list[Any] = [lighter]
+    monkeypatch.setattr("cqdd_design.sizing.verified.lightest", lambda _: searched[-1])
+    sound = _Sound(first, hunt.requirements, FITS[1])
+    assert _better(hunt, first, sound, 0) is lighter
+    # One that is not lighter by a per cent, and any that is found late or by a finer search.
+    searched.append(design(0.397))
+    assert _better(hunt, first, sound, 0) is first
+    assert hunt.fit == FITS[1]
+    searched.append(lighter)
+    assert _better(hunt, first, sound, _PATIENCE) is first
+    hunt.fine = True
+    assert _better(hunt, first, sound, 0) is first
+    # What another design made of torques that were not stated is not kept.
+    more = hunt.requirements
+    hunt.requirements = more.model_copy(update={"continuous_torque": 3.0})
+    assert _better(hunt, lighter, sound, 0) is first
+    assert hunt.requirements is more
+    # But one for less torque, or for something else, is none for this.
+    hunt.requirements = more.model_copy(update={"peak_torque": 41.0})
+    assert not _may_go_back(hunt, sound)
+    hunt.requirements = more.model_copy(update={"life": 7.2e6})
+    assert not _may_go_back(hunt, sound)
+    hunt.requirements, hunt.goal = more, "size"
+    assert not _may_go_back(hunt, sound)
+    assert not _may_go_back(hunt, None)
+
+
+def test_a_kind_that_was_heavier_for_less_is_not_searched_again() -> None:
+    hunt = hunt_for(asked(10, 40.0, 4.0, 1000.0))
+    space = Space(2, MATERIALS[1], MATERIALS[1], FITS[0], cam="6803")
+    hunt.ask_extra("6803", {"BEARING-STATIC": 1.2})
+    assert _least(hunt, space) == 0.0
+    _note(hunt, space, None, 0.3)
+    assert hunt.answered[space].gave_up
+    assert _answered(hunt, space) == (False, None)
+    assert _least(hunt, space) == 0.3
+    # Nor with more clearance, nor for more reserve; but for less, or another torque, it may win.
+    assert _least(hunt, space._replace(fit=FITS[2])) == 0.3
+    hunt.ask_extra("6803", {"BEARING-STATIC": 1.3})
+    assert _least(hunt, space) == 0.3
+    hunt.extra_of["6803"]["BEARING-STATIC"] = 1.1
+    assert _least(hunt, space) == 0.0
+    hunt.extra_of["6803"]["BEARING-STATIC"] = 1.2
+    hunt.least_bore = 0.01
+    assert _least(hunt, space) == 0.3
+    hunt.requirements = asked(10, 39.0, 4.0, 1000.0)
+    assert _least(hunt, space) == 0.0
+    # Where nothing is at all, that is the answer.
+    _note(hunt, space, None, np.inf)
+    assert not hunt.answered[space].gave_up
+    assert _answered(hunt, space) == (True, None)
+
+
+def test_in_the_end_only_known_cam_bearings_are_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    hunt = hunt_for(asked(10, 30.0, 4.0, 1000.0))
+    every = {
+        kind.space.cam
+        for space in spaces(hunt.requirements, FITS[0])
+        for kind in _kinds(hunt, space, None)
+    }
+    assert len(every) > 5
+    tried: list[str] = []
+
+    def none(_: object, space: Space, *args: object, **more: object) -> tuple[None, bool]:
+        tried.append(space.cam)
+        return None, False
+
+    monkeypatch.setattr("cqdd_design.sizing.kinds.settled", none)
+    hunt.ask_extra("6803", {"BEARING-STATIC": 1.2})
+    hunt.settling = True
+    assert ranked(hunt) == []
+    assert set(tried) == {"6803"}
+    # Where there is none with them, every one is.
+    hunt.trusting = True
+    monkeypatch.setattr("cqdd_design.sizing.kinds.tightest", lambda _: None)
+    assert lightest(hunt) is None
+    assert not hunt.settling
+    assert len(set(tried)) > 5
+
+
+def test_discs_of_another_thickness_yield_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The finite elements of one design serve others with discs of about the same thickness."""
+    hunt = hunt_for(asked(10, 40.0, 4.0, 1000.0))
+    bodies: list[bool] = []
+
+    def drawn(_: object, *args: object, rigid: bool = False, **more: object) -> Drawn:
+        bodies.append(not rigid)
+        return Drawn(*(SimpleNamespace(values=np.ones((2, 3))) for _ in range(2)))  # type: ignore[arg-type]
+
+    def machine(thickness: float) -> Any:
+        reducer = SimpleNamespace(disc_thickness=thickness)
+        return SimpleNamespace(design=SimpleNamespace(reducer=reducer, number=len(bodies)))
+
+    monkeypatch.setattr("cqdd_design.sizing.looks.drawn_gearboxes", drawn)
+    monkeypatch.setattr("cqdd_design.sizing.looks.replace", lambda one, **_: one)
+    for thickness, told in ((6e-3, True), (7e-3, False), (9e-3, True), (8e-3, False)):
+        bodies.clear()
+        _drawn(hunt, machine(thickness))
+        assert any(bodies) is told

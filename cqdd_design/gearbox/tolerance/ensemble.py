@@ -89,7 +89,9 @@ def _tables(ensemble: Ensemble) -> EnsembleTables:
     bodies = None
     if ensemble.bodies is not None:
         bodies = _yielding(ensemble.bodies, ensemble.torque, ensemble.angles)
-    return ensemble_tables(model, ensemble.torque, ensemble.angles, bodies)
+    return ensemble_tables(
+        model, ensemble.torque, ensemble.angles, bodies, outputs=ensemble.outputs
+    )
 
 
 @functools.lru_cache(maxsize=2)

@@ -154,6 +154,8 @@ def ensemble_tables(
     torque: float,
     angles: int | None = None,
     bodies: BodyCompliance | None = None,
+    *,
+    outputs: tuple[str, ...] = OUTPUTS,
 ) -> EnsembleTables:
     """Prepare an ensemble.
 
@@ -166,13 +168,16 @@ def ensemble_tables(
         Crank angles over the output turn, at least 8; default :func:`turn_angles`.
     bodies : BodyCompliance, optional
         Of the same angles, from :func:`body_compliance`; default rigid.
+    outputs : tuple of str
+        `OUTPUTS`, or `LOADS`, which ask for nothing of a gearbox without load.
     """
     wanted = turn_angles(model.lobe_count) if angles is None else angles
     states = nominal_states(model, output_turn_angles(model, wanted))
     marked = marked_angles(model.lobe_count, len(states.crank_angle))
     held = replace(model, pin=None)
     perfect = contact_sweep(held, torque, states=states).state_vectors
-    start = Start(marked, perfect, free_poses(model, states), torque)
+    free = np.zeros((2, *perfect.shape)) if outputs == LOADS else free_poses(model, states)
+    start = Start(marked, perfect, free, torque)
     return EnsembleTables(model, states, start, _shared(model, states, torque, bodies))
 
 
