@@ -163,7 +163,7 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
             can, step = look(hunt, found.sized.machine)
             if can is None and step is None:
                 step = last_look(hunt, found.sized.machine)
-                if (less := eased(hunt, found, LITTLE)) is not None:
+                if (less := eased(hunt, found, _least_left(trial))) is not None:
                     found = less
                     continue
             if can is None and step is None:
@@ -177,7 +177,7 @@ def searched(hunt: Hunt, requirements: Requirements) -> VerifiedDesign:
                 step = _next_step(hunt, found, last)
                 if step is None:
                     break
-                if (less := eased(hunt, found, LITTLE)) is not None:
+                if (less := eased(hunt, found, _least_left(trial))) is not None:
                     found = less
                     continue
             take(hunt, can, step, found.cam)
@@ -197,10 +197,14 @@ def _less_of_it(hunt: Hunt, found: Found, trial: int) -> Found | None:
     Once: lighter ones that are found for less would be eased on and on. In the end one gearbox is
     held on to, or each that is found would ask for something else.
     """
-    late = trial >= _PATIENCE
-    if hunt.eased and not late:
+    if hunt.eased and trial < _PATIENCE:
         return None
-    return eased(hunt, found, MUCH if late else LITTLE)
+    return eased(hunt, found, _least_left(trial))
+
+
+def _least_left(trial: int) -> float:
+    """Share of a torque that is left at least where a gearbox is eased."""
+    return MUCH if trial >= _PATIENCE else LITTLE
 
 
 class _Sound(NamedTuple):
