@@ -20,7 +20,7 @@ from cqdd_design.sizing.bearable import both_bearable
 from cqdd_design.sizing.frame import Goal
 from cqdd_design.sizing.hunt import Hunt, Progress
 from cqdd_design.sizing.infeasible import SizingInfeasibleError
-from cqdd_design.sizing.kinds import promising
+from cqdd_design.sizing.kinds import ranked
 from cqdd_design.sizing.verified import VerifiedDesign, new_hunt, searched
 
 _MOST = 2.5
@@ -147,10 +147,10 @@ def _bears(hunt: Hunt, asked: Requirements) -> bool:
     try:
         if both_bearable(some) < _NEARLY:
             return False
-        found = promising(some)
+        found = next(iter(ranked(some, thorough=False)), None)
     except InfeasibleError:
         return False
-    return found is not None and not found.weak
+    return found is not None and not found.worth[0]
 
 
 def _least(hunt: Hunt, asked: Requirements, key: str, limit: float) -> float | None:

@@ -46,11 +46,11 @@ def said(monkeypatch, bears, verdict, given=ASKED, first=("BEARING-STATIC",), le
 
     monkeypatch.setattr(nearest, "searched", searched)
     monkeypatch.setattr(nearest, "both_bearable", lambda _: 1.0)
-    promising = SimpleNamespace(weak=())
+    sound = SimpleNamespace(worth=(False, 1.0))
     monkeypatch.setattr(
         nearest,
-        "promising",
-        lambda hunt: promising if bears(1e3 * hunt.requirements.length) else None,
+        "ranked",
+        lambda hunt, **_: [sound] if bears(1e3 * hunt.requirements.length) else [],
     )
     with pytest.raises(SizingInfeasibleError) as caught:
         nearest.size_or_nearest(asked)
