@@ -14,6 +14,9 @@ not assertions: run this by hand on a machine that does nothing else.
     python3 -m venv /tmp/cycloidgen && /tmp/cycloidgen/bin/pip install cycloidgen==8.0.0
     python benchmarks/processes.py --cycloidgen /tmp/cycloidgen/bin/python --write
 
+`--long` adds what takes minutes, each run once: a search over all motors, and the first command
+after an installation, whose kernels are not compiled.
+
 `--write` puts the result into docs/benchmarks.md; without it the page goes to standard output.
 """
 
@@ -64,6 +67,10 @@ class Command:
     limit: float | None = None
     new: bool = False
     """Whether nothing of an earlier run is kept."""
+    first: bool = False
+    """Whether no kernel is compiled either."""
+    once: bool = False
+    """Whether it runs once, however many runs are asked for."""
 
 
 @dataclass(frozen=True)
@@ -108,6 +115,31 @@ def our_commands() -> list[Command]:
     ]
 
 
+def long_commands() -> list[Command]:
+    """Return the commands that take minutes, or leave the processor to nothing else."""
+    start = (sys.executable, "-m", "cqdd_design")
+    motors, analysis = "size --motor any --ratio 10", "analyse designs/cqdd-10.toml"
+    return [
+        Command(
+            "any motor",
+            f"cqdd-design {motors}",
+            (*start, *motors.split(), "--json"),
+            90.0,
+            new=True,
+            once=True,
+        ),
+        Command(
+            "first",
+            f"cqdd-design {analysis}",
+            (*start, "analyse", str(DESIGN)),
+            20.0,
+            new=True,
+            first=True,
+            once=True,
+        ),
+    ]
+
+
 def their_commands(python: str) -> list[Command]:
     """Return the commands of cycloidgen that do the same kind of work."""
     export = "-m cycloidgen --ratio 10 --only drawings,data,solids --out out"
@@ -134,6 +166,8 @@ def run_once(command: Command, kept: str) -> tuple[float, str]:
     environment = {**os.environ, "PYTHONPATH": "" if theirs else path}
     with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as empty:
         environment["CQDD_DESIGN_CACHE"] = empty if command.new else kept
+        if command.first:
+            environment["NUMBA_CACHE_DIR"] = empty
         begin = time.perf_counter()
         done = subprocess.run(
             command.arguments,
@@ -150,12 +184,14 @@ def run_once(command: Command, kept: str) -> tuple[float, str]:
 
 
 def measure(commands: Sequence[Command], runs: int) -> list[Timing]:
-    """Run every command once unmeasured and then `runs` times in turn."""
+    """Run every command once unmeasured and then `runs` times in turn; some only once."""
     seconds: dict[str, list[float]] = {command.name: [] for command in commands}
     outputs: dict[str, str] = {}
     with tempfile.TemporaryDirectory() as kept:
         for turn in range(runs + 1):
             for command in commands:
+                if command.once and turn != 1:
+                    continue
                 taken, outputs[command.name] = run_once(command, kept)
                 if turn > 0:
                     seconds[command.name].append(taken)
@@ -248,6 +284,10 @@ def _row(timing: Timing) -> str:
     goal = "" if timing.command.limit is None else f"under {timing.command.limit:g} s"
     low, high = min(timing.seconds), max(timing.seconds)
     new = ", nothing kept" if timing.command.new else ""
+    if timing.command.first:
+        new = ", after an installation: no kernel compiled"
+    if timing.command.once:
+        new += "; one run"
     return (
         f"| `{timing.command.shown}`{new} | {timing.median:.2f} s | {low:.2f} s | {high:.2f} s "
         f"| {goal} |"
@@ -289,9 +329,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--runs", type=int, default=5, help="measured runs of each command")
     parser.add_argument("--cycloidgen", metavar="PYTHON", help="Python that has cycloidgen")
+    parser.add_argument("--long", action="store_true", help="what takes minutes too, once each")
     parser.add_argument("--write", action="store_true", help="write docs/benchmarks.md")
     options = parser.parse_args()
-    commands = our_commands()
+    commands = our_commands() + (long_commands() if options.long else [])
     if options.cycloidgen:
         commands += their_commands(options.cycloidgen)
     text = page(measure(commands, max(1, options.runs)), max(1, options.runs))

@@ -55,18 +55,16 @@ def moving() -> None:
 
 
 def gearboxes() -> None:
-    """A whole analysis, and ensembles of two gearboxes, of all outputs and of loads alone."""
+    """A whole analysis, and an ensemble of two gearboxes."""
     from cqdd_design.design import load_design
     from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
-    from cqdd_design.gearbox.tolerance.evaluate import LOADS, OUTPUTS
     from cqdd_design.gearbox.tolerance.run import run_ensemble
     from cqdd_design.machine import resolve
     from cqdd_design.machine.contact_analysis import analyse_contact
 
     design = load_design(PAPER)
     analyse_contact(resolve(design), angles=44)
-    for outputs in (OUTPUTS, LOADS):
-        run_ensemble(make_ensemble(design, angles=44, outputs=outputs), 2)
+    run_ensemble(make_ensemble(design, angles=44), 2)
 
 
 if __name__ == "__main__":

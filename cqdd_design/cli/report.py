@@ -38,21 +38,25 @@ def report(
     force: Force = False,
 ) -> None:
     """One self-contained file for the design review: HTML, or PDF through a browser."""
-    from cqdd_design.cli.tables import headline_table
-    from cqdd_design.roads.report import REPORT_STAGES, report_form, write_report
+    from cqdd_design.roads.drawer import waiting_drawer
 
-    chosen = report_form(format)
-    loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)
-    out.compile_ahead(loaded, simulation=True, ensembles=True)
-    written = write_report(
-        loaded,
-        target,
-        specimen=read_specimen(out, loaded, calibration=calibration, seed=seed),
-        source=design,
-        form=chosen,
-        force=force,
-        progress=out.stages(REPORT_STAGES),
-    )
+    with waiting_drawer() as drawer:
+        from cqdd_design.cli.tables import headline_table
+        from cqdd_design.roads.report import REPORT_STAGES, report_form, write_report
+
+        chosen = report_form(format)
+        loaded = under_duty(read_design(out, design, motor, motor_file), duty, duty_columns)
+        out.compile_ahead(loaded, simulation=True, ensembles=True)
+        written = write_report(
+            loaded,
+            target,
+            specimen=read_specimen(out, loaded, calibration=calibration, seed=seed),
+            source=design,
+            form=chosen,
+            force=force,
+            drawer=drawer,
+            progress=out.stages(REPORT_STAGES),
+        )
     judged = written.verdict
     out.wrote([written.file])
     out.say(headline_table(judged), "", judged.sentence)

@@ -112,13 +112,11 @@ _DRAWN = (
     ("Start", "b1", "f2", "f3", "f"),
     ("Shared", _RUBBING, _RUBBING, _COMPLIANCE, _COMPLIANCE, ("Worn", "f3", "f3", "f")),
     ("GearboxErrors", "f2", "f1", "f3", "f3", "f2", "f2", "f1", "f2", "f1", "f1"),
+    "i",
     "f1",
 )  # fmt: skip
 _DRAWN_VALUES = "gearbox.contact.kernel_values", "gearbox.contact.part_errors"
-ENSEMBLES = (
-    Kernel("gearbox.tolerance.ensemble_kernel", "solve_gearbox", _DRAWN, _DRAWN_VALUES),
-    Kernel("gearbox.tolerance.ensemble_kernel", "solve_greatest", _DRAWN, _DRAWN_VALUES),
-)
+ENSEMBLES = (Kernel("gearbox.tolerance.ensemble_kernel", "solve_gearbox", _DRAWN, _DRAWN_VALUES),)
 """What works toleranced gearboxes."""
 SIZING = (
     Kernel("sizing.shape_kernel", "reliefs_pass", ("i", "f2", "f2", "f", "b1")),

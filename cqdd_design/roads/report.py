@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, nullcontext
 from pathlib import Path
+from subprocess import Popen
 from typing import Literal, NamedTuple, get_args
 
 from cqdd_design.actuator.bench import BenchResult
@@ -28,6 +29,7 @@ from cqdd_design.report import ReportInput, build_report, read_comments
 from cqdd_design.report.machine_view.apart import start_drawing
 from cqdd_design.report.printing import printed_page, printing_browser
 from cqdd_design.roads.bench import measured_actuator
+from cqdd_design.roads.drawer import begin_drawer
 from cqdd_design.roads.sized_file import kept_costs
 from cqdd_design.roads.telling import Progress, provenance, silent
 from cqdd_design.sizing import SizingResult
@@ -77,6 +79,7 @@ def write_report(
     samples: int = YIELD_SAMPLES,
     form: ReportForm = "html",
     force: bool = False,
+    drawer: Popen[bytes] | None = None,
     progress: Progress = silent,
 ) -> WrittenReport:
     """Write the report of a design.
@@ -102,6 +105,8 @@ def write_report(
         The page itself, or printed by a browser.
     force : bool
         Replace an existing file that was named.
+    drawer : subprocess.Popen, optional
+        From :func:`.drawer.waiting_drawer`, where it was begun before this module was there.
     progress : callable
         Told in a few words what begins.
 
@@ -123,7 +128,12 @@ def write_report(
     own_motor = (machine.motor.remark,) if machine.motor.remark else ()
     analysis = machine.analysis
     bodies, notes = weigh_if_possible(machine)
-    with closing(start_drawing(machine)) if bodies else nullcontext() as drawing:
+    drawing_if = (
+        closing(start_drawing(machine, lambda: drawer or begin_drawer()))
+        if bodies
+        else nullcontext()
+    )
+    with drawing_if as drawing:
         # Gearboxes are drawn in compiled code, beside which the rest has another core.
         with ThreadPoolExecutor(1) as pool:
             rest = pool.submit(_beside, machine, specimen)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from cqdd_design.gearbox.checks import allowables
 from cqdd_design.gearbox.checks.state import build_check
 from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
-from cqdd_design.gearbox.tolerance.evaluate import LOADS, PER_TOOTH
+from cqdd_design.gearbox.tolerance.evaluate import LOADS, PER_TOOTH, RANKED
 from cqdd_design.gearbox.tolerance.remembered import work_remembered
 from cqdd_design.gearbox.tolerance.run import ToleranceResult, run_ensemble
 from cqdd_design.machine import Machine
@@ -42,7 +42,8 @@ def drawn_gearboxes(
     samples : int
         Gearboxes.
     sensitivity : bool
-        Whether to rank the tolerances too, at the continuous torque, which takes twice as many.
+        Whether to rank the tolerances too, at the continuous torque, which takes twice as many;
+        by `RANKED` alone.
     rigid : bool
         Whether discs and ring do not yield, for a look that has to be quick.
 
@@ -64,6 +65,7 @@ def drawn_gearboxes(
             samples,
             mapper=work_remembered,
             sensitivity=sensitivity,
+            ranked=RANKED,
         ),
         peaks,
     )

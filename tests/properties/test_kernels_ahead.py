@@ -16,7 +16,6 @@ from cqdd_design.files import kernel_part
 from cqdd_design.gearbox.bodies.point_load import Places, Plate, displacement_of
 from cqdd_design.gearbox.bodies.point_load_kernel import displacements
 from cqdd_design.gearbox.tolerance.ensemble import make_ensemble
-from cqdd_design.gearbox.tolerance.evaluate import LOADS, OUTPUTS
 from cqdd_design.gearbox.tolerance.run import run_ensemble
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.contact_analysis import analyse_contact
@@ -48,8 +47,7 @@ def test_what_is_compiled_ahead_is_what_commands_call() -> None:
     design = load_design(PAPER)
     analyse_contact(resolve(design), angles=44)
     simulate([paper_actuator()], Scenario(), 1e-3, 1e-5)
-    for outputs in (OUTPUTS, LOADS):
-        run_ensemble(make_ensemble(design, angles=44, outputs=outputs), 2)
+    run_ensemble(make_ensemble(design, angles=44), 2)
     Search.of(search_frame(Requirements(ratio=10))).most_reserve()
     for kernel in (*GEARBOX, *SIMULATION, *ENSEMBLES, *SIZING):
         assert signature(kernel) in kernel.compiled().signatures, kernel.name

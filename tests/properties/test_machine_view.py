@@ -336,17 +336,16 @@ def test_pictures_of_an_earlier_run_are_kept(
 ) -> None:
     """By design and layout and the package's state; what is spoilt is drawn anew."""
     monkeypatch.setenv("CQDD_DESIGN_CACHE", str(tmp_path))
-    monkeypatch.setattr(apart.subprocess, "Popen", _Drawn)
     found = resolve(known_design("paper"))
-    first = apart.start_drawing(found)
+    first = apart.start_drawing(found, _Drawn)
     assert first.process is not None
-    assert first.fetch() == apart.start_drawing(found).fetch() == _Drawn.views
-    assert apart.start_drawing(found).process is None
+    assert first.fetch() == apart.start_drawing(found, _Drawn).fetch() == _Drawn.views
+    assert apart.start_drawing(found, _Drawn).process is None
     other = resolve(known_design("paper").replacing({"reducer.disc_spacing": 1e-3}))
-    assert apart.start_drawing(other).process is not None
+    assert apart.start_drawing(other, _Drawn).process is not None
     (entry,) = (tmp_path / "pictures").iterdir()
     entry.write_bytes(entry.read_bytes()[:-1] + b"0")
-    assert apart.start_drawing(found).process is not None
+    assert apart.start_drawing(found, _Drawn).process is not None
 
 
 class _Drawn:

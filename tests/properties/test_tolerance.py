@@ -32,6 +32,7 @@ from cqdd_design.gearbox.tolerance.ensemble import (
 from cqdd_design.gearbox.tolerance.evaluate import (
     LOADS,
     OUTPUTS,
+    RANKED,
     body_compliance,
     ensemble_tables,
     evaluate_gearboxes,
@@ -128,8 +129,9 @@ def test_numbers_do_not_depend_on_threads_or_blocks() -> None:
     errors = draw_errors(tables.model, ensemble.design.tolerances, 0, 0, 12)
     one = evaluate_gearboxes(tables, errors, threads=1)
     assert np.array_equal(one, evaluate_gearboxes(tables, errors, threads=3))
-    loads = evaluate_gearboxes(tables, errors, outputs=LOADS)
-    assert np.array_equal(loads, one[:, [OUTPUTS.index(name) for name in LOADS]])
+    for some in (LOADS, RANKED):
+        alone = evaluate_gearboxes(tables, errors, outputs=some)
+        assert np.array_equal(alone, one[:, [OUTPUTS.index(name) for name in some]])
     pieces = [work_block(ensemble, Block(first, 4)) for first in (8, 0, 4)]
     assert np.array_equal(one, np.concatenate([pieces[1], pieces[2], pieces[0]]))
 
@@ -268,6 +270,17 @@ def test_an_output_that_does_not_vary_has_no_indices() -> None:
     found = sobol_indices(flat, flat, np.tile(flat, (4, 1)))
     assert np.array_equal(found.first, np.zeros(4))
     assert np.array_equal(found.total, np.zeros(4))
+
+
+def test_tolerances_rank_the_same_by_fewer_outputs() -> None:
+    ensemble = replace(make_ensemble(paper(), angles=110), bodies=None)
+    every, some = (run_ensemble(ensemble, 128, ranked=outputs) for outputs in (OUTPUTS, RANKED))
+    assert some.sensitivity is not None
+    assert tuple(some.sensitivity) == RANKED
+    for name in RANKED:
+        assert some.ranking(name) == every.ranking(name)
+    assert np.array_equal(some.values, every.values)
+    assert some.solves < every.solves
 
 
 @pytest.mark.deep

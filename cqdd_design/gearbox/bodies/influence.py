@@ -20,7 +20,6 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from threadpoolctl import threadpool_limits
 
 from cqdd_design.gearbox.bodies.edge_tractions import EdgeTractions
 from cqdd_design.gearbox.bodies.elements import EDGE_POINTS, Edges, Elements, side_points
@@ -165,9 +164,7 @@ def influence(
     forces = (weighed[where].T @ smooth) @ share
     left.add_forces(forces[:, : len(sharp)], weighed, sharp)
     # L_i (s_j + w_j)
-    with threadpool_limits(limits=1, user_api="blas"):
-        # Fronts are small: threads would wait for each other, ten times as long on a busy machine.
-        found = body.factors(held, springs).solve(forces, edges.unknowns)
+    found = body.factors(held, springs).solve(forces, edges.unknowns)
     if loads.with_reactions:
         # How it turns as a whole hangs on what is held, and quadratic sides read a strain in it.
         for part in np.array_split(found, _BLOCKS, axis=1):

@@ -14,6 +14,7 @@ from cqdd_design.gearbox.bodies.elements import Elements, elements
 from cqdd_design.gearbox.bodies.influence import Influence, Loads, influence, self_balanced
 from cqdd_design.gearbox.bodies.loops import Loop
 from cqdd_design.gearbox.bodies.mesh import mesh
+from cqdd_design.gearbox.bodies.one_core import one_core
 from cqdd_design.gearbox.bodies.point_load import Places, Plate
 from cqdd_design.gearbox.bodies.ring import RingShape
 from cqdd_design.geometry.contours import FloatArray
@@ -82,6 +83,7 @@ def of_standard(body: Body, carried: Carried) -> Body:
     return replace(body, matrix=matrix, carried=carried).widened()
 
 
+@one_core()
 def disc_body(shape: DiscShape) -> Body:
     """Compute a disc.
 
@@ -118,6 +120,7 @@ def disc_body(shape: DiscShape) -> Body:
     return _body(matrix, stresses)
 
 
+@one_core()
 def ring_body(shape: RingShape) -> Body:
     """Compute a ring in its seat.
 

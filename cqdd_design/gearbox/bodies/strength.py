@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from cqdd_design.gearbox.bodies.compliance import ElasticBodies
 from cqdd_design.gearbox.bodies.give import ToothGive, tooth_gives
+from cqdd_design.gearbox.bodies.one_core import one_core
 from cqdd_design.gearbox.bodies.stress import Region, disc_regions, disc_stress, ring_stress
 from cqdd_design.gearbox.contact.solved import ContactSweep
 from cqdd_design.gearbox.contact.states import NominalStates
@@ -210,6 +211,7 @@ class _Edge:
     orbit: NDArray[np.int64]
 
 
+@one_core()
 def body_strength(
     bodies: ElasticBodies,
     states: NominalStates,

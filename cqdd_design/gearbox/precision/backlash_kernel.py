@@ -42,11 +42,12 @@ _STILL = 2e-10
 
 
 @part(borrows=True)
-def _true_gaps(parts: RigidParts, at: int, state: Any, rows: Any, gaps: Any) -> None:
+def _true_gaps(parts: RigidParts, at: int, pins: Any, state: Any, rows: Any, gaps: Any) -> None:
     """Rows and gaps linearised at the displaced state, with gaps in the nominal coordinates.
 
-    `at` is the index of the crank angle. A gap is seen as that of the flank's osculating circle of
-    curvature kappa: with the tooth moved by a outward and b along, it opens by
+    `at` is the index of the crank angle; `pins` (P, 4) has the pins' nominal places there, and room
+    for those to which the carrier has turned them. A gap is seen as that of the flank's osculating
+    circle of curvature kappa: with the tooth moved by a outward and b along, it opens by
     (2 a + kappa (a^2 + b^2))/(1 + sqrt((1 + kappa a)^2 + (kappa b)^2)).
     """
     eccentricity, length, tooth_centre = parts.eccentricity, parts.length, parts.tooth_centre
@@ -56,6 +57,9 @@ def _true_gaps(parts: RigidParts, at: int, state: Any, rows: Any, gaps: Any) -> 
     teeth = tooth_centre.shape[0]
     discs, contacts = nominal_gaps.shape
     turn = state[2] / length
+    for j in range(contacts - teeth):
+        pins[j, 2] = length * math.cos(pin_angle[j] + turn)
+        pins[j, 3] = length * math.sin(pin_angle[j] + turn)
     for d in range(discs):
         x, y, t = state[3 + 3 * d], state[4 + 3 * d], state[5 + 3 * d] / length
         ex = eccentricity * math.cos(own_angle[d])
@@ -83,11 +87,10 @@ def _true_gaps(parts: RigidParts, at: int, state: Any, rows: Any, gaps: Any) -> 
             gaps[d, k] = nominal_gaps[d, k] + opened - (vx * x + vy * y + arm * t * length)
         for k in range(teeth, contacts):
             j = k - teeth
-            px, py = length * math.cos(pin_angle[j]), length * math.sin(pin_angle[j])
+            px, py = pins[j, 0], pins[j, 1]
             # Hole from the disc's centre, and the pin, both displaced; then hole from pin.
             hx, hy = c * px - s * py, s * px + c * py
-            gx = length * math.cos(pin_angle[j] + turn)
-            gy = length * math.sin(pin_angle[j] + turn)
+            gx, gy = pins[j, 2], pins[j, 3]
             wx = ex + x + hx + apart[d, j, 0] - gx - state[0]
             wy = ey + y + hy + apart[d, j, 1] - gy - state[1]
             far = math.sqrt(wx * wx + wy * wy)
@@ -148,6 +151,8 @@ def backlash_sweep(
     rows = np.empty((discs, count, 3))
     gaps = np.empty((discs, count))
     ones = np.ones((discs, count))
+    pin_angle = parts.pin_angle
+    pins = np.empty((pin_angle.shape[1], 4))
     forces = Forces(np.empty((discs, count)), np.empty((discs, 2)))
     # Linear springs of 1 N/m everywhere, and a rigid bearing of the carrier.
     springs = Springs(parts.tooth_centre.shape[0], 2, 2, 0.0, 0.0, np.zeros(discs), 1.0, 1.0, 0.0)
@@ -161,6 +166,9 @@ def backlash_sweep(
             predict(last, before, turn, 1, deviation)
         for i in range(size):
             state[i] = starts[a, i] + deviation[i]
+        for j in range(pins.shape[0]):
+            pins[j, 0] = length * math.cos(pin_angle[a, j])
+            pins[j, 1] = length * math.sin(pin_angle[a, j])
         squares, overlap, worst, still, tight = 0.0, 0.0, 0.0, False, 0
         for round_ in range(_ROUNDS):
             if round_ > _FREE_ROUNDS:
@@ -168,7 +176,7 @@ def backlash_sweep(
                 for i in range(size):
                     state[i] = 0.5 * (state[i] + origin[i])
             put(origin, state)
-            _true_gaps(parts, a, state, rows, gaps)
+            _true_gaps(parts, a, pins, state, rows, gaps)
             contacts = Contacts(rows, gaps, ones, parts.offset[a], parts.half_play)
             # A firmer push first: it finds which contacts matter in fewer steps.
             firm = Load(_FIRM * push if round_ == 0 else push, 1.0)

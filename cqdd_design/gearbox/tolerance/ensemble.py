@@ -48,7 +48,7 @@ class Ensemble:
     seed : int
     temperatures : PartTemperatures
     outputs : tuple of str
-        What is found of every gearbox: `OUTPUTS`, or `LOADS` alone.
+        What is found of every gearbox: `OUTPUTS`, or `LOADS` or `RANKED` alone.
     """
 
     design: Design
@@ -81,8 +81,13 @@ Mapper = Callable[[Ensemble, list[Block]], Iterable[tuple[int, FloatArray]]]
 """Works blocks in any order and yields (place of the block, its values)."""
 
 
-@functools.lru_cache(maxsize=2)
 def _tables(ensemble: Ensemble) -> EnsembleTables:
+    """Of all outputs, which share them."""
+    return _of_all(replace(ensemble, outputs=OUTPUTS))
+
+
+@functools.lru_cache(maxsize=2)
+def _of_all(ensemble: Ensemble) -> EnsembleTables:
     warm = _warm(ensemble)
     # What the kernels know of pins off their holes are errors of position, see `work_block`.
     model = replace(warm, pin_reach=0.0)
@@ -157,7 +162,7 @@ def make_ensemble(
     temperatures : PartTemperatures
         Of the parts of all gearboxes.
     outputs : tuple of str
-        `OUTPUTS`, or `LOADS` where nothing else is asked, which takes a quarter of the time.
+        `OUTPUTS`, or `LOADS` where nothing else is asked, which takes half of the time.
     rigid : bool
         Whether discs and ring do not yield although they could.
 

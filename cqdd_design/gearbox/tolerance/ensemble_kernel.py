@@ -49,6 +49,8 @@ from cqdd_design.gearbox.precision.backlash_kernel import OVERLAP, backlash_swee
 BACKLASH, TRANSMISSION_ERROR, RING_FORCE, STIFFNESS, RIPPLE = range(5)
 PRESSURE, CAM_LOAD, PRELOAD, IDLE_TORQUE = range(5, 9)
 RESULTS = 9
+LOADS_ALONE, RANKED_ALONE, EVERYTHING = range(3)
+"""How much of a gearbox is asked: its greatest loads; those with backlash and ripple; all."""
 _NEXT_TO_NOTHING = 1e-3
 """Load of a gearbox without load, over the torque: what hangs loose then has its place."""
 
@@ -101,16 +103,18 @@ def _follow(
     rubbing: Rubbing,
     compliance: Compliance,
     angles: tuple[Any, Any],
+    near: YieldingResult,
     base: Any,
     result: YieldingResult,
 ) -> int:
     """Equilibria at some angles in turn into `result`; -1, or the angle that has none.
 
     `angles` are the indices to solve and the turn of the crank since the one before. A state
-    starts from those before it. Where that does not lead to it, plates are held and friction left
-    out first, from `base` (A, 3 + 3 D), states of held plates nearby such as the perfect
-    gearbox's.
+    starts from that of `near` at its angle, such as those of another load, or where `near` is empty
+    from those before it. Where that does not lead to it, plates are held and friction left out
+    first, from `base` (A, 3 + 3 D), states of held plates nearby such as the perfect gearbox's.
     """
+    known = near.steps.size > 0
     chosen, turns = angles
     discs, contacts = found.gaps.shape[1:]
     work, held_work = yielding_work(discs, contacts), new_work(discs, contacts)
@@ -125,8 +129,12 @@ def _follow(
         forces = Forces(result.force[b], result.cam_force[b])
         state, approach = result.states[b], result.approach[b]
         status, used, left = NOT_CONVERGED, 0, 0.0
-        if b > 0:
+        if known:
+            put(state, near.states[a])
+            put_rows(approach, near.approach[a])
+        elif b > 0:
             predict_yielding(result, turns, b)
+        if known or b > 0:
             status, used, left = solve_yielding(
                 here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0]
             )
@@ -248,6 +256,7 @@ def _greatest(
         shared.rubbing,
         shared.compliance,
         (every, _turns(nominal, every)),
+        _room(0, discs, springs.teeth),
         start.perfect,
         whole,
     )
@@ -269,30 +278,44 @@ def _greatest(
 
 
 @part()
-def _loaded(
+def _swing(
+    nominal: Nominal,
+    found: Toleranced,
+    shared: Shared,
+    teeth: int,
+    whole: YieldingResult,
+    values: Any,
+) -> None:
+    """Transmission error and ripple of the equilibria under the torque."""
+    turned = whole.states[:, 2]
+    values[TRANSMISSION_ERROR] = (turned.max() - turned.min()) / nominal.length
+    torques = _crank_torques(
+        nominal,
+        found,
+        shared,
+        shared.rubbing,
+        shared.worn.crank_sense,
+        teeth,
+        np.arange(turned.size),
+        whole,
+    )
+    values[RIPPLE] = torques.max() - torques.min()
+
+
+@part()
+def _windup(
     nominal: Nominal,
     found: Toleranced,
     springs: Springs,
     load: Load,
     start: Start,
     shared: Shared,
+    whole: YieldingResult,
     values: Any,
 ) -> int:
-    """What a gearbox shows under the torque and under half of it; -1, or a failing angle."""
+    """Stiffness between half of the torque and all of it; -1, or a failing angle."""
     count, discs, contacts = nominal.gaps.shape
-    teeth, length = springs.teeth, nominal.length
-    every, some = np.arange(count), np.flatnonzero(start.marked)
-    whole = _room(count, discs, contacts)
-    compliance, rubbing = shared.compliance, shared.rubbing
-    stopped = _greatest(nominal, found, springs, load, start, shared, whole, values)
-    if stopped >= 0:
-        return int(stopped)
-    turned = whole.states[:, 2]
-    values[TRANSMISSION_ERROR] = (turned.max() - turned.min()) / length
-    torques = _crank_torques(
-        nominal, found, shared, rubbing, shared.worn.crank_sense, teeth, every, whole
-    )
-    values[RIPPLE] = torques.max() - torques.min()
+    length, some = nominal.length, np.flatnonzero(start.marked)
     half = Load(0.5 * start.torque / length, load.scale_stiffness)
     eased = _room(some.size, discs, contacts)
     base = np.empty((count, 3 + 3 * discs))
@@ -303,16 +326,17 @@ def _loaded(
         found,
         springs,
         half,
-        rubbing,
-        compliance,
+        shared.rubbing,
+        shared.compliance,
         (some, _turns(nominal, some)),
+        whole,
         base,
         eased,
     )
     if stopped >= 0:
         return int(stopped)
     # The secant between half of the torque and all of it, (T - T/2)/(gamma - gamma_half).
-    apart = (turned[some] - eased.states[:, 2]).mean()
+    apart = (whole.states[:, 2][some] - eased.states[:, 2]).mean()
     values[STIFFNESS] = 0.5 * start.torque * length / apart
     return -1
 
@@ -341,6 +365,7 @@ def _unloaded(
         shared.smooth,
         shared.idle,
         (some, _turns(nominal, some)),
+        _room(0, discs, contacts),
         np.zeros((nominal.gaps.shape[0], 3 + 3 * discs)),
         idle,
     )
@@ -368,24 +393,34 @@ def _with_errors(nominal: Nominal, errors: GearboxErrors) -> Toleranced:
     return found
 
 
-@numba.njit(cache=True, error_model="numpy", nogil=True)
-def solve_greatest(
+@part()
+def _free(
     nominal: Nominal,
-    springs: Springs,
-    load: Load,
+    found: Toleranced,
     start: Start,
-    shared: Shared,
     errors: GearboxErrors,
+    tight: Any,
     values: Any,
 ) -> int:
-    """The greatest loads of one gearbox alone, to the bit those of :func:`solve_gearbox`.
-
-    Arguments and result are those of :func:`solve_gearbox`; of `values` only `RING_FORCE`,
-    `PRESSURE` and `CAM_LOAD` are written.
-    """
-    found = _with_errors(nominal, errors)
-    whole = _room(*nominal.gaps.shape)
-    return _greatest(nominal, found, springs, load, start, shared, whole, values)
+    """Backlash, and which of the marked angles are `tight`; -1, or a failing angle."""
+    size = 3 + 3 * nominal.gaps.shape[1]
+    some = np.flatnonzero(start.marked)
+    parts = _rigid_parts(nominal, found, errors)
+    free_count = some.size
+    least = Extremes(np.empty(free_count), np.empty(free_count), np.empty((free_count, size)))
+    most = Extremes(np.empty(free_count), least.preload, least.poses)
+    at = backlash_sweep(parts, some, -1.0, start.free_poses[0], least)
+    if at < 0:
+        at = backlash_sweep(parts, some, 1.0, start.free_poses[1], most)
+    if at >= 0:
+        return int(some[at])
+    free = 0.0
+    for b in range(free_count):
+        tight[b] = most.preload[b] > OVERLAP
+        if not tight[b]:
+            free += max(most.ends[b] - least.ends[b], 0.0)
+    values[BACKLASH] = free / free_count
+    return -1
 
 
 @numba.njit(cache=True, error_model="numpy", nogil=True)
@@ -396,6 +431,7 @@ def solve_gearbox(
     start: Start,
     shared: Shared,
     errors: GearboxErrors,
+    asked: int,
     values: Any,
 ) -> int:
     """What one gearbox shows, with friction and with the carrier joined as it is built.
@@ -404,6 +440,10 @@ def solve_gearbox(
     ----------
     nominal, springs, load, start, shared
         What all gearboxes of an ensemble have in common.
+    asked : int
+        `EVERYTHING`, or less in less time: `LOADS_ALONE` leaves all but `RING_FORCE`, `PRESSURE`
+        and `CAM_LOAD`, `RANKED_ALONE` leaves `STIFFNESS`, `PRELOAD` and `IDLE_TORQUE`. What is
+        found is the same to the bit.
     values : array (9,)
         Out, in SI, in the order of the module's names: backlash and transmission error in rad,
         ripple and idle torque at the crank.
@@ -413,28 +453,20 @@ def solve_gearbox(
     int
         -1, or the angle that has no equilibrium.
     """
-    size = 3 + 3 * nominal.gaps.shape[1]
-    some = np.flatnonzero(start.marked)
-    found = _with_errors(nominal, errors)
-    stopped = _loaded(nominal, found, springs, load, start, shared, values)
-    if stopped >= 0:
+    found, whole = _with_errors(nominal, errors), _room(*nominal.gaps.shape)
+    stopped = _greatest(nominal, found, springs, load, start, shared, whole, values)
+    if stopped >= 0 or asked == LOADS_ALONE:
         return stopped
-    parts = _rigid_parts(nominal, found, errors)
-    free_count = some.size
-    least = Extremes(np.empty(free_count), np.empty(free_count), np.empty((free_count, size)))
-    most = Extremes(np.empty(free_count), least.preload, least.poses)
-    at = backlash_sweep(parts, some, -1.0, start.free_poses[0], least)
-    if at < 0:
-        at = backlash_sweep(parts, some, 1.0, start.free_poses[1], most)
-    if at >= 0:
-        return int(some[at])
-    free, tight = 0.0, np.zeros(free_count, dtype=np.bool_)
-    for b in range(free_count):
-        if most.preload[b] <= OVERLAP:
-            free += max(most.ends[b] - least.ends[b], 0.0)
-        else:
-            tight[b] = True
-    values[BACKLASH] = free / free_count
+    _swing(nominal, found, shared, springs.teeth, whole, values)
+    if asked == EVERYTHING:
+        stopped = _windup(nominal, found, springs, load, start, shared, whole, values)
+        if stopped >= 0:
+            return stopped
+    some = np.flatnonzero(start.marked)
+    tight = np.zeros(some.size, dtype=np.bool_)
+    stopped = _free(nominal, found, start, errors, tight, values)
+    if stopped >= 0 or asked == RANKED_ALONE:
+        return stopped
     values[PRELOAD] = values[IDLE_TORQUE] = 0.0
     if np.any(tight):
         return _unloaded(nominal, found, springs, load, shared, some[tight], values)

@@ -49,8 +49,8 @@ class ToleranceResult:
         Of every gearbox that was solved, in the order and units of the ensemble's outputs.
     numbers : array (S,)
         Which of the drawn gearboxes these are.
-    sensitivity : tuple of SobolIndices or None
-        Of every output over `GROUPS`; None where it was not computed.
+    sensitivity : dict of SobolIndices or None
+        By output, over `GROUPS`; None where it was not computed.
     base : int
         Size of the sensitivity's base sample.
     lost : int
@@ -66,7 +66,7 @@ class ToleranceResult:
     asked: int
     values: FloatArray
     numbers: NDArray[np.intp]
-    sensitivity: tuple[SobolIndices, ...] | None
+    sensitivity: dict[str, SobolIndices] | None
     base: int
     lost: int
     solves: int
@@ -119,7 +119,7 @@ class ToleranceResult:
         """Tolerances with their first-order and total shares of one output, largest total first."""
         if self.sensitivity is None:
             return []
-        indices = self.sensitivity[self.ensemble.outputs.index(output)]
+        indices = self.sensitivity[output]
         rows = zip(GROUPS, indices.first.tolist(), indices.total.tolist(), strict=True)
         return sorted(rows, key=lambda row: -row[2])
 
@@ -184,7 +184,7 @@ class ToleranceResult:
             return None
         return {
             output: dict(zip(GROUPS, getattr(indices, key).tolist(), strict=True))
-            for output, indices in zip(self.ensemble.outputs, self.sensitivity, strict=True)
+            for output, indices in self.sensitivity.items()
         }
 
 
@@ -202,6 +202,7 @@ def run_ensemble(
     mapper: Mapper = work_here,
     progress: Progress | None = None,
     sensitivity: bool = True,
+    ranked: tuple[str, ...] = OUTPUTS,
 ) -> ToleranceResult:
     """Draw and solve an ensemble.
 
@@ -217,6 +218,8 @@ def run_ensemble(
         Told how many gearboxes are done, of how many.
     sensitivity : bool
         Whether to rank the tolerances too, on a base sample of an eighth of the gearboxes.
+    ranked : tuple of str
+        By which outputs: `OUTPUTS`, or `RANKED` alone.
 
     Returns
     -------
@@ -234,32 +237,34 @@ def run_ensemble(
         raise UsageError(f"{samples} gearboxes are no ensemble; ask for at least 1.")
     base = samples // _SENSITIVITY_SHARE if sensitivity else 0
     base = base if base >= _LEAST_BASE else 0
-    extra = [GROUPS, *((name,) for name in GROUPS)] if base else []
-    blocks = _blocks(samples, ())
-    for exchanged in extra:
-        blocks += _blocks(base, tuple(exchanged))
-    total = sum(block.count for block in blocks)
+    blocks, others = _blocks(samples, ()), []
+    for exchanged in [GROUPS, *((name,) for name in GROUPS)] if base else []:
+        others += _blocks(base, tuple(exchanged))
+    total = sum(block.count for block in (*blocks, *others))
     found: list[FloatArray | None] = [None] * len(blocks)
-    done, interrupted = 0, False
+    again: list[FloatArray | None] = [None] * len(others)
+    done, solves, interrupted = 0, 0, False
     began = time.perf_counter()
     try:
-        for place, values in mapper(ensemble, blocks):
-            found[place] = values
-            done += len(values)
-            if progress is not None:
-                progress(done, total)
+        for one, these, into in (
+            (ensemble, blocks, found),
+            (replace(ensemble, outputs=ranked), others, again),
+        ):
+            for place, values in mapper(one, these) if these else ():
+                into[place] = values
+                done += len(values)
+                solves += len(values) * _solves(one)
+                if progress is not None:
+                    progress(done, total)
     except KeyboardInterrupt:
         interrupted = True
-    main = len(_blocks(samples, ()))
     values = np.concatenate(
-        [v for v in found[:main] if v is not None] or [np.empty((0, len(ensemble.outputs)))]
+        [v for v in found if v is not None] or [np.empty((0, len(ensemble.outputs)))]
     )
     indices = None
     if base and not interrupted:
-        indices = _sensitivity(values[:base], found[main:], base)
-    coarse = 0
-    if ensemble.outputs == OUTPUTS:
-        coarse = int(marked_angles(ensemble.design.reducer.ratio, ensemble.angles).sum())
+        columns = [ensemble.outputs.index(name) for name in ranked]
+        indices = dict(zip(ranked, _sensitivity(values[:base, columns], again, base), strict=True))
     jams = np.isnan(values).any(axis=1)
     return ToleranceResult(
         ensemble=ensemble,
@@ -269,10 +274,18 @@ def run_ensemble(
         sensitivity=indices,
         base=base,
         lost=int(jams.sum()),
-        solves=done * (ensemble.angles + coarse),
+        solves=solves,
         seconds=time.perf_counter() - began,
         interrupted=interrupted,
     )
+
+
+def _solves(ensemble: Ensemble) -> int:
+    """Equilibria under load of one gearbox."""
+    if ensemble.outputs != OUTPUTS:
+        return ensemble.angles
+    marked = marked_angles(ensemble.design.reducer.ratio, ensemble.angles)
+    return ensemble.angles + int(marked.sum())
 
 
 def _blocks(count: int, exchanged: tuple[str, ...]) -> list[Block]:

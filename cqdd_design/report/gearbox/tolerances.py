@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cqdd_design.gearbox.tolerance.evaluate import RANKED
 from cqdd_design.report.ink.bars import bar_chart, histogram
 from cqdd_design.report.ink.charts import Curve, Level, line_chart
 from cqdd_design.report.ink.numbers import pretty_unit, significant, with_unit
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from cqdd_design.gearbox.tolerance.clearance import ClearancePoint
     from cqdd_design.gearbox.tolerance.run import ToleranceResult
 
-_SHOWN = ("backlash_arcmin", "torque_ripple_pp_Nm", "ring_pressure_max_MPa")
 _STATISTICS = ("mean", "std", "p5", "p50", "p95", "p99")
 
 
@@ -44,8 +44,8 @@ def tolerance_view(result: ToleranceResult, clearances: Sequence[ClearancePoint]
         told = tuple(significant(reserve[key]) for key in _STATISTICS)
         rows += ((term("pressure_reserve").words, *told, "1, least"),)
     lead += "".join(f" {words[0].upper()}{words[1:]}" for words in result.warnings)
-    histograms = [_histogram(result, name) for name in _SHOWN]
-    rankings = [_ranking(result, name) for name in _SHOWN if result.ranking(name)]
+    histograms = [_histogram(result, name) for name in RANKED]
+    rankings = [_ranking(result, name) for name in RANKED if result.ranking(name)]
     return {
         "lead": lead,
         "figures": (*histograms, *rankings),

@@ -4,6 +4,7 @@ The CAD kernel takes its time, and now and then the process; the report goes on 
 the views stands their digest.
 """
 
+import contextlib
 import gc
 import hashlib
 import os
@@ -15,6 +16,7 @@ from typing import BinaryIO
 from cqdd_design.design import Design
 from cqdd_design.errors import CqddError
 from cqdd_design.report.machine_view import hidden_line_views, viewer_data
+from cqdd_design.solids.cad import import_cadquery
 from cqdd_design.solids.layout import Layout
 from cqdd_design.solids.parts import build_parts
 
@@ -25,11 +27,18 @@ def main() -> int:
     gc.disable()
     # The CAD kernel's bridge to VTK imports all of it, a quarter of what the kernel takes to come.
     sys.modules.setdefault("vtk", ModuleType("vtk"))
-    design, layout = pickle.load(sys.stdin.buffer)
     # What libraries print of their own goes to the errors, not among the views.
     sys.stdout.flush()
     with os.fdopen(os.dup(1), "wb") as out:
         os.dup2(2, 1)
+        # It comes while whoever began this process gets the machine ready.
+        with contextlib.suppress(CqddError):
+            import_cadquery()
+        try:
+            design, layout = pickle.load(sys.stdin.buffer)
+        except EOFError:
+            # There is none to draw.
+            return 0
         return _draw(design, layout, out)
 
 

@@ -6,7 +6,6 @@ import contextlib
 import hashlib
 import json
 import pickle
-import subprocess
 import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -16,6 +15,8 @@ from cqdd_design.files.kept import entry_path, read_entry, write_entry
 from cqdd_design.files.package_state import package_state
 
 if TYPE_CHECKING:
+    import subprocess
+    from collections.abc import Callable
     from pathlib import Path
 
     from cqdd_design.machine import Machine
@@ -67,10 +68,15 @@ class Drawing:
         return f"no pictures of the machine: {why}"
 
 
-def start_drawing(machine: Machine) -> Drawing:
+def start_drawing(machine: Machine, drawer: Callable[[], subprocess.Popen[bytes]]) -> Drawing:
     """Begin; a design that cannot be built is told by :meth:`Drawing.fetch`.
 
     Whoever begins it closes it.
+
+    Parameters
+    ----------
+    drawer : callable
+        Gives a process of this package's ``report.machine_view`` with pipes, where one is needed.
     """
     # A design's pickle is not the same in every process, its digest is.
     layout = hashlib.sha256(pickle.dumps(machine.layout)).hexdigest()
@@ -78,12 +84,7 @@ def start_drawing(machine: Machine) -> Drawing:
     before = _kept(text)
     if before is not None:
         return Drawing(text, None, before)
-    process = subprocess.Popen(
-        [sys.executable, "-m", "cqdd_design.report.machine_view"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-    )
+    process = drawer()
     assert process.stdin is not None
     # The job now, and not when the views are fetched: it is to draw meanwhile.
     with contextlib.suppress(BrokenPipeError), process.stdin:
