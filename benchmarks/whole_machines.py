@@ -45,7 +45,6 @@ from cqdd_design.errors import CqddError  # noqa: E402
 from cqdd_design.exporting.job import ExportJob  # noqa: E402
 from cqdd_design.exporting.sheets.canvas import render  # noqa: E402
 from cqdd_design.exporting.sheets.sheet_files import sheets_of  # noqa: E402
-from cqdd_design.exporting.sheets.title_block import HEIGHT, WIDTH  # noqa: E402
 from cqdd_design.machine import Machine, resolve  # noqa: E402
 from cqdd_design.solids.clearances import output_revolution  # noqa: E402
 from cqdd_design.solids.interference import (  # noqa: E402
@@ -283,7 +282,7 @@ def found_in(machine: Machine, angles: int) -> Iterator[str]:
     with tempfile.TemporaryDirectory() as folder:
         job = ExportJob(machine, Path(folder), lambda _: None)
         for number, _, sheet in sheets_of(job):
-            for fault in faults(render(sheet.drawing, WIDTH, HEIGHT)):
+            for fault in faults(render(sheet)):
                 yield f"sheet {number.removeprefix(design.name + '-')}: {fault}"
 
 

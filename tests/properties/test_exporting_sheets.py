@@ -25,7 +25,7 @@ from cqdd_design.exporting.sheets.drawing import OUTLINE, SMALL, new_sheet
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.part_facts import PartFacts
 from cqdd_design.exporting.sheets.part_sheet import draw_part, plan_sheet
-from cqdd_design.exporting.sheets.title_block import HEIGHT, SCALES, WIDTH
+from cqdd_design.exporting.sheets.title_block import SCALES
 from cqdd_design.machine import resolve
 from cqdd_design.machine.grease import grease_fill
 from cqdd_design.roads.export import export
@@ -60,7 +60,7 @@ def turned_parts(machine):
 
 
 def drawn(part, machine):
-    return render(draw_part(PartFacts(part, machine.given)).drawing, WIDTH, HEIGHT)
+    return render(draw_part(PartFacts(part, machine.given)))
 
 
 def texts_of(svg):
@@ -251,10 +251,10 @@ def test_text_on_text_and_on_thick_lines_is_found():
     sheet.text(100.0 + 100.0j, "alone")
     sheet.text(50.0 + 200.0j, "thin is fine")
     sheet.line(40.0 + 201.0j, 90.0 + 201.0j)
-    assert not faults(render(sheet.drawing, WIDTH, HEIGHT))
+    assert not faults(render(sheet))
     sheet.circle(112.0 + 101.0j, 8.0, OUTLINE)
     sheet.text(51.0 + 201.0j, "on it")
-    found = faults(render(sheet.drawing, WIDTH, HEIGHT))
+    found = faults(render(sheet))
     assert [text.split(":")[0] for text in found] == ["crossed", "on each other"]
 
 
@@ -316,7 +316,7 @@ def test_every_feature_of_every_part_is_on_its_sheet(name, change, paper_design_
         check_title(part, texts)
         assert_legible(canvas)
     assembly = AssemblyFacts(machine)
-    canvas = render(draw_assembly(assembly).drawing, WIDTH, HEIGHT)
+    canvas = render(draw_assembly(assembly))
     assert_legible(canvas)
     texts = texts_of(svg_text(canvas, "assembly"))
     for item, part in enumerate(machine.parts, start=1):

@@ -33,7 +33,7 @@ from cqdd_design.exporting.sheets.canvas import Canvas, render
 from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SMALL, TEXT, SheetDrawing, new_sheet
 from cqdd_design.exporting.sheets.frame import SIMULTANEOUS, draw_frame
 from cqdd_design.exporting.sheets.lettering import text_width
-from cqdd_design.exporting.sheets.title_block import HEIGHT, SCALES, WIDTH
+from cqdd_design.exporting.sheets.title_block import SCALES
 from cqdd_design.exporting.sheets.wording import circle_row
 from cqdd_design.geometry.contours import Circle, as_complex
 from cqdd_design.solids.features.flat import THICKNESS_TOLERANCE
@@ -53,7 +53,7 @@ _MM = 1e3
 
 def draw_sheet(facts: CutFacts) -> Canvas:
     """Draw the sheet of a part and render it."""
-    return render(draw_cut_sheet(facts).drawing, WIDTH, HEIGHT)
+    return render(draw_cut_sheet(facts))
 
 
 def draw_cut_sheet(facts: CutFacts) -> SheetDrawing:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from cqdd_design.exporting.edm.cut_facts import CUT_FINISH, zone_text
 from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
 from cqdd_design.exporting.sheets.drawing import SMALL, SheetDrawing
+from cqdd_design.exporting.sheets.formats import LEFT
 from cqdd_design.exporting.sheets.title_block import (
     INNER_EDGE,
-    LEFT,
     OUTER_EDGE,
     Field,
     draw_border,
