@@ -20,11 +20,12 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, SAFETY, length_needed
-from cqdd_design.catalog.materials import find_material
+from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.geometry.scale import MOST_TUBE_WALL
 from cqdd_design.solids.motor_layout import EncoderPlace, MotorLayout
 from cqdd_design.solids.registers import spigot_depth
+from cqdd_design.solids.rotor_pull import pull_rate, stiff_web
 from cqdd_design.solids.selection import cap_screw, thread_size
 
 if TYPE_CHECKING:
@@ -217,6 +218,7 @@ def lay_out_motor(
     torque: float,
     *,
     weights: bool,
+    metal: Material,
 ) -> MotorLayout:
     """Lay out motor, bell, cover and encoder.
 
@@ -232,6 +234,8 @@ def lay_out_motor(
         That the bell's hub passes to the shaft, N m; it is as long as that asks for.
     weights : bool
         Whether room for balance weights is left about the bell.
+    metal : Material
+        Of the bell, whose web is as thick as the pull on the rotor asks for.
     """
     gap, depth = motor.gap_diameter or 0.0, motor.slot_depth or 0.0
     stack, ring = motor.stack_length or 0.0, motor.rotor_length or 0.0
@@ -248,9 +252,16 @@ def lay_out_motor(
     web_top = min(
         stack_bottom - coil - 0.8 * unit, ring_top - ring - unit, housing.bottom - 0.8 * unit
     )
-    web_bottom = web_top - 2.0 * unit
-
     journal = 0.5 * support.bearing.bore_diameter
+    web_bottom = web_top - stiff_web(
+        journal + 3.5 * unit,
+        rotor_inner,
+        ring_top - 0.5 * ring - web_top,
+        pull_rate(gap, stack, AIR_GAP),
+        metal,
+        2.0 * unit,
+    )
+
     hub_top = housing.bottom - 0.8 * unit
     hub_bottom = min(web_bottom, hub_top - hub_length(torque, 2.0 * journal))
     encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit)
