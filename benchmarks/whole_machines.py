@@ -50,6 +50,7 @@ from cqdd_design.solids.clearances import output_revolution  # noqa: E402
 from cqdd_design.solids.interference import (  # noqa: E402
     Overlap,
     boxes_meet,
+    closer_look,
     overlap_of,
     posed_manifold,
 )
@@ -240,9 +241,8 @@ def collisions(machine: Machine, angles: int) -> dict[tuple[str, str], Overlap]:
     finely = {part: FINE if part.name.startswith(GEARED) else DISPLAY for part in machine.parts}
     worst: dict[tuple[str, str], Overlap] = {}
     for number, angle in enumerate(output_revolution(design, angles).tolist()):
-        posed = [
-            posed_manifold(part, piece.pose(design, angle), finely[part]) for part, piece in pieces
-        ]
+        meshed = [(part, piece.pose(design, angle), finely[part]) for part, piece in pieces]
+        posed = [posed_manifold(*one) for one in meshed]
         boxes = np.array([solid.bounding_box() for solid in posed])
         for i, j in combinations(range(len(pieces)), 2):
             (one, first), (other, second) = pieces[i], pieces[j]
@@ -252,7 +252,9 @@ def collisions(machine: Machine, angles: int) -> dict[tuple[str, str], Overlap]:
             if shared is None:
                 continue
             slack = surface_slack(one, finely[one]) + surface_slack(other, finely[other])
-            found = Overlap(first.name, second.name, angle, *shared, slack)
+            found = closer_look(
+                Overlap(first.name, second.name, angle, *shared, slack), [meshed[i], meshed[j]]
+            )
             key = (one.name, other.name)
             if found.collides and (key not in worst or found.thickness > worst[key].thickness):
                 worst[key] = found
