@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 _THREAD_SIDES = 48
 _CLOSER = 4.0
 """How much finer a closer look is, and the share of what is allowed from which it is taken."""
+_STAYS = 0.5
+"""Least share of an overlap that finer facets leave, if it is real."""
 
 
 @dataclass(frozen=True)
@@ -117,7 +119,8 @@ def overlap_of(one: Manifold, other: Manifold) -> tuple[float, float] | None:
 def closer_look(found: Overlap, pieces: Sequence[tuple[Part, FloatArray, Quality]]) -> Overlap:
     """An overlap by finer facets where it may be real and yet no thicker than facets explain.
 
-    So an overlap is told from a fit down to a quarter of what the first meshes allow.
+    So an overlap is told from a fit down to a quarter of what the first meshes allow. Facets leave
+    a third of theirs at most, where half has to stay.
 
     Parameters
     ----------
@@ -132,5 +135,6 @@ def closer_look(found: Overlap, pieces: Sequence[tuple[Part, FloatArray, Quality
     ]
     first, second = (posed_manifold(*one) for one in finely)
     volume, thickness = overlap_of(first, second) or (0.0, 0.0)
-    allowed = sum(surface_slack(part, quality) for part, _, quality in finely)
+    slack = sum(surface_slack(part, quality) for part, _, quality in finely)
+    allowed = max(slack, _STAYS * found.thickness)
     return replace(found, volume=volume, thickness=thickness, allowed=allowed)

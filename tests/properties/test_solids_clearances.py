@@ -10,6 +10,7 @@ import pytest
 from solids_designs import known_design, known_parts, part_named
 
 from cqdd_design.geometry.columns import column_clearance
+from cqdd_design.machine import resolve
 from cqdd_design.roads.check import assembly_check
 from cqdd_design.solids.clearances import SEARCH, AssemblyMotion, assembly_motion, output_revolution
 from cqdd_design.solids.layers import Annulus, turned
@@ -113,3 +114,15 @@ def test_progress_is_told() -> None:
         known_design("paper"), (disc,), ANGLES[:2], DISPLAY, lambda *done: told.append(done)
     )
     assert told == [(1, 2), (2, 2)]
+
+
+def test_facets_beside_half_grooves_are_no_overlap() -> None:
+    """Of coarse meshes they leave a third in a closer look, not the quarter that others do."""
+    grooved = known_design("paper").replacing(
+        {"reducer.ring.outer_diameter": "135 mm", "reducer.ring_type": "pinwheel",
+         "reducer.ring_pitch_radius": "58 mm", "reducer.ring_pin_diameter": "9 mm"}
+    )  # fmt: skip
+    parts = [part for part in resolve(grooved).parts if part.name in ("ring", "housing")]
+    motion = assembly_motion(grooved, parts, np.zeros(1), DISPLAY)
+    assert motion.pairs == 1
+    assert motion.collisions == ()
