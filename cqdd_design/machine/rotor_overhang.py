@@ -18,7 +18,7 @@ from cqdd_design.machine.shaft_strength import section_loads, shaft_steps
 from cqdd_design.solids.inertia import BELL, HUB, ROTOR
 from cqdd_design.solids.motor_layout import InrunnerLayout, MotorEnd, MotorLayout
 from cqdd_design.solids.motor_rules import bell_material
-from cqdd_design.solids.rotor_pull import pull_rate, web_tilting_rate
+from cqdd_design.solids.rotor_pull import NO_HOLES, pull_rate, web_tilting_rate
 
 _GRAVITY = 9.81
 BUILT_OFF = 0.1
@@ -162,13 +162,14 @@ def _web_give(machine: Machine, motor: MotorEnd, at: float) -> float:
     metal = find_material(bell_material(machine.design))
     if isinstance(motor, MotorLayout):
         bottom, top, outer = motor.web_bottom, motor.web_top, motor.rotor_inner
+        holes = motor.lightening
     else:
         assert isinstance(motor, InrunnerLayout)
-        bottom, top, outer = motor.lip_bottom, motor.web_top, motor.sleeve_inner
+        bottom, top, outer, holes = motor.lip_bottom, motor.web_top, motor.sleeve_inner, NO_HOLES
     if outer <= motor.hub_radius:
         return 0.0
     arm = at - 0.5 * (bottom + top)
     rate = web_tilting_rate(
-        motor.hub_radius, outer, top - bottom, metal.youngs_modulus, metal.poisson_ratio
+        motor.hub_radius, outer, top - bottom, metal.youngs_modulus, metal.poisson_ratio, holes
     )
     return arm**2 / rate

@@ -16,7 +16,16 @@ from cqdd_design.gearbox.shaft_bending import ShaftSection
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.rotor_overhang import rotor_overhang, stub_stress
 from cqdd_design.machine.shaft import knife_edges
-from cqdd_design.solids.rotor_pull import REMANENCE, pull_rate, stiff_web, web_tilting_rate
+from cqdd_design.solids.rotor_pull import (
+    NO_HOLES,
+    REMANENCE,
+    WebHoles,
+    WebLoad,
+    pull_rate,
+    stiff_holes,
+    stiff_web,
+    web_tilting_rate,
+)
 from cqdd_design.verdict.rotor_lines import rotor_lines
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -113,7 +122,7 @@ def test_the_rotor_of_the_paper_is_held(machine: Machine) -> None:
     metal = find_material("7075-T6")
     web = web_tilting_rate(
         motor.hub_radius, motor.rotor_inner, motor.web_top - motor.web_bottom,
-        metal.youngs_modulus, metal.poisson_ratio,
+        metal.youngs_modulus, metal.poisson_ratio, motor.lightening,
     )  # fmt: skip
     lever = 0.5 * (motor.ring_top + motor.ring_bottom - motor.web_top - motor.web_bottom)
     spring = cam_spring(machine.layout.shaft.support.bearing, 0.0)
@@ -125,7 +134,7 @@ def test_the_rotor_of_the_paper_is_held(machine: Machine) -> None:
     gap, stub = rotor_lines(machine)
     assert (gap.status, stub.status) == ("pass", "pass")
     assert gap.value == pytest.approx(100.0 * (0.1 + found.settled.deflection / 0.5e-3))
-    assert gap.value == pytest.approx(19.5, abs=0.1)
+    assert gap.value == pytest.approx(29.1, abs=0.1)
 
 
 def test_the_stub_bears_the_rotor_on_top_of_the_duty(machine: Machine) -> None:
@@ -177,17 +186,55 @@ def test_without_a_rotor_nothing_is_known(paper: Design) -> None:
 
 
 def test_a_thin_web_is_made_thicker() -> None:
-    metal, rate = find_material("7075-T6"), pull_rate(0.1, 20e-3, 0.5e-3)
-    assert stiff_web(9e-3, 50e-3, 5e-3, rate, metal, 2e-3) == 2e-3
-    thick = stiff_web(9e-3, 50e-3, 14e-3, rate, metal, 1e-3)
+    load = WebLoad(9e-3, 50e-3, 5e-3, pull_rate(0.1, 20e-3, 0.5e-3), find_material("7075-T6"))
+    assert stiff_web(load, 2e-3) == 2e-3
+    far = load._replace(arm=14e-3)
+    thick = stiff_web(far, 1e-3)
     assert thick > 1.5e-3
-    for thickness, holds in ((thick, True), (thick - 0.011e-3, False)):
-        tilting = web_tilting_rate(
-            9e-3, 50e-3, thickness, metal.youngs_modulus, metal.poisson_ratio
-        )
-        assert (rate * (14e-3 + 0.5 * thickness) ** 2 / tilting <= 0.6) is holds
+    assert far.share(thick) <= 0.6 < far.share(thick - 0.011e-3)
     wrist = resolve(load_design(REPOSITORY / "docs/gallery/wrist-15.toml"))
     motor = wrist.layout.motor
     assert motor is not None
     assert motor.web_top - motor.web_bottom > 2.0 * wrist.layout.unit + 0.2e-3
     assert rotor_lines(wrist)[0].status == "pass"
+
+
+def test_holes_weaken_a_web_by_what_they_leave() -> None:
+    """Most where a line from the axis touches them: they fill N asin(r/R)/pi of that circle."""
+    shape = (9e-3, 50e-3, 2e-3, 71e9, 0.33)
+    whole = web_tilting_rate(*shape)
+    share = [
+        web_tilting_rate(*shape, WebHoles(6, 29e-3, one)) / whole for one in (1e-6, 5e-3, 1e-2)
+    ]
+    assert share[0] == pytest.approx(1.0, abs=1e-6)
+    assert 1.0 > share[1] > share[2] > 0.3
+    solid = WebHoles(6, 29e-3, 1e-2).solid(np.linspace(10e-3, 48e-3, 3801))
+    assert solid.min() == pytest.approx(1.0 - 6.0 * math.asin(10.0 / 29.0) / math.pi, abs=1e-4)
+    assert solid[0] == solid[-1] == 1.0
+    # A plate that is weakened alike everywhere is weakened by just that.
+    fill = web_tilting_rate(*shape, Slotted(1, 1.0, 0.0))
+    assert fill == pytest.approx(0.25 * whole)
+
+
+class Slotted(WebHoles):
+    """Slots from hub to rim that leave a quarter."""
+
+    def solid(self, at):
+        return np.full_like(at, 0.25)
+
+
+def test_lightening_holes_leave_what_the_pull_asks_for(machine: Machine) -> None:
+    motor = machine.layout.motor
+    assert motor is not None
+    load = WebLoad(
+        motor.hub_radius, motor.rotor_inner, 0.5 * (motor.ring_top + motor.ring_bottom)
+        - motor.web_top, pull_rate(0.1, 20e-3, 0.5e-3), find_material("7075-T6"),
+    )  # fmt: skip
+    thick, holes, unit = motor.web_top - motor.web_bottom, motor.lightening, machine.layout.unit
+    assert load.share(thick, holes) <= 0.6
+    assert load.share(thick, holes._replace(radius=holes.radius + 0.3 * unit)) > 0.6
+    (bell,) = (part for part in machine.parts if part.name == "rotor bell")
+    (drawn,) = (one for one in bell.features if getattr(one, "name", "") == "lightening holes")
+    assert drawn.diameter == pytest.approx(2.0 * holes.radius)
+    hopeless = load._replace(rate=100.0 * load.rate)
+    assert stiff_holes(hopeless, thick, holes, unit) == NO_HOLES
