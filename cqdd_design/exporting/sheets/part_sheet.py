@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
+from cqdd_design.catalog.printing import made_how
 from cqdd_design.exporting.sheets.blocks import Extent, distance_beside
 from cqdd_design.exporting.sheets.drawing import SMALL, SheetDrawing, new_sheet
 from cqdd_design.exporting.sheets.end_plan import EndPlan, EndShape
@@ -173,7 +174,7 @@ def _title(sheet: SheetDrawing, facts: PartFacts) -> None:
         [
             ("tolerances", GENERAL_TOLERANCES, 64.0),
             ("edges ISO 13715", f"outside {OUTER_EDGE}, inside {INNER_EDGE}", 44.0),
-            ("surfaces", GENERAL_SURFACE, 72.0),
+            ("surfaces", _surfaces(part.material), 72.0),
         ],
         [
             ("part", part.name, 52.0),
@@ -188,6 +189,11 @@ def _title(sheet: SheetDrawing, facts: PartFacts) -> None:
     ]
     words = f"{part.name}; {part.designation}"
     draw_title_block(sheet, facts.design, facts.number, words, rows)
+
+
+def _surfaces(material: str) -> str:
+    made = made_how(material, "")
+    return f"as {made}, where not marked" if made else GENERAL_SURFACE
 
 
 def hole_places(facts: PartFacts) -> list[tuple[str, str, str]]:
