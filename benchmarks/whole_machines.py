@@ -45,12 +45,12 @@ from cqdd_design.errors import CqddError  # noqa: E402
 from cqdd_design.exporting.job import ExportJob  # noqa: E402
 from cqdd_design.exporting.sheets.canvas import render  # noqa: E402
 from cqdd_design.exporting.sheets.sheet_files import sheets_of  # noqa: E402
-from cqdd_design.exporting.sheets.title_block import HEIGHT, WIDTH  # noqa: E402
 from cqdd_design.machine import Machine, resolve  # noqa: E402
 from cqdd_design.solids.clearances import output_revolution  # noqa: E402
 from cqdd_design.solids.interference import (  # noqa: E402
     Overlap,
     boxes_meet,
+    closer_look,
     overlap_of,
     posed_manifold,
 )
@@ -241,9 +241,8 @@ def collisions(machine: Machine, angles: int) -> dict[tuple[str, str], Overlap]:
     finely = {part: FINE if part.name.startswith(GEARED) else DISPLAY for part in machine.parts}
     worst: dict[tuple[str, str], Overlap] = {}
     for number, angle in enumerate(output_revolution(design, angles).tolist()):
-        posed = [
-            posed_manifold(part, piece.pose(design, angle), finely[part]) for part, piece in pieces
-        ]
+        meshed = [(part, piece.pose(design, angle), finely[part]) for part, piece in pieces]
+        posed = [posed_manifold(*one) for one in meshed]
         boxes = np.array([solid.bounding_box() for solid in posed])
         for i, j in combinations(range(len(pieces)), 2):
             (one, first), (other, second) = pieces[i], pieces[j]
@@ -253,7 +252,9 @@ def collisions(machine: Machine, angles: int) -> dict[tuple[str, str], Overlap]:
             if shared is None:
                 continue
             slack = surface_slack(one, finely[one]) + surface_slack(other, finely[other])
-            found = Overlap(first.name, second.name, angle, *shared, slack)
+            found = closer_look(
+                Overlap(first.name, second.name, angle, *shared, slack), [meshed[i], meshed[j]]
+            )
             key = (one.name, other.name)
             if found.collides and (key not in worst or found.thickness > worst[key].thickness):
                 worst[key] = found
@@ -283,7 +284,7 @@ def found_in(machine: Machine, angles: int) -> Iterator[str]:
     with tempfile.TemporaryDirectory() as folder:
         job = ExportJob(machine, Path(folder), lambda _: None)
         for number, _, sheet in sheets_of(job):
-            for fault in faults(render(sheet.drawing, WIDTH, HEIGHT)):
+            for fault in faults(render(sheet)):
                 yield f"sheet {number.removeprefix(design.name + '-')}: {fault}"
 
 

@@ -62,8 +62,8 @@ def standard_tolerance(grade: int, size: float) -> float:
 
     Examples
     --------
-    >>> round(standard_tolerance(5, 10e-3) * 1e6), round(standard_tolerance(7, 0.15) * 1e6)
-    (6, 41)
+    >>> round(standard_tolerance(5, 10e-3) * 1e6), round(standard_tolerance(7, 0.45) * 1e6)
+    (6, 62)
     """
     name, mm = f"IT{grade}", size * 1e3
     table = _grades().get(name, ())

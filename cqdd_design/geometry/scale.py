@@ -31,6 +31,19 @@ def smallest_ring(bore: float) -> float:
     return _ring_with_wall(bore, MOST_TUBE_WALL)
 
 
+def ring_within_rotor(bore: float) -> float:
+    """Outside diameter of the largest ring whose housing goes into an inrunner's rotor, m.
+
+    Beside the housing's wall of a unit stand a gap as wide and a sleeve of two under the rotor.
+
+    Examples
+    --------
+    >>> round(1e3 * ring_within_rotor(45e-3), 1)
+    40.5
+    """
+    return _ring_with_wall(bore, 4.0)
+
+
 def _ring_with_wall(bore: float, units: float) -> float:
     within = bore / (1.0 + 2e-3 * units / _REFERENCE_RING)
     return round(bore - 2.0 * units * millimetre_unit(within), _DIGITS)

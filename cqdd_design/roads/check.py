@@ -13,6 +13,7 @@ from cqdd_design.design import Design
 from cqdd_design.errors import DesignError
 from cqdd_design.gearbox.checks.guide import check_guide
 from cqdd_design.machine.centring import centring
+from cqdd_design.machine.motor_standing import motor_standing
 from cqdd_design.machine.sealing import sealing
 from cqdd_design.results import Check
 from cqdd_design.roads.sized_file import kept_costs
@@ -64,6 +65,7 @@ class Judgement:
             "axial_play": self._axial_play,
             "sealing": self._told(sealing),
             "centring": self._told(centring),
+            "motor_standing": self._told(motor_standing),
             **seen,
         }
 

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from cqdd_design.actuator.specimen import AS_DRAWN, Specimen
+from cqdd_design.catalog.printing import printed_materials
 from cqdd_design.design import Design
 from cqdd_design.exporting import ExportOptions
 from cqdd_design.exporting import export as write
@@ -14,6 +15,8 @@ from cqdd_design.exporting.kinds import KINDS, ExportKind, read_kinds
 from cqdd_design.exporting.options import DEFAULTS
 from cqdd_design.files import WrittenFile
 from cqdd_design.roads.telling import Progress, silent
+
+_BY_WIRE = ("edm", "gcode")
 
 
 def export(
@@ -64,7 +67,11 @@ def _simulates(kind: ExportKind) -> bool:
 def left_out(
     design: Design, kinds: str | Iterable[str], *, specimen: Specimen = AS_DRAWN
 ) -> tuple[str, ...]:
-    """Sentences on what files of solids do not show: a motor that cannot be drawn."""
+    """Sentences on what files do not show, a motor that cannot be drawn, or do not make."""
+    return (*_undrawn(design, kinds, specimen), *_uncut(design, kinds))
+
+
+def _undrawn(design: Design, kinds: str | Iterable[str], specimen: Specimen) -> tuple[str, ...]:
     solid = [kind for kind in read_kinds(kinds) if KINDS[kind].needs_solids]
     if not solid:
         return ()
@@ -74,4 +81,21 @@ def left_out(
     return (
         f"the motor is not drawn: {missing}. Its stator, rotor, bell and cover and the encoder are "
         f"not in {', '.join(solid)}.",
+    )
+
+
+def _uncut(design: Design, kinds: str | Iterable[str]) -> tuple[str, ...]:
+    """Plastics among what a wire is to cut."""
+    cut = [kind for kind in read_kinds(kinds) if kind in _BY_WIRE]
+    reducer = design.reducer
+    plastic = [
+        f"{part} ({material})"
+        for part, material in (("discs", reducer.disc_material), ("ring", reducer.ring_material))
+        if material in printed_materials()
+    ]
+    if not (cut and plastic):
+        return ()
+    return (
+        f"{', '.join(cut)}: no wire cuts {' and '.join(plastic)}, which do not conduct; what is "
+        "printed or moulded is in --to print.",
     )

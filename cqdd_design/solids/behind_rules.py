@@ -19,6 +19,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from cqdd_design.catalog.materials import Material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.geometry.scale import millimetre_unit
 from cqdd_design.solids.motor_layout import MotorLayout
@@ -80,6 +81,7 @@ def lay_out_behind(
     torque: float,
     *,
     weights: bool,
+    metal: Material,
 ) -> MotorLayout:
     """Lay out motor, bell, neck, cover and encoder; parameters as `lay_out_motor`, no misfit.
 
@@ -88,7 +90,7 @@ def lay_out_behind(
     """
     scale, tube = _scale(motor, unit), housing.register_radius
     floor = replace(housing, flange_bottom=housing.bottom, flange_radius=tube)
-    around = lay_out_motor(motor, pack, floor, support, scale, torque, weights=weights)
+    around = lay_out_motor(motor, pack, floor, support, scale, torque, weights=weights, metal=metal)
     thread = thread_size(3.0 * scale)
     head = cap_screw(thread, 0.0).head_diameter
     leads = _LEADS * scale

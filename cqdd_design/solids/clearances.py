@@ -18,7 +18,13 @@ import numpy as np
 from cqdd_design.design import Design
 from cqdd_design.geometry.contours import FloatArray
 from cqdd_design.solids.cad import MM
-from cqdd_design.solids.interference import Overlap, boxes_meet, overlap_of, posed_manifold
+from cqdd_design.solids.interference import (
+    Overlap,
+    boxes_meet,
+    closer_look,
+    overlap_of,
+    posed_manifold,
+)
 from cqdd_design.solids.mesh import FINE, Quality, surface_slack
 from cqdd_design.solids.part import Instance, Part
 
@@ -145,7 +151,11 @@ def assembly_motion(
     nearest: dict[tuple[str, str], Clearance] = {}
     pairs = 0
     for number, angle in enumerate(angles.tolist()):
-        posed = [posed_manifold(part, piece.pose(design, angle), quality) for part, piece in pieces]
+        poses = [piece.pose(design, angle) for _, piece in pieces]
+        posed = [
+            posed_manifold(part, pose, quality)
+            for (part, _), pose in zip(pieces, poses, strict=True)
+        ]
         boxes = np.array([solid.bounding_box() for solid in posed])
         near = boxes.copy()
         near[:, :3] -= SEARCH * MM
@@ -159,7 +169,10 @@ def assembly_motion(
             slack = surface_slack(one[0], quality) + surface_slack(other[0], quality)
             overlap = overlap_of(posed[i], posed[j]) if boxes_meet(boxes[i], boxes[j]) else None
             if overlap is not None:
-                found = Overlap(one[1].name, other[1].name, angle, *overlap, slack)
+                found = closer_look(
+                    Overlap(one[1].name, other[1].name, angle, *overlap, slack),
+                    [(one[0], poses[i], quality), (other[0], poses[j], quality)],
+                )
                 if found.collides:
                     collisions.append(found)
             if not still:

@@ -10,7 +10,9 @@ Half section, output upward; the gearbox's tube ends at the joint::
       |______ floor ____________        [magnet]
                                |__ [board] _____
 
-The gearbox inside a wide rotor, or around a slim motor, would be shorter; neither is drawn.
+The gearbox inside a wide rotor, or around a slim motor, would be shorter; neither is drawn. No
+motor whose sizes the catalogue has takes a ring of 45 mm inside, or goes into a ring of 150 mm;
+whether one would is told of every machine (`machine.motor_standing`).
 """
 
 from __future__ import annotations

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cqdd_design.solids.rotor_pull import WebHoles
 from cqdd_design.solids.selection import CapScrew
 
 
@@ -106,6 +107,8 @@ class MotorLayout(MotorEnd):
         Bottom of the slots, which the coils fill.
     bell_radius, web_bottom, web_top : float
         Outside of the bell that carries the ring; its web.
+    lightening : WebHoles
+        Through the web.
     flange_top : float
         Height of the housing's face under the heads of the cover's screws.
     cable_radius, cable_circle : float
@@ -118,6 +121,7 @@ class MotorLayout(MotorEnd):
     bell_radius: float
     web_bottom: float
     web_top: float
+    lightening: WebHoles
     flange_top: float
     cable_radius: float
     cable_circle: float

@@ -68,7 +68,7 @@ def motor_parts(design: Design, layout: Layout, fastener: str) -> list[Part]:
         return []
     row, metal, unit = layout.motor_row, design.housing.material, layout.unit
     stub = 0.5 * layout.shaft.support.bearing.bore_diameter
-    on_bell = bell_features(motor, stub, unit)
+    on_bell = bell_features(motor, stub)
     if motor.behind:
         on_cover = flanged_cover_features(motor, unit)
         cover, screws = flanged_can(motor, unit, on_cover), screws_below(motor, fastener)

@@ -20,11 +20,19 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from cqdd_design.catalog.adhesives import ROTOR_COMPOUND, SAFETY, length_needed
-from cqdd_design.catalog.materials import find_material
+from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.catalog.motors import Motor
 from cqdd_design.geometry.scale import MOST_TUBE_WALL
 from cqdd_design.solids.motor_layout import EncoderPlace, MotorLayout
 from cqdd_design.solids.registers import spigot_depth
+from cqdd_design.solids.rotor_pull import (
+    NO_HOLES,
+    WebHoles,
+    WebLoad,
+    pull_rate,
+    stiff_holes,
+    stiff_web,
+)
 from cqdd_design.solids.selection import cap_screw, thread_size
 
 if TYPE_CHECKING:
@@ -45,6 +53,8 @@ _MAGNETS = (3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0)
 """Diameters of diametric encoder magnets, mm; they are half as high, 2.5 mm at the most."""
 _LEAST_EFFICIENCY = 0.6
 """Of a gearbox between motor and output."""
+_LIGHTENING = 6
+"""Holes in the web of a bell."""
 _BELL_METAL = "7075-T6"
 _HOT = 120.0
 """At which the bond of the bell still holds the motor's torque, deg C: what grease bears."""
@@ -208,6 +218,14 @@ def lay_out_encoder(journal: float, end: float) -> EncoderPlace:
     )
 
 
+def _most_holes(hub: float, rim: float, unit: float) -> WebHoles:
+    """The largest lightening holes that go into a bell's web, none where they save nothing."""
+    room = rim - 2.0 * unit - hub - 1.5 * unit
+    middle = hub + 1.5 * unit + 0.5 * room
+    hole = min(0.5 * room, middle * math.sin(math.pi / _LIGHTENING) - 1.5 * unit)
+    return WebHoles(_LIGHTENING, middle, hole) if hole > unit else NO_HOLES
+
+
 def lay_out_motor(
     motor: Motor,
     pack: PackLayout,
@@ -217,6 +235,7 @@ def lay_out_motor(
     torque: float,
     *,
     weights: bool,
+    metal: Material,
 ) -> MotorLayout:
     """Lay out motor, bell, cover and encoder.
 
@@ -232,6 +251,8 @@ def lay_out_motor(
         That the bell's hub passes to the shaft, N m; it is as long as that asks for.
     weights : bool
         Whether room for balance weights is left about the bell.
+    metal : Material
+        Of the bell, whose web is as thick as the pull on the rotor asks for.
     """
     gap, depth = motor.gap_diameter or 0.0, motor.slot_depth or 0.0
     stack, ring = motor.stack_length or 0.0, motor.rotor_length or 0.0
@@ -248,9 +269,11 @@ def lay_out_motor(
     web_top = min(
         stack_bottom - coil - 0.8 * unit, ring_top - ring - unit, housing.bottom - 0.8 * unit
     )
-    web_bottom = web_top - 2.0 * unit
-
     journal = 0.5 * support.bearing.bore_diameter
+    hub, middle = journal + 3.5 * unit, ring_top - 0.5 * ring
+    pulled = WebLoad(hub, rotor_inner, middle - web_top, pull_rate(gap, stack, AIR_GAP), metal)
+    web = stiff_web(pulled, 2.0 * unit)
+    web_bottom = web_top - web
     hub_top = housing.bottom - 0.8 * unit
     hub_bottom = min(web_bottom, hub_top - hub_length(torque, 2.0 * journal))
     encoder = lay_out_encoder(journal, hub_bottom - 0.5 * unit)
@@ -283,7 +306,8 @@ def lay_out_motor(
         bell_radius=bell,
         web_bottom=web_bottom,
         web_top=web_top,
-        hub_radius=journal + 3.5 * unit,
+        lightening=stiff_holes(pulled, web, _most_holes(hub, rotor_inner, unit), unit),
+        hub_radius=hub,
         hub_bottom=hub_bottom,
         hub_top=hub_top,
         **vars(encoder),

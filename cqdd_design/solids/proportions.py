@@ -35,6 +35,7 @@ from cqdd_design.solids.layout import (
 from cqdd_design.solids.motor_layout import MotorEnd
 from cqdd_design.solids.motor_rules import (
     MotorPlace,
+    bell_material,
     bell_torque,
     is_inrunner,
     lay_out_motor,
@@ -91,7 +92,8 @@ def lay_out(design: Design, cam_bearing: Bearing, motor: Motor) -> Layout:
         if not missing:
             rule = behind_rules.lay_out_behind if behind else lay_out_motor
             weights = design.reducer.balance.counterweights
-            drawn = rule(row, pack, housing, support, unit, torque, weights=weights)
+            metal = find_material(bell_material(design))
+            drawn = rule(row, pack, housing, support, unit, torque, weights=weights, metal=metal)
     elif is_inrunner(motor) and not missing:
         missing = misfit(motor, support, unit)
         if not missing:

@@ -28,6 +28,7 @@ from cqdd_design.verdict.evidence import Evidence
 from cqdd_design.verdict.joint_lines import joint_lines
 from cqdd_design.verdict.motor import motor_lines
 from cqdd_design.verdict.retention_lines import retention_lines
+from cqdd_design.verdict.rotor_lines import rotor_lines
 from cqdd_design.verdict.screw_lines import screw_lines
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
@@ -51,6 +52,7 @@ def verdict_lines(evidence: Evidence) -> tuple[Check, ...]:
     lines += (
         *carried.values(),
         *shaft_lines(machine),
+        *rotor_lines(machine),
         *joint_lines(machine, evidence.temperatures),
         *screw_lines(machine),
         *retention_lines(machine, evidence.temperatures),

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from cqdd_design.exporting.sheets.title_block import BOTTOM, LEFT, RIGHT, TOP
+from cqdd_design.exporting.sheets.formats import BOTTOM, LEFT
 
 THICK = 0.35
 _CLEAR = 0.05
@@ -84,11 +84,13 @@ def faults(canvas):
     """Sentences on what cannot be read."""
     said = []
     thick = segments(canvas)
+    right, top = canvas.width - 10.0, canvas.height - 10.0
     for number, label in enumerate(canvas.labels):
         if label.height < 1.0:
             said.append(f"small: {label}")
         for corner in label.corners:
-            if not (LEFT < corner.real < RIGHT and BOTTOM < corner.imag < TOP):
+            inside = LEFT < corner.real < right and BOTTOM < corner.imag < top
+            if not inside:
                 said.append(f"off the page: {label}")
                 break
         for other in canvas.labels[:number]:
@@ -105,4 +107,4 @@ def assert_legible(canvas):
     numbers = re.findall(
         r"-?[\d.]+", " ".join(step for steps in canvas.strokes.values() for step in steps)
     )
-    assert all(0.0 <= float(number) <= 420.0 for number in numbers)
+    assert all(0.0 <= float(number) <= canvas.width for number in numbers)

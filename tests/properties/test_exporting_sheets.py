@@ -16,19 +16,22 @@ from legible import assert_legible, faults
 
 from cqdd_design.design import load_design
 from cqdd_design.errors import CatalogError
+from cqdd_design.exporting.edm.cut_facts import facts_of
 from cqdd_design.exporting.edm.dxf import add_classes, reproducible
+from cqdd_design.exporting.edm.flat_parts import flat_parts
 from cqdd_design.exporting.sheets import part_sheet
 from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 from cqdd_design.exporting.sheets.assembly_sheet import draw_assembly
 from cqdd_design.exporting.sheets.canvas import render, svg_text
+from cqdd_design.exporting.sheets.cut_sheet import draw_sheet
 from cqdd_design.exporting.sheets.drawing import OUTLINE, SMALL, new_sheet
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.part_facts import PartFacts
 from cqdd_design.exporting.sheets.part_sheet import draw_part, plan_sheet
-from cqdd_design.exporting.sheets.title_block import HEIGHT, SCALES, WIDTH
+from cqdd_design.exporting.sheets.title_block import SCALES
 from cqdd_design.machine import resolve
 from cqdd_design.machine.grease import grease_fill
-from cqdd_design.roads.export import export
+from cqdd_design.roads.export import export, left_out
 from cqdd_design.solids.features.holes import (
     BoltCircle,
     ClearanceHole,
@@ -60,7 +63,7 @@ def turned_parts(machine):
 
 
 def drawn(part, machine):
-    return render(draw_part(PartFacts(part, machine.given)).drawing, WIDTH, HEIGHT)
+    return render(draw_part(PartFacts(part, machine.given)))
 
 
 def texts_of(svg):
@@ -237,6 +240,27 @@ def test_a_wrong_value_would_be_seen(machine):
             check_part(part, [instead if text == written else text for text in texts])
 
 
+def test_no_wire_and_no_grindstone_makes_a_printed_disc(paper_design_file):
+    design = load_design(paper_design_file.with_name("printed-13.toml"))
+    machine = resolve(design)
+    for flat in flat_parts(machine):
+        canvas = draw_sheet(facts_of(flat, machine))
+        texts = texts_of(svg_text(canvas, flat.label))
+        assert_legible(canvas)
+        words = " ".join(texts)
+        assert "printed, FDM" in words
+        assert "export --to print" in words
+        for of_metal in ("wire", "ground", "recast", "CUTS IN ORDER", "Ra 0.4"):
+            assert of_metal not in words, of_metal
+    housing = next(part for part in machine.parts if part.name == "housing")
+    assert "as printed, FDM, where not marked" in texts_of(svg_text(drawn(housing, machine), ""))
+    assert (
+        "no wire cuts discs (PC-CF FDM along layers) and ring" in left_out(design, "gcode,bom")[0]
+    )
+    assert left_out(design, "sheets,bom") == ()
+    assert left_out(load_design(paper_design_file), "edm,gcode") == ()
+
+
 @pytest.mark.parametrize("radius", [0.05, 0.123, 1.5])
 def test_the_table_of_holes_is_as_wide_as_its_numbers(radius):
     facts = SimpleNamespace(holes=[[SimpleNamespace(circle=BoltCircle.even("x", 7, radius))]])
@@ -251,10 +275,10 @@ def test_text_on_text_and_on_thick_lines_is_found():
     sheet.text(100.0 + 100.0j, "alone")
     sheet.text(50.0 + 200.0j, "thin is fine")
     sheet.line(40.0 + 201.0j, 90.0 + 201.0j)
-    assert not faults(render(sheet.drawing, WIDTH, HEIGHT))
+    assert not faults(render(sheet))
     sheet.circle(112.0 + 101.0j, 8.0, OUTLINE)
     sheet.text(51.0 + 201.0j, "on it")
-    found = faults(render(sheet.drawing, WIDTH, HEIGHT))
+    found = faults(render(sheet))
     assert [text.split(":")[0] for text in found] == ["crossed", "on each other"]
 
 
@@ -316,7 +340,7 @@ def test_every_feature_of_every_part_is_on_its_sheet(name, change, paper_design_
         check_title(part, texts)
         assert_legible(canvas)
     assembly = AssemblyFacts(machine)
-    canvas = render(draw_assembly(assembly).drawing, WIDTH, HEIGHT)
+    canvas = render(draw_assembly(assembly))
     assert_legible(canvas)
     texts = texts_of(svg_text(canvas, "assembly"))
     for item, part in enumerate(machine.parts, start=1):

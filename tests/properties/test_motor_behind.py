@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,11 +13,15 @@ from legible import assert_legible
 from cqdd_design.catalog.motors import motors
 from cqdd_design.design import Design, load_design
 from cqdd_design.exporting.bill.consumables import bonds
+from cqdd_design.exporting.edm.cut_facts import facts_of
+from cqdd_design.exporting.edm.flat_parts import flat_parts
+from cqdd_design.exporting.job import ExportJob
+from cqdd_design.exporting.options import DEFAULTS
 from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
-from cqdd_design.exporting.sheets.canvas import render
+from cqdd_design.exporting.sheets.canvas import pdf_bytes, render, svg_text
 from cqdd_design.exporting.sheets.part_facts import PartFacts
 from cqdd_design.exporting.sheets.part_sheet import draw_part
-from cqdd_design.exporting.sheets.title_block import HEIGHT, WIDTH
+from cqdd_design.exporting.sheets.sheet_files import export_sheets
 from cqdd_design.geometry.contours import Circle
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.heat_nodes import NODES
@@ -234,8 +240,56 @@ def test_its_sheets_can_be_read(which: str, request: pytest.FixtureRequest) -> N
     machine = request.getfixturevalue(which)
     for part in machine.parts:
         if part.name in ("motor cover", "rotor bell", "housing"):
-            svg = render(draw_part(PartFacts(part, machine.given)).drawing, WIDTH, HEIGHT)
+            svg = render(draw_part(PartFacts(part, machine.given)))
             assert_legible(svg)
+
+
+@pytest.fixture(scope="module")
+def pinned(paper: Design) -> Machine:
+    """Pins that a housing holds, before a motor of its own: much is said of that housing."""
+    changes = {
+        "reducer.ring_type": "pinwheel", "reducer.ring.outer_diameter": "135 mm",
+        "reducer.ring_pitch_radius": "58 mm", "reducer.ring_pin_diameter": "9 mm",
+    }  # fmt: skip
+    return resolve(paper.replacing(changes))
+
+
+def test_what_would_be_small_stands_on_a_larger_sheet(pinned: Machine) -> None:
+    housing = next(part for part in pinned.parts if part.name == "housing")
+    sheet = draw_part(PartFacts(housing, pinned.given))
+    assert (sheet.paper.name, sheet.scale) == ("A2", 1.0)
+    canvas = render(sheet)
+    assert_legible(canvas)
+    assert (canvas.width, canvas.height) == (594.0, 420.0)
+    assert {"1 : 1", "1 / 1, A2"} <= {label.text for label in canvas.labels}
+    assert 'width="594mm" height="420mm"' in svg_text(canvas, "")
+    box = re.search(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", pdf_bytes(canvas, ""))
+    assert box is not None
+    points = [float(one) for one in box.groups()]
+    assert points == pytest.approx([594.0 / 25.4 * 72.0, 420.0 / 25.4 * 72.0], abs=0.01)
+
+
+def test_fits_of_large_parts_have_their_limits(pinned: Machine) -> None:
+    """ISO 286 beyond 120 mm: n6 is +27 to +52 um, H7 to +40."""
+    texts = [
+        label.text
+        for part in pinned.parts
+        if part.name in ("housing", "ring clamp", "motor cover")
+        for label in render(draw_part(PartFacts(part, pinned.given))).labels
+    ]
+    assert "\u00d8135 H7 (+0.04/0)" in texts
+    fits = [one for one in texts if re.match(r"\u00d8[\d.]+ [a-zA-Z]{1,2}\d", one)]
+    assert len(fits) > 8
+    assert all("(" in one for one in fits if "deep" not in one), fits
+    flat = next(one for one in flat_parts(pinned) if one.label == "ring")
+    cut = facts_of(flat, pinned, DEFAULTS).seats
+    assert str(cut[0]) == "135 n6 (+0.052/+0.027)"
+
+
+def test_the_export_tells_of_a_larger_sheet(pinned: Machine, tmp_path: Path) -> None:
+    told: list[str] = []
+    export_sheets(ExportJob(pinned, tmp_path, told.append))
+    assert "cqdd-10-housing stands on A2 at 1 : 1" in told
 
 
 def test_a_ring_in_its_seat_is_no_collision(paper: Design) -> None:

@@ -17,7 +17,6 @@ from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
 from cqdd_design.exporting.sheets.canvas import render
 from cqdd_design.exporting.sheets.part_facts import PartFacts
 from cqdd_design.exporting.sheets.part_sheet import draw_part
-from cqdd_design.exporting.sheets.title_block import HEIGHT, WIDTH
 from cqdd_design.exporting.solids.bom import bill_of_materials
 from cqdd_design.machine import resolve
 from cqdd_design.machine.heat_nodes import NODES
@@ -199,7 +198,7 @@ def test_sheets_of_an_inrunner_can_be_read(paper):
     machine = inrunner(paper, DRAWN[2])
     for part in machine.parts:
         if part.name in ("motor cover", "rotor hub", "housing"):
-            svg = render(draw_part(PartFacts(part, machine.given)).drawing, WIDTH, HEIGHT)
+            svg = render(draw_part(PartFacts(part, machine.given)))
             assert_legible(svg)
     said = " ".join(AssemblyFacts(machine).notes())
     assert "Motor stator bonded at the stator seat" in said

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from solids_designs import known_design, known_parts, part_named
 
-from cqdd_design.catalog import find_bearing, find_motor
+from cqdd_design.catalog import find_bearing, find_material, find_motor
 from cqdd_design.design import Design
 from cqdd_design.errors import GeometryError
 from cqdd_design.geometry.contours import Circle
@@ -153,6 +153,7 @@ def test_screws_of_the_board_stand_beside_the_shafts_end(support: str) -> None:
         layout.unit,
         8.0,
         weights=False,
+        metal=find_material("7075-T6"),
     )
     heads = board_circle(motor).radius - 0.5 * motor.board_screw.head_diameter
     assert heads > 0.5 * row.bore_diameter + 0.3e-3

@@ -17,11 +17,13 @@ from cqdd_design.catalog import (
     find_motor,
     find_shoulder_screw,
     fit_limits,
+    fit_zones,
     materials,
     motors,
     shoulder_screws,
 )
 from cqdd_design.catalog.needles import needle_set
+from cqdd_design.exporting.edm.seats import seat
 from cqdd_design.gearbox.contact.laws import ball_complement, cam_spring
 from cqdd_design.gearbox.losses.rolling import DRAG_FACTOR
 
@@ -182,6 +184,59 @@ def test_a_size_on_the_step_belongs_to_the_range_below():
     """ISO 286: over 3 up to and including 6 mm."""
     assert fit_limits("f9", 3e-3).up_to == pytest.approx(3e-3)
     assert fit_limits("f9", 6e-3).up_to == pytest.approx(6e-3)
+
+
+_SHAFTS = {
+    "d": lambda d: -16.0 * d**0.44,
+    "e": lambda d: -11.0 * d**0.41,
+    "f": lambda d: -5.5 * d**0.41,
+    "g": lambda d: -2.5 * d**0.34,
+    "k": lambda d: 0.6 * d ** (1.0 / 3.0),
+    "n": lambda d: 5.0 * d**0.34,
+}
+"""Fundamental deviations of ISO 286-1, um, of the mean size of a range, mm."""
+_UNITS = {5: 7.0, 6: 10.0, 7: 16.0, 8: 25.0, 9: 40.0, 11: 100.0}
+
+
+@pytest.mark.parametrize("ends", [(80, 120), (120, 180), (180, 250), (250, 315), (315, 400)])
+def test_zones_of_large_sizes_follow_the_formulas_of_iso_286(ends):
+    """Grades of so many i, i = 0.45 D^(1/3) + 0.001 D; deviations of shafts; holes with the rule
+    of delta = IT7 - IT6; all within what the standard rounds."""
+    mean, size = math.sqrt(ends[0] * ends[1]), 1e-3 * ends[1]
+    unit = 0.45 * mean ** (1.0 / 3.0) + 0.001 * mean
+    for code, zones in fit_zones().items():
+        letter = code.rstrip("0123456789")
+        grade = int(code.removeprefix(letter))
+        if zones[-1].up_to < size:
+            assert code in ("r6", "s6")
+            continue
+        limits = fit_limits(code, size)
+        lower, upper = 1e6 * limits.lower, 1e6 * limits.upper
+        assert upper - lower == pytest.approx(_UNITS[grade] * unit, rel=0.02, abs=0.6), code
+        if letter in _SHAFTS:
+            near = lower if letter in "kn" else upper
+            assert near == pytest.approx(_SHAFTS[letter](mean), rel=0.025, abs=1.0), code
+        if letter.lower() in _SHAFTS and letter in "DFG":
+            assert lower == pytest.approx(-_SHAFTS[letter.lower()](mean), rel=0.025, abs=1.0), code
+        if letter in "HJS":
+            assert lower == pytest.approx(0.0 if letter == "H" else -upper)
+        if letter == "h":
+            assert upper == 0.0
+    delta = fit_limits("H7", size).upper - fit_limits("H6", size).upper
+    for hole, shaft in (("K7", "k6"), ("M7", "m6"), ("N7", "n6"), ("P7", "p6")):
+        deviation = delta - fit_limits(shaft, size).lower
+        assert fit_limits(hole, size).upper == pytest.approx(deviation, abs=0.1e-6), hole
+    assert fit_limits("m6", size).lower == pytest.approx(delta, abs=0.1e-6)
+    beyond = 1e6 * (fit_limits("p6", size).lower - fit_limits("H7", size).upper)
+    assert 0.0 <= beyond <= 5.0 + 1e-9
+
+
+def test_the_seat_of_a_large_ring_is_cut_to_its_zone():
+    """150 n6 is +27 to +52 um: the wire goes half of the middle out, where h7 would be loose."""
+    found = seat(0, 0.15, "n6")
+    assert found is not None
+    assert found.middle == pytest.approx(150.0395e-3, abs=1e-9)
+    assert found.shift == pytest.approx(19.75e-6)
 
 
 def test_rolling_elements_of_the_cam_bearing():

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from cqdd_design.catalog import find_material
+from cqdd_design.catalog.printing import made_how
 from cqdd_design.exporting.edm.dxf import contour_fit
 from cqdd_design.exporting.edm.flat_parts import seats_of
 from cqdd_design.exporting.edm.loops import LoopFit
@@ -118,6 +119,11 @@ class CutFacts:
     def seat_by_contour(self) -> dict[int, Seat]:
         """Seats by the number of their contour."""
         return {seat.contour: seat for seat in self.seats}
+
+    @property
+    def moulded(self) -> str:
+        """How it is printed or moulded; empty of what a wire cuts."""
+        return made_how(self.flat.material, "")
 
     @property
     def quantity_text(self) -> str:

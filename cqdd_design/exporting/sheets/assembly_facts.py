@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from cqdd_design.exporting.sheets.wording import joint_note
 from cqdd_design.machine.centring import centring
 from cqdd_design.machine.grease import grease_fill
+from cqdd_design.machine.motor_standing import motor_standing
 from cqdd_design.machine.screws import tightened_screws
 from cqdd_design.machine.sealing import sealing
 from cqdd_design.solids.apart import Step, taken_apart, unit_name
@@ -90,6 +91,7 @@ class AssemblyFacts:
                 if isinstance(feature, Joint) and feature.kind != "screwed":
                     said.append(f"{_capital(part.name)}: {joint_note(feature)}")
         said.append(self._grease())
+        said.append(motor_standing(self.machine))
         said += [sealing(self.machine), centring(self.machine)]
         said.append(
             f"Turned by hand, the output's face and seat run true to the housing within {_RUN_OUT} "

@@ -19,6 +19,7 @@ from cqdd_design.exporting.sheets import title_block as block
 from cqdd_design.exporting.sheets.assembly_facts import PARTS_HEAD, PLAY_HEAD
 from cqdd_design.exporting.sheets.assembly_view import AssemblyView
 from cqdd_design.exporting.sheets.drawing import SMALL, SheetDrawing, new_sheet
+from cqdd_design.exporting.sheets.formats import A3, BOTTOM, LEFT
 
 if TYPE_CHECKING:
     from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 _ROWS = 2
 _ORDER = block.title_top(_ROWS) + 25.0
 """Upper edge of the order of assembly, mm."""
-_ROOM = (block.LEFT + 4.0, _ORDER + 4.0, block.TITLE.real - 4.0, block.TOP - 4.0)
+_ROOM = (LEFT + 4.0, _ORDER + 4.0, A3.title.real - 4.0, A3.top - 4.0)
 """Of the section with its balloons, mm."""
 _AROUND = 18.0
 """Taken by balloons above and below, mm."""
@@ -52,7 +53,7 @@ def draw_assembly(facts: AssemblyFacts) -> SheetDrawing:
     sheet = new_sheet(scale)
     block.draw_border(sheet)
     view.draw(sheet, complex(0.5 * (left + right), 0.5 * (bottom + top)))
-    corner = complex(block.TITLE.real + 1.0, block.TOP - 3.0)
+    corner = complex(A3.title.real + 1.0, A3.top - 3.0)
     rows = [PARTS_HEAD, *facts.parts_list()]
     torques = [("screwed joint", "screws", "torque, N m"), *facts.torques()]
     plays = [PLAY_HEAD, *facts.plays()]
@@ -65,7 +66,7 @@ def draw_assembly(facts: AssemblyFacts) -> SheetDrawing:
     room = corner.imag - 5.0 - block.title_top(_ROWS) - 2.0
     said = [*facts.notes(), *_unnumbered(facts, view)]
     block.draw_notes(
-        sheet, corner - 5.0j, said, width=block.RIGHT - corner.real - 2.0, height=room, columns=2
+        sheet, corner - 5.0j, said, width=A3.right - corner.real - 2.0, height=room, columns=2
     )
     _order(sheet, facts)
     _title(sheet, facts)
@@ -116,14 +117,14 @@ def table(
 
 def _order(sheet: SheetDrawing, facts: AssemblyFacts) -> None:
     steps = facts.order()
-    corner = complex(block.LEFT + 4.0, _ORDER)
+    corner = complex(LEFT + 4.0, _ORDER)
     said = steps or ["no order was found in which every part reaches its place"]
     block.draw_notes(
         sheet,
         corner,
         said,
-        width=block.TITLE.real - corner.real - 3.0,
-        height=corner.imag - block.BOTTOM - 2.0,
+        width=A3.title.real - corner.real - 3.0,
+        height=corner.imag - BOTTOM - 2.0,
         columns=3,
         title="ORDER OF ASSEMBLY",
     )

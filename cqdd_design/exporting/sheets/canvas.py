@@ -39,7 +39,7 @@ from cqdd_design.exporting.sheets.lettering import (
 )
 
 if TYPE_CHECKING:
-    from ezdxf.document import Drawing
+    from cqdd_design.exporting.sheets.drawing import SheetDrawing
 
 _POINT = 72.0 / 25.4
 """Points in a millimetre."""
@@ -151,17 +151,17 @@ class _Pipeline(RenderPipeline2d):
         self.canvas.labels.append(label)
 
 
-def render(drawing: Drawing, width: float, height: float) -> Canvas:
-    """Render the model space of a document, drawn in millimetres of paper."""
-    canvas = Canvas(width, height)
+def render(sheet: SheetDrawing) -> Canvas:
+    """Render a sheet, drawn in millimetres of paper."""
+    canvas = Canvas(sheet.paper.width, sheet.paper.height)
     config = Configuration(
         color_policy=ColorPolicy.BLACK,
         background_policy=BackgroundPolicy.OFF,
         lineweight_policy=LineweightPolicy.ABSOLUTE,
         hatch_policy=HatchPolicy.NORMAL,
     )
-    frontend = UniversalFrontend(RenderContext(drawing), _Pipeline(canvas), config)
-    frontend.draw_layout(drawing.modelspace())
+    frontend = UniversalFrontend(RenderContext(sheet.drawing), _Pipeline(canvas), config)
+    frontend.draw_layout(sheet.drawing.modelspace())
     return canvas
 
 

@@ -33,7 +33,7 @@ from cqdd_design.exporting.sheets.canvas import Canvas, render
 from cqdd_design.exporting.sheets.drawing import AXIS, OUTLINE, SMALL, TEXT, SheetDrawing, new_sheet
 from cqdd_design.exporting.sheets.frame import SIMULTANEOUS, draw_frame
 from cqdd_design.exporting.sheets.lettering import text_width
-from cqdd_design.exporting.sheets.title_block import HEIGHT, SCALES, WIDTH
+from cqdd_design.exporting.sheets.title_block import SCALES
 from cqdd_design.exporting.sheets.wording import circle_row
 from cqdd_design.geometry.contours import Circle, as_complex
 from cqdd_design.solids.features.flat import THICKNESS_TOLERANCE
@@ -53,7 +53,7 @@ _MM = 1e3
 
 def draw_sheet(facts: CutFacts) -> Canvas:
     """Draw the sheet of a part and render it."""
-    return render(draw_cut_sheet(facts).drawing, WIDTH, HEIGHT)
+    return render(draw_cut_sheet(facts))
 
 
 def draw_cut_sheet(facts: CutFacts) -> SheetDrawing:
@@ -239,7 +239,8 @@ def _section(sheet: SheetDrawing, facts: CutFacts) -> None:
     words = f"<> +0/-{zone_text(THICKNESS_TOLERANCE)}"
     sheet.linear(left + 1j * (high + 8.0), left + 1j * high, left + wide + 1j * high, 0.0, words)
     _diameters(sheet, facts, left, wide)
-    _faces(sheet, left, left + 0.5j * factor * (walls[-1] + walls[-2]))
+    datum = left + 0.5j * factor * (walls[-1] + walls[-2])
+    _faces(sheet, left, datum, ground=not facts.moulded)
 
 
 def _crossings(facts: CutFacts) -> list[float]:
@@ -292,9 +293,11 @@ def _seat_words(seat: Seat | None) -> str:
     return f"%%c<> {limits.zone} ({_MM * limits.upper:+.3f}/{_MM * limits.lower:+.3f})"
 
 
-def _faces(sheet: SheetDrawing, left: complex, face: complex) -> None:
-    """Datum B on the lower face; flatness, parallelism and finish of the faces."""
+def _faces(sheet: SheetDrawing, left: complex, face: complex, *, ground: bool) -> None:
+    """Datum B on the lower face; flatness, parallelism and finish of the faces, if ground."""
     sheet.datum(face, -1.0 + 0j, "B")
+    if not ground:
+        return
     corner = complex(left.real - 14.0, SECTION.imag - MOST_REACH - 18.0)
     sheet.text(corner + 7.4j, "both faces ground", SMALL)
     across = sheet.tolerance(corner, "flatness", zone_text(GROUND_FLATNESS), [])

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from cqdd_design.exporting.edm.dxf import reproducible
+from cqdd_design.exporting.sheets.formats import A3, Paper
 from cqdd_design.exporting.sheets.lettering import fitting_height, printable, text_width
 from cqdd_design.geometry.contours import Circle, Contour
 
@@ -36,7 +37,7 @@ _DASHED = [3.0, 2.0, -1.0]
 _LINETYPES = {AXIS: "CENTRE", HIDDEN: "DASHED"}
 
 
-def new_sheet(scale: float) -> SheetDrawing:
+def new_sheet(scale: float, paper: Paper = A3) -> SheetDrawing:
     """Start a sheet whose dimensions measure `scale` millimetres of paper as one."""
     from ezdxf.filemanagement import new
 
@@ -57,7 +58,7 @@ def new_sheet(scale: float) -> SheetDrawing:
     }
     for name, value in settings.items():
         style.dxf.set(name, value)
-    return SheetDrawing(drawing, scale)
+    return SheetDrawing(drawing, scale, paper)
 
 
 class SheetDrawing:
@@ -67,11 +68,14 @@ class SheetDrawing:
     ----------
     scale : float
         Millimetres of paper for one of the part.
+    paper : Paper
+        What it is drawn on.
     """
 
-    def __init__(self, drawing: Drawing, scale: float) -> None:
+    def __init__(self, drawing: Drawing, scale: float, paper: Paper) -> None:
         self.drawing = drawing
         self.scale = scale
+        self.paper = paper
         self._space = drawing.modelspace()
 
     def line(self, start: complex, end: complex, layer: str = THIN) -> None:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from cqdd_design.exporting.edm.cut_facts import CUT_FINISH, zone_text
 from cqdd_design.exporting.edm.wire_path import contour_name, contour_size
 from cqdd_design.exporting.sheets.drawing import SMALL, SheetDrawing
+from cqdd_design.exporting.sheets.formats import LEFT
 from cqdd_design.exporting.sheets.title_block import (
     INNER_EDGE,
-    LEFT,
     OUTER_EDGE,
     Field,
     draw_border,
@@ -45,7 +45,8 @@ def draw_frame(sheet: SheetDrawing, facts: CutFacts) -> None:
     # All must stay above the title block.
     room = _NOTES.imag - title_top(4) - 6.0
     draw_notes(sheet, _NOTES, notes(facts), width=_NOTE_WIDTH, height=room + 5.5)
-    _cuts(sheet, facts)
+    if not facts.moulded:
+        _cuts(sheet, facts)
 
 
 def _title_block(sheet: SheetDrawing, facts: CutFacts) -> None:
@@ -54,7 +55,7 @@ def _title_block(sheet: SheetDrawing, facts: CutFacts) -> None:
         [
             ("tolerances", "ISO 8015, ISO 2768-fH, sizes in mm", 64.0),
             ("edges ISO 13715", f"outside {OUTER_EDGE}, inside {INNER_EDGE}", 44.0),
-            ("surfaces", f"cut {CUT_FINISH}, ground where marked", 72.0),
+            ("surfaces", _surfaces(facts), 72.0),
         ],
         [
             ("thickness", f"{_MM * flat.thickness:g} mm", 40.0),
@@ -67,8 +68,14 @@ def _title_block(sheet: SheetDrawing, facts: CutFacts) -> None:
             ("heat treatment", facts.heat_treatment, 88.0),
         ],
     ]
-    words = f"{_title(facts)}; cut by wire EDM"
+    words = f"{_title(facts)}; {facts.moulded or 'cut by wire EDM'}"
     draw_title_block(sheet, design, f"{design.name}-{flat.label}", words, rows)
+
+
+def _surfaces(facts: CutFacts) -> str:
+    if facts.moulded:
+        return f"as {facts.moulded}, seats finished to their zones"
+    return f"cut {CUT_FINISH}, ground where marked"
 
 
 def _title(facts: CutFacts) -> str:
@@ -82,6 +89,38 @@ def _title(facts: CutFacts) -> str:
 
 def notes(facts: CutFacts) -> list[str]:
     """Notes of a sheet, each a sentence or two."""
+    return _moulded_notes(facts) if facts.moulded else _cut_notes(facts)
+
+
+def _moulded_notes(facts: CutFacts) -> list[str]:
+    """Of a plastic, which no wire cuts."""
+    name = facts.design.name
+    return [
+        *facts.remarks,
+        f"{facts.moulded.capitalize().replace('fdm', 'FDM')}: from the files of "
+        f"`export --to print`, which are larger by what it shrinks; contours of {name}-"
+        f"{facts.flat.label}.dxf are those of the finished part.",
+        _curve(facts),
+        f"{facts.fit_text[1].capitalize()}.",
+        f"Profile: zone {zone_text(facts.zones.profile)} mm wide, half to either side of the "
+        "contour.",
+        *(
+            f"Seat \u00d8{seat}, {contour_name(seat.contour)}: bored or turned to its zone."
+            for seat in facts.seats
+        ),
+        _datums(facts),
+        *_clocking(facts),
+        "Sizes in brackets are auxiliary.",
+    ]
+
+
+def _datums(facts: CutFacts) -> str:
+    face = "lower face" if facts.moulded else "lower face, on the table of the machine"
+    axis = "the outside" if facts.flat.label == "ring" else "the bore"
+    return f"Datum A: axis of {axis}. Datum B: {face}."
+
+
+def _cut_notes(facts: CutFacts) -> list[str]:
     flat, edm = facts.flat, facts.design.edm
     offset = _MM * edm.wire_offset
     said = [
@@ -103,8 +142,7 @@ def notes(facts: CutFacts) -> list[str]:
         for seat in facts.seats
     ]
     said += [
-        f"Datum A: axis of {'the outside' if flat.label == 'ring' else 'the bore'}. Datum B: lower "
-        "face, on the table of the machine.",
+        _datums(facts),
         *_clocking(facts),
         "Cut all contours in one clamping, holes first, the outer contour last.",
         "Stress relieve before cutting. No recast layer on the contour after the last skim cut.",

@@ -9,30 +9,28 @@
     |   notes              +----- title block -----|
     +----------------------+-----------------------+
 
-Views stand at the largest scale of ISO 5455 at which all that is said of them has room.
+Views stand at the largest scale of ISO 5455 at which all that is said of them has room on A3; what
+would be smaller than 1 : 2 there is drawn on a larger sheet.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
+from cqdd_design.catalog.printing import made_how
 from cqdd_design.exporting.sheets.blocks import Extent, distance_beside
 from cqdd_design.exporting.sheets.drawing import SMALL, SheetDrawing, new_sheet
 from cqdd_design.exporting.sheets.end_plan import EndPlan, EndShape
+from cqdd_design.exporting.sheets.formats import BOTTOM, LEAST_SCALE, LEFT, PAPERS, Paper
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.exporting.sheets.part_facts import GENERAL_SURFACE, GENERAL_TOLERANCES
 from cqdd_design.exporting.sheets.section_plan import SectionPlan, SectionShape
 from cqdd_design.exporting.sheets.title_block import (
-    BOTTOM,
     INNER_EDGE,
-    LEFT,
     OUTER_EDGE,
-    RIGHT,
     SCALES,
-    TITLE,
-    TOP,
     Field,
     draw_border,
     draw_notes,
@@ -52,10 +50,11 @@ _BETWEEN = 3.0
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Views at one scale and the room there is for them, mm."""
+    """Views at one scale on a sheet, and the room there is for them, mm."""
 
     section: SectionPlan
     end: EndPlan | None
+    paper: Paper
     room: Extent
 
     @property
@@ -100,24 +99,38 @@ class Plan:
 
 
 def plan_sheet(facts: PartFacts) -> Plan:
-    """Lay a part's views out at the largest scale that fits, or at the smallest there is."""
+    """Lay a part's views out on the smallest sheet where they fit at 1 : 2 or larger.
+
+    As large there as fits; smaller than 1 : 2 only where the largest sheet is too small.
+    """
     section, end = SectionShape(facts), EndShape(facts)
-    blocks = _table_blocks(facts)
-    right = RIGHT - 2.0 - (blocks * (_columns(facts)[-1] + 2.0) if blocks else 0.0)
-    room = Extent(LEFT + 2.0, title_top(_TITLE_ROWS) + 1.0, right, TOP - 1.0)
-    for scale in SCALES:
-        cut = section.directions
-        view = EndPlan(end, scale, cut) if end.needed else None
-        plan = Plan(SectionPlan(section, scale), view, room)
+    shown = [one for one in SCALES if one >= LEAST_SCALE]
+    tried = [(paper, scale) for paper in PAPERS for scale in shown]
+    tried += [(PAPERS[-1], scale) for scale in SCALES if scale < LEAST_SCALE]
+
+    @cache
+    def views(scale: float) -> tuple[SectionPlan, EndPlan | None]:
+        along = EndPlan(end, scale, section.directions) if end.needed else None
+        return SectionPlan(section, scale), along
+
+    for paper, scale in tried:
+        plan = Plan(*views(scale), paper, _room(facts, paper))
         if plan.fits:
             break
     return plan
 
 
+def _room(facts: PartFacts, paper: Paper) -> Extent:
+    """Of the views, beside the table of holes and above notes and title block."""
+    blocks = _table_blocks(facts, paper)
+    right = paper.right - 2.0 - (blocks * (_columns(facts)[-1] + 2.0) if blocks else 0.0)
+    return Extent(LEFT + 2.0, title_top(_TITLE_ROWS) + 1.0, right, paper.top - 1.0)
+
+
 def draw_part(facts: PartFacts) -> SheetDrawing:
     """Draw the sheet of a part."""
     plan = plan_sheet(facts)
-    sheet = new_sheet(plan.scale)
+    sheet = new_sheet(plan.scale, plan.paper)
     draw_border(sheet)
     section_at, end_at = plan.places()
     plan.section.draw(sheet, section_at, "A-A" if plan.end else "")
@@ -129,7 +142,7 @@ def draw_part(facts: PartFacts) -> SheetDrawing:
         sheet,
         corner,
         notes(facts),
-        width=TITLE.real - corner.real - 4.0,
+        width=plan.paper.title.real - corner.real - 4.0,
         height=corner.imag - BOTTOM - 2.0,
         columns=2,
     )
@@ -161,7 +174,7 @@ def _title(sheet: SheetDrawing, facts: PartFacts) -> None:
         [
             ("tolerances", GENERAL_TOLERANCES, 64.0),
             ("edges ISO 13715", f"outside {OUTER_EDGE}, inside {INNER_EDGE}", 44.0),
-            ("surfaces", GENERAL_SURFACE, 72.0),
+            ("surfaces", _surfaces(part.material), 72.0),
         ],
         [
             ("part", part.name, 52.0),
@@ -178,6 +191,11 @@ def _title(sheet: SheetDrawing, facts: PartFacts) -> None:
     draw_title_block(sheet, facts.design, facts.number, words, rows)
 
 
+def _surfaces(material: str) -> str:
+    made = made_how(material, "")
+    return f"as {made}, where not marked" if made else GENERAL_SURFACE
+
+
 def hole_places(facts: PartFacts) -> list[tuple[str, str, str]]:
     """Number, X and Y (mm) of every hole."""
     rows = []
@@ -191,12 +209,12 @@ def _fixed(value: float) -> str:
     return f"{round(1e3 * value, 4) + 0.0:.4f}"
 
 
-def _most_rows() -> int:
-    return int((TOP - 12.0 - title_top(_TITLE_ROWS)) / _PITCH) - 2
+def _most_rows(paper: Paper) -> int:
+    return int((paper.top - 12.0 - title_top(_TITLE_ROWS)) / _PITCH) - 2
 
 
-def _table_blocks(facts: PartFacts) -> int:
-    return -(-len(hole_places(facts)) // _most_rows())
+def _table_blocks(facts: PartFacts, paper: Paper) -> int:
+    return -(-len(hole_places(facts)) // _most_rows(paper))
 
 
 def _columns(facts: PartFacts) -> tuple[float, float, float, float]:
@@ -207,16 +225,16 @@ def _columns(facts: PartFacts) -> tuple[float, float, float, float]:
 
 
 def _table_of_holes(sheet: SheetDrawing, facts: PartFacts) -> None:
-    rows = hole_places(facts)
-    blocks = _table_blocks(facts)
+    rows, paper = hole_places(facts), sheet.paper
+    blocks = _table_blocks(facts, paper)
     if not blocks:
         return
     *columns, wide = _columns(facts)
-    left = RIGHT - blocks * (wide + 2.0)
-    sheet.text(complex(left, TOP - 6.0), "HOLES, mm", 3.0)
-    most = _most_rows()
+    left = paper.right - blocks * (wide + 2.0)
+    sheet.text(complex(left, paper.top - 6.0), "HOLES, mm", 3.0)
+    most = _most_rows(paper)
     for block in range(blocks):
-        corner = complex(left + block * (wide + 2.0), TOP - 8.0)
+        corner = complex(left + block * (wide + 2.0), paper.top - 8.0)
         some = [("hole", "X", "Y"), *rows[block * most : (block + 1) * most]]
         for place, row in enumerate(some, start=1):
             level = corner - 1j * place * _PITCH

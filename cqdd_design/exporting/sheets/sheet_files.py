@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from cqdd_design.exporting.edm.cut_facts import facts_of
 from cqdd_design.exporting.edm.dxf import add_classes, reproducible
 from cqdd_design.exporting.edm.flat_parts import flat_parts
+from cqdd_design.exporting.sheets.formats import A3, LEAST_SCALE, scale_words
 from cqdd_design.files import WrittenFile, write_atomically
 
 if TYPE_CHECKING:
@@ -31,6 +32,8 @@ def export_sheets(job: ExportJob) -> tuple[WrittenFile, ...]:
     """Write the sheets of a machine into ``sheets/``."""
     files: list[WrittenFile] = []
     for number, title, sheet in sheets_of(job):
+        if sheet.paper != A3 or sheet.scale < LEAST_SCALE:
+            job.progress(f"{number} stands on {sheet.paper.name} at {scale_words(sheet.scale)}")
         files += _written(job, number, title, sheet)
     return tuple(files)
 
@@ -60,10 +63,9 @@ def sheets_of(job: ExportJob) -> Iterator[tuple[str, str, SheetDrawing]]:
 
 def _written(job: ExportJob, number: str, title: str, sheet: SheetDrawing) -> list[WrittenFile]:
     from cqdd_design.exporting.sheets.canvas import pdf_bytes, render, svg_text
-    from cqdd_design.exporting.sheets.title_block import HEIGHT, WIDTH
 
     with reproducible():
-        canvas = render(sheet.drawing, WIDTH, HEIGHT)
+        canvas = render(sheet)
         add_classes(sheet.drawing)
         text = io.StringIO()
         sheet.drawing.write(text)

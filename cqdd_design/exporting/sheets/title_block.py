@@ -7,19 +7,15 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.exporting.sheets.canvas import sheet_date
 from cqdd_design.exporting.sheets.drawing import OUTLINE, SMALL, SheetDrawing
+from cqdd_design.exporting.sheets.formats import BOTTOM, LEFT, TITLE_WIDTH, scale_words
 from cqdd_design.exporting.sheets.lettering import text_width
 from cqdd_design.version import __version__
 
 if TYPE_CHECKING:
     from cqdd_design.design import Design
 
-WIDTH, HEIGHT = 420.0, 297.0
-"""A3 lying, mm."""
-LEFT, BOTTOM, RIGHT, TOP = 20.0, 10.0, 410.0, 287.0
-"""Border by ISO 5457."""
-TITLE = complex(230.0, BOTTOM)
-"""Lower left corner of the title block, mm."""
-TITLE_WIDTH, ROW, HEAD = 180.0, 8.0, 15.0
+ROW, HEAD = 8.0, 15.0
+"""Heights in the title block, mm."""
 SCALES = (20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02)
 """ISO 5455."""
 OUTER_EDGE, INNER_EDGE = "-0.3", "+0.3"
@@ -32,12 +28,13 @@ Field = tuple[str, str, float]
 
 def draw_border(sheet: SheetDrawing) -> None:
     """Draw the border of the sheet."""
-    sheet.box(complex(LEFT, BOTTOM), RIGHT - LEFT, TOP - BOTTOM, OUTLINE)
+    paper = sheet.paper
+    sheet.box(complex(LEFT, BOTTOM), paper.right - LEFT, paper.top - BOTTOM, OUTLINE)
 
 
 def title_top(rows: int) -> float:
     """Upper edge of a title block of so many rows, mm."""
-    return TITLE.imag + rows * ROW + HEAD
+    return BOTTOM + rows * ROW + HEAD
 
 
 def draw_title_block(
@@ -54,32 +51,30 @@ def draw_title_block(
     rows : sequence of rows of Field
         From the bottom up, above the row of what every sheet says; each is 180 mm wide.
     """
-    every = [_common(sheet, design), *rows]
+    every, start = [_common(sheet, design), *rows], sheet.paper.title
     for place, row in enumerate(every):
-        x, y = TITLE.real, TITLE.imag + place * ROW
+        x, y = start.real, start.imag + place * ROW
         for heading, said, width in row:
             corner = complex(x, y)
             sheet.box(corner, width, ROW)
             sheet.text(corner + 1.0 + 5.6j, heading, 1.5)
             sheet.text(corner + 1.2 + 1.6j, said, 2.5, width - 2.4)
             x += width
-    _projection_sign(sheet, complex(TITLE.real + 169.0, TITLE.imag + 2.9))
-    corner = TITLE + 1j * len(every) * ROW
+    _projection_sign(sheet, start + 169.0 + 2.9j)
+    corner = start + 1j * len(every) * ROW
     sheet.box(corner, TITLE_WIDTH, HEAD)
     sheet.text(corner + 2.0 + 8.6j, number, 4.5, 176.0)
     sheet.text(corner + 2.0 + 2.4j, words, 2.8, 176.0)
-    sheet.box(TITLE, TITLE_WIDTH, len(every) * ROW + HEAD, OUTLINE)
+    sheet.box(start, TITLE_WIDTH, len(every) * ROW + HEAD, OUTLINE)
 
 
 def _common(sheet: SheetDrawing, design: Design) -> list[Field]:
-    scale = sheet.scale
-    ratio = f"{scale:g} : 1" if scale >= 1.0 else f"1 : {1.0 / scale:g}"
     return [
         ("made by", f"cqdd-design {__version__}", 40.0),
         ("revision (of the design)", design.sha256[:12], 44.0),
         ("date", sheet_date() or "-", 30.0),
-        ("scale", ratio, 22.0),
-        ("sheet", "1 / 1, A3", 22.0),
+        ("scale", scale_words(sheet.scale), 22.0),
+        ("sheet", f"1 / 1, {sheet.paper.name}", 22.0),
         ("projection", "", 22.0),
     ]
 

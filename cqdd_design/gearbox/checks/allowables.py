@@ -90,6 +90,11 @@ for edges that were wire-cut and trimmed."""
 STATIC_SAFETY = 1.0
 """Least C0/P at the peak torque (ISO 76: normal operation without shocks)."""
 
+# Rotor on the shaft's stub ----------------------------------------------------------------------
+AIR_GAP_SHARE = 0.5
+"""Most of a motor's air gap that its rotor may take: as much again stays before it touches (house
+rule, on a pull that is overstated)."""
+
 # Toleranced gearboxes ----------------------------------------------------------------------------
 BINDING_SHARE = 0.05
 """Torque that turns a gearbox without load, over the continuous torque, from which it binds."""

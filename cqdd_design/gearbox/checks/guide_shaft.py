@@ -6,6 +6,10 @@ from cqdd_design.gearbox.checks import allowables as limits
 from cqdd_design.gearbox.checks.guide_row import CheckGuide
 
 _EQUILIBRIUM = "contact equilibrium of perfect parts, driving with friction"
+_PULL = (
+    "Maxwell's stress on a first-order field in the gap, magnets of the height that pulls most, "
+    "cqdd_design.solids.rotor_pull"
+)
 _STATICS = "statics of the shaft, cqdd_design.machine.shaft_strength"
 _BUDYNAS = "Budynas and Nisbett 2020, Shigley's Mechanical Engineering Design, section 7-4"
 
@@ -53,6 +57,31 @@ ROWS = (
         "They turn as fast as the motor. The one in the carrier turns against it, 1 + 1/n times "
         "as fast as the crank.",
         f"ISO 281:2007; {_STATICS}",
+        basis=_EQUILIBRIUM,
+    ),
+    CheckGuide(
+        "SHAFT-ROTOR-GAP",
+        "Share of the motor's air gap that its rotor takes off centre",
+        "%",
+        "max",
+        f"(e + y)/g <= {100.0 * limits.AIR_GAP_SHARE:g} %, e = g/10, y of shaft, balls and web "
+        "under k (e + y), weight and unbalance; k = pi D l B^2/(2 mu_0 (g + h))",
+        "A rotor off its stator's axis is pulled farther off by its own magnets. What carries it, "
+        "the shaft's stub and the web of bell or hub, has to be stiffer than that pull grows, or "
+        "the rotor touches.",
+        f"{_PULL}; Timoshenko 1955, Strength of Materials (stepped beam; Kirchhoff's plate); "
+        "Harris and Kotzalas 2006, Rolling Bearing Analysis (balls); limit: house rule",
+        basis="parts as drawn, at the input speed",
+    ),
+    CheckGuide(
+        "SHAFT-STUB",
+        "Reversed stress of the shaft at its stub, duty and the pull on the rotor",
+        "MPa",
+        "max",
+        "sigma_a of the duty + K_f F a/W <= S_e, F on the rotor, a to where the stub begins",
+        "The rotor's weight and pull stand still while the shaft turns under them: each turn is a "
+        "cycle, on top of what the discs do.",
+        f"{_BUDYNAS}; {_PULL}; {_STATICS}",
         basis=_EQUILIBRIUM,
     ),
     CheckGuide(

@@ -13,12 +13,12 @@ from cqdd_design.solids.features.making import clearance, metric, seat, shoulder
 from cqdd_design.solids.motor_layout import MotorEnd, MotorLayout
 from cqdd_design.solids.registers import LEAD_IN
 
-_LIGHTENING, _BOARD_SCREWS = 6, 3
+_BOARD_SCREWS = 3
 _BOARD_GAP = 0.4e-3
 """Between the heads of the board's screws and its edge, m."""
 
 
-def bell_features(motor: MotorLayout, stub_radius: float, unit: float) -> tuple[Feature, ...]:
+def bell_features(motor: MotorLayout, stub_radius: float) -> tuple[Feature, ...]:
     """Of the rotor's carrier; its datum is its bore."""
     bore = seat(
         "bonded bore", 2.0 * stub_radius, motor.hub_bottom, motor.hub_top, zones.BELL_BORE,
@@ -35,7 +35,7 @@ def bell_features(motor: MotorLayout, stub_radius: float, unit: float) -> tuple[
                  motor.rotor_outer, "up", ring, fillet=_MAGNET_CORNER),
         Joint("eccentric shaft", "bonded", bore.name, "eccentric shaft", "bond on the stub"),
         Joint("motor rotor", "bonded", ring.name, "motor rotor", "bond in the bell"),
-        *_lightening(motor, unit),
+        *_lightening(motor),
     )  # fmt: skip
 
 
@@ -43,15 +43,13 @@ _MAGNET_CORNER = 0.3e-3
 """Largest corner radius under the ring of magnets, m."""
 
 
-def _lightening(motor: MotorLayout, unit: float) -> tuple[PlainHole, ...]:
-    """Holes in the web, where they save anything."""
-    room = motor.rotor_inner - 2.0 * unit - motor.hub_radius - 1.5 * unit
-    middle = motor.hub_radius + 1.5 * unit + 0.5 * room
-    hole = min(0.5 * room, middle * math.sin(math.pi / _LIGHTENING) - 1.5 * unit)
-    if hole <= unit:
+def _lightening(motor: MotorLayout) -> tuple[PlainHole, ...]:
+    """Holes in the web, where there are any."""
+    count, circle, radius = motor.lightening
+    if not count:
         return ()
-    circle = BoltCircle.even("lightening", _LIGHTENING, middle, math.pi / _LIGHTENING)
-    return (PlainHole("lightening holes", 2.0 * hole, motor.web_bottom, motor.web_top, circle),)
+    holes = BoltCircle.even("lightening", count, circle, math.pi / count)
+    return (PlainHole("lightening holes", 2.0 * radius, motor.web_bottom, motor.web_top, holes),)
 
 
 def board_circle(motor: MotorEnd) -> BoltCircle:

@@ -1,0 +1,81 @@
+"""Where the motor stands is told with the room that the other places lack."""
+
+from __future__ import annotations
+
+import pytest
+
+from cqdd_design.catalog import bearings, motors
+from cqdd_design.design import Design, load_design
+from cqdd_design.exporting.sheets.assembly_facts import AssemblyFacts
+from cqdd_design.gearbox.checks.allowables import LIGAMENT, RING_WALL
+from cqdd_design.geometry.scale import largest_ring, millimetre_unit, ring_within_rotor
+from cqdd_design.machine import resolve
+from cqdd_design.machine.motor_standing import motor_standing, room_round_motor
+from cqdd_design.solids.motor_rules import is_inrunner, undrawn_sizes
+
+LEAST_RING, MOST_RING = 45e-3, 150e-3
+
+
+@pytest.fixture(scope="module")
+def paper(paper_design_file) -> Design:
+    return load_design(paper_design_file)
+
+
+def test_no_inrunner_that_is_drawn_has_room_for_a_gearbox_or_goes_into_one() -> None:
+    """Rings of 45 to 150 mm: the rotor's bore is too narrow, the motor too wide for a cam."""
+    drawn = [one for one in motors().values() if is_inrunner(one) and not undrawn_sizes(one)]
+    assert len(drawn) >= 2
+    unit, eccentricity = millimetre_unit(MOST_RING), 1e-3
+    balls = [one for one in bearings().values() if one.kind == "ball"]
+    # Outside the cam bearing: ligament, hole of a 3 mm pin, ligament, lobes' swing, ring.
+    outside = LIGAMENT + 3e-3 + 2.0 * eccentricity + LIGAMENT + 2.0 * eccentricity + RING_WALL
+    for motor in drawn:
+        assert ring_within_rotor(motor.hollow_diameter) < LEAST_RING, motor.name
+        bore = room_round_motor(motor.outer_diameter, eccentricity, unit)
+        cam = min(one.outer_diameter for one in balls if one.bore_diameter >= bore)
+        assert cam + 2.0 * outside > MOST_RING, motor.name
+    # A little more would do: the test can fail.
+    assert ring_within_rotor(51e-3) > LEAST_RING
+    assert ring_within_rotor(51e-3) < largest_ring(51e-3)
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        ({}, "stands round the gearbox, whose housing fills its stator's bore of 74 mm."),
+        (
+            {"reducer.ring.outer_diameter": "110 mm"},
+            "into its stator's bore of 74 mm go rings of 55.5 to 72 mm with their housing, and "
+            "this one has 110 mm.",
+        ),
+        (
+            {"motor": {"name": "CubeMars RI100 KV105"}},
+            "stands behind the gearbox. Into its rotor's bore of 45 mm goes a ring of 40.5 mm at "
+            "most with its housing and the rotor's sleeve, and this one has 72 mm. To hold its "
+            "104 mm inside, the eccentric shaft asks for a cam bearing with a bore of 116.4 mm, "
+            "and this one's has 15 mm.",
+        ),
+        ({"motor": {"name": "CubeMars R100 KV90"}}, "is not drawn: the stator bore"),
+    ],
+)
+def test_every_machine_says_where_its_motor_stands(
+    paper: Design, change: dict[str, object], expected: str
+) -> None:
+    machine = resolve(paper.replacing(change))
+    told = motor_standing(machine)
+    assert expected in told
+    assert told.startswith(machine.motor.name)
+    assert told in AssemblyFacts(machine).notes()
+
+
+def test_room_that_is_not_used_is_told(paper: Design) -> None:
+    """Of a motor of the user's own, wide enough to take the gearbox in."""
+    own = {
+        "name": "CubeMars RI100 KV105", "hollow_diameter": "90 mm", "gap_diameter": "100 mm",
+        "outer_diameter": "130 mm",
+    }  # fmt: skip
+    machine = resolve(paper.replacing({"motor": own}))
+    assert machine.layout.inrunner is not None
+    assert "this one would, and the machine be shorter, but that is not drawn." in motor_standing(
+        machine
+    )
