@@ -14,12 +14,13 @@ from cqdd_design.results import Check
 from cqdd_design.sizing.able import PEAK
 from cqdd_design.sizing.bearable import JUST, bearable, weaker
 from cqdd_design.sizing.hunt import Found, Hunt
+from cqdd_design.verdict.rotor_lines import rotor_lines
 from cqdd_design.verdict.shaft_lines import shaft_lines
 
 BOND = "BELL-JOINT"
 AT_PEAK = frozenset({"SHAFT-STRENGTH", "SUPPORT-STATIC"})
 """Lines of the shaft in proportion to the peak torque."""
-SHAFT = AT_PEAK | {"SHAFT-FATIGUE", "SUPPORT-LIFE", BOND}
+SHAFT = AT_PEAK | {"SHAFT-FATIGUE", "SUPPORT-LIFE", "SHAFT-ROTOR-GAP", "SHAFT-STUB", BOND}
 """Lines that a cam bearing with a wider bore helps."""
 THICKNESS = frozenset({"SHAFT-STRENGTH", "SHAFT-FATIGUE"})
 """Lines that a thinner shaft does worse."""
@@ -33,8 +34,10 @@ def weak_lines(machine: Machine) -> tuple[Check, ...]:
 
     With rigid discs and ring, whose forces are within a few per cent.
     """
-    every = shaft_lines(replace(machine, stiff=True))
-    return tuple(one for one in every if one.id in SHAFT and one.status in _SHORT)
+    rigid = replace(machine, stiff=True)
+    short = (one for one in shaft_lines(rigid) if one.id in SHAFT and one.status in _SHORT)
+    # What is not known of a rotor no shaft tells.
+    return (*short, *(one for one in rotor_lines(rigid) if one.status == "fail"))
 
 
 def stronger_shaft(hunt: Hunt, found: Found, every: Iterable[Check]) -> None:

@@ -16,6 +16,7 @@ from cqdd_design.gearbox.shaft_bending import ShaftSection
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.rotor_overhang import rotor_overhang, stub_stress
 from cqdd_design.machine.shaft import knife_edges
+from cqdd_design.sizing.shafts import weak_lines
 from cqdd_design.solids.rotor_pull import (
     NO_HOLES,
     REMANENCE,
@@ -166,6 +167,9 @@ def test_a_bell_far_out_on_a_thin_stub_fails(paper: Design) -> None:
     assert (gap.status, stub.status) == ("fail", "unknown")
     assert "grows faster than what carries it" in gap.substituted
     assert "cam bearing with a larger bore" in gap.remedy
+    # A search for a design takes it for weak, but not for what it does not know.
+    assert "SHAFT-ROTOR-GAP" in {one.id for one in weak_lines(thin)}
+    assert "SHAFT-STUB" not in {one.id for one in weak_lines(thin)}
 
 
 def test_an_inrunner_on_its_long_stub_is_judged_too(paper: Design) -> None:
