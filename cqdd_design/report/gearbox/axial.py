@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from cqdd_design.errors import DesignError
 from cqdd_design.machine.centring import centring
+from cqdd_design.machine.motor_standing import motor_standing
 from cqdd_design.machine.sealing import sealing
 from cqdd_design.report.ink.numbers import significant
 from cqdd_design.report.ink.page import Values
@@ -24,6 +25,7 @@ def axial_view(machine: Machine, warm: MachineTemperatures | None) -> Values | N
     except DesignError:
         return None
     return {
+        "standing": motor_standing(machine),
         "centring": centring(machine),
         "sealing": sealing(machine),
         "plays": [_play(one, warm) for one in stacks],
