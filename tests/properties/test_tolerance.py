@@ -168,6 +168,28 @@ def test_every_tolerance_has_an_effect(name: str) -> None:
     assert np.ptp(result.values[:, OUTPUTS.index("transmission_error_pp_arcmin")]) > 1e-4
 
 
+def test_half_of_the_torque_is_found_from_either_side() -> None:
+    """Gearbox 174 of very wide tolerances: from its states under the whole torque it is not."""
+    drawn = paper()
+    times = {
+        f"tolerances.{key}": 3.0 * getattr(drawn.tolerances, key)
+        for key in [
+            "tooth_position",
+            "tooth_radius",
+            "disc_profile",
+            "hole_position",
+            "pin_position",
+        ]
+    }
+    doubled = {
+        "reducer.modification.equidistant": 2.0 * drawn.reducer.modification.equidistant,
+        "reducer.output_pins.hole_clearance": 2.0 * drawn.reducer.output_pins.hole_clearance,
+    }
+    wide = make_ensemble(drawn.replacing(times | doubled))
+    (values,) = work_block(wide, Block(174, 1))
+    assert np.all(np.isfinite(values))
+
+
 def test_statistics_are_those_of_the_values() -> None:
     result = run_ensemble(make_ensemble(paper(), angles=88), 40, sensitivity=False)
     for name, column in zip(OUTPUTS, result.values.T, strict=True):

@@ -111,8 +111,9 @@ def _follow(
 
     `angles` are the indices to solve and the turn of the crank since the one before. A state
     starts from that of `near` at its angle, such as those of another load, or where `near` is empty
-    from those before it. Where that does not lead to it, plates are held and friction left out
-    first, from `base` (A, 3 + 3 D), states of held plates nearby such as the perfect gearbox's.
+    or does not lead to it, from those before it. Where that does not either, plates are held and
+    friction left out first, from `base` (A, 3 + 3 D), states of held plates nearby such as the
+    perfect gearbox's.
     """
     known = near.steps.size > 0
     chosen, turns = angles
@@ -132,9 +133,11 @@ def _follow(
         if known:
             put(state, near.states[a])
             put_rows(approach, near.approach[a])
-        elif b > 0:
+            status, used, left = solve_yielding(
+                here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0]
+            )
+        if status != CONVERGED and b > 0:
             predict_yielding(result, turns, b)
-        if known or b > 0:
             status, used, left = solve_yielding(
                 here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0]
             )
