@@ -28,7 +28,14 @@ from cqdd_design.sizing.refine import Starts, climb
 from cqdd_design.sizing.search import Search
 from cqdd_design.sizing.shafts import weak_lines
 from cqdd_design.sizing.stage_tables import stage_tables
-from cqdd_design.sizing.verified import _PATIENCE, _better, _less_of_it, _may_go_back, _Sound
+from cqdd_design.sizing.verified import (
+    _PATIENCE,
+    _better,
+    _less_of_it,
+    _may_go_back,
+    _Sound,
+    searched,
+)
 from cqdd_design.verdict.drawn import Drawn
 
 
@@ -377,3 +384,41 @@ def test_discs_of_another_thickness_yield_otherwise(monkeypatch: pytest.MonkeyPa
         bodies.clear()
         _drawn(hunt, machine(thickness))
         assert any(bodies) is told
+
+
+def test_clearance_that_is_asked_for_late_is_given_to_the_same_gearbox(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A search with it would begin anew, and end with another gearbox that asks for something."""
+    hunt, road = hunt_for(asked(10, 40.0, 4.0, 1000.0)), "cqdd_design.sizing.verified."
+
+    def design(name: str) -> Any:
+        sized = SimpleNamespace(
+            objective=SimpleNamespace(goal="mass"), machine=name, design=SimpleNamespace(name=name)
+        )
+        return SimpleNamespace(
+            worth=(False, 0.4), rated=True, weak=(), cam="6803", sized=sized, name=name
+        )
+
+    first, roomier = design("first"), design("roomier")
+    steps = iter([1e-6, None])
+    searches: list[object] = []
+
+    def lightest_of(_: object) -> Any:
+        searches.append(hunt.fit)
+        return first
+
+    monkeypatch.setattr(road + "promising", lambda _: first)
+    monkeypatch.setattr(road + "lightest", lightest_of)
+    monkeypatch.setattr(road + "learn", lambda *_: False)
+    monkeypatch.setattr(road + "finer", lambda _, one: one)
+    monkeypatch.setattr(road + "look", lambda *_: (None, next(steps)))
+    monkeypatch.setattr(road + "last_look", lambda *_: None)
+    monkeypatch.setattr(road + "given", lambda *_: roomier)
+    monkeypatch.setattr(road + "judge", lambda _: SimpleNamespace(meets="yes"))
+    monkeypatch.setattr(road + "_verified", lambda _, found, *more: found)
+    found: Any = searched(hunt, hunt.requirements)
+    assert found is roomier
+    assert hunt.fit.hole_clearance > FITS[0].hole_clearance
+    # Once, for less clearance than the first; not again for what was asked late.
+    assert searches == [FITS[0]]
