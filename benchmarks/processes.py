@@ -118,7 +118,8 @@ def our_commands() -> list[Command]:
 def long_commands() -> list[Command]:
     """Return the commands that take minutes, or leave the processor to nothing else."""
     start = (sys.executable, "-m", "cqdd_design")
-    motors, analysis = "size --motor any --ratio 10", "analyse designs/cqdd-10.toml"
+    motors = "size --motor any --ratio 10 --peak-torque 30N*m"
+    analysis = "analyse designs/cqdd-10.toml"
     return [
         Command(
             "any motor",
