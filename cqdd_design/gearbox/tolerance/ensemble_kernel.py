@@ -11,25 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from cqdd_design.files.kernel_arrays import put, put_rows
+from cqdd_design.files.kernel_arrays import put_rows
 from cqdd_design.files.kernel_cache import numba
 from cqdd_design.files.kernel_part import part
-from cqdd_design.gearbox.contact.compliant_kernel import yielding_work
-from cqdd_design.gearbox.contact.compliant_newton_kernel import (
-    RIDGES,
-    solve_yielding,
-    solve_yielding_from,
-)
-from cqdd_design.gearbox.contact.compliant_sweep_kernel import (
-    compliance_at,
-    predict_yielding,
-    rubbing_at,
-)
-from cqdd_design.gearbox.contact.equilibrium_kernel import CONVERGED, NOT_CONVERGED, new_work
 from cqdd_design.gearbox.contact.gaps_kernel import fill_errors
 from cqdd_design.gearbox.contact.kernel_values import (
     Compliance,
-    Contacts,
     Extremes,
     Forces,
     Load,
@@ -43,8 +30,8 @@ from cqdd_design.gearbox.contact.kernel_values import (
     YieldingResult,
 )
 from cqdd_design.gearbox.contact.part_errors import GearboxErrors
-from cqdd_design.gearbox.contact.sweep_kernel import contacts_at, solve_near
 from cqdd_design.gearbox.precision.backlash_kernel import OVERLAP, backlash_sweep
+from cqdd_design.gearbox.tolerance.following_kernel import follow, room, turns_between
 
 BACKLASH, TRANSMISSION_ERROR, RING_FORCE, STIFFNESS, RIPPLE = range(5)
 PRESSURE, CAM_LOAD, PRELOAD, IDLE_TORQUE = range(5, 9)
@@ -92,89 +79,6 @@ def _slope(
                 )
         slope += cam_force[d, 0] * offset_rates[d, 0] + cam_force[d, 1] * offset_rates[d, 1]
     return slope
-
-
-@part()
-def _follow(
-    nominal: Nominal,
-    found: Toleranced,
-    springs: Springs,
-    load: Load,
-    rubbing: Rubbing,
-    compliance: Compliance,
-    angles: tuple[Any, Any],
-    near: YieldingResult,
-    base: Any,
-    result: YieldingResult,
-) -> int:
-    """Equilibria at some angles in turn into `result`; -1, or the angle that has none.
-
-    `angles` are the indices to solve and the turn of the crank since the one before. A state
-    starts from that of `near` at its angle, such as those of another load, or where `near` is empty
-    or does not lead to it, from those before it. Where that does not either, plates are held and
-    friction left out first, from `base` (A, 3 + 3 D), states of held plates nearby such as the
-    perfect gearbox's.
-    """
-    known = near.steps.size > 0
-    chosen, turns = angles
-    discs, contacts = found.gaps.shape[1:]
-    work, held_work = yielding_work(discs, contacts), new_work(discs, contacts)
-    over_angles = Contacts(
-        nominal.rows, found.gaps, nominal.coefficient, found.offset, found.half_play
-    )
-    smooth = np.empty(3 + 3 * discs)
-    for b in range(chosen.size):
-        a = chosen[b]
-        here, rubs = contacts_at(over_angles, a), rubbing_at(rubbing, a)
-        some = compliance_at(compliance, a)
-        forces = Forces(result.force[b], result.cam_force[b])
-        state, approach = result.states[b], result.approach[b]
-        status, used, left = NOT_CONVERGED, 0, 0.0
-        if known:
-            put(state, near.states[a])
-            put_rows(approach, near.approach[a])
-            status, used, left = solve_yielding(
-                here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0]
-            )
-        if status != CONVERGED and b > 0:
-            predict_yielding(result, turns, b)
-            status, used, left = solve_yielding(
-                here, springs, load, rubs, some, state, approach, forces, work, RIDGES[0]
-            )
-        if status != CONVERGED:
-            put(smooth, base[a])
-            status, _, _ = solve_near(here, springs, load, smooth, forces, held_work)
-            if status != CONVERGED:
-                return int(a)
-            status, used, left = solve_yielding_from(
-                here, springs, load, rubs, some, smooth, state, approach, forces, work
-            )
-        if status != CONVERGED:
-            return int(a)
-        result.torsional[b] = left
-        result.steps[b] = used
-    return -1
-
-
-@part()
-def _turns(nominal: Nominal, chosen: Any) -> Any:
-    """Crank angle since the chosen angle before, rad."""
-    turns = np.zeros(chosen.size)
-    for b in range(1, chosen.size):
-        turns[b] = nominal.crank_angle[chosen[b]] - nominal.crank_angle[chosen[b - 1]]
-    return turns
-
-
-@part()
-def _room(count: int, discs: int, contacts: int) -> YieldingResult:
-    return YieldingResult(
-        np.empty((count, 4 + 3 * discs)),
-        np.empty((count, discs, contacts)),
-        np.empty((count, discs, contacts)),
-        np.empty((count, discs, 2)),
-        np.empty(count),
-        np.zeros(count, dtype=np.int64),
-    )
 
 
 @part()
@@ -251,15 +155,15 @@ def _greatest(
     """Equilibria under the torque into `whole`, their greatest loads; -1, or a failing angle."""
     count, discs, _ = nominal.gaps.shape
     teeth, every = springs.teeth, np.arange(count)
-    stopped = _follow(
+    stopped = follow(
         nominal,
         found,
         springs,
         load,
         shared.rubbing,
         shared.compliance,
-        (every, _turns(nominal, every)),
-        _room(0, discs, springs.teeth),
+        (every, turns_between(nominal, every)),
+        room(0, discs, springs.teeth),
         start.perfect,
         whole,
     )
@@ -320,18 +224,18 @@ def _windup(
     count, discs, contacts = nominal.gaps.shape
     length, some = nominal.length, np.flatnonzero(start.marked)
     half = Load(0.5 * start.torque / length, load.scale_stiffness)
-    eased = _room(some.size, discs, contacts)
+    eased = room(some.size, discs, contacts)
     base = np.empty((count, 3 + 3 * discs))
     put_rows(base, whole.states[:, :3])
     put_rows(base[:, 3:], whole.states[:, 4:])
-    stopped = _follow(
+    stopped = follow(
         nominal,
         found,
         springs,
         half,
         shared.rubbing,
         shared.compliance,
-        (some, _turns(nominal, some)),
+        (some, turns_between(nominal, some)),
         whole,
         base,
         eased,
@@ -359,16 +263,16 @@ def _unloaded(
     Friction is laid over them: without load nothing says which way parts that hang loose slide.
     """
     discs, contacts = nominal.gaps.shape[1:]
-    idle = _room(some.size, discs, contacts)
-    stopped = _follow(
+    idle = room(some.size, discs, contacts)
+    stopped = follow(
         nominal,
         found,
         springs,
         Load(_NEXT_TO_NOTHING * load.pull, load.scale_stiffness),
         shared.smooth,
         shared.idle,
-        (some, _turns(nominal, some)),
-        _room(0, discs, contacts),
+        (some, turns_between(nominal, some)),
+        room(0, discs, contacts),
         np.zeros((nominal.gaps.shape[0], 3 + 3 * discs)),
         idle,
     )
@@ -456,7 +360,7 @@ def solve_gearbox(
     int
         -1, or the angle that has no equilibrium.
     """
-    found, whole = _with_errors(nominal, errors), _room(*nominal.gaps.shape)
+    found, whole = _with_errors(nominal, errors), room(*nominal.gaps.shape)
     stopped = _greatest(nominal, found, springs, load, start, shared, whole, values)
     if stopped >= 0 or asked == LOADS_ALONE:
         return stopped
