@@ -66,6 +66,35 @@ def overhang_give(
     return float(bent @ moment**2 + sheared @ force**2)
 
 
+def bearings_give(
+    force: float, stiffness: float, exponent: float, arm: float, span: float
+) -> float:
+    """Deflection of a stiff shaft on two bearings at a force beyond the lower of them, m.
+
+    Parameters
+    ----------
+    force : float
+        N, along which the deflection counts.
+    stiffness, exponent : float
+        Of either bearing, whose force is the stiffness times a power of what it gives.
+    arm, span : float
+        From the force to the lower bearing, negative where it stands above, and on to the upper, m.
+
+    Examples
+    --------
+    Of springs of 1 N/um, 10 N give 10 um at the lower one, and (1.5^2 + 0.5^2) times as much half a
+    span beyond it:
+
+    >>> [round(1e6 * bearings_give(10.0, 1e6, 1.0, arm, 0.1), 9) for arm in (0.0, 0.05)]
+    [10.0, 25.0]
+    """
+    lower, upper = (
+        math.copysign((abs(one) / stiffness) ** (1.0 / exponent), one)
+        for one in (force * (1.0 + arm / span), -force * arm / span)
+    )
+    return lower + (lower - upper) * arm / span
+
+
 class Settled(NamedTuple):
     """Where a pulled rotor comes to rest."""
 

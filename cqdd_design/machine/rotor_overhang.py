@@ -10,7 +10,7 @@ from cqdd_design.catalog.materials import Material, find_material
 from cqdd_design.errors import CatalogError, DesignError
 from cqdd_design.gearbox.contact import laws
 from cqdd_design.gearbox.pack_loads import PackLoads
-from cqdd_design.gearbox.rotor_overhang import Settled, overhang_give, settled
+from cqdd_design.gearbox.rotor_overhang import Settled, bearings_give, overhang_give, settled
 from cqdd_design.gearbox.shaft_strength import step_stress
 from cqdd_design.machine.machine import Machine
 from cqdd_design.machine.shaft import disc_heights, drawn_sections, knife_edges
@@ -103,11 +103,8 @@ def rotor_overhang(machine: Machine) -> RotorOverhang:
     spring = laws.cam_spring(shaft.support.bearing, 0.0)
 
     def give(force: float) -> float:
-        lower, upper = (
-            math.copysign((abs(one) / spring.stiffness) ** (1.0 / spring.exponent), one)
-            for one in (force * (1.0 + arm / span), -force * arm / span)
-        )
-        return bends * force + lower + (lower - upper) * arm / span
+        balls = bearings_give(force, spring.stiffness, spring.exponent, arm, span)
+        return bends * force + balls
 
     mass = sum(part.mass for part in machine.parts if part.name in (ROTOR, BELL, HUB))
     off = BUILT_OFF * gap

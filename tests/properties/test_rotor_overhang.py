@@ -11,11 +11,13 @@ import pytest
 from cqdd_design.catalog.materials import find_material
 from cqdd_design.design import Design, load_design
 from cqdd_design.gearbox.contact.laws import cam_spring
-from cqdd_design.gearbox.rotor_overhang import overhang_give, settled
+from cqdd_design.gearbox.rotor_overhang import bearings_give, overhang_give, settled
 from cqdd_design.gearbox.shaft_bending import ShaftSection
+from cqdd_design.gearbox.shaft_strength import step_stress
 from cqdd_design.machine import Machine, resolve
 from cqdd_design.machine.rotor_overhang import rotor_overhang, stub_stress
 from cqdd_design.machine.shaft import knife_edges
+from cqdd_design.machine.shaft_strength import shaft_steps
 from cqdd_design.sizing.shafts import weak_lines
 from cqdd_design.solids.rotor_pull import (
     NO_HOLES,
@@ -99,6 +101,23 @@ def test_a_shaft_gives_as_beams_do(at: float) -> None:
     assert overhang_give(SLENDER, edges, hub, at) == pytest.approx(span + stub, rel=1e-12)
 
 
+@pytest.mark.parametrize("arm", [-0.02, 0.0, 0.03])
+def test_bearings_give_what_their_energy_says(arm: float) -> None:
+    """Castigliano's second theorem, on the forces that levers say the bearings bear."""
+    stiffness, exponent, span, force = 3e8, 1.5, 0.05, 40.0
+
+    def energy(at: float) -> float:
+        bears = at * (arm + span) / span, at * arm / span
+        power = 1.0 / exponent + 1.0
+        return sum(abs(one) ** power / (power * stiffness ** (1.0 / exponent)) for one in bears)
+
+    step = 1e-3
+    slope = (energy(force + step) - energy(force - step)) / (2.0 * step)
+    found = bearings_give(force, stiffness, exponent, arm, span)
+    assert found == pytest.approx(slope, rel=1e-6)
+    assert bearings_give(-force, stiffness, exponent, arm, span) == pytest.approx(-found)
+
+
 def test_what_is_not_stiff_enough_is_pulled_over() -> None:
     for stiffness, expected in ((3e6, 50e-6 / 2.0), (1.01e6, math.inf), (0.5e6, math.inf)):
         found = settled(1e6, 50e-6, 0.0, lambda force, k=stiffness: force / k, 0.5e-3)
@@ -141,9 +160,14 @@ def test_the_rotor_of_the_paper_is_held(machine: Machine) -> None:
 def test_the_stub_bears_the_rotor_on_top_of_the_duty(machine: Machine) -> None:
     found, duty = rotor_overhang(machine), machine.life.pack
     told = stub_stress(machine, duty, found)
-    bare = told.rotor * math.pi / 4.0 * ((0.5 * told.diameter) ** 4 - 2.5e-3**4)
-    bare /= found.settled.force * found.moment_arm * 0.5 * told.diameter
-    assert 1.0 < bare < 3.0  # the notch of the shoulder
+    modulus = math.pi / 32.0 * (told.diameter**4 - 5e-3**4) / told.diameter
+    notch = told.rotor * modulus / (found.settled.force * found.moment_arm)
+    assert 1.0 < notch < 3.0
+    step = shaft_steps(machine.layout.pack, machine.layout.shaft)[0]
+    strength = told.material.ultimate_strength
+    assert strength is not None
+    to_and_fro = step_stress(step, np.array([5.0, -5.0]), np.zeros(2), strength)
+    assert notch == pytest.approx(to_and_fro.bending_factor)
     (_, stub) = rotor_lines(machine)
     assert stub.value == pytest.approx((told.lasting + told.rotor) / 1e6)
 
